@@ -1,0 +1,33 @@
+#pragma once
+// The shapes that scene files name. Each function returns the pieces for make_shape(); lengths in metres.
+
+#include <span>
+#include <vector>
+
+#include "common/shape/shape.h"
+
+namespace talus {
+
+/// Two arms of one thickness that meet in a corner, as in the paper's examples 1, 3 and 5.
+struct LParams {
+  double arm_x = 1.0;      // outer length of the lying arm [m], > thickness
+  double arm_z = 1.0;      // outer length of the standing arm [m], > thickness
+  double thickness = 0.4;  // of both arms [m], > 0; a thin L interlocks more and needs a smaller time step
+  double depth = 0.4;      // along y, 3D only [m], > 0
+};
+
+template <int Dim>
+std::vector<Piece<Dim>> box_pieces(const Vec<Dim>& size);
+template <int Dim>
+std::vector<Piece<Dim>> l_pieces(const LParams& params);
+template <int Dim>
+std::vector<Piece<Dim>> ball_pieces(double radius);
+/// Capsule along x; `length` from tip to tip [m], > 2 radius.
+template <int Dim>
+std::vector<Piece<Dim>> capsule_pieces(double length, double radius);
+/// 2D: corners of a convex polygon in order, either way round, 3 to 8. 3D: any points; their convex hull.
+/// A 2D polygon that is not convex is refused, never replaced by its hull.
+template <int Dim>
+std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners);
+
+}  // namespace talus

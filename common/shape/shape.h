@@ -1,0 +1,91 @@
+#pragma once
+// A body's shape: convex pieces that do not overlap, in axes whose origin is the centre of mass.
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/math/vector.h"
+
+namespace talus {
+
+/// Box (rectangle in 2D), turned and placed within the shape.
+template <int Dim>
+struct BoxPiece {
+  Pose<Dim> pose;
+  Vec<Dim> half = Vec<Dim>::Constant(0.5);  // [m], > 0 on every axis
+};
+
+/// Disc in 2D, sphere in 3D.
+template <int Dim>
+struct BallPiece {
+  Vec<Dim> centre = Vec<Dim>::Zero();  // [m]
+  double radius = 0.5;                 // [m], > 0
+};
+
+/// All points within `radius` of the segment from `a` to `b`.
+template <int Dim>
+struct CapsulePiece {
+  Vec<Dim> a = Vec<Dim>::Zero();       // [m]
+  Vec<Dim> b = Vec<Dim>::Unit(0);      // [m]
+  double radius = 0.25;                // [m], > 0
+};
+
+/// Convex polygon (2D: corners counter-clockwise, at most 8) or convex hull (3D: corners in any order).
+template <int Dim>
+struct HullPiece {
+  std::vector<Vec<Dim>> corners;  // [m]
+};
+
+template <int Dim>
+using Piece = std::variant<BoxPiece<Dim>, BallPiece<Dim>, CapsulePiece<Dim>, HullPiece<Dim>>;
+
+/// What a surface and the stuff behind it do. Friction and restitution are combined values: two bodies of this material
+/// meet with just these. Two materials meet with the geometric mean of theirs, in every engine.
+struct Material {
+  double density = 1000.0;   // [kg/m^3], in 2D [kg/m^2]; > 0
+  double friction = 0.5;     // Coulomb's coefficient, >= 0; above 1 few real things
+  double restitution = 0.0;  // share of the approach speed given back, in [0, 1]
+};
+
+/// Inertia about the centre of mass [kg m^2]: one number in 2D (about y), a symmetric matrix in 3D.
+template <int Dim>
+using Inertia = Eigen::Matrix<double, Dim == 2 ? 1 : 3, Dim == 2 ? 1 : 3>;
+
+/// A rigid body's shape with all that follows from it. Made by make_shape(); origin = centre of mass.
+template <int Dim>
+struct Shape {
+  std::string name;
+  std::vector<Piece<Dim>> pieces;  // origin at the centre of mass
+  Material material;
+  Vec<Dim> reference = Vec<Dim>::Zero();  // where the origin of the axes it was described in lies now [m]
+  double volume = 0.0;                    // [m^3], in 2D the area [m^2]
+  double mass = 0.0;                      // [kg]
+  Inertia<Dim> inertia = Inertia<Dim>::Zero();
+  Box<Dim> bounds;               // in its own axes, unturned [m]
+  double bounding_volume = 0.0;  // v_obj of section 3.1: volume of `bounds` [m^3], in 2D [m^2]
+  double extent = 0.0;           // D of section 3.1: diagonal of `bounds` [m]
+};
+
+/// Volume, centre of mass and inertia (about that centre) of unit density.
+template <int Dim>
+struct MassProperties {
+  double volume = 0.0;
+  Vec<Dim> centre = Vec<Dim>::Zero();
+  Inertia<Dim> inertia = Inertia<Dim>::Zero();
+};
+
+/// Exact for every kind of piece. Throws std::invalid_argument on a piece without volume or with a non-finite value.
+template <int Dim>
+MassProperties<Dim> mass_properties(const Piece<Dim>& piece);
+
+/// The shape made of `pieces`, given in any axes: moves the origin to the centre of mass and fills in all that follows.
+/// Pieces must not overlap (what overlaps would count twice). Throws std::invalid_argument with field, value and rule.
+template <int Dim>
+Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Material& material);
+
+/// The smallest axis-aligned box around a shape at a pose [m].
+template <int Dim>
+Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose);
+
+}  // namespace talus

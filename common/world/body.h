@@ -1,0 +1,53 @@
+#pragma once
+// Bodies as dense indices with their state in arrays by field.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/math/vector.h"
+
+namespace talus {
+
+/// Number of a body: counted from 0 in the order of World::add, never used again.
+using BodyIndex = std::int32_t;
+
+/// The other side of a contact where it is no body: the ground, or obstacle k as `first_obstacle - k`.
+inline constexpr BodyIndex ground_index = -1;
+inline constexpr BodyIndex first_obstacle = -2;
+
+/// What is needed to create a body.
+template <int Dim>
+struct BodyDef {
+  int shape = 0;  // index into WorldDescription::shapes
+  Pose<Dim> pose;
+  Vec<Dim> velocity = Vec<Dim>::Zero();  // of the centre of mass [m/s]
+  Spin<Dim> spin = Spin<Dim>::Zero();    // [rad/s]
+};
+
+/// State of every body that was ever added; entry i belongs to body i. A sleeping body's velocity is zero.
+template <int Dim>
+struct BodyStates {
+  std::vector<int> shape;
+  std::vector<Pose<Dim>> pose;
+  std::vector<Vec<Dim>> velocity;    // [m/s]
+  std::vector<Spin<Dim>> spin;       // [rad/s]
+  std::vector<std::uint8_t> asleep;  // 1: costs nothing until thawed (or woken by the engine's own rule)
+  std::vector<std::uint8_t> removed;  // 1: no longer in the world; its other entries stay as they last were
+
+  BodyIndex size() const { return static_cast<BodyIndex>(shape.size()); }
+};
+
+/// One point of contact of an awake body after a step.
+template <int Dim>
+struct Contact {
+  BodyIndex a = 0;                           // an awake body
+  BodyIndex b = ground_index;                // awake or sleeping body, ground or obstacle
+  Vec<Dim> point = Vec<Dim>::Zero();         // [m], in the world's axes
+  Vec<Dim> normal = Vec<Dim>::Zero();        // unit, from b to a
+  double normal_impulse = 0.0;               // [N s] over the step, >= 0
+  Vec<Dim> friction_impulse = Vec<Dim>::Zero();  // [N s] over the step, on a
+  double approach_speed = 0.0;               // [m/s] at which the two came together before the step, >= 0
+  double depth = 0.0;                        // [m], positive where they overlap
+};
+
+}  // namespace talus

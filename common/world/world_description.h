@@ -1,0 +1,50 @@
+#pragma once
+// All that an engine must know before the first body exists.
+
+#include <vector>
+
+#include "common/shape/shape.h"
+
+namespace talus {
+
+/// Settings of the engine's solver. An engine ignores what it does not have, and says so here.
+struct SolverParams {
+  int velocity_iterations = 10;  // 1..1000; too few: piles melt and tall stacks sink. Cost grows in proportion
+  int position_iterations = 4;   // 1..1000, Box2D only; too few: bodies stay inside each other
+  int friction_directions = 2;   // 1 or 2, Bullet in 3D only; 1: piles creep for ever and end 20 % too low
+  double restitution_threshold = 0.5;  // [m/s] >= 0; slower approaches do not bounce. Too low: piles never rest
+};
+
+/// The plane z = height, infinite for all practical purposes.
+struct Ground {
+  bool present = true;
+  double height = 0.0;  // [m]
+  Material material;    // its density means nothing
+};
+
+/// A shape that never moves.
+template <int Dim>
+struct Obstacle {
+  Shape<Dim> shape;
+  Pose<Dim> pose;
+};
+
+template <int Dim>
+struct WorldDescription {
+  double gravity = 9.81;     // [m/s^2] downwards, finite, >= 0
+  double dt = 1.0 / 60.0;    // [s] in (0, 1/30]; above, bodies sink into each other by a third of a metre
+  SolverParams solver;
+  bool engine_sleep = false;  // the engine's own sleeping, whole islands at a time
+  Ground ground;
+  std::vector<Obstacle<Dim>> obstacles;
+  std::vector<Shape<Dim>> shapes;  // BodyDef::shape indexes these
+};
+
+/// Throws std::invalid_argument with field, value and rule; backends call it first, since Bullet would swallow a bad
+/// value and Box2D abort the process.
+template <int Dim>
+void check(const WorldDescription<Dim>& description);
+template <int Dim>
+void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description);
+
+}  // namespace talus
