@@ -1,0 +1,50 @@
+#pragma once
+// The sources at work.
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/world/world.h"
+
+namespace talus {
+
+/// Adds due bodies to a world where their place is free. Each source draws from a generator of its own, so sources do
+/// not disturb one another; the same seed gives the same bodies.
+template <int Dim>
+class Emitter {
+ public:
+  explicit Emitter(const Scene<Dim>& scene);
+
+  /// Adds all bodies that are due at `time` [s] and have room.
+  void emit(World<Dim>& world, double time);
+
+  bool finished() const { return emitted_ == total_; }
+  int emitted() const { return emitted_; }
+  int total() const { return total_; }
+  /// Steps at which a due body had to wait, over all sources.
+  std::int64_t waits() const { return waits_; }
+
+ private:
+  struct Spout {
+    Source<Dim> source;
+    std::mt19937_64 random;
+    int emitted = 0;
+    double lift = 0.0;               // how far the spout has risen [m]
+    bool drawn = false;              // `next` holds a body that waits
+    BodyDef<Dim> next;
+  };
+  void draw(Spout& spout, double time);
+  bool has_room(const World<Dim>& world, const BodyDef<Dim>& body);
+  void ride(const World<Dim>& world, Spout& spout);
+
+  std::vector<Shape<Dim>> shapes_;
+  std::vector<Spout> spouts_;
+  std::vector<BodyIndex> near_;  // scratch
+  int emitted_ = 0;
+  int total_ = 0;
+  std::int64_t waits_ = 0;
+};
+
+}  // namespace talus

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string_view>
+
+#include "common/simulation/frame.h"
+
+namespace talus {
+
+/// Sees each finished frame. A recorder, the telemetry, a measure, a progress line.
+template <int Dim>
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void on_frame(const Frame<Dim>& frame) = 0;
+  /// Called once, also when the run was stopped or failed; `reason`: "finished", "interrupted", or the error.
+  virtual void on_end(const Frame<Dim>& last, std::string_view reason) {
+    (void)last;
+    (void)reason;
+  }
+};
+
+}  // namespace talus
