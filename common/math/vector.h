@@ -30,7 +30,8 @@ struct RotationOf<3> {
 };
 }  // namespace detail
 
-/// Rotation from a body's own axes to the world's. Both kinds offer `r * vec`, `r * r`, inverse() and toRotationMatrix().
+/// Rotation from a body's own axes to the world's. Both kinds offer `r * vec`, `r * r`, inverse() and
+/// toRotationMatrix().
 template <int Dim>
 using Rotation = typename detail::RotationOf<Dim>::type;
 

@@ -11,10 +11,10 @@ namespace talus {
 template <int Dim>
 struct PileParams {
   double alpha = std::numbers::pi / 4;  // slope [rad] in (0, pi/2); far above the natural slope few bodies ever sleep
-  std::optional<Vec<Dim>> at;  // middle of the base [m]; not given: where the first body lands (section 3.1)
-  double initial_size = 8.0;   // N at the start, >= 1; larger: the first bodies wait longer for a dense layer
-  double growth_ratio = 0.5;   // occupation ratio above which N doubles (section 3.2), in (0, 1]
-  double drift_rate = 0.5;     // [1/s] >= 0: share of the way to the bodies' mean that the centre goes per second
+  std::optional<Vec<Dim>> at;           // middle of the base [m]; not given: where the first body lands (section 3.1)
+  double initial_size = 8.0;            // N at the start, >= 1; larger: the first bodies wait longer for a dense layer
+  double growth_ratio = 0.5;            // occupation ratio above which N doubles (section 3.2), in (0, 1]
+  double drift_rate = 0.5;  // [1/s] >= 0: share of the way to the bodies' mean that the centre goes per second
 };
 
 }  // namespace talus

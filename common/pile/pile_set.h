@@ -1,6 +1,7 @@
 #pragma once
 // All piles of a run and who lies in which layer, kept up from the awake bodies alone.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,13 +28,11 @@ class PileSet {
   void locate(const Vec<Dim>& landing, const BodyStates<Dim>& states);
 
   /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, doubles full piles.
-  /// Costs O(awake); a pile that grew or moved is counted anew, which costs O(its bodies) and happens rarely.
+  /// Costs O(awake); a pile that grew or moved is counted anew, which costs O(all bodies) and happens rarely.
   void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt);
 
-  /// Bodies that fell asleep or woke since, or left the world.
-  void on_slept(BodyIndex body);
-  void on_woken(BodyIndex body);
-  void on_removed(BodyIndex body);
+  /// Counts a body anew that fell asleep, woke or left the world.
+  void refresh(const BodyStates<Dim>& states, BodyIndex body);
 
   /// Layer of a body in a pile, or -1.
   int layer_of(std::size_t pile, BodyIndex body) const;
@@ -42,21 +41,32 @@ class PileSet {
   bool counts_match(const BodyStates<Dim>& states) const;
 
  private:
+  /// How a body is counted in one pile, so that it can be uncounted exactly.
   struct Membership {
     std::int16_t layer = -1;
     bool asleep = false;
+    std::array<std::int32_t, Dim - 1> at{};  // horizontal position in steps of 1/65536 m: integers add up exactly
   };
-  void move(std::size_t pile, BodyIndex body, Membership now);
+  /// One pile's bookkeeping beside its public counts.
+  struct Ledger {
+    PileParams<Dim> params{};
+    std::vector<Membership> members{};          // by body
+    std::array<std::int64_t, Dim - 1> sum{};  // of Membership::at over the pile's bodies
+    int count = 0;                            // of the pile's bodies
+    int steps_to_drift = 0;
+  };
+
+  void add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre);
+  Membership membership(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const;
+  void count(std::size_t pile, BodyIndex body, const Membership& now);
+  void add(std::size_t pile, const Membership& member, int sign);
   void recount(std::size_t pile, const BodyStates<Dim>& states);
-  bool drift(std::size_t pile, const BodyStates<Dim>& states, double dt);
-  bool grow(std::size_t pile);
+  bool drift(std::size_t pile, double dt);
 
   TypicalBody body_;
-  std::vector<PileParams<Dim>> params_;             // of the located piles, then of those waiting
-  std::vector<PileParams<Dim>> unlocated_;          // in the scene's order
+  std::vector<PileParams<Dim>> unlocated_;  // in the scene's order
   std::vector<Pile<Dim>> piles_;
-  std::vector<std::vector<Membership>> members_;    // [pile][body]
-  int steps_since_drift_ = 0;
+  std::vector<Ledger> ledgers_;  // beside piles_
 };
 
 }  // namespace talus

@@ -1,13 +1,15 @@
 #pragma once
 // What differs between a cone (3D) and a wedge (2D), and nothing else.
 
+#include <cmath>
 #include <numbers>
 
 #include "common/math/vector.h"
 
 namespace talus {
 
-/// Outline of a pile of slope `alpha` [rad]: at height z above its base a slice of half-width r = r_base - z / tan(alpha).
+/// Outline of a pile of slope `alpha` [rad]: at height z above its base a slice of half-width r = r_base - z /
+/// tan(alpha).
 template <int Dim>
 struct Profile;
 

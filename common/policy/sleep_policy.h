@@ -1,8 +1,10 @@
 #pragma once
 // Who may sleep, who must wake.
 
+#include <memory>
 #include <vector>
 
+#include "common/scene/scene.h"
 #include "common/simulation/frame.h"
 
 namespace talus {
@@ -25,5 +27,9 @@ class SleepPolicy {
   /// Fills `decision` (empty on entry).
   virtual void decide(const Frame<Dim>& frame, Decision& decision) = 0;
 };
+
+/// The policy that the scene names. Throws std::invalid_argument for a name that none has.
+template <int Dim>
+std::unique_ptr<SleepPolicy<Dim>> make_policy(const Scene<Dim>& scene);
 
 }  // namespace talus

@@ -20,11 +20,11 @@ struct Source {
   double start = 0.0;             // [s] >= 0, when the first is due
   double rate = 6.6;              // [1/s] > 0; a rate that the spout cannot reach only makes bodies wait
   Vec<Dim> position = Vec<Dim>::Unit(Dim - 1) * 10.0;  // [m], middle of where bodies appear
-  Vec<Dim> spread = Vec<Dim>::Zero();    // [m] >= 0, uniform to both sides of `position` on each axis
-  Vec<Dim> velocity = Vec<Dim>::Zero();  // [m/s]
-  Vec<Dim> velocity_spread = Vec<Dim>::Zero();        // [m/s] >= 0, uniform to both sides
-  std::optional<Rotation<Dim>> orientation;           // not given: uniformly random
-  double spin_spread = 0.0;                           // [rad/s] >= 0, uniform on each axis
+  Vec<Dim> spread = Vec<Dim>::Zero();                  // [m] >= 0, uniform to both sides of `position` on each axis
+  Vec<Dim> velocity = Vec<Dim>::Zero();                // [m/s]
+  Vec<Dim> velocity_spread = Vec<Dim>::Zero();         // [m/s] >= 0, uniform to both sides
+  std::optional<Rotation<Dim>> orientation;            // not given: uniformly random
+  double spin_spread = 0.0;                            // [rad/s] >= 0, uniform on each axis
   Vec<Dim> sweep = Vec<Dim>::Zero();  // [m]: the spout moves to and fro between position - sweep and position + sweep
   double sweep_period = 0.0;          // [s] >= 0, there and back; 0: it stands still
   double ride_above = 0.0;  // [m] >= 0: the spout rises so as to stay this far above what lies beneath; 0: it does not

@@ -26,9 +26,9 @@ struct BallPiece {
 /// All points within `radius` of the segment from `a` to `b`.
 template <int Dim>
 struct CapsulePiece {
-  Vec<Dim> a = Vec<Dim>::Zero();       // [m]
-  Vec<Dim> b = Vec<Dim>::Unit(0);      // [m]
-  double radius = 0.25;                // [m], > 0
+  Vec<Dim> a = Vec<Dim>::Zero();   // [m]
+  Vec<Dim> b = Vec<Dim>::Unit(0);  // [m]
+  double radius = 0.25;            // [m], > 0
 };
 
 /// Convex polygon (2D: corners counter-clockwise, at most 8) or convex hull (3D: corners in any order).

@@ -31,13 +31,16 @@ class Emitter {
     Source<Dim> source;
     std::mt19937_64 random;
     int emitted = 0;
-    double lift = 0.0;               // how far the spout has risen [m]
-    bool drawn = false;              // `next` holds a body that waits
-    BodyDef<Dim> next;
+    double lift = 0.0;   // how far the spout has risen [m]
+    bool drawn = false;  // `next` holds a body that waits
+    BodyDef<Dim> next{};   // its position is relative to the spout
   };
-  void draw(Spout& spout, double time);
+
+  bool due(const Spout& spout, double time) const;
+  void draw(Spout& spout) const;
+  Vec<Dim> place(const Spout& spout, double time) const;
   bool has_room(const World<Dim>& world, const BodyDef<Dim>& body);
-  void ride(const World<Dim>& world, Spout& spout);
+  void ride(const World<Dim>& world, Spout& spout, double time);
 
   std::vector<Shape<Dim>> shapes_;
   std::vector<Spout> spouts_;

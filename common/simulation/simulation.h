@@ -2,6 +2,7 @@
 // The loop.
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "common/policy/sleep_policy.h"
@@ -24,33 +25,42 @@ class Simulation {
   /// One step: emit due bodies, step the world, recount the piles, ask the policy, apply its two lists.
   void step();
 
-  /// Tells the observers that the run is over.
+  /// Tells the observers that the run is over: "finished", "interrupted", or what went wrong.
   void end(std::string_view reason);
 
-  /// Adds a body by hand, freezes, thaws or removes with cause `user`; sleepers near a removed body wake.
-  BodyIndex add(const BodyDef<Dim>& body);
+  /// By hand between steps: events carry the cause `user`. Sleepers near a removed body wake, for it may have borne
+  /// them.
+  BodyIndex add(const BodyDef<Dim>& body) { return world_->add(body); }
   void remove(BodyIndex body);
   void thaw_all();
 
-  Frame<Dim> frame();
+  /// The last finished step.
+  Frame<Dim> frame() { return {step_, time(), *world_, piles_, events_, phases_}; }
+  double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }
   const PileSet<Dim>& piles() const { return piles_; }
   const Emitter<Dim>& emitter() const { return emitter_; }
 
  private:
-  void locate_piles();
+  void count_piles();
+  void locate_pile();
+  void decide();
   void apply();
+  void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);
   void note_engine_sleep();
-  bool piles_needed() const { return policy_->decides() || !observers_.empty(); }
+  void show();
 
   std::unique_ptr<World<Dim>> world_;
   std::unique_ptr<SleepPolicy<Dim>> policy_;
+  std::vector<Shape<Dim>> shapes_;
   Emitter<Dim> emitter_;
   PileSet<Dim> piles_;
   std::vector<Observer<Dim>*> observers_;
   Decision decision_;
-  std::vector<SleepEvent> events_;
-  std::vector<std::uint8_t> asleep_before_;  // engine's own sleeping only
+  std::vector<BodyIndex> bodies_;            // scratch
+  std::vector<SleepEvent> events_;           // of the last step
+  std::vector<SleepEvent> user_events_;      // since the last step
+  std::vector<std::uint8_t> asleep_before_;  // by body, with the engine's own sleeping only
   PhaseTimes phases_;
   double dt_;
   std::int64_t step_ = 0;

@@ -29,9 +29,9 @@ template <int Dim>
 struct BodyStates {
   std::vector<int> shape;
   std::vector<Pose<Dim>> pose;
-  std::vector<Vec<Dim>> velocity;    // [m/s]
-  std::vector<Spin<Dim>> spin;       // [rad/s]
-  std::vector<std::uint8_t> asleep;  // 1: costs nothing until thawed (or woken by the engine's own rule)
+  std::vector<Vec<Dim>> velocity;     // [m/s]
+  std::vector<Spin<Dim>> spin;        // [rad/s]
+  std::vector<std::uint8_t> asleep;   // 1: costs nothing until thawed (or woken by the engine's own rule)
   std::vector<std::uint8_t> removed;  // 1: no longer in the world; its other entries stay as they last were
 
   BodyIndex size() const { return static_cast<BodyIndex>(shape.size()); }
@@ -40,14 +40,14 @@ struct BodyStates {
 /// One point of contact of an awake body after a step.
 template <int Dim>
 struct Contact {
-  BodyIndex a = 0;                           // an awake body
-  BodyIndex b = ground_index;                // awake or sleeping body, ground or obstacle
-  Vec<Dim> point = Vec<Dim>::Zero();         // [m], in the world's axes
-  Vec<Dim> normal = Vec<Dim>::Zero();        // unit, from b to a
-  double normal_impulse = 0.0;               // [N s] over the step, >= 0
+  BodyIndex a = 0;                               // an awake body
+  BodyIndex b = ground_index;                    // awake or sleeping body, ground or obstacle
+  Vec<Dim> point = Vec<Dim>::Zero();             // [m], in the world's axes
+  Vec<Dim> normal = Vec<Dim>::Zero();            // unit, from b to a
+  double normal_impulse = 0.0;                   // [N s] over the step, >= 0
   Vec<Dim> friction_impulse = Vec<Dim>::Zero();  // [N s] over the step, on a
-  double approach_speed = 0.0;               // [m/s] at which the two came together before the step, >= 0
-  double depth = 0.0;                        // [m], positive where they overlap
+  double approach_speed = 0.0;                   // [m/s] at which the two came together before the step, >= 0
+  double depth = 0.0;                            // [m], positive where they overlap
 };
 
 }  // namespace talus

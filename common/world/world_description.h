@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "common/shape/shape.h"
+#include "common/world/body.h"
 
 namespace talus {
 
 /// Settings of the engine's solver. An engine ignores what it does not have, and says so here.
 struct SolverParams {
-  int velocity_iterations = 10;  // 1..1000; too few: piles melt and tall stacks sink. Cost grows in proportion
-  int position_iterations = 4;   // 1..1000, Box2D only; too few: bodies stay inside each other
-  int friction_directions = 2;   // 1 or 2, Bullet in 3D only; 1: piles creep for ever and end 20 % too low
+  int velocity_iterations = 10;        // 1..1000; too few: piles melt and tall stacks sink. Cost grows in proportion
+  int position_iterations = 4;         // 1..1000, Box2D only; too few: bodies stay inside each other
+  int friction_directions = 2;         // 1 or 2, Bullet in 3D only; 1: piles creep for ever and end 20 % too low
   double restitution_threshold = 0.5;  // [m/s] >= 0; slower approaches do not bounce. Too low: piles never rest
 };
 
@@ -31,8 +32,8 @@ struct Obstacle {
 
 template <int Dim>
 struct WorldDescription {
-  double gravity = 9.81;     // [m/s^2] downwards, finite, >= 0
-  double dt = 1.0 / 60.0;    // [s] in (0, 1/30]; above, bodies sink into each other by a third of a metre
+  double gravity = 9.81;   // [m/s^2] downwards, finite, >= 0
+  double dt = 1.0 / 60.0;  // [s] in (0, 1/30]; above, bodies sink into each other by a third of a metre
   SolverParams solver;
   bool engine_sleep = false;  // the engine's own sleeping, whole islands at a time
   Ground ground;

@@ -1,0 +1,125 @@
+#include "common/policy/paper_policy.h"
+
+#include <algorithm>
+
+namespace talus {
+
+double closeness(double distance, double radius) { return std::max(radius - distance, 0.0) / radius; }
+
+double sleep_score(const Layer& layer, double distance, double speed) {
+  return layer.density() * closeness(distance, layer.radius) * (1.0 / (1.0 + speed));
+}
+
+namespace {
+
+/// How many layers may sleep: those with sleepers, counted from the bottom without a gap, and the one above.
+template <int Dim>
+int layers_open_to_sleep(const Pile<Dim>& pile) {
+  int open = 1;
+  for (const Layer& layer : pile.layers) {
+    if (layer.sleeping == 0) break;
+    ++open;
+  }
+  return open;
+}
+
+}  // namespace
+
+template <int Dim>
+PaperPolicy<Dim>::PaperPolicy(const PaperParams& params, const WorldDescription<Dim>& world)
+    : params_(params), shapes_(world.shapes), dt_(world.dt) {}
+
+template <int Dim>
+void PaperPolicy<Dim>::decide(const Frame<Dim>& frame, Decision& decision) {
+  body_rests_from_.resize(frame.world.states().shape.size(), 0);
+  pile_calm_from_.resize(frame.piles.piles().size(), 0);
+  pile_woken_.assign(frame.piles.piles().size(), 0);
+  wake_hit_piles(frame, decision);
+  wake_overfull_piles(frame, decision);
+  choose_sleepers(frame, decision);
+}
+
+/// Section 3.4, momentum: the blow may go through the whole pile in one step, so the whole pile wakes, before the
+/// contact exists, so that the impact itself is simulated.
+template <int Dim>
+void PaperPolicy<Dim>::wake_hit_piles(const Frame<Dim>& frame, Decision& decision) {
+  for (const BodyIndex body : frame.world.awake()) {
+    if (!hits(frame, body)) continue;
+    for (const BodyIndex sleeper : near_) {
+      for (std::size_t p = 0; p < pile_woken_.size(); ++p) {
+        if (frame.piles.layer_of(p, sleeper) >= 0) wake(p, SleepCause::momentum, frame, decision);
+      }
+    }
+  }
+}
+
+/// Whether `body` carries enough momentum and reaches sleepers within the next step; these are left in near_.
+template <int Dim>
+bool PaperPolicy<Dim>::hits(const Frame<Dim>& frame, BodyIndex body) {
+  const BodyStates<Dim>& states = frame.world.states();
+  const auto i = static_cast<std::size_t>(body);
+  const Shape<Dim>& shape = shapes_[static_cast<std::size_t>(states.shape[i])];
+  if (shape.mass * states.velocity[i].norm() < params_.wake_speed * frame.piles.typical_body().mass) return false;
+  Box<Dim> swept = bounds_at(shape, states.pose[i]);
+  // Two steps ahead: what is decided now is in force for the next step, in which a body reached then must be awake.
+  swept.extend(Box<Dim>(swept).translate(2.0 * dt_ * states.velocity[i]));
+  near_.clear();
+  frame.world.near(swept, near_);
+  std::erase_if(near_, [&](BodyIndex other) { return states.asleep[static_cast<std::size_t>(other)] == 0; });
+  return !near_.empty();
+}
+
+/// Section 3.4, avalanche: "we temporarily wake up all objects".
+template <int Dim>
+void PaperPolicy<Dim>::wake_overfull_piles(const Frame<Dim>& frame, Decision& decision) {
+  const auto piles = frame.piles.piles();
+  for (std::size_t p = 0; p < piles.size(); ++p) {
+    const bool overfull = std::any_of(piles[p].layers.begin(), piles[p].layers.end(),
+                                      [&](const Layer& layer) { return layer.density() > params_.avalanche_density; });
+    if (overfull && frame.step >= pile_calm_from_[p]) wake(p, SleepCause::avalanche, frame, decision);
+  }
+}
+
+template <int Dim>
+void PaperPolicy<Dim>::wake(std::size_t pile, SleepCause cause, const Frame<Dim>& frame, Decision& decision) {
+  if (pile_woken_[pile] != 0) return;
+  pile_woken_[pile] = 1;
+  pile_calm_from_[pile] = frame.step + params_.awake_steps;
+  const BodyStates<Dim>& states = frame.world.states();
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    const int layer = frame.piles.layer_of(pile, body);
+    if (layer < 0) continue;
+    body_rests_from_[i] = frame.step + params_.awake_steps;
+    if (states.asleep[i] == 0) continue;
+    decision.thaw.push_back({.body = body, .pile = static_cast<int>(pile), .layer = layer, .cause = cause});
+  }
+}
+
+/// Section 3.3. A body in several piles goes by the one that scores it highest.
+template <int Dim>
+void PaperPolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, Decision& decision) const {
+  const BodyStates<Dim>& states = frame.world.states();
+  const auto piles = frame.piles.piles();
+  std::vector<int> open(piles.size());
+  std::transform(piles.begin(), piles.end(), open.begin(), layers_open_to_sleep<Dim>);
+  for (const BodyIndex body : frame.world.awake()) {
+    const auto i = static_cast<std::size_t>(body);
+    if (frame.step < body_rests_from_[i]) continue;
+    SleepEvent best{.body = body, .cause = SleepCause::score, .score = params_.tau};
+    for (std::size_t p = 0; p < piles.size(); ++p) {
+      const int layer = frame.piles.layer_of(p, body);
+      if (layer < 0 || layer >= open[p]) continue;
+      const double distance = (horizontal<Dim>(states.pose[i].position) - horizontal<Dim>(piles[p].centre)).norm();
+      const double score =
+          sleep_score(piles[p].layers[static_cast<std::size_t>(layer)], distance, states.velocity[i].norm());
+      if (score > best.score) best.pile = static_cast<int>(p), best.layer = layer, best.score = score;
+    }
+    if (best.pile >= 0) decision.freeze.push_back(best);
+  }
+}
+
+template class PaperPolicy<2>;
+template class PaperPolicy<3>;
+
+}  // namespace talus

@@ -1,0 +1,43 @@
+#pragma once
+// Sections 3.3 and 3.4 of "Piles of Objects" (Hsu and Keyser 2010), to the letter.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/policy/paper_params.h"
+#include "common/policy/sleep_policy.h"
+
+namespace talus {
+
+/// A body sleeps when its layer is dense, it lies near the layer's centre, it is slow, and every layer below holds a
+/// sleeper. A whole pile wakes when one of its layers is overfull or something with much momentum is about to hit it.
+template <int Dim>
+class PaperPolicy final : public SleepPolicy<Dim> {
+ public:
+  PaperPolicy(const PaperParams& params, const WorldDescription<Dim>& world);
+
+  void decide(const Frame<Dim>& frame, Decision& decision) override;
+
+ private:
+  void wake_hit_piles(const Frame<Dim>& frame, Decision& decision);
+  void wake_overfull_piles(const Frame<Dim>& frame, Decision& decision);
+  void wake(std::size_t pile, SleepCause cause, const Frame<Dim>& frame, Decision& decision);
+  void choose_sleepers(const Frame<Dim>& frame, Decision& decision) const;
+  bool hits(const Frame<Dim>& frame, BodyIndex body);
+
+  PaperParams params_;
+  std::vector<Shape<Dim>> shapes_;
+  double dt_;
+  std::vector<std::int64_t> body_rests_from_;  // [body] step before which it may not sleep again
+  std::vector<std::int64_t> pile_calm_from_;   // [pile] step before which it starts no avalanche
+  std::vector<std::uint8_t> pile_woken_;       // [pile] in this step
+  std::vector<BodyIndex> near_;                // sleepers that a fast body is about to reach
+};
+
+/// Equation (2): 1 on the axis of the layer, falling to 0 at its radius.
+double closeness(double distance, double radius);
+
+/// The sleep score rho d v of section 3.3 in one layer; speed in m/s.
+double sleep_score(const Layer& layer, double distance, double speed);
+
+}  // namespace talus

@@ -1,0 +1,111 @@
+#include "common/simulation/emitter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/random.h"
+
+namespace talus {
+
+namespace {
+
+constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight and does not lift a spout
+
+}  // namespace
+
+template <int Dim>
+Emitter<Dim>::Emitter(const Scene<Dim>& scene) : shapes_(scene.world.shapes) {
+  std::uint64_t number = 0;
+  for (const Source<Dim>& source : scene.sources) {
+    std::seed_seq seed{scene.seed, number++};
+    spouts_.push_back({.source = source, .random = std::mt19937_64(seed)});
+    total_ += source.count;
+  }
+}
+
+template <int Dim>
+void Emitter<Dim>::emit(World<Dim>& world, double time) {
+  if (finished()) return;
+  for (Spout& spout : spouts_) {
+    while (due(spout, time)) {
+      if (!spout.drawn) draw(spout);
+      if (spout.source.ride_above > 0.0) ride(world, spout, time);
+      BodyDef<Dim> body = spout.next;
+      body.pose.position += place(spout, time);
+      if (!has_room(world, body)) {
+        ++waits_;
+        break;
+      }
+      world.add(body);
+      spout.drawn = false;
+      ++spout.emitted;
+      ++emitted_;
+    }
+  }
+}
+
+template <int Dim>
+bool Emitter<Dim>::due(const Spout& spout, double time) const {
+  return spout.emitted < spout.source.count && time >= spout.source.start + spout.emitted / spout.source.rate;
+}
+
+template <int Dim>
+void Emitter<Dim>::draw(Spout& spout) const {
+  const Source<Dim>& source = spout.source;
+  BodyDef<Dim>& body = spout.next;
+  body.shape = source.shapes[static_cast<std::size_t>(spout.emitted) % source.shapes.size()];
+  body.pose.position = uniform_within<Dim>(source.spread, spout.random);
+  body.pose.rotation = source.orientation ? *source.orientation : uniform_rotation<Dim>(spout.random);
+  body.velocity = source.velocity + uniform_within<Dim>(source.velocity_spread, spout.random);
+  constexpr int spin_size = Spin<Dim>::RowsAtCompileTime;
+  body.spin = uniform_within<spin_size>(Spin<Dim>::Constant(source.spin_spread), spout.random);
+  spout.drawn = true;
+}
+
+/// Where the spout is: its swing is a triangle wave that starts at `position` towards + sweep.
+template <int Dim>
+Vec<Dim> Emitter<Dim>::place(const Spout& spout, double time) const {
+  Vec<Dim> at = spout.source.position + spout.lift * Vec<Dim>::Unit(Dim - 1);
+  if (spout.source.sweep_period > 0.0) {
+    const double turn = (time - spout.source.start) / spout.source.sweep_period + 0.75;
+    const double saw = turn - std::floor(turn);
+    at += (4.0 * std::abs(saw - 0.5) - 1.0) * spout.source.sweep;
+  }
+  return at;
+}
+
+template <int Dim>
+bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
+  const Box<Dim> place = bounds_at(shapes_[static_cast<std::size_t>(body.shape)], body.pose);
+  near_.clear();
+  world.near(place, near_);
+  const BodyStates<Dim>& states = world.states();
+  return std::none_of(near_.begin(), near_.end(), [&](BodyIndex other) {
+    const auto i = static_cast<std::size_t>(other);
+    return place.intersects(bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]));
+  });
+}
+
+/// Lifts the spout so that it stays `ride_above` over whatever has settled in the column beneath it.
+template <int Dim>
+void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
+  const Vec<Dim> spout_at = place(spout, time);
+  const double half_width = shapes_[static_cast<std::size_t>(spout.next.shape)].extent;
+  Box<Dim> column(spout_at - Vec<Dim>::Constant(half_width) - spout.source.spread,
+                  spout_at + Vec<Dim>::Constant(half_width) + spout.source.spread);
+  column.min()[Dim - 1] = height<Dim>(spout_at) - spout.source.ride_above;
+  near_.clear();
+  world.near(column, near_);
+  const BodyStates<Dim>& states = world.states();
+  for (const BodyIndex body : near_) {
+    const auto i = static_cast<std::size_t>(body);
+    if (states.velocity[i].norm() > settled_speed) continue;
+    const double top = height<Dim>(bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]).max());
+    spout.lift = std::max(spout.lift, top + spout.source.ride_above - height<Dim>(spout.source.position));
+  }
+}
+
+template class Emitter<2>;
+template class Emitter<3>;
+
+}  // namespace talus

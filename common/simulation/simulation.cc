@@ -1,0 +1,164 @@
+#include "common/simulation/simulation.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "common/scene/typical_body.h"
+#include "common/simulation/stopwatch.h"
+
+namespace talus {
+
+template <int Dim>
+Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>> world,
+                            std::unique_ptr<SleepPolicy<Dim>> policy)
+    : world_(std::move(world)),
+      policy_(std::move(policy)),
+      shapes_(scene.world.shapes),
+      emitter_(scene),
+      piles_(scene.piles, typical_body(scene)),
+      dt_(scene.world.dt),
+      engine_sleep_(scene.world.engine_sleep) {}
+
+template <int Dim>
+void Simulation<Dim>::step() {
+  Stopwatch watch;
+  emitter_.emit(*world_, time());
+  phases_.emit = watch.lap();
+  world_->step();
+  ++step_;
+  phases_.step = watch.lap();
+  count_piles();
+  phases_.count = watch.lap();
+  decide();
+  phases_.decide = watch.lap();
+  apply();
+  phases_.apply = watch.lap();
+  show();
+  phases_.observe = watch.lap();
+}
+
+/// Section 3.2. Piles that neither a policy nor an observer asks for are not counted.
+template <int Dim>
+void Simulation<Dim>::count_piles() {
+  events_.swap(user_events_);
+  user_events_.clear();
+  if (!policy_->decides() && observers_.empty()) return;
+  if (engine_sleep_) note_engine_sleep();
+  if (piles_.waiting()) locate_pile();
+  piles_.update(world_->states(), world_->awake(), dt_);
+  assert(piles_.counts_match(world_->states()));
+}
+
+/// A pile whose place is not given begins where a body first touches ground or obstacle, clear of the piles that are.
+template <int Dim>
+void Simulation<Dim>::locate_pile() {
+  const double clearance = 2.0 * piles_.typical_body().extent;
+  for (const Contact<Dim>& contact : world_->contacts()) {
+    if (contact.b >= 0) continue;
+    const auto piles = piles_.piles();
+    const bool clear = std::all_of(piles.begin(), piles.end(), [&](const Pile<Dim>& pile) {
+      return (horizontal<Dim>(contact.point) - horizontal<Dim>(pile.centre)).norm() > pile.radius + clearance;
+    });
+    if (!clear) continue;
+    piles_.locate(contact.point, world_->states());
+    return;
+  }
+}
+
+template <int Dim>
+void Simulation<Dim>::decide() {
+  decision_.freeze.clear();
+  decision_.thaw.clear();
+  if (policy_->decides()) policy_->decide(frame(), decision_);
+}
+
+template <int Dim>
+void Simulation<Dim>::apply() {
+  const auto take = [&](std::vector<SleepEvent>& list, bool woke) {
+    bodies_.clear();
+    for (SleepEvent& event : list) {
+      event.step = step_;
+      event.woke = woke;
+      bodies_.push_back(event.body);
+    }
+    if (woke) {
+      world_->thaw(bodies_);
+    } else {
+      world_->freeze(bodies_);
+    }
+    for (const BodyIndex body : bodies_) piles_.refresh(world_->states(), body);
+    events_.insert(events_.end(), list.begin(), list.end());
+  };
+  if (!decision_.thaw.empty()) take(decision_.thaw, true);
+  if (!decision_.freeze.empty()) take(decision_.freeze, false);
+  std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
+}
+
+template <int Dim>
+void Simulation<Dim>::show() {
+  if (observers_.empty()) return;
+  const Frame<Dim> finished = frame();
+  for (Observer<Dim>* observer : observers_) observer->on_frame(finished);
+}
+
+template <int Dim>
+void Simulation<Dim>::end(std::string_view reason) {
+  const Frame<Dim> last = frame();
+  for (Observer<Dim>* observer : observers_) observer->on_end(last, reason);
+}
+
+/// The engine tells nobody when it puts a body to sleep or wakes it: compare.
+template <int Dim>
+void Simulation<Dim>::note_engine_sleep() {
+  const BodyStates<Dim>& states = world_->states();
+  asleep_before_.resize(states.asleep.size(), 0);
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (states.asleep[i] == asleep_before_[i]) continue;
+    asleep_before_[i] = states.asleep[i];
+    events_.push_back({.step = step_, .body = body, .woke = states.asleep[i] == 0, .cause = SleepCause::engine});
+    piles_.refresh(states, body);
+  }
+}
+
+template <int Dim>
+void Simulation<Dim>::remove(BodyIndex body) {
+  const auto i = static_cast<std::size_t>(body);
+  const BodyStates<Dim>& states = world_->states();
+  const Shape<Dim>& shape = shapes_[static_cast<std::size_t>(states.shape[i])];
+  Box<Dim> around = bounds_at(shape, states.pose[i]);
+  const Vec<Dim> reach = Vec<Dim>::Constant(0.05 * shape.extent);  // what rests on a body touches its box
+  around = Box<Dim>(around.min() - reach, around.max() + reach);
+  world_->remove(body);
+  piles_.refresh(world_->states(), body);
+  std::vector<BodyIndex> neighbours;
+  world_->near(around, neighbours);
+  thaw_now(neighbours, SleepCause::lost_support);
+}
+
+template <int Dim>
+void Simulation<Dim>::thaw_all() {
+  std::vector<BodyIndex> all(world_->states().shape.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<BodyIndex>(i);
+  thaw_now(all, SleepCause::user);
+}
+
+template <int Dim>
+void Simulation<Dim>::thaw_now(std::span<const BodyIndex> bodies, SleepCause cause) {
+  bodies_.clear();
+  const BodyStates<Dim>& states = world_->states();
+  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(bodies_), [&](BodyIndex body) {
+    const auto i = static_cast<std::size_t>(body);
+    return states.asleep[i] != 0 && states.removed[i] == 0;
+  });
+  world_->thaw(bodies_);
+  for (const BodyIndex body : bodies_) {
+    piles_.refresh(states, body);
+    user_events_.push_back({.step = step_ + 1, .body = body, .woke = true, .cause = cause});
+  }
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+
+}  // namespace talus
