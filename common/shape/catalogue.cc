@@ -1,0 +1,120 @@
+#include "common/shape/catalogue.h"
+
+#include <algorithm>
+#include <set>
+
+#include "common/math/require.h"
+#include "common/shape/check_piece.h"
+#include "common/shape/convex_hull.h"
+
+namespace talus {
+namespace {
+
+// A box from its place along x and z; in 3D as deep as `depth`, half of it to each side.
+template <int Dim>
+BoxPiece<Dim> box_between(const Vec2& low, const Vec2& high, double depth) {
+  const Vec2 middle = (low + high) / 2.0;
+  const Vec2 half = (high - low) / 2.0;
+  BoxPiece<Dim> box;
+  if constexpr (Dim == 2) {
+    box.pose.position = middle;
+    box.half = half;
+  } else {
+    box.pose.position = {middle.x(), 0.0, middle.y()};
+    box.half = {half.x(), depth / 2.0, half.y()};
+  }
+  return box;
+}
+
+double twice_signed_area(std::span<const Vec2> corners) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& next = corners[(i + 1) % corners.size()];
+    sum += corners[i].x() * next.y() - corners[i].y() * next.x();
+  }
+  return sum;
+}
+
+std::vector<Vec2> arranged(std::span<const Vec2> corners) {
+  std::vector<Vec2> result(corners.begin(), corners.end());
+  if (twice_signed_area(corners) < 0.0) {
+    std::reverse(result.begin(), result.end());
+  }
+  return result;
+}
+
+// Only the points that are corners of the hull, in the order in which they were given.
+std::vector<Vec3> arranged(std::span<const Vec3> points) {
+  std::set<int> used;
+  for (const std::vector<int>& face : convex_hull_faces(points)) {
+    used.insert(face.begin(), face.end());
+  }
+  std::vector<Vec3> result;
+  for (const int index : used) {
+    result.push_back(points[static_cast<std::size_t>(index)]);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Piece<Dim>> box_pieces(const Vec<Dim>& size) {
+  const Piece<Dim> box = BoxPiece<Dim>{Pose<Dim>{}, size / 2.0};
+  check_piece(box, "box");
+  return {box};
+}
+
+template <int Dim>
+std::vector<Piece<Dim>> l_pieces(const LParams& params) {
+  require(std::isfinite(params.thickness) && params.thickness > 0.0, "l.thickness", params.thickness,
+          "must be finite and above 0 m");
+  require(std::isfinite(params.arm_x) && params.arm_x > params.thickness, "l.arm_x", params.arm_x,
+          "must be finite and above the thickness");
+  require(std::isfinite(params.arm_z) && params.arm_z > params.thickness, "l.arm_z", params.arm_z,
+          "must be finite and above the thickness");
+  require(std::isfinite(params.depth) && params.depth > 0.0, "l.depth", params.depth, "must be finite and above 0 m");
+  const double t = params.thickness;
+  return {box_between<Dim>({0.0, 0.0}, {params.arm_x, t}, params.depth),
+          box_between<Dim>({0.0, t}, {t, params.arm_z}, params.depth)};
+}
+
+template <int Dim>
+std::vector<Piece<Dim>> ball_pieces(double radius) {
+  const Piece<Dim> ball = BallPiece<Dim>{Vec<Dim>::Zero(), radius};
+  check_piece(ball, "ball");
+  return {ball};
+}
+
+template <int Dim>
+std::vector<Piece<Dim>> capsule_pieces(double length, double radius) {
+  require(std::isfinite(length) && length > 2.0 * radius, "capsule.length", length,
+          "must be finite and above twice the radius");
+  const Vec<Dim> end = Vec<Dim>::Unit(0) * (length / 2.0 - radius);
+  const Piece<Dim> capsule = CapsulePiece<Dim>{-end, end, radius};
+  check_piece(capsule, "capsule");
+  return {capsule};
+}
+
+template <int Dim>
+std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners) {
+  if constexpr (Dim == 3) {
+    check_piece<3>(HullPiece<3>{{corners.begin(), corners.end()}}, "hull");
+  }
+  const Piece<Dim> hull = HullPiece<Dim>{arranged(corners)};
+  check_piece(hull, "hull");
+  return {hull};
+}
+
+template std::vector<Piece<2>> box_pieces(const Vec<2>&);
+template std::vector<Piece<3>> box_pieces(const Vec<3>&);
+template std::vector<Piece<2>> l_pieces(const LParams&);
+template std::vector<Piece<3>> l_pieces(const LParams&);
+template std::vector<Piece<2>> ball_pieces(double);
+template std::vector<Piece<3>> ball_pieces(double);
+template std::vector<Piece<2>> capsule_pieces(double, double);
+template std::vector<Piece<3>> capsule_pieces(double, double);
+template std::vector<Piece<2>> hull_pieces(std::span<const Vec<2>>);
+template std::vector<Piece<3>> hull_pieces(std::span<const Vec<3>>);
+
+}  // namespace talus

@@ -1,0 +1,71 @@
+#include "common/shape/convex_hull.h"
+
+#include <cstdio>
+
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
+
+namespace talus {
+namespace {
+
+// Frees what qhull holds, whichever way the function is left.
+class QhullState {
+ public:
+  QhullState() : messages_(std::tmpfile()) { qh_zero(&state_, messages_); }
+  ~QhullState() {
+    int memory_blocks = 0;
+    int memory_bytes = 0;
+    state_.NOerrexit = True;
+    qh_freeqhull(&state_, False);
+    qh_memfreeshort(&state_, &memory_blocks, &memory_bytes);
+    if (messages_ != nullptr) {
+      std::fclose(messages_);
+    }
+  }
+  QhullState(const QhullState&) = delete;
+  QhullState& operator=(const QhullState&) = delete;
+
+  qhT* get() { return &state_; }
+  // qhull writes what it dislikes here instead of to the terminal.
+  FILE* messages() { return messages_; }
+
+ private:
+  qhT state_;
+  FILE* messages_;
+};
+
+// qhull lists a face's corners clockwise seen from outside (qh_ORIENTclock 0): read from the last to the first.
+std::vector<std::vector<int>> read_faces(qhT* qh) {
+  std::vector<std::vector<int>> faces;
+  for (facetT* facet = qh->facet_list; facet != nullptr && facet->next != nullptr; facet = facet->next) {
+    setT* vertices = qh_facet3vertex(qh, facet);
+    std::vector<int> face;
+    for (int i = qh_setsize(qh, vertices) - 1; i >= 0; --i) {
+      face.push_back(qh_pointid(qh, static_cast<vertexT*>(vertices->e[i].p)->point));
+    }
+    qh_settempfree(qh, &vertices);
+    faces.push_back(std::move(face));
+  }
+  return faces;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> convex_hull_faces(std::span<const Vec3> points) {
+  std::vector<double> coordinates;
+  coordinates.reserve(points.size() * 3);
+  for (const Vec3& point : points) {
+    coordinates.insert(coordinates.end(), point.begin(), point.end());
+  }
+  if (points.size() < 4) {
+    return {};
+  }
+  char command[] = "qhull";
+  QhullState qhull;
+  const int error = qh_new_qhull(qhull.get(), 3, static_cast<int>(points.size()), coordinates.data(), False, command,
+                                 nullptr, qhull.messages());
+  return error == qh_ERRnone ? read_faces(qhull.get()) : std::vector<std::vector<int>>{};
+}
+
+}  // namespace talus

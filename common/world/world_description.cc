@@ -1,0 +1,132 @@
+#include "common/world/world_description.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "common/math/require.h"
+#include "common/shape/check_piece.h"
+#include "common/shape/piece_width.h"
+
+namespace talus {
+namespace {
+
+constexpr double farthest = 1e4;  // [m] beyond, single precision resolves a millimetre at best and contacts jitter
+constexpr double largest_mass_ratio = 100.0;
+
+void require_within(double value, double low, double high, const std::string& field, std::string_view rule) {
+  require(value >= low && value <= high, field, value, rule);
+}
+
+template <int Dim>
+void check_pose(const Pose<Dim>& pose, const std::string& field) {
+  for (int axis = 0; axis < Dim; ++axis) {
+    require_within(pose.position[axis], -farthest, farthest, fmt::format("{}.position[{}]", field, axis),
+                   "must be within 10,000 m of the origin");
+  }
+  const double turn = pose.rotation.toRotationMatrix().determinant();
+  require_within(turn, 1.0 - 1e-6, 1.0 + 1e-6, field + ".rotation", "must be finite and of length 1");
+}
+
+// Both limits come from the engines' contact skins: Bullet 3.24 lets cubes of 0.04 m sink through the ground (margin
+// 0.04 m), Box2D 2.4.1 keeps bodies 0.005 m apart (b2_linearSlop) and welds corners that lie closer.
+template <int Dim>
+void check_width(const Piece<Dim>& piece, const std::string& field) {
+  if constexpr (Dim == 2) {
+    require(smallest_width(piece) >= 0.005, field + " width", smallest_width(piece),
+            "must be at least 0.005 m, better 0.5 m: Box2D's contacts keep a gap of that size");
+  } else {
+    require(smallest_width(piece) >= 0.05, field + " width", smallest_width(piece),
+            "must be at least 0.05 m, better 0.2 m: Bullet's contacts miss what is thinner");
+  }
+}
+
+template <int Dim>
+void check_shape(const Shape<Dim>& shape, const std::string& field) {
+  require(!shape.pieces.empty(), field + ".pieces.size", 0.0, "must be one piece or more");
+  check_material(shape.material, field + ".material");
+  for (std::size_t i = 0; i < shape.pieces.size(); ++i) {
+    const std::string piece = fmt::format("{}.pieces[{}]", field, i);
+    check_piece(shape.pieces[i], piece);
+    check_width(shape.pieces[i], piece);
+  }
+  require(std::isfinite(shape.mass) && shape.mass > 0.0, field + ".mass", shape.mass,
+          "must be finite and above 0 kg, as make_shape() sets it");
+  require(shape.inertia.allFinite() && shape.inertia.determinant() > 0.0, field + ".inertia",
+          shape.inertia.determinant(), "must be finite and positive, as make_shape() sets it");
+  require(shape.extent <= 2.0 * farthest, field + ".extent", shape.extent, "must be at most 20,000 m");
+}
+
+void check_solver(const SolverParams& solver) {
+  require_within(solver.velocity_iterations, 1, 1000, "world.solver.velocity_iterations", "must be in 1..1000");
+  require_within(solver.position_iterations, 1, 1000, "world.solver.position_iterations", "must be in 1..1000");
+  require_within(solver.friction_directions, 1, 2, "world.solver.friction_directions", "must be 1 or 2");
+  require(std::isfinite(solver.restitution_threshold) && solver.restitution_threshold >= 0.0,
+          "world.solver.restitution_threshold", solver.restitution_threshold, "must be finite and at least 0 m/s");
+}
+
+template <int Dim>
+void check_masses(const std::vector<Shape<Dim>>& shapes) {
+  const auto lighter = [](const auto& a, const auto& b) { return a.mass < b.mass; };
+  const auto [light, heavy] = std::minmax_element(shapes.begin(), shapes.end(), lighter);
+  if (light != shapes.end()) {
+    require(heavy->mass <= largest_mass_ratio * light->mass,
+            fmt::format("mass of shape '{}' over mass of shape '{}'", heavy->name, light->name),
+            heavy->mass / light->mass, "must be at most 100, better 10: a heavy body sinks through light ones");
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void check(const WorldDescription<Dim>& description) {
+  require(std::isfinite(description.gravity) && description.gravity >= 0.0, "world.gravity", description.gravity,
+          "must be finite and at least 0 m/s^2");
+  require(description.dt > 0.0 && description.dt <= 1.0 / 30.0, "world.dt", description.dt,
+          "must be above 0 and at most 1/30 s, better 1/60 s: above, bodies sink into each other");
+  check_solver(description.solver);
+  if (description.ground.present) {
+    require_within(description.ground.height, -farthest, farthest, "world.ground.height",
+                   "must be within 10,000 m of the origin");
+    check_material(description.ground.material, "world.ground.material");
+  }
+  for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
+    const std::string field = fmt::format("world.obstacles[{}]", i);
+    check_shape(description.obstacles[i].shape, field + ".shape");
+    check_pose(description.obstacles[i].pose, field + ".pose");
+  }
+  for (std::size_t i = 0; i < description.shapes.size(); ++i) {
+    check_shape(description.shapes[i], fmt::format("world.shapes[{}] ('{}')", i, description.shapes[i].name));
+  }
+  check_masses(description.shapes);
+}
+
+template <int Dim>
+void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description) {
+  const int shapes = static_cast<int>(description.shapes.size());
+  require(body.shape >= 0 && body.shape < shapes, "body.shape", body.shape,
+          fmt::format("must be the number of one of the {} shapes, counted from 0", shapes));
+  check_pose(body.pose, "body.pose");
+  for (int axis = 0; axis < Dim; ++axis) {
+    require(std::isfinite(body.velocity[axis]), fmt::format("body.velocity[{}]", axis), body.velocity[axis],
+            "must be finite");
+  }
+  require(body.spin.allFinite(), "body.spin", body.spin.norm(), "must be finite");
+  // Box2D moves a body by at most 2 m a step (b2_maxTranslation); Bullet's continuous collision was tried up to 500
+  // m/s.
+  const double fastest = Dim == 2 ? 2.0 / description.dt : 500.0;
+  require(body.velocity.norm() <= fastest, "body.velocity", body.velocity.norm(),
+          fmt::format("must be at most {:.6g} m/s: faster ones are slowed down or go through walls", fastest));
+  // Both engines cut a spin to a quarter turn a step (b2_maxRotation, btRigidBody's MAX_ANGVEL).
+  const double fastest_spin = std::numbers::pi / 2.0 / description.dt;
+  require(body.spin.norm() <= fastest_spin, "body.spin", body.spin.norm(),
+          fmt::format("must be at most {:.6g} rad/s, a quarter turn a step", fastest_spin));
+}
+
+template void check(const WorldDescription<2>&);
+template void check(const WorldDescription<3>&);
+template void check(const BodyDef<2>&, const WorldDescription<2>&);
+template void check(const BodyDef<3>&, const WorldDescription<3>&);
+
+}  // namespace talus
