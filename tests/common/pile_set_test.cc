@@ -1,0 +1,174 @@
+// Counting (section 3.2): incremental counts equal a recount, whatever the bodies do.
+
+#include "common/pile/pile_set.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace talus {
+namespace {
+
+constexpr TypicalBody body{.bounding_volume = 0.4, .extent = 1.4, .mass = 1.0};
+constexpr double dt = 1.0 / 60.0;
+
+template <int Dim>
+struct Bodies {
+  BodyStates<Dim> states;
+
+  void add(const Vec<Dim>& at) {
+    states.shape.push_back(0);
+    states.pose.push_back({.position = at});
+    states.velocity.push_back(Vec<Dim>::Zero());
+    states.spin.push_back(Spin<Dim>::Zero());
+    states.asleep.push_back(0);
+    states.removed.push_back(0);
+  }
+  std::vector<BodyIndex> awake() const {
+    std::vector<BodyIndex> list;
+    for (BodyIndex i = 0; i < states.size(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (states.asleep[at] == 0 && states.removed[at] == 0) list.push_back(i);
+    }
+    return list;
+  }
+};
+
+/// Coordinates on a grid of 1/64 m: sums of these are exact, so translations and mirror images lose no bit.
+double any_coordinate(int reach) { return *rc::gen::inRange(-reach * 64, reach * 64) / 64.0; }
+
+template <int Dim>
+Vec<Dim> any_position() {
+  Vec<Dim> at;
+  for (int axis = 0; axis < Dim - 1; ++axis) at[axis] = any_coordinate(4);
+  at[Dim - 1] = std::abs(any_coordinate(4));
+  return at;
+}
+
+template <int Dim>
+PileSet<Dim> pile_at(const Vec<Dim>& centre) {
+  PileParams<Dim> params;
+  params.at = centre;
+  return PileSet<Dim>({params}, body);
+}
+
+template <int Dim>
+std::vector<int> counts(const PileSet<Dim>& piles) {
+  std::vector<int> list;
+  for (const Layer& layer : piles.piles().front().layers) list.push_back(layer.count);
+  return list;
+}
+
+template <int Dim>
+void expect_counts_kept_through_a_history() {
+  Bodies<Dim> bodies;
+  PileSet<Dim> piles = pile_at<Dim>(Vec<Dim>::Zero());
+  for (int step = 0; step < 70; ++step) {  // past two looks at the drifting centre
+    bodies.add(any_position<Dim>());
+    const auto pick = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(bodies.states.shape.size())));
+    switch (*rc::gen::inRange(0, 4)) {
+      case 0:
+        if (bodies.states.asleep[pick] == 0) bodies.states.pose[pick].position = any_position<Dim>();
+        break;
+      case 1:
+        bodies.states.asleep[pick] = bodies.states.asleep[pick] == 0 ? 1 : 0;
+        piles.refresh(bodies.states, static_cast<BodyIndex>(pick));
+        break;
+      case 2:
+        bodies.states.removed[pick] = 1;
+        piles.refresh(bodies.states, static_cast<BodyIndex>(pick));
+        break;
+      default:
+        break;
+    }
+    piles.update(bodies.states, bodies.awake(), dt);
+    RC_ASSERT(piles.counts_match(bodies.states));
+    RC_ASSERT(piles.piles().front().occupation_ratio() <= 0.5);
+    for (const Layer& layer : piles.piles().front().layers) {
+      RC_ASSERT(std::isfinite(layer.density()) && layer.density() >= 0.0);
+      RC_ASSERT(layer.sleeping <= layer.count);
+    }
+  }
+}
+
+RC_GTEST_PROP(PileCounts, EqualARecountAfterAnyHistoryIn2D, ()) { expect_counts_kept_through_a_history<2>(); }
+RC_GTEST_PROP(PileCounts, EqualARecountAfterAnyHistoryIn3D, ()) { expect_counts_kept_through_a_history<3>(); }
+
+/// Counts of `positions` around `centre` after one update.
+std::vector<int> counts_of(const std::vector<Vec3>& positions, const Vec3& centre) {
+  Bodies<3> bodies;
+  for (const Vec3& at : positions) bodies.add(at);
+  PileSet<3> piles = pile_at<3>(centre);
+  piles.update(bodies.states, bodies.awake(), dt);
+  return counts(piles);
+}
+
+RC_GTEST_PROP(PileCounts, DoNotChangeUnderTranslationMirrorImageOrRenumbering, ()) {
+  std::vector<Vec3> positions;
+  const int count = *rc::gen::inRange(1, 60);
+  for (int i = 0; i < count; ++i) positions.push_back(any_position<3>());
+  const std::vector<int> expected = counts_of(positions, Vec3::Zero());
+
+  const Vec3 shift(any_coordinate(1000), any_coordinate(1000), any_coordinate(100));
+  std::vector<Vec3> moved = positions;
+  for (Vec3& at : moved) at += shift;
+  RC_ASSERT(counts_of(moved, shift) == expected);
+
+  std::vector<Vec3> mirrored = positions;
+  for (Vec3& at : mirrored) at.x() = -at.x();
+  RC_ASSERT(counts_of(mirrored, Vec3::Zero()) == expected);
+
+  std::reverse(positions.begin(), positions.end());
+  RC_ASSERT(counts_of(positions, Vec3::Zero()) == expected);
+}
+
+TEST(PileGrowth, DoublesTheStructureAboveHalfOccupation) {
+  Bodies<3> bodies;
+  PileSet<3> piles = pile_at<3>(Vec3::Zero());  // room for 8
+  for (int i = 0; i < 4; ++i) bodies.add(Vec3(0.0, 0.0, 0.1));
+  piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_DOUBLE_EQ(piles.piles().front().structure_size, 8.0);
+  bodies.add(Vec3(0.0, 0.0, 0.1));
+  piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_DOUBLE_EQ(piles.piles().front().structure_size, 16.0);
+}
+
+TEST(PileCentre, DriftsTowardsTheMeanOfItsBodies) {
+  Bodies<3> bodies;
+  bodies.add(Vec3(0.5, 0.0, 0.1));
+  PileParams<3> params;
+  params.at = Vec3::Zero();
+  params.drift_rate = 1.0;
+  PileSet<3> piles({params}, body);
+  for (int step = 0; step < 30; ++step) piles.update(bodies.states, bodies.awake(), dt);
+  // After half a second the share 1 - exp(-0.5) of the way; positions count in steps of 1/65536 m.
+  EXPECT_NEAR(piles.piles().front().centre.x(), 0.5 * (1.0 - std::exp(-0.5)), 1e-5);
+  EXPECT_EQ(piles.piles().front().centre.z(), 0.0);
+}
+
+TEST(PileCentre, StaysWithoutADriftRate) {
+  Bodies<2> bodies;
+  bodies.add(Vec2(0.5, 0.1));
+  PileParams<2> params;
+  params.at = Vec2::Zero();
+  params.drift_rate = 0.0;
+  PileSet<2> piles({params}, body);
+  for (int step = 0; step < 60; ++step) piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(piles.piles().front().centre.x(), 0.0);
+}
+
+TEST(UnlocatedPile, BeginsWhereItIsToldAndCountsWhoIsThere) {
+  Bodies<3> bodies;
+  bodies.add(Vec3(7.0, 1.0, 0.1));
+  PileSet<3> piles({PileParams<3>{}}, body);
+  EXPECT_TRUE(piles.waiting());
+  EXPECT_TRUE(piles.piles().empty());
+  piles.locate(Vec3(7.0, 1.0, 0.0), bodies.states);
+  EXPECT_FALSE(piles.waiting());
+  EXPECT_EQ(counts(piles).front(), 1);
+}
+
+}  // namespace
+}  // namespace talus
