@@ -13,11 +13,11 @@ namespace talus {
 /// holds are those before the step, for every body.
 class NonFiniteState : public std::runtime_error {
  public:
-  NonFiniteState(std::int64_t step, BodyIndex body)
-      : std::runtime_error("step " + std::to_string(step) + ": the state of body " + std::to_string(body) +
+  NonFiniteState(std::int64_t at_step, BodyIndex broken)
+      : std::runtime_error("step " + std::to_string(at_step) + ": the state of body " + std::to_string(broken) +
                            " is not finite; everything up to the step before is kept"),
-        step(step),
-        body(body) {}
+        step(at_step),
+        body(broken) {}
   std::int64_t step;
   BodyIndex body;
 };
