@@ -1,0 +1,100 @@
+#include "sim2d/shapes.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "common/math/require.h"
+
+namespace talus::box2d {
+namespace {
+
+b2CircleShape disc(const Vec2& centre, double radius) {
+  b2CircleShape circle;
+  circle.m_p = to_engine(centre);
+  circle.m_radius = static_cast<float>(radius);
+  return circle;
+}
+
+b2PolygonShape rectangle(const Pose<2>& pose, const Vec2& half) {
+  b2PolygonShape polygon;
+  const b2Vec2 h = to_engine(half);
+  polygon.SetAsBox(h.x, h.y, to_engine(pose.position), engine_angle(pose.rotation.angle()));
+  return polygon;
+}
+
+/// Filled in by hand: b2PolygonShape::Set() welds corners closer than 2.5 mm and aborts on what it then finds flat.
+b2PolygonShape convex_polygon(const HullPiece<2>& hull) {
+  b2PolygonShape polygon;
+  polygon.m_count = static_cast<int>(hull.corners.size());
+  for (std::size_t i = 0; i < hull.corners.size(); ++i) {
+    const Vec2 side = (hull.corners[(i + 1) % hull.corners.size()] - hull.corners[i]).normalized();
+    polygon.m_vertices[i] = to_engine(hull.corners[i]);
+    polygon.m_normals[i] = to_engine(Vec2(side.y(), -side.x()));
+  }
+  polygon.m_centroid = to_engine(mass_properties<2>(hull).centre);
+  return polygon;
+}
+
+struct Converter {
+  std::vector<EngineShape>& out;
+
+  void operator()(const BoxPiece<2>& box) const { out.emplace_back(rectangle(box.pose, box.half)); }
+
+  void operator()(const BallPiece<2>& ball) const { out.emplace_back(disc(ball.centre, ball.radius)); }
+
+  void operator()(const CapsulePiece<2>& capsule) const {
+    out.emplace_back(disc(capsule.a, capsule.radius));
+    out.emplace_back(disc(capsule.b, capsule.radius));
+    const Vec2 along = capsule.b - capsule.a;
+    const Pose<2> middle{(capsule.a + capsule.b) / 2.0, Rotation<2>(std::atan2(along.y(), along.x()))};
+    // Box2D gives polygons a skin and discs none; less the skin, the straight sides lie flush with the round ends.
+    const double half_width = std::max(capsule.radius - b2_polygonRadius, capsule.radius / 4.0);
+    out.emplace_back(rectangle(middle, {along.norm() / 2.0, half_width}));
+  }
+
+  void operator()(const HullPiece<2>& hull) const { out.emplace_back(convex_polygon(hull)); }
+};
+
+}  // namespace
+
+std::vector<EngineShape> engine_shapes(const Shape<2>& shape) {
+  std::vector<EngineShape> out;
+  for (const Piece<2>& piece : shape.pieces) {
+    std::visit(Converter{out}, piece);
+  }
+  return out;
+}
+
+EngineShape moved(const EngineShape& shape, const b2Transform& pose) {
+  EngineShape copy = shape;
+  if (auto* circle = std::get_if<b2CircleShape>(&copy)) {
+    circle->m_p = b2Mul(pose, circle->m_p);
+  } else {
+    auto& polygon = std::get<b2PolygonShape>(copy);
+    for (int i = 0; i < polygon.m_count; ++i) {
+      polygon.m_vertices[i] = b2Mul(pose, polygon.m_vertices[i]);
+      polygon.m_normals[i] = b2Mul(pose.q, polygon.m_normals[i]);
+    }
+    polygon.m_centroid = b2Mul(pose, polygon.m_centroid);
+  }
+  return copy;
+}
+
+b2MassData engine_mass(const Shape<2>& shape) {
+  constexpr double least = 1e-20;  // inverses and their products must stay below 3e38
+  require(shape.mass >= least, "mass of shape '" + shape.name + "'", shape.mass, "must be at least 1e-20 kg");
+  require(shape.inertia(0, 0) >= least, "inertia of shape '" + shape.name + "'", shape.inertia(0, 0),
+          "must be at least 1e-20 kg m^2");
+  b2MassData mass;
+  mass.mass = static_cast<float>(shape.mass);
+  mass.center.SetZero();
+  mass.I = static_cast<float>(shape.inertia(0, 0));
+  return mass;
+}
+
+float engine_angle(double angle) {
+  return static_cast<float>(std::abs(angle) <= std::numbers::pi ? angle
+                                                                : std::remainder(angle, 2.0 * std::numbers::pi));
+}
+
+}  // namespace talus::box2d

@@ -1,0 +1,33 @@
+#pragma once
+// Whose a fixture is, written into the user data that Box2D keeps for us.
+
+#include <box2d/box2d.h>
+
+#include "common/world/body.h"
+
+namespace talus::box2d {
+
+/// Owner and piece of a fixture in one number, which also orders pairs of fixtures the same in every run.
+enum class Tag : std::uint64_t {};
+
+inline Tag make_tag(BodyIndex owner, int piece) {
+  return Tag{(std::uint64_t{static_cast<std::uint32_t>(owner)} << 32U) | static_cast<std::uint32_t>(piece)};
+}
+
+/// A body, the ground or an obstacle (see BodyIndex).
+inline BodyIndex owner_of(Tag tag) {
+  return static_cast<BodyIndex>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(tag) >> 32U));
+}
+
+inline b2FixtureUserData to_user_data(Tag tag) {
+  static_assert(sizeof(std::uintptr_t) >= sizeof(Tag), "a tag must fit into Box2D's user data");
+  b2FixtureUserData data;
+  data.pointer = static_cast<std::uintptr_t>(tag);
+  return data;
+}
+
+// Box2D hands its user data out only to those who may change it, hence no const here.
+inline Tag tag_of(b2Fixture& fixture) { return Tag{fixture.GetUserData().pointer}; }
+inline BodyIndex owner_of(b2Fixture& fixture) { return owner_of(tag_of(fixture)); }
+
+}  // namespace talus::box2d

@@ -1,0 +1,75 @@
+#pragma once
+// Contact impulses that outlive their contacts. Box2D finds this step's impulses from the last step's, and its contacts
+// die with the fixtures that freezing and thawing exchange; without their impulses a thawed heap slumps.
+
+#include <box2d/box2d.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sim2d/tag.h"
+
+namespace talus::box2d {
+
+/// One point of a contact that was, found again by its place: feature ids depend on which of the two fixtures Box2D
+/// calls A, and that changes when fixtures are made anew.
+struct SavedPoint {
+  b2Vec2 at;             // [m]
+  float normal = 0.0F;   // [N s]
+  float tangent = 0.0F;  // [N s]
+};
+
+struct SavedContact {
+  Tag low{};  // the fixtures, smaller tag first
+  Tag high{};
+  std::array<SavedPoint, b2_maxManifoldPoints> points;
+  int count = 0;
+};
+
+/// The impulses of a touching contact.
+SavedContact save(b2Contact& contact);
+
+/// Puts saved impulses into a contact that has just begun; points that have no match nearby start from zero.
+void restore(const SavedContact& saved, b2Contact& contact);
+
+/// Contacts between sleepers: the engine has none of these. Every contact hangs in the lists of both its bodies.
+class SleepingContacts {
+ public:
+  void keep(const SavedContact& contact);
+  /// Takes out all contacts of a body and appends them to `out`.
+  void release(BodyIndex body, std::vector<SavedContact>& out);
+
+ private:
+  struct Node {
+    SavedContact contact;
+    std::array<std::int32_t, 2> next{};  // in the lists of the owners of `low` and of `high`; -1 at the end
+  };
+  std::int32_t& next_of(std::int32_t node, BodyIndex body);
+  void unlink(std::int32_t node, BodyIndex body);
+
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> free_;
+  std::vector<std::int32_t> first_;  // by body; -1: none
+};
+
+/// What was saved since the last step, on its way to contacts that the coming step makes.
+class WarmStart {
+ public:
+  void save(b2Contact& contact);
+  void wake(BodyIndex body) { sleeping_.release(body, waiting_); }
+  void forget(BodyIndex body);
+
+  /// Before a step: contacts between sleepers are put away, the others made ready to be found.
+  void start_step(std::span<const std::uint8_t> asleep);
+  void end_step() { waiting_.clear(); }
+  /// From PreSolve of a contact that has just begun.
+  void apply(b2Contact& contact) const;
+  bool empty() const { return waiting_.empty(); }
+
+ private:
+  SleepingContacts sleeping_;
+  std::vector<SavedContact> waiting_;
+};
+
+}  // namespace talus::box2d
