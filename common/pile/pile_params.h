@@ -3,7 +3,7 @@
 #include <numbers>
 #include <optional>
 
-#include "common/math/vector.h"
+#include "common/pile/boundary.h"
 
 namespace talus {
 
@@ -14,6 +14,8 @@ struct PileParams {
   std::optional<Vec<Dim>> at;           // middle of the base [m]; not given: where the first body lands (section 3.1)
   double initial_size = 8.0;            // N at the start, >= 1; larger: the first bodies wait longer for a dense layer
   double growth_ratio = 0.5;            // occupation ratio above which N doubles (section 3.2), in (0, 1]
+  double merge_distance = 1.0;  // [D] >= 0: piles of one kind merge whose centres stay nearer than this; 0: never
+  std::optional<Boundary<Dim>> boundary = {};  // walls around `at`, which must then be given; such a pile never drifts
   double drift_rate = 0.5;  // [1/s] >= 0: share of the way to the bodies' mean that the centre goes per second
 };
 

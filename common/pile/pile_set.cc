@@ -1,5 +1,6 @@
 #include "common/pile/pile_set.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -10,13 +11,17 @@ namespace {
 constexpr double fixed_point = 65536.0;  // steps per metre: 15 micrometres, and 1e4 m still fits 32 bits
 
 // A centre that moves makes all bodies be counted anew, so it moves seldom and by no less than this share of D.
-constexpr int drift_interval = 30;
+constexpr int steps_between_looks = 30;
 constexpr double least_drift = 0.02;
+
+/// Piles merge when their centres were near at so many looks in a row: piles that just pass stay apart.
+constexpr int looks_to_merge = 2;
 
 }  // namespace
 
 template <int Dim>
-PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body) : body_(body) {
+PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body)
+    : body_(body), steps_to_look_(steps_between_looks) {
   for (const PileParams<Dim>& pile : params) {
     if (pile.at) {
       add_pile(pile, *pile.at);
@@ -28,8 +33,8 @@ PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& bo
 
 template <int Dim>
 void PileSet<Dim>::add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre) {
-  piles_.push_back(make_pile<Dim>(centre, params.alpha, params.initial_size, body_));
-  ledgers_.push_back({.params = params, .steps_to_drift = drift_interval});
+  piles_.push_back(make_pile<Dim>(centre, params.alpha, params.initial_size, body_, params.boundary));
+  ledgers_.push_back({.params = params});
 }
 
 template <int Dim>
@@ -45,11 +50,25 @@ void PileSet<Dim>::update(const BodyStates<Dim>& states, std::span<const BodyInd
   for (std::size_t p = 0; p < piles_.size(); ++p) {
     ledgers_[p].members.resize(states.shape.size());
     for (const BodyIndex body : awake) count(p, body, membership(p, states, body));
-    if (drift(p, dt)) recount(p, states);
-    while (piles_[p].occupation_ratio() > ledgers_[p].params.growth_ratio) {
-      piles_[p] = make_pile<Dim>(piles_[p].centre, piles_[p].alpha, 2.0 * piles_[p].structure_size, body_);
-      recount(p, states);
-    }
+  }
+  if (--steps_to_look_ == 0) {
+    steps_to_look_ = steps_between_looks;
+    for (std::size_t p = 0; p < piles_.size(); ++p) drift(p, states, dt);
+    if (piles_.size() > 1) merge_near(states);
+  }
+  for (std::size_t p = 0; p < piles_.size(); ++p) grow(p, states);
+}
+
+/// Section 3.2: above the growth ratio N doubles; a pile that fills its walls to the rim stays as it is (3.5).
+template <int Dim>
+void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
+  while (piles_[pile].occupation_ratio() > ledgers_[pile].params.growth_ratio) {
+    const Pile<Dim>& now = piles_[pile];
+    Pile<Dim> larger =
+        make_pile<Dim>(now.centre, now.alpha, 2.0 * now.structure_size, body_, ledgers_[pile].params.boundary);
+    if (larger.structure_size <= now.structure_size) return;
+    piles_[pile] = std::move(larger);
+    recount(pile, states);
   }
 }
 
@@ -106,22 +125,56 @@ void PileSet<Dim>::recount(std::size_t pile, const BodyStates<Dim>& states) {
   for (BodyIndex body = 0; body < states.size(); ++body) count(pile, body, membership(pile, states, body));
 }
 
-/// Section 3.2: the centre goes gradually to the horizontal mean of the pile's bodies. Returns whether it moved.
+/// Section 3.2: the centre goes gradually to the horizontal mean of the pile's bodies. Walls hold it in place.
 template <int Dim>
-bool PileSet<Dim>::drift(std::size_t pile, double dt) {
-  Ledger& ledger = ledgers_[pile];
-  if (--ledger.steps_to_drift > 0) return false;
-  ledger.steps_to_drift = drift_interval;
-  if (ledger.count == 0) return false;
+void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double dt) {
+  const Ledger& ledger = ledgers_[pile];
+  if (ledger.count == 0 || ledger.params.boundary) return;
   Vec<Dim> step = Vec<Dim>::Zero();
   for (std::size_t axis = 0; axis < ledger.sum.size(); ++axis) {
     const auto a = static_cast<Eigen::Index>(axis);
     step[a] = static_cast<double>(ledger.sum[axis]) / (fixed_point * ledger.count) - piles_[pile].centre[a];
   }
-  step *= 1.0 - std::exp(-ledger.params.drift_rate * drift_interval * dt);
-  if (step.norm() < least_drift * body_.extent) return false;
+  step *= 1.0 - std::exp(-ledger.params.drift_rate * steps_between_looks * dt);
+  if (step.norm() < least_drift * body_.extent) return;
   piles_[pile].centre += step;
-  return true;
+  recount(pile, states);
+}
+
+/// Section 3.5: two piles of one kind whose centres lie near each other become one.
+template <int Dim>
+void PileSet<Dim>::merge_near(const BodyStates<Dim>& states) {
+  for (std::size_t a = 0; a < piles_.size(); ++a) {
+    for (std::size_t b = a + 1; b < piles_.size(); ++b) {
+      if (!may_merge(a, b)) continue;
+      if (++ledgers_[b].near_looks < looks_to_merge) continue;
+      merge(a, b, states);
+    }
+  }
+}
+
+template <int Dim>
+bool PileSet<Dim>::may_merge(std::size_t a, std::size_t b) const {
+  const PileParams<Dim>& one = ledgers_[a].params;
+  const PileParams<Dim>& other = ledgers_[b].params;
+  const bool alive = piles_[a].merged_into < 0 && piles_[b].merged_into < 0;
+  if (!alive || one.alpha != other.alpha || one.boundary || other.boundary) return false;
+  const double distance = (piles_[a].centre - piles_[b].centre).norm();
+  return distance < std::min(one.merge_distance, other.merge_distance) * body_.extent;
+}
+
+/// The kept pile moves to the common mean and has room for both.
+template <int Dim>
+void PileSet<Dim>::merge(std::size_t kept, std::size_t gone, const BodyStates<Dim>& states) {
+  const double bodies = ledgers_[kept].count + ledgers_[gone].count;
+  const double share = bodies > 0.0 ? ledgers_[gone].count / bodies : 0.5;
+  const Vec<Dim> centre = (1.0 - share) * piles_[kept].centre + share * piles_[gone].centre;
+  const double size = std::max(piles_[kept].structure_size, piles_[gone].structure_size);
+  piles_[kept] = make_pile<Dim>(centre, piles_[kept].alpha, size, body_);
+  piles_[gone].layers.clear();
+  piles_[gone].merged_into = static_cast<int>(kept);
+  recount(kept, states);
+  recount(gone, states);
 }
 
 template <int Dim>

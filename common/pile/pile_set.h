@@ -27,8 +27,8 @@ class PileSet {
   /// Puts the next waiting pile's base at `landing`.
   void locate(const Vec<Dim>& landing, const BodyStates<Dim>& states);
 
-  /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, doubles full piles.
-  /// Costs O(awake); a pile that grew or moved is counted anew, which costs O(all bodies) and happens rarely.
+  /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, merges piles (3.5), doubles
+  /// full ones. Costs O(awake); a pile that grew or moved is counted anew, which costs O(all bodies) and is rare.
   void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt);
 
   /// Counts a body anew that fell asleep, woke or left the world.
@@ -50,10 +50,10 @@ class PileSet {
   /// One pile's bookkeeping beside its public counts.
   struct Ledger {
     PileParams<Dim> params{};
-    std::vector<Membership> members{};          // by body
+    std::vector<Membership> members{};        // by body
     std::array<std::int64_t, Dim - 1> sum{};  // of Membership::at over the pile's bodies
     int count = 0;                            // of the pile's bodies
-    int steps_to_drift = 0;
+    int near_looks = 0;                       // looks in a row at which another pile's centre was near
   };
 
   void add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre);
@@ -61,12 +61,17 @@ class PileSet {
   void count(std::size_t pile, BodyIndex body, const Membership& now);
   void add(std::size_t pile, const Membership& member, int sign);
   void recount(std::size_t pile, const BodyStates<Dim>& states);
-  bool drift(std::size_t pile, double dt);
+  void grow(std::size_t pile, const BodyStates<Dim>& states);
+  void drift(std::size_t pile, const BodyStates<Dim>& states, double dt);
+  void merge_near(const BodyStates<Dim>& states);
+  bool may_merge(std::size_t a, std::size_t b) const;
+  void merge(std::size_t kept, std::size_t gone, const BodyStates<Dim>& states);
 
   TypicalBody body_;
   std::vector<PileParams<Dim>> unlocated_;  // in the scene's order
   std::vector<Pile<Dim>> piles_;
   std::vector<Ledger> ledgers_;  // beside piles_
+  int steps_to_look_;            // until centres are looked at again
 };
 
 }  // namespace talus

@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// Outline of a pile of slope `alpha` [rad]: at height z above its base a slice of half-width r = r_base - z /
+/// A pile without walls: a disc (in 2D an interval) of radius r at the base, shrinking to a point at height r
 /// tan(alpha).
 template <int Dim>
 struct Profile;
@@ -19,17 +19,22 @@ struct Profile<3> {
   static double base_radius(double volume, double alpha) {
     return std::cbrt(3.0 * volume / (std::numbers::pi * std::tan(alpha)));
   }
-  /// Volume of the frustum of height `rise` between a lower and an upper radius.
-  static double slice_volume(double lower, double upper, double rise) {
-    return std::numbers::pi / 3.0 * rise * (lower * lower + lower * upper + upper * upper);
-  }
+  /// Area of the base.
+  static double base_area(double radius) { return std::numbers::pi * radius * radius; }
 };
 
 /// Wedge, equation (1)'s twin with areas: N v_obj = r^2 tan(alpha).
 template <>
 struct Profile<2> {
   static double base_radius(double volume, double alpha) { return std::sqrt(volume / std::tan(alpha)); }
-  static double slice_volume(double lower, double upper, double rise) { return rise * (lower + upper); }
+  /// Length of the base.
+  static double base_area(double radius) { return 2.0 * radius; }
 };
+
+/// Volume of what tapers evenly from a base of area `base` to a point at height `rise`: cone, pyramid, wedge.
+template <int Dim>
+double tip_volume(double base, double rise) {
+  return base * rise / Dim;
+}
 
 }  // namespace talus

@@ -4,10 +4,8 @@
 
 namespace talus {
 
-double closeness(double distance, double radius) { return std::max(radius - distance, 0.0) / radius; }
-
-double sleep_score(const Layer& layer, double distance, double speed) {
-  return layer.density() * closeness(distance, layer.radius) * (1.0 / (1.0 + speed));
+double sleep_score(double density, double closeness, double speed) {
+  return density * closeness * (1.0 / (1.0 + speed));
 }
 
 namespace {
@@ -110,9 +108,9 @@ void PaperPolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, Decision& decisi
     for (std::size_t p = 0; p < piles.size(); ++p) {
       const int layer = frame.piles.layer_of(p, body);
       if (layer < 0 || layer >= open[p]) continue;
-      const double distance = (horizontal<Dim>(states.pose[i].position) - horizontal<Dim>(piles[p].centre)).norm();
-      const double score =
-          sleep_score(piles[p].layers[static_cast<std::size_t>(layer)], distance, states.velocity[i].norm());
+      const Layer& slice = piles[p].layers[static_cast<std::size_t>(layer)];
+      const double closeness = piles[p].closeness(states.pose[i].position, slice);
+      const double score = sleep_score(slice.density(), closeness, states.velocity[i].norm());
       if (score > best.score) best.pile = static_cast<int>(p), best.layer = layer, best.score = score;
     }
     if (best.pile >= 0) decision.freeze.push_back(best);

@@ -34,10 +34,8 @@ class PaperPolicy final : public SleepPolicy<Dim> {
   std::vector<BodyIndex> near_;                // sleepers that a fast body is about to reach
 };
 
-/// Equation (2): 1 on the axis of the layer, falling to 0 at its radius.
-double closeness(double distance, double radius);
-
-/// The sleep score rho d v of section 3.3 in one layer; speed in m/s.
-double sleep_score(const Layer& layer, double distance, double speed);
+/// The sleep score rho d v of section 3.3: density of the layer, closeness to its centre (equation (2)), and
+/// v = 1 / (1 + speed) with the speed in m/s.
+double sleep_score(double density, double closeness, double speed);
 
 }  // namespace talus

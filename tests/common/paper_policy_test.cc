@@ -44,14 +44,7 @@ struct StillRun {
 };
 
 TEST(SleepScore, IsDensityTimesClosenessTimesSlowness) {
-  Layer layer{.radius = 4.0, .capacity = 10.0, .count = 7};
-  EXPECT_DOUBLE_EQ(sleep_score(layer, 1.0, 3.0), 0.7 * 0.75 * 0.25);
-}
-
-TEST(Closeness, IsOneOnTheAxisAndZeroOutsideTheLayer) {
-  EXPECT_DOUBLE_EQ(closeness(0.0, 4.0), 1.0);
-  EXPECT_DOUBLE_EQ(closeness(4.0, 4.0), 0.0);
-  EXPECT_DOUBLE_EQ(closeness(9.0, 4.0), 0.0);
+  EXPECT_DOUBLE_EQ(sleep_score(0.7, 0.75, 3.0), 0.7 * 0.75 * 0.25);
 }
 
 TEST(PaperPolicy, PutsABodyToSleepThatIsDenseCentralAndSlow) {

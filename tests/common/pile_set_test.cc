@@ -170,5 +170,41 @@ TEST(UnlocatedPile, BeginsWhereItIsToldAndCountsWhoIsThere) {
   EXPECT_EQ(counts(piles).front(), 1);
 }
 
+/// Two piles on the x axis, `distance` apart, with three bodies on each.
+std::pair<PileSet<3>, Bodies<3>> two_piles(double distance, double merge_distance) {
+  Bodies<3> bodies;
+  std::vector<PileParams<3>> params(2);
+  for (int side = 0; side < 2; ++side) {
+    const Vec3 centre(side * distance, 0.0, 0.0);
+    params[static_cast<std::size_t>(side)].at = centre;
+    params[static_cast<std::size_t>(side)].merge_distance = merge_distance;
+    for (int i = 0; i < 3; ++i) bodies.add(centre + Vec3(0.0, 0.0, 0.1));
+  }
+  return {PileSet<3>(params, body), bodies};
+}
+
+TEST(PilesNearEachOther, MergeIntoOneAtTheirCommonMean) {
+  auto [piles, bodies] = two_piles(1.0, 1.0);
+  for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(piles.piles()[1].merged_into, 0);
+  EXPECT_TRUE(piles.piles()[1].layers.empty());
+  EXPECT_NEAR(piles.piles()[0].centre.x(), 0.5, 0.02 * body.extent);
+  EXPECT_TRUE(piles.counts_match(bodies.states));
+}
+
+TEST(PilesNearEachOther, StayApartWhereMergingIsOff) {
+  auto [piles, bodies] = two_piles(1.0, 0.0);
+  for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(piles.piles()[1].merged_into, -1);
+}
+
+TEST(PilesThatOverlap, BothCountTheBodiesBetweenThem) {
+  auto [piles, bodies] = two_piles(1.5, 1.0);
+  bodies.add(Vec3(0.75, 0.0, 0.1));
+  piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(piles.layer_of(0, 6), 0);
+  EXPECT_EQ(piles.layer_of(1, 6), 0);
+}
+
 }  // namespace
 }  // namespace talus

@@ -55,8 +55,21 @@ TEST(WedgeProfile, FollowsEquationOnesTwin) {
   EXPECT_NEAR(radius * radius * std::tan(alpha), 50.0, 1e-12 * 50.0);
 }
 
-TEST(ConeProfile, SliceDownToAPointIsACone) {
-  EXPECT_NEAR(Profile<3>::slice_volume(2.0, 0.0, 3.0), std::numbers::pi / 3.0 * 4.0 * 3.0, 1e-12);
+TEST(PileLayer, HoldsTheVolumeOfItsFrustum) {
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1000.0, body);
+  const Layer& layer = pile.layers[1];
+  const double upper = pile.layers[2].radius;
+  const double frustum = std::numbers::pi / 3.0 * (layer.top - layer.bottom) *
+                         (layer.radius * layer.radius + layer.radius * upper + upper * upper);
+  EXPECT_NEAR(layer.volume, frustum, 1e-12 * frustum);
+}
+
+TEST(Closeness, IsOneOnTheAxisAndZeroOutsideTheLayer) {
+  const Pile<3> pile = make_pile<3>(Vec3(1.0, 2.0, 0.0), radians(45.0), 1000.0, body);
+  const Layer& layer = pile.layers[0];
+  EXPECT_DOUBLE_EQ(pile.closeness(Vec3(1.0, 2.0, 0.3), layer), 1.0);
+  EXPECT_DOUBLE_EQ(pile.closeness(Vec3(1.0 + 0.25 * layer.radius, 2.0, 0.3), layer), 0.75);
+  EXPECT_DOUBLE_EQ(pile.closeness(Vec3(1.0 + 2.0 * layer.radius, 2.0, 0.3), layer), 0.0);
 }
 
 RC_GTEST_PROP(PileStructure, HoldsJustItsBodiesIn2D, ()) { expect_sound_structure<2>(); }
@@ -87,6 +100,57 @@ TEST(PileLayer, OfAPointGoesByHeightThenRadius) {
 TEST(PileLayer, AboveTheApexIsTheTopLayer) {
   const Pile<2> pile = make_pile<2>(Vec2::Zero(), radians(45.0), 1000.0, body);
   EXPECT_EQ(pile.layer_of(Vec2(0.0, 10.0 * pile.height)), static_cast<int>(pile.layers.size()) - 1);
+}
+
+/// Volume of all layers.
+template <int Dim>
+double volume(const Pile<Dim>& pile) {
+  double sum = 0.0;
+  for (const Layer& layer : pile.layers) sum += layer.volume;
+  return sum;
+}
+
+TEST(WalledPile, IsAnOrdinaryConeUntilItTouchesAWall) {
+  const auto walls = box_boundary<3>(Vec2(40.0, 60.0), 5.0);
+  const Pile<3> inside = make_pile<3>(Vec3::Zero(), radians(45.0), 1000.0, body, walls);
+  EXPECT_FALSE(inside.boundary.has_value());
+  EXPECT_EQ(inside.radius, make_pile<3>(Vec3::Zero(), radians(45.0), 1000.0, body).radius);
+}
+
+TEST(WalledPile, RisesInItsContainerWithATipAboveIt) {
+  // 4 m x 6 m, tip 2 m high at 45 degrees: 24 m^2 * 2 m / 3 = 16 m^3; 100 bodies of 0.4 m^3 leave 24 m^3 = 1 m of lift.
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 100.0, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
+  EXPECT_NEAR(pile.lift, 1.0, 1e-12);
+  EXPECT_NEAR(pile.height, 3.0, 1e-12);
+  EXPECT_NEAR(volume(pile), 40.0, 1e-12 * 40.0);
+}
+
+TEST(WalledPile, StopsAtTheRim) {
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1e6, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
+  EXPECT_DOUBLE_EQ(pile.lift, 5.0);
+  EXPECT_NEAR(pile.structure_size, (24.0 * 5.0 + 16.0) / 0.4, 1e-9);
+}
+
+TEST(WalledPile, CountsOnlyWhatLiesWithinTheWalls) {
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1e6, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
+  EXPECT_EQ(pile.layer_of(Vec3(1.9, 2.9, 0.1)), 0) << "in a corner of the container";
+  EXPECT_EQ(pile.layer_of(Vec3(2.1, 0.0, 0.1)), -1);
+  EXPECT_EQ(pile.layer_of(Vec3(0.0, 3.1, 0.1)), -1);
+}
+
+TEST(Boundary, OfWallsHasThePolygonsArea) {
+  Boundary<3> triangle{.walls = {{Vec2(0.0, -1.0), 1.0},
+                                 {Vec2(std::sqrt(3.0) / 2.0, 0.5), 1.0},
+                                 {Vec2(-std::sqrt(3.0) / 2.0, 0.5), 1.0}}};
+  EXPECT_NEAR(triangle.area(), 3.0 * std::sqrt(3.0), 1e-6);  // around a circle of radius 1; clipped from 1e6 m
+  triangle.walls.pop_back();
+  EXPECT_THROW(triangle.area(), std::invalid_argument);
+}
+
+TEST(Boundary, OfAWedgeIsAnInterval) {
+  const auto walls = box_boundary<2>(Horizontal<2>(6.0), 2.0);
+  EXPECT_DOUBLE_EQ(walls.area(), 6.0);
+  EXPECT_DOUBLE_EQ(walls.gauge(Horizontal<2>(-1.5)), 0.5);
 }
 
 }  // namespace
