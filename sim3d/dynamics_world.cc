@@ -1,0 +1,32 @@
+#include "sim3d/dynamics_world.h"
+
+#include <chrono>
+
+namespace talus::bullet {
+
+void DynamicsWorld::set_bodies(std::span<btRigidBody* const> bodies) {
+  for (int i = statics_; i < m_collisionObjects.size(); ++i) {
+    m_collisionObjects[i]->setWorldArrayIndex(-1);
+  }
+  m_collisionObjects.resize(statics_);
+  m_nonStaticRigidBodies.resize(0);
+  for (btRigidBody* body : bodies) {
+    body->setWorldArrayIndex(m_collisionObjects.size());
+    m_collisionObjects.push_back(body);
+    m_nonStaticRigidBodies.push_back(body);
+  }
+}
+
+void DynamicsWorld::add_static(btCollisionObject& object) {
+  addCollisionObject(&object, btBroadphaseProxy::StaticFilter,
+                     btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
+  ++statics_;
+}
+
+void DynamicsWorld::performDiscreteCollisionDetection() {
+  const auto start = std::chrono::steady_clock::now();
+  btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
+  collide_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace talus::bullet

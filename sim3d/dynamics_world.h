@@ -1,0 +1,34 @@
+#pragma once
+// Bullet's world with its lists of bodies in our hands.
+
+#include <btBulletDynamicsCommon.h>
+
+#include <span>
+
+namespace talus::bullet {
+
+/// btDiscreteDynamicsWorld works each step through all bodies in its two lists. A sleeper needs neither: what makes it
+/// solid is its entry in the broadphase alone.
+class DynamicsWorld final : public btDiscreteDynamicsWorld {
+ public:
+  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+
+  /// Puts just these bodies into the lists, after the static objects; their broadphase entries exist already.
+  void set_bodies(std::span<btRigidBody* const> bodies);
+
+  /// Gives the static object a broadphase entry and a place in the lists, before any body.
+  void add_static(btCollisionObject& object);
+
+  int listed_objects() const { return m_collisionObjects.size(); }
+
+  /// What the last collision detection took [s].
+  double collide_seconds() const { return collide_seconds_; }
+
+  void performDiscreteCollisionDetection() override;
+
+ private:
+  int statics_ = 0;
+  double collide_seconds_ = 0.0;
+};
+
+}  // namespace talus::bullet

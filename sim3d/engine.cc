@@ -1,0 +1,18 @@
+#include "sim3d/engine.h"
+
+namespace talus::bullet {
+
+Engine::Engine(double gravity, const SolverParams& params)
+    : dispatcher(&configuration), broadphase(&pairs), world(&dispatcher, &broadphase, &solver, &configuration) {
+  world.setGravity(btVector3(0, 0, static_cast<btScalar>(-gravity)));
+  // Static bodies do not move: without this, Bullet refreshes their bounding boxes in every step.
+  world.setForceUpdateAllAabbs(false);
+  btContactSolverInfo& info = world.getSolverInfo();
+  info.m_numIterations = params.velocity_iterations;
+  info.m_restitutionVelocityThreshold = static_cast<btScalar>(params.restitution_threshold);
+  if (params.friction_directions == 2) {
+    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  }
+}
+
+}  // namespace talus::bullet

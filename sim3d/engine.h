@@ -1,0 +1,25 @@
+#pragma once
+// The Bullet objects that one world consists of.
+
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <btBulletDynamicsCommon.h>
+
+#include "common/world/world_description.h"
+#include "sim3d/dynamics_world.h"
+#include "sim3d/pairs.h"
+
+namespace talus::bullet {
+
+/// Members are destroyed in reverse order: the world lets go of its proxies and pairs before these go.
+struct Engine {
+  Engine(double gravity, const SolverParams& params);
+
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher;
+  PairCache pairs;
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  DynamicsWorld world;
+};
+
+}  // namespace talus::bullet

@@ -1,0 +1,56 @@
+#include "sim3d/freezer.h"
+
+namespace talus::bullet {
+
+void Freezer::freeze(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape) {
+  prepare_broadphase();
+  btBroadphaseProxy* proxy = object->getBroadphaseHandle();
+  proxy->m_collisionFilterGroup = btBroadphaseProxy::StaticFilter;
+  proxy->m_collisionFilterMask = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
+  engine_.pairs.remove_static_pairs(proxy, &engine_.dispatcher);
+  exchange(object, make_static_object(*shape.whole, shape.friction, shape.restitution, object->getWorldTransform(),
+                                      object->getUserIndex()));
+}
+
+void Freezer::thaw(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape, bool may_sleep) {
+  std::unique_ptr<btRigidBody> body =
+      make_rigid_body(shape, object->getWorldTransform(), object->getUserIndex(), may_sleep);
+  body->setGravity(engine_.world.getGravity());
+  exchange(object, std::move(body));
+  btBroadphaseProxy* proxy = object->getBroadphaseHandle();
+  proxy->m_collisionFilterGroup = btBroadphaseProxy::DefaultFilter;
+  proxy->m_collisionFilterMask = btBroadphaseProxy::AllFilter;
+  // Makes the pairs with static neighbours. The box is the one that the next step will ask for.
+  btVector3 low;
+  btVector3 high;
+  shape.whole->getAabb(object->getWorldTransform(), low, high);
+  const btVector3 threshold(gContactBreakingThreshold, gContactBreakingThreshold, gContactBreakingThreshold);
+  engine_.broadphase.setAabbForceUpdate(proxy, low - threshold, high + threshold, &engine_.dispatcher);
+}
+
+// The contacts that stay must know their new owner.
+void Freezer::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_ptr<btCollisionObject> successor) {
+  btBroadphaseProxy* proxy = object->getBroadphaseHandle();
+  successor->setBroadphaseHandle(proxy);
+  for (btBroadphaseProxy* partner : engine_.pairs.partners(proxy)) {
+    btBroadphasePair* pair = engine_.pairs.findPair(proxy, partner);
+    if (pair->m_algorithm != nullptr) {
+      manifolds_.resize(0);
+      pair->m_algorithm->getAllContactManifolds(manifolds_);
+      for (int i = 0; i < manifolds_.size(); ++i) {
+        const btCollisionObject* first = manifolds_[i]->getBody0();
+        const btCollisionObject* second = manifolds_[i]->getBody1();
+        manifolds_[i]->setBodies(first == object.get() ? successor.get() : first,
+                                 second == object.get() ? successor.get() : second);
+      }
+    }
+  }
+  proxy->m_clientObject = successor.get();
+  object = std::move(successor);
+}
+
+// With sleepers around, Bullet would rebalance one in a hundred entries of its tree of resting bodies in each step.
+// One entry a step is enough. Not before the first freeze, so that a run without sleepers is plain Bullet's.
+void Freezer::prepare_broadphase() { engine_.broadphase.m_fupdates = 0; }
+
+}  // namespace talus::bullet

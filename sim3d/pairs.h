@@ -1,0 +1,38 @@
+#pragma once
+// Bullet's cache of overlapping pairs, with each body's partners at hand.
+
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+
+#include <span>
+#include <vector>
+
+namespace talus::bullet {
+
+/// btHashedOverlappingPairCache finds the pairs of one body only by walking all pairs of the world; this one keeps a
+/// list of partners per body, so that freezing, thawing and removing cost a body's own neighbours. The order of pairs,
+/// on which results depend, is Bullet's.
+class PairCache final : public btHashedOverlappingPairCache {
+ public:
+  btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override;
+  void* removeOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b, btDispatcher* dispatcher) override;
+
+  /// Called by the broadphase for a proxy that is about to go.
+  void removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
+  void cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
+
+  /// Removes the pairs of a static body with static partners: nothing happens between those.
+  void remove_static_pairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher);
+
+  /// The other sides of a body's pairs, in order of appearance.
+  std::span<btBroadphaseProxy* const> partners(const btBroadphaseProxy* proxy) const;
+
+ private:
+  void remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* partner);
+  void forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* partner);
+
+  // By body. Ground and obstacles, which meet everybody and never leave, have none.
+  std::vector<std::vector<btBroadphaseProxy*>> partners_;
+  std::vector<btBroadphaseProxy*> leaving_;  // scratch
+};
+
+}  // namespace talus::bullet

@@ -1,0 +1,39 @@
+#pragma once
+// Our shapes as Bullet's.
+
+#include <btBulletCollisionCommon.h>
+
+#include <memory>
+#include <vector>
+
+#include "common/shape/shape.h"
+
+namespace talus::bullet {
+
+/// All that a body of one Shape needs from it; made once and shared by its bodies.
+///
+/// Bullet wants a diagonal inertia, so it keeps each body in its principal axes; `frame` turns those into the shape's
+/// own. Boxes, balls and capsules are exact. A convex hull keeps its corners and is `hull_margin` thicker against
+/// ground, balls and capsules; hulls and boxes meet at their true faces (polyhedral clipping).
+struct EngineShape {
+  btCollisionShape* whole = nullptr;  // the last of `parts`
+  std::vector<std::unique_ptr<btCollisionShape>> parts;
+  Eigen::Quaterniond frame = Eigen::Quaterniond::Identity();
+  Eigen::Quaterniond frame_inverse = Eigen::Quaterniond::Identity();
+  btScalar mass = 0;                             // [kg]
+  btVector3 inertia = btVector3(0, 0, 0);        // about the principal axes [kg m^2]
+  btVector3 linear_factor = btVector3(1, 1, 1);  // 0 where a planar body must not move
+  btVector3 angular_factor = btVector3(1, 1, 1);
+  btScalar friction = 0;      // square roots of the material's values: Bullet multiplies those of both bodies, which
+  btScalar restitution = 0;   // makes the pair's value their geometric mean
+  btScalar inner_radius = 0;  // half the smallest width of the thinnest piece [m]
+};
+
+/// Thickness that a convex hull gains against what is no polyhedron [m]: what Bullet's distance algorithm (GJK) needs
+/// between two surfaces that touch. More lifts bodies visibly, less makes its normals unsteady.
+inline constexpr double hull_margin = 0.001;
+
+template <int Dim>
+EngineShape make_engine_shape(const Shape<Dim>& shape);
+
+}  // namespace talus::bullet
