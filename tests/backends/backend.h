@@ -1,0 +1,118 @@
+#pragma once
+// The engines of this build as types, so that one suite runs on each of them.
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "common/shape/catalogue.h"
+#include "common/world/world.h"
+#ifdef TALUS_BOX2D
+#include "sim2d/make_world.h"
+#endif
+#ifdef TALUS_BULLET
+#include "sim3d/make_world.h"
+#endif
+
+namespace talus {
+
+#ifdef TALUS_BOX2D
+struct Box2d {
+  static constexpr int dim = 2;
+  static constexpr const char* name = "box2d";
+  static auto make(const WorldDescription<2>& description) { return make_box2d_world(description); }
+};
+#endif
+#ifdef TALUS_BULLET
+struct Bullet {
+  static constexpr int dim = 3;
+  static constexpr const char* name = "bullet";
+  static auto make(const WorldDescription<3>& description) { return make_bullet_world(description); }
+};
+struct BulletPlanar {
+  static constexpr int dim = 2;
+  static constexpr const char* name = "bullet_planar";
+  static auto make(const WorldDescription<2>& description) { return make_bullet_planar_world(description); }
+};
+#endif
+
+#if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
+using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar>;
+#elif defined(TALUS_BOX2D)
+using Backends = ::testing::Types<Box2d>;
+#else
+using Backends = ::testing::Types<Bullet, BulletPlanar>;
+#endif
+
+struct BackendName {
+  template <typename Backend>
+  static std::string GetName(int) {
+    return Backend::name;
+  }
+};
+
+inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+template <int Dim>
+Vec<Dim> up(double height) {
+  return height * Vec<Dim>::Unit(Dim - 1);
+}
+
+/// Rotation by which the x axis comes to point upwards by `angle` [rad].
+template <int Dim>
+Rotation<Dim> tilted(double angle) {
+  if constexpr (Dim == 2) {
+    return Rotation<2>(angle);
+  } else {
+    return Rotation<3>(Eigen::AngleAxisd(-angle, Vec3::UnitY()));
+  }
+}
+
+/// Fixture: a world of unit cubes (shape 0), balls of diameter 1 (shape 1) and L's (shape 2) over the ground.
+template <typename Backend>
+class BackendTest : public ::testing::Test {
+ protected:
+  static constexpr int dimension = Backend::dim;
+  using V = Vec<dimension>;
+
+  static WorldDescription<dimension> description(const Material& material = {.friction = 0.5, .restitution = 0.0}) {
+    WorldDescription<dimension> world;
+    world.gravity = 10.0;
+    world.ground.material = material;
+    world.shapes.push_back(make_shape<dimension>("cube", box_pieces<dimension>(V::Ones()), material));
+    world.shapes.push_back(make_shape<dimension>("ball", ball_pieces<dimension>(0.5), material));
+    world.shapes.push_back(make_shape<dimension>("L", l_pieces<dimension>(LParams{}), material));
+    return world;
+  }
+
+  static BodyDef<dimension> at(const V& position, int shape = 0, const V& velocity = V::Zero()) {
+    BodyDef<dimension> body;
+    body.shape = shape;
+    body.pose.position = position;
+    body.velocity = velocity;
+    return body;
+  }
+
+  static void run(World<dimension>& world, double seconds) {
+    const int steps = static_cast<int>(seconds * 60.0 + 0.5);
+    for (int i = 0; i < steps; ++i) world.step();
+  }
+
+  static const Pose<dimension>& pose(const World<dimension>& world, BodyIndex body) {
+    return world.states().pose[static_cast<std::size_t>(body)];
+  }
+  static double height_of(const World<dimension>& world, BodyIndex body) {
+    return height<dimension>(pose(world, body).position);
+  }
+  static double speed(const World<dimension>& world, BodyIndex body) {
+    return world.states().velocity[static_cast<std::size_t>(body)].norm();
+  }
+  static bool asleep(const World<dimension>& world, BodyIndex body) {
+    return world.states().asleep[static_cast<std::size_t>(body)] != 0;
+  }
+  static void freeze(World<dimension>& world, BodyIndex body) { world.freeze(std::vector<BodyIndex>{body}); }
+  static void thaw(World<dimension>& world, BodyIndex body) { world.thaw(std::vector<BodyIndex>{body}); }
+};
+
+}  // namespace talus
