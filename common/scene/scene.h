@@ -51,6 +51,7 @@ struct Scene {
   PolicyParams policy;
   RunParams run;
   std::uint64_t seed = 1;
+  std::string toml;  // the file it was read from, `--set` values put in; empty for a scene made by a program
 
   /// Steps of dt in one frame of output.
   std::int64_t steps_per_frame() const;

@@ -1,0 +1,101 @@
+#include "common/scene/override.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace talus {
+namespace {
+
+// The text as a TOML value whose place is "--set ..."; what is no TOML value becomes a string.
+toml::table read_value(const std::string& text, const std::string& origin) {
+  try {
+    toml::table parsed = toml::parse("value = " + text, origin);
+    if (parsed.size() == 1) {
+      return parsed;
+    }
+  } catch (const toml::parse_error&) {
+    // Taken for a text without quotes; if the scene wants no text here, its reader says so.
+  }
+  toml::table quoted = toml::parse("value = ''", origin);
+  **quoted.get_as<std::string>("value") = text;
+  return quoted;
+}
+
+bool is_index(const toml::path_component& part) { return part.type() == toml::path_component_type::array_index; }
+
+// The rule that a path breaks where it goes on from `parent` to `part`; empty if none.
+std::string broken_rule(const toml::node& parent, const toml::path_component& part) {
+  if (is_index(part)) {
+    const toml::array* array = parent.as_array();
+    if (array == nullptr) {
+      return fmt::format("[{}] follows what is no array", part.index());
+    }
+    const bool inside = part.index() < array->size();
+    return inside ? "" : fmt::format("[{}]: there are only {}, counted from 0", part.index(), array->size());
+  }
+  if (parent.is_array()) {
+    return fmt::format("\"{}\" follows an array: say which of it, as in source[0].rate", part.key());
+  }
+  return parent.is_table() ? "" : fmt::format("\"{}\" follows what is no table", part.key());
+}
+
+// Puts a value in the place of whatever `parent` has at `part`. Moved, since a copy would forget its origin.
+void put(toml::node& parent, const toml::path_component& part, toml::node& value) {
+  value.visit([&](auto& typed) {
+    if (is_index(part)) {
+      toml::array& array = *parent.as_array();
+      array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(part.index()), std::move(typed));
+    } else {
+      parent.as_table()->insert_or_assign(part.key(), std::move(typed));
+    }
+  });
+}
+
+// The node at `part`; a table is made where there is none.
+toml::node& enter(toml::node& parent, const toml::path_component& part, const std::string& origin) {
+  if (is_index(part)) {
+    return *parent.as_array()->get(part.index());
+  }
+  toml::table& table = *parent.as_table();
+  if (!table.contains(part.key())) {
+    toml::table made = read_value("{}", origin);
+    put(parent, part, *made.get("value"));
+    table.get_as<toml::table>(part.key())->is_inline(false);
+  }
+  return *table.get(part.key());
+}
+
+// The rule that the override breaks; empty if it was applied.
+std::string apply(toml::table& table, const Override& one, const std::string& origin) {
+  const std::size_t equals = one.text.find('=');
+  const toml::path path(std::string_view(one.text).substr(0, equals));
+  if (equals == std::string::npos || equals == 0 || path.empty()) {
+    return "must be path=value, the path as in source[0].rate";
+  }
+  toml::node* parent = &table;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (std::string rule = broken_rule(*parent, path[i]); !rule.empty()) {
+      return rule;
+    }
+    if (i + 1 < path.size()) {
+      parent = &enter(*parent, path[i], origin);
+    }
+  }
+  toml::table value = read_value(one.text.substr(equals + 1), origin);
+  put(*parent, path[path.size() - 1], *value.get("value"));
+  return "";
+}
+
+}  // namespace
+
+void apply_overrides(toml::table& table, std::span<const Override> overrides, std::vector<SceneError>& errors) {
+  for (const Override& one : overrides) {
+    const std::string origin = "--set " + one.text;
+    if (std::string rule = apply(table, one, origin); !rule.empty()) {
+      errors.push_back({origin, 0, 0, "", "", std::move(rule), ""});
+    }
+  }
+}
+
+}  // namespace talus

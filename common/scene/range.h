@@ -1,0 +1,52 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <string>
+
+namespace talus {
+
+/// Values that a number in a scene file may have. Never NaN, never infinite.
+struct Range {
+  double low = std::numeric_limits<double>::lowest();
+  double high = std::numeric_limits<double>::max();
+  bool low_excluded = false;
+  bool high_excluded = false;
+
+  bool holds(double value) const {
+    return (low_excluded ? value > low : value >= low) && (high_excluded ? value < high : value <= high);
+  }
+
+  /// As in "must be above 0 and at most 1".
+  std::string rule() const {
+    const Range any;
+    const bool bounded_below = low > any.low;
+    const bool bounded_above = high < any.high;
+    if (!bounded_below && !bounded_above) {
+      return "must be finite";
+    }
+    std::string text = "must be ";
+    if (bounded_below) {
+      text += fmt::format("{} {}", low_excluded ? "above" : "at least", low);
+    }
+    if (bounded_above) {
+      text += fmt::format("{}{} {}", bounded_below ? " and " : "", high_excluded ? "below" : "at most", high);
+    }
+    return text;
+  }
+};
+
+inline Range at_least(double low) { return {.low = low}; }
+inline Range above(double low) { return {.low = low, .low_excluded = true}; }
+inline Range between(double low, double high) { return {.low = low, .high = high}; }
+
+/// Beyond 10 km from the origin a single-precision engine places bodies a millimetre off.
+inline Range coordinate() { return between(-1e4, 1e4); }
+/// Sizes that both engines can hold at all; `talus check` warns of those that they hold badly.
+inline Range length() { return between(0.01, 1e4); }
+inline Range spread() { return between(0.0, 1e4); }
+/// Faster, and a step of 1/60 s is longer than any pile.
+inline Range speed() { return between(-1e3, 1e3); }
+
+}  // namespace talus

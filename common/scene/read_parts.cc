@@ -1,0 +1,53 @@
+#include "common/scene/read_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace talus {
+
+void read_seed(TableReader& root, std::uint64_t& seed) {
+  std::int64_t number = static_cast<std::int64_t>(seed);
+  root.read("seed", number, at_least(0.0));
+  seed = static_cast<std::uint64_t>(number);
+}
+
+template <int Dim>
+PileParams<Dim> read_pile(TableReader& table) {
+  PileParams<Dim> pile;
+  table.require("alpha_deg");
+  // At 0 and 90 degrees a pile has no height or no base.
+  table.read_degrees("alpha_deg", pile.alpha, between(1.0, 89.0));
+  if (table.has("at")) {
+    table.read("at", pile.at.emplace(), coordinate());
+  }
+  table.read("initial_size", pile.initial_size, between(1.0, 1e7));
+  table.read("growth_ratio", pile.growth_ratio, {.low = 0.0, .high = 1.0, .low_excluded = true});
+  table.read("drift_rate", pile.drift_rate, between(0.0, 1e3));
+  return pile;
+}
+
+void read_policy(TableReader& table, PolicyParams& policy) {
+  const std::vector<std::string> kinds = {"full", "engine", "paper"};
+  table.read("kind", policy.kind, kinds);
+  table.read("tau", policy.paper.tau, {.low = 0.0, .high = 1.0, .high_excluded = true});
+  table.read("avalanche_density", policy.paper.avalanche_density, {.low = 0.0, .high = 1e3, .low_excluded = true});
+  table.read("awake_steps", policy.paper.awake_steps, between(0, 1e9));
+  table.read("wake_speed", policy.paper.wake_speed, {.low = 0.0, .high = 1e6, .low_excluded = true});
+}
+
+void read_run(TableReader& table, double dt, RunParams& run) {
+  table.read("frames", run.frames, between(1, 1e9));
+  table.read("frame_rate", run.frame_rate, {.low = 0.0, .high = 1e5, .low_excluded = true});
+  const double steps = 1.0 / (run.frame_rate * dt);
+  if (table.sound() && (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6)) {
+    table.reject("frame_rate", fmt::format("must divide world.steps_per_second, here {:.6g}: a frame is one or more "
+                                           "whole steps",
+                                           1.0 / dt));
+  }
+}
+
+template PileParams<2> read_pile(TableReader&);
+template PileParams<3> read_pile(TableReader&);
+
+}  // namespace talus

@@ -1,0 +1,29 @@
+#pragma once
+// Scene files. docs/scenes.md tells what may stand in one.
+
+#include <filesystem>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "common/scene/override.h"
+#include "common/scene/scene.h"
+#include "common/scene/scene_errors.h"
+
+namespace talus {
+
+using AnyScene = std::variant<Scene<2>, Scene<3>>;
+
+/// The scene in a TOML file, with `overrides` put in before it is read. Throws SceneErrors with all that is wrong.
+AnyScene read_scene(const std::filesystem::path& file, std::span<const Override> overrides = {});
+
+/// The same from a text; `file_name` is for messages.
+AnyScene parse_scene(std::string_view text, std::string_view file_name, std::span<const Override> overrides = {});
+
+/// Every key that is looked for while this text is read, right or wrong, as `source[].rate` or `shape.*.kind`; which
+/// these are depends on the dimension and the kinds in it. For checking the manual against the reader.
+std::set<std::string> keys_looked_for(std::string_view text);
+
+}  // namespace talus

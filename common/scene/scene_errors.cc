@@ -1,0 +1,54 @@
+#include "common/scene/scene_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace talus {
+namespace {
+
+std::vector<SceneError> in_order(std::vector<SceneError> errors) {
+  std::stable_sort(errors.begin(), errors.end(), [](const SceneError& a, const SceneError& b) {
+    return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
+  });
+  return errors;
+}
+
+std::string one_line_each(const std::vector<SceneError>& errors) {
+  std::string lines;
+  for (const SceneError& error : errors) {
+    lines += to_string(error);
+    lines += '\n';
+  }
+  if (!lines.empty()) {
+    lines.pop_back();
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string to_string(const SceneError& error) {
+  std::string text = error.file;
+  if (error.line > 0) {
+    text += fmt::format(":{}:{}", error.line, error.column);
+  }
+  if (!error.field.empty()) {
+    text += fmt::format(": {}", error.field);
+  }
+  if (!error.value.empty()) {
+    text += fmt::format(" = {}", error.value);
+  }
+  text += fmt::format(": {}", error.rule);
+  if (!error.suggestion.empty()) {
+    text += fmt::format(" (did you mean \"{}\"?)", error.suggestion);
+  }
+  return text;
+}
+
+SceneErrors::SceneErrors(std::vector<SceneError> errors)
+    : std::runtime_error(one_line_each(in_order(errors))), errors_(in_order(std::move(errors))) {}
+
+}  // namespace talus

@@ -1,0 +1,195 @@
+#include "common/scene/table_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "common/scene/nearest_name.h"
+
+namespace talus {
+namespace {
+
+// A value as the file has it, on one line and short enough for a message.
+std::string written(const toml::node& node) {
+  if (node.is_table()) {
+    return "{...}";
+  }
+  std::ostringstream stream;
+  node.visit([&stream](const auto& typed) { stream << typed; });
+  std::string text;
+  for (const char letter : stream.str()) {
+    const bool space = letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
+    if (!space || (!text.empty() && text.back() != ' ')) {
+      text += space ? ' ' : letter;
+    }
+  }
+  constexpr std::size_t longest = 60;
+  if (text.size() > longest) {
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) {
+      --end;  // not in the middle of a UTF-8 letter
+    }
+    text = text.substr(0, end) + "...";
+  }
+  return text;
+}
+
+bool is_header_array(const toml::node& node) {
+  return node.is_array() && std::all_of(node.as_array()->begin(), node.as_array()->end(),
+                                        [](const toml::node& element) { return element.is_table(); });
+}
+
+}  // namespace
+
+TableReader::TableReader(const toml::table& table, std::string path, std::string generic_path, Location location,
+                         Findings& findings)
+    : table_(table),
+      path_(std::move(path)),
+      generic_path_(std::move(generic_path)),
+      location_(std::move(location)),
+      findings_(findings),
+      errors_before_(findings.errors.size()) {}
+
+void TableReader::read_root(const toml::table& table, Findings& findings, const Body& body) {
+  TableReader reader(table, "", "", {findings.file, 1, 1}, findings);
+  body(reader);
+  reader.note_unknown_keys();
+}
+
+std::string TableReader::field(std::string_view key) const {
+  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+const toml::node* TableReader::find(std::string_view key) {
+  known_.emplace_back(key);
+  findings_.keys.insert(generic_path_.empty() ? std::string(key) : fmt::format("{}.{}", generic_path_, key));
+  return table_.get(key);
+}
+
+TableReader::Location TableReader::locate(const toml::source_region& region) const {
+  if (!region.path || region.begin.line == 0) {
+    return location_;
+  }
+  if (*region.path != findings_.file) {
+    return {*region.path, 0, 0};  // a `--set`: line and column within its value would only confuse
+  }
+  return {findings_.file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+void TableReader::note(const toml::node& node, std::string name, std::string rule, std::string suggestion) {
+  Location at = locate(node.source());
+  findings_.errors.push_back(
+      {std::move(at.file), at.line, at.column, std::move(name), written(node), std::move(rule), std::move(suggestion)});
+}
+
+void TableReader::note_unknown_keys() {
+  if (unknown_keys_allowed_) {
+    return;
+  }
+  for (const auto& [key, node] : table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
+      const bool key_has_place = key.source().begin.line > 0;
+      Location at = locate(key_has_place ? key.source() : node.source());
+      findings_.errors.push_back({std::move(at.file), at.line, at.column, field(key.str()), written(node),
+                                  "no such key here", nearest_name(key.str(), known_)});
+    }
+  }
+}
+
+bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
+
+void TableReader::require(std::string_view key) {
+  if (!has(key)) {
+    findings_.errors.push_back({location_.file, location_.line, location_.column, field(key), "", "must be given", ""});
+  }
+}
+
+void TableReader::refuse(std::string_view key, std::string rule) {
+  if (const toml::node* node = table_.get(key)) {
+    known_.emplace_back(key);
+    note(*node, field(key), std::move(rule));
+  }
+}
+
+void TableReader::reject(std::string_view key, std::string rule, std::string suggestion) {
+  const toml::node* node = key.empty() ? nullptr : table_.get(key);
+  if (node != nullptr) {
+    note(*node, field(key), std::move(rule), std::move(suggestion));
+  } else {
+    findings_.errors.push_back({location_.file, location_.line, location_.column, key.empty() ? path_ : field(key), "",
+                                std::move(rule), std::move(suggestion)});
+  }
+}
+
+void TableReader::reject_as(const std::invalid_argument& refusal, std::string_view key) {
+  const std::string_view text = refusal.what();
+  const std::size_t equals = text.find(" = ");
+  const std::size_t colon = text.find(": ", equals);
+  if (colon == std::string_view::npos) {
+    reject(key, std::string(text));
+    return;
+  }
+  if (key.empty()) {
+    const std::string_view name = text.substr(0, equals);
+    key = name.substr(name.find_last_of('.') + 1);
+  }
+  if (table_.contains(key)) {
+    reject(key, std::string(text.substr(colon + 2)));
+  } else {
+    reject("", std::string(text));
+  }
+}
+
+void TableReader::read_child(const toml::node& node, const std::string& name, const std::string& generic_name,
+                             const Body& body) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) {
+    note(node, field(name), "must be a table");
+    return;
+  }
+  const std::string generic = generic_path_.empty() ? generic_name : fmt::format("{}.{}", generic_path_, generic_name);
+  TableReader reader(*table, field(name), generic, locate(node.source()), findings_);
+  body(reader);
+  reader.note_unknown_keys();
+}
+
+void TableReader::table(std::string_view key, const Body& body) {
+  const toml::table absent;
+  const toml::node* node = find(key);
+  read_child(node == nullptr ? absent : *node, std::string(key), std::string(key), body);
+}
+
+void TableReader::tables(std::string_view key, const Body& body) {
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    return;
+  }
+  if (!is_header_array(*node)) {
+    note(*node, field(key), fmt::format("must be headed [[{}]], which may come many times", key));
+    return;
+  }
+  const toml::array& array = *node->as_array();
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    read_child(array[i], fmt::format("{}[{}]", key, i), fmt::format("{}[]", key), body);
+  }
+}
+
+void TableReader::named_tables(std::string_view key, const NamedBody& body) {
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    return;
+  }
+  if (!node->is_table()) {
+    note(*node, field(key), fmt::format("must be headed [{}.NAME], once for each name", key));
+    return;
+  }
+  for (const auto& [name, child] : *node->as_table()) {
+    const std::string own_name(name.str());
+    read_child(child, fmt::format("{}.{}", key, own_name), fmt::format("{}.*", key),
+               [&](TableReader& reader) { body(own_name, reader); });
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,113 @@
+#pragma once
+// Reads the values of one TOML table into plain variables and remembers what was wrong.
+
+#include <toml++/toml.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/scene/range.h"
+#include "common/scene/scene_errors.h"
+
+namespace talus {
+
+/// What comes to light while a file is read, shared by the readers of all its tables.
+struct Findings {
+  std::string file;
+  std::vector<SceneError> errors;
+  std::set<std::string> keys;  // every key that was asked for, as `source[].rate` or `shape.*.kind`
+};
+
+/// One table. Every read() leaves the variable, that is the struct's own default, alone where the key is absent, and
+/// notes an error where the value has the wrong type or lies outside the range. A key that nobody asked for is an error
+/// too.
+class TableReader {
+ public:
+  using Body = std::function<void(TableReader&)>;
+  using NamedBody = std::function<void(const std::string& name, TableReader&)>;
+
+  /// The root table of a file: calls `body`, then notes the keys that it did not ask for.
+  static void read_root(const toml::table& table, Findings& findings, const Body& body);
+
+  void read(std::string_view key, double& value, const Range& range);
+  void read(std::string_view key, int& value, const Range& range);
+  void read(std::string_view key, std::int64_t& value, const Range& range);
+  void read(std::string_view key, bool& value);
+  /// Any text on one line.
+  void read(std::string_view key, std::string& value);
+  /// One of `choices`.
+  void read(std::string_view key, std::string& value, std::span<const std::string> choices);
+  /// An array of as many numbers as there are axes.
+  template <int Size>
+  void read(std::string_view key, Eigen::Matrix<double, Size, 1>& value, const Range& range);
+  /// An array of such arrays.
+  template <int Size>
+  void read(std::string_view key, std::vector<Eigen::Matrix<double, Size, 1>>& values, const Range& range);
+  /// One text or an array of texts, each one of `choices`.
+  void read(std::string_view key, std::vector<std::string>& values, std::span<const std::string> choices);
+  /// An angle, in the file in degrees, here in radians; `range` in degrees.
+  void read_degrees(std::string_view key, double& radians, const Range& range);
+
+  /// The table `[key]`; one that is absent reads as empty.
+  void table(std::string_view key, const Body& body);
+  /// The tables `[[key]]`, in their order.
+  void tables(std::string_view key, const Body& body);
+  /// The tables `[key.NAME]`, ordered by name.
+  void named_tables(std::string_view key, const NamedBody& body);
+
+  bool has(std::string_view key);
+  /// Notes an error if the key is absent.
+  void require(std::string_view key);
+  /// Notes an error if the key is there, for keys that many will try.
+  void refuse(std::string_view key, std::string rule);
+  /// Notes an error about a key's value, or about the whole table if the key is absent or empty.
+  void reject(std::string_view key, std::string rule, std::string suggestion = {});
+  /// Notes what a check of ours threw, "NAME.KEY = VALUE: RULE", at `key`; without, at KEY if the table has it, else at
+  /// the table.
+  void reject_as(const std::invalid_argument& refusal, std::string_view key = {});
+  /// Keys that nobody asked for are no errors, since nobody can tell which belong here.
+  void allow_unknown_keys() { unknown_keys_allowed_ = true; }
+
+  /// Whether no error was noted in this table so far.
+  bool sound() const { return findings_.errors.size() == errors_before_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  struct Location {
+    std::string file;
+    int line = 0;
+    int column = 0;
+  };
+  TableReader(const toml::table& table, std::string path, std::string generic_path, Location location,
+              Findings& findings);
+
+  const toml::node* find(std::string_view key);
+  template <typename Number>
+  void read_whole(std::string_view key, Number& value, const Range& range);
+  bool read_number(const toml::node& node, const std::string& field, double& value, const Range& range);
+  bool read_choice(const toml::node& node, const std::string& field, std::string& value,
+                   std::span<const std::string> choices);
+  bool read_array(const toml::node& node, const std::string& field, std::span<double> values, const Range& range);
+  void read_child(const toml::node& node, const std::string& name, const std::string& generic_name, const Body& body);
+  void note_unknown_keys();
+  void note(const toml::node& node, std::string field, std::string rule, std::string suggestion = {});
+  Location locate(const toml::source_region& region) const;
+  std::string field(std::string_view key) const;
+
+  const toml::table& table_;
+  std::string path_;
+  std::string generic_path_;
+  Location location_;
+  Findings& findings_;
+  std::size_t errors_before_;
+  std::vector<std::string> known_;
+  bool unknown_keys_allowed_ = false;
+};
+
+}  // namespace talus

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common/scene/scene.h"
+
+namespace talus {
+
+/// Writes the TOML that a scene was read from, overrides put in, so that reading it gives the same scene. Throws
+/// std::runtime_error if the file cannot be written, std::invalid_argument for a scene that was not read from TOML.
+template <int Dim>
+void write_scene(const Scene<Dim>& scene, const std::filesystem::path& file);
+
+}  // namespace talus
