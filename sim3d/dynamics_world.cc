@@ -5,9 +5,6 @@
 namespace talus::bullet {
 
 void DynamicsWorld::set_bodies(std::span<btRigidBody* const> bodies) {
-  for (int i = statics_; i < m_collisionObjects.size(); ++i) {
-    m_collisionObjects[i]->setWorldArrayIndex(-1);
-  }
   m_collisionObjects.resize(statics_);
   m_nonStaticRigidBodies.resize(0);
   for (btRigidBody* body : bodies) {
