@@ -63,8 +63,7 @@ void check_corners(const std::vector<Vec3>& corners, const std::string& field) {
 template <int Dim>
 void check_kind(const BoxPiece<Dim>& box, const std::string& field) {
   require_finite<Dim>(box.pose.position, field + ".position");
-  const double turn = box.pose.rotation.toRotationMatrix().determinant();
-  require(std::abs(turn - 1.0) < 1e-6, field + ".rotation", turn, "must be finite and of length 1");
+  check_rotation<Dim>(box.pose.rotation, field + ".rotation");
   for (int axis = 0; axis < Dim; ++axis) {
     require_length(box.half[axis], fmt::format("{}.half[{}]", field, axis));
   }
@@ -99,6 +98,15 @@ void check_piece(const Piece<Dim>& piece, const std::string& field) {
   std::visit([&](const auto& kind) { check_kind(kind, field); }, piece);
 }
 
+template <int Dim>
+void check_rotation(const Rotation<Dim>& rotation, const std::string& field) {
+  if constexpr (Dim == 2) {
+    require(std::isfinite(rotation.angle()), field, rotation.angle(), "must be finite");
+  } else {
+    require(std::abs(rotation.norm() - 1.0) < 1e-6, field + " length", rotation.norm(), "must be finite and 1");
+  }
+}
+
 void check_material(const Material& material, const std::string& field) {
   require(material.density > 0.0 && material.density <= 1e6, field + ".density", material.density,
           "must be above 0 and at most 1e6 kg/m^3 (kg/m^2 in 2D)");
@@ -110,5 +118,7 @@ void check_material(const Material& material, const std::string& field) {
 
 template void check_piece(const Piece<2>&, const std::string&);
 template void check_piece(const Piece<3>&, const std::string&);
+template void check_rotation<2>(const Rotation<2>&, const std::string&);
+template void check_rotation<3>(const Rotation<3>&, const std::string&);
 
 }  // namespace talus

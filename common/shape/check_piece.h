@@ -12,6 +12,10 @@ namespace talus {
 template <int Dim>
 void check_piece(const Piece<Dim>& piece, const std::string& field);
 
+/// Throws unless the rotation is finite and, in 3D, its quaternion of length 1.
+template <int Dim>
+void check_rotation(const Rotation<Dim>& rotation, const std::string& field);
+
 /// Throws on a density, friction or restitution outside its range.
 void check_material(const Material& material, const std::string& field);
 

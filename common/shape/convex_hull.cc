@@ -1,6 +1,7 @@
 #include "common/shape/convex_hull.h"
 
 #include <cstdio>
+#include <cstdlib>
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -12,16 +13,15 @@ namespace {
 // Frees what qhull holds, whichever way the function is left.
 class QhullState {
  public:
-  QhullState() : messages_(std::tmpfile()) { qh_zero(&state_, messages_); }
+  QhullState() : messages_(open_memstream(&text_, &length_)) { qh_zero(&state_, messages_); }
   ~QhullState() {
     int memory_blocks = 0;
     int memory_bytes = 0;
     state_.NOerrexit = True;
     qh_freeqhull(&state_, False);
     qh_memfreeshort(&state_, &memory_blocks, &memory_bytes);
-    if (messages_ != nullptr) {
-      std::fclose(messages_);
-    }
+    std::fclose(messages_);
+    std::free(text_);
   }
   QhullState(const QhullState&) = delete;
   QhullState& operator=(const QhullState&) = delete;
@@ -31,8 +31,10 @@ class QhullState {
   FILE* messages() { return messages_; }
 
  private:
-  qhT state_;
+  char* text_ = nullptr;
+  std::size_t length_ = 0;
   FILE* messages_;
+  qhT state_;
 };
 
 // qhull lists a face's corners clockwise seen from outside (qh_ORIENTclock 0): read from the last to the first.

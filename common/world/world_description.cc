@@ -25,8 +25,7 @@ void check_pose(const Pose<Dim>& pose, const std::string& field) {
     require_within(pose.position[axis], -farthest, farthest, fmt::format("{}.position[{}]", field, axis),
                    "must be within 10,000 m of the origin");
   }
-  const double turn = pose.rotation.toRotationMatrix().determinant();
-  require_within(turn, 1.0 - 1e-6, 1.0 + 1e-6, field + ".rotation", "must be finite and of length 1");
+  check_rotation<Dim>(pose.rotation, field + ".rotation");
 }
 
 // Both limits come from the engines' contact skins: Bullet 3.24 lets cubes of 0.04 m sink through the ground (margin
