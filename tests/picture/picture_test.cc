@@ -1,0 +1,145 @@
+// The two files of a picture, as a whole.
+
+#include "tools/picture/picture.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/picture/sample.h"
+#include "tools/picture/layout.h"
+
+namespace talus {
+namespace {
+
+const PictureParams small = {.width = 500, .height = 400, .margin = 16.0, .font_size = 9.0};
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) {
+    ++found;
+  }
+  return found;
+}
+
+template <int Dim>
+Layout<Dim> layout_of(const PictureInput<Dim>& input, const PictureParams& params) {
+  PageContent content;
+  content.title = input.title;
+  content.caption = input.caption;
+  return lay_out(framing_of(input), Page(content, params), params);
+}
+
+/// Body 0 of a sample asleep and body 1 awake, and the colours that the picture shows there.
+template <int Dim>
+std::pair<Colour, Colour> colours_of_asleep_and_awake(double distance) {
+  const Folder folder;
+  Sample<Dim> sample;
+  sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7, true);
+  sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7 + Vec<Dim>::Unit(0) * distance, false);
+  draw_pile<Dim>(folder / "a.svg", folder / "a.png", sample.input(), small);
+  const Image image(folder / "a.png");
+  const Projection<Dim> projection = layout_of<Dim>(sample.input(), small).projection;
+  // A point of the lying arm: in 2D its middle, in 3D just under its upper face.
+  Vec<Dim> arm = sample.shapes[0].reference;
+  arm[0] += 0.7;
+  arm[Dim - 1] += Dim == 2 ? 0.2 : 0.39;
+  const auto colour = [&](std::size_t body) { return image.at(projection.on_page(sample.states.pose[body] * arm)); };
+  return {colour(0), colour(1)};
+}
+
+TEST(Picture, ShowsSleepersDarkAndAwakeBodiesWarm) {
+  for (const auto& [asleep, awake] : {colours_of_asleep_and_awake<2>(3.0), colours_of_asleep_and_awake<3>(3.0)}) {
+    EXPECT_LT(asleep.red + asleep.green + asleep.blue, 0.9);
+    EXPECT_GT(awake.red + awake.green, 1.0);
+    EXPECT_GT(awake.red, awake.blue + 0.25);
+  }
+}
+
+TEST(Picture, HoldsEachBodyOnceAsVectorsIn2D) {
+  const Folder folder;
+  Sample<2> sample;
+  sample.add_rows(5);
+  sample.states.removed[3] = 1;
+  PictureParams params;
+  params.asleep = {1.0, 0.0, 0.0};
+  params.awake = {{0.0, 1.0, 0.0}};
+  draw_pile<2>(folder / "a.svg", folder / "a.png", sample.input(), params);
+  const std::string svg = bytes_of(folder / "a.svg");
+  // 10 asleep and 10 awake, one of those removed; the legend adds a swatch of each.
+  EXPECT_EQ(count(svg, "fill:rgb(100%,0%,0%)"), 11U);
+  EXPECT_EQ(count(svg, "fill:rgb(0%,100%,0%)"), 10U);
+}
+
+template <int Dim>
+void expect_same_bytes() {
+  const Folder folder;
+  Sample<Dim> sample;
+  sample.add_rows(3);
+  sample.add_pile(30.0);
+  draw_pile<Dim>(folder / "a.svg", folder / "a.png", sample.input(), small);
+  draw_pile<Dim>(folder / "b.svg", folder / "b.png", sample.input(), small);
+  EXPECT_FALSE(bytes_of(folder / "a.svg").empty());
+  EXPECT_EQ(bytes_of(folder / "a.svg"), bytes_of(folder / "b.svg"));
+  EXPECT_EQ(bytes_of(folder / "a.png"), bytes_of(folder / "b.png"));
+}
+
+TEST(Picture, IsTheSameBytesForTheSameInput) {
+  expect_same_bytes<2>();
+  expect_same_bytes<3>();
+}
+
+template <int Dim>
+void expect_drawn(const Sample<Dim>& sample) {
+  const Folder folder;
+  draw_pile<Dim>(folder / "a.svg", folder / "a.png", sample.input(), small);
+  const Image image(folder / "a.png");
+  EXPECT_EQ(image.width(), small.width);
+  EXPECT_LE(image.height(), small.height);
+  const std::string svg = bytes_of(folder / "a.svg");
+  EXPECT_TRUE(svg.starts_with("<?xml"));
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+template <int Dim>
+void expect_all_kinds_drawn() {
+  Sample<Dim> sample;
+  expect_drawn(sample);
+  sample.add_pile(50.0);
+  expect_drawn(sample);
+  sample.add(Vec<Dim>::Zero(), true);
+  expect_drawn(sample);
+  sample.add(Vec<Dim>::Constant(1e6), false);
+  expect_drawn(sample);
+  sample.obstacles.push_back({make_shape<Dim>("slab", box_pieces<Dim>(Vec<Dim>::Constant(500.0)), Material{}), {}});
+  expect_drawn(sample);
+}
+
+TEST(Picture, CanBeDrawnOfNothingOfAPileOfStraysAndWithinAHugeObstacle) {
+  expect_all_kinds_drawn<2>();
+  expect_all_kinds_drawn<3>();
+}
+
+TEST(Picture, NamesTheFileThatCannotBeWritten) {
+  const Sample<2> sample;
+  try {
+    draw_pile<2>("/nowhere/a.svg", "/nowhere/a.png", sample.input());
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "cannot write /nowhere/a.svg");
+  }
+}
+
+TEST(Picture, RefusesParametersByFieldValueAndRule) {
+  PictureParams params;
+  params.width = 10;
+  try {
+    draw_pile<2>("a.svg", "a.png", Sample<2>().input(), params);
+    FAIL() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "picture.width = 10: must be 200 to 8000 px");
+  }
+}
+
+}  // namespace
+}  // namespace talus

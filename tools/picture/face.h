@@ -1,0 +1,25 @@
+#pragma once
+// Flat convex faces in space, what the 3D picture is made of.
+
+#include <cstdint>
+#include <vector>
+
+#include "tools/picture/framing.h"
+
+namespace talus {
+
+/// Whose a face is: a body's index, or one of these.
+inline constexpr std::int32_t ground_owner = -1;
+inline constexpr std::int32_t obstacle_owner = -2;  // obstacle k as `obstacle_owner - k`
+
+/// Corners counter-clockwise seen from outside.
+struct Face {
+  std::vector<Vec3> corners;  // [m], in the world's axes
+  Vec3 normal;                // unit, outwards
+  std::int32_t owner = ground_owner;
+};
+
+/// Faces of the framed bodies in order, then of the obstacles, then of the ground if there is one.
+std::vector<Face> faces_of(const PictureInput<3>& input, const Framing<3>& framing);
+
+}  // namespace talus

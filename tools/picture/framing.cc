@@ -1,0 +1,126 @@
+#include "tools/picture/framing.h"
+
+#include <algorithm>
+
+#include "tools/picture/circle.h"
+
+namespace talus {
+
+namespace {
+
+constexpr double fence_widths = 2.5;
+constexpr double obstacle_sizes = 2.5;  // an obstacle this many times larger than all else does not set the frame
+
+template <int Dim>
+std::vector<BodyIndex> present_bodies(const BodyStates<Dim>& states) {
+  std::vector<BodyIndex> present;
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (states.removed[i] == 0) {
+      present.push_back(body);
+    }
+  }
+  return present;
+}
+
+/// Box whose inside counts as near the other bodies, `reach` being a length that is near in any case.
+template <int Dim>
+Box<Dim> fence_of(const BodyStates<Dim>& states, const std::vector<BodyIndex>& present, double reach) {
+  Box<Dim> fence;
+  std::vector<double> values(present.size());
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      values[i] = states.pose[static_cast<std::size_t>(present[i])].position[axis];
+    }
+    std::sort(values.begin(), values.end());
+    const double lower = values[(values.size() - 1) / 4];
+    const double upper = values[3 * (values.size() - 1) / 4];
+    const double width = fence_widths * (upper - lower) + reach;
+    fence.min()[axis] = lower - width;
+    fence.max()[axis] = upper + width;
+  }
+  return fence;
+}
+
+template <int Dim>
+Box<Dim> box_of(const Pile<Dim>& pile) {
+  Vec<Dim> side = Vec<Dim>::Constant(pile.radius);
+  side[Dim - 1] = 0.0;
+  Box<Dim> box(Vec<Dim>(pile.centre - side), Vec<Dim>(pile.centre + side));
+  box.max()[Dim - 1] += pile.height;
+  return box;
+}
+
+template <int Dim>
+void include(Framing<Dim>& framing, const Box<Dim>& box) {
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    framing.points.push_back(box.corner(static_cast<typename Box<Dim>::CornerType>(corner)));
+  }
+  framing.box.extend(box);
+}
+
+template <int Dim>
+void include(Framing<Dim>& framing, const Pile<Dim>& pile) {
+  for (const Layer& layer : pile.layers) {
+    for (const double z : {layer.bottom, layer.top}) {
+      const std::vector<Vec<Dim>> rim = circle<Dim>(pile.centre + Vec<Dim>::Unit(Dim - 1) * z, layer.radius, 32);
+      framing.points.insert(framing.points.end(), rim.begin(), rim.end());
+    }
+  }
+  framing.box.extend(box_of(pile));
+}
+
+template <int Dim>
+void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input) {
+  const std::vector<BodyIndex> present = present_bodies(input.states);
+  if (present.empty()) {
+    return;
+  }
+  double largest = 0.0;
+  for (const Shape<Dim>& shape : input.shapes) {
+    largest = std::max(largest, shape.extent);
+  }
+  const Box<Dim> fence = fence_of(input.states, present, 3.0 * largest);
+  for (const BodyIndex body : present) {
+    const Vec<Dim>& position = input.states.pose[static_cast<std::size_t>(body)].position;
+    const bool near = fence.contains(position) || std::ranges::any_of(input.piles, [&](const Pile<Dim>& pile) {
+                        return box_of(pile).contains(position);
+                      });
+    (near ? framing.drawn : framing.outside).push_back(body);
+  }
+  if (framing.drawn.empty()) {
+    // Each is far off on one axis or another: there is no middle to be far from.
+    std::swap(framing.drawn, framing.outside);
+  }
+  for (const BodyIndex body : framing.drawn) {
+    const auto i = static_cast<std::size_t>(body);
+    include(framing, bounds_at(input.shapes[static_cast<std::size_t>(input.states.shape[i])], input.states.pose[i]));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Framing<Dim> framing_of(const PictureInput<Dim>& input) {
+  Framing<Dim> framing;
+  include_bodies(framing, input);
+  for (const Pile<Dim>& pile : input.piles) {
+    include(framing, pile);
+  }
+  const double size = framing.box.isEmpty() ? 0.0 : framing.box.diagonal().norm();
+  for (const Obstacle<Dim>& obstacle : input.obstacles) {
+    const Box<Dim> box = bounds_at(obstacle.shape, obstacle.pose);
+    if (size == 0.0 || box.diagonal().norm() < obstacle_sizes * size) {
+      include(framing, box);
+    }
+  }
+  if (framing.box.isEmpty()) {
+    include(framing, Box<Dim>(Vec<Dim>(Vec<Dim>::Constant(-1.0)), Vec<Dim>(Vec<Dim>::Constant(1.0))));
+  }
+  return framing;
+}
+
+template Framing<2> framing_of(const PictureInput<2>& input);
+template Framing<3> framing_of(const PictureInput<3>& input);
+
+}  // namespace talus

@@ -1,0 +1,25 @@
+#pragma once
+// What part of the world a picture shows.
+
+#include <vector>
+
+#include "tools/picture/picture.h"
+
+namespace talus {
+
+/// The part of the world to show, and whom it holds.
+template <int Dim>
+struct Framing {
+  Box<Dim> box;                    // around all that is to be seen [m]; never empty
+  std::vector<Vec<Dim>> points;    // the picture must hold these [m]: corners of bodies' boxes, rims of layers
+  std::vector<BodyIndex> drawn;    // ascending
+  std::vector<BodyIndex> outside;  // ascending: too far from the others to be drawn
+};
+
+/// Bodies lie outside where they are further from the middle half of all bodies, on any axis, than Tukey's fence of
+/// 2.5 times that half's width (a share of the bodies, as a percentile, would fail with a handful of them), and outside
+/// of every pile's cone too. Obstacles are part of it unless they are much larger than all else.
+template <int Dim>
+Framing<Dim> framing_of(const PictureInput<Dim>& input);
+
+}  // namespace talus

@@ -1,0 +1,127 @@
+#include "tools/picture/page.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <sstream>
+
+#include "tools/picture/nice_length.h"
+#include "tools/picture/text_wrap.h"
+
+namespace talus {
+
+namespace {
+
+constexpr double line_height = 1.45;  // in font sizes
+
+TextStyle title_style(const PictureParams& params) {
+  return {.size = 1.4 * params.font_size, .colour = params.text, .bold = true};
+}
+
+TextStyle legend_style(const PictureParams& params) { return {.size = params.font_size, .colour = params.text}; }
+
+TextStyle caption_style(const PictureParams& params) {
+  return {.size = 0.92 * params.font_size, .colour = params.quiet_text};
+}
+
+std::string counted(int count, const char* what) { return fmt::format("{} {}", count, what); }
+
+}  // namespace
+
+Page::Page(PageContent content, const PictureParams& params) : content_(std::move(content)), params_(params) {
+  const double font = params.font_size;
+  double y = 0.7 * params.margin;
+  if (!content_.title.empty()) {
+    title_base_ = y + title_style(params).size;
+    y = title_base_ + 0.5 * font;
+  }
+  legend_base_ = y + font;
+  header_ = legend_base_ + 1.2 * font;
+  lines_ = wrapped(content_.caption, params.width - 2.0 * params.margin, caption_style(params));
+  footer_ =
+      2.6 * font + line_height * caption_style(params).size * static_cast<double>(lines_.size()) + 0.7 * params.margin;
+}
+
+void Page::draw_background(cairo_t* canvas) const {
+  set_colour(canvas, params_.paper);
+  cairo_paint(canvas);
+}
+
+void Page::draw(cairo_t* canvas, double height, double pixels_per_metre) const {
+  draw_title(canvas);
+  draw_legend(canvas);
+  const double scale_base = height - footer_ + 2.1 * params_.font_size;
+  draw_scale_bar(canvas, scale_base, pixels_per_metre);
+  TextStyle style = caption_style(params_);
+  double base = scale_base + 0.35 * params_.font_size;
+  for (const std::string& line : lines_) {
+    base += line_height * style.size;
+    draw_text(canvas, {params_.margin, base}, line, style);
+  }
+  style.anchor = 1.0;
+  draw_text(canvas, {params_.width - params_.margin, scale_base}, outside_note(), style);
+}
+
+std::string Page::outside_note() const {
+  if (content_.outside == 0) {
+    return "";
+  }
+  return content_.outside == 1 ? "1 body lies outside the picture"
+                               : fmt::format("{} bodies lie outside the picture", content_.outside);
+}
+
+void Page::draw_title(cairo_t* canvas) const {
+  TextStyle style = title_style(params_);
+  const double room = params_.width - 2.0 * params_.margin;
+  const double needed = text_width(canvas, content_.title, style);
+  style.size *= needed > room ? room / needed : 1.0;
+  draw_text(canvas, {params_.margin, title_base_}, content_.title, style);
+}
+
+void Page::draw_legend(cairo_t* canvas) const {
+  double left = params_.margin;
+  left = draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, "asleep"));
+  const auto colours = std::min(params_.awake.size(), static_cast<std::size_t>(std::max(1, content_.shapes)));
+  const std::vector<Colour> awake(params_.awake.begin(), params_.awake.begin() + static_cast<std::ptrdiff_t>(colours));
+  left = draw_entry(canvas, left, awake, params_.awake_outline, counted(content_.awake, "awake"));
+  if (content_.layers) {
+    draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
+  }
+}
+
+double Page::draw_entry(cairo_t* canvas, double left, const std::vector<Colour>& fills, const Colour& outline,
+                        const std::string& text) const {
+  const TextStyle style = legend_style(params_);
+  const double side = 0.8 * style.size;
+  for (std::size_t i = 0; i < fills.size(); ++i) {
+    const double width = side / static_cast<double>(fills.size());
+    cairo_rectangle(canvas, left + width * static_cast<double>(i), legend_base_ - side, width, side);
+    set_colour(canvas, fills[i]);
+    cairo_fill(canvas);
+  }
+  cairo_rectangle(canvas, left, legend_base_ - side, side, side);
+  set_colour(canvas, outline);
+  cairo_set_line_width(canvas, 1.2);
+  cairo_stroke(canvas);
+  draw_text(canvas, {left + 1.5 * side, legend_base_ - 0.05 * side}, text, style);
+  return left + 1.5 * side + text_width(canvas, text, style) + 1.6 * style.size;
+}
+
+void Page::draw_scale_bar(cairo_t* canvas, double base, double pixels_per_metre) const {
+  const double length = nice_length(params_.width / 6.0 / pixels_per_metre);
+  const double left = params_.margin;
+  const double right = left + length * pixels_per_metre;
+  const double y = base - 0.3 * params_.font_size;
+  const double tick = 0.3 * params_.font_size;
+  trace_line(canvas, std::array{Vec2(left, y), Vec2(right, y)});
+  trace_line(canvas, std::array{Vec2(left, y - tick), Vec2(left, y + tick)});
+  trace_line(canvas, std::array{Vec2(right, y - tick), Vec2(right, y + tick)});
+  set_colour(canvas, params_.text);
+  cairo_set_line_width(canvas, 2.0);
+  cairo_set_line_cap(canvas, CAIRO_LINE_CAP_BUTT);
+  cairo_stroke(canvas);
+  const std::string text = fmt::format("{} m{}", length, content_.parallel ? "" : ", as the squares on the ground");
+  draw_text(canvas, {right + 0.6 * params_.font_size, base}, text, caption_style(params_));
+}
+
+}  // namespace talus

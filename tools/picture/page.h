@@ -1,0 +1,52 @@
+#pragma once
+// What stands around the scene: title, legend, scale bar, caption.
+
+#include <string>
+#include <vector>
+
+#include "tools/picture/canvas.h"
+
+namespace talus {
+
+/// The text of a page and its numbers.
+struct PageContent {
+  std::string title;
+  std::string caption;  // lines separated by '\n'
+  int asleep = 0;
+  int awake = 0;
+  int outside = 0;       // bodies too far away to be drawn
+  int shapes = 1;        // how many colours awake bodies have
+  bool layers = false;   // whether piles are drawn
+  bool parallel = true;  // whether the scale bar holds all over the picture (2D), or in the middle only
+};
+
+/// A page of fixed width whose header and footer leave room for a scene between them.
+class Page {
+ public:
+  Page(PageContent content, const PictureParams& params);
+
+  double header() const { return header_; }  // [px]
+  double footer() const { return footer_; }  // [px]
+
+  void draw_background(cairo_t* canvas) const;
+  /// Draws everything but the scene. `height`: of the page [px].
+  void draw(cairo_t* canvas, double height, double pixels_per_metre) const;
+
+ private:
+  void draw_title(cairo_t* canvas) const;
+  void draw_legend(cairo_t* canvas) const;
+  double draw_entry(cairo_t* canvas, double left, const std::vector<Colour>& fills, const Colour& outline,
+                    const std::string& text) const;
+  void draw_scale_bar(cairo_t* canvas, double base, double pixels_per_metre) const;
+  std::string outside_note() const;
+
+  PageContent content_;
+  const PictureParams& params_;
+  std::vector<std::string> lines_;  // the caption, broken to the page's width
+  double title_base_ = 0.0;         // [px] base line; 0: no title
+  double legend_base_ = 0.0;
+  double header_ = 0.0;
+  double footer_ = 0.0;
+};
+
+}  // namespace talus

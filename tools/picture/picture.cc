@@ -1,0 +1,61 @@
+#include "tools/picture/picture.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "tools/picture/layout.h"
+#include "tools/picture/scene_painter.h"
+
+namespace talus {
+
+namespace {
+
+template <int Dim>
+PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& framing) {
+  PageContent content = {.title = input.title, .caption = input.caption};
+  for (const auto* bodies : {&framing.drawn, &framing.outside}) {
+    for (const BodyIndex body : *bodies) {
+      (input.states.asleep[static_cast<std::size_t>(body)] != 0 ? content.asleep : content.awake) += 1;
+    }
+  }
+  content.outside = static_cast<int>(framing.outside.size());
+  content.shapes = static_cast<int>(input.shapes.size());
+  content.layers = !input.piles.empty();
+  content.parallel = Dim == 2;
+  return content;
+}
+
+void write(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file << bytes;
+  file.close();
+  if (!file) {
+    throw std::runtime_error("cannot write " + path.string());
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& input,
+               const PictureParams& params) {
+  check(params);
+  const Framing<Dim> framing = framing_of(input);
+  const Page page(content_of(input, framing), params);
+  const Layout<Dim> layout = lay_out(framing, page, params);
+  const Painter scene = scene_painter(input, framing, layout.projection, params, params.width, layout.height);
+  const Painter paint = [&](cairo_t* canvas) {
+    page.draw_background(canvas);
+    scene(canvas);
+    page.draw(canvas, layout.height, layout.projection.pixels_per_metre());
+  };
+  write(svg, svg_bytes(params.width, layout.height, paint));
+  write(png, png_bytes(params.width, layout.height, paint));
+}
+
+template void draw_pile<2>(const std::filesystem::path&, const std::filesystem::path&, const PictureInput<2>&,
+                           const PictureParams&);
+template void draw_pile<3>(const std::filesystem::path&, const std::filesystem::path&, const PictureInput<3>&,
+                           const PictureParams&);
+
+}  // namespace talus
