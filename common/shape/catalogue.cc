@@ -6,6 +6,8 @@
 #include "common/math/require.h"
 #include "common/shape/check_piece.h"
 #include "common/shape/convex_hull.h"
+#include "common/shape/polygon.h"
+#include "common/shape/polygon_partition.h"
 
 namespace talus {
 namespace {
@@ -26,18 +28,9 @@ BoxPiece<Dim> box_between(const Vec2& low, const Vec2& high, double depth) {
   return box;
 }
 
-double twice_signed_area(std::span<const Vec2> corners) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec2& next = corners[(i + 1) % corners.size()];
-    sum += corners[i].x() * next.y() - corners[i].y() * next.x();
-  }
-  return sum;
-}
-
 std::vector<Vec2> arranged(std::span<const Vec2> corners) {
   std::vector<Vec2> result(corners.begin(), corners.end());
-  if (twice_signed_area(corners) < 0.0) {
+  if (signed_area(corners) < 0.0) {
     std::reverse(result.begin(), result.end());
   }
   return result;
@@ -106,6 +99,25 @@ std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners) {
   return {hull};
 }
 
+template <int Dim>
+std::vector<Piece<Dim>> polygon_pieces(std::span<const Vec2> corners, double depth) {
+  require(std::isfinite(depth) && depth > 0.0, "polygon.depth", depth, "must be finite and above 0 m");
+  std::vector<Piece<Dim>> pieces;
+  for (const std::vector<Vec2>& part : convex_partition(corners)) {
+    HullPiece<Dim> hull;
+    if constexpr (Dim == 2) {
+      hull.corners = part;
+    } else {
+      for (const Vec2& corner : part) {
+        hull.corners.push_back({corner.x(), -depth / 2.0, corner.y()});
+        hull.corners.push_back({corner.x(), depth / 2.0, corner.y()});
+      }
+    }
+    pieces.push_back(std::move(hull));
+  }
+  return pieces;
+}
+
 template std::vector<Piece<2>> box_pieces(const Vec<2>&);
 template std::vector<Piece<3>> box_pieces(const Vec<3>&);
 template std::vector<Piece<2>> l_pieces(const LParams&);
@@ -116,5 +128,7 @@ template std::vector<Piece<2>> capsule_pieces(double, double);
 template std::vector<Piece<3>> capsule_pieces(double, double);
 template std::vector<Piece<2>> hull_pieces(std::span<const Vec<2>>);
 template std::vector<Piece<3>> hull_pieces(std::span<const Vec<3>>);
+template std::vector<Piece<2>> polygon_pieces(std::span<const Vec2>, double);
+template std::vector<Piece<3>> polygon_pieces(std::span<const Vec2>, double);
 
 }  // namespace talus

@@ -16,6 +16,18 @@ struct LParams {
   double depth = 0.4;      // along y, 3D only [m], > 0
 };
 
+/// The paper's O: a ring standing in the x-z plane around the origin, in straight parts that meet on slanted cuts.
+struct RingParams {
+  double outer_radius = 1.0;  // of the circle that the parts' outer corners lie on [m], > inner_radius
+  double inner_radius = 0.6;  // likewise of the hole [m], > 0
+  // Parts around, 3 to 64. Every part is a shape of its own to the engine: what a ring costs in contact grows with them,
+  // in piles nearly in proportion. With few the ring is angular: the hole narrows to inner_radius cos(pi / parts).
+  int parts = 8;
+  // Corners of the tube's section, 3D only: 4 (as deep along y as it is wide), 6 or 8. Each is another pair of corners
+  // in every part.
+  int section_corners = 4;
+};
+
 template <int Dim>
 std::vector<Piece<Dim>> box_pieces(const Vec<Dim>& size);
 template <int Dim>
@@ -29,5 +41,11 @@ std::vector<Piece<Dim>> capsule_pieces(double length, double radius);
 /// A 2D polygon that is not convex is refused, never replaced by its hull.
 template <int Dim>
 std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners);
+/// Any simple polygon, convex or not, cut by convex_partition(). Corners (x, z) in order, either way round; in 3D drawn
+/// out along y to `depth` [m], half of it to each side.
+template <int Dim>
+std::vector<Piece<Dim>> polygon_pieces(std::span<const Vec2> corners, double depth = 0.4);
+template <int Dim>
+std::vector<Piece<Dim>> ring_pieces(const RingParams& params);
 
 }  // namespace talus

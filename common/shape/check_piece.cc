@@ -4,12 +4,10 @@
 
 #include "common/math/require.h"
 #include "common/shape/piece_width.h"
+#include "common/shape/polygon.h"
 
 namespace talus {
 namespace {
-
-constexpr int most_corners = 8;    // of a convex polygon: Box2D's limit (b2_maxPolygonVertices)
-constexpr double flatness = 1e-6;  // a hull thinner than this share of its length has no volume to compute with
 
 template <int Dim>
 void require_finite(const Vec<Dim>& point, const std::string& field) {
@@ -22,41 +20,26 @@ void require_length(double length, const std::string& field) {
   require(std::isfinite(length) && length > 0.0, field, length, "must be finite and above 0 m");
 }
 
-template <int Dim>
-double diagonal(const std::vector<Vec<Dim>>& corners) {
-  Box<Dim> bounds;
-  for (const Vec<Dim>& corner : corners) {
+double diagonal(const std::vector<Vec3>& corners) {
+  Box<3> bounds;
+  for (const Vec3& corner : corners) {
     bounds.extend(corner);
   }
   return bounds.diagonal().norm();
 }
 
-// Every corner lies to the left of every edge that it does not belong to: strictly convex, counter-clockwise, no corner
-// twice, and not wound around more than once.
-void require_convex(const std::vector<Vec2>& corners, const std::string& field) {
-  const double least = flatness * diagonal<2>(corners);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::size_t next = (i + 1) % corners.size();
-    for (std::size_t other = 0; other < corners.size(); ++other) {
-      const bool apart =
-          other == i || other == next || distance_from_line(corners[other], corners[i], corners[next]) > least;
-      require(apart, fmt::format("{}[{}]", field, other),
-              fmt::format("({}, {})", corners[other].x(), corners[other].y()),
-              "must be a corner of a convex polygon given counter-clockwise, no three corners on one line");
-    }
-  }
-}
-
 void check_corners(const std::vector<Vec2>& corners, const std::string& field) {
-  const int count = static_cast<int>(corners.size());
-  require(count >= 3 && count <= most_corners, field + ".size", count, "must be 3 to 8 corners");
-  require_convex(corners, field);
+  const std::size_t count = corners.size();
+  require(count >= 3 && count <= most_corners, field + ".size", static_cast<double>(count), "must be 3 to 8");
+  const std::size_t bad = non_convex_corner(corners).value_or(count);
+  require(bad == count, fmt::format("{}[{}]", field, bad), text(corners[bad % count]),
+          "must be a corner of a convex polygon given counter-clockwise, no three corners on one line");
 }
 
 void check_corners(const std::vector<Vec3>& corners, const std::string& field) {
-  require(corners.size() >= 4, field + ".size", static_cast<double>(corners.size()), "must be 4 corners or more");
+  require(corners.size() >= 4, field + ".size", static_cast<double>(corners.size()), "must be 4 or more");
   const double thickness = smallest_width<3>(HullPiece<3>{corners});
-  require(thickness > flatness * diagonal<3>(corners), field + " thickness", thickness,
+  require(thickness > flatness * diagonal(corners), field + " thickness", thickness,
           "must be at least four points that do not lie in one plane");
 }
 

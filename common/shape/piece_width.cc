@@ -4,13 +4,9 @@
 #include <limits>
 
 #include "common/shape/convex_hull.h"
+#include "common/shape/polygon.h"
 
 namespace talus {
-
-double distance_from_line(const Vec2& point, const Vec2& from, const Vec2& to) {
-  const Vec2 along = (to - from).normalized();
-  return along.x() * (point.y() - from.y()) - along.y() * (point.x() - from.x());
-}
 
 namespace {
 

@@ -5,9 +5,6 @@
 
 namespace talus {
 
-/// Distance of a point from the line through two others, positive to its left [m].
-double distance_from_line(const Vec2& point, const Vec2& from, const Vec2& to);
-
 /// The least distance between two parallel lines or planes that hold the piece [m]. For hulls in 3D only planes along
 /// a face are tried. What engines need to be large beside their contact skin.
 template <int Dim>
