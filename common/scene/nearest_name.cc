@@ -11,9 +11,9 @@ bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-bool one_begins_the_other(std::string_view a, std::string_view b) {
-  const std::size_t shared = std::min(a.size(), b.size());
-  return shared >= 3 && std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(shared), b.begin(), same_letter);
+bool contains(std::string_view longer, std::string_view shorter) {
+  return shorter.size() >= 3 &&
+         std::search(longer.begin(), longer.end(), shorter.begin(), shorter.end(), same_letter) != longer.end();
 }
 
 }  // namespace
@@ -51,10 +51,10 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
     }
   }
   if (nearest.empty()) {
-    const auto begun = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
-      return one_begins_the_other(name, candidate);
+    const auto part = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
+      return contains(name, candidate) || contains(candidate, name);
     });
-    nearest = begun == known.end() ? "" : *begun;
+    nearest = part == known.end() ? "" : *part;
   }
   return nearest;
 }

@@ -11,7 +11,7 @@ namespace talus {
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The known name that was most likely meant, or empty if none is near: at most a third of the letters differ, or one
-/// is the beginning of the other.
+/// is part of the other.
 std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
 }  // namespace talus

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/scene/read_fields.h"
+
 namespace talus {
 
 void read_seed(TableReader& root, std::uint64_t& seed) {
@@ -11,6 +13,33 @@ void read_seed(TableReader& root, std::uint64_t& seed) {
   root.read("seed", number, at_least(0.0));
   seed = static_cast<std::uint64_t>(number);
 }
+
+namespace {
+
+// `[pile.boundary]`, the walls around a pile's middle.
+template <int Dim>
+Boundary<Dim> read_boundary(TableReader& table) {
+  std::vector<std::string> kinds = {"box"};
+  if constexpr (Dim == 3) {
+    kinds.emplace_back("cylinder");
+  }
+  const std::string kind = read_kind(table, kinds);
+  Boundary<Dim> boundary;
+  table.require("rim");
+  table.read("rim", boundary.rim, length());
+  if (kind == "box") {
+    Horizontal<Dim> size = Horizontal<Dim>::Ones();
+    table.require("size");
+    table.read("size", size, length());
+    boundary = box_boundary<Dim>(size, boundary.rim);
+  } else if (kind == "cylinder") {
+    table.require("radius");
+    table.read("radius", boundary.cylinder_radius, length());
+  }
+  return boundary;
+}
+
+}  // namespace
 
 template <int Dim>
 PileParams<Dim> read_pile(TableReader& table) {
@@ -23,7 +52,14 @@ PileParams<Dim> read_pile(TableReader& table) {
   }
   table.read("initial_size", pile.initial_size, between(1.0, 1e7));
   table.read("growth_ratio", pile.growth_ratio, {.low = 0.0, .high = 1.0, .low_excluded = true});
+  table.read("merge_distance", pile.merge_distance, between(0.0, 1e6));
   table.read("drift_rate", pile.drift_rate, between(0.0, 1e3));
+  if (table.has("boundary")) {
+    table.table("boundary", [&](TableReader& within) { pile.boundary = read_boundary<Dim>(within); });
+    if (!pile.at) {
+      table.reject("boundary", "must be given together with at, the middle of its floor");
+    }
+  }
   return pile;
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/scene/read_fields.h"
 #include "common/shape/catalogue.h"
 
 namespace talus {
@@ -76,33 +77,6 @@ void check_alone(const Shape<Dim>& shape) {
   check(world);
 }
 
-std::optional<Rotation<2>> read_angle(TableReader& table) {
-  table.refuse("axis", "means nothing where dimension = 2");
-  if (!table.has("angle_deg")) {
-    return std::nullopt;
-  }
-  double angle = 0.0;
-  table.read_degrees("angle_deg", angle, between(-360.0, 360.0));
-  return Rotation<2>(angle);
-}
-
-std::optional<Rotation<3>> read_angle_about_axis(TableReader& table) {
-  if (!table.has("angle_deg") && !table.has("axis")) {
-    return std::nullopt;
-  }
-  double angle = 0.0;
-  Vec3 axis = Vec3::UnitZ();
-  table.require("angle_deg");
-  table.require("axis");
-  table.read_degrees("angle_deg", angle, between(-360.0, 360.0));
-  table.read("axis", axis, coordinate());
-  if (axis.norm() < 1e-6) {
-    table.reject("axis", "must have a length, of any size");
-    return std::nullopt;
-  }
-  return Rotation<3>(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -112,16 +86,6 @@ std::vector<std::string> shape_kinds() {
     names.emplace_back(kind.name);
   }
   return names;
-}
-
-std::string read_kind(TableReader& table, const std::vector<std::string>& kinds) {
-  std::string kind;
-  table.require("kind");
-  table.read("kind", kind, kinds);
-  if (kind.empty()) {
-    table.allow_unknown_keys();  // which keys belong here depends on the kind
-  }
-  return kind;
 }
 
 template <int Dim>
@@ -153,37 +117,11 @@ std::optional<Shape<Dim>> read_body_shape(TableReader& table, const std::string&
   return read_shape<Dim>(table, read_kind(table, shape_kinds<Dim>()), name, material);
 }
 
-void read_surface(TableReader& table, Material& material) {
-  table.read("friction", material.friction, between(0.0, 1e3));
-  table.read("restitution", material.restitution, between(0.0, 1.0));
-}
-
-template <int Dim>
-Vec<Dim> read_size(TableReader& table, std::string_view key) {
-  Vec<Dim> size = Vec<Dim>::Ones();
-  table.require(key);
-  table.read(key, size, length());
-  return size;
-}
-
-template <int Dim>
-std::optional<Rotation<Dim>> read_rotation(TableReader& table) {
-  if constexpr (Dim == 2) {
-    return read_angle(table);
-  } else {
-    return read_angle_about_axis(table);
-  }
-}
-
 template std::vector<std::string> shape_kinds<2>();
 template std::vector<std::string> shape_kinds<3>();
 template std::optional<Shape<2>> read_shape(TableReader&, const std::string&, const std::string&, const Material&);
 template std::optional<Shape<3>> read_shape(TableReader&, const std::string&, const std::string&, const Material&);
 template std::optional<Shape<2>> read_body_shape(TableReader&, const std::string&);
 template std::optional<Shape<3>> read_body_shape(TableReader&, const std::string&);
-template std::optional<Rotation<2>> read_rotation<2>(TableReader&);
-template std::optional<Rotation<3>> read_rotation<3>(TableReader&);
-template Vec<2> read_size<2>(TableReader&, std::string_view);
-template Vec<3> read_size<3>(TableReader&, std::string_view);
 
 }  // namespace talus

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "common/scene/bounding_radius.h"
-#include "common/scene/read_shape.h"
+#include "common/scene/read_fields.h"
 
 namespace talus {
 namespace {
@@ -17,6 +17,10 @@ void read_shapes(TableReader& table, std::span<const std::string> shape_names, S
   source.shapes.resize(shape_names.size());
   std::iota(source.shapes.begin(), source.shapes.end(), 0);
   std::vector<std::string> names;
+  if (shape_names.empty()) {
+    table.has("shape");  // without any shape every name would be wrong
+    return;
+  }
   table.read("shape", names, shape_names);
   if (!names.empty()) {
     source.shapes.clear();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/scene/container.h"
+#include "common/scene/read_fields.h"
 #include "common/scene/read_shape.h"
 
 namespace talus {
@@ -35,7 +36,7 @@ Pose<Dim> pose_of_centre(const Shape<Dim>& shape, const Pose<Dim>& pose) {
 template <int Dim>
 void read_world(TableReader& table, WorldDescription<Dim>& world) {
   table.read("gravity", world.gravity, between(0.0, 1e3));
-  table.refuse("dt", "is given by its inverse, as in steps_per_second = 60");
+  table.refuse("dt", "must be given as its inverse, as in steps_per_second = 60");
   if (table.has("steps_per_second")) {
     double steps_per_second = 60.0;
     table.read("steps_per_second", steps_per_second, between(30.0, 1e5));

@@ -3,28 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "common/scene/nearest_name.h"
+#include "common/scene/toml_text.h"
 
 namespace talus {
 namespace {
 
-// A value as the file has it, on one line and short enough for a message.
+// A value short enough for a message; a table says no more than that it is one.
 std::string written(const toml::node& node) {
   if (node.is_table()) {
     return "{...}";
   }
-  std::ostringstream stream;
-  node.visit([&stream](const auto& typed) { stream << typed; });
-  std::string text;
-  for (const char letter : stream.str()) {
-    const bool space = letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
-    if (!space || (!text.empty() && text.back() != ' ')) {
-      text += space ? ' ' : letter;
-    }
-  }
+  std::string text = value_text(node);
   constexpr std::size_t longest = 60;
   if (text.size() > longest) {
     std::size_t end = longest;
@@ -69,10 +61,10 @@ const toml::node* TableReader::find(std::string_view key) {
 }
 
 TableReader::Location TableReader::locate(const toml::source_region& region) const {
-  if (!region.path || region.begin.line == 0) {
+  if (region.begin.line == 0) {
     return location_;
   }
-  if (*region.path != findings_.file) {
+  if (region.path && *region.path != findings_.file) {
     return {*region.path, 0, 0};  // a `--set`: line and column within its value would only confuse
   }
   return {findings_.file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
@@ -161,35 +153,44 @@ void TableReader::table(std::string_view key, const Body& body) {
   read_child(node == nullptr ? absent : *node, std::string(key), std::string(key), body);
 }
 
-void TableReader::tables(std::string_view key, const Body& body) {
+bool TableReader::tables(std::string_view key, const Body& body) {
   const toml::node* node = find(key);
   if (node == nullptr) {
-    return;
+    return true;
   }
   if (!is_header_array(*node)) {
     note(*node, field(key), fmt::format("must be headed [[{}]], which may come many times", key));
-    return;
+    return false;
   }
   const toml::array& array = *node->as_array();
   for (std::size_t i = 0; i < array.size(); ++i) {
     read_child(array[i], fmt::format("{}[{}]", key, i), fmt::format("{}[]", key), body);
   }
+  return true;
 }
 
-void TableReader::named_tables(std::string_view key, const NamedBody& body) {
+bool TableReader::named_tables(std::string_view key, const NamedBody& body) {
   const toml::node* node = find(key);
   if (node == nullptr) {
-    return;
+    return true;
   }
+  const std::string rule = fmt::format("must be headed [{}.NAME], once for each name", key);
   if (!node->is_table()) {
-    note(*node, field(key), fmt::format("must be headed [{}.NAME], once for each name", key));
-    return;
+    note(*node, field(key), rule);
+    return false;
   }
-  for (const auto& [name, child] : *node->as_table()) {
-    const std::string own_name(name.str());
-    read_child(child, fmt::format("{}.{}", key, own_name), fmt::format("{}.*", key),
-               [&](TableReader& reader) { body(own_name, reader); });
+  bool well_formed = true;
+  for (const auto& [key_below, child] : *node->as_table()) {
+    const std::string name(key_below.str());
+    if (child.is_table()) {
+      read_child(child, fmt::format("{}.{}", key, name), fmt::format("{}.*", key),
+                 [&](TableReader& reader) { body(name, reader); });
+    } else {
+      note(child, fmt::format("{}.{}", field(key), name), rule);
+      well_formed = false;
+    }
   }
+  return well_formed;
 }
 
 }  // namespace talus

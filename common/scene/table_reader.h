@@ -56,10 +56,10 @@ class TableReader {
 
   /// The table `[key]`; one that is absent reads as empty.
   void table(std::string_view key, const Body& body);
-  /// The tables `[[key]]`, in their order.
-  void tables(std::string_view key, const Body& body);
-  /// The tables `[key.NAME]`, ordered by name.
-  void named_tables(std::string_view key, const NamedBody& body);
+  /// The tables `[[key]]`, in their order. Whether it is such tables, or absent.
+  bool tables(std::string_view key, const Body& body);
+  /// The tables `[key.NAME]`, ordered by name. Whether it is such tables, or absent.
+  bool named_tables(std::string_view key, const NamedBody& body);
 
   bool has(std::string_view key);
   /// Notes an error if the key is absent.

@@ -85,7 +85,7 @@ void TableReader::read(std::string_view key, std::string& value) {
 
 bool TableReader::read_choice(const toml::node& node, const std::string& name, std::string& value,
                               std::span<const std::string> choices) {
-  const std::string rule = fmt::format("must be one of {}", fmt::join(choices, ", "));
+  const std::string rule = fmt::format("must be {}{}", choices.size() == 1 ? "" : "one of ", fmt::join(choices, ", "));
   const auto* text = node.as_string();
   if (text == nullptr || std::find(choices.begin(), choices.end(), **text) == choices.end()) {
     note(node, name, rule, text == nullptr ? "" : nearest_name(**text, choices));
@@ -122,7 +122,10 @@ bool TableReader::read_array(const toml::node& node, const std::string& name, st
                              const Range& range) {
   const toml::array* array = node.as_array();
   if (array == nullptr || array->size() != values.size()) {
-    note(node, name, values.size() == 2 ? "must be two numbers, [x, z]" : "must be three numbers, [x, y, z]");
+    note(node, name,
+         fmt::format("must be {} in brackets", values.size() == 1   ? "one number"
+                                               : values.size() == 2 ? "two numbers"
+                                                                    : "three numbers"));
     return false;
   }
   bool good = true;
@@ -157,8 +160,10 @@ void TableReader::read(std::string_view key, std::vector<Eigen::Matrix<double, S
   }
 }
 
+using Vector1 = Eigen::Matrix<double, 1, 1>;
 using Vector2 = Eigen::Matrix<double, 2, 1>;
 using Vector3 = Eigen::Matrix<double, 3, 1>;
+template void TableReader::read<1>(std::string_view, Vector1&, const Range&);
 template void TableReader::read<2>(std::string_view, Vector2&, const Range&);
 template void TableReader::read<3>(std::string_view, Vector3&, const Range&);
 template void TableReader::read<2>(std::string_view, std::vector<Vector2>&, const Range&);

@@ -1,14 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 
 #include "common/scene/read_scene.h"
+#include "common/scene/warnings.h"
+#include "common/scene/write_scene.h"
+#include "tests/common/scene_description.h"
 
 namespace talus {
 namespace {
 
-const std::filesystem::path scenes = std::filesystem::path(TALUS_SOURCE_DIR) / "scenes";
+namespace fs = std::filesystem;
+const fs::path scenes = fs::path(TALUS_SOURCE_DIR) / "scenes";
 
 template <int Dim>
 void expect_example_one(const Scene<Dim>& scene) {
@@ -28,6 +33,35 @@ void expect_example_one(const Scene<Dim>& scene) {
 TEST(DropInAPile, IsThePapersFirstExample) {
   expect_example_one(std::get<Scene<2>>(read_scene(scenes / "drop_in_a_pile_2d.toml")));
   expect_example_one(std::get<Scene<3>>(read_scene(scenes / "drop_in_a_pile_3d.toml")));
+}
+
+std::string written_and_read(const AnyScene& scene) {
+  const fs::path file = fs::path(testing::TempDir()) / "scene_written.toml";
+  std::visit([&](const auto& one) { write_scene(one, file); }, scene);
+  return std::visit([](const auto& one) { return description(one); }, read_scene(file));
+}
+
+TEST(EveryScene, IsReadWithoutWarningAndWrittenBackTheSame) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(scenes)) {
+    SCOPED_TRACE(entry.path());
+    for (const std::vector<Override>& overrides : {std::vector<Override>(), {{"seed=7"}, {"policy.tau=0.1"}}}) {
+      const AnyScene scene = read_scene(entry.path(), overrides);
+      std::visit([](const auto& one) { EXPECT_EQ(warnings(one), std::vector<std::string>()); }, scene);
+      EXPECT_EQ(written_and_read(scene), std::visit([](const auto& one) { return description(one); }, scene));
+    }
+    ++count;
+  }
+  EXPECT_GE(count, 2);
+}
+
+TEST(WriteScene, RefusesASceneMadeByAProgram) {
+  EXPECT_THROW(write_scene(Scene<2>(), testing::TempDir() + "/scene.toml"), std::invalid_argument);
+}
+
+TEST(WriteScene, TellsWhereItCouldNotWrite) {
+  const AnyScene scene = read_scene(scenes / "drop_in_a_pile_2d.toml");
+  EXPECT_THROW(write_scene(std::get<Scene<2>>(scene), "no/such/folder/scene.toml"), std::runtime_error);
 }
 
 }  // namespace

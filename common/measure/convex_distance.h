@@ -1,0 +1,22 @@
+#pragma once
+// How far two convex pieces are apart, or how deep in each other, whatever the engine thinks. Engines report contacts
+// of awake bodies only; sleepers are measured by this.
+//
+// Why own code: libccd 2.1 is off by up to 0.1 m in 1 of 2,500 overlapping box pairs and finds no depth for 1 of 6
+// boxes stacked flush; FCL 0.7 aborts on flush boxes; a growing hull (EPA) of our own met the same trouble with faces
+// that are all but coplanar. Trying all separating axes and all pairs of features costs more for hulls of many corners
+// (about the product of their edges) and has no such case.
+
+#include <limits>
+
+#include "common/measure/convex_piece.h"
+
+namespace talus {
+
+/// Distance between the two pieces [m]; where they overlap, minus the shortest way that parts them. Error below 1e-8 of
+/// their size. Of pieces at least `enough` [m] apart it need only say so: some value not below `enough`.
+template <int Dim>
+double signed_distance(const ConvexPiece<Dim>& a, const ConvexPiece<Dim>& b,
+                       double enough = std::numeric_limits<double>::infinity());
+
+}  // namespace talus

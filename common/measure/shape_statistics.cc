@@ -1,0 +1,84 @@
+#include "common/measure/shape_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/require.h"
+#include "common/measure/ensemble.h"
+#include "common/pile/profile.h"
+
+namespace talus {
+
+template <int Dim>
+Packing packing(std::span<const PlacedBody<Dim>> bodies, const Vec<Dim>& base_centre, double foot, double apex,
+                int layers) {
+  require(foot > 0.0, "foot", foot, "must be > 0");
+  require(apex > 0.0, "apex", apex, "must be > 0");
+  require(layers >= 1, "layers", layers, "must be >= 1");
+  const double rise = apex / layers;
+  const auto radius_at = [&](double above) { return foot * (1.0 - above / apex); };
+  Packing result;
+  result.layers.assign(static_cast<std::size_t>(layers), 0.0);
+  double solid = 0.0;
+  for (const PlacedBody<Dim>& body : bodies) {
+    const double above = height<Dim>(body.centre) - height<Dim>(base_centre);
+    const double radius = (horizontal<Dim>(body.centre) - horizontal<Dim>(base_centre)).norm();
+    if (above < 0.0 || above >= apex || radius > radius_at(above)) continue;
+    const int layer = std::min(static_cast<int>(above / rise), layers - 1);
+    result.layers[static_cast<std::size_t>(layer)] += body.volume;
+    solid += body.volume;
+  }
+  const auto volume_above = [&](double above) {
+    return tip_volume<Dim>(Profile<Dim>::base_area(radius_at(above)), apex - above);
+  };
+  for (int layer = 0; layer < layers; ++layer) {
+    result.layers[static_cast<std::size_t>(layer)] /= volume_above(layer * rise) - volume_above((layer + 1) * rise);
+  }
+  result.all = solid / volume_above(0.0);
+  return result;
+}
+
+template <int Dim>
+Vec<Dim - 1> middle(std::span<const PlacedBody<Dim>> bodies) {
+  Vec<Dim - 1> sum = Vec<Dim - 1>::Zero();
+  for (const PlacedBody<Dim>& body : bodies) sum += horizontal<Dim>(body.centre);
+  return bodies.empty() ? sum : Vec<Dim - 1>(sum / static_cast<double>(bodies.size()));
+}
+
+template <int Dim>
+ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, const ProfileGrid<Dim>& grid,
+                                      double layer_height) {
+  require(layer_height > 0.0, "layer_height", layer_height, "must be > 0");
+  ShapeStatistics<Dim> statistics;
+  statistics.bodies = static_cast<int>(bodies.size());
+  statistics.profile = height_profile<Dim>(bodies, grid);
+  if (bodies.empty()) return statistics;
+  double mass = 0.0;
+  for (const PlacedBody<Dim>& body : bodies) {
+    statistics.centre += body.mass * body.centre;
+    mass += body.mass;
+    statistics.peak = std::max(statistics.peak, height<Dim>(body.bounds.max()) - grid.base);
+  }
+  statistics.centre /= mass;
+  statistics.centre_height = height<Dim>(statistics.centre) - grid.base;
+  const std::vector<double> distances = radii<Dim>(bodies, grid.centre);
+  statistics.r50 = quantile(distances, 0.5);
+  statistics.r95 = quantile(distances, 0.95);
+  statistics.repose = angle_of_repose(statistics.profile, statistics.r95);
+  if (statistics.repose.foot > 0.0) {
+    Vec<Dim> base;
+    base << grid.centre, grid.base;
+    const int layers = std::max(1, static_cast<int>(statistics.repose.apex / layer_height));
+    statistics.packing = packing<Dim>(bodies, base, statistics.repose.foot, statistics.repose.apex, layers);
+  }
+  return statistics;
+}
+
+template Packing packing<2>(std::span<const PlacedBody<2>>, const Vec<2>&, double, double, int);
+template Packing packing<3>(std::span<const PlacedBody<3>>, const Vec<3>&, double, double, int);
+template Vec<1> middle<2>(std::span<const PlacedBody<2>>);
+template Vec<2> middle<3>(std::span<const PlacedBody<3>>);
+template ShapeStatistics<2> shape_statistics(std::span<const PlacedBody<2>>, const ProfileGrid<2>&, double);
+template ShapeStatistics<3> shape_statistics(std::span<const PlacedBody<3>>, const ProfileGrid<3>&, double);
+
+}  // namespace talus

@@ -1,0 +1,46 @@
+#pragma once
+// A pile's shape in a handful of numbers.
+
+#include <span>
+#include <vector>
+
+#include "common/measure/surface.h"
+
+namespace talus {
+
+/// How full a cone (3D) or wedge (2D) is of solid matter.
+struct Packing {
+  std::vector<double> layers;  // solid volume of the bodies whose centre lies in the layer / its volume; bottom-up
+  double all = 0.0;            // the same over the whole outline
+};
+
+/// Outline of radius `foot` at the ground and height `apex`, cut into `layers` >= 1 slices of equal thickness; what
+/// lies outside does not count. A body counts to the layer of its centre, so single layers of a height near D scatter.
+template <int Dim>
+Packing packing(std::span<const PlacedBody<Dim>> bodies, const Vec<Dim>& base_centre, double foot, double apex,
+                int layers);
+
+/// All about one pile at one moment.
+template <int Dim>
+struct ShapeStatistics {
+  int bodies = 0;
+  Vec<Dim> centre = Vec<Dim>::Zero();  // of mass [m]
+  double centre_height = 0.0;          // of the centre of mass above the ground [m]
+  double r50 = 0.0;                    // radius around the grid's centre that holds half of the bodies' centres [m]
+  double r95 = 0.0;                    // 95 % of them; the rest may have rolled away [m]
+  double peak = 0.0;                   // highest point of a body above the ground [m]
+  std::vector<ProfileBin> profile;
+  AngleOfRepose repose;
+  Packing packing;  // of the outline that the angle's line draws, in layers about `layer_height` high
+};
+
+/// `layer_height` [m] > 0 is D, as in the piles' own layers. All zero for no bodies.
+template <int Dim>
+ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, const ProfileGrid<Dim>& grid,
+                                      double layer_height);
+
+/// Horizontal mean of the bodies' centres [m]: the grid's centre where a pile's own is not known.
+template <int Dim>
+Vec<Dim - 1> middle(std::span<const PlacedBody<Dim>> bodies);
+
+}  // namespace talus

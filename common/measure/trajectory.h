@@ -1,0 +1,79 @@
+#pragma once
+// Where every body was, frame by frame: what the measures compare.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/simulation/observer.h"
+#include "common/world/body.h"
+
+namespace talus {
+
+/// Poses of all bodies at each frame of output, in single precision, which is what the engines compute in: nothing of
+/// theirs is lost. 29 bytes per body and frame in 3D, 13 in 2D. A body is absent before its emission and after its
+/// removal.
+template <int Dim>
+class Trajectory {
+ public:
+  /// `step_time` [s] > 0 is the dt of a step, `steps_per_frame` >= 1. Throws std::invalid_argument.
+  explicit Trajectory(double step_time, std::int64_t steps_per_frame = 1);
+
+  /// Adds a frame: the states after step number `step`. Frames follow one another at the distance of steps_per_frame,
+  /// and bodies never become fewer; throws std::invalid_argument otherwise.
+  void append(const BodyStates<Dim>& states, std::int64_t step);
+
+  double step_time() const { return step_time_; }
+  std::int64_t steps_per_frame() const { return steps_per_frame_; }
+  double frame_time() const { return step_time_ * static_cast<double>(steps_per_frame_); }  // [s]
+
+  int frames() const { return static_cast<int>(first_.size()); }
+  std::int64_t step(int frame) const { return first_step_ + frame * steps_per_frame_; }
+
+  /// Bodies added by the last frame, by a given frame.
+  BodyIndex bodies() const { return static_cast<BodyIndex>(shape_.size()); }
+  BodyIndex bodies(int frame) const;
+  int shape(BodyIndex body) const { return shape_[static_cast<std::size_t>(body)]; }
+
+  bool present(int frame, BodyIndex body) const {
+    return body < bodies(frame) && (flags_[entry(frame, body)] & present_flag) != 0;
+  }
+  /// For present bodies only.
+  bool asleep(int frame, BodyIndex body) const { return (flags_[entry(frame, body)] & asleep_flag) != 0; }
+  Vec<Dim> position(int frame, BodyIndex body) const;
+  Rotation<Dim> rotation(int frame, BodyIndex body) const;
+
+  /// Whether body `body` of two trajectories is the same bit for bit at a frame, absence included.
+  bool same(int frame, const Trajectory& other, BodyIndex body) const;
+
+ private:
+  static constexpr std::uint8_t present_flag = 1;
+  static constexpr std::uint8_t asleep_flag = 2;
+  static constexpr std::size_t floats_per_body = Dim == 2 ? 3 : 7;  // position, then angle or quaternion (x, y, z, w)
+  std::size_t entry(int frame, BodyIndex body) const {
+    return first_[static_cast<std::size_t>(frame)] + static_cast<std::size_t>(body);
+  }
+
+  double step_time_;
+  std::int64_t steps_per_frame_;
+  std::int64_t first_step_ = 0;
+  std::vector<std::size_t> first_;   // entry of body 0, per frame
+  std::vector<int> shape_;           // per body
+  std::vector<float> poses_;         // per entry
+  std::vector<std::uint8_t> flags_;  // per entry
+};
+
+/// Records a trajectory while a simulation runs, every `steps_per_frame` steps.
+template <int Dim>
+class TrajectoryRecorder : public Observer<Dim> {
+ public:
+  TrajectoryRecorder(double step_time, std::int64_t steps_per_frame) : trajectory_(step_time, steps_per_frame) {}
+  void on_frame(const Frame<Dim>& frame) override {
+    if (frame.step % trajectory_.steps_per_frame() == 0) trajectory_.append(frame.world.states(), frame.step);
+  }
+  const Trajectory<Dim>& trajectory() const { return trajectory_; }
+
+ private:
+  Trajectory<Dim> trajectory_;
+};
+
+}  // namespace talus

@@ -1,0 +1,62 @@
+#include "common/scene/spout_rate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/scene/bounding_radius.h"
+
+namespace talus {
+namespace {
+
+// Steps of dt until something of constant acceleration has gone `distance` [m]: the positive root n of
+// speed dt n + acceleration dt^2 n (n + 1) / 2 = distance, rounded up. A negative speed first leads the other way.
+double steps_to_go(double distance, double speed, double acceleration, double dt) {
+  const double quadratic = 0.5 * acceleration * dt * dt;
+  const double linear = speed * dt + quadratic;
+  const double denominator = linear + std::sqrt(linear * linear + 4.0 * quadratic * distance);
+  if (denominator <= 0.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  // The smallest share of a step off, or rounding turns a whole number into the next.
+  return std::ceil(2.0 * distance / denominator - 1e-9);
+}
+
+template <int Dim>
+double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  double radius = 0.0;
+  for (const int shape : source.shapes) {
+    radius = std::max(radius, bounding_radius(world.shapes[static_cast<std::size_t>(shape)]));
+  }
+  return radius;
+}
+
+}  // namespace
+
+template <int Dim>
+double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  constexpr int up = Dim - 1;
+  const Vec<Dim> distance = 2.0 * (Vec<Dim>::Constant(largest_radius(source, world)) + source.spread);
+  Vec<Dim> follow = source.velocity_spread;
+  if (source.sweep_period > 0.0) {
+    follow += 4.0 / source.sweep_period * source.sweep.cwiseAbs();
+  }
+  double steps = steps_to_go(distance[up], -source.velocity[up] - follow[up], world.gravity, world.dt);
+  for (int axis = 0; axis < up; ++axis) {
+    const double away = std::abs(source.velocity[axis]) - follow[axis];
+    steps = std::min(steps, steps_to_go(distance[axis], std::max(away, 0.0), 0.0, world.dt));
+  }
+  return steps * world.dt;
+}
+
+template <int Dim>
+double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  return std::min(source.rate, 1.0 / clearing_time(source, world));
+}
+
+template double clearing_time(const Source<2>&, const WorldDescription<2>&);
+template double clearing_time(const Source<3>&, const WorldDescription<3>&);
+template double reachable_rate(const Source<2>&, const WorldDescription<2>&);
+template double reachable_rate(const Source<3>&, const WorldDescription<3>&);
+
+}  // namespace talus

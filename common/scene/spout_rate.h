@@ -1,0 +1,19 @@
+#pragma once
+
+#include "common/scene/scene.h"
+
+namespace talus {
+
+/// Time [s] after which a body that a source dropped has surely left the place where the next may appear: a whole
+/// number of steps, infinite if that never happens. Both bodies count as boxes around the largest shape's bounding
+/// sphere, at the ends of `spread` that suit least, the first with the velocity of `velocity_spread` that suits least,
+/// the spout following it at the speed of its sweep; the engines' semi-implicit Euler steps and nothing else in the
+/// way.
+template <int Dim>
+double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& world);
+
+/// Bodies per second that a source really drops: its rate, or one per clearing time if that is less.
+template <int Dim>
+double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& world);
+
+}  // namespace talus

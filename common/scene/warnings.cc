@@ -1,0 +1,99 @@
+#include "common/scene/warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/scene/spout_rate.h"
+
+namespace talus {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+template <int Dim>
+void warn_of_sources(const Scene<Dim>& scene, Lines& lines) {
+  const double end = static_cast<double>(scene.run.frames) / scene.run.frame_rate;
+  for (std::size_t i = 0; i < scene.sources.size(); ++i) {
+    const Source<Dim>& source = scene.sources[i];
+    const double reachable = reachable_rate(source, scene.world);
+    if (reachable < source.rate) {
+      lines.push_back(fmt::format(
+          "source[{}]: asks for {:.4g} bodies a second, but its place is sure to be free only {:.4g} times a "
+          "second: bodies may wait; a higher velocity or less spread along it helps",
+          i, source.rate, reachable));
+    }
+    const double last = source.start + (source.count - 1) / source.rate;
+    if (last > end) {
+      lines.push_back(
+          fmt::format("source[{}]: its last body is due at {:.4g} s, the run ends at {:.4g} s", i, last, end));
+    }
+  }
+}
+
+// The engines' contact skins and tolerances are made for bodies of about a metre.
+template <int Dim>
+void warn_of_sizes(const std::vector<Shape<Dim>>& shapes, Lines& lines) {
+  constexpr double smallest = Dim == 2 ? 0.5 : 0.2;
+  constexpr double largest = Dim == 2 ? 5.0 : 100.0;
+  for (const Shape<Dim>& shape : shapes) {
+    const Vec<Dim> sides = shape.bounds.sizes();
+    if (sides.minCoeff() < smallest || sides.maxCoeff() > largest) {
+      lines.push_back(fmt::format("shape.{}: {:.4g} to {:.4g} m wide; contacts are held best between {} and {} m",
+                                  shape.name, sides.minCoeff(), sides.maxCoeff(), smallest, largest));
+    }
+  }
+}
+
+template <int Dim>
+void warn_of_mixtures(const WorldDescription<Dim>& world, Lines& lines) {
+  if (world.shapes.empty()) {
+    return;
+  }
+  const auto ratio = [&](double Shape<Dim>::*value) {
+    const auto less = [value](const Shape<Dim>& a, const Shape<Dim>& b) { return a.*value < b.*value; };
+    const auto [least, most] = std::minmax_element(world.shapes.begin(), world.shapes.end(), less);
+    return (*most).*value / ((*least).*value);
+  };
+  const double masses = ratio(&Shape<Dim>::mass);
+  if (masses > 10.0 && world.solver.velocity_iterations < 50) {
+    lines.push_back(
+        fmt::format("shape: masses differ by a factor of {:.3g}; above 10 heavy bodies sink into light ones unless "
+                    "world.solver.velocity_iterations is 50 or more",
+                    masses));
+  }
+  const double volumes = ratio(&Shape<Dim>::bounding_volume);
+  if (volumes > 2.0) {
+    lines.push_back(
+        fmt::format("shape: bounding boxes differ by a factor of {:.3g} in volume; a pile's layers are made "
+                    "for the mean body, so above 2 their densities mean little",
+                    volumes));
+  }
+}
+
+template <int Dim>
+void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
+  if (scene.policy.kind == "paper" && scene.piles.empty()) {
+    lines.emplace_back("policy.kind = \"paper\" without any [[pile]]: no body will ever sleep");
+  }
+  if (scene.world.dt > 1.0 / 60.0) {
+    lines.emplace_back("world.steps_per_second below 60: bodies sink visibly into each other");
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> warnings(const Scene<Dim>& scene) {
+  Lines lines;
+  warn_of_sources(scene, lines);
+  warn_of_sizes(scene.world.shapes, lines);
+  warn_of_mixtures(scene.world, lines);
+  warn_of_settings(scene, lines);
+  return lines;
+}
+
+template std::vector<std::string> warnings(const Scene<2>&);
+template std::vector<std::string> warnings(const Scene<3>&);
+
+}  // namespace talus
