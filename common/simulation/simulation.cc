@@ -27,6 +27,7 @@ void Simulation<Dim>::step() {
   world_->step();
   ++step_;
   phases_.step = watch.lap();
+  phases_.engine = world_->times();
   count_piles();
   phases_.count = watch.lap();
   decide();

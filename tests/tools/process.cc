@@ -1,0 +1,37 @@
+#include "tests/tools/process.h"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace talus {
+
+std::string contents(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "talus-test-XXXXXX").string();
+  path_ = mkdtemp(name.data());
+}
+
+TemporaryFolder::~TemporaryFolder() { std::filesystem::remove_all(path_); }
+
+Outcome shell(const std::string& script) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "script") << "export TALUS='" TALUS_COMMAND "'\ncd '" TALUS_SOURCE "'\n" << script << '\n';
+  const std::string line =
+      "bash " + (folder / "script") + " </dev/null >" + (folder / "out") + " 2>" + (folder / "err");
+  const int status = std::system(line.c_str());
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(folder / "out"),
+                  contents(folder / "err")};
+  return outcome;
+}
+
+Outcome talus_command(const std::string& arguments) { return shell("\"$TALUS\" " + arguments); }
+
+}  // namespace talus

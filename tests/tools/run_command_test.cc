@@ -1,0 +1,121 @@
+// The talus command as its users meet it.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.h"
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+/// The 2D example, short enough for a test, on this build's first engine.
+const std::string short_scene = "drop_in_a_pile_2d --no-telemetry --set run.frames=150 ";
+
+TEST(RunCommand, LeavesARunFolderThatExplainsItself) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command("run " + short_scene + "--out " + (folder / "run"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* name : {"scene.toml", "summary.json", "frames.csv", "pile.svg", "pile.png"}) {
+    EXPECT_GT(fs::file_size(folder.path() / "run" / name), 100U) << name;
+  }
+  const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
+  EXPECT_EQ(summary["reason"], "finished");
+  EXPECT_EQ(summary["steps"], 300);
+  EXPECT_EQ(summary["policy"], "paper");
+  EXPECT_GT(summary["bodies"], 20);
+  EXPECT_GT(summary["ms_per_step"], 0.0);
+  EXPECT_GT(summary["ms_per_phase"]["step_solve"], 0.0);
+  EXPECT_EQ(summary["end_hash"].get<std::string>().size(), 16U);
+  EXPECT_NE(outcome.out.find(summary["end_hash"]), std::string::npos);
+}
+
+TEST(RunCommand, WritesOneRowAStep) {
+  const TemporaryFolder folder;
+  talus_command("run " + short_scene + "--out " + (folder / "run"));
+  const std::string rows = contents(folder.path() / "run" / "frames.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 301);
+}
+
+TEST(RunCommand, RecordsTheSceneAsItWasRun) {
+  const TemporaryFolder folder;
+  const Outcome first =
+      talus_command("run " + short_scene + "--set policy.tau=0.3 --seed 7 --hash --out " + (folder / "a"));
+  const Outcome again = talus_command("run " + (folder / "a/scene.toml") + " --no-telemetry --hash");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out, again.out) << "the recorded scene must give the same run";
+}
+
+TEST(RunCommand, GivesTheSameHashInTwoProcessesAndAnotherForAnotherSeed) {
+  const Outcome first = talus_command("run " + short_scene + "--hash");
+  const Outcome second = talus_command("run " + short_scene + "--hash");
+  const Outcome other = talus_command("run " + short_scene + "--hash --seed 2");
+  EXPECT_EQ(first.out.size(), 17U);
+  EXPECT_EQ(first.out, second.out);
+  EXPECT_NE(first.out, other.out);
+}
+
+TEST(RunCommand, GivesTheSameHashWithAndWithoutAFolder) {
+  const TemporaryFolder folder;
+  const Outcome bare = talus_command("run " + short_scene + "--hash");
+  const Outcome recorded = talus_command("run " + short_scene + "--hash --out " + (folder / "run"));
+  EXPECT_EQ(bare.out, recorded.out);
+}
+
+TEST(RunCommand, OverwritesNothing) {
+  const TemporaryFolder folder;
+  talus_command("run " + short_scene + "--out " + (folder / "run"));
+  const std::string before = contents(folder.path() / "run" / "summary.json");
+  const Outcome again = talus_command("run " + short_scene + "--seed 2 --out " + (folder / "run"));
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("--out"), std::string::npos);
+  EXPECT_EQ(contents(folder.path() / "run" / "summary.json"), before);
+}
+
+TEST(RunCommand, SavesEverythingOnCtrlC) {
+  const TemporaryFolder folder;
+  const Outcome outcome = shell("\"$TALUS\" run drop_in_a_pile_2d --no-telemetry --set run.frames=100000 --out " +
+                                (folder / "run") + " & process=$!; sleep 1; kill -INT $process; wait $process");
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
+  EXPECT_EQ(summary["reason"], "interrupted");
+  EXPECT_GT(fs::file_size(folder.path() / "run" / "pile.png"), 100U);
+}
+
+TEST(RunCommand, RefusesBadInputWithExitCodeTwoAndWritesNothing) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& arguments, const std::string& said) {
+    const Outcome outcome = shell("cd " + folder.path().string() + " && \"$TALUS\" run " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_TRUE(fs::is_empty(folder.path())) << arguments;
+  };
+  refused("drop_in_a_pile_2", "drop_in_a_pile_2d");
+  refused("drop_in_a_pile_2d --backend jolt", "backend");
+  refused("drop_in_a_pile_2d --policy pape", "policy.kind");
+  refused("drop_in_a_pile_2d --set policy.tua=0.3", "tau");
+  refused("drop_in_a_pile_2d --set policy.tau=3", "policy.tau");
+  refused("drop_in_a_pile_2d --set policy.tau", "=");
+  refused("drop_in_a_pile_2d --no-such-option", "no-such-option");
+}
+
+TEST(ListCommand, ShowsEachSceneInOneLine) {
+  const Outcome outcome = talus_command("list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("drop_in_a_pile_2d "), std::string::npos);
+  EXPECT_NE(outcome.out.find("drop_in_a_pile_3d "), std::string::npos);
+}
+
+TEST(CheckCommand, TellsWhatASceneWillDoWithoutRunningIt) {
+  const Outcome outcome = talus_command("check drop_in_a_pile_2d --set source[0].rate=60");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("spout reaches"), std::string::npos);
+  EXPECT_NE(outcome.out.find("warning"), std::string::npos) << "60 a second is more than the spout can do";
+}
+
+}  // namespace
+}  // namespace talus

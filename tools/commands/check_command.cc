@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "common/scene/read_scene.h"
+#include "common/scene/spout_rate.h"
+#include "common/scene/typical_body.h"
+#include "common/scene/warnings.h"
+#include "tools/commands/commands.h"
+#include "tools/run/find_scene.h"
+
+namespace talus {
+
+namespace {
+
+template <int Dim>
+void tell(const Scene<Dim>& scene) {
+  const TypicalBody body = typical_body(scene);
+  fmt::print("{}\n", scene.title);
+  fmt::print("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second), policy {}\n", Dim, scene.steps(),
+             scene.world.dt, scene.run.frames, scene.run.frame_rate, scene.policy.kind);
+  fmt::print("  bodies of {:.4g} kg in the mean, bounding volume {:.4g} {}, largest extent {:.4g} m\n", body.mass,
+             body.bounding_volume, Dim == 2 ? "m^2" : "m^3", body.extent);
+  for (std::size_t i = 0; i < scene.sources.size(); ++i) {
+    const Source<Dim>& source = scene.sources[i];
+    fmt::print("  source[{}]: {} bodies at {:g} a second from {:g} s on; its spout reaches {:.3g} a second\n", i,
+               source.count, source.rate, source.start, reachable_rate(source, scene.world));
+  }
+  for (const std::string& warning : warnings(scene)) fmt::print("  warning: {}\n", warning);
+}
+
+int check_scene(const std::string& name, const std::vector<std::string>& settings) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : settings) overrides.push_back({setting});
+  const std::filesystem::path file = find_scene(name);
+  const AnyScene scene = read_scene(file, overrides);
+  fmt::print("{}: sound\n", file.string());
+  std::visit([](const auto& of_dimension) { tell(of_dimension); }, scene);
+  return exit_codes::success;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("check", "Read a scene without running it: all its errors, or what it will do");
+  auto scene = std::make_shared<std::string>();
+  auto settings = std::make_shared<std::vector<std::string>>();
+  command->add_option("scene", *scene, "Scene file, or the name of a scene that `talus list` shows")->required();
+  command->add_option("-s,--set", *settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  command->callback([=, &exit_code] { exit_code = check_scene(*scene, *settings); });
+}
+
+}  // namespace talus

@@ -1,0 +1,19 @@
+#pragma once
+// The sub-commands of `talus`. Each adds itself to the command line and sets `exit_code` when it has run.
+
+#include <CLI/CLI.hpp>
+
+namespace talus {
+
+namespace exit_codes {
+inline constexpr int success = 0;
+inline constexpr int failed = 1;         // the run itself went wrong; all that was recorded is kept
+inline constexpr int bad_input = 2;      // a scene, option or file is not as it should be
+inline constexpr int interrupted = 130;  // Ctrl-C; all is saved
+}  // namespace exit_codes
+
+void add_run_command(CLI::App& app, int& exit_code);
+void add_list_command(CLI::App& app, int& exit_code);
+void add_check_command(CLI::App& app, int& exit_code);
+
+}  // namespace talus

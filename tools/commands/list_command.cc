@@ -1,0 +1,33 @@
+#include <fmt/format.h>
+
+#include "common/scene/read_scene.h"
+#include "tools/commands/commands.h"
+#include "tools/run/find_scene.h"
+
+namespace talus {
+
+namespace {
+
+int list_scenes() {
+  int exit_code = exit_codes::success;
+  for (const std::filesystem::path& file : scene_files()) {
+    try {
+      const auto scene = read_scene(file, {});
+      std::visit([&](const auto& of_dimension) { fmt::print("{:24} {}\n", file.stem().string(), of_dimension.title); },
+                 scene);
+    } catch (const SceneErrors& errors) {
+      fmt::print("{:24} not readable: {}\n", file.stem().string(), errors.what());
+      exit_code = exit_codes::bad_input;
+    }
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("list", "Show the scenes, a line each");
+  command->callback([&exit_code] { exit_code = list_scenes(); });
+}
+
+}  // namespace talus

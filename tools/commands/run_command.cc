@@ -1,0 +1,35 @@
+#include "tools/commands/commands.h"
+#include "tools/run/run_options.h"
+#include "tools/run/run_scene.h"
+
+namespace talus {
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("run", "Simulate a scene and leave a run folder");
+  command->footer(
+      "Examples:\n"
+      "  talus run drop_in_a_pile_2d\n"
+      "  talus run scenes/drop_in_a_pile_3d.toml --policy full --out runs/reference\n"
+      "  talus run drop_in_a_pile_2d --backend bullet-planar --set policy.tau=0.3 --set pile[0].alpha_deg=25\n\n"
+      "Exit code: 0 done, 1 the run failed, 2 bad input, 130 interrupted (everything up to then is saved).");
+  auto options = std::make_shared<RunOptions>();
+  command->add_option("scene", options->scene, "Scene file, or the name of a scene that `talus list` shows")
+      ->required();
+  command->add_option("-b,--backend", options->backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D");
+  command->add_option("-p,--policy", options->policy, "Who may sleep: full (nobody), engine (its own rule), paper");
+  command->add_option("-s,--set", options->settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--seed", options->seed, "Seed of all that is random in the scene");
+  command->add_option("-o,--out", options->out, "Run folder, new or empty; without it a new one under runs/");
+  auto* url = command->add_option("--lcm-url", options->lcm_url,
+                                  "Where to publish; default: LCM_DEFAULT_URL, else this machine only");
+  command->add_option("--telemetry-hz", options->telemetry_hz, "Pile messages a second of wall time; 0: one a step")
+      ->capture_default_str();
+  command->add_flag("!--no-telemetry", options->telemetry, "Publish nothing over LCM")->excludes(url);
+  command->add_option("--against", options->against, "Run the scene under this policy too and tell the speed-up");
+  command->add_flag("--hash", options->hash_only, "Print the end hash and nothing else; no folder unless --out");
+  command->callback([options, &exit_code] { exit_code = run_scene(*options); });
+}
+
+}  // namespace talus

@@ -1,0 +1,67 @@
+#include "tools/run/backends.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <stdexcept>
+
+#ifdef TALUS_BOX2D
+#include "sim2d/make_world.h"
+#endif
+#ifdef TALUS_BULLET
+#include "sim3d/make_world.h"
+#endif
+
+namespace talus {
+
+namespace {
+
+template <int Dim>
+struct Backend {
+  std::string_view name;
+  std::unique_ptr<World<Dim>> (*make)(const WorldDescription<Dim>&);
+};
+
+template <int Dim>
+std::vector<Backend<Dim>> table() {
+  std::vector<Backend<Dim>> list;
+  if constexpr (Dim == 2) {
+#ifdef TALUS_BOX2D
+    list.push_back({"box2d", make_box2d_world});
+#endif
+#ifdef TALUS_BULLET
+    list.push_back({"bullet-planar", make_bullet_planar_world});
+#endif
+  } else {
+#ifdef TALUS_BULLET
+    list.push_back({"bullet", make_bullet_world});
+#endif
+  }
+  return list;
+}
+
+template <int Dim>
+std::vector<std::string> names() {
+  std::vector<std::string> list;
+  for (const Backend<Dim>& backend : table<Dim>()) list.emplace_back(backend.name);
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> backends(int dimension) { return dimension == 2 ? names<2>() : names<3>(); }
+
+template <int Dim>
+std::unique_ptr<World<Dim>> make_world(std::string_view backend, const WorldDescription<Dim>& description) {
+  for (const Backend<Dim>& known : table<Dim>()) {
+    if (known.name == backend) return known.make(description);
+  }
+  throw std::invalid_argument(fmt::format(
+      "backend = \"{}\": a scene in {}D runs here on {}", backend, Dim,
+      names<Dim>().empty() ? "no engine: none was built in" : fmt::format("{}", fmt::join(names<Dim>(), ", "))));
+}
+
+template std::unique_ptr<World<2>> make_world(std::string_view, const WorldDescription<2>&);
+template std::unique_ptr<World<3>> make_world(std::string_view, const WorldDescription<3>&);
+
+}  // namespace talus

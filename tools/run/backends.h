@@ -1,0 +1,20 @@
+#pragma once
+// Engines by name.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/world/world.h"
+
+namespace talus {
+
+/// Names of the engines in this build that can simulate `dimension`, the default first.
+std::vector<std::string> backends(int dimension);
+
+/// A new world in the engine of that name. Throws std::invalid_argument where this build has no such engine for Dim.
+template <int Dim>
+std::unique_ptr<World<Dim>> make_world(std::string_view backend, const WorldDescription<Dim>& description);
+
+}  // namespace talus

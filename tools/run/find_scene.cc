@@ -1,0 +1,43 @@
+#include "tools/run/find_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "common/scene/nearest_name.h"
+
+namespace talus {
+
+namespace fs = std::filesystem;
+
+fs::path scene_folder() {
+  const fs::path here = "scenes";
+  return fs::is_directory(here) ? here : fs::path(TALUS_SCENE_FOLDER);
+}
+
+std::vector<fs::path> scene_files() {
+  std::vector<fs::path> files;
+  const fs::path folder = scene_folder();
+  if (!fs::is_directory(folder)) return files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path find_scene(const std::string& scene) {
+  if (fs::is_regular_file(scene)) return scene;
+  std::vector<std::string> names;
+  for (const fs::path& file : scene_files()) {
+    if (file.stem() == scene) return file;
+    names.push_back(file.stem());
+  }
+  const std::string nearest = nearest_name(scene, names);
+  throw std::invalid_argument(fmt::format("scene = {}: must be a file or the name of a scene that `talus list` shows{}",
+                                          scene,
+                                          nearest.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", nearest)));
+}
+
+}  // namespace talus

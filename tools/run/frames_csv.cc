@@ -1,0 +1,60 @@
+#include "tools/run/frames_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace talus {
+
+template <int Dim>
+double kinetic_energy(const World<Dim>& world, std::span<const Shape<Dim>> shapes) {
+  const BodyStates<Dim>& states = world.states();
+  double energy = 0.0;
+  for (const BodyIndex body : world.awake()) {
+    const auto i = static_cast<std::size_t>(body);
+    const Shape<Dim>& shape = shapes[static_cast<std::size_t>(states.shape[i])];
+    Spin<Dim> spin = states.spin[i];
+    if constexpr (Dim == 3) spin = states.pose[i].rotation.inverse() * spin;
+    energy += 0.5 * (shape.mass * states.velocity[i].squaredNorm() + spin.dot(shape.inertia * spin));
+  }
+  return energy;
+}
+
+template <int Dim>
+FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file, const Scene<Dim>& scene)
+    : out_(file), shapes_(scene.world.shapes) {
+  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  out_ << "step,time_s,bodies,awake,slept,woken,piles,layers,occupation_ratio,kinetic_energy_J,"
+          "emit_ms,step_ms,collide_ms,solve_ms,count_ms,decide_ms,apply_ms,observe_ms\n";
+}
+
+template <int Dim>
+void FramesCsv<Dim>::on_frame(const Frame<Dim>& frame) {
+  std::size_t layers = 0;
+  double ratio = 0.0;
+  for (const Pile<Dim>& pile : frame.piles.piles()) {
+    layers += pile.layers.size();
+    ratio = std::max(ratio, pile.occupation_ratio());
+  }
+  const auto woken = std::count_if(frame.events.begin(), frame.events.end(), [](const auto& e) { return e.woke; });
+  const PhaseTimes& t = frame.phases;
+  out_ << fmt::format("{},{:.6f},{},{},{},{},{},{},{:.4f},{:.6g},", frame.step, frame.time, frame.world.states().size(),
+                      frame.world.awake().size(), static_cast<std::ptrdiff_t>(frame.events.size()) - woken, woken,
+                      frame.piles.piles().size(), layers, ratio, kinetic_energy<Dim>(frame.world, shapes_));
+  out_ << fmt::format("{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f}\n", 1e3 * t.emit, 1e3 * t.step,
+                      1e3 * t.engine.collide, 1e3 * t.engine.solve, 1e3 * t.count, 1e3 * t.decide, 1e3 * t.apply,
+                      1e3 * t.observe);
+}
+
+template <int Dim>
+void FramesCsv<Dim>::on_end(const Frame<Dim>&, std::string_view) {
+  out_.flush();
+}
+
+template double kinetic_energy(const World<2>&, std::span<const Shape<2>>);
+template double kinetic_energy(const World<3>&, std::span<const Shape<3>>);
+template class FramesCsv<2>;
+template class FramesCsv<3>;
+
+}  // namespace talus

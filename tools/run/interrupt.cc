@@ -1,0 +1,32 @@
+#include "tools/run/interrupt.h"
+
+#include <csignal>
+
+namespace talus {
+
+namespace {
+
+/// A signal handler can reach nothing but static storage.
+volatile std::sig_atomic_t interrupt_asked = 0;
+
+void on_signal(int signal) {
+  interrupt_asked = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  interrupt_asked = 0;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+Interrupt::~Interrupt() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+bool Interrupt::asked() const { return interrupt_asked != 0; }
+
+}  // namespace talus

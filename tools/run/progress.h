@@ -1,0 +1,29 @@
+#pragma once
+
+#include "common/simulation/observer.h"
+#include "common/simulation/stopwatch.h"
+
+namespace talus {
+
+/// Tells on standard error how far a run is: one line that is written over on a terminal, a plain line now and then
+/// elsewhere.
+template <int Dim>
+class Progress final : public Observer<Dim> {
+ public:
+  explicit Progress(std::int64_t steps);
+  void on_frame(const Frame<Dim>& frame) override;
+  void on_end(const Frame<Dim>& last, std::string_view reason) override;
+
+ private:
+  void write(const Frame<Dim>& frame);
+
+  std::int64_t steps_;
+  bool terminal_;
+  double interval_;  // [s] between lines
+  double since_line_ = 0.0;
+  double elapsed_ = 0.0;
+  std::int64_t line_step_ = 0;
+  Stopwatch watch_;
+};
+
+}  // namespace talus

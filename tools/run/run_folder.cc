@@ -1,0 +1,133 @@
+#include "tools/run/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "common/measure/shape_statistics.h"
+#include "common/simulation/state_hash.h"
+#include "tools/run/version.h"
+
+namespace talus {
+
+namespace fs = std::filesystem;
+
+fs::path make_run_folder(const fs::path& asked, const std::string& name) {
+  fs::path folder = asked;
+  if (asked.empty()) {
+    folder = fs::path("runs") / name;
+    for (int number = 2; fs::exists(folder); ++number) folder = fs::path("runs") / fmt::format("{}-{}", name, number);
+  } else if (fs::exists(asked) && (!fs::is_directory(asked) || !fs::is_empty(asked))) {
+    throw std::invalid_argument(
+        fmt::format("--out = {}: must be a new or empty folder; nothing is overwritten", asked.string()));
+  }
+  fs::create_directories(folder);
+  return folder;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json phases_json(const PhaseTimes& sum, double steps) {
+  const auto per_step = [&](double seconds) { return steps > 0.0 ? 1e3 * seconds / steps : 0.0; };
+  return {{"emit", per_step(sum.emit)},
+          {"step", per_step(sum.step)},
+          {"step_collide", per_step(sum.engine.collide)},
+          {"step_solve", per_step(sum.engine.solve)},
+          {"step_read", per_step(sum.engine.read)},
+          {"count", per_step(sum.count)},
+          {"decide", per_step(sum.decide)},
+          {"apply", per_step(sum.apply)},
+          {"observe", per_step(sum.observe)}};
+}
+
+template <int Dim>
+Json settings_json(const Scene<Dim>& scene) {
+  const SolverParams& solver = scene.world.solver;
+  return {{"dimension", Dim},
+          {"gravity", scene.world.gravity},
+          {"dt_s", scene.world.dt},
+          {"velocity_iterations", solver.velocity_iterations},
+          {"position_iterations", solver.position_iterations},
+          {"friction_directions", solver.friction_directions},
+          {"restitution_threshold", solver.restitution_threshold},
+          {"frames", scene.run.frames},
+          {"frame_rate", scene.run.frame_rate}};
+}
+
+/// Shape of what lies still enough to be part of the pile. Bins are D / 2 wide and reach to the farthest body.
+template <int Dim>
+Json shape_json(const Scene<Dim>& scene, const World<Dim>& world, double extent) {
+  constexpr double still = 1.0;  // [m/s]
+  constexpr int most_bins = 2000;
+  const auto bodies = placed_bodies<Dim>(scene.world.shapes, world.states(), still);
+  if (bodies.empty()) return nullptr;
+  ProfileGrid<Dim> grid{.centre = middle<Dim>(bodies), .base = scene.world.ground.height, .bin_width = 0.5 * extent};
+  double reach = 0.0;
+  for (const double radius : radii<Dim>(bodies, grid.centre)) reach = std::max(reach, radius);
+  grid.bins = std::clamp(static_cast<int>(reach / grid.bin_width) + 2, 3, most_bins);
+  const ShapeStatistics<Dim> shape = shape_statistics<Dim>(bodies, grid, extent);
+  const double degrees = 180.0 / std::numbers::pi;
+  return {{"bodies_at_rest", shape.bodies},
+          {"height_m", shape.peak},
+          {"centre_height_m", shape.centre_height},
+          {"r50_m", shape.r50},
+          {"r95_m", shape.r95},
+          {"angle_of_repose_deg", shape.repose.angle * degrees},
+          {"angle_of_repose_standard_error_deg", shape.repose.standard_error * degrees},
+          {"packing", shape.packing.all}};
+}
+
+}  // namespace
+
+template <int Dim>
+void write_summary(const fs::path& file, const SummaryInput& input, const Scene<Dim>& scene, const World<Dim>& world,
+                   const PileSet<Dim>& piles, const RunStatistics<Dim>& statistics) {
+  const auto bodies = world.states().shape.size();
+  Json piles_json = Json::array();
+  for (const Pile<Dim>& pile : piles.piles()) {
+    piles_json.push_back({{"centre", std::vector<double>(pile.centre.begin(), pile.centre.end())},
+                          {"structure_size", pile.structure_size},
+                          {"layers", pile.layers.size()},
+                          {"occupation_ratio", pile.occupation_ratio()}});
+  }
+  const Json summary = {{"talus", version_text()},
+                        {"build", build_text()},
+                        {"scene", input.scene_name},
+                        {"title", scene.title},
+                        {"backend", input.backend},
+                        {"policy", scene.policy.kind},
+                        {"seed", scene.seed},
+                        {"settings", settings_json(scene)},
+                        {"reason", input.reason},
+                        {"bodies", bodies},
+                        {"steps", statistics.steps()},
+                        {"wall_s", input.wall_seconds},
+                        {"ms_per_step", statistics.mean_step_ms()},
+                        {"ms_per_step_last_100", statistics.last_step_ms()},
+                        {"ms_per_phase", phases_json(statistics.sum(), static_cast<double>(statistics.steps()))},
+                        {"mean_awake", statistics.mean_awake()},
+                        {"asleep_at_end", bodies - world.awake().size()},
+                        {"slept_events", statistics.slept()},
+                        {"woken_events", statistics.woken()},
+                        {"emit_waits", input.emit_waits},
+                        {"work_skipped", statistics.work_skipped()},
+                        {"shape", shape_json(scene, world, piles.typical_body().extent)},
+                        {"piles", piles_json},
+                        {"end_hash", fmt::format("{:016x}", state_hash(world.states()))}};
+  std::ofstream out(file);
+  out << summary.dump(2) << '\n';
+  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+}
+
+template void write_summary(const fs::path&, const SummaryInput&, const Scene<2>&, const World<2>&, const PileSet<2>&,
+                            const RunStatistics<2>&);
+template void write_summary(const fs::path&, const SummaryInput&, const Scene<3>&, const World<3>&, const PileSet<3>&,
+                            const RunStatistics<3>&);
+
+}  // namespace talus

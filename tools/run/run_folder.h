@@ -1,0 +1,31 @@
+#pragma once
+// The folder that a run leaves behind.
+
+#include <filesystem>
+#include <string>
+
+#include "common/scene/scene.h"
+#include "tools/run/run_options.h"
+#include "tools/run/run_statistics.h"
+
+namespace talus {
+
+/// A new folder: `asked`, or where that is empty the first free one of runs/NAME, runs/NAME-2, ... Throws
+/// std::invalid_argument where `asked` exists and is not empty: nothing is ever overwritten.
+std::filesystem::path make_run_folder(const std::filesystem::path& asked, const std::string& name);
+
+/// What summary.json says beyond the statistics.
+struct SummaryInput {
+  std::string scene_name;
+  std::string backend;
+  std::string reason;           // "finished", "interrupted", or what went wrong
+  double wall_seconds = 0.0;    // from the first step to the last, observers included
+  std::int64_t emit_waits = 0;  // steps at which a due body found no room
+};
+
+/// Writes summary.json.
+template <int Dim>
+void write_summary(const std::filesystem::path& file, const SummaryInput& input, const Scene<Dim>& scene,
+                   const World<Dim>& world, const PileSet<Dim>& piles, const RunStatistics<Dim>& statistics);
+
+}  // namespace talus

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// What `talus run` was asked for.
+struct RunOptions {
+  std::string scene;                  // file, or the name of a scene in scenes/
+  std::string backend;                // empty: the dimension's first
+  std::string policy;                 // empty: the scene's
+  std::vector<std::string> settings;  // path=value, applied to the scene file before it is checked
+  std::optional<std::uint64_t> seed;  // not given: the scene's
+  std::filesystem::path out;          // run folder; empty: a new one under runs/
+  std::string lcm_url;                // empty: LCM_DEFAULT_URL, else LCM's own default with ttl=0
+  bool telemetry = true;              // live over LCM
+  double telemetry_hz = 60.0;         // pile messages a second of wall time; 0: every step
+  std::string against;                // policy to run the scene under once more, to tell the speed-up; empty: none
+  bool hash_only = false;             // print the end hash and nothing else; write no folder unless `out` is given
+};
+
+}  // namespace talus

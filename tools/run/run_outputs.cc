@@ -1,0 +1,66 @@
+#include "tools/run/run_outputs.h"
+
+#include <fmt/format.h>
+
+#include "common/scene/write_scene.h"
+#include "tools/picture/picture.h"
+#include "tools/run/frames_csv.h"
+#include "tools/run/progress.h"
+#include "tools/run/version.h"
+#ifdef TALUS_LCM
+#include "lcmtypes/publisher.h"
+#include "lcmtypes/run_recorder.h"
+#endif
+
+namespace talus {
+
+namespace {
+
+template <int Dim>
+std::string caption(const SummaryInput& input, const Scene<Dim>& scene, const World<Dim>& world) {
+  const auto bodies = world.states().shape.size();
+  return fmt::format("{}, policy {}: {} bodies, {} asleep", input.backend, scene.policy.kind, bodies,
+                     bodies - world.awake().size());
+}
+
+}  // namespace
+
+template <int Dim>
+RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
+                            const std::string& backend, Simulation<Dim>& simulation)
+    : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))) {
+  write_scene(scene, folder_ / "scene.toml");
+  simulation.add_observer(statistics_);
+  add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv", scene), simulation);
+#ifdef TALUS_LCM
+  RunInfo info = run_info(scene, scene_name, backend);
+  info.version = version_text();
+  add(std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene), simulation);
+  if (options.telemetry) {
+    const PublisherParams params{.url = options.lcm_url, .piles_rate = options.telemetry_hz};
+    add(std::make_unique<Publisher<Dim>>(info, scene, params), simulation);
+  }
+#endif
+  if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
+}
+
+template <int Dim>
+void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Dim>& simulation) {
+  simulation.add_observer(*observer);
+  observers_.push_back(std::move(observer));
+}
+
+template <int Dim>
+void RunOutputs<Dim>::finish(const SummaryInput& input, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
+  const World<Dim>& world = simulation.world();
+  write_summary(folder_ / "summary.json", input, scene, world, simulation.piles(), statistics_);
+  const PictureInput<Dim> picture{scene.world.shapes,          world.states(),     simulation.piles().piles(),
+                                  scene.world.obstacles,       scene.world.ground, scene.title,
+                                  caption(input, scene, world)};
+  draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture);
+}
+
+template class RunOutputs<2>;
+template class RunOutputs<3>;
+
+}  // namespace talus

@@ -1,0 +1,37 @@
+#pragma once
+// Everything that watches a run on behalf of `talus run`.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/simulation/simulation.h"
+#include "tools/run/run_folder.h"
+#include "tools/run/run_options.h"
+#include "tools/run/run_statistics.h"
+
+namespace talus {
+
+/// Makes the run folder, adds the observers that `options` ask for, and writes what is written at the end.
+template <int Dim>
+class RunOutputs {
+ public:
+  RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
+             const std::string& backend, Simulation<Dim>& simulation);
+
+  /// After Simulation::end(): summary.json, pile.svg and pile.png.
+  void finish(const SummaryInput& input, const Scene<Dim>& scene, Simulation<Dim>& simulation) const;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  const RunStatistics<Dim>& statistics() const { return statistics_; }
+
+ private:
+  void add(std::unique_ptr<Observer<Dim>> observer, Simulation<Dim>& simulation);
+
+  std::filesystem::path folder_;
+  RunStatistics<Dim> statistics_;
+  std::vector<std::unique_ptr<Observer<Dim>>> observers_;
+};
+
+}  // namespace talus

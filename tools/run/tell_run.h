@@ -1,0 +1,16 @@
+#pragma once
+
+#include "common/simulation/simulation.h"
+#include "tools/run/run_outputs.h"
+
+namespace talus {
+
+/// The closing lines of a run on standard output; on a terminal with its pile.
+template <int Dim>
+void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
+              const RunOutputs<Dim>& outputs);
+
+/// One line: how the run compares with one under another policy; both [ms] per step.
+void tell_speed_up(const std::string& other_policy, double other_ms, double own_ms);
+
+}  // namespace talus

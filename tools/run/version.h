@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace talus {
+
+/// Version and commit, as "0.1.0 (1a2b3c4d)"; a "+" behind the commit tells of uncommitted changes.
+std::string version_text();
+
+/// Compiler, its flags and build type.
+std::string build_text();
+
+}  // namespace talus

@@ -1,0 +1,40 @@
+// The talus command.
+
+#include <fmt/format.h>
+
+#include "common/scene/scene_errors.h"
+#include "tools/commands/commands.h"
+#ifdef TALUS_LCM
+#include "tools/monitor/monitor_command.h"
+#endif
+#include "tools/run/version.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("talus: piles of rigid bodies, simulated faster by freezing who need not move", "talus");
+  app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());
+  app.require_subcommand(1);
+  int exit_code = talus::exit_codes::success;
+  talus::add_run_command(app, exit_code);
+  talus::add_list_command(app, exit_code);
+  talus::add_check_command(app, exit_code);
+#ifdef TALUS_LCM
+  talus::add_monitor_command(app);
+#endif
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::RuntimeError& error) {
+    return error.get_exit_code();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? talus::exit_codes::success : talus::exit_codes::bad_input;
+  } catch (const talus::SceneErrors& errors) {
+    fmt::print(stderr, "{}\n", errors.what());
+    return talus::exit_codes::bad_input;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "talus: {}\n", error.what());
+    return talus::exit_codes::bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "talus: {}\n", error.what());
+    return talus::exit_codes::failed;
+  }
+  return exit_code;
+}
