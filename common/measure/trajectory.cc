@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -66,6 +67,23 @@ Rotation<Dim> Trajectory<Dim>::rotation(int frame, BodyIndex body) const {
   } else {
     return Rotation<3>(values[3], values[0], values[1], values[2]).normalized();
   }
+}
+
+template <int Dim>
+Trajectory<Dim> Trajectory<Dim>::part(int first, int count) const {
+  Trajectory copy(step_time_, steps_per_frame_);
+  const int end = std::min(first + count, frames());
+  if (end <= first) return copy;
+  copy.first_step_ = step(first);
+  const std::size_t from = entry(first, 0);
+  const std::size_t to = entry(end - 1, bodies(end - 1));
+  for (int frame = first; frame < end; ++frame) copy.first_.push_back(entry(frame, 0) - from);
+  copy.shape_.assign(shape_.begin(), shape_.begin() + bodies(end - 1));
+  copy.poses_.assign(poses_.begin() + static_cast<std::ptrdiff_t>(from * floats_per_body),
+                     poses_.begin() + static_cast<std::ptrdiff_t>(to * floats_per_body));
+  copy.flags_.assign(flags_.begin() + static_cast<std::ptrdiff_t>(from),
+                     flags_.begin() + static_cast<std::ptrdiff_t>(to));
+  return copy;
 }
 
 template <int Dim>

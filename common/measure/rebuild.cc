@@ -1,0 +1,43 @@
+#include "common/measure/rebuild.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace talus {
+
+template <int Dim>
+std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
+                                    const BodyStates<Dim>& states, Sleepers sleepers) {
+  std::unique_ptr<World<Dim>> world = make_world(description);
+  std::vector<BodyIndex> asleep;
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    world->add({states.shape[i], states.pose[i], states.velocity[i], states.spin[i]});
+    if (states.removed[i]) {
+      world->remove(body);
+    } else if (states.asleep[i]) {
+      asleep.push_back(body);
+    }
+  }
+  if (sleepers == Sleepers::frozen) world->freeze(asleep);
+  return world;
+}
+
+template <int Dim>
+WorldDescription<Dim> reference_settings(WorldDescription<Dim> description) {
+  description.dt = std::min(description.dt, 1.0 / 120.0);
+  description.engine_sleep = false;
+  description.solver.velocity_iterations = std::max(description.solver.velocity_iterations, 50);
+  description.solver.position_iterations = std::max(description.solver.position_iterations, 20);
+  description.solver.friction_directions = 2;
+  return description;
+}
+
+template std::unique_ptr<World<2>> rebuild(const WorldMaker<2>&, const WorldDescription<2>&, const BodyStates<2>&,
+                                           Sleepers);
+template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDescription<3>&, const BodyStates<3>&,
+                                           Sleepers);
+template WorldDescription<2> reference_settings(WorldDescription<2>);
+template WorldDescription<3> reference_settings(WorldDescription<3>);
+
+}  // namespace talus

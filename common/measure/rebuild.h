@@ -1,0 +1,31 @@
+#pragma once
+// A recorded state in a fresh world.
+
+#include <functional>
+#include <memory>
+
+#include "common/world/world.h"
+
+namespace talus {
+
+/// Makes an empty world of some engine.
+template <int Dim>
+using WorldMaker = std::function<std::unique_ptr<World<Dim>>(const WorldDescription<Dim>&)>;
+
+/// Whether bodies that slept are rebuilt awake or frozen.
+enum class Sleepers { awake, frozen };
+
+/// A fresh world that holds the bodies of `states` where and as fast as they were; a body keeps its index, removed ones
+/// are removed again. What an engine remembers of its last step (impulses to start the next one from) is not in a state
+/// and is lost: that alone moves a heap by some millimetres, so a measure built on this comes with the same for a full
+/// run.
+template <int Dim>
+std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
+                                    const BodyStates<Dim>& states, Sleepers sleepers);
+
+/// The description at settings that are taken for converged: no sleeping, 50 velocity and 20 position iterations, two
+/// friction directions, steps of 1/120 s or the description's if shorter.
+template <int Dim>
+WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
+
+}  // namespace talus

@@ -1,0 +1,39 @@
+#pragma once
+// Were the sleepers right to sleep? Wake them all and see whether the pile moves.
+
+#include <vector>
+
+#include "common/measure/rebuild.h"
+
+namespace talus {
+
+struct WakeTestParams {
+  double duration = 5.0;       // [s] > 0 simulated after waking; short: slow topples are not seen to the end
+  double energy_window = 0.5;  // [s] > 0 in which the wake energy is looked for
+  double far = 0.1;            // displacement, in D of the body, that counts as moved, > 0
+};
+
+/// What happened to a pile after everybody was woken.
+struct WakeTest {
+  int bodies = 0;
+  double mean = 0.0;                  // displacement over all bodies [m]
+  double p95 = 0.0;                   // [m]
+  double max = 0.0;                   // [m]
+  double share_far = 0.0;             // share of bodies displaced by more than `far` D
+  double energy = 0.0;                // largest kinetic energy of one body over its m g D, in the window
+  double energy_all = 0.0;            // largest sum of all kinetic energies over the sum of m g D, in the window
+  double creep = 0.0;                 // height lost by the centre of mass per minute / its height above the ground
+  std::vector<double> displacements;  // of the bodies not removed, ascending by index [m]
+};
+
+/// Rebuilds `states` in a fresh world with everybody awake and simulates on. `description` holds the settings to judge
+/// by, as reference_settings() gives them. The state should be a finished pile: what still falls counts as displaced.
+template <int Dim>
+WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
+                   const BodyStates<Dim>& states, const WakeTestParams& params = {});
+
+/// What `run` shows beyond a full run's state tested alike: creep and the rebuilding are in both. Field by field;
+/// without displacements.
+WakeTest excess(const WakeTest& run, const WakeTest& full);
+
+}  // namespace talus

@@ -1,0 +1,53 @@
+#pragma once
+// How much was not simulated, and how much need not have been.
+
+#include <cstdint>
+#include <span>
+
+#include "common/measure/trajectory.h"
+
+namespace talus {
+
+/// Counts of a run so far.
+struct Work {
+  std::int64_t body_steps = 0;  // bodies in the world, summed over steps
+  std::int64_t simulated = 0;   // of these awake
+  std::int64_t contacts = 0;    // contact points of awake bodies, summed over steps; 0 unless counted
+
+  /// Share of body-steps not simulated; 0 before the first step.
+  double skipped() const {
+    return body_steps > 0 ? 1.0 - static_cast<double>(simulated) / static_cast<double>(body_steps) : 0.0;
+  }
+};
+
+/// Share of the contact points of a full run that `run` did not solve. Negative where it had more.
+double contacts_skipped(const Work& run, const Work& full);
+
+/// Counts while a simulation runs. With `contacts` each step's contacts are gathered, which costs time of its own: not
+/// in a run that is timed. Awake is who is awake when a step is over, sleep decisions included.
+template <int Dim>
+class WorkCounter : public Observer<Dim> {
+ public:
+  explicit WorkCounter(bool contacts) : count_contacts_(contacts) {}
+  void on_frame(const Frame<Dim>& frame) override;
+  const Work& work() const { return work_; }
+
+ private:
+  bool count_contacts_;
+  Work work_;
+};
+
+/// What an oracle could save that simulates only bodies about to move.
+struct OracleCeiling {
+  double share = 0.0;    // of body-frames at which the body moves far within the window
+  double ceiling = 0.0;  // 1 / share: no policy that lets only still bodies sleep is faster; infinite if nothing moves
+};
+
+/// From a run without sleeping: a body-frame counts if within the next `window` [s] the body is at some frame more than
+/// `x` D away from where it is. Frames from `first` to before `last` whose window lies within the run; `last` < 0: all.
+/// The pour and the calm after it have ceilings of their own.
+template <int Dim>
+OracleCeiling oracle_ceiling(const Trajectory<Dim>& full, std::span<const double> extents, double x,
+                             double window = 0.5, int first = 0, int last = -1);
+
+}  // namespace talus
