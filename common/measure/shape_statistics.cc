@@ -28,13 +28,11 @@ Packing packing(std::span<const PlacedBody<Dim>> bodies, const Vec<Dim>& base_ce
     result.layers[static_cast<std::size_t>(layer)] += body.volume;
     solid += body.volume;
   }
-  const auto volume_above = [&](double above) {
-    return tip_volume<Dim>(Profile<Dim>::base_area(radius_at(above)), apex - above);
-  };
   for (int layer = 0; layer < layers; ++layer) {
-    result.layers[static_cast<std::size_t>(layer)] /= volume_above(layer * rise) - volume_above((layer + 1) * rise);
+    result.layers[static_cast<std::size_t>(layer)] /=
+        Profile<Dim>::slice_volume(radius_at(layer * rise), radius_at((layer + 1) * rise), rise);
   }
-  result.all = solid / volume_above(0.0);
+  result.all = solid / Profile<Dim>::slice_volume(foot, 0.0, apex);
   return result;
 }
 
