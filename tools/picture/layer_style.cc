@@ -9,6 +9,9 @@ namespace talus {
 double layer_opacity(const Layer& layer) { return 0.10 + 0.22 * std::clamp(layer.density(), 0.0, 1.0); }
 
 void DensityLabels::draw(cairo_t* canvas, const Vec2& at, const Layer& layer) {
+  if (layer.count == 0) {
+    return;
+  }
   const TextStyle style = {.size = 0.82 * params_.font_size, .colour = params_.layer, .halo = 3.0};
   const std::string text = fmt::format("{:.2f}", layer.density());
   const Vec2 left = at + Vec2(0.4 * params_.font_size, 0.0);

@@ -11,7 +11,7 @@ namespace talus {
 /// Denser layers are less translucent.
 double layer_opacity(const Layer& layer);
 
-/// Writes densities beside layers, and leaves out those that would cover another.
+/// Writes densities beside layers that hold bodies, and leaves out those that would cover another.
 class DensityLabels {
  public:
   explicit DensityLabels(const PictureParams& params) : params_(params) {}

@@ -26,8 +26,8 @@ struct PictureParams {
   Colour paper = {1.0, 1.0, 1.0};
   Colour text = {0.12, 0.13, 0.15};
   Colour quiet_text = {0.38, 0.40, 0.43};
-  Colour asleep = {0.15, 0.16, 0.18};
-  Colour asleep_outline = {0.50, 0.52, 0.55};
+  Colour asleep = {0.17, 0.18, 0.20};
+  Colour asleep_outline = {0.60, 0.62, 0.65};
   std::vector<Colour> awake = {{0.96, 0.68, 0.26}, {0.91, 0.47, 0.31}, {0.96, 0.83, 0.50}, {0.85, 0.56, 0.50}};
   Colour awake_outline = {0.42, 0.23, 0.06};  // `awake` by shape, in turn; not empty
   Colour layer = {0.16, 0.44, 0.82};          // opacity follows the layer's density

@@ -1,6 +1,5 @@
 #include "tools/picture/shaded_image.h"
 
-#include <array>
 #include <memory>
 
 #include "tools/picture/circle.h"
@@ -9,15 +8,6 @@
 namespace talus {
 
 namespace {
-
-constexpr double crease = 0.85;  // cosine of the angle between two faces of one body above which no line is drawn
-
-bool is_body(const Face& face) { return face.owner >= 0; }
-bool is_obstacle(const Face& face) { return face.owner <= obstacle_owner; }
-
-bool faces_eye(const Face& face, const Projection<3>& projection) {
-  return face.normal.dot(projection.towards_eye(face.corners[0])) > 0.0;
-}
 
 Projection<3> finer(Projection<3> projection, int samples) {
   projection.scale *= samples;
@@ -70,144 +60,6 @@ void ShadedImage::enter(std::vector<Face> faces) {
     } else {
       faces_.push_back(std::move(face));
       buffer_.add(faces_.back(), static_cast<std::int32_t>(faces_.size()) - 1, projection_);
-    }
-  }
-}
-
-bool ShadedImage::hides_bodies(const Face& face) const {
-  std::int64_t covered = 0;
-  std::int64_t bodies = 0;
-  scan_convex(projected(face, projection_), buffer_.width(), buffer_.height(), [&](int x, int y, double nearness) {
-    ++covered;
-    bodies += buffer_.face(x, y) >= 0 && is_body(faces_[static_cast<std::size_t>(buffer_.face(x, y))]) &&
-                      nearness > static_cast<double>(buffer_.nearness(x, y))
-                  ? 1
-                  : 0;
-  });
-  return bodies > covered / 50;
-}
-
-ShadedImage::Paint ShadedImage::paint_of(const Face& face, const PictureInput<3>& input) const {
-  if (face.owner == ground_owner) {
-    return {params_.paper, params_.paper};
-  }
-  if (is_obstacle(face)) {
-    return {params_.obstacle, params_.obstacle_outline};
-  }
-  const auto body = static_cast<std::size_t>(face.owner);
-  if (input.states.asleep[body] != 0) {
-    return {params_.asleep, params_.asleep_outline};
-  }
-  return {params_.awake[static_cast<std::size_t>(input.states.shape[body]) % params_.awake.size()],
-          params_.awake_outline};
-}
-
-double ShadedImage::outline_strength(int x, int y) const {
-  const std::int32_t here = buffer_.face(x, y);
-  const Face& face = faces_[static_cast<std::size_t>(here)];
-  const std::array<std::array<int, 2>, 4> neighbours = {{{x + 1, y}, {x, y + 1}, {x - 1, y}, {x, y - 1}}};
-  double strength = 0.0;
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    const auto [nx, ny] = neighbours[i];
-    if (nx < 0 || ny < 0 || nx >= buffer_.width() || ny >= buffer_.height() || buffer_.face(nx, ny) == here) {
-      continue;
-    }
-    const std::int32_t there = buffer_.face(nx, ny);
-    const bool same_body = there >= 0 && faces_[static_cast<std::size_t>(there)].owner == face.owner;
-    if (!same_body) {
-      // The line belongs to the nearer of two bodies.
-      strength = buffer_.nearness(nx, ny) <= buffer_.nearness(x, y) ? 1.0 : strength;
-    } else if (i < 2 && faces_[static_cast<std::size_t>(there)].normal.dot(face.normal) < crease) {
-      strength = std::max(strength, 0.7);
-    }
-  }
-  return strength * outline_limit_;
-}
-
-ShadedImage::Pixel ShadedImage::shaded(int x, int y, double light) const {
-  const std::int32_t number = buffer_.face(x, y);
-  const Paint& paint = paints_[static_cast<std::size_t>(number)];
-  const bool ground = faces_[static_cast<std::size_t>(number)].owner == ground_owner;
-  const double line = ground ? 0.0 : outline_strength(x, y);
-  const Colour colour = mix(paint.fill, paint.outline, line);
-  // Lines keep some of their colour in the dark, or black bodies would melt into one another.
-  const double solid = 0.2 + 0.85 * light;
-  const double strength = ground ? std::min(1.0, 0.35 + 0.65 * light) : std::lerp(solid, 0.5 + 0.5 * solid, line);
-  return {colour.red * strength, colour.green * strength, colour.blue * strength};
-}
-
-void ShadedImage::shade(const Lighting& lighting) {
-  std::vector<LitFace> skies(static_cast<std::size_t>(width_));
-  for (int y = 0; y < height_; ++y) {
-    if (y % 2 == 0) {
-      skies.assign(skies.size(), {});
-    }
-    for (int x = 0; x < width_; ++x) {
-      // Squares of two by two pixels share the sky's light where they show one face.
-      pixel(x, y) = mean_of_samples(x, y, lighting, skies[static_cast<std::size_t>(x / 2)]);
-    }
-  }
-}
-
-ShadedImage::Pixel ShadedImage::mean_of_samples(int x, int y, const Lighting& lighting, LitFace& sky) const {
-  const int samples = params_.samples;
-  const double share = 1.0 / (samples * samples);
-  LitFace sun;
-  Pixel mean;
-  for (int sample = 0; sample < samples * samples; ++sample) {
-    const int sx = x * samples + sample % samples;
-    const int sy = y * samples + sample / samples;
-    const std::int32_t number = buffer_.face(sx, sy);
-    Pixel seen = {params_.paper.red, params_.paper.green, params_.paper.blue};
-    if (number != ZBuffer::nothing) {
-      const Vec3& normal = faces_[static_cast<std::size_t>(number)].normal;
-      const Vec3 point = projection_.unproject({sx + 0.5, sy + 0.5, static_cast<double>(buffer_.nearness(sx, sy))});
-      if (number != sun.face) {
-        sun = {number, lighting.sun(point, normal)};
-      }
-      if (number != sky.face) {
-        sky = {number, lighting.sky(point, normal)};
-      }
-      seen = shaded(sx, sy, sun.light + sky.light);
-    }
-    mean.red += share * seen.red;
-    mean.green += share * seen.green;
-    mean.blue += share * seen.blue;
-  }
-  return mean;
-}
-
-void ShadedImage::blend(const Face& face, const Colour& colour) {
-  const int samples = params_.samples;
-  const double alpha = colour.alpha / (samples * samples);
-  scan_convex(projected(face, projection_), buffer_.width(), buffer_.height(), [&](int x, int y, double nearness) {
-    if (nearness <= static_cast<double>(buffer_.nearness(x, y))) {
-      return;
-    }
-    Pixel& seen = pixel(x / samples, y / samples);
-    seen.red += alpha * (colour.red - seen.red);
-    seen.green += alpha * (colour.green - seen.green);
-    seen.blue += alpha * (colour.blue - seen.blue);
-  });
-}
-
-void ShadedImage::blend_layers(std::span<const Pile<3>> piles) {
-  constexpr int sides = 120;
-  for (const Pile<3>& pile : piles) {
-    for (std::size_t i = 0; i < pile.layers.size(); ++i) {
-      const Layer& layer = pile.layers[i];
-      const Colour colour = with_alpha(params_.layer, 0.6 * layer_opacity(layer));
-      const Vec3 middle = pile.centre + layer.bottom * Vec3::UnitZ();
-      const std::vector<Vec3> low = circle<3>(middle, layer.radius, sides);
-      const std::vector<Vec3> high = circle<3>(pile.centre + layer.top * Vec3::UnitZ(), layer.radius, sides);
-      for (std::size_t k = 0; k < low.size(); ++k) {
-        const std::size_t next = (k + 1) % low.size();
-        const Face wall = {{low[k], low[next], high[next], high[k]}, (low[k] + low[next]) / 2.0 - middle, 0};
-        if (faces_eye(wall, projection_)) {
-          blend(wall, colour);
-        }
-      }
-      blend({high, Vec3::UnitZ(), 0}, with_alpha(colour, 0.5 * colour.alpha));
     }
   }
 }

@@ -23,6 +23,10 @@ NearnessPlane::NearnessPlane(const std::vector<Vec3>& corners) {
   }
 }
 
+bool faces_eye(const Face& face, const Projection<3>& projection) {
+  return face.normal.dot(projection.towards_eye(face.corners[0])) > 0.0;
+}
+
 std::vector<Vec3> projected(const Face& face, const Projection<3>& projection) {
   std::vector<Vec3> result;
   result.reserve(face.corners.size() + 1);

@@ -41,6 +41,9 @@ class ZBuffer {
   std::vector<std::int32_t> face_;
 };
 
+/// Whether the face's outside is turned to the eye.
+bool faces_eye(const Face& face, const Projection<3>& projection);
+
 /// The face's corners on the page, cut off where they come too near to the eye. Empty if nothing is left.
 std::vector<Vec3> projected(const Face& face, const Projection<3>& projection);
 

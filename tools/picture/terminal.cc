@@ -1,0 +1,177 @@
+#include "tools/picture/terminal.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "tools/picture/dots.h"
+
+namespace talus {
+
+namespace {
+
+constexpr int label_columns = 6;  // beside the picture, on its right
+constexpr int cell_width = 2;     // dots in a character
+constexpr int cell_height = 4;
+
+/// What a character shows: its commonest kind of dot, and which of its dots are set.
+struct Cell {
+  Dot kind = Dot::empty;
+  unsigned braille = 0;  // bits of the Unicode character
+};
+
+Cell cell_at(const Dots& dots, int column, int row) {
+  // The order of bits in U+2800..U+28FF.
+  constexpr std::array<std::array<unsigned, cell_width>, cell_height> bits = {
+      {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
+  std::array<int, 4> counts = {};
+  Cell cell;
+  for (int y = 0; y < cell_height; ++y) {
+    for (int x = 0; x < cell_width; ++x) {
+      const Dot dot = dots.at(column * cell_width + x, row * cell_height + y);
+      if (dot != Dot::empty) {
+        counts[static_cast<std::size_t>(dot)] += 1;
+        cell.braille |= bits[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+      }
+    }
+  }
+  for (const Dot kind : {Dot::obstacle, Dot::asleep, Dot::awake}) {
+    const int count = counts[static_cast<std::size_t>(kind)];
+    if (count > 0 && count >= counts[static_cast<std::size_t>(cell.kind)]) {
+      cell.kind = kind;
+    }
+  }
+  return cell;
+}
+
+std::string utf8(unsigned braille) {
+  const unsigned code = 0x2800U + braille;
+  return {static_cast<char>(0xE0U | (code >> 12U)), static_cast<char>(0x80U | ((code >> 6U) & 0x3FU)),
+          static_cast<char>(0x80U | (code & 0x3FU))};
+}
+
+/// Grey that is seen on black and on white, orange, darker grey.
+const char* colour_of(Dot kind) {
+  switch (kind) {
+    case Dot::awake:
+      return "\x1b[38;5;214m";
+    case Dot::asleep:
+      return "\x1b[38;5;244m";
+    case Dot::obstacle:
+      return "\x1b[38;5;67m";
+    case Dot::empty:
+      break;
+  }
+  return "\x1b[0m";
+}
+
+const char* shade_of(Dot kind) {
+  constexpr std::array<const char*, 4> shades = {" ", "▒", "█", "░"};
+  return shades[static_cast<std::size_t>(kind)];
+}
+
+std::string line_of(const Dots& dots, int row, bool colours) {
+  std::string line;
+  Dot colour = Dot::empty;
+  for (int column = 0; column < dots.width / cell_width; ++column) {
+    const Cell cell = cell_at(dots, column, row);
+    if (!colours) {
+      line += shade_of(cell.kind);
+      continue;
+    }
+    if (cell.kind != colour) {
+      line += colour_of(cell.kind);
+      colour = cell.kind;
+    }
+    line += cell.kind == Dot::empty ? " " : utf8(cell.braille);
+  }
+  return colour == Dot::empty ? line : line + colour_of(Dot::empty);
+}
+
+template <int Dim>
+std::vector<std::string> densities(const PictureInput<Dim>& input, const Projection<Dim>& projection, int rows) {
+  std::vector<std::string> labels(static_cast<std::size_t>(rows));
+  if (input.piles.size() == 1) {
+    const Pile<Dim>& pile = input.piles[0];
+    for (const Layer& layer : pile.layers) {
+      const Vec<Dim> middle = pile.centre + 0.5 * (layer.bottom + layer.top) * Vec<Dim>::Unit(Dim - 1);
+      const int row = static_cast<int>(std::floor(projection.on_page(middle).y() / cell_height));
+      if (layer.count > 0 && row >= 0 && row < rows && labels[static_cast<std::size_t>(row)].empty()) {
+        labels[static_cast<std::size_t>(row)] = fmt::format("  {:.2f}", layer.density());
+      }
+    }
+  }
+  return labels;
+}
+
+template <int Dim>
+std::string legend(const PictureInput<Dim>& input, const Framing<Dim>& framing, bool colours) {
+  std::array<std::size_t, 4> counts = {};
+  for (const auto* bodies : {&framing.drawn, &framing.outside}) {
+    for (const BodyIndex body : *bodies) {
+      const bool asleep = input.states.asleep[static_cast<std::size_t>(body)] != 0;
+      counts[static_cast<std::size_t>(asleep ? Dot::asleep : Dot::awake)] += 1;
+    }
+  }
+  std::string text;
+  for (const Dot kind : {Dot::asleep, Dot::awake}) {
+    const std::string mark = colours ? std::string(colour_of(kind)) + "⣿" + colour_of(Dot::empty) : shade_of(kind);
+    text += fmt::format("{} {} {}   ", mark, counts[static_cast<std::size_t>(kind)],
+                        kind == Dot::asleep ? "asleep" : "awake");
+  }
+  if (!framing.outside.empty()) {
+    text += fmt::format("{} outside", framing.outside.size());
+  }
+  return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+}
+
+void check(const TerminalParams& params) {
+  if (params.columns < 48 || params.columns > 400) {
+    throw std::invalid_argument(fmt::format("terminal.columns = {}: must be 48 to 400", params.columns));
+  }
+  if (params.rows < 6 || params.rows > 200) {
+    throw std::invalid_argument(fmt::format("terminal.rows = {}: must be 6 to 200", params.rows));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::string terminal_picture(const PictureInput<Dim>& input, const TerminalParams& params) {
+  check(params);
+  const Framing<Dim> framing = framing_of(input);
+  Projection<Dim> projection = side_view(framing);
+  const int columns = params.columns - label_columns;
+  Box<2> area(Vec2::Zero(), Vec2(columns * cell_width, (params.rows - 2) * cell_height));
+  const double needed = fit<Dim>(projection, framing.points, area).y();
+  const int rows = std::clamp(static_cast<int>(std::ceil(needed / cell_height)), 1, params.rows - 2);
+  // Whole rows, with the lowest point on the last one.
+  area.max().y() = rows * cell_height;
+  area.min().y() = area.max().y() - needed;
+  fit<Dim>(projection, framing.points, area);
+
+  const Dots dots = dots_of(input, framing, projection, columns * cell_width, rows * cell_height);
+  const std::vector<std::string> labels = densities(input, projection, rows);
+  std::string text;
+  for (int row = 0; row < rows; ++row) {
+    const std::string line = line_of(dots, row, params.colours) + labels[static_cast<std::size_t>(row)];
+    const std::size_t end = line.find_last_not_of(' ') + 1;
+    // Room for a cone that rises above all bodies is of no use here.
+    if (end > 0 || !text.empty()) {
+      text += line.substr(0, end) + "\n";
+    }
+  }
+  if (input.ground.present) {
+    for (int column = 0; column < columns; ++column) {
+      text += "▔";
+    }
+    text += "\n";
+  }
+  return text + legend(input, framing, params.colours);
+}
+
+template std::string terminal_picture(const PictureInput<2>&, const TerminalParams&);
+template std::string terminal_picture(const PictureInput<3>&, const TerminalParams&);
+
+}  // namespace talus
