@@ -23,7 +23,7 @@ struct Source {
   Vec<Dim> spread = Vec<Dim>::Zero();                  // [m] >= 0, uniform to both sides of `position` on each axis
   Vec<Dim> velocity = Vec<Dim>::Zero();                // [m/s]
   Vec<Dim> velocity_spread = Vec<Dim>::Zero();         // [m/s] >= 0, uniform to both sides
-  std::optional<Rotation<Dim>> orientation;            // not given: uniformly random
+  std::optional<Rotation<Dim>> orientation = {};       // not given: uniformly random
   double spin_spread = 0.0;                            // [rad/s] >= 0, uniform on each axis
   Vec<Dim> sweep = Vec<Dim>::Zero();  // [m]: the spout moves to and fro between position - sweep and position + sweep
   double sweep_period = 0.0;          // [s] >= 0, there and back; 0: it stands still

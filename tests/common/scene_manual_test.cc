@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "common/scene/read_scene.h"
+#include "common/scene/read_shape.h"
+#include "tests/common/scene_description.h"
+
+namespace talus {
+namespace {
+
+std::vector<std::string> manual() {
+  std::ifstream stream(std::filesystem::path(TALUS_SOURCE_DIR) / "docs" / "scenes.md");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+// Keys of the tables under each `## ... HEAD` of the manual, as "HEAD key".
+std::set<std::string> keys_of_the_manual() {
+  const std::regex head("## .*`(.*)`");
+  const std::regex row(R"(\| (`.*?) \|.*)");
+  const std::regex name("`([a-z_]+)`");
+  std::set<std::string> keys;
+  std::string section;
+  std::smatch match;
+  for (const std::string& line : manual()) {
+    if (std::regex_match(line, match, head)) {
+      section = match[1];
+    } else if (std::regex_match(line, match, row)) {
+      const std::string names = match[1];
+      for (std::sregex_iterator i(names.begin(), names.end(), name), end; i != end; ++i) {
+        keys.insert(section + " " + (*i)[1].str());
+      }
+    }
+  }
+  return keys;
+}
+
+// `source[].rate` as the manual has it: "[[source]] rate".
+std::string in_manual(const std::string& key) {
+  const std::size_t dot = key.rfind('.');
+  if (dot == std::string::npos) {
+    return "root " + key;
+  }
+  std::string head = key.substr(0, dot);
+  if (head == "pile[].boundary") {
+    head = "[pile.boundary]";
+  } else if (head == "shape.*") {
+    head = "[shape.NAME]";
+  } else if (head.ends_with("[]")) {
+    head = "[[" + head.substr(0, head.size() - 2) + "]]";
+  } else {
+    head = "[" + head + "]";
+  }
+  return head + " " + key.substr(dot + 1);
+}
+
+// All that the reader looks for, whatever the dimension and the kinds.
+template <int Dim>
+std::set<std::string> keys_of_the_reader() {
+  std::string text = "dimension = " + std::to_string(Dim) + "\nsource = [{angle_deg = 0}]\n";
+  std::string shapes;
+  std::string obstacles = "{kind = \"container\"}";
+  for (const std::string& kind : shape_kinds<Dim>()) {
+    shapes += "[shape." + kind + "]\nkind = \"" + kind + "\"\n";
+    obstacles += ", {kind = \"" + kind + "\", angle_deg = 0}";
+  }
+  text += "obstacle = [" + obstacles + "]\n";
+  text += "pile = [{boundary = {kind = \"box\"}}, {boundary = {kind = \"cylinder\"}}]\n" + shapes;
+  return keys_looked_for(text);
+}
+
+std::set<std::string> keys_of_the_reader() {
+  std::set<std::string> keys = keys_of_the_reader<2>();
+  keys.merge(keys_of_the_reader<3>());
+  return keys;
+}
+
+TEST(Manual, HasEveryKeyThatTheReaderKnows) {
+  const std::set<std::string> documented = keys_of_the_manual();
+  const std::set<std::string> keys = keys_of_the_reader();
+  EXPECT_GT(keys.size(), 60u);
+  for (const std::string& key : keys) {
+    const std::string name = key.substr(key.rfind('.') + 1);
+    const bool of_a_kind = key.starts_with("obstacle[].") && documented.contains("[shape.NAME] " + name);
+    EXPECT_TRUE(documented.contains(in_manual(key)) || of_a_kind) << key << " is not in docs/scenes.md";
+  }
+}
+
+TEST(Manual, HasNoKeyThatTheReaderDoesNotKnow) {
+  std::set<std::string> known;
+  for (const std::string& key : keys_of_the_reader()) {
+    known.insert(in_manual(key));
+  }
+  for (const std::string& key : keys_of_the_manual()) {
+    EXPECT_TRUE(known.contains(key)) << key << " of docs/scenes.md is unknown to the reader";
+  }
+}
+
+// The TOML blocks of the manual.
+std::vector<std::string> examples() {
+  std::vector<std::string> blocks;
+  bool inside = false;
+  for (const std::string& line : manual()) {
+    if (line == "```toml") {
+      inside = true;
+      blocks.emplace_back();
+    } else if (line.starts_with("```")) {
+      inside = false;
+    } else if (inside) {
+      blocks.back() += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+TEST(Manual, GivesTheDefaultsThatTheReaderHas) {
+  ASSERT_EQ(examples().size(), 2u);
+  Scene<2> shortest = std::get<Scene<2>>(parse_scene(examples()[0], "short example"));
+  const Scene<2> written_out = std::get<Scene<2>>(parse_scene(examples()[1], "long example"));
+  shortest.title = written_out.title;
+  EXPECT_EQ(description(shortest), description(written_out));
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include "common/scene/read_scene.h"
+#include "common/scene/warnings.h"
+
+namespace talus {
+namespace {
+
+// The warnings of a scene of one ball shape, which has none, with something added or changed.
+std::string warnings_with(std::vector<Override> overrides) {
+  const std::string text =
+      "title = \"A scene\"\ndimension = 3\nshape.ball = {kind = \"ball\", radius = 0.5}\n"
+      "source = [{rate = 2, count = 10}]\npile = [{alpha_deg = 20}]\n";
+  std::string lines;
+  for (const std::string& line : warnings(std::get<Scene<3>>(parse_scene(text, "text", overrides)))) {
+    lines += line + "\n";
+  }
+  return lines;
+}
+
+void expect_one(const std::string& lines, const std::string& part) {
+  EXPECT_NE(lines.find(part), std::string::npos) << lines;
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1) << lines;
+}
+
+TEST(Warnings, AreNoneForASoundScene) { EXPECT_EQ(warnings_with({}), ""); }
+
+TEST(Warnings, TellOfASpoutThatCannotKeepUp) {
+  expect_one(warnings_with({{"source[0].rate=5"}}), "source[0]: asks for 5 bodies a second, but");
+}
+
+TEST(Warnings, TellOfBodiesThatAreDueAfterTheEnd) {
+  expect_one(warnings_with({{"run.frames=60"}}), "source[0]: its last body is due at 4.5 s, the run ends at 2 s");
+}
+
+TEST(Warnings, TellOfSizesThatEnginesHoldBadly) {
+  expect_one(warnings_with({{"shape.ball.radius=0.09"}}), "shape.ball: 0.18 to 0.18 m wide");
+}
+
+TEST(Warnings, TellOfMassesThatAreTooDifferent) {
+  const Override heavy{"shape.heavy={kind=\"ball\", radius=0.5, density=20000}"};
+  expect_one(warnings_with({heavy}), "masses differ by a factor of 20");
+  EXPECT_EQ(warnings_with({heavy, {"world.solver.velocity_iterations=50"}}), "");
+}
+
+TEST(Warnings, TellOfVolumesThatAreTooDifferentForOnePile) {
+  expect_one(warnings_with({{"shape.large={kind=\"ball\", radius=0.65}"}, {"source[0].rate=1.9"}}),
+             "bounding boxes differ by a factor of 2.2");
+}
+
+TEST(Warnings, TellOfAPolicyWithoutAPile) {
+  expect_one(warnings_with({{"pile=[]"}}), "without any [[pile]]");
+  EXPECT_EQ(warnings_with({{"pile=[]"}, {"policy.kind=full"}}), "");
+}
+
+TEST(Warnings, TellOfLongSteps) { expect_one(warnings_with({{"world.steps_per_second=30"}}), "below 60"); }
+
+}  // namespace
+}  // namespace talus
