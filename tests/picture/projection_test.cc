@@ -35,8 +35,10 @@ TEST(Projection, ShowsUpAsUpAndNearerAsNearer) {
 
 TEST(ZBuffer, ShowsTheNearerFaceWhateverTheOrder) {
   const auto square = [](double side, double height) {
-    return Face{
-        {{-side, -side, height}, {side, -side, height}, {side, side, height}, {-side, side, height}}, Vec3::UnitZ(), 0};
+    return Face{{{-side, -side, height}, {side, -side, height}, {side, side, height}, {-side, side, height}},
+                Vec3::UnitZ(),
+                0,
+                {}};
   };
   Projection<3> above = Projection<3>::looking_along(Vec3::UnitZ(), Vec3::Zero(), 0.0);
   above.scale = 10.0;
@@ -65,7 +67,7 @@ TEST(ZBuffer, SharesNoPixelBetweenFacesOfACommonEdge) {
 
 TEST(ZBuffer, CutsOffWhatLiesBehindTheEye) {
   // Ground that reaches far behind a camera 20 m away.
-  const Face ground = {{{-1e3, -1e3, 0.0}, {1e3, -1e3, 0.0}, {1e3, 1e3, 0.0}, {-1e3, 1e3, 0.0}}, Vec3::UnitZ(), -1};
+  const Face ground = {{{-1e3, -1e3, 0.0}, {1e3, -1e3, 0.0}, {1e3, 1e3, 0.0}, {-1e3, 1e3, 0.0}}, Vec3::UnitZ(), -1, {}};
   ZBuffer buffer(800, 600);
   buffer.add(ground, 0, camera(20.0));
   EXPECT_EQ(buffer.face(400, 300), 0);

@@ -1,5 +1,7 @@
 #include "tools/picture/face.h"
 
+#include <algorithm>
+
 #include "common/shape/surface.h"
 
 namespace talus {
@@ -9,16 +11,40 @@ namespace {
 /// Round shapes get fewer faces where bodies are many, and small in the picture.
 int segments_for(std::size_t bodies) { return bodies > 1500 ? 12 : 24; }
 
-void add_faces(std::vector<Face>& faces, const std::vector<Loop<3>>& loops, const Pose<3>& pose, std::int32_t owner) {
-  for (const Loop<3>& loop : loops) {
-    Face& face = faces.emplace_back();
-    face.owner = owner;
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      face.corners.push_back(pose * loop[i]);
-      normal += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
+/// The faces of a shape, in its own axes.
+std::vector<Face> faces_of(const Shape<3>& shape, int segments) {
+  std::vector<Face> all;
+  for (const Piece<3>& piece : shape.pieces) {
+    Shape<3> alone;
+    alone.pieces = {piece};
+    std::optional<Core> core;
+    if (const auto* ball = std::get_if<BallPiece<3>>(&piece)) {
+      core = {ball->centre, ball->centre};
+    } else if (const auto* capsule = std::get_if<CapsulePiece<3>>(&piece)) {
+      core = {capsule->a, capsule->b};
     }
-    face.normal = (pose.rotation * normal).normalized();
+    for (const Loop<3>& loop : faces(alone, segments)) {
+      Vec3 normal = Vec3::Zero();
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        normal += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
+      }
+      all.push_back({loop, normal.normalized(), 0, core});
+    }
+  }
+  return all;
+}
+
+void add_faces(std::vector<Face>& all, const std::vector<Face>& shape, const Pose<3>& pose, std::int32_t owner) {
+  for (const Face& face : shape) {
+    Face& placed = all.emplace_back(face);
+    placed.owner = owner;
+    placed.normal = pose.rotation * face.normal;
+    for (Vec3& corner : placed.corners) {
+      corner = pose * corner;
+    }
+    if (face.core) {
+      placed.core = {pose * face.core->a, pose * face.core->b};
+    }
   }
 }
 
@@ -35,11 +61,21 @@ void add_ground(std::vector<Face>& faces, const Framing<3>& framing, double heig
 
 }  // namespace
 
+Vec3 Face::normal_at(const Vec3& point) const {
+  if (!core) {
+    return normal;
+  }
+  const Vec3 along = core->b - core->a;
+  const double length = along.squaredNorm();
+  const double share = length > 0.0 ? std::clamp((point - core->a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (point - core->a - share * along).normalized();
+}
+
 std::vector<Face> faces_of(const PictureInput<3>& input, const Framing<3>& framing) {
   const int segments = segments_for(framing.drawn.size());
-  std::vector<std::vector<Loop<3>>> shapes;
+  std::vector<std::vector<Face>> shapes;
   for (const Shape<3>& shape : input.shapes) {
-    shapes.push_back(faces(shape, segments));
+    shapes.push_back(faces_of(shape, segments));
   }
   std::vector<Face> all;
   for (const BodyIndex body : framing.drawn) {
@@ -48,7 +84,7 @@ std::vector<Face> faces_of(const PictureInput<3>& input, const Framing<3>& frami
   }
   for (std::size_t k = 0; k < input.obstacles.size(); ++k) {
     const Obstacle<3>& obstacle = input.obstacles[k];
-    add_faces(all, faces(obstacle.shape, 48), obstacle.pose, obstacle_owner - static_cast<std::int32_t>(k));
+    add_faces(all, faces_of(obstacle.shape, 48), obstacle.pose, obstacle_owner - static_cast<std::int32_t>(k));
   }
   if (input.ground.present) {
     add_ground(all, framing, input.ground.height);

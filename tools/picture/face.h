@@ -2,6 +2,7 @@
 // Flat convex faces in space, what the 3D picture is made of.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tools/picture/framing.h"
@@ -12,11 +13,21 @@ namespace talus {
 inline constexpr std::int32_t ground_owner = -1;
 inline constexpr std::int32_t obstacle_owner = -2;  // obstacle k as `obstacle_owner - k`
 
+/// The segment in the middle of a ball (both ends the same) or a capsule, in the world's axes.
+struct Core {
+  Vec3 a;
+  Vec3 b;
+};
+
 /// Corners counter-clockwise seen from outside.
 struct Face {
   std::vector<Vec3> corners;  // [m], in the world's axes
   Vec3 normal;                // unit, outwards
   std::int32_t owner = ground_owner;
+  std::optional<Core> core;  // of the round piece that the face stands for
+
+  /// Unit normal to shade with: the face's, or the round piece's so that its faces are not seen.
+  Vec3 normal_at(const Vec3& point) const;
 };
 
 inline bool is_body(const Face& face) { return face.owner >= 0; }

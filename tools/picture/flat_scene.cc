@@ -3,6 +3,7 @@
 #include <array>
 
 #include "common/shape/surface.h"
+#include "tools/picture/layer_rim.h"
 #include "tools/picture/layer_style.h"
 #include "tools/picture/scene_painter.h"
 
@@ -103,9 +104,9 @@ struct FlatScene {
   }
 
   void trace(cairo_t* canvas, const Pile<2>& pile, const Layer& layer) const {
-    const Vec2 low = pile.centre + Vec2(-layer.radius, layer.bottom);
-    const Vec2 high = pile.centre + Vec2(layer.radius, layer.top);
-    trace_polygon(canvas, on_page({low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())}));
+    const std::vector<Vec2> low = layer_rim(pile, layer, layer.bottom);
+    const std::vector<Vec2> high = layer_rim(pile, layer, layer.top);
+    trace_polygon(canvas, on_page({low[0], low[1], high[1], high[0]}));
   }
 
   void paint_layers(cairo_t* canvas, double share) const {
@@ -133,8 +134,8 @@ struct FlatScene {
     DensityLabels labels(params);
     for (const Pile<2>& pile : input.piles) {
       for (const Layer& layer : pile.layers) {
-        const Vec2 side = pile.centre + Vec2(layer.radius, 0.5 * (layer.bottom + layer.top));
-        labels.draw(canvas, projection.on_page(side), layer);
+        const Vec2 right = layer_rim(pile, layer, 0.5 * (layer.bottom + layer.top))[1];
+        labels.draw(canvas, projection.on_page(right), layer);
       }
     }
   }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "tools/picture/circle.h"
+#include "tools/picture/layer_rim.h"
 
 namespace talus {
 
 namespace {
 
-constexpr double fence_widths = 2.5;
+constexpr double fence_widths = 1.5;
 constexpr double obstacle_sizes = 2.5;  // an obstacle this many times larger than all else does not set the frame
 
 template <int Dim>
@@ -34,7 +34,7 @@ Box<Dim> fence_of(const BodyStates<Dim>& states, const std::vector<BodyIndex>& p
     }
     std::sort(values.begin(), values.end());
     const double lower = values[(values.size() - 1) / 4];
-    const double upper = values[3 * (values.size() - 1) / 4];
+    const double upper = values[(3 * (values.size() - 1) + 3) / 4];
     const double width = fence_widths * (upper - lower) + reach;
     fence.min()[axis] = lower - width;
     fence.max()[axis] = upper + width;
@@ -42,13 +42,17 @@ Box<Dim> fence_of(const BodyStates<Dim>& states, const std::vector<BodyIndex>& p
   return fence;
 }
 
+/// Rims of all layers; none for a pile that merged into another.
 template <int Dim>
-Box<Dim> box_of(const Pile<Dim>& pile) {
-  Vec<Dim> side = Vec<Dim>::Constant(pile.radius);
-  side[Dim - 1] = 0.0;
-  Box<Dim> box(Vec<Dim>(pile.centre - side), Vec<Dim>(pile.centre + side));
-  box.max()[Dim - 1] += pile.height;
-  return box;
+std::vector<Vec<Dim>> rims_of(const Pile<Dim>& pile) {
+  std::vector<Vec<Dim>> rims;
+  for (const Layer& layer : pile.layers) {
+    for (const double height : {layer.bottom, layer.top}) {
+      const std::vector<Vec<Dim>> rim = layer_rim(pile, layer, height);
+      rims.insert(rims.end(), rim.begin(), rim.end());
+    }
+  }
+  return rims;
 }
 
 template <int Dim>
@@ -60,18 +64,7 @@ void include(Framing<Dim>& framing, const Box<Dim>& box) {
 }
 
 template <int Dim>
-void include(Framing<Dim>& framing, const Pile<Dim>& pile) {
-  for (const Layer& layer : pile.layers) {
-    for (const double z : {layer.bottom, layer.top}) {
-      const std::vector<Vec<Dim>> rim = circle<Dim>(pile.centre + Vec<Dim>::Unit(Dim - 1) * z, layer.radius, 32);
-      framing.points.insert(framing.points.end(), rim.begin(), rim.end());
-    }
-  }
-  framing.box.extend(box_of(pile));
-}
-
-template <int Dim>
-void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input) {
+void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input, const std::vector<Box<Dim>>& piles) {
   const std::vector<BodyIndex> present = present_bodies(input.states);
   if (present.empty()) {
     return;
@@ -80,12 +73,11 @@ void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input) {
   for (const Shape<Dim>& shape : input.shapes) {
     largest = std::max(largest, shape.extent);
   }
-  const Box<Dim> fence = fence_of(input.states, present, 3.0 * largest);
+  const Box<Dim> fence = fence_of(input.states, present, 2.0 * largest);
   for (const BodyIndex body : present) {
     const Vec<Dim>& position = input.states.pose[static_cast<std::size_t>(body)].position;
-    const bool near = fence.contains(position) || std::ranges::any_of(input.piles, [&](const Pile<Dim>& pile) {
-                        return box_of(pile).contains(position);
-                      });
+    const bool near = fence.contains(position) ||
+                      std::ranges::any_of(piles, [&](const Box<Dim>& box) { return box.contains(position); });
     (near ? framing.drawn : framing.outside).push_back(body);
   }
   if (framing.drawn.empty()) {
@@ -103,10 +95,16 @@ void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input) {
 template <int Dim>
 Framing<Dim> framing_of(const PictureInput<Dim>& input) {
   Framing<Dim> framing;
-  include_bodies(framing, input);
+  std::vector<Box<Dim>> piles;
   for (const Pile<Dim>& pile : input.piles) {
-    include(framing, pile);
+    Box<Dim>& box = piles.emplace_back();
+    for (const Vec<Dim>& point : rims_of(pile)) {
+      framing.points.push_back(point);
+      box.extend(point);
+    }
+    framing.box.extend(box);
   }
+  include_bodies(framing, input, piles);
   const double size = framing.box.isEmpty() ? 0.0 : framing.box.diagonal().norm();
   for (const Obstacle<Dim>& obstacle : input.obstacles) {
     const Box<Dim> box = bounds_at(obstacle.shape, obstacle.pose);

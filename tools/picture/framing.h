@@ -16,9 +16,10 @@ struct Framing {
   std::vector<BodyIndex> outside;  // ascending: too far from the others to be drawn
 };
 
-/// Bodies lie outside where they are further from the middle half of all bodies, on any axis, than Tukey's fence of
-/// 2.5 times that half's width (a share of the bodies, as a percentile, would fail with a handful of them), and outside
-/// of every pile's cone too. Obstacles are part of it unless they are much larger than all else.
+/// Bodies lie outside where they are further from the middle half of all bodies, on any axis, than Tukey's fence of 1.5
+/// times that half's width and two bodies more, and outside of every pile's layers too. (A fixed share of the bodies
+/// would fail with a handful of them.) Fewer than five are all shown. Obstacles are part of the framing unless they are
+/// much larger than all else.
 template <int Dim>
 Framing<Dim> framing_of(const PictureInput<Dim>& input);
 

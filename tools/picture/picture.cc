@@ -1,10 +1,8 @@
 #include "tools/picture/picture.h"
 
-#include <fstream>
-#include <stdexcept>
-
 #include "tools/picture/layout.h"
 #include "tools/picture/scene_painter.h"
+#include "tools/picture/write_file.h"
 
 namespace talus {
 
@@ -25,15 +23,6 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
   return content;
 }
 
-void write(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file << bytes;
-  file.close();
-  if (!file) {
-    throw std::runtime_error("cannot write " + path.string());
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -49,8 +38,8 @@ void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& pn
     scene(canvas);
     page.draw(canvas, layout.height, layout.projection.pixels_per_metre());
   };
-  write(svg, svg_bytes(params.width, layout.height, paint));
-  write(png, png_bytes(params.width, layout.height, paint));
+  write_file(svg, svg_bytes(params.width, layout.height, paint));
+  write_file(png, png_bytes(params.width, layout.height, paint));
 }
 
 template void draw_pile<2>(const std::filesystem::path&, const std::filesystem::path&, const PictureInput<2>&,

@@ -2,9 +2,6 @@
 
 #include <memory>
 
-#include "tools/picture/circle.h"
-#include "tools/picture/layer_style.h"
-
 namespace talus {
 
 namespace {

@@ -85,8 +85,8 @@ ShadedImage::Pixel ShadedImage::mean_of_samples(int x, int y, const Lighting& li
     const std::int32_t number = buffer_.face(sx, sy);
     Pixel seen = {params_.paper.red, params_.paper.green, params_.paper.blue};
     if (number != ZBuffer::nothing) {
-      const Vec3& normal = faces_[static_cast<std::size_t>(number)].normal;
       const Vec3 point = projection_.unproject({sx + 0.5, sy + 0.5, static_cast<double>(buffer_.nearness(sx, sy))});
+      const Vec3 normal = faces_[static_cast<std::size_t>(number)].normal_at(point);
       if (number != sun.face) {
         sun = {number, lighting.sun(point, normal)};
       }

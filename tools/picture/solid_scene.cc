@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "tools/picture/circle.h"
+#include "tools/picture/layer_rim.h"
 #include "tools/picture/layer_style.h"
 #include "tools/picture/nice_length.h"
 #include "tools/picture/scene_painter.h"
@@ -31,8 +31,7 @@ struct SolidScene {
     for (const Pile<3>& pile : input.piles) {
       for (const Layer& layer : pile.layers) {
         for (const double z : {layer.bottom, layer.top}) {
-          const Vec3 centre = pile.centre + z * Vec3::UnitZ();
-          paint_line(canvas, closed(circle<3>(centre, layer.radius, 240)), params.layer, 1.4);
+          paint_line(canvas, closed(layer_rim(pile, layer, z)), params.layer, 1.4);
         }
       }
     }
@@ -114,11 +113,14 @@ struct SolidScene {
 
   void paint_densities(cairo_t* canvas) const {
     DensityLabels labels(params);
-    const Vec3 right = projection.axes.row(0).transpose();
     for (const Pile<3>& pile : input.piles) {
       for (const Layer& layer : pile.layers) {
-        const Vec3 side = pile.centre + 0.5 * (layer.bottom + layer.top) * Vec3::UnitZ() + layer.radius * right;
-        labels.draw(canvas, projection.on_page(side), layer);
+        Vec2 rightmost(0.0, 0.0);
+        for (const Vec3& point : layer_rim(pile, layer, 0.5 * (layer.bottom + layer.top))) {
+          const Vec2 seen = projection.on_page(point);
+          rightmost = seen.x() > rightmost.x() ? seen : rightmost;
+        }
+        labels.draw(canvas, rightmost, layer);
       }
     }
   }

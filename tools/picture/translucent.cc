@@ -1,6 +1,6 @@
 // What one sees through: walls of containers and the layers of piles.
 
-#include "tools/picture/circle.h"
+#include "tools/picture/layer_rim.h"
 #include "tools/picture/layer_style.h"
 #include "tools/picture/shaded_image.h"
 
@@ -34,22 +34,20 @@ void ShadedImage::blend(const Face& face, const Colour& colour) {
 }
 
 void ShadedImage::blend_layers(std::span<const Pile<3>> piles) {
-  constexpr int sides = 120;
   for (const Pile<3>& pile : piles) {
     for (std::size_t i = 0; i < pile.layers.size(); ++i) {
       const Layer& layer = pile.layers[i];
       const Colour colour = with_alpha(params_.layer, 0.6 * layer_opacity(layer));
-      const Vec3 middle = pile.centre + layer.bottom * Vec3::UnitZ();
-      const std::vector<Vec3> low = circle<3>(middle, layer.radius, sides);
-      const std::vector<Vec3> high = circle<3>(pile.centre + layer.top * Vec3::UnitZ(), layer.radius, sides);
+      const std::vector<Vec3> low = layer_rim(pile, layer, layer.bottom);
+      const std::vector<Vec3> high = layer_rim(pile, layer, layer.top);
       for (std::size_t k = 0; k < low.size(); ++k) {
         const std::size_t next = (k + 1) % low.size();
-        const Face wall = {{low[k], low[next], high[next], high[k]}, (low[k] + low[next]) / 2.0 - middle, 0};
+        const Face wall = {{low[k], low[next], high[next], high[k]}, (low[next] - low[k]).cross(Vec3::UnitZ()), 0, {}};
         if (faces_eye(wall, projection_)) {
           blend(wall, colour);
         }
       }
-      blend({high, Vec3::UnitZ(), 0}, with_alpha(colour, 0.5 * colour.alpha));
+      blend({high, Vec3::UnitZ(), 0, {}}, with_alpha(colour, 0.5 * colour.alpha));
     }
   }
 }
