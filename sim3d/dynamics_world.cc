@@ -23,6 +23,7 @@ void DynamicsWorld::add_static(btCollisionObject& object) {
 void DynamicsWorld::performDiscreteCollisionDetection() {
   const auto start = std::chrono::steady_clock::now();
   btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
+  after_collision_();
   collide_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

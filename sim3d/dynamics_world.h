@@ -3,7 +3,9 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <functional>
 #include <span>
+#include <utility>
 
 namespace talus::bullet {
 
@@ -24,11 +26,15 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   /// What the last collision detection took [s].
   double collide_seconds() const { return collide_seconds_; }
 
+  /// What is to happen between collision detection and solver.
+  void set_after_collision(std::function<void()> action) { after_collision_ = std::move(action); }
+
   void performDiscreteCollisionDetection() override;
 
  private:
   int statics_ = 0;
   double collide_seconds_ = 0.0;
+  std::function<void()> after_collision_ = [] {};
 };
 
 }  // namespace talus::bullet

@@ -28,6 +28,7 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     add_ground();
   }
   add_obstacles();
+  engine_.world.set_after_collision([this] { freezer_.restore_contacts(); });
 }
 
 // Bullet knows the bodies by address: they leave it before they go.
@@ -82,6 +83,7 @@ BodyIndex EngineWorld<Dim>::add(const BodyDef<Dim>& body) {
 template <int Dim>
 void EngineWorld<Dim>::remove(BodyIndex body) {
   const std::size_t i = known(body);
+  freezer_.forget(body);
   engine_.broadphase.destroyProxy(objects_[i]->getBroadphaseHandle(), &engine_.dispatcher);
   states_.removed[i] = 1;
   if (rigid_body(i) != nullptr) {

@@ -7,7 +7,10 @@ void Freezer::freeze(std::unique_ptr<btCollisionObject>& object, const EngineSha
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
   proxy->m_collisionFilterGroup = btBroadphaseProxy::StaticFilter;
   proxy->m_collisionFilterMask = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
-  engine_.pairs.remove_static_pairs(proxy, &engine_.dispatcher);
+  for (btBroadphaseProxy* partner : engine_.pairs.static_partners(proxy)) {
+    warm_start_.save(*engine_.pairs.findPair(proxy, partner));
+    engine_.pairs.removeOverlappingPair(proxy, partner, &engine_.dispatcher);
+  }
   exchange(object, make_static_object(*shape.whole, shape.friction, shape.restitution, object->getWorldTransform(),
                                       object->getUserIndex()));
 }
@@ -26,6 +29,7 @@ void Freezer::thaw(std::unique_ptr<btCollisionObject>& object, const EngineShape
   shape.whole->getAabb(object->getWorldTransform(), low, high);
   const btVector3 threshold(gContactBreakingThreshold, gContactBreakingThreshold, gContactBreakingThreshold);
   engine_.broadphase.setAabbForceUpdate(proxy, low - threshold, high + threshold, &engine_.dispatcher);
+  warm_start_.announce(*proxy, engine_.pairs);
 }
 
 // The contacts that stay must know their new owner.

@@ -8,13 +8,14 @@
 
 #include "sim3d/bodies.h"
 #include "sim3d/engine.h"
+#include "sim3d/warm_start.h"
 
 namespace talus::bullet {
 
 /// Exchanges a body's awake form for its sleeping one and back, within its broadphase entry. Contacts with awake
-/// neighbours are kept with their impulses. Contacts with static ones (ground, obstacles, sleepers) go when the body
-/// freezes, since pairs exist only where at least one side is awake, and are found anew in the first step after it
-/// thaws. Cost: the body's own neighbours.
+/// neighbours stay as they are. Contacts with static ones (ground, obstacles, sleepers) go when the body freezes, since
+/// pairs exist only where at least one side is awake, and come back in the first step after it thaws. Cost: the body's
+/// own neighbours.
 class Freezer {
  public:
   explicit Freezer(Engine& engine) : engine_(engine) {}
@@ -25,11 +26,18 @@ class Freezer {
   /// The other way round; the body is at rest.
   void thaw(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape, bool may_sleep);
 
+  /// To be called before a body leaves the world.
+  void forget(BodyIndex body) { warm_start_.forget(body); }
+
+  /// To be called after the collision detection of each step.
+  void restore_contacts() { warm_start_.restore(engine_.pairs, engine_.world.getDispatchInfo()); }
+
  private:
   void exchange(std::unique_ptr<btCollisionObject>& object, std::unique_ptr<btCollisionObject> successor);
   void prepare_broadphase();
 
   Engine& engine_;
+  WarmStart warm_start_;
   btManifoldArray manifolds_;  // scratch
 };
 

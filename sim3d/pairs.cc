@@ -51,6 +51,9 @@ void PairCache::forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* 
     const auto found = std::find(list.begin(), list.end(), partner);
     if (found != list.end()) {
       list.erase(found);
+      if (list.empty()) {
+        list.shrink_to_fit();  // sleepers, the many, have none
+      }
     }
   }
 }
@@ -69,17 +72,11 @@ void PairCache::cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* disp
   }
 }
 
-void PairCache::remove_static_pairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
+std::span<btBroadphaseProxy* const> PairCache::static_partners(const btBroadphaseProxy* proxy) {
   const std::span<btBroadphaseProxy* const> all = partners(proxy);
   leaving_.assign(all.begin(), all.end());
   std::erase_if(leaving_, [](const btBroadphaseProxy* partner) { return !is_static(partner); });
-  for (btBroadphaseProxy* partner : leaving_) {
-    removeOverlappingPair(proxy, partner, dispatcher);
-  }
-  const auto slot = static_cast<std::size_t>(index_of(proxy));
-  if (slot < partners_.size() && partners_[slot].empty()) {
-    partners_[slot].shrink_to_fit();
-  }
+  return leaving_;
 }
 
 std::span<btBroadphaseProxy* const> PairCache::partners(const btBroadphaseProxy* proxy) const {

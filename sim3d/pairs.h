@@ -20,8 +20,8 @@ class PairCache final : public btHashedOverlappingPairCache {
   void removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
   void cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
 
-  /// Removes the pairs of a static body with static partners: nothing happens between those.
-  void remove_static_pairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher);
+  /// Partners of a body that are static, in order of appearance; valid until the next call.
+  std::span<btBroadphaseProxy* const> static_partners(const btBroadphaseProxy* proxy);
 
   /// The other sides of a body's pairs, in order of appearance.
   std::span<btBroadphaseProxy* const> partners(const btBroadphaseProxy* proxy) const;

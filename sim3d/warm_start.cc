@@ -1,0 +1,174 @@
+#include "sim3d/warm_start.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+
+#include <algorithm>
+
+namespace talus::bullet {
+namespace {
+
+btCollisionObject& object_of(const btBroadphaseProxy* proxy) {
+  return *static_cast<btCollisionObject*>(proxy->m_clientObject);
+}
+
+/// Learns which manifold lies between which two pieces: Bullet tells it only while it works on a pair.
+class PieceRecorder final : public btManifoldResult {
+ public:
+  using btManifoldResult::btManifoldResult;
+  struct Entry {
+    int piece0;
+    int piece1;
+    btPersistentManifold* manifold;
+  };
+
+  void setShapeIdentifiersA(int part, int piece) override {
+    record();
+    btManifoldResult::setShapeIdentifiersA(part, piece);
+  }
+  void setShapeIdentifiersB(int part, int piece) override {
+    record();
+    btManifoldResult::setShapeIdentifiersB(part, piece);
+  }
+  std::span<const Entry> finish() {
+    record();
+    return entries_;
+  }
+
+ private:
+  void record() {
+    btPersistentManifold* manifold = getPersistentManifold();
+    if (manifold != nullptr && (entries_.empty() || entries_.back().manifold != manifold)) {
+      entries_.push_back({m_index0, m_index1, manifold});
+    }
+  }
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+/// The two sides of a pair. Of two bodies the one added first is the owner; ground and obstacles own nothing.
+struct WarmStart::Sides {
+  explicit Sides(const btBroadphasePair& pair)
+      : owner(&object_of(pair.m_pProxy0)), partner(&object_of(pair.m_pProxy1)) {
+    const int o = owner->getUserIndex();
+    const int p = partner->getUserIndex();
+    if (o < 0 || (p >= 0 && p < o)) {
+      std::swap(owner, partner);
+    }
+  }
+  bool between(const SavedPoint& point) const { return point.partner == partner->getUserIndex(); }
+
+  btCollisionObject* owner;
+  btCollisionObject* partner;
+};
+
+std::vector<WarmStart::SavedPoint>& WarmStart::points_of(const Sides& sides) {
+  const auto slot = static_cast<std::size_t>(sides.owner->getUserIndex());
+  if (points_.size() <= slot) {
+    points_.resize(slot + 1);
+  }
+  return points_[slot];
+}
+
+void WarmStart::save(btBroadphasePair& pair) {
+  if (pair.m_algorithm == nullptr) {
+    return;  // no step has passed since the pair came back: what was saved still holds
+  }
+  const Sides sides(pair);
+  std::vector<SavedPoint>& saved = points_of(sides);
+  std::erase_if(saved, [&](const SavedPoint& point) { return sides.between(point); });
+  manifolds_.resize(0);
+  pair.m_algorithm->getAllContactManifolds(manifolds_);
+  for (int m = 0; m < manifolds_.size(); ++m) {
+    const bool first = manifolds_[m]->getBody0() == sides.owner;
+    for (int i = 0; i < manifolds_[m]->getNumContacts(); ++i) {
+      const btManifoldPoint& point = manifolds_[m]->getContactPoint(i);
+      if (point.m_appliedImpulse > 0) {
+        const btVector3& place = first ? point.m_localPointA : point.m_localPointB;
+        const btVector3 normal = first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
+        saved.push_back({sides.partner->getUserIndex(),
+                         {place.x(), place.y(), place.z()},
+                         {normal.x(), normal.y(), normal.z()},
+                         point.m_distance1,
+                         point.m_appliedImpulse,
+                         static_cast<std::int16_t>(first ? point.m_index0 : point.m_index1),
+                         static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0)});
+      }
+    }
+  }
+  saved.shrink_to_fit();
+}
+
+void WarmStart::announce(btBroadphaseProxy& woken, const PairCache& pairs) {
+  for (btBroadphaseProxy* partner : pairs.partners(&woken)) {
+    announced_.emplace_back(&woken, partner);
+  }
+}
+
+void WarmStart::forget(BodyIndex body) {
+  if (static_cast<std::size_t>(body) < points_.size()) {
+    points_[static_cast<std::size_t>(body)] = {};
+  }
+  std::erase_if(announced_, [body](const auto& pair) {
+    return object_of(pair.first).getUserIndex() == body || object_of(pair.second).getUserIndex() == body;
+  });
+}
+
+void WarmStart::restore(PairCache& pairs, const btDispatcherInfo& info) {
+  for (const auto& [a, b] : announced_) {
+    btBroadphasePair* pair = pairs.findPair(a, b);
+    if (pair != nullptr && pair->m_algorithm != nullptr) {
+      restore(*pair, info);
+    }
+  }
+  announced_.clear();
+}
+
+// Runs the pair's collision detection once more, at the same poses and so with the same points, to learn which manifold
+// belongs to which pieces.
+void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
+  const Sides sides(pair);
+  std::vector<SavedPoint>& saved = points_of(sides);
+  if (std::none_of(saved.begin(), saved.end(), [&](const SavedPoint& point) { return sides.between(point); })) {
+    return;
+  }
+  const btCollisionObjectWrapper owner(nullptr, sides.owner->getCollisionShape(), sides.owner,
+                                       sides.owner->getWorldTransform(), -1, -1);
+  const btCollisionObjectWrapper partner(nullptr, sides.partner->getCollisionShape(), sides.partner,
+                                         sides.partner->getWorldTransform(), -1, -1);
+  // An algorithm expects its two sides in the order it was made for, which is the pair's.
+  const bool owner_first = &object_of(pair.m_pProxy0) == sides.owner;
+  PieceRecorder recorder(owner_first ? &owner : &partner, owner_first ? &partner : &owner);
+  pair.m_algorithm->processCollision(owner_first ? &owner : &partner, owner_first ? &partner : &owner, info, &recorder);
+  for (const PieceRecorder::Entry& entry : recorder.finish()) {
+    for (const SavedPoint& point : saved) {
+      if (sides.between(point) && point.piece == (owner_first ? entry.piece0 : entry.piece1) &&
+          point.partners_piece == (owner_first ? entry.piece1 : entry.piece0)) {
+        put_back(point, sides, *entry.manifold);
+      }
+    }
+  }
+  std::erase_if(saved, [&](const SavedPoint& point) { return sides.between(point); });
+}
+
+void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold) {
+  const btVector3 local(saved.place[0], saved.place[1], saved.place[2]);
+  const btVector3 normal(saved.normal[0], saved.normal[1], saved.normal[2]);
+  const btVector3 on_owner = sides.owner->getWorldTransform() * local;
+  const btVector3 on_partner = on_owner - normal * saved.distance;
+  const btVector3 partner_local = sides.partner->getWorldTransform().invXform(on_partner);
+  const bool first = manifold.getBody0() == sides.owner;
+  btManifoldPoint point(first ? local : partner_local, first ? partner_local : local, first ? normal : -normal,
+                        saved.distance);
+  point.m_positionWorldOnA = first ? on_owner : on_partner;
+  point.m_positionWorldOnB = first ? on_partner : on_owner;
+  point.m_combinedFriction = btManifoldResult::calculateCombinedFriction(sides.owner, sides.partner);
+  point.m_combinedRestitution = btManifoldResult::calculateCombinedRestitution(sides.owner, sides.partner);
+  point.m_index0 = first ? saved.piece : saved.partners_piece;
+  point.m_index1 = first ? saved.partners_piece : saved.piece;
+  const int known = manifold.getCacheEntry(point);
+  btManifoldPoint& target = manifold.getContactPoint(known >= 0 ? known : manifold.addManifoldPoint(point));
+  target.m_appliedImpulse = saved.impulse;
+}
+
+}  // namespace talus::bullet

@@ -1,0 +1,52 @@
+#pragma once
+// Contacts that outlive their pair.
+
+#include <btBulletDynamicsCommon.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "common/world/body.h"
+#include "sim3d/pairs.h"
+
+namespace talus::bullet {
+
+/// Bullet gathers the points of a contact over several steps and starts the solver at their impulses of the step
+/// before. Where a pair of bodies goes because both sleep, its pushing points are kept here, and put back in the first
+/// step after one of the two has woken: a heap that is woken all at once carries itself from the first step on.
+class WarmStart {
+ public:
+  /// Keeps the points of a pair that is about to go.
+  void save(btBroadphasePair& pair);
+
+  /// A body that has woken: the points of all its pairs are to be put back.
+  void announce(btBroadphaseProxy& woken, const PairCache& pairs);
+
+  /// Puts them back, after the collision detection of the step that follows.
+  void restore(PairCache& pairs, const btDispatcherInfo& info);
+
+  /// A body that leaves the world.
+  void forget(BodyIndex body);
+
+ private:
+  struct SavedPoint {
+    BodyIndex partner;
+    float place[3];      // on the owner, in its axes [m]
+    float normal[3];     // from the partner to the owner, in the world's axes
+    float distance;      // between the two surfaces [m], negative where they overlap
+    float impulse;       // [N s]
+    std::int16_t piece;  // number within the owner's shape; -1 where the shape is a single piece
+    std::int16_t partners_piece;
+  };
+  struct Sides;
+  std::vector<SavedPoint>& points_of(const Sides& sides);
+  void restore(btBroadphasePair& pair, const btDispatcherInfo& info);
+  static void put_back(const SavedPoint& point, const Sides& sides, btPersistentManifold& manifold);
+
+  std::vector<std::vector<SavedPoint>> points_;  // by owner
+  std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*>> announced_;
+  btManifoldArray manifolds_;  // scratch
+};
+
+}  // namespace talus::bullet
