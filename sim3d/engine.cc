@@ -4,6 +4,7 @@ namespace talus::bullet {
 
 Engine::Engine(double gravity, const SolverParams& params)
     : dispatcher(&configuration), broadphase(&pairs), world(&dispatcher, &broadphase, &solver, &configuration) {
+  dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
   world.setGravity(btVector3(0, 0, static_cast<btScalar>(-gravity)));
   // Static bodies do not move: without this, Bullet refreshes their bounding boxes in every step.
   world.setForceUpdateAllAabbs(false);

@@ -5,6 +5,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "common/world/world_description.h"
+#include "sim3d/compound_pair.h"
 #include "sim3d/dynamics_world.h"
 #include "sim3d/pairs.h"
 
@@ -15,6 +16,7 @@ struct Engine {
   Engine(double gravity, const SolverParams& params);
 
   btDefaultCollisionConfiguration configuration;
+  CompoundPair::Maker compound_pairs;
   btCollisionDispatcher dispatcher;
   PairCache pairs;
   btDbvtBroadphase broadphase;
