@@ -2,7 +2,7 @@
 set -eu
 # Names that only one of them has: what one engine needs and the other does not (Box2D's user data, its impulses that
 # die with a contact, its rule for restitution; Bullet's list of overlapping pairs, its plane, its world subclass).
-only_one='(tag|warm_start|materials|bodies|dynamics_world|engine|pairs|pieces|plane)\.h'
+only_one='(tag|warm_start|materials|bodies|compound_pair|dynamics_world|engine|pairs|pieces|plane)\.h'
 
 headers() { git ls-files "$1/*.h" | sed "s|^$1/||" | grep -vxE "$only_one" | LC_ALL=C sort | tr '\n' ' '; }
 in_2d=$(headers sim2d)
