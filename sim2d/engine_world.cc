@@ -1,7 +1,5 @@
 #include "sim2d/engine_world.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 
@@ -84,6 +82,7 @@ BodyIndex EngineWorld::add(const BodyDef<2>& body) {
   states_.asleep.push_back(0);
   states_.removed.push_back(0);
   bodies_.push_back({create(index, body.velocity, body.spin), nullptr});
+  proxies_moved_ = true;
   awake_.push_back(index);
   return index;
 }
@@ -110,8 +109,7 @@ b2Body* EngineWorld::create(BodyIndex index, const Vec<2>& velocity, const Spin<
 }
 
 void EngineWorld::check_index(BodyIndex body) const {
-  require(body >= 0 && body < states_.size(), "body", body,
-          fmt::format("must be one of the {} bodies added so far, counted from 0", states_.size()));
+  require(body >= 0 && body < states_.size(), "body", body, "must be the number of a body added before, from 0 on");
   require(states_.removed[static_cast<std::size_t>(body)] == 0, "body", body, "must not have been removed");
 }
 
@@ -122,6 +120,7 @@ const EngineWorld::Blueprint& EngineWorld::blueprint_of(BodyIndex body) const {
 void EngineWorld::remove(BodyIndex body) {
   check_index(body);
   gather_contacts();
+  look_for_contacts();
   const auto i = static_cast<std::size_t>(body);
   if (bodies_[i].frozen != nullptr) {
     freezer_.thaw(bodies_[i].frozen, blueprint_of(body).shapes.size());
@@ -161,6 +160,7 @@ void EngineWorld::step() {
   world_.Step(static_cast<float>(description_.dt), description_.solver.velocity_iterations,
               description_.solver.position_iterations);
   warm_start_.end_step();
+  proxies_moved_ = false;
   const auto solved = std::chrono::steady_clock::now();
   if (const auto broken = first_not_finite(bodies_, awake_)) {
     failure_.emplace(steps_, *broken);

@@ -50,6 +50,8 @@ class EngineWorld final : public World<2> {
   const Blueprint& blueprint_of(BodyIndex body) const;
   std::vector<BodyIndex> chosen(std::span<const BodyIndex> bodies, bool asleep) const;
   void note_engine_sleep();
+  /// Empties the engine's list of moved fixtures, which it searches from end to end whenever a fixture goes.
+  void look_for_contacts();
   void gather_contacts();
 
   WorldDescription<2> description_;
@@ -62,6 +64,7 @@ class EngineWorld final : public World<2> {
   BodyStates<2> states_;
   std::vector<BodyIndex> awake_;
   std::vector<Contact<2>> contacts_;
+  bool proxies_moved_ = false;      // since the last step
   bool contacts_wanted_ = false;    // from the first call of contacts() on
   bool contacts_gathered_ = false;  // for the last step
   EngineTimes times_;

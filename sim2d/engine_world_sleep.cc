@@ -1,6 +1,7 @@
 // The part of EngineWorld that puts bodies to sleep and wakes them.
 
 #include <algorithm>
+#include <ranges>
 
 #include "sim2d/engine_world.h"
 
@@ -46,6 +47,14 @@ std::vector<BodyIndex> EngineWorld::chosen(std::span<const BodyIndex> bodies, bo
   return result;
 }
 
+void EngineWorld::look_for_contacts() {
+  if (proxies_moved_) {
+    // Step() would do just this first. The engine shows its contact manager to readers only, but it is no constant.
+    const_cast<b2ContactManager&>(world_.GetContactManager()).FindNewContacts();  // NOLINT(*-const-cast)
+    proxies_moved_ = false;
+  }
+}
+
 void EngineWorld::freeze(std::span<const BodyIndex> bodies) {
   const std::vector<BodyIndex> falling_asleep = chosen(bodies, false);
   if (falling_asleep.empty()) {
@@ -58,7 +67,10 @@ void EngineWorld::freeze(std::span<const BodyIndex> bodies) {
       warm_start_.save(*edge->contact);
     }
   }
-  for (const BodyIndex body : falling_asleep) {
+  // All go before the first comes back, last first: so every fixture gets its old number in the broad phase again,
+  // which decides the side that Box2D measures a contact from.
+  look_for_contacts();
+  for (const BodyIndex body : std::views::reverse(falling_asleep)) {
     world_.DestroyBody(bodies_[static_cast<std::size_t>(body)].body);
   }
   for (const BodyIndex body : falling_asleep) {
@@ -69,6 +81,7 @@ void EngineWorld::freeze(std::span<const BodyIndex> bodies) {
     states_.velocity[i].setZero();
     states_.spin[i].setZero();
   }
+  proxies_moved_ = true;
   std::erase_if(awake_, [this](BodyIndex body) { return states_.asleep[static_cast<std::size_t>(body)] != 0; });
   note_engine_sleep();
 }
@@ -95,8 +108,8 @@ void EngineWorld::thaw(std::span<const BodyIndex> bodies) {
       warm_start_.save(contact);
     }
   });
-  // All go before the first comes back: Box2D searches its list of moved proxies whenever a fixture goes.
-  for (b2Fixture* fixture : fixtures) {
+  look_for_contacts();
+  for (b2Fixture* fixture : std::views::reverse(fixtures)) {
     freezer_.thaw(fixture, blueprint_of(owner_of(*fixture)).shapes.size());
   }
   for (const BodyIndex body : waking) {
@@ -105,6 +118,7 @@ void EngineWorld::thaw(std::span<const BodyIndex> bodies) {
       bodies_[i] = {create(body, Vec<2>::Zero(), Spin<2>::Zero()), nullptr};
     }
   }
+  proxies_moved_ = true;
   const auto middle = static_cast<std::ptrdiff_t>(awake_.size());
   awake_.insert(awake_.end(), waking.begin(), waking.end());
   std::inplace_merge(awake_.begin(), awake_.begin() + middle, awake_.end());

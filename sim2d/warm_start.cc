@@ -6,10 +6,6 @@
 namespace talus::box2d {
 namespace {
 
-// Both bodies stand where they stood, so a point is where it was; what differs is which face Box2D measures from, at
-// most the skins of both shapes.
-constexpr float match_distance = 4.0F * b2_polygonRadius;
-
 bool before(const SavedContact& a, const SavedContact& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); }
 
 std::array<Tag, 2> sorted_tags(b2Contact& contact) {
@@ -18,45 +14,35 @@ std::array<Tag, 2> sorted_tags(b2Contact& contact) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-std::array<b2Vec2, b2_maxManifoldPoints> points_of(const b2Contact& contact) {
-  b2WorldManifold world;
-  contact.GetWorldManifold(&world);
-  return {world.points[0], world.points[1]};
-}
-
-float distance(const b2Vec2& a, const b2Vec2& b) { return (a - b).Length(); }
-
 }  // namespace
 
-SavedContact save(b2Contact& contact) {
-  const auto [low, high] = sorted_tags(contact);
-  const auto at = points_of(contact);
-  const b2Manifold& manifold = *contact.GetManifold();
-  SavedContact saved{low, high, {}, manifold.pointCount};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(saved.count); ++i) {
-    saved.points[i] = {at[i], manifold.points[i].normalImpulse, manifold.points[i].tangentImpulse};
+void WarmStart::save(b2Contact& contact) {
+  if (!contact.IsTouching()) {
+    return;
   }
-  return saved;
+  const auto [low, high] = sorted_tags(contact);
+  SavedContact saved{low, high, {}};
+  const b2Manifold& manifold = *contact.GetManifold();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.pointCount); ++i) {
+    const b2ManifoldPoint& point = manifold.points[i];
+    saved.points[i] = {point.id.key, point.normalImpulse, point.tangentImpulse};
+  }
+  waiting_.push_back(saved);
 }
 
-void restore(const SavedContact& saved, b2Contact& contact) {
-  const auto at = points_of(contact);
+void WarmStart::apply(b2Contact& contact) const {
+  const auto [low, high] = sorted_tags(contact);
+  const auto found = std::ranges::lower_bound(waiting_, SavedContact{low, high, {}}, before);
+  if (found == waiting_.end() || found->low != low || found->high != high) {
+    return;
+  }
   b2Manifold& manifold = *contact.GetManifold();
-  const auto count = static_cast<std::size_t>(manifold.pointCount);
-  const bool crossed = count == 2 && saved.count == 2 &&
-                       distance(at[0], saved.points[1].at) + distance(at[1], saved.points[0].at) <
-                           distance(at[0], saved.points[0].at) + distance(at[1], saved.points[1].at);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::size_t match = crossed ? 1 - i : i;
-    if (saved.count == 1) {
-      match = 0;
-    } else if (count == 1 && distance(at[0], saved.points[1].at) < distance(at[0], saved.points[0].at)) {
-      match = 1;
-    }
-    if (distance(at[i], saved.points[match].at) <= match_distance) {
-      // Both impulses are measured along axes that turn round with the choice of A and B, so their signs stay.
-      manifold.points[i].normalImpulse = saved.points[match].normal;
-      manifold.points[i].tangentImpulse = saved.points[match].tangent;
+  for (b2ManifoldPoint& point : std::span(manifold.points, static_cast<std::size_t>(manifold.pointCount))) {
+    for (const SavedPoint& saved : found->points) {
+      if (saved.feature == point.id.key) {
+        point.normalImpulse = saved.normal;
+        point.tangentImpulse = saved.tangent;
+      }
     }
   }
 }
@@ -114,12 +100,6 @@ void SleepingContacts::release(BodyIndex body, std::vector<SavedContact>& out) {
   }
 }
 
-void WarmStart::save(b2Contact& contact) {
-  if (contact.IsTouching()) {
-    waiting_.push_back(box2d::save(contact));
-  }
-}
-
 void WarmStart::forget(BodyIndex body) {
   sleeping_.release(body, waiting_);
   std::erase_if(waiting_,
@@ -143,14 +123,6 @@ void WarmStart::start_step(std::span<const std::uint8_t> asleep) {
     }
     return put_away;
   });
-}
-
-void WarmStart::apply(b2Contact& contact) const {
-  const auto [low, high] = sorted_tags(contact);
-  const auto found = std::ranges::lower_bound(waiting_, SavedContact{low, high, {}, 0}, before);
-  if (found != waiting_.end() && found->low == low && found->high == high) {
-    restore(*found, contact);
-  }
 }
 
 }  // namespace talus::box2d

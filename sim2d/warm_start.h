@@ -5,6 +5,7 @@
 #include <box2d/box2d.h>
 
 #include <array>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -12,10 +13,11 @@
 
 namespace talus::box2d {
 
-/// One point of a contact that was, found again by its place: feature ids depend on which of the two fixtures Box2D
-/// calls A, and that changes when fixtures are made anew.
+/// One point of a contact that was. Its feature id says which corner and side it came from, and is found again after
+/// fixtures were made anew: see EngineWorld::freeze().
 struct SavedPoint {
-  b2Vec2 at;             // [m]
+  static constexpr std::uint32_t no_point = 0xffffffff;
+  std::uint32_t feature = no_point;
   float normal = 0.0F;   // [N s]
   float tangent = 0.0F;  // [N s]
 };
@@ -24,14 +26,7 @@ struct SavedContact {
   Tag low{};  // the fixtures, smaller tag first
   Tag high{};
   std::array<SavedPoint, b2_maxManifoldPoints> points;
-  int count = 0;
 };
-
-/// The impulses of a touching contact.
-SavedContact save(b2Contact& contact);
-
-/// Puts saved impulses into a contact that has just begun; points that have no match nearby start from zero.
-void restore(const SavedContact& saved, b2Contact& contact);
 
 /// Contacts between sleepers: the engine has none of these. Every contact hangs in the lists of both its bodies.
 class SleepingContacts {
@@ -48,7 +43,7 @@ class SleepingContacts {
   std::int32_t& next_of(std::int32_t node, BodyIndex body);
   void unlink(std::int32_t node, BodyIndex body);
 
-  std::vector<Node> nodes_;
+  std::deque<Node> nodes_;  // grows without copies and spare room
   std::vector<std::int32_t> free_;
   std::vector<std::int32_t> first_;  // by body; -1: none
 };
