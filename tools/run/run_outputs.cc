@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/scene/write_scene.h"
-#include "tools/picture/picture.h"
 #include "tools/run/frames_csv.h"
 #include "tools/run/progress.h"
 #include "tools/run/version.h"
@@ -14,16 +13,20 @@
 
 namespace talus {
 
-namespace {
-
 template <int Dim>
-std::string caption(const SummaryInput& input, const Scene<Dim>& scene, const World<Dim>& world) {
+PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& scene,
+                                const Simulation<Dim>& simulation) {
+  const World<Dim>& world = simulation.world();
   const auto bodies = world.states().shape.size();
-  return fmt::format("{}, policy {}: {} bodies, {} asleep", input.backend, scene.policy.kind, bodies,
-                     bodies - world.awake().size());
+  return {scene.world.shapes,
+          world.states(),
+          simulation.piles().piles(),
+          scene.world.obstacles,
+          scene.world.ground,
+          scene.title,
+          fmt::format("{}, policy {}: {} bodies, {} asleep", summary.backend, scene.policy.kind, bodies,
+                      bodies - world.awake().size())};
 }
-
-}  // namespace
 
 template <int Dim>
 RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
@@ -51,15 +54,13 @@ void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Di
 }
 
 template <int Dim>
-void RunOutputs<Dim>::finish(const SummaryInput& input, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
-  const World<Dim>& world = simulation.world();
-  write_summary(folder_ / "summary.json", input, scene, world, simulation.piles(), statistics_);
-  const PictureInput<Dim> picture{scene.world.shapes,          world.states(),     simulation.piles().piles(),
-                                  scene.world.obstacles,       scene.world.ground, scene.title,
-                                  caption(input, scene, world)};
-  draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture);
+void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
+  write_summary(folder_ / "summary.json", summary, scene, simulation.world(), simulation.piles(), statistics_);
+  draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture_input(summary, scene, simulation));
 }
 
+template PictureInput<2> picture_input(const SummaryInput&, const Scene<2>&, const Simulation<2>&);
+template PictureInput<3> picture_input(const SummaryInput&, const Scene<3>&, const Simulation<3>&);
 template class RunOutputs<2>;
 template class RunOutputs<3>;
 

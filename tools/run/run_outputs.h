@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/simulation/simulation.h"
+#include "tools/picture/picture.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_statistics.h"
@@ -21,7 +22,7 @@ class RunOutputs {
              const std::string& backend, Simulation<Dim>& simulation);
 
   /// After Simulation::end(): summary.json, pile.svg and pile.png.
-  void finish(const SummaryInput& input, const Scene<Dim>& scene, Simulation<Dim>& simulation) const;
+  void finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const;
 
   const std::filesystem::path& folder() const { return folder_; }
   const RunStatistics<Dim>& statistics() const { return statistics_; }
@@ -33,5 +34,10 @@ class RunOutputs {
   RunStatistics<Dim> statistics_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;
 };
+
+/// The simulation's last state with the scene's title, for pictures; refers to all three.
+template <int Dim>
+PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& scene,
+                                const Simulation<Dim>& simulation);
 
 }  // namespace talus

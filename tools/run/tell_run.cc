@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "common/simulation/state_hash.h"
+#include "tools/picture/terminal.h"
 
 namespace talus {
 
@@ -28,6 +31,9 @@ void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<D
   }
   fmt::print("  end hash {:016x}\n  {}/pile.png shows the pile, summary.json has the numbers\n",
              state_hash(world.states()), outputs.folder().string());
+  if (isatty(STDOUT_FILENO) == 0) return;
+  const TerminalParams params{.colours = std::getenv("NO_COLOR") == nullptr};
+  fmt::print("{}", terminal_picture(picture_input(summary, scene, simulation), params));
 }
 
 void tell_speed_up(const std::string& other_policy, double other_ms, double own_ms) {
