@@ -1,0 +1,50 @@
+#pragma once
+// Channels, what travels on them, and how large it may be.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "talus_lcm/talus_bodies_v1.hpp"
+#include "talus_lcm/talus_piles_v1.hpp"
+#include "talus_lcm/talus_run_v1.hpp"
+#include "talus_lcm/talus_shapes_v1.hpp"
+#include "talus_lcm/talus_sleep_v1.hpp"
+#include "talus_lcm/talus_stats_v1.hpp"
+
+namespace talus {
+
+/// One kind of message each.
+enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes };
+
+inline constexpr std::array<const char*, 6> channel_names = {"TALUS_RUN",   "TALUS_PILES",  "TALUS_SLEEP",
+                                                             "TALUS_STATS", "TALUS_BODIES", "TALUS_SHAPES"};
+
+inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
+
+template <class Message>
+inline constexpr Channel channel_of = Channel::run;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_piles_v1> = Channel::piles;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_sleep_v1> = Channel::sleep;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_stats_v1> = Channel::stats;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_bodies_v1> = Channel::bodies;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_shapes_v1> = Channel::shapes;
+
+/// Largest encoded message [bytes]: what fits one datagram, since LCM 1.3.1 loses every message of several fragments
+/// when one of them is lost or late.
+inline constexpr std::size_t max_message_bytes = 60'000;
+
+/// Encoded size of what starts every message [bytes]: fingerprint, utime, run_id, step, sim_time, seq.
+inline constexpr std::size_t header_bytes = 6 * 8;
+/// Encoded size of the checksum that ends it.
+inline constexpr std::size_t checksum_bytes = 4;
+
+/// Most layers that talus_pile_v1 carries of one pile.
+inline constexpr std::size_t max_layers = 1024;
+
+}  // namespace talus

@@ -1,0 +1,43 @@
+#pragma once
+// From a message to the bytes that travel.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lcmtypes/channels.h"
+
+namespace talus {
+
+/// An encoded message, ready for the wire or the record.
+struct Packet {
+  Channel channel = Channel::run;
+  std::int64_t utime = 0;  // the message's own stamp [us]
+  std::vector<std::uint8_t> bytes;
+};
+
+/// When a message is from.
+struct Moment {
+  std::int64_t utime = 0;  // [us], see the .lcm files
+  std::int64_t step = 0;
+  double sim_time = 0.0;  // [s]
+};
+
+/// Gives each message of a run its header, its number on its channel and its checksum.
+class Sealer {
+ public:
+  explicit Sealer(std::int64_t run_id) : run_id_(run_id) {}
+
+  /// Fills in the header and the checksum and encodes. A message above max_message_bytes is our own mistake: aborts.
+  template <class Message>
+  Packet seal(Message& message, const Moment& moment);
+
+  /// Messages so far on a channel.
+  std::int64_t sent(Channel channel) const { return next_[static_cast<std::size_t>(channel)]; }
+
+ private:
+  std::int64_t run_id_;
+  std::array<std::int64_t, channel_names.size()> next_{};
+};
+
+}  // namespace talus

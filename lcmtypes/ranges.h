@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+
+#include "lcmtypes/channels.h"
+
+namespace talus {
+
+/// What no message of ours says: the first value found that is not finite or out of its range, or nothing.
+std::string_view range_fault(const talus_lcm::talus_run_v1& message);
+std::string_view range_fault(const talus_lcm::talus_piles_v1& message);
+std::string_view range_fault(const talus_lcm::talus_sleep_v1& message);
+std::string_view range_fault(const talus_lcm::talus_stats_v1& message);
+std::string_view range_fault(const talus_lcm::talus_bodies_v1& message);
+std::string_view range_fault(const talus_lcm::talus_shapes_v1& message);
+
+}  // namespace talus

@@ -1,0 +1,60 @@
+#include "lcmtypes/run_info.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string_view>
+
+namespace talus {
+namespace {
+
+/// FNV-1a, 64 bits.
+std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char letter : text) {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211U;
+  }
+  return hash;
+}
+
+/// The lowest 62 bits: ids are positive, and differences of two do not overflow.
+std::int64_t to_id(std::uint64_t hash) { return static_cast<std::int64_t>(hash & 0x3FFFFFFFFFFFFFFFU); }
+
+std::string settings(const RunInfo& info) {
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", info.scene, info.backend, info.policy, info.seed, info.dimension,
+                     info.dt, info.steps);
+}
+
+}  // namespace
+
+template <int Dim>
+RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const std::string& backend) {
+  return {.scene = scene_name,
+          .backend = backend,
+          .policy = scene.policy.kind,
+          .version = TALUS_VERSION,
+          .seed = scene.seed,
+          .dimension = Dim,
+          .dt = scene.world.dt,
+          .steps = scene.steps(),
+          .gravity = scene.world.gravity,
+          .ground = scene.world.ground.present,
+          .ground_height = scene.world.ground.present ? scene.world.ground.height : 0.0};
+}
+
+template RunInfo run_info(const Scene<2>&, const std::string&, const std::string&);
+template RunInfo run_info(const Scene<3>&, const std::string&, const std::string&);
+
+std::int64_t record_id(const RunInfo& info) { return to_id(hash_of(settings(info))); }
+
+std::int64_t live_id(const RunInfo& info) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  return to_id(hash_of(fmt::format("{}\n{}\n{}", settings(info), now, getpid())));
+}
+
+std::string short_id(std::int64_t run_id) {
+  return fmt::format("{:08x}", static_cast<std::uint64_t>(run_id) & 0xFFFFFFFFU);
+}
+
+}  // namespace talus

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/scene/scene.h"
+
+namespace talus {
+
+/// Who runs and what: what TALUS_RUN says.
+struct RunInfo {
+  std::string scene;  // a short name, such as the scene file's without its ending
+  std::string backend;
+  std::string policy;
+  std::string version;
+  std::uint64_t seed = 1;
+  int dimension = 2;
+  double dt = 1.0 / 60.0;  // [s]
+  std::int64_t steps = 0;  // planned
+  double gravity = 9.81;   // [m/s^2]
+  bool ground = true;
+  double ground_height = 0.0;  // [m]
+};
+
+/// What a scene says about its run.
+template <int Dim>
+RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const std::string& backend);
+
+/// A number that the same run always gets, for its record.
+std::int64_t record_id(const RunInfo& info);
+
+/// A number that no other run gets, to tell apart what is live at one time.
+std::int64_t live_id(const RunInfo& info);
+
+/// How people see a run's number: eight hexadecimal digits.
+std::string short_id(std::int64_t run_id);
+
+}  // namespace talus

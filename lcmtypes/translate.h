@@ -1,0 +1,41 @@
+#pragma once
+// The one translation from the core's terms to messages, for the live view and for the record. Headers, numbers and
+// checksums come later, from Sealer. What is too much for one message comes in several, none above max_message_bytes.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/simulation/frame.h"
+#include "lcmtypes/encode.h"
+#include "lcmtypes/run_info.h"
+
+namespace talus {
+
+/// `phase` as in talus_run_v1; `channels` are those that the run sends on, with the numbers that `sealer` has reached.
+talus_lcm::talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view reason,
+                               std::span<const Channel> channels, const Sealer& sealer);
+
+/// One message at least, also where there is no pile yet.
+template <int Dim>
+std::vector<talus_lcm::talus_piles_v1> to_piles(std::span<const Pile<Dim>> piles);
+
+/// No message where there are no events.
+std::vector<talus_lcm::talus_sleep_v1> to_sleep(std::span<const SleepEvent> events);
+
+/// Counts and kinetic energy; the rest stays at 0, `contacts` at -1. Costs O(awake), and a look at each `removed` flag.
+template <int Dim>
+talus_lcm::talus_stats_v1 to_stats(const BodyStates<Dim>& states, std::span<const BodyIndex> awake,
+                                   std::span<const Shape<Dim>> shapes);
+
+/// Poses of `bodies`, ascending. One message at least.
+template <int Dim>
+std::vector<talus_lcm::talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<const BodyIndex> bodies,
+                                                  bool key_frame);
+
+/// All shapes of bodies, then all obstacles, one message each. Throws std::invalid_argument when a shape has so many
+/// corners that it does not fit one message.
+template <int Dim>
+std::vector<talus_lcm::talus_shapes_v1> to_shapes(const WorldDescription<Dim>& world);
+
+}  // namespace talus

@@ -1,0 +1,142 @@
+#include "lcmtypes/decode.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <string>
+
+#include "lcmtypes/crc32.h"
+#include "tests/lcmtypes/sample_packets.h"
+
+namespace talus {
+namespace {
+
+using namespace talus_lcm;
+using Bytes = std::vector<std::uint8_t>;
+
+template <class Message>
+std::string fault_of(std::span<const std::uint8_t> bytes) {
+  Message message;
+  return std::string(decode(bytes, message));
+}
+
+std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
+  switch (channel) {
+    case Channel::run:
+      return fault_of<talus_run_v1>(bytes);
+    case Channel::piles:
+      return fault_of<talus_piles_v1>(bytes);
+    case Channel::sleep:
+      return fault_of<talus_sleep_v1>(bytes);
+    case Channel::stats:
+      return fault_of<talus_stats_v1>(bytes);
+    case Channel::bodies:
+      return fault_of<talus_bodies_v1>(bytes);
+    case Channel::shapes:
+      return fault_of<talus_shapes_v1>(bytes);
+  }
+  return "no such channel";
+}
+
+/// What somebody sends who gets the checksum right but not the rest.
+void seal_again(Bytes& bytes) {
+  const std::uint32_t sum = crc32(std::span(bytes).first(bytes.size() - checksum_bytes));
+  for (std::size_t i = 0; i < checksum_bytes; ++i) {
+    bytes[bytes.size() - 1 - i] = static_cast<std::uint8_t>(sum >> (8 * i));
+  }
+}
+
+template <int Dim>
+std::vector<Packet>& samples() {
+  static std::vector<Packet> packets = sample_packets<Dim>(20);
+  return packets;
+}
+
+TEST(Decoder, AcceptsWhatWeSend) {
+  for (const Packet& packet : sample_packets<2>(20)) EXPECT_EQ(fault_of(packet.channel, packet.bytes), "");
+  for (const Packet& packet : sample_packets<3>(20)) EXPECT_EQ(fault_of(packet.channel, packet.bytes), "");
+}
+
+TEST(Decoder, RefusesEveryTruncation) {
+  for (const Packet& packet : samples<3>()) {
+    for (std::size_t size = 0; size < packet.bytes.size(); ++size) {
+      Bytes cut(packet.bytes.begin(), packet.bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      ASSERT_NE(fault_of(packet.channel, cut), "") << name_of(packet.channel) << " cut to " << size;
+      if (size < checksum_bytes) continue;
+      seal_again(cut);
+      ASSERT_NE(fault_of(packet.channel, cut), "") << name_of(packet.channel) << " cut to " << size << ", sealed";
+    }
+  }
+}
+
+TEST(Decoder, RefusesEveryFlippedBit) {
+  for (const Packet& packet : samples<2>()) {
+    for (std::size_t bit = 0; bit < packet.bytes.size() * 8; ++bit) {
+      Bytes flipped = packet.bytes;
+      flipped[bit / 8] = static_cast<std::uint8_t>(flipped[bit / 8] ^ (1U << bit % 8));
+      ASSERT_NE(fault_of(packet.channel, flipped), "") << name_of(packet.channel) << " bit " << bit;
+    }
+  }
+}
+
+TEST(Decoder, RefusesBytesThatFollow) {
+  for (const Packet& packet : samples<2>()) {
+    Bytes longer = packet.bytes;
+    longer.push_back(0);
+    seal_again(longer);
+    EXPECT_NE(fault_of(packet.channel, longer), "");
+  }
+}
+
+TEST(Decoder, RefusesAnotherType) {
+  for (const Packet& packet : samples<2>()) {
+    if (packet.channel != Channel::piles) {
+      EXPECT_EQ(fault_of<talus_piles_v1>(packet.bytes), "another type or version");
+    }
+  }
+}
+
+// Debian's generated decoder would resize to 2^31 - 1 entries first and look at the bytes left afterwards.
+TEST(Decoder, RefusesHugeAndNegativeCountsWithoutAllocating) {
+  for (const Packet& packet : samples<3>()) {
+    for (std::size_t at = header_bytes; at + 4 + checksum_bytes <= packet.bytes.size(); ++at) {
+      for (const std::uint8_t highest : {std::uint8_t{0x7F}, std::uint8_t{0x80}}) {
+        Bytes wrong = packet.bytes;
+        wrong[at] = highest;
+        for (std::size_t i = 1; i < 4; ++i) wrong[at + i] = 0xFF;
+        seal_again(wrong);
+        fault_of(packet.channel, wrong);  // may be a plain value; must neither crash nor eat the memory
+      }
+    }
+  }
+}
+
+TEST(Decoder, RefusesWhatIsNotFinite) {
+  talus_piles_v1 piles = to_piles<2>({}).front();
+  Sealer sealer(1);
+  EXPECT_EQ(fault_of<talus_piles_v1>(sealer.seal(piles, {0, 1, 0.5}).bytes), "");
+  EXPECT_NE(fault_of<talus_piles_v1>(sealer.seal(piles, {0, 1, std::nan("")}).bytes), "");
+  EXPECT_NE(fault_of<talus_piles_v1>(sealer.seal(piles, {0, -1, 0.5}).bytes), "");
+  talus_stats_v1 stats{};
+  stats.kinetic_energy = std::numeric_limits<double>::infinity();
+  EXPECT_NE(fault_of<talus_stats_v1>(sealer.seal(stats, {0, 1, 0.5}).bytes), "");
+}
+
+RC_GTEST_PROP(DecoderProperty, SurvivesAnything, (Bytes bytes, bool sealed)) {
+  if (sealed && bytes.size() >= checksum_bytes) seal_again(bytes);
+  for (const Packet& packet : samples<2>()) RC_ASSERT(!fault_of(packet.channel, bytes).empty());
+}
+
+RC_GTEST_PROP(DecoderProperty, SurvivesSealedMessagesWithRandomBytesIn, ()) {
+  const Packet& packet = *rc::gen::elementOf(samples<3>());
+  Bytes bytes = packet.bytes;
+  const auto changes = *rc::gen::inRange(1, 8);
+  for (int i = 0; i < changes; ++i) {
+    bytes[*rc::gen::inRange<std::size_t>(0, bytes.size())] = *rc::gen::arbitrary<std::uint8_t>();
+  }
+  seal_again(bytes);
+  fault_of(packet.channel, bytes);  // may be accepted where only a value changed within its range
+}
+
+}  // namespace
+}  // namespace talus

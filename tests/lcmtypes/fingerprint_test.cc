@@ -1,0 +1,25 @@
+// A fingerprint follows from the names and types of all fields. It changes when a type changes, and then receivers and
+// records of before no longer fit: make a new version (talus_run_v2) instead, or, before anybody has used it, pin anew.
+
+#include <gtest/gtest.h>
+
+#include "lcmtypes/channels.h"
+
+namespace talus {
+namespace {
+
+using namespace talus_lcm;
+
+std::uint64_t fingerprint(std::int64_t hash) { return static_cast<std::uint64_t>(hash); }
+
+TEST(Fingerprint, OfEachTypeIsPinned) {
+  EXPECT_EQ(fingerprint(talus_run_v1::getHash()), 0x96F65A489D62D600U);
+  EXPECT_EQ(fingerprint(talus_piles_v1::getHash()), 0x955F09EC62238F61U);
+  EXPECT_EQ(fingerprint(talus_sleep_v1::getHash()), 0x81A04516E02D7E80U);
+  EXPECT_EQ(fingerprint(talus_stats_v1::getHash()), 0xEA33F2068323C799U);
+  EXPECT_EQ(fingerprint(talus_bodies_v1::getHash()), 0xC6FA8471FD1162E7U);
+  EXPECT_EQ(fingerprint(talus_shapes_v1::getHash()), 0x081800A341BF37D4U);
+}
+
+}  // namespace
+}  // namespace talus

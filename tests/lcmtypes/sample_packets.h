@@ -1,0 +1,42 @@
+#pragma once
+// One real message of each kind, and more than one where a frame needs parts.
+
+#include <vector>
+
+#include "lcmtypes/encode.h"
+#include "lcmtypes/translate.h"
+#include "tests/lcmtypes/still_run.h"
+
+namespace talus {
+
+/// All messages that a run of so many bodies gives at the step where all have fallen asleep.
+template <int Dim>
+std::vector<Packet> sample_packets(int bodies) {
+  const Scene<Dim> scene = still_scene<Dim>();
+  const auto run = still_run<Dim>(scene, bodies);
+  struct Nothing final : Observer<Dim> {
+    void on_frame(const Frame<Dim>&) override {}
+  } nothing;
+  run->add_observer(nothing);
+  for (int step = 0; step < 4; ++step) run->step();
+  const Frame<Dim> frame = run->frame();
+  const BodyStates<Dim>& states = frame.world.states();
+  std::vector<BodyIndex> all(states.shape.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<BodyIndex>(i);
+
+  Sealer sealer(42);
+  std::vector<Packet> packets;
+  const auto seal = [&](auto messages) {
+    for (auto& message : messages) packets.push_back(sealer.seal(message, {1000, frame.step, frame.time}));
+  };
+  constexpr Channel channels[] = {Channel::run, Channel::piles};
+  seal(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run_v1::ALIVE, "", channels, sealer)});
+  seal(to_piles<Dim>(frame.piles.piles()));
+  seal(to_sleep(frame.events));
+  seal(std::vector{to_stats<Dim>(states, frame.world.awake(), scene.world.shapes)});
+  seal(to_bodies<Dim>(states, all, true));
+  seal(to_shapes<Dim>(scene.world));
+  return packets;
+}
+
+}  // namespace talus

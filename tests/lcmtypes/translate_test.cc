@@ -1,0 +1,173 @@
+#include "lcmtypes/translate.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <numeric>
+
+#include "lcmtypes/decode.h"
+#include "tests/lcmtypes/still_run.h"
+
+namespace talus {
+namespace {
+
+using namespace talus_lcm;
+
+template <class Message>
+void expect_sendable(std::vector<Message>& messages) {
+  Sealer sealer(1);
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    const Packet packet = sealer.seal(messages[i], {});
+    ASSERT_LE(packet.bytes.size(), max_message_bytes);
+    Message decoded;
+    ASSERT_EQ(decode(packet.bytes, decoded), "");
+    ASSERT_EQ(decoded.seq, static_cast<std::int64_t>(i));
+    ASSERT_EQ(decoded.part, static_cast<std::int32_t>(i));
+    ASSERT_EQ(decoded.parts, static_cast<std::int32_t>(messages.size()));
+  }
+}
+
+TEST(PilesMessage, SaysWhatThePileHolds) {
+  Pile<2> pile = make_pile<2>(Vec2(3.0, 1.0), 0.8, 100.0, {.bounding_volume = 0.5, .extent = 1.0, .mass = 1.0});
+  pile.layers[0].count = 7;
+  pile.layers[0].sleeping = 5;
+  const auto messages = to_piles<2>(std::span(&pile, 1));
+  ASSERT_EQ(messages.size(), 1U);
+  ASSERT_EQ(messages[0].piles.size(), 1U);
+  const talus_pile_v1& told = messages[0].piles[0];
+  EXPECT_EQ(told.centre[0], 3.0);
+  EXPECT_EQ(told.centre[1], 0.0);
+  EXPECT_EQ(told.centre[2], 1.0);
+  EXPECT_EQ(told.alpha, 0.8);
+  EXPECT_EQ(told.structure_size, 100.0);
+  EXPECT_EQ(told.occupation_ratio, pile.occupation_ratio());
+  ASSERT_EQ(told.layers.size(), pile.layers.size());
+  EXPECT_EQ(told.layers[0].count, 7);
+  EXPECT_EQ(told.layers[0].sleeping, 5);
+  EXPECT_EQ(told.layers[0].density, static_cast<float>(7.0 / pile.layers[0].capacity));
+}
+
+TEST(PilesMessage, ComesInPartsWhenPilesAreMany) {
+  const std::vector<Pile<3>> piles(500, make_pile<3>(Vec3::Zero(), 0.8, 5000.0, {}));
+  auto messages = to_piles<3>(piles);
+  EXPECT_GT(messages.size(), 1U);
+  std::int32_t piles_told = 0;
+  for (const auto& message : messages) {
+    EXPECT_EQ(message.first_pile, piles_told);
+    piles_told += message.pile_count;
+    EXPECT_EQ(message.pile_total, 500);
+  }
+  EXPECT_EQ(piles_told, 500);
+  expect_sendable(messages);
+}
+
+TEST(PilesMessage, TellsTheLowestLayersOfAPileWithThousands) {
+  Pile<2> pile;
+  pile.structure_size = 20000.0;
+  pile.layers.resize(5000, {.top = 1.0, .radius = 1.0, .capacity = 4.0, .count = 2});
+  auto messages = to_piles<2>(std::span(&pile, 1));
+  EXPECT_EQ(messages[0].piles[0].layer_total, 5000);
+  EXPECT_EQ(messages[0].piles[0].layer_count, 1024);
+  expect_sendable(messages);
+}
+
+RC_GTEST_PROP(SleepMessage, CarriesAllEventsInOrderInSmallMessages, ()) {
+  const auto number = *rc::gen::inRange<std::size_t>(0, 12000);
+  std::vector<SleepEvent> events(number);
+  for (std::size_t i = 0; i < number; ++i) {
+    events[i] = {.body = static_cast<BodyIndex>(i), .layer = 3, .woke = i % 3 == 0, .cause = SleepCause::growth};
+  }
+  auto messages = to_sleep(events);
+  RC_ASSERT(messages.empty() == events.empty());
+  BodyIndex next = 0;
+  for (const auto& message : messages) {
+    for (std::size_t i = 0; i < message.body.size(); ++i, ++next) {
+      RC_ASSERT(message.body[i] == next);
+      RC_ASSERT(message.woke[i] == (next % 3 == 0 ? 1 : 0));
+      RC_ASSERT(message.cause[i] == talus_sleep_v1::GROWTH);
+    }
+  }
+  RC_ASSERT(next == static_cast<BodyIndex>(number));
+  expect_sendable(messages);
+}
+
+TEST(SleepMessage, NumbersCausesAsTheCoreDoes) {
+  EXPECT_EQ(talus_sleep_v1::SCORE, static_cast<int>(SleepCause::score));
+  EXPECT_EQ(talus_sleep_v1::REST, static_cast<int>(SleepCause::rest));
+  EXPECT_EQ(talus_sleep_v1::AVALANCHE, static_cast<int>(SleepCause::avalanche));
+  EXPECT_EQ(talus_sleep_v1::MOMENTUM, static_cast<int>(SleepCause::momentum));
+  EXPECT_EQ(talus_sleep_v1::LOST_SUPPORT, static_cast<int>(SleepCause::lost_support));
+  EXPECT_EQ(talus_sleep_v1::GROWTH, static_cast<int>(SleepCause::growth));
+  EXPECT_EQ(talus_sleep_v1::MERGE, static_cast<int>(SleepCause::merge));
+  EXPECT_EQ(talus_sleep_v1::ENGINE, static_cast<int>(SleepCause::engine));
+  EXPECT_EQ(talus_sleep_v1::USER, static_cast<int>(SleepCause::user));
+}
+
+TEST(BodiesMessage, CarriesAHundredThousandBodiesInSmallMessages) {
+  StillWorld<3> world(still_scene<3>().world);
+  for (int i = 0; i < 100'000; ++i) world.add({.pose = {.position = Vec3(i, 2.0, 3.0)}});
+  auto messages = to_bodies<3>(world.states(), world.awake(), true);
+  BodyIndex next = 0;
+  for (const auto& message : messages) {
+    for (std::size_t i = 0; i < message.body.size(); ++i, ++next) {
+      ASSERT_EQ(message.body[i], next);
+      ASSERT_EQ(message.poses[7 * i], static_cast<float>(next));
+      ASSERT_EQ(message.poses[7 * i + 3], 1.0F);  // w of no rotation
+    }
+  }
+  EXPECT_EQ(next, 100'000);
+  expect_sendable(messages);
+}
+
+// A cube of 1 m and 1,000 kg: 1/2 m v^2 + 1/2 I w^2 with I = m a^2 / 6. A long box spinning about its own long axis,
+// which a rotation by 90 degrees has turned from x to z: I = m (b^2 + c^2) / 12.
+TEST(StatsMessage, GivesTheKineticEnergy) {
+  const std::vector<Shape<3>> shapes = {make_shape<3>("cube", box_pieces<3>(Vec3(1, 1, 1)), {}),
+                                        make_shape<3>("bar", box_pieces<3>(Vec3(4, 1, 0.5)), {})};
+  WorldDescription<3> description;
+  description.shapes = shapes;
+  StillWorld<3> world(description);
+  world.add({.shape = 0, .pose = {}, .velocity = Vec3(3, 0, 4), .spin = Vec3(0, 6, 0)});
+  const Rotation<3> x_to_z(Eigen::AngleAxisd(-0.5 * std::numbers::pi, Vec3::UnitY()));
+  world.add(
+      {.shape = 1, .pose = {.position = {}, .rotation = x_to_z}, .velocity = Vec3::Zero(), .spin = Vec3(0, 0, 2)});
+  const auto stats = to_stats<3>(world.states(), world.awake(), shapes);
+  const double cube = 0.5 * 1000 * 25 + 0.5 * (1000.0 / 6) * 36;
+  const double bar = 0.5 * (2000 * (1 + 0.25) / 12) * 4;
+  EXPECT_NEAR(stats.kinetic_energy, cube + bar, 1e-6);  // rounding of a sum near 2e4
+  EXPECT_EQ(stats.awake, 2);
+  EXPECT_EQ(stats.asleep, 0);
+}
+
+TEST(StatsMessage, CountsNeitherRemovedBodiesNorSleepersTwice) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  for (int i = 0; i < 10; ++i) world.add({});
+  world.freeze(std::vector<BodyIndex>{0, 1, 2});
+  world.remove(1);
+  world.remove(9);
+  const auto stats = to_stats<2>(world.states(), world.awake(), scene.world.shapes);
+  EXPECT_EQ(stats.awake, 6);
+  EXPECT_EQ(stats.asleep, 2);
+}
+
+TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {
+  const auto messages = to_shapes<3>(still_scene<3>().world);
+  ASSERT_EQ(messages.size(), 3U);
+  EXPECT_EQ(messages[0].name, "l");
+  EXPECT_EQ(messages[0].piece_count, 2);
+  EXPECT_EQ(messages[1].kind, std::vector<std::int8_t>{talus_shapes_v1::BALL});
+  EXPECT_EQ(messages[1].values, (std::vector<double>{0, 0, 0, 0.5}));
+  EXPECT_EQ(messages[2].obstacle, 1);
+  EXPECT_EQ(messages[2].pose[0], 7.0);
+}
+
+TEST(ShapesMessage, RefusesAShapeTooLargeForAMessage) {
+  WorldDescription<2> world;
+  world.shapes.resize(1);
+  world.shapes[0].pieces.assign(3000, BoxPiece<2>{});
+  EXPECT_THROW(to_shapes<2>(world), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace talus
