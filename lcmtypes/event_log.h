@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "lcmtypes/encode.h"
+
+namespace lcm {
+class LogFile;
+}
+
+namespace talus {
+
+/// An LCM event log being written: lcm-logplayer plays it, lcm-spy shows it. Each event's stamp is its message's utime.
+class EventLog {
+ public:
+  /// Makes or empties the file. Throws std::system_error with the path.
+  explicit EventLog(std::string path);
+  EventLog(const EventLog&) = delete;
+  EventLog& operator=(const EventLog&) = delete;
+  ~EventLog();
+
+  /// Appends. Throws std::system_error, also for what was written before and only now turns out not to fit the disk.
+  /// Once it has thrown, it and flush() do nothing: what is in the file stays readable.
+  void write(Packet& packet);
+
+  /// Hands all that was written to the operating system: then it outlives this process, whatever ends it.
+  void flush();
+
+  /// flush() when the last one was `interval` [s] of wall time ago or longer.
+  void flush_after(double interval);
+
+ private:
+  [[noreturn]] void fail();
+
+  std::string path_;
+  std::unique_ptr<lcm::LogFile> file_;
+  bool broken_ = false;
+  std::chrono::steady_clock::time_point last_flush_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace talus

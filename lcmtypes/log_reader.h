@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// One event of a log. The header (number, stamp) is under no checksum; messages carry stamp and number of their own.
+struct LogEvent {
+  std::int64_t number = 0;     // as written, from 0
+  std::int64_t timestamp = 0;  // [us]
+  std::string channel;
+  std::vector<std::uint8_t> data;
+};
+
+/// What a reader had to leave out.
+struct LogDamage {
+  std::uint64_t places = 0;  // stretches of bytes that were no event
+  std::uint64_t bytes = 0;   // their sum
+};
+
+/// Reads LCM event logs, also those that were cut, overwritten or invented to do harm: what is no valid event is
+/// skipped byte by byte until the next one. An event on one of our channels is valid when its checksum holds; on any
+/// other channel, when the next event or the end of the file follows. LCM's own reader stops at the first damage and
+/// crashes on some lengths.
+class LogReader {
+ public:
+  /// Throws std::system_error with the path.
+  explicit LogReader(const std::string& path);
+
+  /// The next event, or false at the end of the file.
+  bool next(LogEvent& event);
+
+  /// Of what was read so far.
+  const LogDamage& damage() const { return damage_; }
+
+ private:
+  bool have(std::size_t bytes);
+  std::span<const std::uint8_t> rest() const { return std::span(buffer_).subspan(at_); }
+  std::size_t event_size();
+  void skip_to_candidate();
+
+  std::ifstream file_;
+  std::vector<std::uint8_t> buffer_;  // a stretch of the file; what lies before at_ is done with
+  std::size_t at_ = 0;
+  LogDamage damage_;
+  bool in_damage_ = false;
+};
+
+}  // namespace talus

@@ -1,0 +1,132 @@
+#include "lcmtypes/run_recorder.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "lcmtypes/translate.h"
+
+namespace talus {
+
+using talus_lcm::talus_run_v1;
+
+namespace {
+
+constexpr std::array channels = {Channel::run,   Channel::piles,  Channel::sleep,
+                                 Channel::stats, Channel::bodies, Channel::shapes};
+
+// Between the stamps of two messages [us]: lcm-logplayer then paces them so that no receive buffer runs over.
+constexpr std::int64_t pace = 100;
+
+RecorderParams checked(const RecorderParams& params) {
+  if (!(params.flush_interval >= 0.0)) {
+    throw std::invalid_argument(fmt::format("flush_interval = {}: must be >= 0 s", params.flush_interval));
+  }
+  if (!(params.key_frame_interval > 0.0)) {
+    throw std::invalid_argument(fmt::format("key_frame_interval = {}: must be > 0 s", params.key_frame_interval));
+  }
+  return params;
+}
+
+}  // namespace
+
+template <int Dim>
+RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, const Scene<Dim>& scene,
+                              const RecorderParams& params)
+    : info_(info),
+      shapes_(scene.world.shapes),
+      steps_per_frame_(scene.steps_per_frame()),
+      steps_per_key_frame_(std::max<std::int64_t>(1, std::llround(checked(params).key_frame_interval / info.dt))),
+      flush_interval_(params.flush_interval),
+      log_(path),
+      sealer_(record_id(info)) {
+  // A key frame is a frame of output too.
+  steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
+  write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
+  write(to_shapes<Dim>(scene.world), 0, 0.0);
+  log_.flush();
+}
+
+template <int Dim>
+void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
+  write(to_sleep(frame.events), frame.step, frame.time);
+  for (const SleepEvent& event : frame.events) {
+    if (!event.woke) fell_asleep_.push_back(event.body);
+  }
+  if (frame.step % steps_per_frame_ == 0) {
+    const bool key_frame = frame.step % steps_per_key_frame_ == 0;
+    if (key_frame) write_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
+    write_output(frame, key_frame);
+  }
+  log_.flush_after(flush_interval_);
+}
+
+template <int Dim>
+void RunRecorder<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
+  write_output(last, true);
+  write_run(talus_run_v1::END, reason, last.step, last.time);
+  log_.flush();
+}
+
+template <int Dim>
+void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
+  const BodyStates<Dim>& states = frame.world.states();
+  write(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);
+  auto stats = to_stats<Dim>(states, frame.world.awake(), shapes_);
+  write(stats, frame.step, frame.time);
+  std::vector<BodyIndex> bodies = moved(frame);
+  if (key_frame) {
+    bodies.clear();
+    for (BodyIndex body = 0; body < states.size(); ++body) {
+      if (states.removed[static_cast<std::size_t>(body)] == 0) bodies.push_back(body);
+    }
+  }
+  write(to_bodies<Dim>(states, bodies, key_frame), frame.step, frame.time);
+}
+
+/// Who is awake, and who came to rest since the last frame of output: its last pose is not yet told.
+template <int Dim>
+std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
+  const BodyStates<Dim>& states = frame.world.states();
+  std::vector<BodyIndex> bodies(frame.world.awake().begin(), frame.world.awake().end());
+  std::copy_if(fell_asleep_.begin(), fell_asleep_.end(), std::back_inserter(bodies),
+               [&](BodyIndex body) { return states.removed[static_cast<std::size_t>(body)] == 0; });
+  fell_asleep_.clear();
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
+template <int Dim>
+void RunRecorder<Dim>::write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
+  auto message = to_run(info_, phase, reason, channels, sealer_);
+  write(message, step, time);
+}
+
+template <int Dim>
+template <class Message>
+void RunRecorder<Dim>::write(std::vector<Message> messages, std::int64_t step, double time) {
+  for (Message& message : messages) write(message, step, time);
+}
+
+template <int Dim>
+template <class Message>
+void RunRecorder<Dim>::write(Message& message, std::int64_t step, double time) {
+  Packet packet = sealer_.seal(message, moment(step, time));
+  log_.write(packet);
+}
+
+template <int Dim>
+Moment RunRecorder<Dim>::moment(std::int64_t step, double time) {
+  const auto simulated = static_cast<std::int64_t>(std::llround(time * 1e6));
+  last_utime_ = std::max(simulated, last_utime_ + pace);
+  return {.utime = last_utime_, .step = step, .sim_time = time};
+}
+
+template class RunRecorder<2>;
+template class RunRecorder<3>;
+
+}  // namespace talus

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/simulation/observer.h"
+#include "lcmtypes/event_log.h"
+#include "lcmtypes/run_info.h"
+
+namespace talus {
+
+struct RecorderParams {
+  double flush_interval = 1.0;      // [s] of wall time, >= 0: what kill -9 may cost. Small: a system call each time
+  double key_frame_interval = 1.0;  // [s] of simulated time, > 0: everybody's pose. Long: a reader that starts in the
+                                    // middle waits long; short: the file grows with the sleepers
+};
+
+/// Writes the record of a run: shapes at the start, sleep events of each step, piles, statistics and poses of each
+/// frame of output, key frames, and why it ended. Stamps are simulated time and nothing in the file is from the wall
+/// clock, so the same run gives the same bytes. When the disk is full a call throws std::system_error, and later ones
+/// do nothing.
+template <int Dim>
+class RunRecorder final : public Observer<Dim> {
+ public:
+  /// Throws std::system_error when the file cannot be made, std::invalid_argument on bad parameters and on a shape
+  /// too large for a message.
+  RunRecorder(const std::string& path, const RunInfo& info, const Scene<Dim>& scene, const RecorderParams& params = {});
+
+  void on_frame(const Frame<Dim>& frame) override;
+  void on_end(const Frame<Dim>& last, std::string_view reason) override;
+
+ private:
+  Moment moment(std::int64_t step, double time);
+  template <class Message>
+  void write(Message& message, std::int64_t step, double time);
+  template <class Message>
+  void write(std::vector<Message> messages, std::int64_t step, double time);
+  void write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time);
+  void write_output(const Frame<Dim>& frame, bool key_frame);
+  std::vector<BodyIndex> moved(const Frame<Dim>& frame);
+
+  RunInfo info_;
+  std::vector<Shape<Dim>> shapes_;
+  std::int64_t steps_per_frame_;
+  std::int64_t steps_per_key_frame_;
+  double flush_interval_;
+  EventLog log_;
+  Sealer sealer_;
+  std::int64_t last_utime_ = -1;
+  std::vector<BodyIndex> fell_asleep_;  // since the last frame of output
+};
+
+}  // namespace talus
