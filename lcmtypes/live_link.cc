@@ -1,0 +1,75 @@
+#include "lcmtypes/live_link.h"
+
+#include <arpa/inet.h>
+#include <fmt/core.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <lcm/lcm-cpp.hpp>
+#include <stdexcept>
+#include <string_view>
+
+namespace talus {
+namespace {
+
+constexpr const char* default_url = "udpm://239.255.76.67:7667?ttl=0";
+
+bool is_multicast(std::string_view url) { return url.starts_with("udpm://") || url.starts_with("mpudpm://"); }
+
+/// The group's address of a multicast url.
+std::string group_of(std::string_view url) {
+  url.remove_prefix(url.find("://") + 3);
+  const std::string_view address = url.substr(0, url.find_first_of(":?"));
+  return address.empty() ? "239.255.76.67" : std::string(address);
+}
+
+/// Whether the operating system knows where to send packets for an address. True for what is no address: LCM says more
+/// about that than we could.
+bool has_route(const std::string& group) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(7667);
+  if (inet_pton(AF_INET, group.c_str(), &address.sin_addr) != 1) return true;
+  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+  const bool reached = connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  close(descriptor);
+  return reached;
+}
+
+}  // namespace
+
+std::string effective_url(const std::string& url) {
+  if (!url.empty()) return url;
+  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
+  return from_environment != nullptr && *from_environment != '\0' ? from_environment : default_url;
+}
+
+void require_local(const std::string& url) {
+  if (!is_multicast(url)) return;
+  std::string_view options = url;
+  options.remove_prefix(std::min(options.find('?'), options.size() - 1) + 1);
+  while (!options.empty()) {
+    const std::string_view option = options.substr(0, options.find('&'));
+    options.remove_prefix(std::min(option.size() + 1, options.size()));
+    if (option.starts_with("ttl=") && option != "ttl=0") {
+      throw std::invalid_argument(fmt::format(
+          "LCM address \"{}\": {} sends to the whole network; rule: ttl=0 unless that was asked for", url, option));
+    }
+  }
+}
+
+LiveLink open_live_link(const std::string& url) {
+  const std::string address = effective_url(url);
+  if (is_multicast(address) && !has_route(group_of(address))) {
+    return {nullptr, fmt::format("no route for multicast to {}; cure: ip link set lo up && ip route add 224.0.0.0/4 "
+                                 "dev lo (as root)",
+                                 group_of(address))};
+  }
+  auto link = std::make_unique<lcm::LCM>(address);
+  if (!link->good()) return {nullptr, fmt::format("LCM does not open \"{}\"", address)};
+  return {std::move(link), {}};
+}
+
+}  // namespace talus

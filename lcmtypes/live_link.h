@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace lcm {
+class LCM;
+}
+
+namespace talus {
+
+/// A way into LCM's network, or why there is none.
+struct LiveLink {
+  std::unique_ptr<lcm::LCM> lcm;
+  std::string problem;  // one line that says what to do; empty when `lcm` is there
+};
+
+/// The address that counts: `url`, else the variable LCM_DEFAULT_URL, else multicast that stays on this machine.
+std::string effective_url(const std::string& url);
+
+/// Throws std::invalid_argument when packets to this address would leave the machine (ttl is not 0).
+void require_local(const std::string& effective_url);
+
+/// Opens effective_url(url). Looks for the multicast route first, since LCM would print a page and give up.
+LiveLink open_live_link(const std::string& url);
+
+}  // namespace talus

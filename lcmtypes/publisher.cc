@@ -1,0 +1,160 @@
+#include "lcmtypes/publisher.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <lcm/lcm-cpp.hpp>
+#include <stdexcept>
+
+#include "lcmtypes/translate.h"
+
+namespace talus {
+
+using talus_lcm::talus_run_v1;
+
+namespace {
+
+constexpr std::array channels = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
+constexpr auto farewell = std::chrono::seconds(1);
+
+void check(const PublisherParams& params) {
+  if (!(params.piles_rate >= 0.0)) {
+    throw std::invalid_argument(fmt::format("piles_rate = {}: must be >= 0 per second", params.piles_rate));
+  }
+  if (params.queue_bytes < 1U << 20U) {
+    throw std::invalid_argument(fmt::format("queue_bytes = {}: must be >= 1 MiB", params.queue_bytes));
+  }
+}
+
+std::unique_ptr<SendQueue> open_queue(const PublisherParams& params) {
+  if (!params.allow_network) require_local(effective_url(params.url));
+  LiveLink link = open_live_link(params.url);
+  if (!link.lcm) {
+    spdlog::warn("no live view: {}", link.problem);
+    return nullptr;
+  }
+  return std::make_unique<SendQueue>(std::move(link.lcm), params.queue_bytes);
+}
+
+void add(PhaseTimes& sum, const PhaseTimes& step) {
+  sum.emit += step.emit;
+  sum.step += step.step;
+  sum.count += step.count;
+  sum.decide += step.decide;
+  sum.apply += step.apply;
+  sum.observe += step.observe;
+  sum.engine.collide += step.engine.collide;
+  sum.engine.solve += step.engine.solve;
+  sum.engine.read += step.engine.read;
+}
+
+void put(talus_lcm::talus_stats_v1& message, const PhaseTimes& sum, std::int64_t steps) {
+  const auto mean = [&](double seconds) { return static_cast<float>(1e3 * seconds / static_cast<double>(steps)); };
+  message.ms_emit = mean(sum.emit);
+  message.ms_step = mean(sum.step);
+  message.ms_collide = mean(sum.engine.collide);
+  message.ms_solve = mean(sum.engine.solve);
+  message.ms_read = mean(sum.engine.read);
+  message.ms_count = mean(sum.count);
+  message.ms_decide = mean(sum.decide);
+  message.ms_apply = mean(sum.apply);
+  message.ms_observe = mean(sum.observe);
+}
+
+}  // namespace
+
+template <int Dim>
+Publisher<Dim>::Publisher(const RunInfo& info, const Scene<Dim>& scene, const PublisherParams& params)
+    : info_(info),
+      shapes_(scene.world.shapes),
+      run_id_(live_id(info)),
+      sealer_(run_id_),
+      piles_pulse_(params.piles_rate) {
+  check(params);
+  queue_ = open_queue(params);
+  begin();
+}
+
+template <int Dim>
+Publisher<Dim>::Publisher(const RunInfo& info, const Scene<Dim>& scene, const PublisherParams& params, lcm::LCM& lcm)
+    : info_(info),
+      shapes_(scene.world.shapes),
+      run_id_(live_id(info)),
+      sealer_(run_id_),
+      piles_pulse_(params.piles_rate) {
+  check(params);
+  queue_ = std::make_unique<SendQueue>(lcm, params.queue_bytes);
+  begin();
+}
+
+template <int Dim>
+void Publisher<Dim>::begin() {
+  run_pulse_.due(Clock::now());
+  send_run(talus_run_v1::BEGIN, {}, 0, 0.0);
+}
+
+template <int Dim>
+void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
+  if (!queue_) return;
+  const auto now = Clock::now();
+  add(sum_, frame.phases);
+  ++summed_steps_;
+  send(to_sleep(frame.events), frame.step, frame.time);
+  if (piles_pulse_.due(now)) send(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);
+  if (stats_pulse_.due(now)) send_stats(frame, now);
+  if (run_pulse_.due(now)) send_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
+}
+
+template <int Dim>
+void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
+  if (!queue_) return;
+  send(to_piles<Dim>(last.piles.piles()), last.step, last.time);
+  send_stats(last, Clock::now());
+  send_run(talus_run_v1::END, reason, last.step, last.time);
+  queue_->close(farewell);
+  if (dropped() > 0) spdlog::warn("live view: {} messages were dropped; the record has everything", dropped());
+}
+
+template <int Dim>
+void Publisher<Dim>::send_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
+  auto message = to_run(info_, phase, reason, channels, sealer_);
+  send(message, step, time);
+}
+
+template <int Dim>
+void Publisher<Dim>::send_stats(const Frame<Dim>& frame, Clock::time_point now) {
+  auto message = to_stats<Dim>(frame.world.states(), frame.world.awake(), shapes_);
+  message.timed = 1;
+  if (summed_steps_ > 0) put(message, sum_, summed_steps_);
+  const std::chrono::duration<double> passed = now - stats_wall_;
+  if (passed.count() > 0.0) {
+    message.real_time_factor = static_cast<float>((frame.time - stats_time_) / passed.count());
+  }
+  message.queued_bytes = static_cast<std::int64_t>(queue_->queued_bytes());
+  message.dropped = queue_->dropped();
+  sum_ = {};
+  summed_steps_ = 0;
+  stats_wall_ = now;
+  stats_time_ = frame.time;
+  send(message, frame.step, frame.time);
+}
+
+template <int Dim>
+template <class Message>
+void Publisher<Dim>::send(std::vector<Message> messages, std::int64_t step, double time) {
+  for (Message& message : messages) send(message, step, time);
+}
+
+template <int Dim>
+template <class Message>
+void Publisher<Dim>::send(Message& message, std::int64_t step, double time) {
+  if (!queue_) return;
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  const auto utime = std::chrono::duration_cast<std::chrono::microseconds>(wall).count();
+  queue_->push(sealer_.seal(message, {.utime = utime, .step = step, .sim_time = time}));
+}
+
+template class Publisher<2>;
+template class Publisher<3>;
+
+}  // namespace talus

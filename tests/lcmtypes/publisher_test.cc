@@ -1,0 +1,145 @@
+#include "lcmtypes/publisher.h"
+
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+#include <map>
+
+#include "common/simulation/state_hash.h"
+#include "lcmtypes/decode.h"
+#include "tests/lcmtypes/still_run.h"
+
+namespace talus {
+namespace {
+
+using namespace talus_lcm;
+
+/// Keeps all messages of one LCM object's own memory queue.
+class Ear {
+ public:
+  explicit Ear(lcm::LCM& lcm) : lcm_(lcm) { lcm.subscribe("TALUS_.*", &Ear::hear, this); }
+
+  /// Everything that has been sent.
+  void listen() {
+    while (lcm_.handleTimeout(50) > 0) {
+    }
+  }
+  template <class Message>
+  std::vector<Message> all() const {
+    std::vector<Message> messages;
+    const auto found = packets_.find(name_of(channel_of<Message>));
+    if (found == packets_.end()) return messages;
+    for (const auto& bytes : found->second) EXPECT_EQ(decode(bytes, messages.emplace_back()), "");
+    return messages;
+  }
+
+ private:
+  void hear(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    const auto* data = static_cast<const std::uint8_t*>(buffer->data);
+    packets_[channel].emplace_back(data, data + buffer->data_size);
+  }
+  lcm::LCM& lcm_;
+  std::map<std::string, std::vector<std::vector<std::uint8_t>>> packets_;
+};
+
+/// Publishes `steps` steps of 12 bodies on a memory queue.
+template <int Dim>
+class PublishedRun {
+ public:
+  explicit PublishedRun(int steps, const PublisherParams& params = {.piles_rate = 0.0}) : ear(lcm_) {
+    const Scene<Dim> scene = still_scene<Dim>();
+    Publisher<Dim> publisher(run_info(scene, "still", "none"), scene, params, lcm_);
+    const auto run = still_run<Dim>(scene, 12);
+    run->add_observer(publisher);
+    for (int step = 0; step < steps; ++step) run->step();
+    run->end("finished");
+    dropped = publisher.dropped();
+    hash = state_hash(run->world().states());
+    ear.listen();
+  }
+
+ private:
+  lcm::LCM lcm_{"memq://"};
+
+ public:
+  Ear ear;
+  std::int64_t dropped = 0;
+  std::uint64_t hash = 0;
+};
+
+TEST(Publisher, SaysWhoRunsWhatAndHowItEnded) {
+  const PublishedRun<2> run(10);
+  const auto messages = run.ear.all<talus_run_v1>();
+  ASSERT_GE(messages.size(), 2U);
+  EXPECT_EQ(messages.front().phase, talus_run_v1::BEGIN);
+  EXPECT_EQ(messages.front().scene, "still");
+  EXPECT_EQ(messages.front().steps, 120);
+  EXPECT_EQ(messages.front().channels.size(), 4U);
+  EXPECT_EQ(messages.back().phase, talus_run_v1::END);
+  EXPECT_EQ(messages.back().reason, "finished");
+  EXPECT_EQ(messages.back().sent[1], static_cast<std::int64_t>(run.ear.all<talus_piles_v1>().size()));
+}
+
+TEST(Publisher, SendsPilesOfEveryStepWhenAsked) {
+  const PublishedRun<3> run(40);
+  const auto piles = run.ear.all<talus_piles_v1>();
+  ASSERT_EQ(piles.size(), 41U);  // and once more at the end
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_EQ(piles[i].step, static_cast<std::int64_t>(i) + 1);
+    EXPECT_EQ(piles[i].seq, static_cast<std::int64_t>(i));
+    EXPECT_EQ(piles[i].run_id, piles[0].run_id);
+  }
+}
+
+TEST(Publisher, KeepsToTheRateOfWallTime) {
+  const PublishedRun<2> run(2000, {.piles_rate = 10.0});  // far more than 10 steps in a tenth of a second
+  EXPECT_LT(run.ear.all<talus_piles_v1>().size(), 200U);
+  EXPECT_GE(run.ear.all<talus_piles_v1>().size(), 2U);
+}
+
+TEST(Publisher, SendsEverySleepEvent) {
+  const PublishedRun<2> run(40);
+  const auto sleep = run.ear.all<talus_sleep_v1>();
+  ASSERT_EQ(sleep.size(), 10U);
+  for (const auto& message : sleep) {
+    EXPECT_EQ(message.event_count, 12);
+    EXPECT_EQ(message.cause[0], message.woke[0] != 0 ? talus_sleep_v1::AVALANCHE : talus_sleep_v1::SCORE);
+    EXPECT_EQ(message.score[0], 0.625F);
+  }
+}
+
+TEST(Publisher, SendsStatisticsWithWallTimes) {
+  const PublishedRun<2> run(100);
+  const auto stats = run.ear.all<talus_stats_v1>();
+  ASSERT_GE(stats.size(), 2U);
+  EXPECT_EQ(stats.back().awake + stats.back().asleep, 12);
+  EXPECT_EQ(stats.back().timed, 1);
+  EXPECT_GT(stats.back().real_time_factor, 0.0F);
+  EXPECT_GT(stats.back().ms_observe, 0.0F);
+}
+
+TEST(Publisher, LeavesTheRunAsItIs) {
+  const Scene<2> scene = still_scene<2>();
+  const auto alone = still_run<2>(scene, 12);
+  for (int step = 0; step < 50; ++step) alone->step();
+  EXPECT_EQ(PublishedRun<2>(50).hash, state_hash(alone->world().states()));
+}
+
+// The thread sends at most one message in 0.1 ms, so a fast run without a limit on its rate fills the queue.
+TEST(Publisher, DropsRatherThanWaitsAndSaysSo) {
+  const PublishedRun<2> run(20'000, {.piles_rate = 0.0, .queue_bytes = 1U << 20U});
+  EXPECT_GT(run.dropped, 0);
+  const auto piles = run.ear.all<talus_piles_v1>();
+  EXPECT_LT(piles.size(), 20'000U);
+  const auto stats = run.ear.all<talus_stats_v1>();
+  EXPECT_TRUE(std::any_of(stats.begin(), stats.end(), [](const auto& s) { return s.dropped > 0; }));
+}
+
+TEST(Publisher, RefusesBadParameters) {
+  EXPECT_THROW(PublishedRun<2>(1, {.piles_rate = -1.0}), std::invalid_argument);
+  EXPECT_THROW(PublishedRun<2>(1, {.piles_rate = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(PublishedRun<2>(1, {.queue_bytes = 10}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace talus
