@@ -1,0 +1,175 @@
+// What a network or an enemy between sender and monitor can do: drop, repeat, reorder, cut, and change messages.
+
+#include "tools/monitor/listener.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "lcmtypes/translate.h"
+#include "tools/monitor/text_view.h"
+
+namespace talus {
+namespace {
+
+using namespace talus_lcm;
+
+/// Hands packets to a listener.
+class Wire {
+  lcm::LCM lcm_{"memq://"};
+
+ public:
+  Listener listener{lcm_};
+
+  void send(const char* channel, std::span<const std::uint8_t> bytes) {
+    lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
+    lcm_.handle();
+  }
+  void send(const Packet& packet) { send(name_of(packet.channel), packet.bytes); }
+  const RunView& run() const { return listener.runs().at(42); }
+};
+
+/// A run's messages: TALUS_RUN at both ends, piles, sleep events and statistics of each step between.
+std::vector<Packet> stream(int steps) {
+  Sealer sealer(42);
+  std::vector<Packet> packets;
+  const RunInfo info{.scene = "stream", .backend = "box2d", .policy = "paper", .version = "1"};
+  constexpr Channel channels[] = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
+  const auto say_run = [&](std::int8_t phase, int step) {
+    auto run = to_run(info, phase, "", channels, sealer);
+    packets.push_back(sealer.seal(run, {.utime = step, .step = step, .sim_time = 0.1 * step}));
+  };
+  const Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
+  const SleepEvent event{.body = 3, .cause = SleepCause::score};
+  say_run(talus_run_v1::BEGIN, 0);
+  for (int step = 1; step <= steps; ++step) {
+    const Moment moment{.utime = step, .step = step, .sim_time = 0.1 * step};
+    for (auto& message : to_piles<2>(std::span(&pile, 1))) packets.push_back(sealer.seal(message, moment));
+    for (auto& message : to_sleep(std::span(&event, 1))) packets.push_back(sealer.seal(message, moment));
+    talus_stats_v1 stats{};
+    stats.awake = step;
+    packets.push_back(sealer.seal(stats, moment));
+  }
+  say_run(talus_run_v1::END, steps);
+  return packets;
+}
+
+TEST(Listener, KnowsTheNewestStateAndThatNothingWasLost) {
+  Wire wire;
+  for (const Packet& packet : stream(50)) wire.send(packet);
+  EXPECT_EQ(wire.run().step(), 50);
+  EXPECT_EQ(wire.run().stats()->awake, 50);
+  EXPECT_EQ(wire.run().slept(), 50);
+  EXPECT_TRUE(wire.run().ended());
+  EXPECT_EQ(wire.listener.lost(), 0);
+  EXPECT_EQ(wire.listener.undecodable(), 0);
+}
+
+TEST(Listener, WhoJoinsLateHasLostNothing) {
+  Wire wire;
+  const auto packets = stream(50);
+  for (std::size_t i = 77; i < packets.size(); ++i) wire.send(packets[i]);
+  EXPECT_EQ(wire.listener.lost(), 0);
+  EXPECT_EQ(wire.run().run()->scene, "stream");
+}
+
+TEST(Listener, CountsARunThatIsPlayedAgainAnew) {
+  Wire wire;
+  const auto packets = stream(20);
+  for (int time = 0; time < 2; ++time) {
+    for (const Packet& packet : packets) wire.send(packet);
+  }
+  EXPECT_EQ(wire.run().slept(), 20);
+  EXPECT_EQ(wire.listener.lost(), 0);
+}
+
+TEST(Listener, ForgetsEndedRunsBeforeItIsFull) {
+  Wire wire;
+  Packet last;
+  for (int id = 0; id < 200; ++id) {
+    Sealer sealer(id);
+    auto run = to_run({}, talus_run_v1::END, "finished", {}, sealer);
+    last = sealer.seal(run, {});
+    wire.send(last);
+  }
+  EXPECT_LE(wire.listener.runs().size(), 64U);
+  EXPECT_TRUE(wire.listener.runs().contains(199));
+}
+
+RC_GTEST_PROP(ListenerProperty, CountsExactlyWhatWasDropped, ()) {
+  Wire wire;
+  const auto packets = stream(30);
+  std::int64_t dropped = 0;
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const bool is_end = i == 0 || i + 1 == packets.size();
+    if (!is_end && *rc::gen::inRange(0, 4) == 0) {
+      ++dropped;
+    } else {
+      wire.send(packets[i]);
+    }
+  }
+  RC_ASSERT(wire.listener.lost() == dropped);
+}
+
+RC_GTEST_PROP(ListenerProperty, CountsRepeatedAndReorderedMessagesOnce, ()) {
+  Wire wire;
+  auto packets = stream(30);
+  for (std::size_t i = 1; i + 2 < packets.size(); ++i) {
+    if (*rc::gen::inRange(0, 3) == 0) std::swap(packets[i], packets[i + 1]);
+  }
+  for (const Packet& packet : packets) {
+    wire.send(packet);
+    if (packet.channel != Channel::sleep && *rc::gen::inRange(0, 3) == 0) wire.send(packet);
+  }
+  RC_ASSERT(wire.listener.lost() == 0);
+  RC_ASSERT(wire.run().received() == static_cast<std::int64_t>(packets.size()));
+  RC_ASSERT(wire.run().slept() == 30);
+  RC_ASSERT(wire.run().stats()->awake == 30);
+}
+
+RC_GTEST_PROP(ListenerProperty, RefusesWhatWasCutOrChanged, ()) {
+  Wire wire;
+  const auto packets = stream(3);
+  std::int64_t harmed = 0;
+  for (const Packet& packet : packets) {
+    auto bytes = packet.bytes;
+    const auto at = *rc::gen::inRange<std::size_t>(0, bytes.size());
+    switch (*rc::gen::inRange(0, 3)) {
+      case 0:
+        bytes.resize(at);
+        ++harmed;
+        break;
+      case 1:
+        bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1U << *rc::gen::inRange(0U, 8U)));
+        ++harmed;
+        break;
+      default:
+        break;
+    }
+    wire.send(name_of(packet.channel), bytes);
+  }
+  RC_ASSERT(wire.listener.undecodable() == harmed);
+}
+
+RC_GTEST_PROP(ListenerProperty, SurvivesAnything, (const std::vector<std::uint8_t>& bytes)) {
+  Wire wire;
+  for (const char* channel : {"TALUS_RUN", "TALUS_PILES", "TALUS_SLEEP", "TALUS_STATS"}) wire.send(channel, bytes);
+  RC_ASSERT(wire.listener.undecodable() == 4);
+  RC_ASSERT(wire.listener.runs().empty());
+}
+
+TEST(DensityBar, HasABlockPerLayerAndGroupsMany) {
+  std::vector<talus_layer_v1> layers(5);
+  const std::vector<float> densities = {1.5F, 0.5F, 0.1F, 0.01F, 0.0F};
+  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].density = densities[i];
+  EXPECT_EQ(density_bar(layers), "█▄▁▁ ");
+  layers.assign(100, talus_layer_v1{});
+  EXPECT_EQ(density_bar(layers).size(), 24U);  // 24 blanks
+  EXPECT_EQ(density_bar({}), "");
+}
+
+TEST(Printable, TakesTerminalCommandsOut) { EXPECT_EQ(printable("a\x1b[2Jb\nc"), "a?[2Jb?c"); }
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,74 @@
+#include "tools/monitor/json_view.h"
+
+#include <nlohmann/json.hpp>
+
+#include "lcmtypes/run_info.h"
+
+namespace talus {
+
+using namespace talus_lcm;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json of(const talus_pile_v1& pile) {
+  Json counts = Json::array();
+  Json sleeping = Json::array();
+  Json densities = Json::array();
+  for (const talus_layer_v1& layer : pile.layers) {
+    counts.push_back(layer.count);
+    sleeping.push_back(layer.sleeping);
+    densities.push_back(layer.density);
+  }
+  return {{"layers", pile.layer_total},
+          {"occupation_ratio", pile.occupation_ratio},
+          {"density", densities},
+          {"count", counts},
+          {"sleeping", sleeping}};
+}
+
+Json of(const talus_run_v1& run) {
+  constexpr const char* phases[] = {"begin", "alive", "end"};
+  return {{"scene", run.scene},
+          {"backend", run.backend},
+          {"policy", run.policy},
+          {"version", run.version},
+          {"seed", static_cast<std::uint64_t>(run.seed)},
+          {"phase", phases[run.phase]},
+          {"reason", run.reason}};
+}
+
+Json of(const talus_stats_v1& stats) {
+  Json object = {{"awake", stats.awake}, {"asleep", stats.asleep}, {"kinetic_energy", stats.kinetic_energy}};
+  if (stats.timed == 0) return object;
+  object["real_time_factor"] = stats.real_time_factor;
+  object["ms"] = {{"emit", stats.ms_emit},     {"step", stats.ms_step},   {"collide", stats.ms_collide},
+                  {"solve", stats.ms_solve},   {"read", stats.ms_read},   {"count", stats.ms_count},
+                  {"decide", stats.ms_decide}, {"apply", stats.ms_apply}, {"observe", stats.ms_observe}};
+  object["dropped"] = stats.dropped;
+  return object;
+}
+
+}  // namespace
+
+std::string json_line(std::int64_t run_id, const RunView& view, std::int64_t undecodable) {
+  Json object = {{"run", short_id(run_id)}, {"step", view.step()}, {"sim_time", view.sim_time()}};
+  if (view.run()) object.update(of(*view.run()));
+  if (view.stats()) object.update(of(*view.stats()));
+  object["piles"] = Json::array();
+  for (const auto& [number, pile] : view.piles()) {
+    object["piles"].push_back({{"number", number}});
+    object["piles"].back().update(of(pile));
+  }
+  object["slept"] = view.slept();
+  object["woken"] = view.woken();
+  object["received"] = view.received();
+  for (const Channel channel : heard_channels) {
+    object["lost"][name_of(channel)] = view.lost(channel);
+  }
+  object["undecodable"] = undecodable;
+  // Texts come from the network: what is no UTF-8 is replaced.
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace talus

@@ -1,0 +1,79 @@
+#include "tools/monitor/run_view.h"
+
+#include <algorithm>
+
+namespace talus {
+
+using namespace talus_lcm;
+
+namespace {
+
+// Anybody can invent piles; more than these nobody looks at.
+constexpr std::size_t max_piles = 1000;
+
+}  // namespace
+
+template <class Message>
+bool RunView::note(const Message& message) {
+  const bool newest = trackers_[static_cast<std::size_t>(channel_of<Message>)].see(message.seq);
+  if (newest && message.step >= step_) {
+    step_ = message.step;
+    sim_time_ = message.sim_time;
+  }
+  return newest;
+}
+
+void RunView::take(const talus_run_v1& message) {
+  if (!note(message)) return;
+  run_ = message;
+  for (const Channel channel : heard_channels) {
+    const auto told = std::find(message.channels.begin(), message.channels.end(), name_of(channel));
+    if (channel == Channel::run || told == message.channels.end()) continue;
+    trackers_[static_cast<std::size_t>(channel)].expect(
+        message.sent[static_cast<std::size_t>(told - message.channels.begin())]);
+  }
+}
+
+void RunView::take(const talus_piles_v1& message) {
+  note(message);
+  if (message.step < piles_step_) return;
+  piles_step_ = message.step;
+  for (std::int32_t i = 0; i < message.pile_count; ++i) {
+    const talus_pile_v1& pile = message.piles[static_cast<std::size_t>(i)];
+    const std::int32_t number = message.first_pile + i;
+    if (pile.merged_into >= 0) {
+      piles_.erase(number);
+    } else if (piles_.contains(number) || piles_.size() < max_piles) {
+      piles_[number] = pile;
+    }
+  }
+}
+
+void RunView::take(const talus_sleep_v1& message) {
+  note(message);
+  const auto woken = std::count(message.woke.begin(), message.woke.end(), 1);
+  woken_ += woken;
+  slept_ += message.event_count - woken;
+}
+
+void RunView::take(const talus_stats_v1& message) {
+  if (note(message)) stats_ = message;
+}
+
+bool RunView::is_restart(const talus_run_v1& message) const {
+  return run_ && message.seq < run_->seq && (message.phase == talus_run_v1::BEGIN || ended());
+}
+
+std::int64_t RunView::lost() const {
+  std::int64_t sum = 0;
+  for (const SequenceTracker& tracker : trackers_) sum += tracker.lost();
+  return sum;
+}
+
+std::int64_t RunView::received() const {
+  std::int64_t sum = 0;
+  for (const SequenceTracker& tracker : trackers_) sum += tracker.received();
+  return sum;
+}
+
+}  // namespace talus

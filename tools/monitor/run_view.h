@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "lcmtypes/channels.h"
+#include "tools/monitor/sequence_tracker.h"
+
+namespace talus {
+
+/// What a monitor listens to.
+inline constexpr std::array heard_channels = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
+
+/// What is known of one run: the newest message of each kind, and what was lost. Older messages than those known are
+/// counted but change nothing.
+class RunView {
+ public:
+  void take(const talus_lcm::talus_run_v1& message);
+  void take(const talus_lcm::talus_piles_v1& message);
+  void take(const talus_lcm::talus_sleep_v1& message);
+  void take(const talus_lcm::talus_stats_v1& message);
+
+  /// The run's number was used before; nothing of that is left. A record that is played twice does so.
+  bool is_restart(const talus_lcm::talus_run_v1& message) const;
+
+  const std::optional<talus_lcm::talus_run_v1>& run() const { return run_; }
+  const std::optional<talus_lcm::talus_stats_v1>& stats() const { return stats_; }
+  /// By number, as last heard of; without those that became part of another.
+  const std::map<std::int32_t, talus_lcm::talus_pile_v1>& piles() const { return piles_; }
+
+  std::int64_t step() const { return step_; }    // the newest that any message told
+  double sim_time() const { return sim_time_; }  // [s] at that step
+  bool ended() const { return run_ && run_->phase == talus_lcm::talus_run_v1::END; }
+
+  std::int64_t lost(Channel channel) const { return trackers_[static_cast<std::size_t>(channel)].lost(); }
+  std::int64_t lost() const;
+  std::int64_t received() const;
+  std::int64_t slept() const { return slept_; }  // events, all so far
+  std::int64_t woken() const { return woken_; }
+
+ private:
+  /// Counts a message. Whether it is the newest of its channel.
+  template <class Message>
+  bool note(const Message& message);
+
+  std::array<SequenceTracker, channel_names.size()> trackers_;
+  std::optional<talus_lcm::talus_run_v1> run_;
+  std::optional<talus_lcm::talus_stats_v1> stats_;
+  std::map<std::int32_t, talus_lcm::talus_pile_v1> piles_;
+  std::int64_t piles_step_ = -1;
+  std::int64_t step_ = 0;
+  double sim_time_ = 0.0;
+  std::int64_t slept_ = 0;
+  std::int64_t woken_ = 0;
+};
+
+}  // namespace talus

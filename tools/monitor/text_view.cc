@@ -1,0 +1,81 @@
+#include "tools/monitor/text_view.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lcmtypes/run_info.h"
+
+namespace talus {
+
+using namespace talus_lcm;
+
+namespace {
+
+constexpr std::array blocks = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+constexpr std::size_t max_blocks = 24;
+constexpr std::size_t max_bars = 4;
+
+const char* block(double density) {
+  if (!(density > 0.0)) return blocks.front();
+  const double top = static_cast<double>(blocks.size() - 1);
+  return blocks[static_cast<std::size_t>(std::clamp(std::round(density * top), 1.0, top))];
+}
+
+std::string bars(const RunView& view) {
+  std::string text;
+  std::size_t shown = 0;
+  for (const auto& [number, pile] : view.piles()) {
+    if (shown == max_bars) return text + fmt::format(" and {} piles more", view.piles().size() - shown);
+    text += fmt::format(" [{}] {} {}", density_bar(pile.layers), pile.layer_total,
+                        pile.layer_total == 1 ? "layer" : "layers");
+    ++shown;
+  }
+  return text.empty() ? " no pile yet" : text;
+}
+
+std::string name(const RunView& view) {
+  if (!view.run()) return "?";  // until TALUS_RUN comes, which takes a second at most
+  const talus_run_v1& run = *view.run();
+  return fmt::format("{} {} {}", printable(run.scene), printable(run.backend), printable(run.policy));
+}
+
+}  // namespace
+
+std::string density_bar(std::span<const talus_layer_v1> layers) {
+  const std::size_t number = std::min(layers.size(), max_blocks);
+  std::string text;
+  for (std::size_t i = 0; i < number; ++i) {
+    const std::size_t begin = i * layers.size() / number;
+    const std::size_t end = (i + 1) * layers.size() / number;
+    double sum = 0.0;
+    for (const talus_layer_v1& layer : layers.subspan(begin, end - begin)) sum += layer.density;
+    text += block(sum / static_cast<double>(end - begin));
+  }
+  return text;
+}
+
+std::string printable(std::string_view text) {
+  std::string clean(text);
+  const auto is_control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; };
+  std::replace_if(clean.begin(), clean.end(), is_control, '?');
+  return clean;
+}
+
+std::string text_line(std::int64_t run_id, const RunView& view) {
+  std::string line =
+      fmt::format("{} {}  step {}  {:.2f} s ", short_id(run_id), name(view), view.step(), view.sim_time());
+  line += bars(view);
+  if (view.stats()) {
+    line += fmt::format("  awake {}  asleep {}", view.stats()->awake, view.stats()->asleep);
+    if (view.stats()->timed != 0) line += fmt::format("  {:.2f} x real time", view.stats()->real_time_factor);
+    if (view.stats()->dropped > 0) line += fmt::format("  dropped by the sender {}", view.stats()->dropped);
+  }
+  line += fmt::format("  lost {}", view.lost());
+  if (view.ended()) line += fmt::format("  ended: {}", printable(view.run()->reason));
+  return line;
+}
+
+}  // namespace talus
