@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim3d/engine_world.h"
 #include "tests/sim3d/heap.h"
 
@@ -61,6 +64,93 @@ TEST(FrozenBody, HasPairsOnlyWithTheAwake) {
     EXPECT_TRUE(pair.m_pProxy0->m_collisionFilterGroup == btBroadphaseProxy::DefaultFilter ||
                 pair.m_pProxy1->m_collisionFilterGroup == btBroadphaseProxy::DefaultFilter);
   }
+}
+
+/// Highest mean speed within the next half second [m/s].
+double peak_speed(World<3>& world) {
+  double peak = 0.0;
+  for (int step = 0; step < 30; ++step) {
+    world.step();
+    double sum = 0.0;
+    for (const Vec3& velocity : world.states().velocity) {
+      sum += velocity.norm();
+    }
+    peak = std::max(peak, sum / world.states().size());
+  }
+  return peak;
+}
+
+// Without the impulses of the contacts between sleepers the heap would fall for a step, at g dt = 0.16 m/s, and its
+// peak be about four times the other's.
+TEST(ThawedHeap, CarriesItselfFromTheFirstStep) {
+  const auto never_frozen = make_bullet_world(l_world<3>());
+  const auto thawed = make_bullet_world(l_world<3>());
+  for (World<3>* world : {never_frozen.get(), thawed.get()}) {
+    add_stack(*world, 80, 3);
+    run(*world, 600);
+  }
+  const std::vector<BodyIndex> all = awake_of(*thawed);
+  thawed->freeze(all);
+  run(*thawed, 10);
+  thawed->thaw(all);
+  EXPECT_LT(peak_speed(*thawed), 2.0 * peak_speed(*never_frozen));
+}
+
+TEST(ThawedBody, FindsItsContactsInTheFirstStep) {
+  const auto world = make_bullet_world(l_world<3>());
+  add_stack(*world, 40, 3);
+  run(*world, 600);
+  const std::vector<Contact<3>> before(world->contacts().begin(), world->contacts().end());
+  const std::vector<BodyIndex> all = awake_of(*world);
+  world->freeze(all);
+  world->thaw(all);
+  world->step();
+  double weight_before = 0.0;
+  double weight_after = 0.0;
+  for (const Contact<3>& contact : before) {
+    weight_before += contact.b == ground_index ? contact.normal_impulse : 0.0;
+  }
+  for (const Contact<3>& contact : world->contacts()) {
+    weight_after += contact.b == ground_index ? contact.normal_impulse : 0.0;
+  }
+  // In one step the solver, which takes over 85 % of each impulse, does not find the balance to the last per cent.
+  EXPECT_NEAR(weight_after / weight_before, 1.0, 0.1);
+}
+
+TEST(BrokenState, StopsTheWorldAsItWasBeforeTheStep) {
+  const auto world = make_bullet_world(l_world<3>());
+  add_stack(*world, 40, 3);
+  run(*world, 100);
+  const std::vector<Pose<3>> before = world->states().pose;
+  engine_of(*world).world.getNonStaticRigidBodies()[7]->setLinearVelocity(btVector3(0, NAN, 0));
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      world->step();
+      FAIL() << "not noticed";
+    } catch (const NonFiniteState& error) {
+      EXPECT_EQ(error.step, 101);
+    }
+  }
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(world->states().pose[i].position, before[i].position);
+  }
+}
+
+TEST(RemovedBody, TakesItsPairsAlongAsleepOrAwake) {
+  const auto world = make_bullet_world(l_world<3>());
+  add_stack(*world, 40, 3);
+  run(*world, 300);
+  const std::vector<BodyIndex> some = {3, 11, 12, 20};
+  world->freeze(some);
+  run(*world, 5);
+  world->remove(11);
+  world->remove(12);
+  world->remove(25);
+  run(*world, 5);
+  world->thaw(std::vector<BodyIndex>{3, 20});
+  run(*world, 60);
+  EXPECT_EQ(engine_of(*world).world.listed_objects(), 38);  // with the ground
+  EXPECT_EQ(world->awake().size(), 37U);
 }
 
 }  // namespace
