@@ -29,6 +29,9 @@ auto rank(b2Contact& contact, BodyIndex index) {
 
 }  // namespace
 
+ContactListener::ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start)
+    : warm_start_(&warm_start), continuous_(description), mix_restitutions_(restitutions_differ(description)) {}
+
 void ContactListener::BeginContact(b2Contact* contact) {
   if (mix_restitutions_) {
     mix_restitution(*contact);
@@ -56,6 +59,9 @@ void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
 }
 
 void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
+  if (sleepers_) {
+    continuous_.leave_out_if_slow(*contact);
+  }
   if (!recording_) {
     return;
   }
@@ -66,7 +72,8 @@ void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impu
   }
 }
 
-void ContactListener::start_step(bool recording) {
+void ContactListener::start_step(bool sleepers, bool recording) {
+  sleepers_ = sleepers;
   recording_ = recording;
   records_.clear();
 }

@@ -8,24 +8,25 @@
 #include <vector>
 
 #include "common/world/body.h"
+#include "common/world/world_description.h"
+#include "sim2d/continuous.h"
 #include "sim2d/warm_start.h"
 
 namespace talus::box2d {
 
-/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made anew, and,
-/// once contacts are asked for, notes what only a listener sees: speeds before the solver, and the impulses of impacts
-/// that continuous collision finds after it.
+/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made anew, spares
+/// slow bodies continuous collision against sleepers, and, once contacts are asked for, notes what only a listener
+/// sees: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
 class ContactListener final : public b2ContactListener {
  public:
-  ContactListener(const WarmStart& warm_start, bool mix_restitutions)
-      : warm_start_(&warm_start), mix_restitutions_(mix_restitutions) {}
+  ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start);
 
   void BeginContact(b2Contact* contact) override;
   void PreSolve(b2Contact* contact, const b2Manifold* before) override;
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
-  /// Forgets the last step; `recording` says whether to note the coming one.
-  void start_step(bool recording);
+  /// Forgets the last step. `sleepers`: whether there are any in the coming one; `recording`: whether to note it.
+  void start_step(bool sleepers, bool recording);
 
   /// Appends a body's touching contacts by their other side. Every contact comes once: that of two awake bodies with
   /// the one of lower index. Without a record of the step, approach speeds are 0.
@@ -40,7 +41,9 @@ class ContactListener final : public b2ContactListener {
   void append(b2Contact& contact, BodyIndex a, std::vector<Contact<2>>& out) const;
 
   const WarmStart* warm_start_;
+  ContinuousCollision continuous_;
   bool mix_restitutions_;
+  bool sleepers_ = false;
   bool recording_ = false;
   std::unordered_map<const b2Contact*, Record> records_;  // looked up, never walked
   std::vector<b2Contact*> touching_;                      // scratch

@@ -33,7 +33,7 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
     : description_(description),
       world_(b2Vec2(0.0F, -static_cast<float>(description.gravity))),
       freezer_(world_),
-      listener_(warm_start_, restitutions_differ(description)) {
+      listener_(description, warm_start_) {
   for (const Shape<2>& shape : description_.shapes) {
     blueprints_.push_back({engine_shapes(shape), fixture_of(shape.material, description_.solver), engine_mass(shape)});
   }
@@ -151,7 +151,7 @@ void EngineWorld::step() {
   }
   ++steps_;
   warm_start_.start_step(states_.asleep);
-  listener_.start_step(contacts_wanted_);
+  listener_.start_step(freezer_.hosts() > 0, contacts_wanted_);
   contacts_gathered_ = false;
   times_ = {};
   if (awake_.empty()) {
