@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+
+#include "tools/run/terminal_width.h"
 
 namespace talus {
 
@@ -35,9 +38,15 @@ void Progress<Dim>::write(const Frame<Dim>& frame) {
   const auto done = static_cast<double>(frame.step);
   const double left = elapsed_ * (static_cast<double>(steps_) - done) / done;
   const double step_ms = 1e3 * since_line_ / static_cast<double>(frame.step - line_step_);
-  fmt::print(stderr, "{}step {}/{}  {:.0f} %  left {}  awake {}  asleep {}  {:.3f} ms a step{}",
-             terminal_ ? "\r\x1b[K" : "", frame.step, steps_, 100.0 * done / static_cast<double>(steps_), as_time(left),
-             awake, frame.world.states().shape.size() - awake, step_ms, terminal_ ? "" : "\n");
+  std::string line = fmt::format("step {}/{}  {:.0f} %  left {}  awake {}  asleep {}  {:.3f} ms a step", frame.step,
+                                 steps_, 100.0 * done / static_cast<double>(steps_), as_time(left), awake,
+                                 frame.world.states().shape.size() - awake, step_ms);
+  if (terminal_) {
+    line.resize(std::min(line.size(), static_cast<std::size_t>(terminal_width(STDERR_FILENO) - 1)));
+    fmt::print(stderr, "\r\x1b[K{}", line);
+  } else {
+    fmt::print(stderr, "{}\n", line);
+  }
   std::fflush(stderr);
   since_line_ = 0.0;
   line_step_ = frame.step;

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "common/simulation/state_hash.h"
 #include "tools/picture/terminal.h"
+#include "tools/run/terminal_width.h"
 
 namespace talus {
 
@@ -32,7 +34,11 @@ void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<D
   fmt::print("  end hash {:016x}\n  {}/pile.png shows the pile, summary.json has the numbers\n",
              state_hash(world.states()), outputs.folder().string());
   if (isatty(STDOUT_FILENO) == 0) return;
-  const TerminalParams params{.colours = std::getenv("NO_COLOR") == nullptr};
+  constexpr int widest = 100;    // wider ones only magnify
+  constexpr int narrowest = 48;  // narrower ones show nothing
+  const int width = terminal_width(STDOUT_FILENO);
+  if (width < narrowest) return;
+  const TerminalParams params{.columns = std::min(width, widest), .colours = std::getenv("NO_COLOR") == nullptr};
   fmt::print("{}", terminal_picture(picture_input(summary, scene, simulation), params));
 }
 

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace talus {
+
+/// Columns of the terminal behind a file descriptor; 80 where it does not say.
+int terminal_width(int file_descriptor);
+
+}  // namespace talus
