@@ -2,9 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <set>
-#include <sstream>
 
 #include "common/scene/read_scene.h"
 #include "common/scene/read_shape.h"
@@ -22,21 +20,29 @@ std::vector<std::string> manual() {
   return lines;
 }
 
+// What stands between back quotes in a text.
+std::vector<std::string> quoted_in(const std::string& text) {
+  std::vector<std::string> names;
+  std::size_t start = text.find('`');
+  std::size_t end = text.find('`', start + 1);
+  while (start != std::string::npos && end != std::string::npos) {
+    names.push_back(text.substr(start + 1, end - start - 1));
+    start = text.find('`', end + 1);
+    end = text.find('`', start + 1);
+  }
+  return names;
+}
+
 // Keys of the tables under each `## ... HEAD` of the manual, as "HEAD key".
 std::set<std::string> keys_of_the_manual() {
-  const std::regex head("## .*`(.*)`");
-  const std::regex row(R"(\| (`.*?) \|.*)");
-  const std::regex name("`([a-z_]+)`");
   std::set<std::string> keys;
   std::string section;
-  std::smatch match;
   for (const std::string& line : manual()) {
-    if (std::regex_match(line, match, head)) {
-      section = match[1];
-    } else if (std::regex_match(line, match, row)) {
-      const std::string names = match[1];
-      for (std::sregex_iterator i(names.begin(), names.end(), name), end; i != end; ++i) {
-        keys.insert(section + " " + (*i)[1].str());
+    if (line.starts_with("## ") && line.ends_with("`")) {
+      section = quoted_in(line).back();
+    } else if (line.starts_with("| `")) {
+      for (const std::string& name : quoted_in(line.substr(0, line.find(" |", 2)))) {
+        keys.insert(section + " " + name);
       }
     }
   }
