@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "tools/plot/plot.h"
+
+namespace talus {
+
+/// Throws std::invalid_argument if the plot's numbers do not fit together.
+void check(const Plot& plot);
+
+/// What gnuplot must be told to write the plot as SVG to its standard output, data included.
+std::string gnuplot_script(const Plot& plot);
+
+}  // namespace talus

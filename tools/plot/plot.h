@@ -1,0 +1,38 @@
+#pragma once
+// Plots as SVG, drawn by gnuplot.
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+enum class SeriesStyle { line, points, line_and_points, steps };
+
+/// One curve. Coordinates are finite; with a logarithmic axis those on it are above zero.
+struct Series {
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;         // as many as x
+  std::vector<double> low = {};  // lower and upper ends of error bars: as many as x, or none
+  std::vector<double> high = {};
+  SeriesStyle style = SeriesStyle::line;
+};
+
+struct Plot {
+  std::string title;
+  std::string x_label;  // with the unit, as in "time [s]"
+  std::string y_label;
+  bool log_x = false;
+  bool log_y = false;
+  bool from_zero =
+      true;  // whether a linear y axis begins at zero where no value is below; cut off, changes look larger
+  std::vector<Series> series;  // at most 7, the colours that people of any colour vision tell apart
+  int width = 760;             // [px] 200..4000
+  int height = 440;            // [px] 200..4000
+};
+
+/// The plot as the text of an SVG file, the same for the same plot. Throws std::invalid_argument naming the series and
+/// the rule; std::runtime_error with gnuplot's own words, or saying which package to install where it is missing.
+std::string svg_of(const Plot& plot);
+
+}  // namespace talus

@@ -1,0 +1,48 @@
+#pragma once
+// A report as one HTML page that needs nothing else: no net, no other file.
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace talus {
+
+/// Plain text; its characters are shown as they are.
+struct Paragraph {
+  std::string text;
+};
+
+struct Column {
+  std::string name;
+  bool number = false;  // aligned to the right, with digits of one width
+};
+
+struct Table {
+  std::string caption;
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> rows;  // each as long as `columns`
+};
+
+/// A drawing as the text of an SVG file.
+struct Figure {
+  std::string svg;
+  std::string caption;
+};
+
+using Block = std::variant<Paragraph, Table, Figure>;
+
+struct Section {
+  std::string heading;
+  std::vector<Block> blocks;
+};
+
+struct Report {
+  std::string title;
+  std::string subtitle;  // one line, may be empty
+  std::vector<Section> sections;
+};
+
+/// The page. Throws std::invalid_argument on a table whose rows differ in length or a figure that is no SVG.
+std::string html_of(const Report& report);
+
+}  // namespace talus
