@@ -13,6 +13,7 @@ namespace {
 template <int Dim>
 double mean_extent(const Trajectory<Dim>& run, int frame, std::span<const double> extents) {
   std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(run.bodies(frame)));
   for (BodyIndex i = 0; i < run.bodies(frame); ++i) all.push_back(extents[static_cast<std::size_t>(run.shape(i))]);
   return all.empty() ? 1.0 : mean(all);
 }
@@ -42,6 +43,7 @@ std::optional<FirstDifference> first_difference(const Trajectory<Dim>& a, const 
 template <int Dim>
 std::vector<double> extents_of(std::span<const Shape<Dim>> shapes) {
   std::vector<double> extents;
+  extents.reserve(shapes.size());
   for (const Shape<Dim>& shape : shapes) extents.push_back(shape.extent);
   return extents;
 }

@@ -108,6 +108,7 @@ DistributionTest test_distributions(const RunSamples& a, const RunSamples& b, co
   runs.insert(runs.end(), b.begin(), b.end());
   const std::vector<PooledSample> pooled = pool(runs);
   std::vector<std::size_t> sizes;
+  sizes.reserve(runs.size());
   for (const auto& run : runs) sizes.push_back(run.size());
   std::vector<std::uint8_t> in_a(runs.size(), 0);
   std::fill_n(in_a.begin(), a.size(), std::uint8_t{1});

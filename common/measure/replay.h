@@ -8,9 +8,9 @@ namespace talus {
 
 /// Plays `scene` again under its own policy until the fork's step, then wakes everybody and lets nobody sleep any more.
 /// Bodies that were awake keep all that the engine remembers of them, so against a full run's recording this differs by
-/// nothing, bit for bit: what is left is what sleeping did. Each fork costs a run up to it: take few. The settings are
-/// the scene's own. Throws std::invalid_argument for a scene with the engine's own sleeping, which cannot be switched
-/// off on the way.
+/// nothing, bit for bit: what is left is what sleeping, and waking at the fork, did. Each fork costs a run up to it:
+/// take few. The settings are the scene's own. Throws std::invalid_argument for a scene with the engine's own sleeping,
+/// which cannot be switched off on the way.
 template <int Dim>
 Continuation<Dim> replayed_continuation(WorldMaker<Dim> make_world, Scene<Dim> scene);
 

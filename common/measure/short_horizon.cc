@@ -56,6 +56,7 @@ std::vector<HorizonError> horizon_errors(std::span<const Fork<Dim>> forks, std::
     for (Horizon<Dim>& horizon : sums) horizon.add(one, two, motion, extents);
   }
   std::vector<HorizonError> errors;
+  errors.reserve(sums.size());
   for (Horizon<Dim>& horizon : sums) errors.push_back(horizon.finish());
   return errors;
 }

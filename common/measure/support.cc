@@ -20,6 +20,7 @@ struct Solid {
 template <int Dim>
 std::vector<ConvexPiece<Dim>> convex_pieces(const Shape<Dim>& shape) {
   std::vector<ConvexPiece<Dim>> pieces;
+  pieces.reserve(shape.pieces.size());
   for (const Piece<Dim>& piece : shape.pieces) pieces.push_back(convex_piece<Dim>(piece));
   return pieces;
 }
@@ -63,6 +64,7 @@ std::vector<Solid<Dim>> solids(const WorldDescription<Dim>& description, const B
     all.push_back(make_solid(first_obstacle - static_cast<BodyIndex>(k), convex_pieces(obstacle.shape), obstacle.pose));
   }
   std::vector<std::vector<ConvexPiece<Dim>>> shapes;
+  shapes.reserve(description.shapes.size());
   for (const Shape<Dim>& shape : description.shapes) shapes.push_back(convex_pieces(shape));
   for (BodyIndex i = 0; i < states.size(); ++i) {
     const auto body = static_cast<std::size_t>(i);
