@@ -25,7 +25,7 @@ Spin<Dim> turn(const Trajectory<Dim>& run, int frame, BodyIndex body) {
 /// Sums of one frame, from which all measures follow.
 template <int Dim>
 struct FrameSums {
-  double unit;  // m0
+  double unit = 0.0;  // m0
   int bodies = 0;
   int moving = 0;
   double relative = 0.0, difference = 0.0, floored = 0.0, full = 0.0, other = 0.0, turn_difference = 0.0, turned = 0.0;
@@ -71,7 +71,8 @@ std::vector<MotionError> motion_errors(const Trajectory<Dim>& full, const Trajec
   std::vector<MotionError> errors;
   errors.reserve(static_cast<std::size_t>(std::max(frames - 1, 0)));
   for (int j = 0; j + 1 < frames; ++j) {
-    FrameSums<Dim> sums{gravity * full.frame_time() * full.frame_time()};
+    FrameSums<Dim> sums;
+    sums.unit = gravity * full.frame_time() * full.frame_time();
     const BodyIndex bodies = std::min(full.bodies(j), other.bodies(j));
     for (BodyIndex i = 0; i < bodies; ++i) {
       if (!full.present(j, i) || !full.present(j + 1, i) || !other.present(j, i) || !other.present(j + 1, i)) continue;
