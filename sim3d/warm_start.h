@@ -42,7 +42,7 @@ class WarmStart {
   struct Sides;
   std::vector<SavedPoint>& points_of(const Sides& sides);
   void restore(btBroadphasePair& pair, const btDispatcherInfo& info);
-  static void put_back(const SavedPoint& point, const Sides& sides, btPersistentManifold& manifold);
+  static void put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold);
 
   std::vector<std::vector<SavedPoint>> points_;  // by owner
   std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*>> announced_;

@@ -9,6 +9,7 @@
 #endif
 #include "tools/run/version.h"
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only a failure to print an error's text gets out
 int main(int argc, char** argv) {
   CLI::App app("talus: piles of rigid bodies, simulated faster by freezing who need not move", "talus");
   app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());

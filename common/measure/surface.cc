@@ -52,14 +52,14 @@ class Columns {
   }
 
  private:
-  double middle(int index) const { return (index - side_ / 2 + 0.5) * width_; }
+  double middle(int index) const { return (index - 0.5 * side_ + 0.5) * width_; }
   void lift(int column, double top) {
     double& present = tops_[static_cast<std::size_t>(column)];
     present = std::max(present, top);
   }
   /// First and last column whose middle lies within the box along an axis.
   std::pair<int, int> covered(const Box<Dim>& bounds, int axis) const {
-    const auto column = [&](double place) { return (place - grid_.centre[axis]) / width_ + side_ / 2 - 0.5; };
+    const auto column = [&](double place) { return (place - grid_.centre[axis]) / width_ + 0.5 * side_ - 0.5; };
     const double first = std::clamp(std::ceil(column(bounds.min()[axis])), 0.0, static_cast<double>(side_));
     const double last = std::clamp(std::floor(column(bounds.max()[axis])), -1.0, side_ - 1.0);
     return {static_cast<int>(first), static_cast<int>(last)};

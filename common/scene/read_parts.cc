@@ -9,7 +9,7 @@
 namespace talus {
 
 void read_seed(TableReader& root, std::uint64_t& seed) {
-  std::int64_t number = static_cast<std::int64_t>(seed);
+  auto number = static_cast<std::int64_t>(seed);
   root.read("seed", number, at_least(0.0));
   seed = static_cast<std::uint64_t>(number);
 }

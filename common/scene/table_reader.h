@@ -90,13 +90,13 @@ class TableReader {
   const toml::node* find(std::string_view key);
   template <typename Number>
   void read_whole(std::string_view key, Number& value, const Range& range);
-  bool read_number(const toml::node& node, const std::string& field, double& value, const Range& range);
-  bool read_choice(const toml::node& node, const std::string& field, std::string& value,
+  bool read_number(const toml::node& node, const std::string& name, double& value, const Range& range);
+  bool read_choice(const toml::node& node, const std::string& name, std::string& value,
                    std::span<const std::string> choices);
-  bool read_array(const toml::node& node, const std::string& field, std::span<double> values, const Range& range);
+  bool read_array(const toml::node& node, const std::string& name, std::span<double> values, const Range& range);
   void read_child(const toml::node& node, const std::string& name, const std::string& generic_name, const Body& body);
   void note_unknown_keys();
-  void note(const toml::node& node, std::string field, std::string rule, std::string suggestion = {});
+  void note(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
   Location locate(const toml::source_region& region) const;
   std::string field(std::string_view key) const;
 

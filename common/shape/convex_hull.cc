@@ -34,7 +34,7 @@ class QhullState {
   char* text_ = nullptr;
   std::size_t length_ = 0;
   FILE* messages_;
-  qhT state_;
+  qhT state_{};
 };
 
 // qhull lists a face's corners clockwise seen from outside (qh_ORIENTclock 0): read from the last to the first.

@@ -7,7 +7,7 @@ namespace talus {
 namespace {
 
 /// A signal handler can reach nothing but static storage.
-volatile std::sig_atomic_t interrupt_asked = 0;
+volatile std::sig_atomic_t interrupt_asked = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 void on_signal(int signal) {
   interrupt_asked = 1;
@@ -27,6 +27,7 @@ Interrupt::~Interrupt() {
   std::signal(SIGTERM, SIG_DFL);
 }
 
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static): to be asked of a live object only
 bool Interrupt::asked() const { return interrupt_asked != 0; }
 
 }  // namespace talus
