@@ -57,9 +57,13 @@ TEST(ZBuffer, SharesNoPixelBetweenFacesOfACommonEdge) {
   // Two triangles of a square that covers 20 x 20 pixels, cut along an oblique line.
   const std::vector<Vec3> left = {{10.0, 10.0, 1.0}, {10.0, 30.0, 1.0}, {17.3, 30.0, 1.0}, {22.9, 10.0, 1.0}};
   const std::vector<Vec3> right = {{22.9, 10.0, 1.0}, {17.3, 30.0, 1.0}, {30.0, 30.0, 1.0}, {30.0, 10.0, 1.0}};
-  std::vector<int> hits(100 * 100, 0);
+  constexpr int width = 100;
+  std::vector<int> hits(static_cast<std::size_t>(width) * width, 0);
   for (const std::vector<Vec3>& half : {left, right}) {
-    scan_convex(half, 100, 100, [&](int x, int y, double) { ++hits[static_cast<std::size_t>(y * 100 + x)]; });
+    scan_convex(half, width, width, [&](int x, int y, double) {
+      const int at = y * width + x;
+      ++hits[static_cast<std::size_t>(at)];
+    });
   }
   EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), 400);
   EXPECT_EQ(std::count(hits.begin(), hits.end(), 2), 0);

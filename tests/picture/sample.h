@@ -36,9 +36,10 @@ struct Sample {
   /// Rows of four bodies, in turn asleep and awake.
   void add_rows(int rows) {
     for (int i = 0; i < 4 * rows; ++i) {
+      const int row = i / 4;
       Vec<Dim> position = Vec<Dim>::Zero();
       position[0] = 1.5 * (i % 4);
-      position[Dim - 1] = 0.7 + 1.5 * (i / 4);
+      position[Dim - 1] = 0.7 + 1.5 * row;
       add(position, i % 2 == 0);
     }
   }
