@@ -1,7 +1,6 @@
 // The part of EngineWorld that puts bodies to sleep and wakes them.
 
 #include <algorithm>
-#include <ranges>
 
 #include "sim2d/engine_world.h"
 
@@ -42,8 +41,7 @@ std::vector<BodyIndex> EngineWorld::chosen(std::span<const BodyIndex> bodies, bo
   std::ranges::copy_if(bodies, std::back_inserter(result),
                        [&](BodyIndex body) { return (states_.asleep[static_cast<std::size_t>(body)] != 0) == asleep; });
   std::ranges::sort(result);
-  const auto twice = std::ranges::unique(result);
-  result.erase(twice.begin(), twice.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
@@ -56,7 +54,7 @@ void EngineWorld::look_for_contacts() {
 }
 
 void EngineWorld::freeze(std::span<const BodyIndex> bodies) {
-  const std::vector<BodyIndex> falling_asleep = chosen(bodies, false);
+  std::vector<BodyIndex> falling_asleep = chosen(bodies, false);
   if (falling_asleep.empty()) {
     return;
   }
@@ -70,9 +68,11 @@ void EngineWorld::freeze(std::span<const BodyIndex> bodies) {
   // All go before the first comes back, last first: so every fixture gets its old number in the broad phase again,
   // which decides the side that Box2D measures a contact from.
   look_for_contacts();
-  for (const BodyIndex body : std::views::reverse(falling_asleep)) {
+  std::ranges::reverse(falling_asleep);
+  for (const BodyIndex body : falling_asleep) {
     world_.DestroyBody(bodies_[static_cast<std::size_t>(body)].body);
   }
+  std::ranges::reverse(falling_asleep);
   for (const BodyIndex body : falling_asleep) {
     const auto i = static_cast<std::size_t>(body);
     const Blueprint& blueprint = blueprint_of(body);
@@ -109,7 +109,8 @@ void EngineWorld::thaw(std::span<const BodyIndex> bodies) {
     }
   });
   look_for_contacts();
-  for (b2Fixture* fixture : std::views::reverse(fixtures)) {
+  std::ranges::reverse(fixtures);  // see freeze()
+  for (b2Fixture* fixture : fixtures) {
     freezer_.thaw(fixture, blueprint_of(owner_of(*fixture)).shapes.size());
   }
   for (const BodyIndex body : waking) {

@@ -56,8 +56,7 @@ void Freezer::for_each_contact(std::span<b2Fixture* const> fixtures, Visit visit
     slots.push_back(slot_of(*fixture->GetBody()));
   }
   std::ranges::sort(slots);
-  const auto twice = std::ranges::unique(slots);
-  slots.erase(twice.begin(), twice.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   for (const std::size_t slot : slots) {
     for (b2ContactEdge* edge = hosts_[slot].body->GetContactList(); edge != nullptr; edge = edge->next) {
       b2Fixture& a = *edge->contact->GetFixtureA();

@@ -113,9 +113,8 @@ void WarmStart::start_step(std::span<const std::uint8_t> asleep) {
   };
   // A contact of two bodies that fell asleep together was saved from both sides.
   std::ranges::stable_sort(waiting_, before);
-  const auto twice = std::ranges::unique(
-      waiting_, [](const SavedContact& a, const SavedContact& b) { return a.low == b.low && a.high == b.high; });
-  waiting_.erase(twice.begin(), twice.end());
+  const auto same = [](const SavedContact& a, const SavedContact& b) { return a.low == b.low && a.high == b.high; };
+  waiting_.erase(std::unique(waiting_.begin(), waiting_.end(), same), waiting_.end());
   std::erase_if(waiting_, [&](const SavedContact& contact) {
     const bool put_away = sleeps(contact.low) && sleeps(contact.high);
     if (put_away) {

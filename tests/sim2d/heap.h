@@ -20,8 +20,9 @@ inline WorldDescription<2> l_world() {
 inline BodyDef<2> l_in_stack(int index, int columns, std::mt19937& random) {
   const double jitter = std::uniform_real_distribution<double>(-0.1, 0.1)(random);
   const double turn = std::uniform_real_distribution<double>(-3.0, 3.0)(random);
+  const int row = index / columns;
   BodyDef<2> body;
-  body.pose.position = {1.8 * (index % columns - (columns - 1) / 2.0) + jitter, 1.5 + 1.8 * (index / columns)};
+  body.pose.position = {1.8 * (index % columns - (columns - 1) / 2.0) + jitter, 1.5 + 1.8 * row};
   body.pose.rotation = Rotation<2>(turn);
   return body;
 }

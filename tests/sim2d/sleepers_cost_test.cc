@@ -17,8 +17,9 @@ std::unique_ptr<World<2>> bed_of_sleepers(int count) {
   auto world = make_box2d_world(l_world());
   std::vector<BodyIndex> batch;
   for (int i = 0; i < count; ++i) {
+    const int column = i / 20 - count / 40;
     BodyDef<2> body;
-    body.pose.position = {1.02 * (i / 20 - count / 40), 0.6 + 1.02 * (i % 20)};
+    body.pose.position = {1.02 * column, 0.6 + 1.02 * (i % 20)};
     batch.push_back(world->add(body));
     if (batch.size() == 100 || i + 1 == count) {
       world->freeze(batch);
@@ -30,8 +31,9 @@ std::unique_ptr<World<2>> bed_of_sleepers(int count) {
 
 void drop(World<2>& world, int count) {
   for (int i = 0; i < count; ++i) {
+    const int row = i / 10;
     BodyDef<2> body;
-    body.pose.position = {1.5 * (i % 10) - 7.0, 22.0 + 1.5 * (i / 10)};
+    body.pose.position = {1.5 * (i % 10) - 7.0, 22.0 + 1.5 * row};
     world.add(body);
   }
 }
