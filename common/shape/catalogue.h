@@ -20,8 +20,9 @@ struct LParams {
 struct RingParams {
   double outer_radius = 1.0;  // of the circle that the parts' outer corners lie on [m], > inner_radius
   double inner_radius = 0.6;  // likewise of the hole [m], > 0
-  // Parts around, 3 to 64. Every part is a shape of its own to the engine: what a ring costs in contact grows with them,
-  // in piles nearly in proportion. With few the ring is angular: the hole narrows to inner_radius cos(pi / parts).
+  // Parts around, 3 to 64. Every part is a shape of its own to the engine: what a ring costs in contact grows with
+  // them, in piles nearly in proportion. With few the ring is angular: the hole narrows to inner_radius cos(pi /
+  // parts).
   int parts = 8;
   // Corners of the tube's section, 3D only: 4 (as deep along y as it is wide), 6 or 8. Each is another pair of corners
   // in every part.

@@ -31,9 +31,9 @@ class Emitter {
     Source<Dim> source;
     std::mt19937_64 random;
     int emitted = 0;
-    double lift = 0.0;   // how far the spout has risen [m]
-    bool drawn = false;  // `next` holds a body that waits
-    BodyDef<Dim> next{};   // its position is relative to the spout
+    double lift = 0.0;    // how far the spout has risen [m]
+    bool drawn = false;   // `next` holds a body that waits
+    BodyDef<Dim> next{};  // its position is relative to the spout
   };
 
   bool due(const Spout& spout, double time) const;
