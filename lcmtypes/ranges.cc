@@ -7,7 +7,14 @@
 namespace talus {
 namespace {
 
-using namespace talus_lcm;
+using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_shapes_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v1;
 
 // A layer of almost no volume at the apex, with a stream of bodies above it, reaches thousands.
 constexpr float max_density = 1e9F;
@@ -65,7 +72,7 @@ std::string_view range_fault(const talus_run_v1& m) {
   if (!header_holds(m)) return "header out of range";
   if (m.phase < talus_run_v1::BEGIN || m.phase > talus_run_v1::END) return "unknown phase";
   if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
-  if (!(std::isfinite(m.dt) && m.dt > 0.0) || m.steps < 0) return "length out of range";
+  if (!not_negative(m.dt) || m.dt == 0.0 || m.steps < 0) return "length out of range";
   if (!not_negative(m.gravity) || !is_flag(m.ground) || !is_finite(m.ground_height)) return "world out of range";
   if (std::any_of(m.sent.begin(), m.sent.end(), [](auto n) { return n < 0; })) return "negative number of messages";
   return {};

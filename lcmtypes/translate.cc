@@ -5,7 +5,13 @@
 
 namespace talus {
 
-using namespace talus_lcm;
+using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v1;
 
 namespace {
 

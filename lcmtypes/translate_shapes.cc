@@ -7,7 +7,7 @@
 
 namespace talus {
 
-using namespace talus_lcm;
+using talus_lcm::talus_shapes_v1;
 
 namespace {
 

@@ -11,7 +11,12 @@
 namespace talus {
 namespace {
 
-using namespace talus_lcm;
+using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_shapes_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v1;
 using Bytes = std::vector<std::uint8_t>;
 
 template <class Message>

@@ -8,7 +8,12 @@
 namespace talus {
 namespace {
 
-using namespace talus_lcm;
+using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_shapes_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v1;
 
 std::uint64_t fingerprint(std::int64_t hash) { return static_cast<std::uint64_t>(hash); }
 

@@ -12,7 +12,10 @@
 namespace talus {
 namespace {
 
-using namespace talus_lcm;
+using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v1;
 
 /// Keeps all messages of one LCM object's own memory queue.
 class Ear {

@@ -15,7 +15,10 @@
 namespace talus {
 namespace {
 
-using namespace talus_lcm;
+using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v1;
 
 /// Records `steps` steps of 12 bodies.
 template <int Dim>

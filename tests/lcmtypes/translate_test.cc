@@ -11,7 +11,9 @@
 namespace talus {
 namespace {
 
-using namespace talus_lcm;
+using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_shapes_v1;
+using talus_lcm::talus_sleep_v1;
 
 template <class Message>
 void expect_sendable(std::vector<Message>& messages) {

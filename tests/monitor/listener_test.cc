@@ -13,7 +13,9 @@
 namespace talus {
 namespace {
 
-using namespace talus_lcm;
+using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_stats_v1;
 
 /// Hands packets to a listener.
 class Wire {

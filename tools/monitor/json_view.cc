@@ -6,7 +6,10 @@
 
 namespace talus {
 
-using namespace talus_lcm;
+using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_stats_v1;
 using Json = nlohmann::ordered_json;
 
 namespace {

@@ -10,7 +10,8 @@
 
 namespace talus {
 
-using namespace talus_lcm;
+using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_run_v1;
 
 namespace {
 
