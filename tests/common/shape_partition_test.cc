@@ -130,7 +130,11 @@ RC_GTEST_PROP(Partition, CoversAStarShapedPolygonOnceWithStrictlyConvexPieces, (
   const std::vector<Vec2> corners = random_star();
   RC_PRE(signed_area(corners) > 0.0);  // three corners may leave the centre outside
   const auto pieces = convex_partition(corners);
-  RC_ASSERT(std::abs(total_area(pieces) - signed_area(corners)) < 1e-12);
+  // Corners that stand out of a straight edge by less than `flatness` of the polygon's size are left out, each with a
+  // triangle of area.
+  const double left_out =
+      0.5 * flatness * 8.0 * static_cast<double>(corners.size());  // the star's size is below sqrt(8)
+  RC_ASSERT(std::abs(total_area(pieces) - signed_area(corners)) < left_out);
   RC_ASSERT(pieces.size() <= corners.size() - 2);
   for (const std::vector<Vec2>& piece : pieces) {
     RC_ASSERT(piece.size() >= 3u && piece.size() <= most_corners);
