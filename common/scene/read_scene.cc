@@ -27,7 +27,8 @@ Reading read_as(const toml::table& table, const Findings& before) {
 // As what the file says it is. If it does not say so, as the one in which it makes more sense, so that its other
 // errors can be told as well.
 Reading read_table(const toml::table& table, const Findings& before) {
-  const std::int64_t dimension = table["dimension"].value_or(std::int64_t{0});
+  const auto* written = table["dimension"].as_integer();
+  const std::int64_t dimension = written == nullptr ? 0 : **written;
   if (dimension == 2) {
     return read_as<2>(table, before);
   }

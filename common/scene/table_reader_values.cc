@@ -16,7 +16,8 @@ bool TableReader::read_number(const toml::node& node, const std::string& name, d
     note(node, name, "must be a number");
     return false;
   }
-  const double number = *node.value<double>();
+  // Not node.value<double>(), which has no answer for an integer that a double must round.
+  const double number = node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point();
   if (!range.holds(number)) {
     note(node, name, range.rule());
     return false;
