@@ -67,18 +67,25 @@ std::vector<std::array<int, Dim>> surface_simplices(const std::vector<Vec<Dim>>&
   return simplices;
 }
 
+template <int Dim>
+Moments<Dim> moments_of(const HullPiece<Dim>& hull) {
+  return moments_within<Dim>(hull.corners, surface_simplices<Dim>(hull.corners));
+}
+
+}  // namespace
+
 // A simplex of volume V with one corner in the origin and the others the columns of E, s their sum:
 // the integral of x is V s / (Dim + 1), that of x x^T is V (E E^T + s s^T) / ((Dim + 1)(Dim + 2)).
 template <int Dim>
-Moments<Dim> moments_of(const HullPiece<Dim>& hull) {
-  const Vec<Dim> tip = hull.corners.front();
+Moments<Dim> moments_within(std::span<const Vec<Dim>> corners, std::span<const std::array<int, Dim>> boundary) {
+  const Vec<Dim> tip = corners.front();
   double volume = 0.0;
   Vec<Dim> first = Vec<Dim>::Zero();
   Matrix<Dim> second = Matrix<Dim>::Zero();
-  for (const auto& simplex : surface_simplices<Dim>(hull.corners)) {
+  for (const std::array<int, Dim>& simplex : boundary) {
     Matrix<Dim> edges;
     for (int k = 0; k < Dim; ++k) {
-      edges.col(k) = hull.corners[static_cast<std::size_t>(simplex[static_cast<std::size_t>(k)])] - tip;
+      edges.col(k) = corners[static_cast<std::size_t>(simplex[static_cast<std::size_t>(k)])] - tip;
     }
     const double part = edges.determinant() / (Dim == 2 ? 2.0 : 6.0);
     const Vec<Dim> sum = edges.rowwise().sum();
@@ -89,8 +96,6 @@ Moments<Dim> moments_of(const HullPiece<Dim>& hull) {
   const Vec<Dim> centre = first / volume;
   return {volume, tip + centre, second - volume * centre * centre.transpose()};
 }
-
-}  // namespace
 
 template <int Dim>
 Moments<Dim>& Moments<Dim>::operator+=(const Moments& other) {
@@ -120,5 +125,7 @@ template struct Moments<2>;
 template struct Moments<3>;
 template Moments<2> moments(const Piece<2>&);
 template Moments<3> moments(const Piece<3>&);
+template Moments<2> moments_within<2>(std::span<const Vec<2>>, std::span<const std::array<int, 2>>);
+template Moments<3> moments_within<3>(std::span<const Vec<3>>, std::span<const std::array<int, 3>>);
 
 }  // namespace talus

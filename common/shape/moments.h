@@ -1,6 +1,9 @@
 #pragma once
 // Volume, centre and second moments: the integrals from which masses and inertias of every piece follow.
 
+#include <array>
+#include <span>
+
 #include "common/shape/shape.h"
 
 namespace talus {
@@ -22,5 +25,10 @@ struct Moments {
 /// Exact up to rounding for every kind of piece. The piece must have passed check_piece().
 template <int Dim>
 Moments<Dim> moments(const Piece<Dim>& piece);
+
+/// The same of what a closed boundary encloses: edges counter-clockwise in 2D, triangles counter-clockwise seen from
+/// outside in 3D, given as indices of corners.
+template <int Dim>
+Moments<Dim> moments_within(std::span<const Vec<Dim>> corners, std::span<const std::array<int, Dim>> boundary);
 
 }  // namespace talus

@@ -68,24 +68,33 @@ MassProperties<Dim> mass_properties(const Piece<Dim>& piece) {
 
 template <int Dim>
 Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Material& material) {
-  require(!pieces.empty(), "shape '" + name + "': pieces.size", 0.0, "must be one piece or more");
-  check_material(material, "shape '" + name + "': material");
   Moments<Dim> whole;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     check_piece(pieces[i], fmt::format("shape '{}': pieces[{}]", name, i));
     whole += moments(pieces[i]);
   }
-  for (Piece<Dim>& piece : pieces) {
-    std::visit([&](auto& kind) { move<Dim>(kind, -whole.centre); }, piece);
+  return make_shape<Dim>(std::move(name), std::move(pieces), material, {whole.volume, whole.centre, whole.inertia()});
+}
+
+template <int Dim>
+Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Material& material,
+                      const MassProperties<Dim>& masses) {
+  require(!pieces.empty(), "shape '" + name + "': pieces.size", 0.0, "must be one piece or more");
+  check_material(material, "shape '" + name + "': material");
+  require(std::isfinite(masses.volume) && masses.volume > 0.0, "shape '" + name + "': volume", masses.volume,
+          "must be finite and above 0");
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    check_piece(pieces[i], fmt::format("shape '{}': pieces[{}]", name, i));
+    std::visit([&](auto& kind) { move<Dim>(kind, -masses.centre); }, pieces[i]);
   }
   Shape<Dim> shape;
   shape.name = std::move(name);
   shape.pieces = std::move(pieces);
   shape.material = material;
-  shape.reference = -whole.centre;
-  shape.volume = whole.volume;
-  shape.mass = material.density * whole.volume;
-  shape.inertia = material.density * whole.inertia();
+  shape.reference = -masses.centre;
+  shape.volume = masses.volume;
+  shape.mass = material.density * masses.volume;
+  shape.inertia = material.density * masses.inertia;
   shape.bounds = bounds_at(shape, Pose<Dim>{});
   shape.bounding_volume = shape.bounds.volume();
   shape.extent = shape.bounds.diagonal().norm();
@@ -105,7 +114,9 @@ Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose) {
 template MassProperties<2> mass_properties(const Piece<2>&);
 template MassProperties<3> mass_properties(const Piece<3>&);
 template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&);
+template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&, const MassProperties<2>&);
 template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&);
+template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&, const MassProperties<3>&);
 template Box<2> bounds_at(const Shape<2>&, const Pose<2>&);
 template Box<3> bounds_at(const Shape<3>&, const Pose<3>&);
 

@@ -84,6 +84,12 @@ MassProperties<Dim> mass_properties(const Piece<Dim>& piece);
 template <int Dim>
 Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Material& material);
 
+/// The same for pieces that stand in for the true body and may overlap, as the convex parts of a mesh do. `masses` are
+/// the body's own, of unit density, in the axes of the pieces. Throws also on a volume that is not positive.
+template <int Dim>
+Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Material& material,
+                      const MassProperties<Dim>& masses);
+
 /// The smallest axis-aligned box around a shape at a pose [m].
 template <int Dim>
 Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose);

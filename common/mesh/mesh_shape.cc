@@ -1,0 +1,56 @@
+#include "common/mesh/mesh_shape.h"
+
+#include "common/math/require.h"
+#include "common/mesh/mesh_file.h"
+#include "common/mesh/mesh_repair.h"
+#include "common/mesh/silhouette.h"
+#include "common/shape/catalogue.h"
+
+namespace talus {
+namespace {
+
+double longest_side(const Mesh& mesh) {
+  Box<3> bounds;
+  for (const Vec3& corner : mesh.corners) {
+    bounds.extend(corner);
+  }
+  return bounds.sizes().maxCoeff();
+}
+
+Mesh scaled(Mesh mesh, double factor, bool y_up) {
+  for (Vec3& corner : mesh.corners) {
+    corner = factor * (y_up ? Vec3(corner.x(), -corner.z(), corner.y()) : corner);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh fitted(const Mesh& mesh, const MeshParams& params) {
+  require(std::isfinite(params.size) && params.size > 0.0, "mesh.size", params.size, "must be finite and above 0 m");
+  return scaled(mesh, params.size / longest_side(mesh), params.y_up);
+}
+
+template <>
+Shape<3> make_mesh_shape(std::string name, const std::filesystem::path& file, const MeshParams& params,
+                         const Material& material) {
+  const Mesh mesh = repaired(read_mesh(file));
+  const Mesh body = fitted(mesh, params);
+  const double factor = params.size / longest_side(mesh);
+  std::vector<Piece<3>> pieces;
+  for (const Mesh& part : read_parts(parts_file(file), mesh)) {
+    pieces.push_back(hull_pieces<3>(scaled(part, factor, params.y_up).corners).front());
+  }
+  const Moments<3> integrals = moments(body);
+  return make_shape<3>(std::move(name), std::move(pieces), material,
+                       {integrals.volume, integrals.centre, integrals.inertia()});
+}
+
+template <>
+Shape<2> make_mesh_shape(std::string name, const std::filesystem::path& file, const MeshParams& params,
+                         const Material& material) {
+  const Mesh body = fitted(repaired(read_mesh(file)), params);
+  return make_shape<2>(std::move(name), polygon_pieces<2>(silhouette(body, params.detail)), material);
+}
+
+}  // namespace talus
