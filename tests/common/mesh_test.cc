@@ -20,9 +20,9 @@ namespace talus {
 namespace {
 
 // The surface of a shape as a soup: every face a fan of triangles with corners of its own.
-Mesh soup(const Shape<3>& shape) {
+Mesh soup(const Shape<3>& shape, int segments = 8) {
   Mesh mesh;
-  for (const Loop<3>& face : faces(shape, 8)) {
+  for (const Loop<3>& face : faces(shape, segments)) {
     for (std::size_t i = 1; i + 1 < face.size(); ++i) {
       const int first = static_cast<int>(mesh.corners.size());
       mesh.corners.insert(mesh.corners.end(), {face[0], face[i], face[i + 1]});
@@ -97,6 +97,21 @@ TEST(Silhouette, KeepsWhatIsNotConvex) {
   EXPECT_NEAR(signed_area(silhouette(soup(l), 1e-3)), 0.51, 1e-5);
   EXPECT_THROW(silhouette(soup(l), 0.0), std::invalid_argument);
   EXPECT_THROW(silhouette(soup(l), 100.0), std::invalid_argument);
+}
+
+TEST(Silhouette, StraysByTheDetailAtMostAndHasNoMoreCornersThanThatTakes) {
+  const Mesh ball = repaired(soup(make_shape<3>("ball", ball_pieces<3>(1.0), {}), 64));
+  std::size_t corners_before = 65;
+  for (const double detail : {0.001, 0.01, 0.1}) {
+    const std::vector<Vec2> outline = silhouette(ball, detail);
+    EXPECT_LT(outline.size(), corners_before);
+    corners_before = outline.size();
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec2 middle = (outline[i] + outline[(i + 1) % outline.size()]) / 2.0;
+      EXPECT_NEAR(outline[i].norm(), 1.0, 1e-6);
+      EXPECT_GT(middle.norm(), 1.0 - detail - 0.0013);  // the ball's own 64 corners fall short by 0.0012
+    }
+  }
 }
 
 // An L of the catalogue's default size in a file with y up and a hundredth as unit.

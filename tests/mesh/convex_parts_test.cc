@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "common/mesh/mesh_repair.h"
@@ -56,15 +57,30 @@ TEST(ConvexParts, OfAConvexMeshIsOneThatFillsIt) {
   EXPECT_NEAR(total_volume(parts) / moments(ball).volume, 1.0, 1e-6);
 }
 
-// One hull of the torus has its hole filled, 3.5 times its volume. Eight arcs of 45 degrees stay near it: each is its
-// arc and the sagitta above its chord.
-TEST(ConvexParts, OfATorusLeaveItsHoleOpen) {
+bool inside_one(const std::vector<Mesh>& parts, const Vec3& point) {
+  return std::any_of(parts.begin(), parts.end(), [&](const Mesh& part) {
+    return std::all_of(part.triangles.begin(), part.triangles.end(), [&](const std::array<int, 3>& triangle) {
+      const auto corner = [&](std::size_t k) { return part.corners[static_cast<std::size_t>(triangle[k])]; };
+      return (corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(point - corner(0)) <= 0.0;
+    });
+  });
+}
+
+// One hull of the torus has 1.65 times its volume; HACD's eight parts have 1.21 with what they overlap. They are hulls
+// of patches of the surface, so narrow gaps may stay between them: one of the 64 places lies in such a gap.
+TEST(ConvexParts, OfATorusFollowTheTubeAndLeaveTheHoleOpen) {
   const Mesh ring = torus(32);
   const std::vector<Mesh> parts = convex_parts(ring, {.parts = 8, .corners = 64});
-  EXPECT_GT(parts.size(), 4u);
-  EXPECT_LE(parts.size(), 8u);
-  EXPECT_LT(total_volume(parts), 1.5 * moments(ring).volume);
-  EXPECT_GT(total_volume(parts), 0.95 * moments(ring).volume);
+  EXPECT_EQ(parts.size(), 8u);
+  EXPECT_LT(total_volume(parts), 1.3 * moments(ring).volume);
+  int covered = 0;
+  for (int i = 0; i < 64; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 64;
+    const Vec3 out(std::cos(angle), 0.0, std::sin(angle));
+    covered += inside_one(parts, out) ? 1 : 0;
+    EXPECT_FALSE(inside_one(parts, 0.5 * out)) << i;
+  }
+  EXPECT_GE(covered, 60);
 }
 
 TEST(ConvexParts, AreTheSameEveryTime) {

@@ -49,6 +49,10 @@ std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params
   decomposition.SetNClusters(static_cast<std::size_t>(params.parts));
   decomposition.SetConcavity(std::numeric_limits<double>::max());  // the number of parts alone decides when to stop
   decomposition.SetVolumeWeight(0.0);
+  // Without these further points it sees hollows at corners only, and joins what lies across them.
+  decomposition.SetAddExtraDistPoints(true);
+  decomposition.SetAddNeighboursDistPoints(true);
+  decomposition.SetAddFacesPoints(true);
   decomposition.SetNVerticesPerCH(static_cast<std::size_t>(params.corners));
   decomposition.Compute();
   std::vector<Mesh> parts;
