@@ -126,6 +126,7 @@ void orient_part(Mesh& mesh, const std::map<Edge, std::vector<std::size_t>>& bes
     }
   }
   std::vector<Triangle> surface;
+  surface.reserve(part.size());
   for (const std::size_t t : part) {
     surface.push_back(mesh.triangles[t]);
   }

@@ -78,7 +78,7 @@ Moments<Dim> moments_of(const HullPiece<Dim>& hull) {
 // the integral of x is V s / (Dim + 1), that of x x^T is V (E E^T + s s^T) / ((Dim + 1)(Dim + 2)).
 template <int Dim>
 Moments<Dim> moments_within(std::span<const Vec<Dim>> corners, std::span<const std::array<int, Dim>> boundary) {
-  const Vec<Dim> tip = corners.front();
+  const Vec<Dim>& tip = corners.front();
   double volume = 0.0;
   Vec<Dim> first = Vec<Dim>::Zero();
   Matrix<Dim> second = Matrix<Dim>::Zero();

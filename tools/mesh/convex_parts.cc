@@ -34,10 +34,12 @@ std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params
   require(params.parts >= 1 && params.parts <= 64, "parts", params.parts, "must be in 1..64");
   require(params.corners >= 4 && params.corners <= 128, "corners", params.corners, "must be in 4..128");
   std::vector<Point> points;
+  points.reserve(mesh.corners.size());
   for (const Vec3& corner : mesh.corners) {
     points.emplace_back(corner.x(), corner.y(), corner.z());
   }
   std::vector<Indices> triangles;
+  triangles.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
     triangles.emplace_back(triangle[0], triangle[1], triangle[2]);
   }
