@@ -6,6 +6,7 @@
 #include "tools/commands/commands.h"
 #ifdef TALUS_LCM
 #include "tools/monitor/monitor_command.h"
+#include "tools/record/record_commands.h"
 #endif
 #include "tools/run/version.h"
 
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
   talus::add_check_command(app, exit_code);
 #ifdef TALUS_LCM
   talus::add_monitor_command(app);
+  talus::add_compare_command(app, exit_code);
+  talus::add_wake_command(app, exit_code);
 #endif
   try {
     app.parse(argc, argv);

@@ -72,6 +72,19 @@ ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, c
   return statistics;
 }
 
+template <int Dim>
+ProfileGrid<Dim> grid_around(std::span<const PlacedBody<Dim>> bodies, double base, double extent) {
+  require(extent > 0.0, "extent", extent, "must be > 0");
+  constexpr int most_bins = Dim == 2 ? 2000 : 250;  // in 3D the columns are a square of 16 bins' area each
+  ProfileGrid<Dim> grid{.centre = middle<Dim>(bodies), .base = base, .bin_width = 0.5 * extent};
+  double reach = 0.0;
+  for (const double radius : radii<Dim>(bodies, grid.centre)) reach = std::max(reach, radius);
+  grid.bins = static_cast<int>(std::clamp(reach / grid.bin_width + 2.0, 3.0, static_cast<double>(most_bins)));
+  return grid;
+}
+
+template ProfileGrid<2> grid_around(std::span<const PlacedBody<2>>, double, double);
+template ProfileGrid<3> grid_around(std::span<const PlacedBody<3>>, double, double);
 template Packing packing<2>(std::span<const PlacedBody<2>>, const Vec<2>&, double, double, int);
 template Packing packing<3>(std::span<const PlacedBody<3>>, const Vec<3>&, double, double, int);
 template Vec<1> middle<2>(std::span<const PlacedBody<2>>);

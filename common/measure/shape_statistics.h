@@ -39,6 +39,11 @@ template <int Dim>
 ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, const ProfileGrid<Dim>& grid,
                                       double layer_height);
 
+/// Bins of D / 2 around the bodies' middle, as many as reach the farthest of them but no more than 2,000 (2D) or 250
+/// (3D). `base` [m] is the ground's height, `extent` [m] > 0 is D. Of two runs to compare, one's grid serves both.
+template <int Dim>
+ProfileGrid<Dim> grid_around(std::span<const PlacedBody<Dim>> bodies, double base, double extent);
+
 /// Horizontal mean of the bodies' centres [m]: the grid's centre where a pile's own is not known.
 template <int Dim>
 Vec<Dim - 1> middle(std::span<const PlacedBody<Dim>> bodies);

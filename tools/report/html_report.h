@@ -5,22 +5,13 @@
 #include <variant>
 #include <vector>
 
+#include "tools/report/table.h"
+
 namespace talus {
 
 /// Plain text; its characters are shown as they are.
 struct Paragraph {
   std::string text;
-};
-
-struct Column {
-  std::string name;
-  bool number = false;  // aligned to the right, with digits of one width
-};
-
-struct Table {
-  std::string caption;
-  std::vector<Column> columns;
-  std::vector<std::vector<std::string>> rows;  // each as long as `columns`
 };
 
 /// A drawing as the text of an SVG file.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -60,17 +59,13 @@ Json settings_json(const Scene<Dim>& scene) {
           {"frame_rate", scene.run.frame_rate}};
 }
 
-/// Shape of what lies still enough to be part of the pile. Bins are D / 2 wide and reach to the farthest body.
+/// Shape of what lies still enough to be part of the pile.
 template <int Dim>
 Json shape_json(const Scene<Dim>& scene, const World<Dim>& world, double extent) {
   constexpr double still = 1.0;  // [m/s]
-  constexpr int most_bins = 2000;
   const auto bodies = placed_bodies<Dim>(scene.world.shapes, world.states(), still);
   if (bodies.empty()) return nullptr;
-  ProfileGrid<Dim> grid{.centre = middle<Dim>(bodies), .base = scene.world.ground.height, .bin_width = 0.5 * extent};
-  double reach = 0.0;
-  for (const double radius : radii<Dim>(bodies, grid.centre)) reach = std::max(reach, radius);
-  grid.bins = std::clamp(static_cast<int>(reach / grid.bin_width) + 2, 3, most_bins);
+  const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, scene.world.ground.height, extent);
   const ShapeStatistics<Dim> shape = shape_statistics<Dim>(bodies, grid, extent);
   const double degrees = 180.0 / std::numbers::pi;
   return {{"bodies_at_rest", shape.bodies},

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/measure/compare.h"
+#include "common/measure/ensemble.h"
+#include "common/measure/support.h"
+#include "common/measure/wake_test.h"
+#include "tools/commands/commands.h"
+#include "tools/record/record_commands.h"
+#include "tools/record/recorded_run.h"
+#include "tools/report/table.h"
+#include "tools/run/backends.h"
+
+namespace talus {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct WakeOptions {
+  std::string run;
+  std::string full;  // empty: none
+  double seconds = 5.0;
+  bool json = false;
+};
+
+constexpr double contact_reach = 0.05;  // [m], see touching_pairs()
+
+template <int Dim>
+WakeTest wake(const RecordedRun<Dim>& run, double seconds) {
+  const WorldMaker<Dim> maker = [&](const WorldDescription<Dim>& world) { return make_world<Dim>(run.backend, world); };
+  WakeTestParams params;
+  params.duration = seconds;
+  return wake_test<Dim>(maker, reference_settings(run.scene.world), run.last, params);
+}
+
+/// Lengths in D.
+Json wake_json(const WakeTest& test, double extent) {
+  return {{"drift_mean_D", test.mean / extent}, {"drift_p95_D", test.p95 / extent},
+          {"drift_max_D", test.max / extent},   {"share_above_0.1_D", test.share_far},
+          {"wake_energy_mgD", test.energy},     {"wake_energy_all_mgD", test.energy_all},
+          {"creep_per_minute", test.creep}};
+}
+
+/// D over the bodies there are.
+template <int Dim>
+double mean_extent(const RecordedRun<Dim>& run) {
+  const std::vector<double> extents = extents_of<Dim>(run.scene.world.shapes);
+  std::vector<double> all;
+  for (const int shape : run.last.shape) all.push_back(extents[static_cast<std::size_t>(shape)]);
+  return mean(all);
+}
+
+template <int Dim>
+Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
+  if (run.last.size() == 0) throw std::invalid_argument(fmt::format("{}: must hold a body", options.run));
+  const double extent = mean_extent(run);
+  const std::vector<Touch> touches = touching_pairs<Dim>(run.scene.world, run.last, contact_reach);
+  const Penetration depth = penetration(touches);
+  const WakeTest test = wake(run, options.seconds);
+  int asleep = 0;
+  for (const std::uint8_t sleeps : run.last.asleep) asleep += sleeps;
+  Json json = {
+      {"run", run.name},
+      {"backend", run.backend},
+      {"policy", run.policy},
+      {"step", run.last_step},
+      {"bodies", test.bodies},
+      {"asleep", asleep},
+      {"floating_sleepers", floating_sleepers<Dim>(run.last, touches).size()},
+      {"penetration_D", {{"mean", depth.mean / extent}, {"p99", depth.p99 / extent}, {"max", depth.max / extent}}},
+      {"simulated_s", options.seconds},
+      {"after_waking", wake_json(test, extent)}};
+  if (options.full.empty()) return json;
+  const AnyRecordedRun other = read_run(options.full);
+  const auto* full = std::get_if<RecordedRun<Dim>>(&other);
+  if (full == nullptr) throw std::invalid_argument("--full: must be of the run's dimension");
+  const WakeTest of_full = wake(*full, options.seconds);
+  json["full_run"] = wake_json(of_full, extent);
+  json["beyond_full_run"] = wake_json(excess(test, of_full), extent);
+  return json;
+}
+
+std::string number(const Json& value) { return fmt::format("{:.4g}", value.get<double>()); }
+
+void print(const Json& json) {
+  fmt::print("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", json["run"].get<std::string>(),
+             json["backend"].get<std::string>(), json["policy"].get<std::string>(), json["step"].get<int>(),
+             json["bodies"].get<int>(), json["asleep"].get<int>());
+  fmt::print("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
+  const Json& depth = json["penetration_D"];
+  fmt::print("penetration over D: mean {}, 99 % {}, max {}\n", number(depth["mean"]), number(depth["p99"]),
+             number(depth["max"]));
+  const bool with_full = json.contains("full_run");
+  Table table{
+      fmt::format("\nAll woken and simulated for {:g} s at the reference settings", json["simulated_s"].get<double>()),
+      {{"measure"}, {"run", true}},
+      {}};
+  if (with_full) table.columns.insert(table.columns.end(), {{"full run", true}, {"beyond it", true}});
+  for (const auto& [name, value] : json["after_waking"].items()) {
+    table.rows.push_back({name, number(value)});
+    if (!with_full) continue;
+    table.rows.back().push_back(number(json["full_run"][name]));
+    table.rows.back().push_back(number(json["beyond_full_run"][name]));
+  }
+  fmt::print("{}", text_of(table));
+}
+
+int wake_command(const WakeOptions& options) {
+  const Json json = std::visit([&](const auto& run) { return result_of(run, options); }, read_run(options.run));
+  if (options.json) {
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    print(json);
+  }
+  return exit_codes::success;
+}
+
+}  // namespace
+
+void add_wake_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("wake", "Were a recorded run's sleepers right to sleep? Wake all and see");
+  command->footer(
+      "Rebuilds the last recorded state with everybody awake and simulates on at the reference settings.\n"
+      "Take a finished pile: what still falls counts as displaced.\n"
+      "Example: talus wake runs/pile-paper --full runs/pile-full");
+  auto options = std::make_shared<WakeOptions>();
+  command->add_option("run", options->run, "Run folder")->required();
+  command->add_option("--full", options->full, "Run folder of the full run, whose own drift is taken off");
+  command->add_option("--seconds", options->seconds, "Simulated after waking")->capture_default_str();
+  command->add_flag("--json", options->json, "As JSON");
+  command->callback([options, &exit_code] { exit_code = wake_command(*options); });
+}
+
+}  // namespace talus
