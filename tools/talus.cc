@@ -4,6 +4,9 @@
 
 #include "common/scene/scene_errors.h"
 #include "tools/commands/commands.h"
+#ifdef TALUS_BULLET
+#include "tools/mesh/decompose_command.h"
+#endif
 #ifdef TALUS_LCM
 #include "tools/monitor/monitor_command.h"
 #include "tools/record/record_commands.h"
@@ -19,6 +22,9 @@ int main(int argc, char** argv) {
   talus::add_run_command(app, exit_code);
   talus::add_list_command(app, exit_code);
   talus::add_check_command(app, exit_code);
+#ifdef TALUS_BULLET
+  talus::add_decompose_command(app);
+#endif
 #ifdef TALUS_LCM
   talus::add_monitor_command(app);
   talus::add_compare_command(app, exit_code);
