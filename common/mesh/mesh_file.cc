@@ -77,8 +77,10 @@ void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std:
 std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh) {
   std::string line;
   std::ifstream in(file);
-  require(static_cast<bool>(std::getline(in, line)), "parts of mesh", file.string(), "must be made first");
-  require(line == header(mesh), "parts of mesh", file.string(), "must be made anew: the mesh has changed");
+  const std::string command = "as `talus decompose` does";
+  require(static_cast<bool>(std::getline(in, line)), "parts of mesh", file.string(), "must be made first, " + command);
+  require(line == header(mesh), "parts of mesh", file.string(),
+          "must be made anew, " + command + ": the mesh has changed");
   std::vector<Mesh> parts;
   for (const Mesh& object : read_objects(file)) {
     parts.push_back(repaired(object));

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "common/scene/read_fields.h"
+#include "common/scene/read_walls.h"
 
 namespace talus {
 
@@ -14,35 +14,8 @@ void read_seed(TableReader& root, std::uint64_t& seed) {
   seed = static_cast<std::uint64_t>(number);
 }
 
-namespace {
-
-// `[pile.boundary]`, the walls around a pile's middle.
 template <int Dim>
-Boundary<Dim> read_boundary(TableReader& table) {
-  std::vector<std::string> kinds = {"box"};
-  if constexpr (Dim == 3) {
-    kinds.emplace_back("cylinder");
-  }
-  const std::string kind = read_kind(table, kinds);
-  Boundary<Dim> boundary;
-  table.require("rim");
-  table.read("rim", boundary.rim, length());
-  if (kind == "box") {
-    Horizontal<Dim> size = Horizontal<Dim>::Ones();
-    table.require("size");
-    table.read("size", size, length());
-    boundary = box_boundary<Dim>(size, boundary.rim);
-  } else if (kind == "cylinder") {
-    table.require("radius");
-    table.read("radius", boundary.cylinder_radius, length());
-  }
-  return boundary;
-}
-
-}  // namespace
-
-template <int Dim>
-PileParams<Dim> read_pile(TableReader& table) {
+PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
   PileParams<Dim> pile;
   table.require("alpha_deg");
   // At 0 and 90 degrees a pile has no height or no base.
@@ -55,7 +28,9 @@ PileParams<Dim> read_pile(TableReader& table) {
   table.read("merge_distance", pile.merge_distance, between(0.0, 1e6));
   table.read("drift_rate", pile.drift_rate, between(0.0, 1e3));
   if (table.has("boundary")) {
-    table.table("boundary", [&](TableReader& within) { pile.boundary = read_boundary<Dim>(within); });
+    table.table("boundary", [&](TableReader& within) {
+      pile.boundary = read_boundary<Dim>(within, pile.at.value_or(Vec<Dim>::Zero()), obstacles);
+    });
     if (!pile.at) {
       table.reject("boundary", "must be given together with at, the middle of its floor");
     }
@@ -83,7 +58,7 @@ void read_run(TableReader& table, double dt, RunParams& run) {
   }
 }
 
-template PileParams<2> read_pile(TableReader&);
-template PileParams<3> read_pile(TableReader&);
+template PileParams<2> read_pile(TableReader&, std::vector<Obstacle<2>>&);
+template PileParams<3> read_pile(TableReader&, std::vector<Obstacle<3>>&);
 
 }  // namespace talus

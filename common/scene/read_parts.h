@@ -8,9 +8,9 @@ namespace talus {
 
 void read_seed(TableReader& root, std::uint64_t& seed);
 
-/// One `[[pile]]`.
+/// One `[[pile]]`; walls around it that are to be built are appended to the obstacles.
 template <int Dim>
-PileParams<Dim> read_pile(TableReader& table);
+PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstacles);
 
 /// `[policy]`.
 void read_policy(TableReader& table, PolicyParams& policy);

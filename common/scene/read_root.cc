@@ -70,7 +70,7 @@ Scene<Dim> read_root(TableReader& root) {
   std::vector<std::string> shape_names;
   read_shapes(root, shape_names, scene.world.shapes);
   read_sources(root, shape_names, scene);
-  root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile<Dim>(table)); });
+  root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
   root.table("policy", [&](TableReader& table) { read_policy(table, scene.policy); });
   scene.world.engine_sleep = scene.policy.kind == "engine";
   root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });

@@ -77,13 +77,19 @@ std::string as_run(std::string_view text, const toml::table& table, std::span<co
 
 AnyScene parse_scene(std::string_view text, std::string_view file_name, std::span<const Override> overrides) {
   toml::table table = parse(text, file_name);
-  Findings findings{.file = std::string(file_name), .errors = {}, .keys = {}};
+  Findings findings{.file = std::string(file_name), .errors = {}, .keys = {}, .referred = {}};
   apply_overrides(table, overrides, findings.errors);
   Reading reading = read_table(table, findings);
   if (!reading.findings.errors.empty()) {
     throw SceneErrors(std::move(reading.findings.errors));
   }
-  std::visit([&](auto& scene) { scene.toml = as_run(text, table, overrides); }, reading.scene);
+  std::visit(
+      [&](auto& scene) {
+        scene.toml = as_run(text, table, overrides);
+        scene.folder = std::filesystem::path(file_name).parent_path();
+        scene.referred = reading.findings.referred;
+      },
+      reading.scene);
   return std::move(reading.scene);
 }
 
@@ -92,7 +98,7 @@ AnyScene read_scene(const std::filesystem::path& file, std::span<const Override>
 }
 
 std::set<std::string> keys_looked_for(std::string_view text) {
-  return read_table(parse(text, "text"), {.file = "text", .errors = {}, .keys = {}}).findings.keys;
+  return read_table(parse(text, "text"), {.file = "text", .errors = {}, .keys = {}, .referred = {}}).findings.keys;
 }
 
 }  // namespace talus

@@ -4,70 +4,52 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/mesh/mesh_file.h"
+#include "common/mesh/mesh_shape.h"
 #include "common/scene/read_fields.h"
-#include "common/shape/catalogue.h"
+#include "common/scene/read_pieces.h"
 
 namespace talus {
 namespace {
 
-template <int Dim>
-std::vector<Piece<Dim>> read_box(TableReader& table) {
-  const Vec<Dim> size = read_size<Dim>(table, "size");
-  return table.sound() ? box_pieces<Dim>(size) : std::vector<Piece<Dim>>();
-}
+constexpr std::string_view mesh_kind = "mesh";
 
 template <int Dim>
-std::vector<Piece<Dim>> read_l(TableReader& table) {
-  LParams params;
-  table.read("arm_x", params.arm_x, length());
-  table.read("arm_z", params.arm_z, length());
-  table.read("thickness", params.thickness, length());
-  if constexpr (Dim == 3) {
-    table.read("depth", params.depth, length());
+std::optional<Shape<Dim>> read_mesh_shape(TableReader& table, const std::string& name, const Material& material) {
+  std::filesystem::path file;
+  MeshParams params;
+  table.require("file");
+  table.read("file", file, parts_file);
+  table.read("longest_side", params.size, length());
+  const std::vector<std::string> axes = {"y", "z"};
+  std::string up = params.y_up ? "y" : "z";
+  table.read("up", up, axes);
+  params.y_up = up == "y";
+  if constexpr (Dim == 2) {
+    table.read("detail", params.detail, between(1e-3, 1e4));
   } else {
-    table.refuse("depth", "means nothing where dimension = 2");
+    table.refuse("detail", "means nothing where dimension = 3: `talus decompose` has made the parts");
   }
-  return table.sound() ? l_pieces<Dim>(params) : std::vector<Piece<Dim>>();
+  if (!table.sound()) {
+    return std::nullopt;
+  }
+  return make_mesh_shape<Dim>(name, file, params, material);
 }
 
 template <int Dim>
-std::vector<Piece<Dim>> read_ball(TableReader& table) {
-  double radius = 0.5;
-  table.require("radius");
-  table.read("radius", radius, length());
-  return table.sound() ? ball_pieces<Dim>(radius) : std::vector<Piece<Dim>>();
+std::optional<Shape<Dim>> read_any(TableReader& table, const std::string& kind, const std::string& name,
+                                   const Material& material) {
+  if (kind == mesh_kind) {
+    return read_mesh_shape<Dim>(table, name, material);
+  }
+  for (const PiecesKind<Dim>& one : pieces_kinds<Dim>()) {
+    if (one.name == kind) {
+      std::vector<Piece<Dim>> pieces = one.read(table);
+      return table.sound() ? std::optional(make_shape<Dim>(name, std::move(pieces), material)) : std::nullopt;
+    }
+  }
+  return std::nullopt;
 }
-
-template <int Dim>
-std::vector<Piece<Dim>> read_capsule(TableReader& table) {
-  double from_tip_to_tip = 1.0;
-  double radius = 0.25;
-  table.require("length");
-  table.require("radius");
-  table.read("length", from_tip_to_tip, length());
-  table.read("radius", radius, length());
-  return table.sound() ? capsule_pieces<Dim>(from_tip_to_tip, radius) : std::vector<Piece<Dim>>();
-}
-
-template <int Dim>
-std::vector<Piece<Dim>> read_hull(TableReader& table) {
-  std::vector<Vec<Dim>> corners;
-  table.require("corners");
-  table.read("corners", corners, coordinate());
-  return table.sound() ? hull_pieces<Dim>(corners) : std::vector<Piece<Dim>>();
-}
-
-template <int Dim>
-struct Kind {
-  std::string_view name;
-  std::vector<Piece<Dim>> (*read)(TableReader& table);  // may throw std::invalid_argument
-};
-
-template <int Dim>
-constexpr Kind<Dim> all_kinds[] = {
-    {"box", read_box<Dim>},         {"L", read_l<Dim>},       {"ball", read_ball<Dim>},
-    {"capsule", read_capsule<Dim>}, {"hull", read_hull<Dim>},
-};
 
 // Whether the engines can hold the shape, asked here so that the answer has its place in the file.
 template <int Dim>
@@ -82,31 +64,26 @@ void check_alone(const Shape<Dim>& shape) {
 template <int Dim>
 std::vector<std::string> shape_kinds() {
   std::vector<std::string> names;
-  for (const Kind<Dim>& kind : all_kinds<Dim>) {
+  for (const PiecesKind<Dim>& kind : pieces_kinds<Dim>()) {
     names.emplace_back(kind.name);
   }
+  names.emplace_back(mesh_kind);
   return names;
 }
 
 template <int Dim>
 std::optional<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
                                      const Material& material) {
-  const auto* found = std::find_if(std::begin(all_kinds<Dim>), std::end(all_kinds<Dim>),
-                                   [&](const Kind<Dim>& one) { return one.name == kind; });
-  if (found == std::end(all_kinds<Dim>)) {
-    return std::nullopt;
-  }
   try {
-    std::vector<Piece<Dim>> pieces = found->read(table);
-    if (table.sound()) {
-      Shape<Dim> shape = make_shape<Dim>(name, std::move(pieces), material);
-      check_alone(shape);
-      return shape;
+    std::optional<Shape<Dim>> shape = read_any<Dim>(table, kind, name, material);
+    if (shape) {
+      check_alone(*shape);
     }
+    return shape;
   } catch (const std::invalid_argument& refusal) {
     table.reject_as(refusal);
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 template <int Dim>

@@ -1,5 +1,5 @@
 #pragma once
-// Shapes by kind. A new kind is one function in read_shape.cc and its line in the list there.
+// Shapes by kind. A new kind of convex pieces is one function in read_pieces.cc and its line in the list there.
 
 #include <optional>
 #include <string>

@@ -56,7 +56,7 @@ void check_body(TableReader& table, std::string_view key, const BodyDef<Dim>& bo
 template <int Dim>
 void check_bodies(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
   BodyDef<Dim> farthest;
-  farthest.pose.position = source.position.cwiseAbs() + source.spread + source.sweep.cwiseAbs();
+  farthest.pose.position = source.position.cwiseAbs() + source.spread + source.sweep.cwiseAbs() + source.grid_extent();
   check_body(table, "position", farthest, world);
   BodyDef<Dim> fastest;
   fastest.velocity = source.velocity.cwiseAbs() + source.velocity_spread;
@@ -66,21 +66,51 @@ void check_bodies(TableReader& table, const Source<Dim>& source, const WorldDesc
   check_body(table, "spin_spread", spinning, world);
 }
 
+template <int Dim>
+double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  double radius = 0.0;
+  for (const int shape : source.shapes) {
+    radius = std::max(radius, bounding_radius(world.shapes[static_cast<std::size_t>(shape)]));
+  }
+  return radius;
+}
+
 // Nothing may be born in the ground, which would throw it out again.
 template <int Dim>
 void check_height(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
   if (!world.ground.present) {
     return;
   }
-  double radius = 0.0;
-  for (const int shape : source.shapes) {
-    radius = std::max(radius, bounding_radius(world.shapes[static_cast<std::size_t>(shape)]));
-  }
+  const double radius = largest_radius(source, world);
   const double least = world.ground.height + radius + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep));
   if (height<Dim>(source.position) < least) {
     table.reject("position",
                  fmt::format("must be at least {:.4g} m high, so that no body reaches into the ground", least));
   }
+}
+
+// Bodies of one grid may not overlap, however they are turned: the later one would wait for ever.
+template <int Dim>
+void check_spacing(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double least = 2.0 * (largest_radius(source, world) + source.spread[axis]);
+    if (source.grid[axis] > 1 && source.spacing[axis] < least) {
+      table.reject("spacing", fmt::format("must be at least {:.4g} m, so that no two bodies of a grid touch", least));
+      return;
+    }
+  }
+}
+
+template <int Dim>
+void read_grid(TableReader& table, Source<Dim>& source) {
+  Vec<Dim> grid = Vec<Dim>::Ones();
+  table.read("grid", grid, between(1.0, 1000.0));
+  table.read("spacing", source.spacing, spread());
+  if (grid != grid.array().round().matrix()) {
+    table.reject("grid", "must be whole numbers");
+    return;
+  }
+  source.grid = grid.template cast<int>();
 }
 
 template <int Dim>
@@ -108,11 +138,13 @@ Source<Dim> read_source(TableReader& table, std::span<const std::string> shape_n
   table.read("count", source.count, between(1, most_bodies));
   table.read("start", source.start, between(0.0, 1e6));
   table.read("rate", source.rate, {.low = 0.0, .high = 1e6, .low_excluded = true});
+  read_grid(table, source);
   read_motion(table, source);
   read_orientation(table, source);
   if (table.sound() && !source.shapes.empty() && world.shapes.size() == shape_names.size()) {
     check_bodies(table, source, world);
     check_height(table, source, world);
+    check_spacing(table, source, world);
   }
   return source;
 }

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "common/scene/container.h"
 #include "common/scene/read_fields.h"
 #include "common/scene/read_shape.h"
+#include "common/scene/read_walls.h"
 
 namespace talus {
 namespace {
@@ -14,15 +14,6 @@ void read_solver(TableReader& table, SolverParams& solver) {
   table.read("position_iterations", solver.position_iterations, between(1, 1000));
   table.read("friction_directions", solver.friction_directions, between(1, 2));
   table.read("restitution_threshold", solver.restitution_threshold, between(0.0, 1e3));
-}
-
-template <int Dim>
-ContainerParams<Dim> read_container(TableReader& table) {
-  ContainerParams<Dim> params;
-  params.inner_size = read_size<Dim>(table, "inner_size");
-  table.read("wall", params.wall, length());
-  table.read("floor", params.floor);
-  return params;
 }
 
 // The pose that brings the origin of the axes in which the shape was described to `pose`.
@@ -63,10 +54,7 @@ void read_obstacle(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
   const std::string kind = read_kind(table, kinds);
   WorldDescription<Dim> alone;
   if (kind == "container") {
-    const ContainerParams<Dim> params = read_container<Dim>(table);
-    if (table.sound()) {
-      alone.obstacles = container_walls(params, pose, material);
-    }
+    alone.obstacles = read_container(table, pose, material);
   } else if (const auto shape = read_shape<Dim>(table, kind, table.path(), material)) {
     alone.obstacles = {{*shape, pose_of_centre(*shape, pose)}};
   }

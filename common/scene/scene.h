@@ -2,6 +2,7 @@
 // A scene as plain structs: what a TOML scene file says, in SI units and radians.
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,14 +21,22 @@ struct Source {
   double start = 0.0;             // [s] >= 0, when the first is due
   double rate = 6.6;              // [1/s] > 0; a rate that the spout cannot reach only makes bodies wait
   Vec<Dim> position = Vec<Dim>::Unit(Dim - 1) * 10.0;  // [m], middle of where bodies appear
-  Vec<Dim> spread = Vec<Dim>::Zero();                  // [m] >= 0, uniform to both sides of `position` on each axis
-  Vec<Dim> velocity = Vec<Dim>::Zero();                // [m/s]
-  Vec<Dim> velocity_spread = Vec<Dim>::Zero();         // [m/s] >= 0, uniform to both sides
-  std::optional<Rotation<Dim>> orientation = {};       // not given: uniformly random
-  double spin_spread = 0.0;                            // [rad/s] >= 0, uniform on each axis
+  // Bodies that appear at once, in rows along each axis, the lowest at the height of `position`. A grid of n is dropped
+  // as a whole, the next one n / rate later. [1, 1, 1]: one body at a time.
+  Eigen::Matrix<int, Dim, 1> grid = Eigen::Matrix<int, Dim, 1>::Ones();
+  Vec<Dim> spacing = Vec<Dim>::Zero();            // [m] >= 0, between rows, from middle to middle
+  Vec<Dim> spread = Vec<Dim>::Zero();             // [m] >= 0, uniform to both sides of `position` on each axis
+  Vec<Dim> velocity = Vec<Dim>::Zero();           // [m/s]
+  Vec<Dim> velocity_spread = Vec<Dim>::Zero();    // [m/s] >= 0, uniform to both sides
+  std::optional<Rotation<Dim>> orientation = {};  // not given: uniformly random
+  double spin_spread = 0.0;                       // [rad/s] >= 0, uniform on each axis
   Vec<Dim> sweep = Vec<Dim>::Zero();  // [m]: the spout moves to and fro between position - sweep and position + sweep
   double sweep_period = 0.0;          // [s] >= 0, there and back; 0: it stands still
   double ride_above = 0.0;  // [m] >= 0: the spout rises so as to stay this far above what lies beneath; 0: it does not
+
+  int bodies_at_once() const { return grid.prod(); }
+  /// From the middle of the grid's first row to that of its last, along each axis [m].
+  Vec<Dim> grid_extent() const { return ((grid.array() - 1).template cast<double>() * spacing.array()).matrix(); }
 };
 
 /// Policy by name with its parameters.
@@ -52,6 +61,8 @@ struct Scene {
   RunParams run;
   std::uint64_t seed = 1;
   std::string toml;  // the file it was read from, `--set` values put in; empty for a scene made by a program
+  std::filesystem::path folder;                 // of that file
+  std::vector<std::filesystem::path> referred;  // files in or below it that `toml` names, relative to it
 
   /// Steps of dt in one frame of output.
   std::int64_t steps_per_frame() const;

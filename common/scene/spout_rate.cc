@@ -36,7 +36,8 @@ double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& wo
 template <int Dim>
 double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& world) {
   constexpr int up = Dim - 1;
-  const Vec<Dim> distance = 2.0 * (Vec<Dim>::Constant(largest_radius(source, world)) + source.spread);
+  const Vec<Dim> distance =
+      2.0 * (Vec<Dim>::Constant(largest_radius(source, world)) + source.spread) + source.grid_extent();
   Vec<Dim> follow = source.velocity_spread;
   if (source.sweep_period > 0.0) {
     follow += 4.0 / source.sweep_period * source.sweep.cwiseAbs();
@@ -51,7 +52,10 @@ double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& wor
 
 template <int Dim>
 double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& world) {
-  return std::min(source.rate, 1.0 / clearing_time(source, world));
+  if (source.count <= source.bodies_at_once()) {
+    return source.rate;  // nothing comes after the first
+  }
+  return std::min(source.rate, source.bodies_at_once() / clearing_time(source, world));
 }
 
 template double clearing_time(const Source<2>&, const WorldDescription<2>&);

@@ -12,7 +12,8 @@ namespace talus {
 template <int Dim>
 double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& world);
 
-/// Bodies per second that a source really drops: its rate, or one per clearing time if that is less.
+/// Bodies per second that a source really drops: its rate, or one (of a grid: all its bodies) per clearing time if that
+/// is less.
 template <int Dim>
 double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& world);
 

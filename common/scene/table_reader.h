@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <functional>
 #include <set>
 #include <span>
@@ -21,7 +22,8 @@ namespace talus {
 struct Findings {
   std::string file;
   std::vector<SceneError> errors;
-  std::set<std::string> keys;  // every key that was asked for, as `source[].rate` or `shape.*.kind`
+  std::set<std::string> keys;                   // every key that was asked for, as `source[].rate` or `shape.*.kind`
+  std::vector<std::filesystem::path> referred;  // files that it names, as it names them
 };
 
 /// One table. Every read() leaves the variable, that is the struct's own default, alone where the key is absent, and
@@ -51,6 +53,10 @@ class TableReader {
   void read(std::string_view key, std::vector<Eigen::Matrix<double, Size, 1>>& values, const Range& range);
   /// One text or an array of texts, each one of `choices`.
   void read(std::string_view key, std::vector<std::string>& values, std::span<const std::string> choices);
+  /// The name of another file, in or below the folder of the one that is read, or absolute: here with that folder.
+  /// Remembered together with the name that `beside` makes of it, of a file that belongs to it.
+  void read(std::string_view key, std::filesystem::path& value,
+            const std::function<std::filesystem::path(const std::filesystem::path&)>& beside);
   /// An angle, in the file in degrees, here in radians; `range` in degrees.
   void read_degrees(std::string_view key, double& radians, const Range& range);
 

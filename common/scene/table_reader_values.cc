@@ -84,6 +84,25 @@ void TableReader::read(std::string_view key, std::string& value) {
   value = **text;
 }
 
+void TableReader::read(std::string_view key, std::filesystem::path& value,
+                       const std::function<std::filesystem::path(const std::filesystem::path&)>& beside) {
+  std::string name;
+  read(key, name);
+  const std::filesystem::path file(name);
+  if (name.empty()) {
+    return;
+  }
+  if (std::find(file.begin(), file.end(), "..") != file.end()) {
+    reject(key, "must be in or below the scene's folder, or absolute: a run keeps a copy of it");
+    return;
+  }
+  value = std::filesystem::path(findings_.file).parent_path() / file;
+  if (file.is_relative()) {
+    findings_.referred.push_back(file);
+    findings_.referred.push_back(beside(file));
+  }
+}
+
 bool TableReader::read_choice(const toml::node& node, const std::string& name, std::string& value,
                               std::span<const std::string> choices) {
   const std::string rule = fmt::format("must be {}{}", choices.size() == 1 ? "" : "one of ", fmt::join(choices, ", "));

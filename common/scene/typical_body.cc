@@ -4,13 +4,29 @@
 
 namespace talus {
 
+namespace {
+
+constexpr double rare = 0.02;  // for each body of the most frequent shape
+
+}  // namespace
+
 template <int Dim>
-TypicalBody typical_body(const Scene<Dim>& scene) {
+std::vector<double> bodies_of_piles(const Scene<Dim>& scene) {
   std::vector<double> dropped(scene.world.shapes.size(), scene.sources.empty() ? 1.0 : 0.0);
   for (const Source<Dim>& source : scene.sources) {
     const double each = static_cast<double>(source.count) / static_cast<double>(source.shapes.size());
     for (const int shape : source.shapes) dropped[static_cast<std::size_t>(shape)] += each;
   }
+  const double most = dropped.empty() ? 0.0 : *std::max_element(dropped.begin(), dropped.end());
+  for (double& count : dropped) {
+    if (count < rare * most) count = 0.0;
+  }
+  return dropped;
+}
+
+template <int Dim>
+TypicalBody typical_body(const Scene<Dim>& scene) {
+  const std::vector<double> dropped = bodies_of_piles(scene);
   TypicalBody mean{.bounding_volume = 0.0, .extent = 0.0, .mass = 0.0};
   double total = 0.0;
   for (std::size_t i = 0; i < dropped.size(); ++i) {
@@ -27,6 +43,8 @@ TypicalBody typical_body(const Scene<Dim>& scene) {
   return mean;
 }
 
+template std::vector<double> bodies_of_piles(const Scene<2>&);
+template std::vector<double> bodies_of_piles(const Scene<3>&);
 template TypicalBody typical_body(const Scene<2>&);
 template TypicalBody typical_body(const Scene<3>&);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/scene/spout_rate.h"
+#include "common/scene/typical_body.h"
 
 namespace talus {
 namespace {
@@ -23,7 +24,9 @@ void warn_of_sources(const Scene<Dim>& scene, Lines& lines) {
           "second: bodies may wait; a higher velocity or less spread along it helps",
           i, source.rate, reachable));
     }
-    const double last = source.start + (source.count - 1) / source.rate;
+    const int at_once = source.bodies_at_once();
+    const int before_last = (source.count - 1) / at_once * at_once;
+    const double last = source.start + before_last / source.rate;
     if (last > end) {
       lines.push_back(
           fmt::format("source[{}]: its last body is due at {:.4g} s, the run ends at {:.4g} s", i, last, end));
@@ -45,24 +48,31 @@ void warn_of_sizes(const std::vector<Shape<Dim>>& shapes, Lines& lines) {
   }
 }
 
+// Largest over smallest value among shapes.
 template <int Dim>
-void warn_of_mixtures(const WorldDescription<Dim>& world, Lines& lines) {
-  if (world.shapes.empty()) {
-    return;
-  }
-  const auto ratio = [&](double Shape<Dim>::*value) {
-    const auto less = [value](const Shape<Dim>& a, const Shape<Dim>& b) { return a.*value < b.*value; };
-    const auto [least, most] = std::minmax_element(world.shapes.begin(), world.shapes.end(), less);
-    return (*most).*value / ((*least).*value);
-  };
-  const double masses = ratio(&Shape<Dim>::mass);
-  if (masses > 10.0 && world.solver.velocity_iterations < 50) {
+double ratio(const std::vector<Shape<Dim>>& shapes, double Shape<Dim>::*value) {
+  const auto less = [value](const Shape<Dim>& a, const Shape<Dim>& b) { return a.*value < b.*value; };
+  const auto [least, most] = std::minmax_element(shapes.begin(), shapes.end(), less);
+  return shapes.empty() ? 1.0 : (*most).*value / ((*least).*value);
+}
+
+template <int Dim>
+void warn_of_mixtures(const Scene<Dim>& scene, Lines& lines) {
+  const double masses = ratio(scene.world.shapes, &Shape<Dim>::mass);
+  if (masses > 10.0 && scene.world.solver.velocity_iterations < 50) {
     lines.push_back(
         fmt::format("shape: masses differ by a factor of {:.3g}; above 10 heavy bodies sink into light ones unless "
                     "world.solver.velocity_iterations is 50 or more",
                     masses));
   }
-  const double volumes = ratio(&Shape<Dim>::bounding_volume);
+  const std::vector<double> bodies = bodies_of_piles(scene);
+  std::vector<Shape<Dim>> of_piles;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i] > 0.0) {
+      of_piles.push_back(scene.world.shapes[i]);
+    }
+  }
+  const double volumes = ratio(of_piles, &Shape<Dim>::bounding_volume);
   if (volumes > 2.0) {
     lines.push_back(
         fmt::format("shape: bounding boxes differ by a factor of {:.3g} in volume; a pile's layers are made "
@@ -88,7 +98,7 @@ std::vector<std::string> warnings(const Scene<Dim>& scene) {
   Lines lines;
   warn_of_sources(scene, lines);
   warn_of_sizes(scene.world.shapes, lines);
-  warn_of_mixtures(scene.world, lines);
+  warn_of_mixtures(scene, lines);
   warn_of_settings(scene, lines);
   return lines;
 }

@@ -4,6 +4,20 @@
 #include <stdexcept>
 
 namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The parts of a mesh may be missing where a scene in 2D asks for none.
+void copy_referred(const fs::path& from, const fs::path& to) {
+  std::error_code same_or_missing;
+  if (fs::exists(from) && !fs::equivalent(from, to, same_or_missing)) {
+    fs::create_directories(to.parent_path());
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+  }
+}
+
+}  // namespace
 
 template <int Dim>
 void write_scene(const Scene<Dim>& scene, const std::filesystem::path& file) {
@@ -15,6 +29,9 @@ void write_scene(const Scene<Dim>& scene, const std::filesystem::path& file) {
   stream.close();
   if (!stream) {
     throw std::runtime_error(file.string() + ": cannot be written");
+  }
+  for (const fs::path& referred : scene.referred) {
+    copy_referred(scene.folder / referred, file.parent_path() / referred);
   }
 }
 

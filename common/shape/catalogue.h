@@ -24,9 +24,9 @@ struct RingParams {
   // them, in piles nearly in proportion. With few the ring is angular: the hole narrows to inner_radius cos(pi /
   // parts).
   int parts = 8;
-  // Corners of the tube's section, 3D only: 4 (as deep along y as it is wide), 6 or 8. Each is another pair of corners
-  // in every part.
+  // Corners of the tube's section, 3D only: 4 (a rectangle), 6 or 8. Each is another pair of corners in every part.
   int section_corners = 4;
+  double depth = 0.0;  // along y, 3D only [m], >= 0; 0: the section is a regular polygon, as deep as the tube is wide
 };
 
 template <int Dim>

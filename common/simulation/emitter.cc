@@ -27,11 +27,13 @@ template <int Dim>
 void Emitter<Dim>::emit(World<Dim>& world, double time) {
   if (finished()) return;
   for (Spout& spout : spouts_) {
+    bool ridden = spout.source.ride_above == 0.0;
     while (due(spout, time)) {
       if (!spout.drawn) draw(spout);
-      if (spout.source.ride_above > 0.0) ride(world, spout, time);
+      if (!ridden) ride(world, spout, time);
+      ridden = true;
       BodyDef<Dim> body = spout.next;
-      body.pose.position += place(spout, time);
+      body.pose.position += place(spout, time) + place_in_grid(spout);
       if (!has_room(world, body)) {
         ++waits_;
         break;
@@ -46,7 +48,9 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
 
 template <int Dim>
 bool Emitter<Dim>::due(const Spout& spout, double time) const {
-  return spout.emitted < spout.source.count && time >= spout.source.start + spout.emitted / spout.source.rate;
+  const int at_once = spout.source.bodies_at_once();
+  const int before_grid = spout.emitted / at_once * at_once;
+  return spout.emitted < spout.source.count && time >= spout.source.start + before_grid / spout.source.rate;
 }
 
 template <int Dim>
@@ -74,6 +78,20 @@ Vec<Dim> Emitter<Dim>::place(const Spout& spout, double time) const {
   return at;
 }
 
+/// Where in its grid the next body appears, seen from the middle of the lowest rows: x changes first, height last.
+template <int Dim>
+Vec<Dim> Emitter<Dim>::place_in_grid(const Spout& spout) const {
+  const Source<Dim>& source = spout.source;
+  Vec<Dim> place = -0.5 * source.grid_extent();
+  place[Dim - 1] = 0.0;
+  int number = spout.emitted % source.bodies_at_once();
+  for (int axis = 0; axis < Dim; ++axis) {
+    place[axis] += (number % source.grid[axis]) * source.spacing[axis];
+    number /= source.grid[axis];
+  }
+  return place;
+}
+
 template <int Dim>
 bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
   const Box<Dim> place = bounds_at(shapes_[static_cast<std::size_t>(body.shape)], body.pose);
@@ -91,8 +109,8 @@ template <int Dim>
 void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   const Vec<Dim> spout_at = place(spout, time);
   const double half_width = shapes_[static_cast<std::size_t>(spout.next.shape)].extent;
-  Box<Dim> column(spout_at - Vec<Dim>::Constant(half_width) - spout.source.spread,
-                  spout_at + Vec<Dim>::Constant(half_width) + spout.source.spread);
+  const Vec<Dim> reach = Vec<Dim>::Constant(half_width) + spout.source.spread + 0.5 * spout.source.grid_extent();
+  Box<Dim> column(spout_at - reach, spout_at + reach);
   column.min()[Dim - 1] = height<Dim>(spout_at) - spout.source.ride_above;
   near_.clear();
   world.near(column, near_);

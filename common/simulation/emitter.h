@@ -39,6 +39,7 @@ class Emitter {
   bool due(const Spout& spout, double time) const;
   void draw(Spout& spout) const;
   Vec<Dim> place(const Spout& spout, double time) const;
+  Vec<Dim> place_in_grid(const Spout& spout) const;
   bool has_room(const World<Dim>& world, const BodyDef<Dim>& body);
   void ride(const World<Dim>& world, Spout& spout, double time);
 

@@ -56,6 +56,7 @@ std::string description(const Source<Dim>& source) {
   }
   text += fmt::format(" count {} start {} rate {} spin_spread {} sweep_period {} ride_above {}", source.count,
                       source.start, source.rate, source.spin_spread, source.sweep_period, source.ride_above);
+  text += " grid" + numbers(source.grid) + " spacing" + numbers(source.spacing);
   for (const Vec<Dim>& vector :
        {source.position, source.spread, source.velocity, source.velocity_spread, source.sweep}) {
     text += " /" + numbers(vector);

@@ -78,8 +78,11 @@ std::set<std::string> keys_of_the_reader() {
     shapes += "[shape." + kind + "]\nkind = \"" + kind + "\"\n";
     obstacles += ", {kind = \"" + kind + "\", angle_deg = 0}";
   }
+  obstacles += ", {kind = \"container\", radius = 1}, {kind = \"container\", corners = []}";
   text += "obstacle = [" + obstacles + "]\n";
-  text += "pile = [{boundary = {kind = \"box\"}}, {boundary = {kind = \"cylinder\"}}]\n" + shapes;
+  text +=
+      "pile = [{boundary = {kind = \"box\"}}, {boundary = {kind = \"cylinder\"}}, {boundary = {kind = \"convex\"}}]\n";
+  text += shapes;
   return keys_looked_for(text);
 }
 

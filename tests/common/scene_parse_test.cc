@@ -73,6 +73,20 @@ TEST(SceneFile, KnowsEveryKindOfShape) {
   EXPECT_NEAR(scene.world.shapes[3].volume, 1.0 / 6.0, tolerance);
 }
 
+TEST(SceneFile, KnowsShapesThatAreNotConvex) {
+  const std::string polygon =
+      "[shape.P]\nkind = \"polygon\"\ncorners = [[0, 0], [1, 0], [1, 0.4], [0.4, 0.4], [0.4, 1], [0, 1]]\n";
+  const std::string ring =
+      "[shape.R]\nkind = \"ring\"\nouter_radius = 0.5\ninner_radius = 0.3\nparts = 6\n[[source]]\n";
+  const Scene<2> plane = flat(polygon + ring);
+  EXPECT_NEAR(plane.world.shapes[1].volume, 0.64, tolerance);
+  EXPECT_EQ(plane.world.shapes[1].pieces.size(), 2u);
+  EXPECT_NEAR(plane.world.shapes[2].volume, 3.0 * std::sin(std::numbers::pi / 3.0) * (0.25 - 0.09), tolerance);
+  const Scene<3> space = full(polygon + "depth = 0.5\n" + ring);
+  EXPECT_NEAR(space.world.shapes[1].volume, 0.32, tolerance);
+  EXPECT_EQ(space.world.shapes[2].pieces.size(), 6u);
+}
+
 TEST(Obstacle, IsPlacedByTheOriginOfItsOwnAxes) {
   const Scene<2> scene = flat(
       "[[obstacle]]\nkind = \"hull\"\ncorners = [[3, 0], [5, 0], [3, 1]]\n[[source]]\n"
@@ -114,6 +128,36 @@ TEST(Container, CanBeTilted) {
   const auto [box, area] = outline(
       flat("[[obstacle]]\nkind = \"container\"\nangle_deg = 90\ninner_size = [4, 3]\nwall = 0.5\n[[source]]\n"));
   EXPECT_TRUE(box.isApprox(Box<2>(Vec2(-3, -2.5), Vec2(0, 2.5)), tolerance));
+}
+
+TEST(Container, CanBeRoundOrAnyConvexPolygon) {
+  const auto [round, round_volume] =
+      outline(full("[[obstacle]]\nkind = \"container\"\nradius = 2\nheight = 3\nwall = 0.5\n[[source]]\n"));
+  // The walls touch the circle with their inner faces, so two of them lie across each axis.
+  const double sides = 32.0 * std::tan(std::numbers::pi / 32.0);
+  EXPECT_NEAR(round_volume, 3.0 * sides * (2.5 * 2.5 - 2.0 * 2.0), 1e-9);
+  EXPECT_GE(round.max().x(), 2.5);
+  EXPECT_LT(round.max().x(), 2.5 / std::cos(std::numbers::pi / 32.0) + 1e-9);
+  const auto [triangle, volume] =
+      outline(full("[[obstacle]]\nkind = \"container\"\ncorners = [[3, 0], [0, 4], [0, 0]]\nheight = 2\nwall = "
+                   "1\nfloor = true\n[[source]]\n"));
+  // A triangle of sides 3, 4, 5 has the inscribed circle of radius 1; its walls widen that to radius 2, area 6 to 24.
+  EXPECT_NEAR(volume, 2.0 * (24.0 - 6.0) + 24.0, 1e-9);
+  EXPECT_NEAR(triangle.min().z(), -1.0, tolerance);
+}
+
+TEST(PileInWalls, AreBuiltWhereTheyHaveAThickness) {
+  const std::string pile =
+      "[[source]]\n[[pile]]\nalpha_deg = 30\nat = [1, 2, 0]\n[pile.boundary]\nrim = 3\nwall = 0.5\n";
+  const auto [box, volume] = outline(full(pile + "kind = \"box\"\nsize = [4, 6]\n"));
+  EXPECT_TRUE(box.isApprox(Box<3>(Vec3(-1.5, -1.5, 0), Vec3(3.5, 5.5, 3)), tolerance));
+  EXPECT_NEAR(volume, 3.0 * (5.0 * 7.0 - 4.0 * 6.0), tolerance);
+  const Scene<3> convex =
+      full(pile + "kind = \"convex\"\ncorners = [[-1, -1], [-1, 1], [2, 1], [2, -1]]\nfloor = true\n");
+  EXPECT_EQ(convex.world.obstacles.size(), 5u);
+  EXPECT_NEAR(convex.piles[0].boundary->area(), 6.0, 1e-8);
+  EXPECT_NEAR(convex.piles[0].boundary->inner_radius(), 1.0, tolerance);
+  EXPECT_EQ(full(pile + "kind = \"cylinder\"\nradius = 2\n").world.obstacles.size(), 32u);
 }
 
 TEST(PileInWalls, HasThemAroundItsMiddle) {

@@ -48,6 +48,12 @@ TEST(Warnings, TellOfVolumesThatAreTooDifferentForOnePile) {
              "bounding boxes differ by a factor of 2.2");
 }
 
+TEST(Warnings, DoNotMindOneLargeBodyThatIsThrownIntoAPile) {
+  const Override large{"shape.large={kind=\"ball\", radius=0.65}"};
+  const Override sources{"source=[{shape=\"ball\", rate=1.9, count=60}, {shape=\"large\", count=1}]"};
+  EXPECT_EQ(warnings_with({large, sources, {"run.frames=1200"}}), "");
+}
+
 TEST(Warnings, TellOfAPolicyWithoutAPile) {
   expect_one(warnings_with({{"pile=[]"}}), "without any [[pile]]");
   EXPECT_EQ(warnings_with({{"pile=[]"}, {"policy.kind=full"}}), "");

@@ -46,6 +46,14 @@ TEST(RingShape, InSpaceHasTheVolumeOfPappus) {
   }
 }
 
+TEST(RingShape, IsAsDeepAsAsked) {
+  for (const int corners : {4, 6, 8}) {
+    const Shape<3> ring = make_shape("o", ring_pieces<3>({.section_corners = corners, .depth = 0.3}), {});
+    EXPECT_NEAR(ring.bounds.sizes().y(), 0.3, 1e-12);
+    EXPECT_NEAR(ring.bounds.sizes().x(), 2.0, 1e-12);
+  }
+}
+
 // With many parts a flat ring's inertia goes to m (r1^2 + r2^2) / 2 about its axis; the polygon's error is of order
 // (2 pi / parts)^2.
 TEST(RingShape, ApproachesTheRoundRingsInertia) {
@@ -60,6 +68,7 @@ TEST(RingShape, RefusesParametersThatMakeNoRing) {
   EXPECT_THROW(ring_pieces<3>({.outer_radius = NAN}), std::invalid_argument);
   EXPECT_THROW(ring_pieces<3>({.parts = 2}), std::invalid_argument);
   EXPECT_THROW(ring_pieces<3>({.section_corners = 5}), std::invalid_argument);
+  EXPECT_THROW(ring_pieces<3>({.depth = -0.1}), std::invalid_argument);
 }
 
 }  // namespace
