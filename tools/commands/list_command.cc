@@ -13,10 +13,10 @@ int list_scenes() {
   for (const std::filesystem::path& file : scene_files()) {
     try {
       const auto scene = read_scene(file, {});
-      std::visit([&](const auto& of_dimension) { fmt::print("{:24} {}\n", file.stem().string(), of_dimension.title); },
+      std::visit([&](const auto& of_dimension) { fmt::print("{:26} {}\n", file.stem().string(), of_dimension.title); },
                  scene);
     } catch (const SceneErrors& errors) {
-      fmt::print("{:24} not readable: {}\n", file.stem().string(), errors.what());
+      fmt::print("{:26} not readable: {}\n", file.stem().string(), errors.what());
       exit_code = exit_codes::bad_input;
     }
   }

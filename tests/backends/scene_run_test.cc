@@ -1,0 +1,90 @@
+// The scenes of this project, their first second and more, on every engine that fits.
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/policy/sleep_policy.h"
+#include "common/scene/read_scene.h"
+#include "common/simulation/simulation.h"
+#include "tests/backends/backend.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path scene_folder = fs::path(TALUS_SOURCE_DIR) / "scenes";
+
+template <typename Backend>
+class SceneRun : public ::testing::Test {
+ protected:
+  static constexpr int dimension = Backend::dim;
+
+  static std::string ending() { return dimension == 2 ? "_2d.toml" : "_3d.toml"; }
+
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
+    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
+  }
+};
+
+TYPED_TEST_SUITE(SceneRun, Backends, BackendName);
+
+TYPED_TEST(SceneRun, DropsWhatIsDueAndKeepsItAboveTheGround) {
+  constexpr int dim = TypeParam::dim;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(scene_folder)) {
+    if (!entry.path().string().ends_with(TestFixture::ending())) continue;
+    SCOPED_TRACE(entry.path());
+    const auto scene = std::get<Scene<dim>>(read_scene(entry.path()));
+    auto simulation = TestFixture::simulation(scene);
+    for (int i = 0; i < 70; ++i) simulation.step();
+    double due = 0.0;
+    for (const Source<dim>& source : scene.sources) {
+      if (source.start == 0.0) due += std::min<double>(source.count, 1.0 * source.rate);
+    }
+    EXPECT_GE(simulation.emitter().emitted(), due) << "within a second, as its sources promise";
+    for (const Pose<dim>& pose : simulation.world().states().pose) {
+      // Nothing may be inside the ground by more than a step's fall of the fastest.
+      EXPECT_GT(height<dim>(pose.position), -0.3);
+    }
+    ++count;
+  }
+  EXPECT_GE(count, 11);
+}
+
+// 50 rings do not fill the box: not one of them may get through its walls or its floor, or over its rim.
+TYPED_TEST(SceneRun, KeepsRingsInTheirBox) {
+  constexpr int dim = TypeParam::dim;
+  const std::vector<Override> few = {{"source[0].count=25"}, {"source[1].count=25"}};
+  const fs::path file = scene_folder / ("rings_in_a_box" + TestFixture::ending());
+  const auto scene = std::get<Scene<dim>>(read_scene(file, few));
+  const Boundary<dim>& box = *scene.piles.at(0).boundary;
+  auto simulation = TestFixture::simulation(scene);
+  for (int i = 0; i < 400; ++i) simulation.step();
+  const BodyStates<dim>& states = simulation.world().states();
+  ASSERT_EQ(states.size(), 50);
+  for (std::size_t i = 0; i < states.pose.size(); ++i) {
+    const Box<dim> bounds = bounds_at(scene.world.shapes[0], states.pose[i]);
+    // Contacts may be pressed in by the engines' slop and half a step of the pour's 14 m/s.
+    EXPECT_GT(height<dim>(bounds.min()), -0.12) << "body " << i;
+    EXPECT_LT(height<dim>(bounds.max()), box.rim) << "body " << i;
+    EXPECT_LT(box.gauge(horizontal<dim>(states.pose[i].position)), 1.0) << "body " << i;
+  }
+}
+
+// Bodies of a grid appear in one step, without touching.
+TYPED_TEST(SceneRun, DropsAGridAtOnce) {
+  constexpr int dim = TypeParam::dim;
+  const fs::path file = scene_folder / ("bunny_matrices_45" + TestFixture::ending());
+  const auto scene = std::get<Scene<dim>>(read_scene(file));
+  auto simulation = TestFixture::simulation(scene);
+  simulation.step();
+  EXPECT_EQ(simulation.emitter().emitted(), 100);
+  for (int i = 0; i < 119; ++i) simulation.step();
+  EXPECT_EQ(simulation.emitter().emitted(), 100);
+  for (int i = 0; i < 3; ++i) simulation.step();
+  EXPECT_EQ(simulation.emitter().emitted(), 200) << "the next grid, two seconds later";
+}
+
+}  // namespace
+}  // namespace talus
