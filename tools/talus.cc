@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/scene_errors.h"
+#include "tools/bench/bench_command.h"
 #include "tools/commands/commands.h"
 #ifdef TALUS_BULLET
 #include "tools/mesh/decompose_command.h"
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   talus::add_run_command(app, exit_code);
   talus::add_list_command(app, exit_code);
   talus::add_check_command(app, exit_code);
+  talus::add_bench_command(app, exit_code);
 #ifdef TALUS_BULLET
   talus::add_decompose_command(app);
 #endif

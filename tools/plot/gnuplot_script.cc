@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace talus {
@@ -39,6 +40,32 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+/// A logarithmic axis that reaches a little beyond its values instead of to the next powers of ten, with labels at 1, 2
+/// and 5 where powers alone would be too few.
+std::string logarithmic_axis(char axis, const Plot& plot) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const Series& series : plot.series) {
+    for (const auto* values : {axis == 'x' ? &series.x : &series.y, axis == 'x' ? &series.x : &series.low,
+                               axis == 'x' ? &series.x : &series.high}) {
+      for (const double value : *values) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    }
+  }
+  constexpr double margin = 1.15;
+  constexpr double few_decades = 50.0;
+  std::string script = fmt::format("set logscale {0} 10\nset {0}range [{1}:{2}]\n", axis, low / margin, high * margin);
+  if (high / low > few_decades) return script;
+  script += fmt::format("set {}tics (", axis);
+  for (double decade = std::pow(10.0, std::floor(std::log10(low / margin))); decade <= high * margin; decade *= 10.0) {
+    for (const double step : {1.0, 2.0, 5.0}) script += fmt::format("'{0:g}' {0:g},", step * decade);
+  }
+  script.back() = ')';
+  return script + "\n";
+}
+
 std::string head_of(const Plot& plot) {
   std::string script = fmt::format(
       "set terminal svg size {},{} dynamic noenhanced font 'DejaVu Sans,13' background 'white'\n"
@@ -51,8 +78,8 @@ std::string head_of(const Plot& plot) {
   if (!plot.title.empty()) script += fmt::format("set title {} textcolor '#222222' font ',15'\n", quoted(plot.title));
   script += fmt::format("set xlabel {} offset 0,0.5 textcolor '#222222'\n", quoted(plot.x_label));
   script += fmt::format("set ylabel {} textcolor '#222222'\n", quoted(plot.y_label));
-  if (plot.log_x) script += "set logscale x 10\n";
-  if (plot.log_y) script += "set logscale y 10\n";
+  if (plot.log_x) script += logarithmic_axis('x', plot);
+  if (plot.log_y) script += logarithmic_axis('y', plot);
   const bool none_below = std::ranges::all_of(plot.series, [](const Series& series) {
     const auto above = [](double value) { return value >= 0.0; };
     return std::ranges::all_of(series.y, above) && std::ranges::all_of(series.low, above);

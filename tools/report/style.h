@@ -11,10 +11,14 @@ h2 { font-size: 1.25rem; margin: 2.5rem 0 0.6rem; padding-bottom: 0.3rem; border
 .subtitle { margin: 0.4rem 0 0; color: #666; }
 p { max-width: 42rem; }
 .wide { overflow-x: auto; margin: 1.2rem 0; }
+@media screen and (min-width: 64rem) {
+  .wide { width: max-content; min-width: 100%; max-width: 94vw; position: relative; left: 50%;
+          transform: translateX(-50%); }
+}
 table { border-collapse: collapse; font-size: 0.92rem; }
 caption { caption-side: top; text-align: left; padding-bottom: 0.5rem; color: #666; }
-th, td { padding: 0.35rem 0.9rem; text-align: left; vertical-align: baseline; }
-th { border-bottom: 2px solid #666; font-weight: 600; }
+th, td { padding: 0.35rem 0.65rem; text-align: left; vertical-align: baseline; }
+th, th.number { border-bottom: 2px solid #666; font-weight: 600; max-width: 8rem; white-space: normal; vertical-align: bottom; }
 td { border-bottom: 1px solid #e4e4e4; }
 tbody tr:last-child td { border-bottom: 2px solid #666; }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }

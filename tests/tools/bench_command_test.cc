@@ -1,0 +1,143 @@
+// `talus bench`: each benchmark on a scene so small that it takes a second.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.h"
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::string tiny =
+    " --quick --rounds 2 --policy paper --set source[0].count=10 --set run.frames=120 --set policy.tau=0.3 ";
+
+std::size_t lines(const fs::path& file) {
+  const std::string text = contents(file);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Runs the benchmark and checks what each of them leaves.
+Json results_of(const TemporaryFolder& folder, const std::string& name, const std::string& options) {
+  const Outcome outcome = talus_command("bench " + name + tiny + options + " --out " + (folder / name));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Quick: "), std::string::npos) << "what quick leaves out must be said";
+  EXPECT_NE(outcome.err.find(" left\n"), std::string::npos) << "progress with the time left";
+  const fs::path out = folder.path() / name;
+  const std::string html = contents(out / "report.html");
+  EXPECT_NE(html.find("</html>"), std::string::npos);
+  EXPECT_NE(html.find("<svg"), std::string::npos) << "plots are part of the page";
+  EXPECT_NE(contents(out / "results.md").find("processor"), std::string::npos);
+  EXPECT_GT(lines(out / "results.csv"), 1U);
+  const Json json = Json::parse(contents(out / "results.json"));
+  for (const Json& each : json["cases"]) {
+    EXPECT_EQ(each["end_hashes"].size(), 1U) << "the same input gives the same end: " << each["policy"];
+    EXPECT_GT(each["against_full"]["seconds"], 0.0);
+    EXPECT_GT(each["against_full"]["speed_up"], 0.0);
+    for (const auto& [measure, value] : each["against_full"].items()) {
+      EXPECT_TRUE(std::isfinite(value.get<double>())) << measure;
+    }
+  }
+  return json;
+}
+
+TEST(BenchTable1, ShowsErrorsFloorsAndTheCeilingBesideEachSpeedUp) {
+  const TemporaryFolder folder;
+  const Json json = results_of(folder, "table1", "--scene drop_in_a_pile_2d --reference");
+  ASSERT_EQ(json["cases"].size(), 4U) << "full, engine, paper, reference";
+  const Json& full = json["cases"][0];
+  EXPECT_EQ(full["policy"], "full");
+  EXPECT_EQ(full["against_full"]["speed_up"], 1.0);
+  EXPECT_GE(full["against_full"]["oracle_005"], 1.0);
+  const Json& paper = json["cases"][2];
+  EXPECT_EQ(paper["policy"], "paper");
+  for (const char* name : {"relative", "relative_floor", "R", "R_floor", "R_ceiling", "S", "drift_mean_D", "floating",
+                           "ks_z", "w1_r", "centre_off_D", "penetration_p99_D", "work_skipped", "oracle_005"}) {
+    EXPECT_TRUE(paper["against_full"].contains(name)) << name;
+    EXPECT_TRUE(paper["against_reference"].contains(name)) << name;
+  }
+  EXPECT_GT(paper["against_full"]["work_skipped"], 0.0);
+  EXPECT_GT(full["against_reference"]["R"], 0.0) << "the full run at other settings is not the reference";
+}
+
+TEST(BenchTable1, GoesOnWhereItStoppedAndMeasuresNothingTwice) {
+  const TemporaryFolder folder;
+  const std::string options = "--scene drop_in_a_pile_2d";
+  results_of(folder, "table1", options);
+  const fs::path rows = folder.path() / "table1" / "rows.csv";
+  const std::string all = contents(rows);
+  EXPECT_EQ(lines(rows), 1U + 3U * 3U) << "a header, and of three policies two rounds and the errors";
+  const Outcome again = talus_command("bench table1" + tiny + options + " --out " + (folder / "table1"));
+  EXPECT_EQ(again.err.find("round"), std::string::npos) << again.err;
+  EXPECT_EQ(contents(rows), all);
+  std::ofstream(rows) << all.substr(0, all.size() - 20);  // killed while it wrote the last row
+  const Outcome resumed = talus_command("bench table1" + tiny + options + " --out " + (folder / "table1"));
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_NE(resumed.err.find("[1/1]"), std::string::npos) << "one row was missing: " << resumed.err;
+  EXPECT_EQ(lines(rows), 1U + 3U * 3U);
+}
+
+TEST(BenchTable2, SweepsTauOnAnyScene) {
+  const TemporaryFolder folder;
+  const Json json = results_of(folder, "table2", "--scene drop_in_a_pile_2d");
+  EXPECT_EQ(json["cases"].size(), 6U) << "full and five values of tau";
+}
+
+TEST(BenchFigures, LeavesTimeAndErrorOfEachFrame) {
+  const TemporaryFolder folder;
+  results_of(folder, "figures", "--scene drop_in_a_pile_2d");
+  EXPECT_EQ(lines(folder.path() / "figures" / "frames-drop_in_a_pile_2d-box2d-paper.csv"), 60U);
+}
+
+TEST(BenchPareto, MovesOneParameterAtATime) {
+  const TemporaryFolder folder;
+  const Json json = results_of(folder, "pareto", "--scene drop_in_a_pile_2d");
+  EXPECT_GT(json["cases"].size(), 6U);
+}
+
+#ifdef TALUS_BULLET
+TEST(BenchEngines, SetsTheEnginesSideBySide) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      talus_command("bench engines" + tiny + "--scene drop_in_a_pile_2d --twins 2 --out " + (folder / "engines"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(contents(folder.path() / "engines" / "results.json"));
+  ASSERT_EQ(json["cases"].size(), 6U);
+  EXPECT_EQ(json["cases"][0]["backend"], "box2d");
+  EXPECT_EQ(json["cases"][3]["backend"], "bullet-planar");
+  EXPECT_EQ(json["cases"][5]["against_full"]["twins"], 2.0);
+}
+#endif
+
+TEST(Bench, RefusesBadInput) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& arguments, const std::string& said) {
+    const Outcome outcome = shell("cd " + folder.path().string() + " && \"$TALUS\" bench " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  };
+  refused("table1 --scene drop_in_a_pil", "drop_in_a_pile");
+  refused("table1 --scene drop_in_a_pile_2d --policy pape --quick", "policy.kind");
+  refused("table1 --rounds -1", "--rounds");
+  refused("table1 --share 1.5", "--share");
+  refused("table7", "subcommand");
+}
+
+TEST(Bench, DoesNotOverwriteRowsOfAnotherKind) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "rows.csv") << "my,own,numbers\n1,2,3\n";
+  const Outcome outcome =
+      talus_command("bench table1 --quick --scene drop_in_a_pile_2d --out " + folder.path().string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(contents(folder.path() / "rows.csv"), "my,own,numbers\n1,2,3\n");
+}
+
+}  // namespace
+}  // namespace talus

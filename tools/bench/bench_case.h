@@ -1,0 +1,34 @@
+#pragma once
+// What is run in a benchmark.
+
+#include <string>
+#include <vector>
+
+#include "common/scene/read_scene.h"
+#include "tools/bench/row.h"
+
+namespace talus {
+
+/// One way to run a scene.
+struct BenchCase {
+  std::string scene;                  // file or name
+  std::string backend;                // engine
+  std::string policy;                 // "reference": full at the reference settings
+  std::vector<std::string> settings;  // path=value, replaces values of the scene file
+};
+
+inline constexpr const char* reference_policy = "reference";
+
+/// Without a round: fill that in.
+RowKey key_of(const BenchCase& bench_case);
+
+/// The scene as the case wants it. Throws as read_scene() and find_scene() do.
+AnyScene load(const BenchCase& bench_case);
+
+/// Dimension of a scene file, 2 or 3.
+int dimension_of(const std::string& scene);
+
+/// Policies besides full and engine that this build can make.
+std::vector<std::string> known_policies();
+
+}  // namespace talus

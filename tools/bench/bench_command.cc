@@ -1,0 +1,56 @@
+#include "tools/bench/bench_command.h"
+
+#include <fmt/format.h>
+
+#include "tools/bench/benchmarks.h"
+#include "tools/commands/commands.h"
+
+namespace talus {
+
+namespace {
+
+void add_options(CLI::App& command, BenchOptions& options) {
+  command.add_flag("-q,--quick", options.quick, "A few minutes: fewer scenes, half of their frames, two rounds");
+  command.add_option("-p,--policy", options.policies, "Policy to measure, may be repeated; default: all there are")
+      ->allow_extra_args(false);
+  command.add_option("--scene", options.scenes, "Scene, in both dimensions unless it says which; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("-b,--backend", options.backends, "Engine, may be repeated; default: each dimension's first")
+      ->allow_extra_args(false);
+  command.add_option("-s,--set", options.settings, "Replace a value of every scene; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--rounds", options.rounds, "Timed runs of each case (5, quick: 2)");
+  command.add_option("--twins", options.twins, "Runs a side for shapes and distributions (3, quick: 1)");
+  command.add_option("--share", options.share, "Share of each scene's frames to run, from its start (1, quick: 0.5)");
+  command.add_flag("--reference", options.reference, "Errors against the converged simulation too (slow)");
+  command.add_flag("!--no-errors", options.errors, "Times only");
+  command.add_option("-o,--out", options.out, "Folder of rows and report; what is there is not measured again");
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("bench", "Measure what sleeping saves and what it costs in truth");
+  command->require_subcommand(1);
+  command->footer(
+      "Each leaves rows.csv, results.csv, results.json, results.md and report.html (one page, works offline) in its\n"
+      "folder, bench/NAME by default. Stopped with Ctrl-C it goes on where it was when called again.\n"
+      "Example: talus bench table1 --quick --policy paper");
+  for (const Benchmark& benchmark : benchmarks()) {
+    CLI::App* one = command->add_subcommand(benchmark.name, benchmark.help);
+    auto options = std::make_shared<BenchOptions>();
+    add_options(*one, *options);
+    one->callback([=, &exit_code] {
+      const BenchOptions all = completed(*options, benchmark.name);
+      if (all.quick) {
+        fmt::print("Quick: fewer scenes and rounds, {:g} % of each scene's frames; piles are smaller than in full.\n",
+                   100.0 * all.share);
+      }
+      benchmark.run(all);
+      exit_code = exit_codes::success;
+    });
+  }
+}
+
+}  // namespace talus

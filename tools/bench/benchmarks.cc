@@ -1,0 +1,17 @@
+#include "tools/bench/benchmarks.h"
+
+#include <array>
+
+namespace talus {
+
+std::span<const Benchmark> benchmarks() {
+  static const std::array all = {
+      Benchmark{"table1", "The paper's Table 1 with its own figures beside ours: scenes 1 to 6", bench_table1},
+      Benchmark{"table2", "The paper's Table 2: sleeping threshold tau in example 2", bench_table2},
+      Benchmark{"figures", "The paper's Figures 5 and 6: time and error per frame", bench_figures},
+      Benchmark{"pareto", "Time against error over policies and their parameters", bench_pareto},
+      Benchmark{"engines", "The same scenes in 2D on every engine, over ensembles", bench_engines}};
+  return all;
+}
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+#pragma once
+// The benchmarks by name. Each measures what is missing of its rows and writes its results anew.
+
+#include <span>
+#include <string>
+
+#include "tools/bench/bench_options.h"
+
+namespace talus {
+
+/// The paper's Table 1: its examples, with the paper's own figures beside ours.
+void bench_table1(const BenchOptions& options);
+/// The paper's Table 2: example 2 over tau.
+void bench_table2(const BenchOptions& options);
+/// The paper's Figures 5 and 6: time and error per frame.
+void bench_figures(const BenchOptions& options);
+/// Time against error over policies and parameters.
+void bench_pareto(const BenchOptions& options);
+/// The same scenes in a plane on every engine, side by side.
+void bench_engines(const BenchOptions& options);
+
+struct Benchmark {
+  std::string name;
+  std::string help;
+  void (*run)(const BenchOptions& options);
+};
+
+std::span<const Benchmark> benchmarks();
+
+}  // namespace talus

@@ -1,0 +1,189 @@
+#include "tools/bench/error_meter.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/measure/compare.h"
+#include "common/measure/divergence.h"
+#include "common/measure/short_horizon.h"
+#include "common/measure/support.h"
+#include "common/measure/wake_test.h"
+#include "common/measure/work.h"
+#include "common/scene/typical_body.h"
+#include "tools/run/backends.h"
+
+namespace talus {
+
+namespace {
+
+constexpr double still = 1.0;  // [m/s]; what is faster is still on its way
+
+template <int Dim>
+WorldMaker<Dim> maker_of(const std::string& backend) {
+  return [backend](const WorldDescription<Dim>& description) { return make_world<Dim>(backend, description); };
+}
+
+/// Without what is still on its way: it would count as displaced when it lands.
+template <int Dim>
+BodyStates<Dim> settled(BodyStates<Dim> states) {
+  for (std::size_t i = 0; i < states.shape.size(); ++i) {
+    if (states.velocity[i].norm() > still) states.removed[i] = 1;
+  }
+  return states;
+}
+
+/// First frame at which all bodies are there.
+template <int Dim>
+int end_of_pour(const Trajectory<Dim>& run) {
+  int frame = run.frames() - 1;
+  while (frame > 0 && run.bodies(frame - 1) == run.bodies()) --frame;
+  return frame;
+}
+
+/// End of the last frame after which a body still moves by more than 0.01 D within half a second; nothing where one
+/// does to the end.
+template <int Dim>
+std::optional<double> stops_at(const Trajectory<Dim>& run, std::span<const double> extents) {
+  constexpr double far = 0.01;
+  constexpr double window = 0.5;
+  const int last = run.frames() - 1 - static_cast<int>(window / run.frame_time());
+  for (int frame = last; frame >= 0; --frame) {
+    if (oracle_ceiling(run, extents, far, window, frame, frame + 1).share == 0.0) continue;
+    if (frame == last) return std::nullopt;
+    return static_cast<double>(run.step(frame + 1)) * run.step_time();
+  }
+  return 0.0;
+}
+
+template <int Dim>
+std::vector<BodyStates<Dim>> ends_of(const Scene<Dim>& scene, const std::string& backend, int first_twin, int twins) {
+  std::vector<BodyStates<Dim>> ends;
+  for (int k = first_twin; k < twins; ++k) ends.push_back(end_state(twin(scene, k), backend));
+  return ends;
+}
+
+}  // namespace
+
+template <int Dim>
+ErrorMeter<Dim>::ErrorMeter(const Scene<Dim>& baseline, std::string backend, int twins)
+    : scene_(baseline),
+      backend_(std::move(backend)),
+      twins_(twins),
+      extent_(typical_body(baseline).extent),
+      full_(record(baseline, backend_)) {
+  const auto bodies = placed_bodies<Dim>(scene_.world.shapes, full_.last, still);
+  grid_ = grid_around<Dim>(bodies, scene_.world.ground.height, extent_);
+  const Recording<Dim> other_twin = record(twin(baseline, 1), backend_);
+  std::vector<BodyStates<Dim>> ends = {full_.last, other_twin.last};
+  for (BodyStates<Dim>& end : ends_of(baseline, backend_, 2, twins)) ends.push_back(std::move(end));
+  shapes_ = shape_ensemble<Dim>(ends, scene_.world.shapes, grid_, extent_);
+
+  const std::vector<double> extents = extents_of<Dim>(scene_.world.shapes);
+  const auto floors = motion_errors<Dim>(full_.frames, other_twin.frames, extents, scene_.world.gravity);
+  const MotionError floor = average(floors);
+  const auto ceilings =
+      motion_errors<Dim>(full_.frames, record(unrelated(baseline), backend_).frames, extents, scene_.world.gravity);
+  const MotionError ceiling = average(ceilings);
+  const auto apart = position_differences(full_.frames, other_twin.frames);
+  Values& values = of_baseline_;
+  values = {{"relative_floor", floor.relative}, {"R_floor", floor.ratio},
+            {"S_floor", floor.symmetric},       {"R_ceiling", ceiling.ratio},
+            {"S_ceiling", ceiling.symmetric},   {"diverges_at", divergence_frame(apart) * full_.frames.frame_time()}};
+  add_shape_errors(shapes_, shapes_, extent_, values);
+  add_horizon(full_, values);
+  values["horizon_R_30_floor"] = values["horizon_R_30"];
+  values["horizon_mean_30_D_floor"] = values["horizon_mean_30_D"];
+  add_last_state(full_, values);
+  add_work(full_, values);
+  for (const auto& [name, x] :
+       {std::pair("oracle_001", 0.01), std::pair("oracle_005", 0.05), std::pair("oracle_02", 0.2)}) {
+    values[name] = oracle_ceiling(full_.frames, extents, x).ceiling;
+  }
+  const int poured = end_of_pour(full_.frames);
+  values["oracle_005_pour"] = oracle_ceiling(full_.frames, extents, 0.05, 0.5, 0, poured).ceiling;
+  values["oracle_005_calm"] = oracle_ceiling(full_.frames, extents, 0.05, 0.5, poured).ceiling;
+}
+
+template <int Dim>
+Values ErrorMeter<Dim>::measure(const Scene<Dim>& scene) const {
+  Values values;
+  std::vector<BodyStates<Dim>> ends;
+  {
+    const Recording<Dim> run = record(scene, backend_);
+    add_motion(run.frames, values);
+    add_horizon(run, values);
+    add_last_state(run, values);
+    add_work(run, values);
+    ends.push_back(run.last);
+  }
+  for (BodyStates<Dim>& end : ends_of(scene, backend_, 1, twins_)) ends.push_back(std::move(end));
+  add_shape_errors(shapes_, shape_ensemble<Dim>(ends, scene_.world.shapes, grid_, extent_), extent_, values);
+  for (const char* name : {"relative_floor", "R_floor", "S_floor", "R_ceiling", "S_ceiling", "horizon_R_30_floor",
+                           "horizon_mean_30_D_floor", "diverges_at", "oracle_005"}) {
+    values[name] = value_of(of_baseline_, name);
+  }
+  values["drift_mean_excess_D"] = values["drift_mean_D"] - value_of(of_baseline_, "drift_mean_D");
+  values["drift_far_excess"] = values["drift_far"] - value_of(of_baseline_, "drift_far");
+  return values;
+}
+
+template <int Dim>
+void ErrorMeter<Dim>::add_motion(const Trajectory<Dim>& frames, Values& values) const {
+  const std::vector<double> extents = extents_of<Dim>(scene_.world.shapes);
+  const MotionError error = average(motion_errors<Dim>(full_.frames, frames, extents, scene_.world.gravity));
+  values["relative"] = error.relative;
+  values["left_out"] = error.left_out;
+  values["absolute"] = error.absolute;
+  values["floored"] = error.floored;
+  values["R"] = error.ratio;
+  values["S"] = error.symmetric;
+  values["turning"] = error.turning;
+  const auto add_skill = [&](const std::string& name, double value) {
+    const double floor = value_of(of_baseline_, name + "_floor");
+    const double ceiling = value_of(of_baseline_, name + "_ceiling");
+    if (ceiling > floor) values[name + "_skill"] = skill(value, floor, ceiling);
+  };
+  add_skill("R", error.ratio);
+  add_skill("S", error.symmetric);
+}
+
+template <int Dim>
+void ErrorMeter<Dim>::add_horizon(const Recording<Dim>& run, Values& values) const {
+  if (run.forks.empty()) return;
+  const auto full = full_continuation<Dim>(maker_of<Dim>(backend_), scene_.world, full_.frames.frame_time());
+  const std::vector<double> extents = extents_of<Dim>(scene_.world.shapes);
+  const auto errors = horizon_errors<Dim>(run.forks, run.arrivals, full, recorded_continuation<Dim>(run.frames),
+                                          extents, scene_.world.gravity, {10, 30});
+  values["horizon_R_10"] = errors[0].ratio;
+  values["horizon_R_30"] = errors[1].ratio;
+  values["horizon_mean_30_D"] = errors[1].mean;
+}
+
+template <int Dim>
+void ErrorMeter<Dim>::add_last_state(const Recording<Dim>& run, Values& values) const {
+  constexpr double reach = 0.05;  // [m], see touching_pairs()
+  const auto touches = touching_pairs<Dim>(scene_.world, run.last, reach);
+  const Penetration depth = penetration(touches);
+  values["floating"] = static_cast<double>(floating_sleepers<Dim>(run.last, touches).size());
+  values["penetration_p99_D"] = depth.p99 / extent_;
+  values["penetration_max_D"] = depth.max / extent_;
+  const WakeTest wake = wake_test<Dim>(maker_of<Dim>(backend_), reference_settings(scene_.world), settled(run.last));
+  if (wake.bodies == 0) return;
+  values["drift_mean_D"] = wake.mean / extent_;
+  values["drift_far"] = wake.share_far;
+  values["wake_energy_mgD"] = wake.energy;
+  values["creep_per_minute"] = wake.creep;
+}
+
+template <int Dim>
+void ErrorMeter<Dim>::add_work(const Recording<Dim>& run, Values& values) const {
+  values["work_skipped"] = run.work_skipped;
+  if (run.asleep_at) values["asleep_at"] = *run.asleep_at;
+  const auto stops = stops_at<Dim>(run.frames, extents_of<Dim>(scene_.world.shapes));
+  if (stops) values["stops_at"] = *stops;
+}
+
+template class ErrorMeter<2>;
+template class ErrorMeter<3>;
+
+}  // namespace talus

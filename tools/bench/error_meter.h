@@ -1,0 +1,41 @@
+#pragma once
+// How far the runs of a scene are from a baseline: the full simulation at the same settings, or the reference.
+
+#include <string>
+#include <vector>
+
+#include "tools/bench/recording.h"
+#include "tools/bench/row.h"
+#include "tools/bench/shape_errors.h"
+
+namespace talus {
+
+template <int Dim>
+class ErrorMeter {
+ public:
+  /// Runs the baseline, twins of it and one unrelated run. `twins` >= 1 runs a side; the baseline has two at least.
+  ErrorMeter(const Scene<Dim>& baseline, std::string backend, int twins);
+
+  /// What the baseline itself shows: floors, ceilings, oracle, its own shape and drift.
+  const Values& of_baseline() const { return of_baseline_; }
+
+  /// Runs `scene` and its twins and measures them.
+  Values measure(const Scene<Dim>& scene) const;
+
+ private:
+  void add_motion(const Trajectory<Dim>& frames, Values& values) const;
+  void add_horizon(const Recording<Dim>& run, Values& values) const;
+  void add_last_state(const Recording<Dim>& run, Values& values) const;
+  void add_work(const Recording<Dim>& run, Values& values) const;
+
+  Scene<Dim> scene_;
+  std::string backend_;
+  int twins_;
+  double extent_;  // D of the scene's bodies [m]
+  Recording<Dim> full_;
+  ProfileGrid<Dim> grid_;
+  ShapeEnsemble<Dim> shapes_;
+  Values of_baseline_;
+};
+
+}  // namespace talus
