@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   talus::add_list_command(app, exit_code);
   talus::add_check_command(app, exit_code);
   talus::add_bench_command(app, exit_code);
+  talus::add_sheet_command(app, exit_code);
 #ifdef TALUS_BULLET
   talus::add_decompose_command(app);
 #endif

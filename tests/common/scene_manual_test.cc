@@ -38,9 +38,9 @@ std::set<std::string> keys_of_the_manual() {
   std::set<std::string> keys;
   std::string section;
   for (const std::string& line : manual()) {
-    if (line.starts_with("## ") && line.ends_with("`")) {
-      section = quoted_in(line).back();
-    } else if (line.starts_with("| `")) {
+    if (line.starts_with("## ")) {
+      section = line.ends_with("`") ? quoted_in(line).back() : "";
+    } else if (!section.empty() && line.starts_with("| `")) {
       for (const std::string& name : quoted_in(line.substr(0, line.find(" |", 2)))) {
         keys.insert(section + " " + name);
       }

@@ -15,5 +15,6 @@ inline constexpr int interrupted = 130;  // Ctrl-C; all is saved
 void add_run_command(CLI::App& app, int& exit_code);
 void add_list_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
+void add_sheet_command(CLI::App& app, int& exit_code);
 
 }  // namespace talus
