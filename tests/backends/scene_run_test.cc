@@ -1,5 +1,7 @@
 // The scenes of this project, their first second and more, on every engine that fits.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -69,6 +71,29 @@ TYPED_TEST(SceneRun, KeepsRingsInTheirBox) {
     EXPECT_GT(height<dim>(bounds.min()), -0.12) << "body " << i;
     EXPECT_LT(height<dim>(bounds.max()), box.rim) << "body " << i;
     EXPECT_LT(box.gauge(horizontal<dim>(states.pose[i].position)), 1.0) << "body " << i;
+  }
+}
+
+// Walls and floor that [pile.boundary] builds are closed: there is no ground to catch what gets through.
+TYPED_TEST(SceneRun, KeepsBallsInWallsBuiltAroundAPile) {
+  constexpr int dim = TypeParam::dim;
+  const bool flat = dim == 2;
+  const std::string text = fmt::format(
+      "title = \"Balls in walls\"\ndimension = {}\nground = {{present = false}}\nshape.ball = {{kind = \"ball\", "
+      "radius = 0.3}}\n"
+      "[[source]]\ncount = 30\nrate = 6\nposition = {}\nvelocity = {}\n[[pile]]\nalpha_deg = 30\nat = {}\n"
+      "[pile.boundary]\n{}\nrim = 3\nwall = 0.5\nfloor = true\n",
+      dim, flat ? "[5, 6]" : "[5, 5, 6]", flat ? "[0.5, -8]" : "[0.5, 0.3, -8]", flat ? "[5, 2]" : "[5, 5, 2]",
+      flat ? "kind = \"box\"\nsize = [6]" : "kind = \"cylinder\"\nradius = 1.5");
+  const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
+  auto simulation = TestFixture::simulation(scene);
+  for (int i = 0; i < 480; ++i) simulation.step();
+  const std::vector<Pose<dim>>& poses = simulation.world().states().pose;
+  ASSERT_EQ(poses.size(), 30u);
+  for (const Pose<dim>& pose : poses) {
+    const Vec<dim> place = pose.position - *scene.piles[0].at;
+    EXPECT_GT(height<dim>(place), 0.2);
+    EXPECT_LT(scene.piles[0].boundary->gauge(horizontal<dim>(place)), 1.0);
   }
 }
 

@@ -34,6 +34,15 @@ TEST(RunCommand, LeavesARunFolderThatExplainsItself) {
   EXPECT_NE(outcome.out.find(summary["end_hash"]), std::string::npos);
 }
 
+TEST(RunCommand, WarnsOfSizesTooDifferentForOnePile) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command(
+      "run several_sizes_2d --no-telemetry --set run.frames=5 --set shape.large.arm_x=3 --out " + (folder / "run"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: shape: bounding boxes differ by a factor of 4.98"), std::string::npos)
+      << outcome.err;
+}
+
 TEST(SheetCommand, PutsPicturesOfRunsSideBySide) {
   const TemporaryFolder folder;
   talus_command("run " + short_scene + "--out " + (folder / "run"));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
+#include "common/scene/warnings.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
 #include "common/world/errors.h"
@@ -43,6 +44,11 @@ std::string advance(Simulation<Dim>& simulation, std::int64_t steps, const Inter
 int exit_code_of(std::string_view reason) {
   if (reason == "finished") return exit_codes::success;
   return reason == "interrupted" ? exit_codes::interrupted : exit_codes::failed;
+}
+
+template <int Dim>
+void warn(const Scene<Dim>& scene) {
+  for (const std::string& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 template <int Dim>
@@ -100,7 +106,12 @@ int run(const RunOptions& options, const std::string& name, const Scene<Dim>& sc
 int run_scene(const RunOptions& options) {
   const std::filesystem::path file = find_scene(options.scene);
   const auto scene = read_scene(file, overrides(options, options.policy));
-  return std::visit([&](const auto& of_dimension) { return run(options, file.stem().string(), of_dimension); }, scene);
+  return std::visit(
+      [&](const auto& of_dimension) {
+        if (!options.hash_only) warn(of_dimension);
+        return run(options, file.stem().string(), of_dimension);
+      },
+      scene);
 }
 
 }  // namespace talus
