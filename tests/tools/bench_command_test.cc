@@ -116,6 +116,33 @@ TEST(BenchEngines, SetsTheEnginesSideBySide) {
 }
 #endif
 
+TEST(BenchConvergence, ComparesEachSettingWithTheFinest) {
+  const TemporaryFolder folder;
+  const Json json = results_of(folder, "convergence", "--scene drop_in_a_pile_2d --backend box2d");
+  ASSERT_EQ(json["cases"].size(), 3U);
+  EXPECT_EQ(json["cases"][0]["against_full"]["profile_rms_D"], 0.0) << "the finest is nought from itself";
+  EXPECT_GT(json["cases"][1]["against_full"]["profile_rms_D"], 0.0);
+}
+
+TEST(BenchRate, PoursAtSeveralRates) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command(
+      "bench rate --quick --rounds 1 --no-errors --policy paper --scene drop_in_a_pile_2d --out " + (folder / "rate"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(contents(folder.path() / "rate" / "results.json"));
+  ASSERT_EQ(json["cases"].size(), 9U) << "full, engine and paper at three rates";
+  EXPECT_EQ(json["cases"][0]["against_full"]["bodies"], json["cases"][8]["against_full"]["bodies"]);
+}
+
+TEST(BenchScale, TellsWhatSleepersCost) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      talus_command("bench scale --quick --backend box2d --scene drop_in_a_pile_2d --out " + (folder / "scale"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("10000"), std::string::npos);
+  EXPECT_NE(contents(folder.path() / "scale" / "report.html").find("never frozen"), std::string::npos);
+}
+
 TEST(Bench, RefusesBadInput) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& arguments, const std::string& said) {

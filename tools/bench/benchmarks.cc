@@ -10,7 +10,11 @@ std::span<const Benchmark> benchmarks() {
       Benchmark{"table2", "The paper's Table 2: sleeping threshold tau in example 2", bench_table2},
       Benchmark{"figures", "The paper's Figures 5 and 6: time and error per frame", bench_figures},
       Benchmark{"pareto", "Time against error over policies and their parameters", bench_pareto},
-      Benchmark{"engines", "The same scenes in 2D on every engine, over ensembles", bench_engines}};
+      Benchmark{"engines", "The same scenes in 2D on every engine, over ensembles", bench_engines},
+      Benchmark{"convergence", "The full simulation over time step, iterations and friction directions",
+                bench_convergence},
+      Benchmark{"rate", "Speed-up over the pouring rate", bench_rate},
+      Benchmark{"scale", "What sleepers cost a step, freezing, thawing, memory, and the shock of waking", bench_scale}};
   return all;
 }
 

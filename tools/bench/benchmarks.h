@@ -19,6 +19,14 @@ void bench_pareto(const BenchOptions& options);
 /// The same scenes in a plane on every engine, side by side.
 void bench_engines(const BenchOptions& options);
 
+/// Time step, iterations and friction directions of the full simulation: at which settings a pile stays the same.
+void bench_convergence(const BenchOptions& options);
+
+/// Speed-up over the pouring rate.
+void bench_rate(const BenchOptions& options);
+/// What sleepers cost: steps, freezing and thawing, memory; and what waking does to a pile.
+void bench_scale(const BenchOptions& options);
+
 struct Benchmark {
   std::string name;
   std::string help;

@@ -106,6 +106,7 @@ std::vector<ShownColumn> state_columns() {
           number("share above 0.1 D", "drift_far", 2),
           number("beyond baseline", "drift_far_excess", 2),
           number("wake energy / mgD", "wake_energy_mgD", 2),
+          number("settling per minute", "settling_per_minute", 2),
           number("work skipped", "work_skipped"),
           number("last body stops [s]", "stops_at"),
           number("all asleep from [s]", "asleep_at")};

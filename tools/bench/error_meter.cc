@@ -55,6 +55,29 @@ std::optional<double> stops_at(const Trajectory<Dim>& run, std::span<const doubl
   return 0.0;
 }
 
+/// Share of its height that the pile's middle loses per minute in the run itself, from five seconds after the last body
+/// came in to the end; nothing where that is less than five seconds.
+template <int Dim>
+std::optional<double> settling(const Trajectory<Dim>& run, double ground) {
+  const int calm = static_cast<int>(5.0 / run.frame_time());
+  const int first = end_of_pour(run) + calm;
+  const int last = run.frames() - 1;
+  if (last - first < calm) return std::nullopt;
+  const auto middle_at = [&](int frame) {
+    double sum = 0.0;
+    int bodies = 0;
+    for (BodyIndex body = 0; body < run.bodies(frame); ++body) {
+      if (!run.present(first, body) || !run.present(last, body)) continue;
+      sum += height<Dim>(run.position(frame, body)) - ground;
+      ++bodies;
+    }
+    return bodies > 0 ? sum / bodies : 0.0;
+  };
+  const double before = middle_at(first);
+  const double minutes = (last - first) * run.frame_time() / 60.0;
+  return before > 0.0 ? std::optional((before - middle_at(last)) / before / minutes) : std::nullopt;
+}
+
 template <int Dim>
 std::vector<BodyStates<Dim>> ends_of(const Scene<Dim>& scene, const std::string& backend, int first_twin, int twins) {
   std::vector<BodyStates<Dim>> ends;
@@ -179,6 +202,8 @@ template <int Dim>
 void ErrorMeter<Dim>::add_work(const Recording<Dim>& run, Values& values) const {
   values["work_skipped"] = run.work_skipped;
   if (run.asleep_at) values["asleep_at"] = *run.asleep_at;
+  const auto lost = settling(run.frames, scene_.world.ground.height);
+  if (lost) values["settling_per_minute"] = *lost;
   const auto stops = stops_at<Dim>(run.frames, extents_of<Dim>(scene_.world.shapes));
   if (stops) values["stops_at"] = *stops;
 }

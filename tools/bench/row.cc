@@ -8,8 +8,8 @@ namespace talus {
 std::span<const char* const> measure_names() {
   // Of a timed run; lengths in metres, times in seconds unless the name says otherwise, _D: over D.
   static constexpr std::array names = {
-      "seconds", "wall_seconds", "pour_seconds", "calm_seconds", "last_100_ms", "rule_ms", "mean_awake", "steps",
-      "bodies", "asleep_at_end",
+      "seconds", "wall_seconds", "pour_seconds", "calm_seconds", "poured_at", "last_100_ms", "rule_ms", "mean_awake",
+      "steps", "bodies", "asleep_at_end",
       // Motion against the baseline, over all frames that both have (motion_error.h); floor: the baseline against its
       // twin; ceiling: against another seed.
       "relative", "left_out", "absolute", "floored", "R", "S", "turning", "relative_floor", "R_floor", "S_floor",
@@ -23,7 +23,7 @@ std::span<const char* const> measure_names() {
       "ks_r_floor", "w1_r", "w1_r_p", "w1_r_floor",
       // The last state (support.h, wake_test.h); excess: beyond the baseline's.
       "floating", "penetration_p99_D", "penetration_max_D", "drift_mean_D", "drift_mean_excess_D", "drift_far",
-      "drift_far_excess", "wake_energy_mgD", "creep_per_minute",
+      "drift_far_excess", "wake_energy_mgD", "creep_per_minute", "settling_per_minute",
       // Work (work.h).
       "work_skipped", "oracle_001", "oracle_005", "oracle_02", "oracle_005_pour", "oracle_005_calm", "stops_at",
       "asleep_at"};

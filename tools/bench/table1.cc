@@ -7,6 +7,7 @@
 #include "tools/bench/bench_results.h"
 #include "tools/bench/benchmarks.h"
 #include "tools/bench/paper_figures.h"
+#include "tools/bench/targets.h"
 #include "tools/plot/plot.h"
 
 namespace talus {
@@ -137,6 +138,7 @@ void bench_table1(const BenchOptions& options) {
       "micrometre stands beside it as its floor.");
   results.sections.push_back({"The paper's table", {paper_table(runner, groups)}});
   if (options.errors) results.sections.push_back({"What could be gained", {ceiling_figure(runner, groups)}});
+  if (options.errors) results.sections.push_back({"Targets", {targets_table(runner, groups)}});
   for (Section& section : common_sections(runner, groups)) results.sections.push_back(std::move(section));
   write_results(runner, groups, results);
   fmt::print("{}", text_of(paper_table(runner, groups)));

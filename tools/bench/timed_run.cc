@@ -40,47 +40,69 @@ double mean_of_last(const std::vector<double>& values, std::size_t count) {
          static_cast<double>(count);
 }
 
+/// Sums over the steps of a run.
+struct Sums {
+  std::vector<double> step_seconds;
+  double pour = 0.0;       // [s] of processor time
+  double poured_at = 0.0;  // [s] simulated
+  double awake = 0.0;      // body-steps
+  double rule = 0.0;       // [s]
+};
+
+template <int Dim>
+Sums run_steps(Simulation<Dim>& simulation, std::int64_t steps) {
+  Sums sums;
+  sums.step_seconds.reserve(static_cast<std::size_t>(steps));
+  ProcessorWatch processor;
+  for (std::int64_t step = 1; step < steps; ++step) {
+    simulation.step();
+    const double seconds = processor.lap();
+    sums.step_seconds.push_back(seconds);
+    if (!simulation.emitter().finished()) {
+      sums.pour += seconds;
+      sums.poured_at = simulation.time();
+    }
+    sums.awake += static_cast<double>(simulation.world().awake().size());
+    const PhaseTimes phases = simulation.frame().phases;
+    sums.rule += phases.count + phases.decide;
+  }
+  return sums;
+}
+
+std::vector<double> by_frame(const std::vector<double>& step_seconds, std::int64_t steps_per_frame,
+                             std::int64_t frames) {
+  std::vector<double> seconds(static_cast<std::size_t>(frames), 0.0);
+  const auto per_frame = static_cast<std::size_t>(steps_per_frame);
+  for (std::size_t i = 0; i < step_seconds.size(); ++i) seconds[(i + 1) / per_frame] += step_seconds[i];
+  return seconds;
+}
+
 }  // namespace
 
 template <int Dim>
 TimedRun timed_run(const Scene<Dim>& scene, const std::string& backend) {
   Simulation<Dim> simulation(scene, make_world<Dim>(backend, scene.world), make_policy(scene));
   simulation.step();
-  const auto steps = static_cast<std::size_t>(scene.steps());
-  std::vector<double> step_seconds;
-  step_seconds.reserve(steps);
-  TimedRun run;
-  run.frame_seconds.assign(static_cast<std::size_t>(scene.run.frames), 0.0);
-  double pour = 0.0;
-  double awake = 0.0;
-  double rule = 0.0;
   Stopwatch wall;
-  ProcessorWatch processor;
-  for (std::size_t step = 1; step < steps; ++step) {
-    simulation.step();
-    const double seconds = processor.lap();
-    step_seconds.push_back(seconds);
-    run.frame_seconds[step / static_cast<std::size_t>(scene.steps_per_frame())] += seconds;
-    if (!simulation.emitter().finished()) pour += seconds;
-    awake += static_cast<double>(simulation.world().awake().size());
-    const PhaseTimes phases = simulation.frame().phases;
-    rule += phases.count + phases.decide;
-  }
-  const auto measured = static_cast<double>(step_seconds.size());
-  const double seconds = std::accumulate(step_seconds.begin(), step_seconds.end(), 0.0);
-  const World<Dim>& world = simulation.world();
-  run.end_hash = state_hash(world.states());
+  const Sums sums = run_steps(simulation, scene.steps());
+  const double wall_seconds = wall.lap();
+  const double seconds = std::accumulate(sums.step_seconds.begin(), sums.step_seconds.end(), 0.0);
+  const double measured = std::max(1.0, static_cast<double>(sums.step_seconds.size()));
+  const BodyStates<Dim>& states = simulation.world().states();
+  TimedRun run;
+  run.end_hash = state_hash(states);
+  run.frame_seconds = by_frame(sums.step_seconds, scene.steps_per_frame(), scene.run.frames);
   run.values = {{"seconds", seconds},
-                {"wall_seconds", wall.lap()},
-                {"pour_seconds", pour},
-                {"calm_seconds", seconds - pour},
-                {"last_100_ms", 1e3 * mean_of_last(step_seconds, 100)},
-                {"rule_ms", measured > 0.0 ? 1e3 * rule / measured : 0.0},
-                {"mean_awake", measured > 0.0 ? awake / measured : 0.0},
-                {"steps", static_cast<double>(steps)},
-                {"bodies", static_cast<double>(world.states().size())},
-                {"asleep_at_end",
-                 static_cast<double>(std::count(world.states().asleep.begin(), world.states().asleep.end(), 1))}};
+                {"wall_seconds", wall_seconds},
+                {"pour_seconds", sums.pour},
+                {"calm_seconds", seconds - sums.pour},
+                {"poured_at", sums.poured_at},
+                {"last_100_ms", 1e3 * mean_of_last(sums.step_seconds, 100)},
+                {"rule_ms", 1e3 * sums.rule / measured},
+                {"mean_awake", sums.awake / measured},
+                {"steps", static_cast<double>(scene.steps())},
+                {"bodies", static_cast<double>(states.size())},
+                {"asleep_at_end", static_cast<double>(std::count(states.asleep.begin(), states.asleep.end(), 1))}};
   return run;
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+// What bodies that sleep cost those that are awake, on a bare world.
+
+#include <cstddef>
+#include <string>
+
+namespace talus {
+
+struct SleepersCost {
+  int sleepers = 0;
+  double step_ms = 0.0;         // with the awake bodies resting on the sleepers, median
+  double idle_step_us = 0.0;    // with nobody awake, median
+  double freeze_thaw_us = 0.0;  // a body, both together
+  double bytes = 0.0;           // of memory a sleeper, everything included
+};
+
+/// A block of `sleepers` boxes of 1 m, and `awake` more at rest on top of it.
+template <int Dim>
+SleepersCost sleepers_cost(const std::string& backend, int sleepers, int awake);
+
+}  // namespace talus
