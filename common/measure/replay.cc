@@ -14,7 +14,7 @@ class UntilStep final : public SleepPolicy<Dim> {
  public:
   UntilStep(std::unique_ptr<SleepPolicy<Dim>> policy, std::int64_t step) : policy_(std::move(policy)), step_(step) {}
 
-  void decide(const Frame<Dim>& frame, Decision& decision) override {
+  void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override {
     if (frame.step < step_ && policy_->decides()) policy_->decide(frame, decision);
     if (frame.step != step_) return;
     const BodyStates<Dim>& states = frame.world.states();

@@ -9,7 +9,7 @@ template <int Dim>
 class NoPolicy final : public SleepPolicy<Dim> {
  public:
   bool decides() const override { return false; }
-  void decide(const Frame<Dim>&, Decision&) override {}
+  void decide(const Frame<Dim>&, Decision<Dim>&) override {}
 };
 
 }  // namespace talus

@@ -28,7 +28,7 @@ PaperPolicy<Dim>::PaperPolicy(const PaperParams& params, const WorldDescription<
     : params_(params), shapes_(world.shapes), dt_(world.dt) {}
 
 template <int Dim>
-void PaperPolicy<Dim>::decide(const Frame<Dim>& frame, Decision& decision) {
+void PaperPolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
   body_rests_from_.resize(frame.world.states().shape.size(), 0);
   pile_calm_from_.resize(frame.piles.piles().size(), 0);
   pile_woken_.assign(frame.piles.piles().size(), 0);
@@ -40,7 +40,7 @@ void PaperPolicy<Dim>::decide(const Frame<Dim>& frame, Decision& decision) {
 /// Section 3.4, momentum: the blow may go through the whole pile in one step, so the whole pile wakes, before the
 /// contact exists, so that the impact itself is simulated.
 template <int Dim>
-void PaperPolicy<Dim>::wake_hit_piles(const Frame<Dim>& frame, Decision& decision) {
+void PaperPolicy<Dim>::wake_hit_piles(const Frame<Dim>& frame, Decision<Dim>& decision) {
   for (const BodyIndex body : frame.world.awake()) {
     if (!hits(frame, body)) continue;
     for (const BodyIndex sleeper : near_) {
@@ -69,7 +69,7 @@ bool PaperPolicy<Dim>::hits(const Frame<Dim>& frame, BodyIndex body) {
 
 /// Section 3.4, avalanche: "we temporarily wake up all objects".
 template <int Dim>
-void PaperPolicy<Dim>::wake_overfull_piles(const Frame<Dim>& frame, Decision& decision) {
+void PaperPolicy<Dim>::wake_overfull_piles(const Frame<Dim>& frame, Decision<Dim>& decision) {
   const auto piles = frame.piles.piles();
   for (std::size_t p = 0; p < piles.size(); ++p) {
     const bool overfull = std::any_of(piles[p].layers.begin(), piles[p].layers.end(),
@@ -79,7 +79,7 @@ void PaperPolicy<Dim>::wake_overfull_piles(const Frame<Dim>& frame, Decision& de
 }
 
 template <int Dim>
-void PaperPolicy<Dim>::wake(std::size_t pile, SleepCause cause, const Frame<Dim>& frame, Decision& decision) {
+void PaperPolicy<Dim>::wake(std::size_t pile, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision) {
   if (pile_woken_[pile] != 0) return;
   pile_woken_[pile] = 1;
   pile_calm_from_[pile] = frame.step + params_.awake_steps;
@@ -96,7 +96,7 @@ void PaperPolicy<Dim>::wake(std::size_t pile, SleepCause cause, const Frame<Dim>
 
 /// Section 3.3. A body in several piles goes by the one that scores it highest.
 template <int Dim>
-void PaperPolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, Decision& decision) const {
+void PaperPolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, Decision<Dim>& decision) const {
   const BodyStates<Dim>& states = frame.world.states();
   const auto piles = frame.piles.piles();
   std::vector<int> open(piles.size());

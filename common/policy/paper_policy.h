@@ -16,13 +16,13 @@ class PaperPolicy final : public SleepPolicy<Dim> {
  public:
   PaperPolicy(const PaperParams& params, const WorldDescription<Dim>& world);
 
-  void decide(const Frame<Dim>& frame, Decision& decision) override;
+  void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
 
  private:
-  void wake_hit_piles(const Frame<Dim>& frame, Decision& decision);
-  void wake_overfull_piles(const Frame<Dim>& frame, Decision& decision);
-  void wake(std::size_t pile, SleepCause cause, const Frame<Dim>& frame, Decision& decision);
-  void choose_sleepers(const Frame<Dim>& frame, Decision& decision) const;
+  void wake_hit_piles(const Frame<Dim>& frame, Decision<Dim>& decision);
+  void wake_overfull_piles(const Frame<Dim>& frame, Decision<Dim>& decision);
+  void wake(std::size_t pile, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision);
+  void choose_sleepers(const Frame<Dim>& frame, Decision<Dim>& decision) const;
   bool hits(const Frame<Dim>& frame, BodyIndex body);
 
   PaperParams params_;

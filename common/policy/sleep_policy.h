@@ -9,11 +9,21 @@
 
 namespace talus {
 
-/// A policy's answer for one frame: each entry names a body and its cause; `step` and `woke` are filled in by the
+/// A new velocity for a body that is awake or woken by the same decision.
+template <int Dim>
+struct Kick {
+  BodyIndex body = 0;
+  Vec<Dim> velocity = Vec<Dim>::Zero();  // of the centre of mass [m/s]
+  Spin<Dim> spin = Spin<Dim>::Zero();    // [rad/s]
+};
+
+/// A policy's answer for one frame: each event names a body and its cause; `step` and `woke` are filled in by the
 /// simulation.
+template <int Dim>
 struct Decision {
   std::vector<SleepEvent> freeze;
   std::vector<SleepEvent> thaw;
+  std::vector<Kick<Dim>> kicks;  // in force once the bodies to thaw are awake
 };
 
 template <int Dim>
@@ -25,7 +35,7 @@ class SleepPolicy {
   virtual bool decides() const { return true; }
 
   /// Fills `decision` (empty on entry).
-  virtual void decide(const Frame<Dim>& frame, Decision& decision) = 0;
+  virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
 };
 
 /// The policy that the scene names. Throws std::invalid_argument for a name that none has.

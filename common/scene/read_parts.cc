@@ -14,6 +14,22 @@ void read_seed(TableReader& root, std::uint64_t& seed) {
   seed = static_cast<std::uint64_t>(number);
 }
 
+namespace {
+
+void read_adaptive(TableReader& table, AdaptiveParams& params) {
+  const Range fraction = {.low = 0.0, .high = 10.0, .low_excluded = true};  // of D
+  table.read("rest_distance", params.rest_distance, fraction);
+  table.read("rest_time_deep", params.rest_time_deep, between(0, 1e3));
+  table.read("rest_time_surface", params.rest_time_surface, {.low = params.rest_time_deep, .high = 1e3});
+  table.read("wake_height", params.wake_height, fraction);
+  table.read("free_wake_height", params.free_wake_height,
+             {.low = 0.0, .high = params.wake_height, .low_excluded = true});
+  table.read("support_slack", params.support_slack, fraction);
+  table.read("awake_share", params.awake_share, {.low = 0.0, .high = 1.0, .high_excluded = true});
+}
+
+}  // namespace
+
 template <int Dim>
 PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
   PileParams<Dim> pile;
@@ -39,12 +55,13 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
 }
 
 void read_policy(TableReader& table, PolicyParams& policy) {
-  const std::vector<std::string> kinds = {"full", "engine", "paper"};
+  const std::vector<std::string> kinds = {"full", "engine", "paper", "adaptive"};
   table.read("kind", policy.kind, kinds);
   table.read("tau", policy.paper.tau, {.low = 0.0, .high = 1.0, .high_excluded = true});
   table.read("avalanche_density", policy.paper.avalanche_density, {.low = 0.0, .high = 1e3, .low_excluded = true});
   table.read("awake_steps", policy.paper.awake_steps, between(0, 1e9));
   table.read("wake_speed", policy.paper.wake_speed, {.low = 0.0, .high = 1e6, .low_excluded = true});
+  table.table("adaptive", [&](TableReader& own) { read_adaptive(own, policy.adaptive); });
 }
 
 void read_run(TableReader& table, double dt, RunParams& run) {

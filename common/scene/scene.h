@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/pile/pile_params.h"
+#include "common/policy/adaptive_params.h"
 #include "common/policy/paper_params.h"
 #include "common/world/world_description.h"
 
@@ -41,8 +42,9 @@ struct Source {
 
 /// Policy by name with its parameters.
 struct PolicyParams {
-  std::string kind = "paper";  // full, engine, paper
+  std::string kind = "adaptive";  // full, engine, paper, adaptive
   PaperParams paper;
+  AdaptiveParams adaptive;
 };
 
 /// Length of a run. Output comes in frames of one or more steps.

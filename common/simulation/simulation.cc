@@ -70,6 +70,7 @@ template <int Dim>
 void Simulation<Dim>::decide() {
   decision_.freeze.clear();
   decision_.thaw.clear();
+  decision_.kicks.clear();
   if (policy_->decides()) policy_->decide(frame(), decision_);
 }
 
@@ -91,6 +92,7 @@ void Simulation<Dim>::apply() {
     events_.insert(events_.end(), list.begin(), list.end());
   };
   if (!decision_.thaw.empty()) take(decision_.thaw, true);
+  for (const Kick<Dim>& kick : decision_.kicks) world_->set_velocity(kick.body, kick.velocity, kick.spin);
   if (!decision_.freeze.empty()) take(decision_.freeze, false);
   std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
 }

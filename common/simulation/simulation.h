@@ -56,7 +56,7 @@ class Simulation {
   Emitter<Dim> emitter_;
   PileSet<Dim> piles_;
   std::vector<Observer<Dim>*> observers_;
-  Decision decision_;
+  Decision<Dim> decision_;
   std::vector<BodyIndex> bodies_;            // scratch
   std::vector<SleepEvent> events_;           // of the last step
   std::vector<SleepEvent> user_events_;      // since the last step

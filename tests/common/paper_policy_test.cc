@@ -23,6 +23,7 @@ Scene<3> cubes(double structure_size) {
   pile.growth_ratio = 1.0;
   pile.drift_rate = 0.0;
   scene.piles.push_back(pile);
+  scene.policy.kind = "paper";
   return scene;
 }
 

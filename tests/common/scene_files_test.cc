@@ -26,7 +26,7 @@ void expect_example_one(const Scene<Dim>& scene) {
   ASSERT_EQ(scene.piles.size(), 1u);
   EXPECT_DOUBLE_EQ(scene.piles[0].alpha, std::numbers::pi / 4.0);
   EXPECT_FALSE(scene.piles[0].at.has_value());
-  EXPECT_EQ(scene.policy.kind, "paper");
+  EXPECT_EQ(scene.policy.kind, "adaptive");
   EXPECT_EQ(scene.policy.paper.tau, 0.5);
 }
 

@@ -55,7 +55,7 @@ TEST(Warnings, DoNotMindOneLargeBodyThatIsThrownIntoAPile) {
 }
 
 TEST(Warnings, TellOfAPolicyWithoutAPile) {
-  expect_one(warnings_with({{"pile=[]"}}), "without any [[pile]]");
+  expect_one(warnings_with({{"pile=[]"}, {"policy.kind=paper"}}), "without any [[pile]]");
   EXPECT_EQ(warnings_with({{"pile=[]"}, {"policy.kind=full"}}), "");
 }
 

@@ -13,7 +13,7 @@ namespace talus {
 template <int Dim>
 class InTurnPolicy final : public SleepPolicy<Dim> {
  public:
-  void decide(const Frame<Dim>& frame, Decision& decision) override {
+  void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override {
     if (frame.step % 4 != 0) return;
     const bool wake = frame.step % 8 == 0;
     const BodyStates<Dim>& states = frame.world.states();

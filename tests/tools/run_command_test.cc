@@ -26,7 +26,7 @@ TEST(RunCommand, LeavesARunFolderThatExplainsItself) {
   const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
   EXPECT_EQ(summary["reason"], "finished");
   EXPECT_EQ(summary["steps"], 300);
-  EXPECT_EQ(summary["policy"], "paper");
+  EXPECT_EQ(summary["policy"], "adaptive");
   EXPECT_GT(summary["bodies"], 20);
   EXPECT_GT(summary["ms_per_step"], 0.0);
   EXPECT_GT(summary["ms_per_phase"]["step_solve"], 0.0);

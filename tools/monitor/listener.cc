@@ -37,7 +37,7 @@ void Listener::subscribe() {
 
 template <class Message>
 void Listener::hear(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  Message message;
+  Message message{};
   const auto fault = decode(std::span(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size), message);
   if (!fault.empty()) {
     ++undecodable_;

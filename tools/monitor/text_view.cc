@@ -21,7 +21,7 @@ constexpr std::size_t max_bars = 4;
 
 const char* block(double density) {
   if (!(density > 0.0)) return blocks.front();
-  const double top = static_cast<double>(blocks.size() - 1);
+  const auto top = static_cast<double>(blocks.size() - 1);
   return blocks[static_cast<std::size_t>(std::clamp(std::round(density * top), 1.0, top))];
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace talus {
+
+/// Constants of the policy `adaptive`. Lengths in D, the typical body's extent, so that they hold at any scale.
+struct AdaptiveParams {
+  double rest_distance = 0.01;  // [D] > 0: a body is at rest while no point of it strays farther. Large: bodies that
+                                // topple slowly are caught on edge; small: solver noise keeps the pile awake
+  double rest_time_deep = 0.1;  // [s] >= 0, at rest before sleep where the score is highest
+  double rest_time_surface = 0.25;  // [s] >= rest_time_deep, where it is zero. Short: a peak too high; long: slow
+  double wake_height = 0.05;  // [D] > 0: a blow wakes whom it gives the speed to rise by this. Low: much is awake for
+                              // nothing; high: blows end as on rock, and the pile stays too steep
+  double free_wake_height = 0.01;  // [D] > 0, at most wake_height: the same for a body on which no other lies
+  double support_slack = 0.01;     // [D] > 0: how far a bearer may move before what it bears wakes. Large: bodies hang
+  double awake_share = 0.25;       // in [0, 1): part of a body's weight that awake bodies may bear when it falls asleep
+};
+
+}  // namespace talus

@@ -1,0 +1,86 @@
+#include "common/policy/adaptive_policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/policy/bearing.h"
+#include "common/policy/paper_policy.h"
+
+namespace talus {
+
+template <int Dim>
+AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world,
+                                    const TypicalBody& typical)
+    : params_(params),
+      dt_(world.dt),
+      rest_watch_(params.rest_distance * typical.extent, world.shapes),
+      props_(params.support_slack * typical.extent),
+      blows_(params, typical.extent, world) {
+  for (const Shape<Dim>& shape : world.shapes) weights_.push_back(shape.mass * world.gravity * world.dt);
+}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
+  const BodyStates<Dim>& states = frame.world.states();
+  if (frame.world.awake().empty()) return;
+  const std::span<const Contact<Dim>> contacts = frame.world.contacts();
+  rest_watch_.update(frame.step, states, frame.world.awake());
+  bodies_.clear();
+  blows_.update(frame.world, contacts, bodies_, decision.kicks);
+  wake(bodies_, SleepCause::momentum, frame, decision);
+  bodies_.clear();
+  props_.update(contacts, states, bodies_);
+  wake(bodies_, SleepCause::lost_support, frame, decision);
+  choose_sleepers(frame, contacts, decision);
+}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame,
+                               Decision<Dim>& decision) {
+  for (const BodyIndex body : bodies) {
+    const bool known = std::any_of(decision.thaw.begin(), decision.thaw.end(),
+                                   [body](const SleepEvent& event) { return event.body == body; });
+    if (known) continue;
+    const Readiness place = readiness(frame, body);
+    decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = cause});
+  }
+}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, std::span<const Contact<Dim>> contacts,
+                                          Decision<Dim>& decision) {
+  bodies_.clear();
+  for (const BodyIndex body : frame.world.awake()) {
+    const double rested = static_cast<double>(rest_watch_.steps_at_rest(frame.step, body)) * dt_;
+    if (rested < params_.rest_time_deep) continue;
+    const double shortened = params_.rest_time_surface - params_.rest_time_deep;
+    if (rested >= params_.rest_time_surface - shortened * readiness(frame, body).score) bodies_.push_back(body);
+  }
+  keep_borne<Dim>(contacts, frame.world.states(), weights_, params_.awake_share, bodies_);
+  for (const BodyIndex body : bodies_) {
+    const Readiness place = readiness(frame, body);
+    decision.freeze.push_back(
+        {.body = body, .pile = place.pile, .layer = place.layer, .cause = SleepCause::rest, .score = place.score});
+  }
+}
+
+/// The score of section 3.3 for a body at rest, at most 1.
+template <int Dim>
+typename AdaptivePolicy<Dim>::Readiness AdaptivePolicy<Dim>::readiness(const Frame<Dim>& frame, BodyIndex body) const {
+  Readiness best;
+  const Vec<Dim>& position = frame.world.states().pose[static_cast<std::size_t>(body)].position;
+  const auto piles = frame.piles.piles();
+  for (std::size_t p = 0; p < piles.size(); ++p) {
+    const int layer = frame.piles.layer_of(p, body);
+    if (layer < 0) continue;
+    const Layer& slice = piles[p].layers[static_cast<std::size_t>(layer)];
+    const double score = std::min(1.0, sleep_score(slice.density(), piles[p].closeness(position, slice), 0.0));
+    if (best.pile < 0 || score > best.score) best = {static_cast<int>(p), layer, score};
+  }
+  return best;
+}
+
+template class AdaptivePolicy<2>;
+template class AdaptivePolicy<3>;
+
+}  // namespace talus

@@ -1,0 +1,46 @@
+#pragma once
+// Sleep by contact: the paper's layers say how readily a body may sleep, its contacts say whether.
+
+#include <vector>
+
+#include "common/policy/adaptive_params.h"
+#include "common/policy/blows.h"
+#include "common/policy/props.h"
+#include "common/policy/rest_watch.h"
+#include "common/policy/sleep_policy.h"
+
+namespace talus {
+
+/// A body sleeps alone when it has been at rest for a while and ground, sleepers or others that fall asleep with it
+/// bear it; how long the while is follows from its pile's density and its closeness to the centre (section 3.3). It
+/// wakes when a blow reaches it or when what it rests on moves away; nothing else wakes it.
+template <int Dim>
+class AdaptivePolicy final : public SleepPolicy<Dim> {
+ public:
+  /// `typical` gives D.
+  AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world, const TypicalBody& typical);
+
+  void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
+
+ private:
+  /// The pile in which a body is most ready to sleep.
+  struct Readiness {
+    int pile = -1;
+    int layer = -1;
+    double score = 0.0;
+  };
+
+  void wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision);
+  void choose_sleepers(const Frame<Dim>& frame, std::span<const Contact<Dim>> contacts, Decision<Dim>& decision);
+  Readiness readiness(const Frame<Dim>& frame, BodyIndex body) const;
+
+  AdaptiveParams params_;
+  double dt_;
+  std::vector<double> weights_;  // [shape] g dt times mass [N s]
+  RestWatch<Dim> rest_watch_;
+  Props<Dim> props_;
+  Blows<Dim> blows_;
+  std::vector<BodyIndex> bodies_;  // scratch
+};
+
+}  // namespace talus

@@ -1,0 +1,44 @@
+#pragma once
+// How long each awake body has been where it is.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/world/world.h"
+
+namespace talus {
+
+/// A body rests while no point of it has moved farther than a given distance from where its rest began. Distances tell
+/// more than speeds: solver noise has speed but goes nowhere, and a slow creep adds up.
+template <int Dim>
+class RestWatch {
+ public:
+  /// `distance` [m] > 0; `shapes` as in the world.
+  RestWatch(double distance, const std::vector<Shape<Dim>>& shapes);
+
+  /// To be called once a step. Costs O(awake).
+  void update(std::int64_t step, const BodyStates<Dim>& states, std::span<const BodyIndex> awake);
+
+  /// Steps since the body's rest began; 0 for one that moves.
+  std::int64_t steps_at_rest(std::int64_t step, BodyIndex body) const {
+    return step - anchors_[static_cast<std::size_t>(body)].since;
+  }
+
+ private:
+  struct Anchor {
+    Pose<Dim> pose{};
+    std::int64_t since = 0;  // step at which the rest began
+    std::int64_t seen = -1;  // last step at which the body was awake; after a gap its rest begins anew
+  };
+
+  double distance_;
+  std::vector<double> reach_;    // [shape] farthest that a point lies from the centre of mass [m]
+  std::vector<Anchor> anchors_;  // [body]
+};
+
+/// No point within `reach` of the centre of mass moves farther than this [m] between two poses.
+template <int Dim>
+double farthest_move(const Pose<Dim>& from, const Pose<Dim>& to, double reach);
+
+}  // namespace talus

@@ -1,0 +1,156 @@
+// What the policy `adaptive` promises, on every engine: sleep that is earned, and waking that is enough.
+
+#include <algorithm>
+
+#include "common/measure/support.h"
+#include "common/simulation/simulation.h"
+#include "tests/backends/backend.h"
+
+namespace talus {
+namespace {
+
+template <typename Backend>
+class AdaptiveTest : public BackendTest<Backend> {
+ protected:
+  static constexpr int dimension = Backend::dim;
+
+  static Scene<dimension> scene(const Material& material = {.friction = 0.5}) {
+    Scene<dimension> scene;
+    scene.world = BackendTest<Backend>::description(material);
+    scene.policy.kind = "adaptive";
+    return scene;
+  }
+  static Simulation<dimension> simulate(const Scene<dimension>& scene) {
+    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
+  }
+  static int steps(Simulation<dimension>& simulation, int count) {
+    int woken = 0;
+    for (int i = 0; i < count; ++i) {
+      simulation.step();
+      for (const SleepEvent& event : simulation.frame().events) woken += event.woke ? 1 : 0;
+    }
+    return woken;
+  }
+  /// Three cubes on top of each other, long at rest.
+  static Simulation<dimension> stack() {
+    Simulation<dimension> simulation = simulate(scene());
+    for (const double level : {0.5, 1.5, 2.5}) simulation.add(BackendTest<Backend>::at(up<dimension>(level)));
+    steps(simulation, 120);
+    return simulation;
+  }
+  /// L's poured onto one spot, six a second.
+  static Scene<dimension> pour(int count) {
+    Scene<dimension> poured = scene();
+    Source<dimension> source;
+    source.shapes = {2};
+    source.count = count;
+    source.rate = 6.0;
+    source.position = up<dimension>(6.0);
+    source.velocity = -up<dimension>(10.0);
+    source.ride_above = 4.0;
+    poured.sources = {source};
+    poured.piles.resize(1);
+    return poured;
+  }
+};
+TYPED_TEST_SUITE(AdaptiveTest, Backends, BackendName);
+
+TYPED_TEST(AdaptiveTest, AStackAtRestFallsAsleepAndNothingWakesIt) {
+  Simulation<TypeParam::dim> simulation = this->stack();
+  EXPECT_TRUE(simulation.world().awake().empty());
+  EXPECT_EQ(this->steps(simulation, 300), 0);
+}
+
+TYPED_TEST(AdaptiveTest, ALoadLaidDownGentlyWakesNobody) {
+  Simulation<TypeParam::dim> simulation = this->stack();
+  const double top = this->height_of(simulation.world(), 2) + 1.02;  // clear of the skins
+  simulation.add(this->at(up<TypeParam::dim>(top)));
+  EXPECT_EQ(this->steps(simulation, 120), 0);
+  EXPECT_TRUE(simulation.world().awake().empty());
+}
+
+TYPED_TEST(AdaptiveTest, ASleeperThatIsHitTakesItsShareOfTheMomentum) {
+  constexpr int dim = TypeParam::dim;
+  Simulation<dim> simulation = this->simulate(this->scene({.friction = 0.0}));
+  simulation.add(this->at(up<dim>(0.5)));
+  this->steps(simulation, 60);
+  ASSERT_TRUE(this->asleep(simulation.world(), 0));
+  const Vec<dim> start = this->pose(simulation.world(), 0).position - 1.6 * Vec<dim>::Unit(0);
+  simulation.add(this->at(start, 0, 4.0 * Vec<dim>::Unit(0)));
+  EXPECT_GT(this->steps(simulation, 20), 0);
+  // Without friction two equal cubes that do not bounce go on at half the speed. The engines push overlapping bodies
+  // apart, which the two share evenly.
+  const auto& velocity = simulation.world().states().velocity;
+  EXPECT_NEAR(velocity[0][0] + velocity[1][0], 4.0, 0.05);
+  EXPECT_NEAR(velocity[0][0], 2.0, 0.3);
+}
+
+TYPED_TEST(AdaptiveTest, WhatLiesOnABodyThatIsKnockedAwayComesDown) {
+  constexpr int dim = TypeParam::dim;
+  Simulation<dim> simulation = this->stack();
+  const double top = this->height_of(simulation.world(), 2);
+  simulation.add(this->at(up<dim>(0.6) - 4.0 * Vec<dim>::Unit(0), 0, 25.0 * Vec<dim>::Unit(0)));
+  EXPECT_GT(this->steps(simulation, 300), 0);
+  EXPECT_LT(this->height_of(simulation.world(), 2), top - 0.5);
+}
+
+TYPED_TEST(AdaptiveTest, ABodyTakenAwayByHandLetsTheUpperOnesFall) {
+  Simulation<TypeParam::dim> simulation = this->stack();
+  const double top = this->height_of(simulation.world(), 2);
+  simulation.remove(0);
+  this->steps(simulation, 180);
+  EXPECT_NEAR(this->height_of(simulation.world(), 2), top - 1.0, 0.05);
+}
+
+TYPED_TEST(AdaptiveTest, APouredPileIsAllAsleepSoonAfterTheLastBodyStopsAndNobodyHangs) {
+  constexpr int dim = TypeParam::dim;
+  const Scene<dim> poured = this->pour(40);
+  Simulation<dim> simulation = this->simulate(poured);
+  int last_moving = 0;
+  int last_awake = 0;
+  for (int step = 1; step <= 1200; ++step) {
+    simulation.step();
+    const auto awake = simulation.world().awake();
+    const double extent = poured.world.shapes[2].extent;
+    const bool moving = std::any_of(awake.begin(), awake.end(), [&](BodyIndex body) {
+      return this->speed(simulation.world(), body) > 0.1 * extent;  // a tenth of an extent in a second
+    });
+    if (moving) last_moving = step;
+    if (!awake.empty()) last_awake = step;
+  }
+  EXPECT_TRUE(simulation.world().awake().empty());
+  EXPECT_LT(last_awake - last_moving, 90);  // a second and a half
+  const auto touches = touching_pairs(poured.world, simulation.world().states(), 0.05);
+  EXPECT_TRUE(floating_sleepers(simulation.world().states(), touches).empty());
+  EXPECT_LT(penetration(touches).p99, 0.02 * poured.world.shapes[2].extent);
+}
+
+TYPED_TEST(AdaptiveTest, SimulatesAFractionOfTheBodySteps) {
+  Simulation<TypeParam::dim> simulation = this->simulate(this->pour(60));
+  double awake = 0.0;
+  double all = 0.0;
+  for (int step = 1; step <= 780; ++step) {
+    simulation.step();
+    awake += static_cast<double>(simulation.world().awake().size());
+    all += static_cast<double>(simulation.world().states().size());
+  }
+  // A third of the time the bodies of so small a pile are in flight or rolling; full would be 1.
+  EXPECT_LT(awake, 0.75 * all);
+}
+
+TYPED_TEST(AdaptiveTest, EachDecisionHasItsCause) {
+  Simulation<TypeParam::dim> simulation = this->simulate(this->pour(30));
+  for (int step = 1; step <= 600; ++step) {
+    simulation.step();
+    for (const SleepEvent& event : simulation.frame().events) {
+      if (event.woke) {
+        ASSERT_TRUE(event.cause == SleepCause::momentum || event.cause == SleepCause::lost_support);
+      } else {
+        ASSERT_EQ(event.cause, SleepCause::rest);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,205 @@
+// The parts of the policy `adaptive`, each on contacts made up for it.
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <vector>
+
+#include "common/policy/bearing.h"
+#include "common/policy/blows.h"
+#include "common/policy/impulse.h"
+#include "common/policy/props.h"
+#include "common/policy/rest_watch.h"
+#include "common/shape/catalogue.h"
+#include "tests/common/still_world.h"
+
+namespace talus {
+namespace {
+
+/// Cubes of 1 kg and 1 m: inertia m / 6 about each axis.
+WorldDescription<3> cubes() {
+  WorldDescription<3> world;
+  world.gravity = 10.0;
+  world.shapes.push_back(make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {.density = 1.0}));
+  return world;
+}
+
+/// A still world with cubes at these places.
+StillWorld<3> cubes_at(const std::vector<Vec3>& places) {
+  StillWorld<3> world(cubes());
+  for (const Vec3& place : places) world.add({.pose = {.position = place}});
+  return world;
+}
+
+Contact<3> contact(BodyIndex a, BodyIndex b, const Vec3& point, const Vec3& normal, double impulse) {
+  return {.a = a, .b = b, .point = point, .normal = normal, .normal_impulse = impulse};
+}
+
+TEST(Impulse, MovesABodyAtItsCentreByItsMassAlone) {
+  const Shape<3> cube = cubes().shapes.front();
+  EXPECT_DOUBLE_EQ(yielding<3>(cube, {}, Vec3::Zero(), Vec3::UnitX()), 1.0);
+}
+
+TEST(Impulse, TurnsABodyThatItMeetsOffCentre) {
+  const Shape<3> cube = cubes().shapes.front();
+  const Pose<3> pose{.position = Vec3(1.0, 2.0, 3.0)};
+  const Vec3 place = pose.position + Vec3(0.0, 0.0, 0.5);
+  // 1/m + l^2/I = 1 + 0.25 * 6
+  EXPECT_NEAR(yielding<3>(cube, pose, place, Vec3::UnitX()), 2.5, 1e-12);
+  Vec3 velocity = Vec3::Zero();
+  Spin<3> spin = Spin<3>::Zero();
+  push<3>(cube, pose, place, 2.0 * Vec3::UnitX(), velocity, spin);
+  EXPECT_NEAR((velocity - Vec3(2.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((spin - Vec3(0.0, 6.0, 0.0)).norm(), 0.0, 1e-12);  // l J / I about y
+}
+
+TEST(RestWatch, CountsFromWhereABodyCameToRestAndAnewWhenItStrays) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  BodyStates<3> states = world.states();
+  RestWatch<3> watch(0.01, cubes().shapes);
+  for (int step = 1; step <= 10; ++step) {
+    states.pose[0].position[0] = 0.0005 * step;  // creeps, but within the distance
+    watch.update(step, states, world.awake());
+  }
+  EXPECT_EQ(watch.steps_at_rest(10, 0), 9);
+  states.pose[0].position[0] = 0.02;
+  watch.update(11, states, world.awake());
+  EXPECT_EQ(watch.steps_at_rest(11, 0), 0);
+}
+
+TEST(RestWatch, SeesABodyThatOnlyTurns) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  BodyStates<3> states = world.states();
+  RestWatch<3> watch(0.01, cubes().shapes);
+  watch.update(1, states, world.awake());
+  states.pose[0].rotation = Eigen::AngleAxisd(0.02, Vec3::UnitZ());  // a corner goes 0.017 m
+  watch.update(2, states, world.awake());
+  EXPECT_EQ(watch.steps_at_rest(2, 0), 0);
+}
+
+TEST(RestWatch, BeginsAnewForABodyThatSleptInBetween) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  RestWatch<3> watch(0.01, cubes().shapes);
+  watch.update(1, world.states(), world.awake());
+  watch.update(5, world.states(), world.awake());
+  EXPECT_EQ(watch.steps_at_rest(5, 0), 0);
+}
+
+/// Cube 1 on cube 0 on the ground, each weighing 1 N s a step.
+std::vector<Contact<3>> stack_of_two() {
+  return {contact(0, ground_index, Vec3::Zero(), Vec3::UnitZ(), 2.0),
+          contact(0, 1, Vec3(0.0, 0.0, 1.0), -Vec3::UnitZ(), 1.0)};
+}
+
+TEST(Bearing, KeepsAStackThatRestsAsAWhole) {
+  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  std::vector<BodyIndex> candidates = {0, 1};
+  keep_borne<3>(stack_of_two(), world.states(), std::vector{1.0}, 0.25, candidates);
+  EXPECT_EQ(candidates, (std::vector<BodyIndex>{0, 1}));
+}
+
+TEST(Bearing, LeavesOutABodyThatLiesOnOneWhichStaysAwake) {
+  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  std::vector<BodyIndex> candidates = {1};
+  keep_borne<3>(stack_of_two(), world.states(), std::vector{1.0}, 0.25, candidates);
+  EXPECT_TRUE(candidates.empty());
+}
+
+TEST(Bearing, LeavesOutAWholeTowerWhoseFootIsLeftOut) {
+  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 2.5)});
+  std::vector<BodyIndex> candidates = {0, 1, 2};
+  // Nothing bears the lowest: it falls, and the others with it.
+  const std::vector<Contact<3>> contacts = {contact(0, 1, Vec3(0.0, 0.0, 1.0), -Vec3::UnitZ(), 1.0),
+                                            contact(1, 2, Vec3(0.0, 0.0, 2.0), -Vec3::UnitZ(), 1.0)};
+  keep_borne<3>(contacts, world.states(), std::vector{1.0}, 0.25, candidates);
+  EXPECT_TRUE(candidates.empty());
+}
+
+TEST(Bearing, LeavesOutABodyInFlight) {
+  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 5.0)});
+  std::vector<BodyIndex> candidates = {0};
+  keep_borne<3>({}, world.states(), std::vector{1.0}, 0.25, candidates);
+  EXPECT_TRUE(candidates.empty());
+}
+
+TEST(Props, TellASleeperWhoseSupportWentAway) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  world.freeze(std::vector<BodyIndex>{1});
+  BodyStates<3> states = world.states();
+  Props<3> props(0.01);
+  std::vector<BodyIndex> left;
+  props.update(stack_of_two(), states, left);
+  EXPECT_TRUE(left.empty());
+  states.pose[0].position[2] -= 0.005;  // within the slack
+  props.update({}, states, left);
+  EXPECT_TRUE(left.empty());
+  states.pose[0].position[0] += 0.02;
+  props.update({}, states, left);
+  EXPECT_EQ(left, std::vector<BodyIndex>{1});
+}
+
+TEST(Props, DoNotTellASleeperOnWhichAnAwakeBodyMoves) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 0.5)});
+  world.freeze(std::vector<BodyIndex>{1});
+  BodyStates<3> states = world.states();
+  Props<3> props(0.01);
+  std::vector<BodyIndex> left;
+  const std::vector<Contact<3>> contacts = {contact(0, 1, Vec3(0.0, 0.0, 1.0), Vec3::UnitZ(), 1.0)};
+  props.update(contacts, states, left);
+  states.pose[0].position[0] += 0.5;
+  props.update(contacts, states, left);
+  EXPECT_TRUE(left.empty());
+}
+
+/// An awake cube that hit the sleeping one beside it, which stopped it: 1 kg at 4 m/s.
+struct SideBlow {
+  SideBlow() : world(cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(1.0, 0.0, 0.5)})), blows({}, std::sqrt(3.0), cubes()) {
+    world.freeze(std::vector<BodyIndex>{1});
+    blows.update(world, {}, hit, kicks);  // the step before: awake, without contact
+    hit.clear();
+    kicks.clear();
+  }
+  void strike(double impulse, double approach) {
+    Contact<3> touch = contact(0, 1, Vec3(0.5, 0.0, 0.5), -Vec3::UnitX(), impulse);
+    touch.approach_speed = approach;
+    blows.update(world, std::vector{touch}, hit, kicks);
+  }
+  StillWorld<3> world;
+  Blows<3> blows;
+  std::vector<BodyIndex> hit;
+  std::vector<Kick<3>> kicks;
+};
+
+TEST(Blow, SharesItsMomentumAsBetweenFreeBodiesThatDoNotBounce) {
+  SideBlow blow;
+  blow.strike(4.0, 4.0);
+  EXPECT_EQ(blow.hit, std::vector<BodyIndex>{1});
+  ASSERT_EQ(blow.kicks.size(), 2U);
+  EXPECT_NEAR(blow.kicks[0].velocity[0], 2.0, 1e-12);  // equal masses: half of 4 m/s each
+  EXPECT_NEAR(blow.kicks[1].velocity[0], 2.0, 1e-12);
+}
+
+TEST(Blow, TooWeakToLiftTheSleeperWakesNobody) {
+  SideBlow blow;
+  blow.strike(0.5, 0.5);  // would give 0.25 m/s, enough to rise by 3 mm of the 17 mm that count
+  EXPECT_TRUE(blow.hit.empty());
+  EXPECT_TRUE(blow.kicks.empty());
+}
+
+TEST(Blow, IsOnlyWhatComesOnTopOfTheLoadOfTheStepBefore) {
+  SideBlow blow;
+  blow.strike(4.0, 4.0);
+  blow.hit.clear();
+  blow.strike(4.0, 0.0);  // still the same load, as of a heap that leans against the sleeper
+  EXPECT_TRUE(blow.hit.empty());
+}
+
+TEST(Blow, GivesNobodyMoreSpeedThanTheFastestApproachOfTheStep) {
+  SideBlow blow;
+  blow.strike(100.0, 3.0);  // an engine pushes bodies apart that overlap
+  ASSERT_EQ(blow.kicks.size(), 2U);
+  EXPECT_LE(blow.kicks[1].velocity.norm(), 3.0 + 1e-9);
+}
+
+}  // namespace
+}  // namespace talus
