@@ -97,7 +97,7 @@ TEST(LogReader, SaysWhichFileIsMissing) { EXPECT_THROW(LogReader("/no/such/file"
 
 TEST(LogReader, ReadsUpToACut) {
   Bytes bytes = sample_log(50);
-  bytes.resize(bytes.size() - 10);
+  bytes.erase(bytes.end() - 10, bytes.end());
   const Read result = read(bytes);
   EXPECT_EQ(result.events.size(), 49U);
   EXPECT_EQ(result.damage.places, 1U);

@@ -38,7 +38,7 @@ std::pair<std::string, int> watch(const MonitorParams& params, int steps) {
 TEST(Monitor, ShowsARunInALineForPeople) {
   const auto [text, code] = watch({.seconds = 1.0, .interval = 0.7}, 30);
   EXPECT_EQ(code, 0);
-  EXPECT_NE(text.find("still none paper"), std::string::npos) << text;
+  EXPECT_NE(text.find("still none adaptive"), std::string::npos) << text;
   EXPECT_NE(text.find("step 30"), std::string::npos) << text;
   EXPECT_NE(text.find(" layer"), std::string::npos) << text;
   EXPECT_NE(text.find("lost 0"), std::string::npos) << text;

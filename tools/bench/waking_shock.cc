@@ -20,7 +20,7 @@ template <int Dim>
 class PausePolicy final : public SleepPolicy<Dim> {
  public:
   PausePolicy(std::int64_t from, std::int64_t to) : from_(from), to_(to) {}
-  void decide(const Frame<Dim>& frame, Decision& decision) override {
+  void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override {
     const BodyStates<Dim>& states = frame.world.states();
     for (BodyIndex body = 0; body < states.size(); ++body) {
       const bool asleep = states.asleep[static_cast<std::size_t>(body)] != 0;
