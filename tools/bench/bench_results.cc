@@ -101,6 +101,17 @@ std::string markdown_of(const BenchResults& results) {
   return text;
 }
 
+/// The figures as files too, for manuals.
+void write_figures(const std::filesystem::path& folder, const BenchResults& results) {
+  int number = 0;
+  for (const Section& section : results.sections) {
+    for (const Block& block : section.blocks) {
+      const auto* figure = std::get_if<Figure>(&block);
+      if (figure != nullptr) write(folder / fmt::format("figure-{}.svg", ++number), figure->svg);
+    }
+  }
+}
+
 Report report_of(const BenchResults& results) {
   Report report{results.title, "", {}};
   Section conditions{"How it was measured", {}};
@@ -150,6 +161,7 @@ void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& gro
   write(folder / "results.csv", csv_of(results_table(runner, groups)));
   write(folder / "results.json", results_json(runner, groups, results).dump(2) + "\n");
   write(folder / "results.md", markdown_of(results));
+  write_figures(folder, results);
   write(folder / "report.html", html_of(report_of(results)));
   fmt::print("{}/report.html, results.md, results.csv and results.json\n", folder.string());
 }

@@ -1,5 +1,6 @@
 #pragma once
-// What a benchmark leaves: results.csv, results.json, results.md and report.html in its folder.
+// What a benchmark leaves: results.csv, results.json, results.md, report.html and its
+// figures in its folder.
 
 #include <string>
 #include <vector>

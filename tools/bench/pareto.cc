@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "tools/bench/bench_plan.h"
 #include "tools/bench/bench_results.h"
@@ -39,7 +43,6 @@ std::vector<Curve> curves(const BenchOptions& options) {
           {"paper, tau", "paper", values("policy.tau", some({"0.3", "0.5"}, {"0.1", "0.2", "0.3", "0.4", "0.5"}))});
     }
     list.push_back({policy + ", iterations", policy, values(iterations, some({"10"}, {"5", "10", "20", "40"}))});
-    list.push_back({policy + ", steps a second", policy, values(rate, some({"60"}, {"60", "120"}))});
   }
   return list;
 }
@@ -58,6 +61,14 @@ BenchGroup group_of(const BenchOptions& options, const std::string& scene, const
   }
   if (options.reference) group.cases.push_back({scene, backend, reference_policy, settings});
   return group;
+}
+
+/// By time, so that a line joins neighbours.
+void sort_by_time(Series& series) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < series.x.size(); ++i) points.emplace_back(series.x[i], series.y[i]);
+  std::sort(points.begin(), points.end());
+  for (std::size_t i = 0; i < points.size(); ++i) std::tie(series.x[i], series.y[i]) = points[i];
 }
 
 /// Error over time, a series a curve.
@@ -81,6 +92,7 @@ Plot plot_of(const BenchRunner& runner, const BenchGroup& group, const std::stri
     series.style = SeriesStyle::line_and_points;
     if (curve.policy == "full") add_point(series, group.cases.front());
     for (const std::string& value : curve.values) add_point(series, case_of(group.cases.front(), curve, value));
+    sort_by_time(series);
     constexpr std::size_t most_series = 7;
     if (!series.x.empty() && plot.series.size() < most_series) plot.series.push_back(series);
   }
