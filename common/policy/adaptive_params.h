@@ -11,8 +11,10 @@ struct AdaptiveParams {
   double wake_height = 0.05;  // [D] > 0: a blow wakes whom it gives the speed to rise by this. Low: much is awake for
                               // nothing; high: blows end as on rock, and the pile stays too steep
   double free_wake_height = 0.01;  // [D] > 0, at most wake_height: the same for a body on which no other lies
-  double support_slack = 0.01;     // [D] > 0: how far a bearer may move before what it bears wakes. Large: bodies hang
-  double awake_share = 0.25;       // in [0, 1): part of a body's weight that awake bodies may bear when it falls asleep
+  double heavy_blow = 20.0;  // > 0: bodies that a blow must be able to move at once to wake them before it lands. Low:
+                             // each drop wakes a heap; high: what is heavy and fast is stopped as by a rock
+  double support_slack = 0.01;  // [D] > 0: how far a bearer may move before what it bears wakes. Large: bodies hang
+  double awake_share = 0.25;    // in [0, 1): part of a body's weight that awake bodies may bear when it falls asleep
 };
 
 }  // namespace talus

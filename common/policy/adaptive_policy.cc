@@ -15,6 +15,7 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       dt_(world.dt),
       rest_watch_(params.rest_distance * typical.extent, world.shapes),
       props_(params.support_slack * typical.extent),
+      heavy_blows_(params, typical, world),
       blows_(params, typical.extent, world) {
   for (const Shape<Dim>& shape : world.shapes) weights_.push_back(shape.mass * world.gravity * world.dt);
 }
@@ -26,6 +27,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   const std::span<const Contact<Dim>> contacts = frame.world.contacts();
   rest_watch_.update(frame.step, states, frame.world.awake());
   bodies_.clear();
+  heavy_blows_.update(frame.world, bodies_);
   blows_.update(frame.world, contacts, bodies_, decision.kicks);
   wake(bodies_, SleepCause::momentum, frame, decision);
   bodies_.clear();

@@ -5,6 +5,7 @@
 
 #include "common/policy/adaptive_params.h"
 #include "common/policy/blows.h"
+#include "common/policy/heavy_blows.h"
 #include "common/policy/props.h"
 #include "common/policy/rest_watch.h"
 #include "common/policy/sleep_policy.h"
@@ -39,6 +40,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   std::vector<double> weights_;  // [shape] g dt times mass [N s]
   RestWatch<Dim> rest_watch_;
   Props<Dim> props_;
+  HeavyBlows<Dim> heavy_blows_;
   Blows<Dim> blows_;
   std::vector<BodyIndex> bodies_;  // scratch
 };

@@ -24,6 +24,7 @@ void read_adaptive(TableReader& table, AdaptiveParams& params) {
   table.read("wake_height", params.wake_height, fraction);
   table.read("free_wake_height", params.free_wake_height,
              {.low = 0.0, .high = params.wake_height, .low_excluded = true});
+  table.read("heavy_blow", params.heavy_blow, {.low = 0.0, .high = 1e9, .low_excluded = true});
   table.read("support_slack", params.support_slack, fraction);
   table.read("awake_share", params.awake_share, {.low = 0.0, .high = 1.0, .high_excluded = true});
 }

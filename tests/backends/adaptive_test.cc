@@ -85,6 +85,23 @@ TYPED_TEST(AdaptiveTest, ASleeperThatIsHitTakesItsShareOfTheMomentum) {
   EXPECT_NEAR(velocity[0][0], 2.0, 0.3);
 }
 
+TYPED_TEST(AdaptiveTest, AHeavyFastBodyDrivesARowOfSleepersBeforeIt) {
+  constexpr int dim = TypeParam::dim;
+  Scene<dim> row = this->scene();
+  row.world.solver.velocity_iterations = 50;  // for so unequal masses
+  const double volume = make_shape<dim>("ball", ball_pieces<dim>(1.0), {}).volume;
+  row.world.shapes.push_back(make_shape<dim>("heavy", ball_pieces<dim>(1.0), {.density = 20000.0 / volume}));
+  Simulation<dim> simulation = this->simulate(row);
+  for (int i = 0; i < 5; ++i) simulation.add(this->at(up<dim>(0.5) + 1.02 * i * Vec<dim>::Unit(0)));
+  this->steps(simulation, 60);
+  ASSERT_TRUE(simulation.world().awake().empty());
+  simulation.add(this->at(up<dim>(1.1) - 4.0 * Vec<dim>::Unit(0), 3, 30.0 * Vec<dim>::Unit(0)));
+  this->steps(simulation, 30);
+  // Twenty times a cube's mass, it keeps 20 / 25 of its speed when it drives all five before it without bouncing.
+  EXPECT_GT(simulation.world().states().velocity[5][0], 20.0);
+  EXPECT_GT(this->pose(simulation.world(), 4).position[0], 4.08 + 3.0);
+}
+
 TYPED_TEST(AdaptiveTest, WhatLiesOnABodyThatIsKnockedAwayComesDown) {
   constexpr int dim = TypeParam::dim;
   Simulation<dim> simulation = this->stack();
