@@ -72,8 +72,11 @@ template <int Dim>
 void PaperPolicy<Dim>::wake_overfull_piles(const Frame<Dim>& frame, Decision<Dim>& decision) {
   const auto piles = frame.piles.piles();
   for (std::size_t p = 0; p < piles.size(); ++p) {
-    const bool overfull = std::any_of(piles[p].layers.begin(), piles[p].layers.end(),
-                                      [&](const Layer& layer) { return layer.density() > params_.avalanche_density; });
+    const std::vector<Layer>& layers = piles[p].layers;
+    bool overfull = false;
+    for (std::size_t i = 0; i < layers.size() && !overfull; ++i) {
+      overfull = layers[i].density() > params_.avalanche_density_of(i);
+    }
     if (overfull && frame.step >= pile_calm_from_[p]) wake(p, SleepCause::avalanche, frame, decision);
   }
 }

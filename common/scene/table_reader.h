@@ -45,6 +45,8 @@ class TableReader {
   void read(std::string_view key, std::string& value);
   /// One of `choices`.
   void read(std::string_view key, std::string& value, std::span<const std::string> choices);
+  /// One number or an array of numbers.
+  void read(std::string_view key, std::vector<double>& values, const Range& range);
   /// An array of as many numbers as there are axes.
   template <int Size>
   void read(std::string_view key, Eigen::Matrix<double, Size, 1>& value, const Range& range);

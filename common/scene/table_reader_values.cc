@@ -138,6 +138,25 @@ void TableReader::read(std::string_view key, std::vector<std::string>& values, s
   }
 }
 
+void TableReader::read(std::string_view key, std::vector<double>& values, const Range& range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    return;
+  }
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    values.assign(1, 0.0);
+    read_number(*node, field(key), values.front(), range);
+    return;
+  }
+  if (array->empty()) {
+    note(*node, field(key), "must hold at least one number");
+    return;
+  }
+  values.assign(array->size(), 0.0);
+  read_array(*node, field(key), values, range);
+}
+
 bool TableReader::read_array(const toml::node& node, const std::string& name, std::span<double> values,
                              const Range& range) {
   const toml::array* array = node.as_array();

@@ -115,6 +115,18 @@ TEST(Avalanche, WakesAllOfAPileWhoseLayerIsOverfullAndKeepsItAwakeForAWhile) {
   }
 }
 
+TEST(Avalanche, HasAThresholdForEachLayer) {
+  Scene<3> scene = cubes(4.0);
+  scene.policy.paper.avalanche_density = {2.0, 0.1};  // one layer only: the first holds
+  StillRun run(scene);
+  run.add_many(4, Vec3(0.0, 0.0, 0.5));  // density 1
+  run.simulation.step();
+  run.simulation.step();
+  EXPECT_EQ(run.layer(0).sleeping, 4);
+  EXPECT_EQ(scene.policy.paper.avalanche_density_of(0), 2.0);
+  EXPECT_EQ(scene.policy.paper.avalanche_density_of(7), 0.1);
+}
+
 TEST(MomentumWake, WakesAPileBeforeSomethingHeavyAndFastReachesIt) {
   Scene<3> scene = cubes(4.0);
   scene.policy.paper.wake_speed = 10.0;  // typical body 1 kg: from 10 N s
@@ -132,7 +144,7 @@ TEST(MomentumWake, WakesAPileBeforeSomethingHeavyAndFastReachesIt) {
 TEST(MomentumWake, IgnoresWhatArrivesGently) {
   Scene<3> scene = cubes(4.0);
   scene.policy.paper.wake_speed = 10.0;
-  scene.policy.paper.avalanche_density = 100.0;
+  scene.policy.paper.avalanche_density = {100.0};
   StillRun run(scene);
   run.add_many(3, Vec3(0.0, 0.0, 0.5));
   run.simulation.step();

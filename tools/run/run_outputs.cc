@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/write_scene.h"
+#include "tools/run/avalanches_csv.h"
 #include "tools/run/frames_csv.h"
 #include "tools/run/progress.h"
 #include "tools/run/version.h"
@@ -31,9 +32,11 @@ PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& s
 template <int Dim>
 RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
                             const std::string& backend, Simulation<Dim>& simulation)
-    : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))) {
+    : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
+      avalanches_(scene.world.dt) {
   write_scene(scene, folder_ / "scene.toml");
   simulation.add_observer(statistics_);
+  simulation.add_observer(avalanches_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv", scene), simulation);
 #ifdef TALUS_LCM
   RunInfo info = run_info(scene, scene_name, backend);
@@ -56,6 +59,7 @@ void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Di
 template <int Dim>
 void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
   write_summary(folder_ / "summary.json", summary, scene, simulation.world(), simulation.piles(), statistics_);
+  if (!avalanches_.records().empty()) write_avalanches(folder_ / "avalanches.csv", avalanches_.records());
   draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture_input(summary, scene, simulation));
 }
 

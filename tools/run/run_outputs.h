@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/measure/avalanches.h"
 #include "common/simulation/simulation.h"
 #include "tools/picture/picture.h"
 #include "tools/run/run_folder.h"
@@ -21,7 +22,7 @@ class RunOutputs {
   RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
              const std::string& backend, Simulation<Dim>& simulation);
 
-  /// After Simulation::end(): summary.json, pile.svg and pile.png.
+  /// After Simulation::end(): summary.json, avalanches.csv where there were any, pile.svg and pile.png.
   void finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const;
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -32,6 +33,7 @@ class RunOutputs {
 
   std::filesystem::path folder_;
   RunStatistics<Dim> statistics_;
+  AvalancheWatch<Dim> avalanches_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;
 };
 
