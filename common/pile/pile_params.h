@@ -16,6 +16,9 @@ struct PileParams {
   double growth_ratio = 0.5;            // occupation ratio above which N doubles (section 3.2), in (0, 1]
   double merge_distance = 1.0;  // [D] >= 0: piles of one kind merge whose centres stay nearer than this; 0: never
   std::optional<Boundary<Dim>> boundary = {};  // walls around `at`, which must then be given; such a pile never drifts
+  std::optional<bool> count_flying =
+      {};                   // whether bodies that touched nothing yet count; not given: with `adaptive` no,
+                            // else yes (section 3.2 counts all). Counted, a stream fills the top layer
   double drift_rate = 0.5;  // [1/s] >= 0: share of the way to the bodies' mean that the centre goes per second
 };
 

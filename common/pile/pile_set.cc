@@ -23,6 +23,7 @@ template <int Dim>
 PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body)
     : body_(body), steps_to_look_(steps_between_looks) {
   for (const PileParams<Dim>& pile : params) {
+    needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true);
     if (pile.at) {
       add_pile(pile, *pile.at);
     } else {
@@ -43,6 +44,15 @@ void PileSet<Dim>::locate(const Vec<Dim>& landing, const BodyStates<Dim>& states
   add_pile(unlocated_.front(), landing);
   unlocated_.erase(unlocated_.begin());
   recount(piles_.size() - 1, states);
+}
+
+template <int Dim>
+void PileSet<Dim>::land(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states) {
+  landed_.resize(states.shape.size(), 0);
+  for (const Contact<Dim>& contact : contacts) {
+    landed_[static_cast<std::size_t>(contact.a)] = 1;
+    if (contact.b >= 0) landed_[static_cast<std::size_t>(contact.b)] = 1;
+  }
 }
 
 template <int Dim>
@@ -86,6 +96,7 @@ typename PileSet<Dim>::Membership PileSet<Dim>::membership(std::size_t pile, con
   const auto i = static_cast<std::size_t>(body);
   Membership now;
   if (states.removed[i] != 0) return now;
+  if (!ledgers_[pile].params.count_flying.value_or(true) && (i >= landed_.size() || landed_[i] == 0)) return now;
   const Vec<Dim>& position = states.pose[i].position;
   now.layer = static_cast<std::int16_t>(piles_[pile].layer_of(position));
   now.asleep = states.asleep[i] != 0;

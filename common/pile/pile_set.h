@@ -27,6 +27,10 @@ class PileSet {
   /// Puts the next waiting pile's base at `landing`.
   void locate(const Vec<Dim>& landing, const BodyStates<Dim>& states);
 
+  /// Whether some pile counts only who has touched something; it must then be told the contacts before update().
+  bool needs_contacts() const { return needs_contacts_; }
+  void land(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
+
   /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, merges piles (3.5), doubles
   /// full ones. Costs O(awake); a pile that grew or moved is counted anew, which costs O(all bodies) and is rare.
   void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt);
@@ -72,6 +76,8 @@ class PileSet {
   std::vector<Pile<Dim>> piles_;
   std::vector<Ledger> ledgers_;  // beside piles_
   int steps_to_look_;            // until centres are looked at again
+  bool needs_contacts_ = false;
+  std::vector<std::uint8_t> landed_;  // [body] has touched something; kept only where it is asked for
 };
 
 }  // namespace talus

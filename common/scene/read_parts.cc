@@ -44,6 +44,9 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
   table.read("growth_ratio", pile.growth_ratio, {.low = 0.0, .high = 1.0, .low_excluded = true});
   table.read("merge_distance", pile.merge_distance, between(0.0, 1e6));
   table.read("drift_rate", pile.drift_rate, between(0.0, 1e3));
+  if (table.has("count_flying")) {
+    table.read("count_flying", pile.count_flying.emplace());
+  }
   if (table.has("boundary")) {
     table.table("boundary", [&](TableReader& within) {
       pile.boundary = read_boundary<Dim>(within, pile.at.value_or(Vec<Dim>::Zero()), obstacles);

@@ -7,6 +7,19 @@
 #include "common/simulation/stopwatch.h"
 
 namespace talus {
+namespace {
+
+/// Where a pile does not say whether bodies in flight count, the policy's own reading holds.
+template <int Dim>
+std::vector<PileParams<Dim>> piles_as_counted(const Scene<Dim>& scene) {
+  std::vector<PileParams<Dim>> piles = scene.piles;
+  for (PileParams<Dim>& pile : piles) {
+    if (!pile.count_flying) pile.count_flying = scene.policy.kind != "adaptive";
+  }
+  return piles;
+}
+
+}  // namespace
 
 template <int Dim>
 Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>> world,
@@ -15,7 +28,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       policy_(std::move(policy)),
       shapes_(scene.world.shapes),
       emitter_(scene),
-      piles_(scene.piles, typical_body(scene)),
+      piles_(piles_as_counted(scene), typical_body(scene)),
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep) {}
 
@@ -46,6 +59,7 @@ void Simulation<Dim>::count_piles() {
   if (!policy_->decides() && observers_.empty()) return;
   if (engine_sleep_) note_engine_sleep();
   if (piles_.waiting()) locate_pile();
+  if (piles_.needs_contacts() && !world_->awake().empty()) piles_.land(world_->contacts(), world_->states());
   piles_.update(world_->states(), world_->awake(), dt_);
   assert(piles_.counts_match(world_->states()));
 }

@@ -206,5 +206,23 @@ TEST(PilesThatOverlap, BothCountTheBodiesBetweenThem) {
   EXPECT_EQ(piles.layer_of(1, 6), 0);
 }
 
+TEST(PileSet, CountsABodyInFlightOnlyWhereThePileSaysSo) {
+  for (const bool count_flying : {true, false}) {
+    Bodies<2> bodies;
+    PileParams<2> params;
+    params.at = Vec2::Zero();
+    params.count_flying = count_flying;
+    PileSet<2> piles({params}, body);
+    bodies.add(Vec2(0.0, 0.3));
+    bodies.add(Vec2(0.0, 0.5));
+    ASSERT_EQ(piles.needs_contacts(), !count_flying);
+    const std::vector<Contact<2>> contacts = {{.a = 1, .b = ground_index}};
+    if (piles.needs_contacts()) piles.land(contacts, bodies.states);
+    piles.update(bodies.states, bodies.awake(), dt);
+    EXPECT_EQ(counts(piles).front(), count_flying ? 2 : 1);
+    EXPECT_TRUE(piles.counts_match(bodies.states));
+  }
+}
+
 }  // namespace
 }  // namespace talus

@@ -68,6 +68,7 @@ template <int Dim>
 std::string description(const PileParams<Dim>& pile) {
   std::string text = fmt::format("pile {} {} {} {} {}", pile.alpha, pile.initial_size, pile.growth_ratio,
                                  pile.merge_distance, pile.drift_rate);
+  if (pile.count_flying) text += *pile.count_flying ? " counts flying" : " does not count flying";
   text += pile.at ? " at" + numbers(*pile.at) : " where the first lands";
   if (pile.boundary) {
     text += fmt::format(" rim {} radius {}", pile.boundary->rim, pile.boundary->cylinder_radius);
@@ -90,8 +91,8 @@ std::string description(const Scene<Dim>& scene) {
   }
   const PaperParams& paper = scene.policy.paper;
   return text + fmt::format("policy {} {} {} {} {}\nrun {} at {}\n", scene.policy.kind, paper.tau,
-                            paper.avalanche_density, paper.awake_steps, paper.wake_speed, scene.run.frames,
-                            scene.run.frame_rate);
+                            fmt::join(paper.avalanche_density, " "), paper.awake_steps, paper.wake_speed,
+                            scene.run.frames, scene.run.frame_rate);
 }
 
 }  // namespace talus
