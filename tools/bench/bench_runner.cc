@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/measure/ensemble.h"
 #include "common/world/errors.h"
 #include "tools/bench/error_meter.h"
 #include "tools/bench/timed_run.h"
@@ -25,7 +24,12 @@ std::string as_time(double seconds) {
   return fmt::format("{:.0f} min", seconds / 60.0);
 }
 
-double median(const std::vector<double>& values) { return quantile(values, 0.5); }
+/// Of an even number: between the two in the middle.
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
 
 /// Whether the case has such a row: the reference is slow, timed once, and measured against itself only.
 bool wanted(const BenchCase& bench_case, const std::string& round) {
