@@ -44,8 +44,10 @@ class World {
   /// Bodies awake, ascending. Their number is what a step costs.
   virtual std::span<const BodyIndex> awake() const = 0;
 
-  /// Contact points of awake bodies in the last step, in the same order whenever the input is the same. Gathered when
-  /// first asked for after a step; costs nothing otherwise.
+  /// Contact points of awake bodies in the last step, in the same order whenever the input is the same, the points of
+  /// one pair side by side. Each stands once: between two awake bodies under the one with the lower index. Approach
+  /// speeds are known from the step after the first call on; depths follow from the shapes and may be negative.
+  /// Gathered when first asked for after a step; costs nothing otherwise.
   virtual std::span<const Contact<Dim>> contacts() = 0;
 
   /// Takes awake bodies out of the engine's work, at rest. Bodies already asleep are left alone.
