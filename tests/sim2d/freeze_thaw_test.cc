@@ -133,7 +133,7 @@ TEST(FrozenBody, StopsWhatFallsFastHoweverThinItIs) {
   int through = 0;
   for (int phase = 0; phase < 60; ++phase) {
     const auto world = make_box2d_world(description);
-    const std::vector<BodyIndex> plate = {world->add({0, {}, Vec2::Zero(), {}})};
+    const std::vector<BodyIndex> plate = {world->add({})};
     world->freeze(plate);
     BodyDef<2> ball{1, {}, {0.0, -110.0}, Spin<2>::Zero()};
     ball.pose.position = {0.0, 3.0 + phase / 30.0};
