@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "common/policy/bearing.h"
 #include "common/policy/paper_policy.h"
@@ -39,10 +40,10 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
 template <int Dim>
 void AdaptivePolicy<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame,
                                Decision<Dim>& decision) {
+  const auto before = static_cast<std::ptrdiff_t>(decision.thaw.size());  // ascending, as `bodies` are
   for (const BodyIndex body : bodies) {
-    const bool known = std::any_of(decision.thaw.begin(), decision.thaw.end(),
-                                   [body](const SleepEvent& event) { return event.body == body; });
-    if (known) continue;
+    const auto known = std::ranges::subrange(decision.thaw.begin(), decision.thaw.begin() + before);
+    if (std::ranges::binary_search(known, body, {}, &SleepEvent::body)) continue;
     const Readiness place = readiness(frame, body);
     decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = cause});
   }

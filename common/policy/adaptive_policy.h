@@ -21,6 +21,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   /// `typical` gives D.
   AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world, const TypicalBody& typical);
 
+  bool counts_flying() const override { return false; }
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
 
  private:
@@ -31,6 +32,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
     double score = 0.0;
   };
 
+  /// `bodies` ascending; to be called with two lists at most in one step.
   void wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision);
   void choose_sleepers(const Frame<Dim>& frame, std::span<const Contact<Dim>> contacts, Decision<Dim>& decision);
   Readiness readiness(const Frame<Dim>& frame, BodyIndex body) const;

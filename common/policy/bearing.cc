@@ -27,14 +27,16 @@ class Burdens {
     if (down != not_a_candidate) bearings_.push_back({down, up, std::abs(lift)});
   }
 
+  /// To be called once, when all contacts are in.
+  void sort() { std::ranges::stable_sort(bearings_, {}, &Bearing::bearer); }
+
   bool borne(std::size_t candidate, double weight, double awake_share) const {
     return on_rest_[candidate] >= 0.5 * weight && on_awake_[candidate] <= awake_share * weight;
   }
 
   /// A candidate that stays awake bears as one awake.
   void drop(std::size_t candidate) {
-    for (const Bearing& bearing : bearings_) {
-      if (bearing.bearer != candidate) continue;
+    for (const Bearing& bearing : std::ranges::equal_range(bearings_, candidate, {}, &Bearing::bearer)) {
       on_rest_[bearing.borne] -= bearing.load;
       on_awake_[bearing.borne] += bearing.load;
     }
@@ -68,6 +70,7 @@ void keep_borne(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& s
   if (candidates.empty()) return;
   Burdens<Dim> burdens(candidates, states);
   for (const Contact<Dim>& contact : contacts) burdens.add(contact);
+  burdens.sort();
   std::vector<std::uint8_t> kept(candidates.size(), 1);
   for (bool changed = true; changed;) {
     changed = false;

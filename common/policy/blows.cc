@@ -1,7 +1,6 @@
 #include "common/policy/blows.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "common/policy/impulse.h"
@@ -13,8 +12,6 @@ template <typename Push>
 bool before(const Push& l, const Push& r) {
   return std::tie(l.awake, l.sleeper) < std::tie(r.awake, r.sleeper);
 }
-
-double speed_to_rise(double gravity, double height) { return std::sqrt(2.0 * gravity * height); }
 
 }  // namespace
 

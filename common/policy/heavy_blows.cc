@@ -1,14 +1,15 @@
 #include "common/policy/heavy_blows.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "common/policy/impulse.h"
 
 namespace talus {
 
 template <int Dim>
 HeavyBlows<Dim>::HeavyBlows(const AdaptiveParams& params, const TypicalBody& typical,
                             const WorldDescription<Dim>& world)
-    : wake_speed_(std::sqrt(2.0 * world.gravity * params.wake_height * typical.extent)),
+    : wake_speed_(speed_to_rise(world.gravity, params.wake_height * typical.extent)),
       many_(params.heavy_blow * typical.mass),
       dt_(world.dt),
       shapes_(world.shapes) {}
@@ -35,20 +36,23 @@ void HeavyBlows<Dim>::foresee(const World<Dim>& world, BodyIndex body, std::vect
   swept.extend(Box<Dim>(swept).translate(2.0 * dt_ * states.velocity[i]));
   double mass = shape_of(states, body).mass;
   const double momentum = mass * states.velocity[i].norm();
-  const auto first = static_cast<std::ptrdiff_t>(hit.size());
+  std::size_t first = hit.size();
+  reached_.resize(states.asleep.size(), 0);
   ring_.clear();
   world.near(swept, ring_);
   while (!ring_.empty() && momentum > wake_speed_ * mass) {
     next_.clear();
     for (const BodyIndex other : ring_) {
       const auto o = static_cast<std::size_t>(other);
-      if (states.asleep[o] == 0 || std::find(hit.begin() + first, hit.end(), other) != hit.end()) continue;
+      if (states.asleep[o] == 0 || reached_[o] != 0) continue;
+      reached_[o] = 1;
       hit.push_back(other);
       mass += shape_of(states, other).mass;
       world.near(bounds_at(shape_of(states, other), states.pose[o]), next_);
     }
     ring_.swap(next_);
   }
+  for (; first < hit.size(); ++first) reached_[static_cast<std::size_t>(hit[first])] = 0;
 }
 
 template class HeavyBlows<2>;

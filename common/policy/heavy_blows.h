@@ -1,6 +1,7 @@
 #pragma once
 // Blows that set many bodies in motion at once.
 
+#include <cstdint>
 #include <vector>
 
 #include "common/pile/pile.h"
@@ -31,8 +32,9 @@ class HeavyBlows {
   double many_;        // mass of the bodies that count as many [kg]
   double dt_;
   std::vector<Shape<Dim>> shapes_;
-  std::vector<BodyIndex> ring_;  // scratch
-  std::vector<BodyIndex> next_;  // scratch
+  std::vector<BodyIndex> ring_;        // scratch
+  std::vector<BodyIndex> next_;        // scratch
+  std::vector<std::uint8_t> reached_;  // [body] scratch, all 0 between calls
 };
 
 }  // namespace talus

@@ -34,6 +34,9 @@ class SleepPolicy {
   /// Whether decide() does anything; without, piles are counted only for observers.
   virtual bool decides() const { return true; }
 
+  /// Whether bodies that have touched nothing yet count in layers, for piles that do not say.
+  virtual bool counts_flying() const { return true; }
+
   /// Fills `decision` (empty on entry).
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
 };

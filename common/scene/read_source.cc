@@ -8,6 +8,7 @@
 
 #include "common/scene/bounding_radius.h"
 #include "common/scene/read_fields.h"
+#include "common/scene/spout_rate.h"
 
 namespace talus {
 namespace {
@@ -64,15 +65,6 @@ void check_bodies(TableReader& table, const Source<Dim>& source, const WorldDesc
   BodyDef<Dim> spinning;
   spinning.spin.setConstant(source.spin_spread);
   check_body(table, "spin_spread", spinning, world);
-}
-
-template <int Dim>
-double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world) {
-  double radius = 0.0;
-  for (const int shape : source.shapes) {
-    radius = std::max(radius, bounding_radius(world.shapes[static_cast<std::size_t>(shape)]));
-  }
-  return radius;
 }
 
 // Nothing may be born in the ground, which would throw it out again.

@@ -22,6 +22,8 @@ double steps_to_go(double distance, double speed, double acceleration, double dt
   return std::ceil(2.0 * distance / denominator - 1e-9);
 }
 
+}  // namespace
+
 template <int Dim>
 double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world) {
   double radius = 0.0;
@@ -30,8 +32,6 @@ double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& wo
   }
   return radius;
 }
-
-}  // namespace
 
 template <int Dim>
 double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& world) {
@@ -62,5 +62,7 @@ template double clearing_time(const Source<2>&, const WorldDescription<2>&);
 template double clearing_time(const Source<3>&, const WorldDescription<3>&);
 template double reachable_rate(const Source<2>&, const WorldDescription<2>&);
 template double reachable_rate(const Source<3>&, const WorldDescription<3>&);
+template double largest_radius(const Source<2>&, const WorldDescription<2>&);
+template double largest_radius(const Source<3>&, const WorldDescription<3>&);
 
 }  // namespace talus

@@ -17,4 +17,8 @@ double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& wor
 template <int Dim>
 double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& world);
 
+/// Bounding radius of the largest shape that a source drops [m].
+template <int Dim>
+double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world);
+
 }  // namespace talus

@@ -11,10 +11,9 @@ namespace {
 
 /// Where a pile does not say whether bodies in flight count, the policy's own reading holds.
 template <int Dim>
-std::vector<PileParams<Dim>> piles_as_counted(const Scene<Dim>& scene) {
-  std::vector<PileParams<Dim>> piles = scene.piles;
+std::vector<PileParams<Dim>> piles_as_counted(std::vector<PileParams<Dim>> piles, const SleepPolicy<Dim>& policy) {
   for (PileParams<Dim>& pile : piles) {
-    if (!pile.count_flying) pile.count_flying = scene.policy.kind != "adaptive";
+    if (!pile.count_flying) pile.count_flying = policy.counts_flying();
   }
   return piles;
 }
@@ -28,7 +27,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       policy_(std::move(policy)),
       shapes_(scene.world.shapes),
       emitter_(scene),
-      piles_(piles_as_counted(scene), typical_body(scene)),
+      piles_(piles_as_counted(scene.piles, *policy_), typical_body(scene)),
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep) {}
 
