@@ -1,33 +1,22 @@
 #include "lcmtypes/decode.h"
 
+#include "lcmtypes/big_endian.h"
 #include "lcmtypes/crc32.h"
 #include "lcmtypes/ranges.h"
 #include "lcmtypes/scanner.h"
 
 namespace talus {
-namespace {
-
-/// Big-endian, as LCM writes.
-std::uint64_t number(std::span<const std::uint8_t> bytes) {
-  std::uint64_t value = 0;
-  for (const std::uint8_t byte : bytes) {
-    value = value << 8 | byte;
-  }
-  return value;
-}
-
-}  // namespace
 
 bool checksum_holds(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= header_bytes + checksum_bytes && bytes.size() <= max_message_bytes &&
-         number(bytes.last(checksum_bytes)) == crc32(bytes.first(bytes.size() - checksum_bytes));
+         big_endian(bytes.last(checksum_bytes)) == crc32(bytes.first(bytes.size() - checksum_bytes));
 }
 
 template <class Message>
 std::string_view decode(std::span<const std::uint8_t> bytes, Message& message) {
   if (bytes.size() < header_bytes + checksum_bytes) return "too short";
   if (bytes.size() > max_message_bytes) return "too long";
-  if (number(bytes.first(8)) != static_cast<std::uint64_t>(Message::getHash())) return "another type or version";
+  if (big_endian(bytes.first(8)) != static_cast<std::uint64_t>(Message::getHash())) return "another type or version";
   if (!checksum_holds(bytes)) return "wrong checksum";
   if (!counts_fit<Message>(bytes)) return "counts do not match the size";
   const int size = static_cast<int>(bytes.size());

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "lcmtypes/big_endian.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/decode.h"
 
@@ -18,12 +19,6 @@ constexpr std::size_t header_size = 4 + 8 + 8 + 4 + 4;
 constexpr std::size_t max_channel_length = 63;         // LCM_MAX_CHANNEL_NAME_LENGTH
 constexpr std::size_t max_foreign_bytes = 16U << 20U;  // of a message that is not ours
 constexpr std::size_t chunk = 1U << 18U;
-
-std::uint64_t number(std::span<const std::uint8_t> bytes) {
-  std::uint64_t value = 0;
-  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
-  return value;
-}
 
 bool is_sync(std::span<const std::uint8_t> bytes) {
   return std::equal(std::begin(sync_word), std::end(sync_word), bytes.begin());
@@ -56,9 +51,9 @@ bool LogReader::next(LogEvent& event) {
     }
     in_damage_ = false;
     const auto bytes = rest().first(size);
-    const std::size_t channel_length = number(bytes.subspan(20, 4));
-    event.number = static_cast<std::int64_t>(number(bytes.subspan(4, 8)));
-    event.timestamp = static_cast<std::int64_t>(number(bytes.subspan(12, 8)));
+    const std::size_t channel_length = big_endian(bytes.subspan(20, 4));
+    event.number = static_cast<std::int64_t>(big_endian(bytes.subspan(4, 8)));
+    event.timestamp = static_cast<std::int64_t>(big_endian(bytes.subspan(12, 8)));
     event.channel = text(bytes.subspan(header_size, channel_length));
     const auto data = bytes.subspan(header_size + channel_length);
     event.data.assign(data.begin(), data.end());
@@ -71,8 +66,8 @@ bool LogReader::next(LogEvent& event) {
 /// Size of the valid event that begins here, or 0.
 std::size_t LogReader::event_size() {
   if (!have(header_size) || !is_sync(rest())) return 0;
-  const std::size_t channel_length = number(rest().subspan(20, 4));
-  const std::size_t data_length = number(rest().subspan(24, 4));
+  const std::size_t channel_length = big_endian(rest().subspan(20, 4));
+  const std::size_t data_length = big_endian(rest().subspan(24, 4));
   if (channel_length == 0 || channel_length > max_channel_length || !have(header_size + channel_length)) return 0;
   const std::string_view channel = text(rest().subspan(header_size, channel_length));
   if (!is_name(channel)) return 0;

@@ -14,8 +14,8 @@ using talus_lcm::talus_run_v1;
 
 namespace {
 
-constexpr std::array channels = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
-constexpr auto farewell = std::chrono::seconds(1);
+constexpr std::array live_channels = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
+constexpr auto farewell_time = std::chrono::seconds(1);
 
 void check(const PublisherParams& params) {
   if (!(params.piles_rate >= 0.0)) {
@@ -111,13 +111,13 @@ void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   send(to_piles<Dim>(last.piles.piles()), last.step, last.time);
   send_stats(last, Clock::now());
   send_run(talus_run_v1::END, reason, last.step, last.time);
-  queue_->close(farewell);
+  queue_->close(farewell_time);
   if (dropped() > 0) spdlog::warn("live view: {} messages were dropped; the record has everything", dropped());
 }
 
 template <int Dim>
 void Publisher<Dim>::send_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto message = to_run(info_, phase, reason, channels, sealer_);
+  auto message = to_run(info_, phase, reason, live_channels, sealer_);
   send(message, step, time);
 }
 

@@ -15,8 +15,8 @@ using talus_lcm::talus_run_v1;
 
 namespace {
 
-constexpr std::array channels = {Channel::run,   Channel::piles,  Channel::sleep,
-                                 Channel::stats, Channel::bodies, Channel::shapes};
+constexpr std::array recorded_channels = {Channel::run,   Channel::piles,  Channel::sleep,
+                                          Channel::stats, Channel::bodies, Channel::shapes};
 
 // Between the stamps of two messages [us]: lcm-logplayer then paces them so that no receive buffer runs over.
 constexpr std::int64_t pace = 100;
@@ -102,7 +102,7 @@ std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
 
 template <int Dim>
 void RunRecorder<Dim>::write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto message = to_run(info_, phase, reason, channels, sealer_);
+  auto message = to_run(info_, phase, reason, recorded_channels, sealer_);
   write(message, step, time);
 }
 

@@ -9,7 +9,7 @@ namespace talus {
 namespace {
 
 template <typename Push>
-bool before(const Push& l, const Push& r) {
+bool push_before(const Push& l, const Push& r) {
   return std::tie(l.awake, l.sleeper) < std::tie(r.awake, r.sleeper);
 }
 
@@ -85,8 +85,8 @@ typename Blows<Dim>::Blow Blows<Dim>::blow(const BodyStates<Dim>& states, const 
 /// known, but its approach explains no more of a blow than this.
 template <int Dim>
 double Blows<Dim>::growth(const Push& push, const Vec<Dim>& along, double awake_yields) const {
-  const auto last = std::lower_bound(last_pushes_.begin(), last_pushes_.end(), push, before<Push>);
-  if (last != last_pushes_.end() && !before(push, *last)) return (push.impulse - last->impulse).dot(along);
+  const auto last = std::lower_bound(last_pushes_.begin(), last_pushes_.end(), push, push_before<Push>);
+  if (last != last_pushes_.end() && !push_before(push, *last)) return (push.impulse - last->impulse).dot(along);
   if (std::binary_search(last_awake_.begin(), last_awake_.end(), push.awake)) return push.impulse.norm();
   return push.approach / awake_yields;
 }

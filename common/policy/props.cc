@@ -10,7 +10,7 @@ namespace {
 constexpr double on_top = 0.3;
 
 template <typename Prop>
-bool before(const Prop& l, const Prop& r) {
+bool prop_before(const Prop& l, const Prop& r) {
   return std::tie(l.bearer, l.borne) < std::tie(r.bearer, r.borne);
 }
 
@@ -46,15 +46,15 @@ void Props<Dim>::remember(std::span<const Contact<Dim>> contacts, const BodyStat
     if (contact.b < 0 || states.asleep[static_cast<std::size_t>(contact.b)] == 0) continue;
     if (states.asleep[static_cast<std::size_t>(contact.a)] != 0 || height<Dim>(contact.normal) > on_top) continue;
     const Prop prop{.bearer = contact.a, .borne = contact.b};
-    if (!fresh_.empty() && !before(fresh_.back(), prop)) continue;  // further points of one pair
-    if (std::binary_search(props_.begin(), props_.end(), prop, before<Prop>)) continue;
+    if (!fresh_.empty() && !prop_before(fresh_.back(), prop)) continue;  // further points of one pair
+    if (std::binary_search(props_.begin(), props_.end(), prop, prop_before<Prop>)) continue;
     const Pose<Dim>& pose = states.pose[static_cast<std::size_t>(contact.a)];
     const Vec<Dim> local = pose.rotation.inverse() * (contact.point - pose.position);
     fresh_.push_back({contact.a, contact.b, contact.point, local});
   }
   const auto old = static_cast<std::ptrdiff_t>(props_.size());
   props_.insert(props_.end(), fresh_.begin(), fresh_.end());
-  std::inplace_merge(props_.begin(), props_.begin() + old, props_.end(), before<Prop>);
+  std::inplace_merge(props_.begin(), props_.begin() + old, props_.end(), prop_before<Prop>);
 }
 
 template class Props<2>;

@@ -12,7 +12,7 @@
 namespace talus {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char letter : text) {
     const auto code = static_cast<unsigned char>(letter);
@@ -35,7 +35,7 @@ std::string key_text(std::string_view key) {
     return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
            letter == '_' || letter == '-';
   });
-  return bare ? std::string(key) : quoted(key);
+  return bare ? std::string(key) : in_quotes(key);
 }
 
 std::string number_text(double number) {
@@ -104,7 +104,7 @@ std::string value_text(const toml::node& node) {
     return number_text(**number);
   }
   if (const auto* text = node.as_string()) {
-    return quoted(**text);
+    return in_quotes(**text);
   }
   std::ostringstream stream;
   node.visit([&stream](const auto& other) { stream << other; });

@@ -12,7 +12,8 @@
 namespace talus {
 namespace {
 
-constexpr double farthest = 1e4;  // [m] beyond, single precision resolves a millimetre at best and contacts jitter
+constexpr double farthest_place =
+    1e4;  // [m] beyond, single precision resolves a millimetre at best and contacts jitter
 constexpr double largest_mass_ratio = 100.0;
 
 void require_within(double value, double low, double high, const std::string& field, std::string_view rule) {
@@ -22,7 +23,7 @@ void require_within(double value, double low, double high, const std::string& fi
 template <int Dim>
 void check_pose(const Pose<Dim>& pose, const std::string& field) {
   for (int axis = 0; axis < Dim; ++axis) {
-    require_within(pose.position[axis], -farthest, farthest, fmt::format("{}.position[{}]", field, axis),
+    require_within(pose.position[axis], -farthest_place, farthest_place, fmt::format("{}.position[{}]", field, axis),
                    "must be within 10,000 m of the origin");
   }
   check_rotation<Dim>(pose.rotation, field + ".rotation");
@@ -54,7 +55,7 @@ void check_shape(const Shape<Dim>& shape, const std::string& field) {
           "must be finite and above 0 kg, as make_shape() sets it");
   require(shape.inertia.allFinite() && shape.inertia.determinant() > 0.0, field + ".inertia",
           shape.inertia.determinant(), "must be finite and positive, as make_shape() sets it");
-  require(shape.extent <= 2.0 * farthest, field + ".extent", shape.extent, "must be at most 20,000 m");
+  require(shape.extent <= 2.0 * farthest_place, field + ".extent", shape.extent, "must be at most 20,000 m");
 }
 
 void check_solver(const SolverParams& solver) {
@@ -86,7 +87,7 @@ void check(const WorldDescription<Dim>& description) {
           "must be above 0 and at most 1/30 s, better 1/60 s: above, bodies sink into each other");
   check_solver(description.solver);
   if (description.ground.present) {
-    require_within(description.ground.height, -farthest, farthest, "world.ground.height",
+    require_within(description.ground.height, -farthest_place, farthest_place, "world.ground.height",
                    "must be within 10,000 m of the origin");
     check_material(description.ground.material, "world.ground.material");
   }

@@ -21,7 +21,7 @@ struct Solver {
 };
 
 /// One curve: settings from coarse to fine.
-struct Sweep {
+struct StepSweep {
   std::string name;
   std::vector<Solver> points;
 };
@@ -29,11 +29,11 @@ struct Sweep {
 /// Finer than any of the sweeps: what they are measured against.
 Solver finest(const BenchOptions& options) { return options.quick ? Solver{120, 40, 20, 2} : Solver{240, 100, 40, 2}; }
 
-std::vector<Sweep> sweeps(const BenchOptions& options, const std::string& backend) {
+std::vector<StepSweep> sweeps(const BenchOptions& options, const std::string& backend) {
   if (options.quick) return {{"60 Hz", {{60, 10, 4, 2}, {60, 40, 16, 2}}}};
-  std::vector<Sweep> all = {{"60 Hz", {{60, 5, 2, 2}, {60, 10, 4, 2}, {60, 20, 8, 2}, {60, 50, 20, 2}}},
-                            {"120 Hz", {{120, 10, 4, 2}, {120, 20, 8, 2}, {120, 50, 20, 2}}},
-                            {"240 Hz", {{240, 10, 4, 2}, {240, 50, 20, 2}}}};
+  std::vector<StepSweep> all = {{"60 Hz", {{60, 5, 2, 2}, {60, 10, 4, 2}, {60, 20, 8, 2}, {60, 50, 20, 2}}},
+                                {"120 Hz", {{120, 10, 4, 2}, {120, 20, 8, 2}, {120, 50, 20, 2}}},
+                                {"240 Hz", {{240, 10, 4, 2}, {240, 50, 20, 2}}}};
   if (backend == "bullet") {
     all.push_back({"60 Hz, one friction direction", {{60, 10, 4, 1}, {60, 50, 20, 1}}});
     all.push_back({"120 Hz, one friction direction", {{120, 50, 20, 1}}});
@@ -85,7 +85,7 @@ Table table_of(const BenchRunner& runner, const Study& study) {
                           plain("penetration_max_D")});
   };
   add(fmt::format("finest: {} Hz", finest(runner.options()).steps_per_second), finest(runner.options()));
-  for (const Sweep& sweep : sweeps(runner.options(), study.backend)) {
+  for (const StepSweep& sweep : sweeps(runner.options(), study.backend)) {
     for (const Solver& solver : sweep.points) add(sweep.name, solver);
   }
   return table;
@@ -110,7 +110,7 @@ Plot plot_of(const BenchRunner& runner, const Study& study, const std::string& n
     series.low.push_back(value - value_of(values, name + "_sd"));
     series.high.push_back(value + value_of(values, name + "_sd"));
   };
-  for (const Sweep& sweep : sweeps(runner.options(), study.backend)) {
+  for (const StepSweep& sweep : sweeps(runner.options(), study.backend)) {
     Series series{sweep.name, {}, {}};
     series.style = SeriesStyle::line_and_points;
     for (const Solver& solver : sweep.points) add(series, solver);
@@ -154,7 +154,7 @@ void bench_convergence(const BenchOptions& options) {
   for (const std::string& scene : scenes_of(own, {"drop_in_a_pile"}, 1)) {
     for (const std::string& backend : backends_of(own, scene)) {
       Study study{scene, backend, {{case_of(own, scene, backend, finest(own))}}};
-      for (const Sweep& sweep : sweeps(own, backend)) {
+      for (const StepSweep& sweep : sweeps(own, backend)) {
         for (const Solver& solver : sweep.points) study.group.cases.push_back(case_of(own, scene, backend, solver));
       }
       groups.push_back(study.group);

@@ -51,13 +51,13 @@ double reached_rate(const BenchRunner& runner, const BenchGroup& group) {
   return value_of(values, "bodies") / value_of(values, "poured_at");
 }
 
-struct Sweep {
+struct RateSweep {
   std::string scene;
   std::string backend;
   std::vector<BenchGroup> groups;  // one a rate
 };
 
-Table table_of(const BenchRunner& runner, const std::vector<Sweep>& sweeps) {
+Table table_of(const BenchRunner& runner, const std::vector<RateSweep>& sweeps) {
   Table table{"",
               {{"scene"},
                {"engine"},
@@ -69,7 +69,7 @@ Table table_of(const BenchRunner& runner, const std::vector<Sweep>& sweeps) {
                {"drift beyond full / D", true},
                {"KS(z) p", true}},
               {}};
-  for (const Sweep& sweep : sweeps) {
+  for (const RateSweep& sweep : sweeps) {
     for (const BenchGroup& group : sweep.groups) {
       const Values of_full = runner.summary(group.cases.front(), group.cases.front());
       for (const BenchCase& each : group.cases) {
@@ -85,7 +85,7 @@ Table table_of(const BenchRunner& runner, const std::vector<Sweep>& sweeps) {
   return table;
 }
 
-Plot plot_of(const BenchRunner& runner, const Sweep& sweep) {
+Plot plot_of(const BenchRunner& runner, const RateSweep& sweep) {
   Plot plot{.title = sweep.scene + ", " + sweep.backend,
             .x_label = "bodies a second",
             .y_label = "speed-up over full",
@@ -114,11 +114,11 @@ Plot plot_of(const BenchRunner& runner, const Sweep& sweep) {
 }  // namespace
 
 void bench_rate(const BenchOptions& options) {
-  std::vector<Sweep> sweeps;
+  std::vector<RateSweep> sweeps;
   std::vector<BenchGroup> groups;
   for (const std::string& scene : scenes_of(options, {"drop_in_a_pile"}, 1)) {
     for (const std::string& backend : backends_of(options, scene)) {
-      Sweep sweep{scene, backend, {}};
+      RateSweep sweep{scene, backend, {}};
       for (const double rate : rates(options)) sweep.groups.push_back(group_of(options, scene, backend, rate));
       groups.insert(groups.end(), sweep.groups.begin(), sweep.groups.end());
       sweeps.push_back(std::move(sweep));
@@ -133,7 +133,7 @@ void bench_rate(const BenchOptions& options) {
                   "pour, the more there is to save.",
                   bodies(options)));
   results.sections.push_back({"Speed-up", {table_of(runner, sweeps)}});
-  for (const Sweep& sweep : sweeps) {
+  for (const RateSweep& sweep : sweeps) {
     results.sections.back().blocks.emplace_back(Figure{svg_of(plot_of(runner, sweep)), sweep.scene});
   }
   for (Section& section : common_sections(runner, groups)) results.sections.push_back(std::move(section));

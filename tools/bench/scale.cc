@@ -14,11 +14,12 @@ namespace talus {
 
 namespace {
 
-constexpr int awake = 100;
+constexpr int awake_bodies = 100;
 
 SleepersCost cost_on(const std::string& backend, int dimension, int sleepers) {
   fmt::print(stderr, "{}: {} sleepers\n", backend, sleepers);
-  return dimension == 2 ? sleepers_cost<2>(backend, sleepers, awake) : sleepers_cost<3>(backend, sleepers, awake);
+  return dimension == 2 ? sleepers_cost<2>(backend, sleepers, awake_bodies)
+                        : sleepers_cost<3>(backend, sleepers, awake_bodies);
 }
 
 struct Engine {

@@ -58,7 +58,7 @@ std::vector<std::string> paper_row(const BenchRunner& runner, const BenchGroup& 
   return cells;
 }
 
-Table paper_table(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
+Table paper_table_1(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
   Table table{"", {{"example"}, {"scene"}, {"engine"}, {"policy"}}, {}};
   for (const char* name :
        {"frames", "objects", "full [s]", "this [s]", "speed-up", "over engine sleeping", "ceiling", "error e [%]",
@@ -136,12 +136,12 @@ void bench_table1(const BenchOptions& options) {
       "figures stand in the rows of its policy; its machine, engine and step are not known, so ratios may be compared, "
       "seconds not. Its error e is mean |m - m~| / |m|; what two equal simulations show of it when one is moved by a "
       "micrometre stands beside it as its floor.");
-  results.sections.push_back({"The paper's table", {paper_table(runner, groups)}});
+  results.sections.push_back({"The paper's table", {paper_table_1(runner, groups)}});
   if (options.errors) results.sections.push_back({"What could be gained", {ceiling_figure(runner, groups)}});
   if (options.errors) results.sections.push_back({"Targets", {targets_table(runner, groups)}});
   for (Section& section : common_sections(runner, groups)) results.sections.push_back(std::move(section));
   write_results(runner, groups, results);
-  fmt::print("{}", text_of(paper_table(runner, groups)));
+  fmt::print("{}", text_of(paper_table_1(runner, groups)));
 }
 
 }  // namespace talus

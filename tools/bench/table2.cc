@@ -23,7 +23,7 @@ BenchGroup sweep(const BenchOptions& options, const std::string& scene, const st
   return group;
 }
 
-Table paper_table(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
+Table paper_table_2(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
   Table table{"", {{"scene"}, {"engine"}, {"what"}, {"none", true}}, {}};
   for (const paper::Threshold& threshold : paper::table_2)
     table.columns.push_back({fmt::format("{}", threshold.tau), true});
@@ -80,7 +80,7 @@ void bench_table2(const BenchOptions& options) {
   results.notes.emplace_back(
       "Example 2 under the paper's policy over its sleeping threshold tau. A low tau lets bodies sleep before they are "
       "at rest: the drift after waking shows it.");
-  results.sections.push_back({"The paper's table", {paper_table(runner, groups)}});
+  results.sections.push_back({"The paper's table", {paper_table_2(runner, groups)}});
   Plot speed_up = plot_of(runner, groups, "speed_up", "speed-up over full");
   Series papers{"the paper's", {}, {}};
   papers.style = SeriesStyle::line_and_points;
@@ -98,7 +98,7 @@ void bench_table2(const BenchOptions& options) {
   }
   for (Section& section : common_sections(runner, groups)) results.sections.push_back(std::move(section));
   write_results(runner, groups, results);
-  fmt::print("{}", text_of(paper_table(runner, groups)));
+  fmt::print("{}", text_of(paper_table_2(runner, groups)));
 }
 
 }  // namespace talus

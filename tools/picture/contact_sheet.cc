@@ -15,12 +15,12 @@ namespace talus {
 
 namespace {
 
-constexpr double line_height = 1.4;  // in font sizes
+constexpr double caption_line_height = 1.4;  // in font sizes
 
-using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
+using Picture = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
 
-Surface read_png(const std::filesystem::path& path) {
-  Surface surface(cairo_image_surface_create_from_png(path.c_str()), cairo_surface_destroy);
+Picture read_png(const std::filesystem::path& path) {
+  Picture surface(cairo_image_surface_create_from_png(path.c_str()), cairo_surface_destroy);
   const cairo_status_t status = cairo_surface_status(surface.get());
   if (status != CAIRO_STATUS_SUCCESS) {
     throw std::runtime_error(fmt::format("cannot read {}: {}", path.string(), cairo_status_to_string(status)));
@@ -29,7 +29,7 @@ Surface read_png(const std::filesystem::path& path) {
 }
 
 struct PlacedTile {
-  Surface picture;
+  Picture picture;
   std::vector<std::string> caption;
   double scale = 1.0;
   double left = 0.0;
@@ -83,7 +83,7 @@ class Sheet {
       cairo_restore(canvas);
       double base = tile.top + tile.height;
       for (const std::string& line : tile.caption) {
-        base += line_height * params_.font_size;
+        base += caption_line_height * params_.font_size;
         draw_text(canvas, {tile.left, base}, line, caption_style());
       }
     }
@@ -109,7 +109,7 @@ class Sheet {
     for (std::size_t i = first; i < placed_.size(); ++i) {
       placed_[i].top = height_ + tallest - placed_[i].height;
     }
-    height_ += tallest + line_height * params_.font_size * static_cast<double>(lines) + params_.gap;
+    height_ += tallest + caption_line_height * params_.font_size * static_cast<double>(lines) + params_.gap;
   }
 
   std::string title_;

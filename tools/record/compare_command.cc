@@ -125,7 +125,7 @@ void print_first_differences(const Json& json) {
              event["cause"].get<std::string>());
 }
 
-void print(const Json& json) {
+void print_comparison(const Json& json) {
   print_head(json["a"], 'A');
   print_head(json["b"], 'B');
   print_first_differences(json);
@@ -157,7 +157,7 @@ int compare(const std::string& folder_a, const std::string& folder_b, bool as_js
   if (as_json) {
     fmt::print("{}\n", json.dump(2));
   } else {
-    print(json);
+    print_comparison(json);
   }
   return exit_codes::success;
 }

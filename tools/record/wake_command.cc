@@ -82,16 +82,16 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
   return json;
 }
 
-std::string number(const Json& value) { return fmt::format("{:.4g}", value.get<double>()); }
+std::string in_short(const Json& value) { return fmt::format("{:.4g}", value.get<double>()); }
 
-void print(const Json& json) {
+void print_wake(const Json& json) {
   fmt::print("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", json["run"].get<std::string>(),
              json["backend"].get<std::string>(), json["policy"].get<std::string>(), json["step"].get<int>(),
              json["bodies"].get<int>(), json["asleep"].get<int>());
   fmt::print("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
   const Json& depth = json["penetration_D"];
-  fmt::print("penetration over D: mean {}, 99 % {}, max {}\n", number(depth["mean"]), number(depth["p99"]),
-             number(depth["max"]));
+  fmt::print("penetration over D: mean {}, 99 % {}, max {}\n", in_short(depth["mean"]), in_short(depth["p99"]),
+             in_short(depth["max"]));
   const bool with_full = json.contains("full_run");
   Table table{
       fmt::format("\nAll woken and simulated for {:g} s at the reference settings", json["simulated_s"].get<double>()),
@@ -99,10 +99,10 @@ void print(const Json& json) {
       {}};
   if (with_full) table.columns.insert(table.columns.end(), {{"full run", true}, {"beyond it", true}});
   for (const auto& [name, value] : json["after_waking"].items()) {
-    table.rows.push_back({name, number(value)});
+    table.rows.push_back({name, in_short(value)});
     if (!with_full) continue;
-    table.rows.back().push_back(number(json["full_run"][name]));
-    table.rows.back().push_back(number(json["beyond_full_run"][name]));
+    table.rows.back().push_back(in_short(json["full_run"][name]));
+    table.rows.back().push_back(in_short(json["beyond_full_run"][name]));
   }
   fmt::print("{}", text_of(table));
 }
@@ -112,7 +112,7 @@ int wake_command(const WakeOptions& options) {
   if (options.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
-    print(json);
+    print_wake(json);
   }
   return exit_codes::success;
 }
