@@ -7,6 +7,7 @@
 
 #include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
+#include "common/scene/typical_body.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -52,6 +53,23 @@ TYPED_TEST(SceneRun, DropsWhatIsDueAndKeepsItAboveTheGround) {
     ++count;
   }
   EXPECT_GE(count, 11);
+}
+
+// Section 3.2: a pile of which only the kind is known lies where the first body touches down.
+TYPED_TEST(SceneRun, APileWithoutAPlaceBeginsWhereTheFirstBodyTouchesDown) {
+  constexpr int dim = TypeParam::dim;
+  const std::string name = dim == 2 ? "drop_in_a_pile_2d.toml" : "drop_in_a_pile_3d.toml";
+  auto scene = std::get<Scene<dim>>(read_scene(scene_folder / name));
+  scene.piles = {PileParams<dim>{}};
+  scene.sources.resize(1);
+  scene.sources[0].position[0] = 3.0;
+  auto simulation = TestFixture::simulation(scene);
+  while (simulation.piles().piles().empty() && simulation.frame().step < 600) simulation.step();
+  ASSERT_EQ(simulation.piles().piles().size(), 1U);
+  const Vec<dim>& centre = simulation.piles().piles().front().centre;
+  const double extent = typical_body(scene).extent;
+  EXPECT_NEAR(centre[0], 3.0, 0.5 * extent) << "the contact lies on the body that fell";
+  EXPECT_NEAR(height<dim>(centre), scene.world.ground.height, 0.01 * extent);
 }
 
 // 50 rings do not fill the box: not one of them may get through its walls or its floor, or over its rim.

@@ -95,6 +95,23 @@ TEST(PaperPolicy, LetsALayerSleepOnlyWhenEveryLayerBelowHoldsASleeper) {
   EXPECT_GT(run.layer(1).sleeping, 0);
 }
 
+TEST(BodyInSeveralPiles, SleepsOnceByThePileThatScoresItHighest) {
+  for (const std::size_t small : {0U, 1U}) {
+    Scene<3> scene = cubes(4.0);
+    scene.piles.push_back(scene.piles.front());
+    scene.piles[1 - small].initial_size = 1000.0;  // hardly filled
+    for (PileParams<3>& pile : scene.piles) pile.merge_distance = 0.0;
+    StillRun run(scene);
+    run.add_many(3, Vec3(0.0, 0.0, 0.5));
+    run.simulation.step();
+    ASSERT_EQ(run.simulation.frame().events.size(), 3U);
+    for (const SleepEvent& event : run.simulation.frame().events) {
+      EXPECT_EQ(event.pile, static_cast<int>(small));
+      EXPECT_DOUBLE_EQ(event.score, 0.75);
+    }
+  }
+}
+
 TEST(Avalanche, WakesAllOfAPileWhoseLayerIsOverfullAndKeepsItAwakeForAWhile) {
   Scene<3> scene = cubes(10.0);
   scene.policy.paper.awake_steps = 5;

@@ -192,6 +192,14 @@ TEST(PilesNearEachOther, MergeIntoOneAtTheirCommonMean) {
   EXPECT_TRUE(piles.counts_match(bodies.states));
 }
 
+TEST(PilesNearEachOther, StayApartUntilTheyWereNearTwice) {
+  auto [piles, bodies] = two_piles(1.0, 1.0);
+  for (int step = 0; step < 59; ++step) {  // a look every 30 steps
+    piles.update(bodies.states, bodies.awake(), dt);
+    EXPECT_EQ(piles.piles()[1].merged_into, -1);
+  }
+}
+
 TEST(PilesNearEachOther, StayApartWhereMergingIsOff) {
   auto [piles, bodies] = two_piles(1.0, 0.0);
   for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);

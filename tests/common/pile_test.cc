@@ -123,6 +123,14 @@ TEST(WalledPile, RisesInItsContainerWithATipAboveIt) {
   EXPECT_NEAR(volume(pile), 40.0, 1e-12 * 40.0);
 }
 
+TEST(WalledPile, WhoseLowestLayerTouchesTheWallsGrowsUpwardsOnly) {
+  const auto walls = box_boundary<3>(Vec2(4.0, 6.0), 5.0);
+  const Pile<3> before = make_pile<3>(Vec3::Zero(), radians(45.0), 100.0, body, walls);
+  const Pile<3> after = make_pile<3>(Vec3::Zero(), radians(45.0), 160.0, body, walls);
+  EXPECT_EQ(after.layers.front().radius, before.layers.front().radius);
+  EXPECT_NEAR(after.lift - before.lift, 60.0 * 0.4 / 24.0, 1e-12);  // 60 bodies of 0.4 m^3 on 24 m^2
+}
+
 TEST(WalledPile, StopsAtTheRim) {
   const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1e6, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
   EXPECT_DOUBLE_EQ(pile.lift, 5.0);
