@@ -1,9 +1,24 @@
 #include "sim3d/engine.h"
 
+#include "sim3d/solver.h"
+
 namespace talus::bullet {
+namespace {
+
+std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params) {
+  if (params.warm_friction) {
+    return std::make_unique<WarmFrictionSolver>();
+  }
+  return std::make_unique<btSequentialImpulseConstraintSolver>();
+}
+
+}  // namespace
 
 Engine::Engine(double gravity, const SolverParams& params)
-    : dispatcher(&configuration), broadphase(&pairs), world(&dispatcher, &broadphase, &solver, &configuration) {
+    : dispatcher(&configuration),
+      broadphase(&pairs),
+      solver(make_solver(params)),
+      world(&dispatcher, &broadphase, solver.get(), &configuration) {
   dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
   world.setGravity(btVector3(0, 0, static_cast<btScalar>(-gravity)));
   // Static bodies do not move: without this, Bullet refreshes their bounding boxes in every step.

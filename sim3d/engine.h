@@ -4,6 +4,8 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <memory>
+
 #include "common/world/world_description.h"
 #include "sim3d/compound_pair.h"
 #include "sim3d/dynamics_world.h"
@@ -20,7 +22,7 @@ struct Engine {
   btCollisionDispatcher dispatcher;
   PairCache pairs;
   btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
+  std::unique_ptr<btSequentialImpulseConstraintSolver> solver;
   DynamicsWorld world;
 };
 

@@ -13,6 +13,7 @@ void read_solver(TableReader& table, SolverParams& solver) {
   table.read("velocity_iterations", solver.velocity_iterations, between(1, 1000));
   table.read("position_iterations", solver.position_iterations, between(1, 1000));
   table.read("friction_directions", solver.friction_directions, between(1, 2));
+  table.read("warm_friction", solver.warm_friction);
   table.read("restitution_threshold", solver.restitution_threshold, between(0.0, 1e3));
 }
 

@@ -1,9 +1,9 @@
 # sim2d/ and sim3d/ hold headers of the same names, so that who knows one backend finds the way in the other.
 set -eu
 # Names that only one of them has: what one engine needs and the other does not (Box2D's user data, its impulses that
-# die with a contact, its rule for restitution, its search for times of
-# impact; Bullet's list of overlapping pairs, its plane, its world subclass).
-only_one='(tag|warm_start|materials|continuous|bodies|compound_pair|dynamics_world|engine|pairs|pieces|plane)\.h'
+# die with a contact, its rule for restitution, its search for times of impact; Bullet's list of overlapping pairs, its
+# plane, its world subclass, its solver).
+only_one='(tag|warm_start|materials|continuous|bodies|compound_pair|dynamics_world|engine|pairs|pieces|plane|solver)\.h'
 
 headers() { git ls-files "$1/*.h" | sed "s|^$1/||" | grep -vxE "$only_one" | LC_ALL=C sort | tr '\n' ' '; }
 in_2d=$(headers sim2d)
