@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim3d/friction_impulse.h"
 #include "sim3d/plane.h"
 
 namespace talus::bullet {
@@ -59,8 +60,7 @@ void Contacts<Dim>::append(const btPersistentManifold& manifold) {
       continue;
     }
     const btVector3 normal = swap ? -point.m_normalWorldOnB : point.m_normalWorldOnB;  // Bullet's: from second to first
-    const btVector3 friction = point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
-                               point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+    const btVector3 friction = friction_impulse(point);
     const btVector3& where = point.getPositionWorldOnB();
     Contact<Dim>& contact = contacts_.emplace_back();
     contact.a = a.getUserIndex();

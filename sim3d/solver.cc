@@ -2,15 +2,9 @@
 
 #include <algorithm>
 
+#include "sim3d/friction_impulse.h"
+
 namespace talus::bullet {
-namespace {
-
-btVector3 friction_impulse(const btManifoldPoint& point) {
-  return point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
-         point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
-}
-
-}  // namespace
 
 void WarmFrictionSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
   // Read before Bullet chooses this step's friction directions, in the order in which it makes the contacts' rows.
@@ -78,10 +72,7 @@ btScalar WarmFrictionSolver::solveGroupCacheFriendlyFinish(btCollisionObject** b
   }
   const btScalar residual = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, count, info);
   for (btManifoldPoint* point : points_) {
-    const btVector3 impulse = friction_impulse(*point);
-    btPlaneSpace1(point->m_normalWorldOnB, point->m_lateralFrictionDir1, point->m_lateralFrictionDir2);
-    point->m_appliedImpulseLateral1 = impulse.dot(point->m_lateralFrictionDir1);
-    point->m_appliedImpulseLateral2 = impulse.dot(point->m_lateralFrictionDir2);
+    set_friction_impulse(*point, friction_impulse(*point));
   }
   return residual;
 }

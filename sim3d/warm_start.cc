@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sim3d/friction_impulse.h"
+
 namespace talus::bullet {
 namespace {
 
@@ -86,11 +88,14 @@ void WarmStart::save(btBroadphasePair& pair) {
       if (point.m_appliedImpulse > 0) {
         const btVector3& place = first ? point.m_localPointA : point.m_localPointB;
         const btVector3 normal = first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
+        const btVector3 on_first = friction_impulse(point);
+        const btVector3 friction = first ? on_first : -on_first;
         saved.push_back({sides.partner->getUserIndex(),
                          {place.x(), place.y(), place.z()},
                          {normal.x(), normal.y(), normal.z()},
                          point.m_distance1,
                          point.m_appliedImpulse,
+                         {friction.x(), friction.y(), friction.z()},
                          static_cast<std::int16_t>(first ? point.m_index0 : point.m_index1),
                          static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0)});
       }
@@ -169,6 +174,8 @@ void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersiste
   const int known = manifold.getCacheEntry(point);
   btManifoldPoint& target = manifold.getContactPoint(known >= 0 ? known : manifold.addManifoldPoint(point));
   target.m_appliedImpulse = saved.impulse;
+  const btVector3 friction(saved.friction[0], saved.friction[1], saved.friction[2]);
+  set_friction_impulse(target, first ? friction : -friction);
 }
 
 }  // namespace talus::bullet

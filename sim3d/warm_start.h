@@ -36,6 +36,7 @@ class WarmStart {
     float normal[3];     // from the partner to the owner, in the world's axes
     float distance;      // between the two surfaces [m], negative where they overlap
     float impulse;       // [N s]
+    float friction[3];   // impulse on the owner, in the world's axes [N s]
     std::int16_t piece;  // number within the owner's shape; -1 where the shape is a single piece
     std::int16_t partners_piece;
   };
