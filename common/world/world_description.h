@@ -13,7 +13,7 @@ struct SolverParams {
   int velocity_iterations = 10;        // 1..1000; too few: piles melt and tall stacks sink. Cost grows in proportion
   int position_iterations = 4;         // 1..1000, Box2D only; too few: bodies stay inside each other
   int friction_directions = 2;         // 1 or 2, Bullet in 3D only; 1: piles creep for ever and end 20 % too low
-  bool warm_friction = true;           // Bullet only: friction starts at the last step's; false: piles creep for ever
+  bool warm_friction = false;          // Bullet only: friction starts at the last step's; heaps creep less, towers sway
   double restitution_threshold = 0.5;  // [m/s] >= 0; slower approaches do not bounce. Too low: piles never rest
 };
 

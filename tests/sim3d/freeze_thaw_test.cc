@@ -80,11 +80,12 @@ double peak_speed(World<3>& world) {
   return peak;
 }
 
-// Without the impulses of the contacts between sleepers the heap would fall for a step, at g dt = 0.16 m/s, and its
-// peak be about four times the other's.
-TEST(ThawedHeap, CarriesItselfFromTheFirstStep) {
-  const auto never_frozen = make_bullet_world(l_world<3>());
-  const auto thawed = make_bullet_world(l_world<3>());
+/// Peak speed of a heap that was frozen and thawed at rest, over that of one that never was.
+double shock_of_waking(bool warm_friction) {
+  WorldDescription<3> description = l_world<3>();
+  description.solver.warm_friction = warm_friction;
+  const auto never_frozen = make_bullet_world(description);
+  const auto thawed = make_bullet_world(description);
   for (World<3>* world : {never_frozen.get(), thawed.get()}) {
     add_stack(*world, 80, 3);
     run(*world, 600);
@@ -93,8 +94,16 @@ TEST(ThawedHeap, CarriesItselfFromTheFirstStep) {
   thawed->freeze(all);
   run(*thawed, 10);
   thawed->thaw(all);
-  EXPECT_LT(peak_speed(*thawed), 2.0 * peak_speed(*never_frozen));
+  return peak_speed(*thawed) / peak_speed(*never_frozen);
 }
+
+// Without the impulses of the contacts between sleepers the heap would fall for a step, at g dt = 0.16 m/s, and its
+// peak be about four times the other's.
+TEST(ThawedHeap, CarriesItselfFromTheFirstStep) { EXPECT_LT(shock_of_waking(false), 2.0); }
+
+// Where friction starts at the last step's, the heap that was never frozen is half as fast, and what is lost in waking
+// shows more: 4.2 times with friction from zero.
+TEST(ThawedHeap, FindsTheFrictionItFellAsleepWith) { EXPECT_LT(shock_of_waking(true), 3.0); }
 
 TEST(ThawedBody, FindsItsContactsInTheFirstStep) {
   const auto world = make_bullet_world(l_world<3>());

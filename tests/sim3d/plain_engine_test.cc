@@ -94,7 +94,6 @@ class NothingFrozen : public testing::TestWithParam<bool> {};
 
 TEST_P(NothingFrozen, MovesBitForBitAsBulletByHand) {
   WorldDescription<3> description = l_world<3>();
-  description.solver.warm_friction = false;
   description.engine_sleep = GetParam();
   const auto world = make_bullet_world(description);
   add_stack(*world, bodies, columns);
