@@ -33,56 +33,61 @@ std::span<const Contact<Dim>> Contacts<Dim>::get(const Engine& engine) {
 
 template <int Dim>
 void Contacts<Dim>::gather(const Engine& engine) {
-  contacts_.clear();
+  touches_.clear();
   for (int i = 0; i < engine.dispatcher.getNumManifolds(); ++i) {
-    append(*const_cast<Engine&>(engine).dispatcher.getManifoldByIndexInternal(i));
+    const btPersistentManifold& manifold = *const_cast<Engine&>(engine).dispatcher.getManifoldByIndexInternal(i);
+    const btCollisionObject& first = *manifold.getBody0();
+    const btCollisionObject& second = *manifold.getBody1();
+    if (manifold.getNumContacts() == 0 || (!first.isActive() && !second.isActive())) {
+      continue;
+    }
+    // The awake one is a, of two awake ones the first added.
+    const bool swap = !first.isActive() || (second.isActive() && second.getUserIndex() < first.getUserIndex());
+    touches_.push_back({&manifold, swap ? &second : &first, swap ? &first : &second, swap});
   }
-  // The manifolds' order depends on the history of pairs; points of one pair keep theirs.
-  std::stable_sort(contacts_.begin(), contacts_.end(), [](const Contact<Dim>& l, const Contact<Dim>& r) {
-    return std::tuple(l.a, l.b) < std::tuple(r.a, r.b);
+  // The manifolds' order depends on the history of pairs; those of one pair keep theirs.
+  std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& l, const Touch& r) {
+    return std::tuple(l.a->getUserIndex(), l.b->getUserIndex()) < std::tuple(r.a->getUserIndex(), r.b->getUserIndex());
   });
+  contacts_.clear();
+  for (const Touch& touch : touches_) {
+    append(touch);
+  }
 }
 
 template <int Dim>
-void Contacts<Dim>::append(const btPersistentManifold& manifold) {
-  const btCollisionObject& first = *manifold.getBody0();
-  const btCollisionObject& second = *manifold.getBody1();
-  if (!first.isActive() && !second.isActive()) {
-    return;
-  }
-  // The awake one is a, of two awake ones the first added.
-  const bool swap = !first.isActive() || (second.isActive() && second.getUserIndex() < first.getUserIndex());
-  const btCollisionObject& a = swap ? second : first;
-  const btCollisionObject& b = swap ? first : second;
-  for (int i = 0; i < manifold.getNumContacts(); ++i) {
-    const btManifoldPoint& point = manifold.getContactPoint(i);
+void Contacts<Dim>::append(const Touch& touch) {
+  const Motion motion_of_a = motion_before(*touch.a);
+  const Motion motion_of_b = motion_before(*touch.b);
+  for (int i = 0; i < touch.manifold->getNumContacts(); ++i) {
+    const btManifoldPoint& point = touch.manifold->getContactPoint(i);
     if (point.getDistance() > 0 && point.m_appliedImpulse <= 0) {
       continue;
     }
-    const btVector3 normal = swap ? -point.m_normalWorldOnB : point.m_normalWorldOnB;  // Bullet's: from second to first
+    const btVector3 normal = touch.swap ? -point.m_normalWorldOnB : point.m_normalWorldOnB;  // from second to first
     const btVector3 friction = friction_impulse(point);
     const btVector3& where = point.getPositionWorldOnB();
+    const btVector3 approach = motion_of_b.at(*touch.b, where) - motion_of_a.at(*touch.a, where);
     Contact<Dim>& contact = contacts_.emplace_back();
-    contact.a = a.getUserIndex();
-    contact.b = b.getUserIndex();
+    contact.a = touch.a->getUserIndex();
+    contact.b = touch.b->getUserIndex();
     contact.point = from_bullet<Dim>(where);
     contact.normal = from_bullet<Dim>(normal);
     contact.normal_impulse = point.m_appliedImpulse;
-    contact.friction_impulse = from_bullet<Dim>(swap ? -friction : friction);
-    contact.approach_speed = std::max(btScalar(0), normal.dot(velocity_before(b, where) - velocity_before(a, where)));
+    contact.friction_impulse = from_bullet<Dim>(touch.swap ? -friction : friction);
+    contact.approach_speed = std::max(btScalar(0), normal.dot(approach));
     contact.depth = -point.getDistance();
   }
 }
 
 template <int Dim>
-btVector3 Contacts<Dim>::velocity_before(const btCollisionObject& object, const btVector3& point) const {
+typename Contacts<Dim>::Motion Contacts<Dim>::motion_before(const btCollisionObject& object) const {
   const BodyIndex index = object.getUserIndex();
   const auto found = std::lower_bound(moving_.begin(), moving_.end(), index);
   if (found == moving_.end() || *found != index) {
-    return {0, 0, 0};
+    return {};
   }
-  const Motion& motion = motion_[static_cast<std::size_t>(found - moving_.begin())];
-  return motion.velocity + motion.spin.cross(point - object.getWorldTransform().getOrigin());
+  return motion_[static_cast<std::size_t>(found - moving_.begin())];
 }
 
 template class Contacts<2>;

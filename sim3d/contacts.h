@@ -28,12 +28,23 @@ class Contacts {
   struct Motion {
     btVector3 velocity = btVector3(0, 0, 0);
     btVector3 spin = btVector3(0, 0, 0);
+    btVector3 at(const btCollisionObject& object, const btVector3& point) const {
+      return velocity + spin.cross(point - object.getWorldTransform().getOrigin());
+    }
+  };
+  /// The contact of a pair, or of two of its pieces, and its bodies in the order in which they are told.
+  struct Touch {
+    const btPersistentManifold* manifold = nullptr;
+    const btCollisionObject* a = nullptr;
+    const btCollisionObject* b = nullptr;
+    bool swap = false;  // b is Bullet's first
   };
   void gather(const Engine& engine);
-  void append(const btPersistentManifold& manifold);
-  btVector3 velocity_before(const btCollisionObject& object, const btVector3& point) const;
+  void append(const Touch& touch);
+  Motion motion_before(const btCollisionObject& object) const;
 
   std::vector<Contact<Dim>> contacts_;
+  std::vector<Touch> touches_;     // scratch
   std::vector<Motion> motion_;     // before the step, of the awake bodies
   std::vector<BodyIndex> moving_;  // whose motion
   bool keep_motion_ = false;
