@@ -32,7 +32,7 @@ class Finder final : public b2QueryCallback {
 EngineWorld::EngineWorld(const WorldDescription<2>& description)
     : description_(description),
       world_(b2Vec2(0.0F, -static_cast<float>(description.gravity))),
-      freezer_(world_),
+      freezer_(world_, description.skips.sleepers),
       listener_(description, warm_start_) {
   for (const Shape<2>& shape : description_.shapes) {
     blueprints_.push_back({engine_shapes(shape), fixture_of(shape.material, description_.solver), engine_mass(shape)});
@@ -151,11 +151,11 @@ void EngineWorld::step() {
   }
   ++steps_;
   warm_start_.start_step(states_.asleep);
-  listener_.start_step(freezer_.hosts() > 0, contacts_wanted_);
+  listener_.start_step(description_.skips.continuous && freezer_.hosts() > 0, contacts_wanted_);
   contacts_gathered_ = false;
   times_ = {};
-  if (awake_.empty()) {
-    return;  // nothing can move
+  if (description_.skips.idle && awake_.empty()) {
+    return;
   }
   world_.Step(static_cast<float>(description_.dt), description_.solver.velocity_iterations,
               description_.solver.position_iterations);

@@ -5,7 +5,7 @@ namespace talus::box2d {
 std::size_t Freezer::open_host() {
   while (!open_.empty()) {
     const Host& host = hosts_[open_.back()];
-    if (host.body != nullptr && host.sleepers < capacity) {
+    if (host.body != nullptr && host.sleepers < capacity_) {
       return open_.back();
     }
     open_.pop_back();
@@ -52,7 +52,7 @@ void Freezer::thaw(b2Fixture* first, std::size_t pieces) {
     host.body->DestroyFixture(first);
     first = next;
   }
-  if (host.sleepers == capacity) {
+  if (host.sleepers == capacity_) {
     open_.push_back(slot);
   }
   --host.sleepers;

@@ -16,7 +16,8 @@ namespace talus::box2d {
 /// The hosts and who sleeps in which.
 class Freezer {
  public:
-  explicit Freezer(b2World& world) : world_(&world) {}
+  /// `shared`: whether sleepers share static bodies; each else has one of its own.
+  Freezer(b2World& world, bool shared) : world_(&world), capacity_(shared ? 128 : 1) {}
 
   /// Solid, immovable fixtures at a pose. Returns the first of them; the body's others follow by GetNext().
   b2Fixture* freeze(BodyIndex body, std::span<const EngineShape> shapes, b2FixtureDef material,
@@ -32,10 +33,6 @@ class Freezer {
   int hosts() const { return static_cast<int>(hosts_.size() - vacant_.size()); }
 
  private:
-  // Bodies in one host. Taking a fixture out walks its host's list, so a thaw gets dearer with more of them; a step
-  // walks all hosts, so it gets dearer with fewer: at 128 a step of 100 awake bodies costs the same over 100,000
-  // sleepers as over 1,000, at 64 it costs 7 % more, at 16 75 %; a single thaw costs up to 1.5 times one among 16.
-  static constexpr int capacity = 128;
   struct Host {
     b2Body* body = nullptr;
     int sleepers = 0;
@@ -44,6 +41,10 @@ class Freezer {
   static std::size_t slot_of(b2Body& host) { return static_cast<std::size_t>(host.GetUserData().pointer); }
 
   b2World* world_;
+  // Bodies in one host. Taking a fixture out walks its host's list, so a thaw gets dearer with more of them; a step
+  // walks all hosts, so it gets dearer with fewer: at 128 a step of 100 awake bodies costs the same over 100,000
+  // sleepers as over 1,000, at 64 it costs 7 % more, at 16 75 %; a single thaw costs up to 1.5 times one among 16.
+  int capacity_;
   std::vector<Host> hosts_;
   std::vector<std::size_t> vacant_;  // slots without a body
   std::vector<std::size_t> open_;    // slots with room; may name hosts that have been filled or dropped since

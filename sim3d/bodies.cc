@@ -23,7 +23,7 @@ std::unique_ptr<btRigidBody> make_rigid_body(const EngineShape& shape, const btT
     body->setActivationState(DISABLE_DEACTIVATION);
   }
   // Bullet sweeps a body only in steps in which it moves further than this, so slow ones pay nothing.
-  body->setCcdMotionThreshold(shape.inner_radius);
+  body->setCcdMotionThreshold(shape.sweep_from);
   body->setCcdSweptSphereRadius(shape.inner_radius);
   return body;
 }

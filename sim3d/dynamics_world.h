@@ -18,6 +18,9 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   /// Puts just these bodies into the lists, after the static objects; their broadphase entries exist already.
   void set_bodies(std::span<btRigidBody* const> bodies);
 
+  /// Puts a static object into the list of objects until the next set_bodies().
+  void list(btCollisionObject& object) { m_collisionObjects.push_back(&object); }
+
   /// Gives the static object a broadphase entry and a place in the lists, before any body.
   void add_static(btCollisionObject& object);
 

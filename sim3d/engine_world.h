@@ -40,8 +40,10 @@ class EngineWorld final : public World<Dim> {
  private:
   void add_ground();
   void add_obstacles();
+  void rest();
   void read_states();
   void relist();
+  void list_sleepers();
   void find_strayed() const;
   std::size_t known(BodyIndex body) const;
   btRigidBody* rigid_body(std::size_t i) const { return btRigidBody::upcast(objects_[i].get()); }  // null if frozen

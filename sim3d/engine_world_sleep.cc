@@ -68,6 +68,18 @@ void EngineWorld<Dim>::relist() {
     }
   }
   engine_.world.set_bodies(rigid_);
+  if (!description_.skips.sleepers) {
+    list_sleepers();
+  }
+}
+
+template <int Dim>
+void EngineWorld<Dim>::list_sleepers() {
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    if (objects_[i] != nullptr && rigid_body(i) == nullptr) {
+      engine_.world.list(*objects_[i]);
+    }
+  }
 }
 
 // The broadphase knows where a body was before the last step and where it would have gone undisturbed. Looked for only
@@ -115,6 +127,8 @@ template void EngineWorld<2>::thaw(std::span<const BodyIndex>);
 template void EngineWorld<3>::thaw(std::span<const BodyIndex>);
 template void EngineWorld<2>::relist();
 template void EngineWorld<3>::relist();
+template void EngineWorld<2>::list_sleepers();
+template void EngineWorld<3>::list_sleepers();
 template void EngineWorld<2>::near(const Box<2>&, std::vector<BodyIndex>&) const;
 template void EngineWorld<3>::near(const Box<3>&, std::vector<BodyIndex>&) const;
 template void EngineWorld<2>::find_strayed() const;

@@ -96,6 +96,7 @@ EngineShape make_engine_shape(const Shape<Dim>& shape) {
     width = std::min(width, smallest_width(piece));
   }
   made.inner_radius = static_cast<btScalar>(0.5 * width);
+  made.sweep_from = made.inner_radius;
   return made;
 }
 

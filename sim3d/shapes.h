@@ -27,6 +27,7 @@ struct EngineShape {
   btScalar friction = 0;      // square roots of the material's values: Bullet multiplies those of both bodies, which
   btScalar restitution = 0;   // makes the pair's value their geometric mean
   btScalar inner_radius = 0;  // half the smallest width of the thinnest piece [m]
+  btScalar sweep_from = 0;    // a body that moves further in a step gets continuous collision [m]
 };
 
 /// Thickness that a convex hull gains against what is no polyhedron [m]: what Bullet's distance algorithm (GJK) needs

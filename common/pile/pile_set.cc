@@ -57,12 +57,14 @@ void PileSet<Dim>::land(std::span<const Contact<Dim>> contacts, const BodyStates
 
 template <int Dim>
 void PileSet<Dim>::update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt) {
+  const bool look = --steps_to_look_ == 0;
+  if (look) steps_to_look_ = steps_between_looks;
+  if (awake.empty()) return;
   for (std::size_t p = 0; p < piles_.size(); ++p) {
     ledgers_[p].members.resize(states.shape.size());
     for (const BodyIndex body : awake) count(p, body, membership(p, states, body));
   }
-  if (--steps_to_look_ == 0) {
-    steps_to_look_ = steps_between_looks;
+  if (look) {
     for (std::size_t p = 0; p < piles_.size(); ++p) drift(p, states, dt);
     if (piles_.size() > 1) merge_near(states);
   }
@@ -134,6 +136,11 @@ void PileSet<Dim>::recount(std::size_t pile, const BodyStates<Dim>& states) {
   ledger.sum = {};
   ledger.count = 0;
   for (BodyIndex body = 0; body < states.size(); ++body) count(pile, body, membership(pile, states, body));
+}
+
+template <int Dim>
+void PileSet<Dim>::count_anew(const BodyStates<Dim>& states) {
+  for (std::size_t p = 0; p < piles_.size(); ++p) recount(p, states);
 }
 
 /// Section 3.2: the centre goes gradually to the horizontal mean of the pile's bodies. Walls hold it in place.

@@ -32,8 +32,12 @@ class PileSet {
   void land(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
 
   /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, merges piles (3.5), doubles
-  /// full ones. Costs O(awake); a pile that grew or moved is counted anew, which costs O(all bodies) and is rare.
+  /// full ones. Costs O(awake), nothing while nobody is: centres then stay where they are. A pile that grew or moved is
+  /// counted anew, which costs O(all bodies) and is rare.
   void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt);
+
+  /// Counts everybody anew, to the same result. Costs O(all bodies).
+  void count_anew(const BodyStates<Dim>& states);
 
   /// Counts a body anew that fell asleep, woke or left the world.
   void refresh(const BodyStates<Dim>& states, BodyIndex body);

@@ -65,6 +65,7 @@ Scene<Dim> read_root(TableReader& root) {
   root.read("dimension", dimension, between(2, 3));
   read_seed(root, scene.seed);
   root.table("world", [&](TableReader& table) { read_world(table, scene.world); });
+  root.table("skip", [&](TableReader& table) { read_skips(table, scene.world.skips); });
   root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
   root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene.world.obstacles); });
   std::vector<std::string> shape_names;

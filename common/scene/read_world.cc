@@ -37,6 +37,14 @@ void read_world(TableReader& table, WorldDescription<Dim>& world) {
   table.table("solver", [&](TableReader& solver) { read_solver(solver, world.solver); });
 }
 
+void read_skips(TableReader& table, Skips& skips) {
+  table.read("idle", skips.idle);
+  table.read("sleepers", skips.sleepers);
+  table.read("counts", skips.counts);
+  table.read("contacts", skips.contacts);
+  table.read("continuous", skips.continuous);
+}
+
 void read_ground(TableReader& table, Ground& ground) {
   table.read("present", ground.present);
   table.read("height", ground.height, coordinate());

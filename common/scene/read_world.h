@@ -9,6 +9,9 @@ namespace talus {
 template <int Dim>
 void read_world(TableReader& table, WorldDescription<Dim>& world);
 
+/// `[skip]`.
+void read_skips(TableReader& table, Skips& skips);
+
 /// `[ground]`.
 void read_ground(TableReader& table, Ground& ground);
 

@@ -29,7 +29,8 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       emitter_(scene),
       piles_(piles_as_counted(scene.piles, *policy_), typical_body(scene)),
       dt_(scene.world.dt),
-      engine_sleep_(scene.world.engine_sleep) {}
+      engine_sleep_(scene.world.engine_sleep),
+      skips_(scene.world.skips) {}
 
 template <int Dim>
 void Simulation<Dim>::step() {
@@ -55,10 +56,12 @@ template <int Dim>
 void Simulation<Dim>::count_piles() {
   events_.swap(user_events_);
   user_events_.clear();
+  if (!skips_.contacts) world_->contacts();
   if (!policy_->decides() && observers_.empty()) return;
   if (engine_sleep_) note_engine_sleep();
   if (piles_.waiting()) locate_pile();
   if (piles_.needs_contacts() && !world_->awake().empty()) piles_.land(world_->contacts(), world_->states());
+  if (!skips_.counts) piles_.count_anew(world_->states());
   piles_.update(world_->states(), world_->awake(), dt_);
   assert(piles_.counts_match(world_->states()));
 }

@@ -65,6 +65,7 @@ class Simulation {
   double dt_;
   std::int64_t step_ = 0;
   bool engine_sleep_;
+  Skips skips_;
 };
 
 }  // namespace talus

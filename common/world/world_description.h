@@ -5,6 +5,7 @@
 
 #include "common/shape/shape.h"
 #include "common/world/body.h"
+#include "common/world/skips.h"
 
 namespace talus {
 
@@ -36,6 +37,7 @@ struct WorldDescription {
   double gravity = 9.81;   // [m/s^2] downwards, finite, >= 0
   double dt = 1.0 / 60.0;  // [s] in (0, 1/30]; above, bodies sink into each other by a third of a metre
   SolverParams solver;
+  Skips skips;
   bool engine_sleep = false;  // the engine's own sleeping, whole islands at a time
   Ground ground;
   std::vector<Obstacle<Dim>> obstacles;

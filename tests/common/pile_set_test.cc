@@ -159,6 +159,18 @@ TEST(PileCentre, StaysWithoutADriftRate) {
   EXPECT_EQ(piles.piles().front().centre.x(), 0.0);
 }
 
+TEST(PileCentre, StaysWhileNobodyIsAwake) {
+  Bodies<2> bodies;
+  bodies.add(Vec2(0.5, 0.1));
+  PileParams<2> params;
+  params.at = Vec2::Zero();
+  PileSet<2> piles({params}, body);
+  piles.update(bodies.states, bodies.awake(), dt);
+  for (int step = 0; step < 60; ++step) piles.update(bodies.states, {}, dt);
+  EXPECT_EQ(piles.piles().front().centre.x(), 0.0);
+  EXPECT_TRUE(piles.counts_match(bodies.states));
+}
+
 TEST(UnlocatedPile, BeginsWhereItIsToldAndCountsWhoIsThere) {
   Bodies<3> bodies;
   bodies.add(Vec3(7.0, 1.0, 0.1));
