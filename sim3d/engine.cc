@@ -14,12 +14,16 @@ std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverPar
 
 }  // namespace
 
-Engine::Engine(double gravity, const SolverParams& params)
+Engine::Engine(double gravity, const SolverParams& params, const Skips& skips)
     : dispatcher(&configuration),
       broadphase(&pairs),
       solver(make_solver(params)),
       world(&dispatcher, &broadphase, solver.get(), &configuration) {
   dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
+  if (skips.flight) {
+    dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE, &ground_pairs);
+    dispatcher.registerCollisionCreateFunc(STATIC_PLANE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &swapped_ground_pairs);
+  }
   world.setGravity(btVector3(0, 0, static_cast<btScalar>(-gravity)));
   // Static bodies do not move: without this, Bullet refreshes their bounding boxes in every step.
   world.setForceUpdateAllAabbs(false);

@@ -9,16 +9,19 @@
 #include "common/world/world_description.h"
 #include "sim3d/compound_pair.h"
 #include "sim3d/dynamics_world.h"
+#include "sim3d/ground_pair.h"
 #include "sim3d/pairs.h"
 
 namespace talus::bullet {
 
 /// Members are destroyed in reverse order: the world lets go of its proxies and pairs before these go.
 struct Engine {
-  Engine(double gravity, const SolverParams& params);
+  Engine(double gravity, const SolverParams& params, const Skips& skips);
 
   btDefaultCollisionConfiguration configuration;
   CompoundPair::Maker compound_pairs;
+  GroundPair::Maker ground_pairs{false};
+  GroundPair::Maker swapped_ground_pairs{true};
   btCollisionDispatcher dispatcher;
   PairCache pairs;
   btDbvtBroadphase broadphase;

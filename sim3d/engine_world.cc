@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
-    : description_(description), engine_(description.gravity, description.solver) {
+    : description_(description), engine_(description.gravity, description.solver, description.skips) {
   for (const Shape<Dim>& shape : description.shapes) {
     shapes_.push_back(make_engine_shape(shape));
     if (!description.skips.continuous) {

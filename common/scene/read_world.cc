@@ -38,11 +38,9 @@ void read_world(TableReader& table, WorldDescription<Dim>& world) {
 }
 
 void read_skips(TableReader& table, Skips& skips) {
-  table.read("idle", skips.idle);
-  table.read("sleepers", skips.sleepers);
-  table.read("counts", skips.counts);
-  table.read("contacts", skips.contacts);
-  table.read("continuous", skips.continuous);
+  for (const Skip& skip : all_skips) {
+    table.read(skip.name, skips.*skip.field);
+  }
 }
 
 void read_ground(TableReader& table, Ground& ground) {

@@ -1,17 +1,36 @@
 #pragma once
 // What a step leaves out.
 
+#include <array>
+#include <string_view>
+
 namespace talus {
 
 /// Work that a step leaves out since it would change nothing. Each can be put back, to measure what it saves
 /// (`talus bench skips`); a run then gives the same bits, only later, but for `continuous`.
 struct Skips {
-  bool idle = true;      // the engine's step while nobody is awake. Off: a microsecond or two a step
-  bool sleepers = true;  // sleepers in the lists that the engine walks. Off: some nanoseconds a sleeper and step
-  bool counts = true;    // counting sleepers anew. Off: some ten nanoseconds a sleeper, pile and step
-  bool contacts =
-      true;  // gathering contacts that nobody asks for. Off: 5 to 15 % of a full run; `adaptive` asks anyway
+  bool idle = true;        // the engine's step while nobody is awake. Off: up to a microsecond a step
+  bool sleepers = true;    // sleepers in the lists that the engine walks. Off: some nanoseconds a sleeper and step
+  bool counts = true;      // counting sleepers anew. Off: some ten nanoseconds a sleeper, pile and step
+  bool contacts = true;    // gathering contacts that nobody asks for. Off: 5 to 15 % of a full run, not of `adaptive`
+  bool flight = true;      // collision of bodies in flight with the ground, in Bullet. Off: 0.25 us a body and step
   bool continuous = true;  // continuous collision of slow bodies. Off: other bits, and a tenth more time in Box2D
 };
+
+/// A switch by the name that it has in scene files.
+struct Skip {
+  std::string_view name;
+  bool Skips::*field;
+  bool exact;  // whether switching it off gives the same bits
+};
+
+inline constexpr std::array<Skip, 6> all_skips = {{
+    {"idle", &Skips::idle, true},
+    {"sleepers", &Skips::sleepers, true},
+    {"counts", &Skips::counts, true},
+    {"contacts", &Skips::contacts, true},
+    {"flight", &Skips::flight, true},
+    {"continuous", &Skips::continuous, false},
+}};
 
 }  // namespace talus

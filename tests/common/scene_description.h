@@ -34,13 +34,14 @@ std::string description(const Shape<Dim>& shape) {
 
 template <int Dim>
 std::string description(const WorldDescription<Dim>& world) {
-  std::string text =
-      fmt::format("gravity {} dt {} solver {} {} {} {} {} engine_sleep {} skips {} {} {} {} {}\nground {} {} {} {}\n",
-                  world.gravity, world.dt, world.solver.velocity_iterations, world.solver.position_iterations,
-                  world.solver.friction_directions, world.solver.warm_friction, world.solver.restitution_threshold,
-                  world.engine_sleep, world.skips.idle, world.skips.sleepers, world.skips.counts, world.skips.contacts,
-                  world.skips.continuous, world.ground.present, world.ground.height, world.ground.material.friction,
-                  world.ground.material.restitution);
+  std::string text = fmt::format(
+      "gravity {} dt {} solver {} {} {} {} {} engine_sleep {}\nground {} {} {} {}\n", world.gravity, world.dt,
+      world.solver.velocity_iterations, world.solver.position_iterations, world.solver.friction_directions,
+      world.solver.warm_friction, world.solver.restitution_threshold, world.engine_sleep, world.ground.present,
+      world.ground.height, world.ground.material.friction, world.ground.material.restitution);
+  for (const Skip& skip : all_skips) {
+    text += fmt::format("skip {} {}\n", skip.name, world.skips.*skip.field);
+  }
   for (const Obstacle<Dim>& obstacle : world.obstacles) {
     text += "obstacle at" + numbers(obstacle.pose) + " " + description(obstacle.shape);
   }

@@ -124,6 +124,25 @@ TEST(BenchConvergence, ComparesEachSettingWithTheFinest) {
   EXPECT_GT(json["cases"][1]["against_full"]["profile_rms_D"], 0.0);
 }
 
+TEST(BenchSkips, TellsForEachSkipWhetherTheBitsStay) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command(
+      "bench skips --quick --rounds 1 --scene drop_in_a_pile_2d --set source[0].count=10 --set "
+      "run.frames=120 --out " +
+      (folder / "skips"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(contents(folder.path() / "skips" / "results.json"));
+  ASSERT_EQ(json["cases"].size(), 7U) << "all on, and six skips off in turn";
+  const Json& all_on = json["cases"][0];
+  EXPECT_EQ(all_on["policy"], "adaptive");
+  EXPECT_GT(all_on["against_full"]["seconds"], 0.0);
+  for (std::size_t i = 1; i < 6; ++i) {
+    EXPECT_EQ(json["cases"][i]["end_hashes"], all_on["end_hashes"]) << json["cases"][i]["settings"];
+  }
+  EXPECT_EQ(json["cases"][6]["settings"].back(), "skip.continuous=false");
+  EXPECT_NE(outcome.out.find("continuous"), std::string::npos);
+}
+
 TEST(BenchRate, PoursAtSeveralRates) {
   const TemporaryFolder folder;
   const Outcome outcome = talus_command(

@@ -22,6 +22,9 @@ void bench_engines(const BenchOptions& options);
 /// Time step, iterations and friction directions of the full simulation: at which settings a pile stays the same.
 void bench_convergence(const BenchOptions& options);
 
+/// What each skip of a step saves, each switched off in turn.
+void bench_skips(const BenchOptions& options);
+
 /// Speed-up over the pouring rate.
 void bench_rate(const BenchOptions& options);
 /// What sleepers cost: steps, freezing and thawing, memory; and what waking does to a pile.

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tools/bench/bench_plan.h"
+#include "tools/bench/bench_results.h"
+#include "tools/bench/benchmarks.h"
+
+namespace talus {
+
+namespace {
+
+/// All skips on, then each off in turn.
+BenchGroup skips_group(const BenchCase& all_on) {
+  BenchGroup group{{all_on}};
+  for (const Skip& skip : all_skips) {
+    group.cases.push_back(all_on);
+    group.cases.back().settings.push_back(fmt::format("skip.{}=false", skip.name));
+  }
+  return group;
+}
+
+std::vector<BenchGroup> plan(const BenchOptions& options) {
+  const std::vector<std::string> names = {"drop_in_a_pile", "drop_in_a_line", "multiple_piles", "rings_in_a_box"};
+  const std::vector<std::string> policies =
+      options.policies.empty() ? std::vector<std::string>{"adaptive"} : options.policies;
+  std::vector<BenchGroup> groups;
+  for (const std::string& scene : scenes_of(options, names, 1)) {
+    for (const std::string& backend : backends_of(options, scene)) {
+      for (const std::string& policy : policies) {
+        groups.push_back(skips_group({scene, backend, policy, settings_of(options, scene)}));
+      }
+    }
+  }
+  return groups;
+}
+
+bool same_bits(const BenchRunner& runner, const BenchGroup& group, const BenchCase& each) {
+  return runner.hashes(each) == runner.hashes(group.cases.front());
+}
+
+/// Times everything; then, where a skip changed the bits, by how much.
+void measure(const std::vector<BenchGroup>& groups, const BenchOptions& options) {
+  BenchOptions times_only = options;
+  times_only.errors = false;
+  std::vector<BenchGroup> changed;
+  {
+    BenchRunner runner(times_only);
+    runner.run(groups);
+    for (const BenchGroup& group : groups) {
+      BenchGroup other{{group.cases.front()}};
+      std::copy_if(group.cases.begin() + 1, group.cases.end(), std::back_inserter(other.cases),
+                   [&](const BenchCase& each) { return !same_bits(runner, group, each); });
+      if (other.cases.size() > 1) changed.push_back(other);
+    }
+  }
+  if (options.errors) BenchRunner(options).run(changed);
+}
+
+/// Time with the skip off over time with all on, the range of the rounds in brackets.
+std::string ratio_of(const Values& values) {
+  const Values ratio = {{"ratio", 1.0 / value_of(values, "speed_up")},
+                        {"ratio_min", 1.0 / value_of(values, "speed_up_max")},
+                        {"ratio_max", 1.0 / value_of(values, "speed_up_min")}};
+  return shown_with_range(ratio, "ratio");
+}
+
+std::vector<std::string> row_of(const BenchRunner& runner, const BenchGroup& group, const BenchCase& each) {
+  const Values values = runner.summary(each, group.cases.front());
+  const bool same = same_bits(runner, group, each);
+  const auto error = [&](const std::string& name, const std::string& floor) {
+    return same ? "0" : shown(value_of(values, name)) + " / " + shown(value_of(values, floor));
+  };
+  const bool all_on = &each == &group.cases.front();
+  return {key_of(each).scene,
+          each.backend,
+          each.policy,
+          all_on ? "none" : each.settings.back().substr(5, each.settings.back().find('=') - 5),
+          shown_with_range(values, "seconds"),
+          ratio_of(values),
+          shown(value_of(values, "mean_awake")),
+          same ? "yes" : "no",
+          error("horizon_R_30", "horizon_R_30_floor"),
+          error("profile_rms_D", "profile_rms_D_floor"),
+          error("ks_r", "ks_r_floor")};
+}
+
+Table skips_table(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
+  Table table{"", {{"scene"}, {"engine"}, {"policy"}, {"switched off"}}, {}};
+  for (const char* name : {"time [s]", "over all on", "mean awake", "same bits", "R after 30 frames / floor",
+                           "profile rms / D, floor", "KS(r) / floor"}) {
+    table.columns.push_back({name, true});
+  }
+  for (const BenchGroup& group : groups) {
+    for (const BenchCase& each : group.cases) table.rows.push_back(row_of(runner, group, each));
+  }
+  return table;
+}
+
+}  // namespace
+
+void bench_skips(const BenchOptions& options) {
+  const std::vector<BenchGroup> groups = plan(options);
+  measure(groups, options);
+  const BenchRunner runner(options);
+  BenchResults results{"What a step leaves out", {}, {}};
+  results.notes.push_back(
+      "Each run again with one skip switched off (`[skip]` in a scene, `--set skip.idle=false`). Time over that with "
+      "all skips on, within a round: what the skip saves. Where switching a skip off changes the bits, the two runs "
+      "are compared; the floor is what a micrometre does to the run with all skips on.");
+  results.sections.push_back({"What each skip saves", {skips_table(runner, groups)}});
+  write_results(runner, groups, results);
+  fmt::print("{}", text_of(skips_table(runner, groups)));
+}
+
+}  // namespace talus
