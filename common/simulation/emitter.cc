@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/math/random.h"
 
@@ -14,7 +15,8 @@ constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight 
 }  // namespace
 
 template <int Dim>
-Emitter<Dim>::Emitter(const Scene<Dim>& scene) : shapes_(scene.world.shapes) {
+Emitter<Dim>::Emitter(const Scene<Dim>& scene)
+    : shapes_(scene.world.shapes), slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0) {
   std::uint64_t number = 0;
   for (const Source<Dim>& source : scene.sources) {
     std::seed_seq seed{scene.seed, number++};
@@ -26,6 +28,7 @@ Emitter<Dim>::Emitter(const Scene<Dim>& scene) : shapes_(scene.world.shapes) {
 template <int Dim>
 void Emitter<Dim>::emit(World<Dim>& world, double time) {
   if (finished()) return;
+  while (!births_.empty() && births_.front().time + slow_time_ <= time) births_.pop_front();
   for (Spout& spout : spouts_) {
     bool ridden = spout.source.ride_above == 0.0;
     while (due(spout, time)) {
@@ -38,7 +41,8 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
         ++waits_;
         break;
       }
-      world.add(body);
+      const BodyIndex added = world.add(body);
+      if (births_.empty() || births_.back().time < time) births_.push_back({time, added});
       spout.drawn = false;
       ++spout.emitted;
       ++emitted_;
@@ -104,7 +108,8 @@ bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
   });
 }
 
-/// Lifts the spout so that it stays `ride_above` over whatever has settled in the column beneath it.
+/// Lifts the spout so that it stays `ride_above` over whatever has settled in the column beneath it. Bodies appear in
+/// the order of their numbers, and the last ones are slow only since they have just appeared.
 template <int Dim>
 void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   const Vec<Dim> spout_at = place(spout, time);
@@ -115,9 +120,10 @@ void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   near_.clear();
   world.near(column, near_);
   const BodyStates<Dim>& states = world.states();
+  const BodyIndex newborn = births_.empty() ? states.size() : births_.front().body;
   for (const BodyIndex body : near_) {
     const auto i = static_cast<std::size_t>(body);
-    if (states.velocity[i].norm() > settled_speed) continue;
+    if (body >= newborn || states.velocity[i].norm() > settled_speed) continue;
     const double top = height<Dim>(bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]).max());
     spout.lift = std::max(spout.lift, top + spout.source.ride_above - height<Dim>(spout.source.position));
   }

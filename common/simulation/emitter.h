@@ -2,6 +2,7 @@
 // The sources at work.
 
 #include <cstdint>
+#include <deque>
 #include <random>
 #include <vector>
 
@@ -36,6 +37,12 @@ class Emitter {
     BodyDef<Dim> next{};  // its position is relative to the spout
   };
 
+  /// The first of the bodies that appeared at one time.
+  struct Birth {
+    double time = 0.0;
+    BodyIndex body = 0;
+  };
+
   bool due(const Spout& spout, double time) const;
   void draw(Spout& spout) const;
   Vec<Dim> place(const Spout& spout, double time) const;
@@ -45,6 +52,8 @@ class Emitter {
 
   std::vector<Shape<Dim>> shapes_;
   std::vector<Spout> spouts_;
+  double slow_time_;             // from rest to the speed of what is in flight [s]
+  std::deque<Birth> births_;     // of the last slow_time_
   std::vector<BodyIndex> near_;  // scratch
   int emitted_ = 0;
   int total_ = 0;
