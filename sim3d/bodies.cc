@@ -11,11 +11,22 @@ void set_common(btCollisionObject& object, btScalar friction, btScalar restituti
 
 }  // namespace
 
-std::unique_ptr<btRigidBody> make_rigid_body(const EngineShape& shape, const btTransform& place, BodyIndex index,
-                                             bool may_sleep) {
+RigidBodyMaker::~RigidBodyMaker() {
+  for (void* memory : spare_) {
+    btAlignedFree(memory);
+  }
+}
+
+std::unique_ptr<btRigidBody> RigidBodyMaker::make(const EngineShape& shape, const btTransform& place, BodyIndex index,
+                                                  bool may_sleep) {
+  // As the body's own operator new does, so that its operator delete can free it.
+  if (spare_.empty()) {
+    spare_.push_back(btAlignedAlloc(sizeof(btRigidBody), 16));
+  }
   btRigidBody::btRigidBodyConstructionInfo info(shape.mass, nullptr, shape.whole, shape.inertia);
   info.m_startWorldTransform = place;
-  auto body = std::make_unique<btRigidBody>(info);
+  std::unique_ptr<btRigidBody> body(::new (spare_.back()) btRigidBody(info));
+  spare_.pop_back();
   body->setLinearFactor(shape.linear_factor);
   body->setAngularFactor(shape.angular_factor);
   set_common(*body, shape.friction, shape.restitution, index);
@@ -26,6 +37,14 @@ std::unique_ptr<btRigidBody> make_rigid_body(const EngineShape& shape, const btT
   body->setCcdMotionThreshold(shape.sweep_from);
   body->setCcdSweptSphereRadius(shape.inner_radius);
   return body;
+}
+
+void RigidBodyMaker::retire(std::unique_ptr<btCollisionObject> object) {
+  if (btRigidBody* body = btRigidBody::upcast(object.get()); body != nullptr) {
+    object.release();  // NOLINT(bugprone-unused-return-value): it is `body`
+    body->~btRigidBody();
+    spare_.push_back(body);
+  }
 }
 
 std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, btScalar friction, btScalar restitution,

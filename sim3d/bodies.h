@@ -4,15 +4,32 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <vector>
 
 #include "common/world/body.h"
 #include "sim3d/shapes.h"
 
 namespace talus::bullet {
 
-/// Awake: a rigid body at rest. `may_sleep`: whether Bullet's own sleeping applies to it.
-std::unique_ptr<btRigidBody> make_rigid_body(const EngineShape& shape, const btTransform& place, BodyIndex index,
-                                             bool may_sleep);
+/// Awake bodies, each made in the memory of one that fell asleep where there is any. Left to the heap, that memory
+/// would be cut up for sleepers and the rest of it lost: half a kilobyte a sleeper.
+class RigidBodyMaker {
+ public:
+  RigidBodyMaker() = default;
+  RigidBodyMaker(const RigidBodyMaker&) = delete;
+  RigidBodyMaker& operator=(const RigidBodyMaker&) = delete;
+  ~RigidBodyMaker();
+
+  /// A rigid body at rest. `may_sleep`: whether Bullet's own sleeping applies to it.
+  std::unique_ptr<btRigidBody> make(const EngineShape& shape, const btTransform& place, BodyIndex index,
+                                    bool may_sleep);
+
+  /// Ends a rigid body and keeps its memory; other objects just end.
+  void retire(std::unique_ptr<btCollisionObject> object);
+
+ private:
+  std::vector<void*> spare_;
+};
 
 /// Asleep, and the form of ground and obstacles too: a bare collision object, half as large as a rigid body and
 /// without mass, velocity or any work in a step.

@@ -1,9 +1,25 @@
 #include "sim3d/engine.h"
 
+#include <cstddef>
+#include <cstdlib>
+
 #include "sim3d/solver.h"
 
 namespace talus::bullet {
 namespace {
+
+// Bullet takes 23 bytes with each piece of memory to align it to 16, which the heap does by itself: a tenth of what a
+// sleeper takes. Before main(), since what was taken in one way cannot be given back in the other.
+void* take(std::size_t size, int alignment) {
+  const auto unit = static_cast<std::size_t>(alignment);
+  return unit <= alignof(std::max_align_t) ? std::malloc(size)
+                                           : std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
+}
+void give_back(void* memory) { std::free(memory); }
+const bool takes_little = [] {
+  btAlignedAllocSetCustomAligned(take, give_back);
+  return true;
+}();
 
 std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params) {
   if (params.warm_friction) {

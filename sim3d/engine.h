@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "common/world/world_description.h"
+#include "sim3d/bodies.h"
 #include "sim3d/compound_pair.h"
 #include "sim3d/dynamics_world.h"
 #include "sim3d/ground_pair.h"
@@ -27,6 +28,7 @@ struct Engine {
   btDbvtBroadphase broadphase;
   std::unique_ptr<btSequentialImpulseConstraintSolver> solver;
   DynamicsWorld world;
+  RigidBodyMaker rigid_bodies;
 };
 
 }  // namespace talus::bullet

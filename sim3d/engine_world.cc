@@ -74,7 +74,7 @@ BodyIndex EngineWorld<Dim>::add(const BodyDef<Dim>& body) {
   check(body, description_);
   const BodyIndex index = states_.size();
   const EngineShape& shape = shapes_[static_cast<std::size_t>(body.shape)];
-  auto made = make_rigid_body(shape, to_bullet(body.pose, shape.frame), index, description_.engine_sleep);
+  auto made = engine_.rigid_bodies.make(shape, to_bullet(body.pose, shape.frame), index, description_.engine_sleep);
   made->setLinearVelocity(to_bullet(body.velocity));
   made->setAngularVelocity(spin_to_bullet<Dim>(body.spin));
   engine_.world.addRigidBody(made.get());

@@ -17,7 +17,7 @@ void Freezer::freeze(std::unique_ptr<btCollisionObject>& object, const EngineSha
 
 void Freezer::thaw(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape, bool may_sleep) {
   std::unique_ptr<btRigidBody> body =
-      make_rigid_body(shape, object->getWorldTransform(), object->getUserIndex(), may_sleep);
+      engine_.rigid_bodies.make(shape, object->getWorldTransform(), object->getUserIndex(), may_sleep);
   body->setGravity(engine_.world.getGravity());
   exchange(object, std::move(body));
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
@@ -50,7 +50,8 @@ void Freezer::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_p
     }
   }
   proxy->m_clientObject = successor.get();
-  object = std::move(successor);
+  std::swap(object, successor);
+  engine_.rigid_bodies.retire(std::move(successor));
 }
 
 // With sleepers around, Bullet would rebalance one in a hundred entries of its tree of resting bodies in each step.

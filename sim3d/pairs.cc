@@ -33,28 +33,45 @@ void* PairCache::removeOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* 
   return btHashedOverlappingPairCache::removeOverlappingPair(a, b, dispatcher);
 }
 
+std::int32_t PairCache::list_of(const btBroadphaseProxy* proxy) const {
+  const int index = index_of(proxy);
+  const bool known = index >= 0 && static_cast<std::size_t>(index) < lists_of_bodies_.size();
+  return known ? lists_of_bodies_[static_cast<std::size_t>(index)] : -1;
+}
+
 void PairCache::remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* partner) {
   const int index = index_of(proxy);
-  if (index >= 0) {
-    const auto slot = static_cast<std::size_t>(index);
-    if (partners_.size() <= slot) {
-      partners_.resize(slot + 1);
-    }
-    partners_[slot].push_back(partner);
+  if (index < 0) {
+    return;
   }
+  if (list_of(proxy) < 0) {
+    if (free_.empty()) {
+      free_.push_back(static_cast<std::int32_t>(lists_.size()));
+      lists_.emplace_back();
+    }
+    const auto body = static_cast<std::size_t>(index);
+    if (lists_of_bodies_.size() <= body) {
+      lists_of_bodies_.resize(body + 1, -1);
+    }
+    lists_of_bodies_[body] = free_.back();
+    free_.pop_back();
+  }
+  lists_[static_cast<std::size_t>(list_of(proxy))].push_back(partner);
 }
 
 void PairCache::forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* partner) {
-  const int index = index_of(proxy);
-  if (index >= 0 && static_cast<std::size_t>(index) < partners_.size()) {
-    std::vector<btBroadphaseProxy*>& list = partners_[static_cast<std::size_t>(index)];
-    const auto found = std::find(list.begin(), list.end(), partner);
-    if (found != list.end()) {
-      list.erase(found);
-      if (list.empty()) {
-        list.shrink_to_fit();  // sleepers, the many, have none
-      }
-    }
+  const std::int32_t number = list_of(proxy);
+  if (number < 0) {
+    return;
+  }
+  std::vector<btBroadphaseProxy*>& list = lists_[static_cast<std::size_t>(number)];
+  const auto found = std::find(list.begin(), list.end(), partner);
+  if (found != list.end()) {
+    list.erase(found);
+  }
+  if (list.empty()) {
+    lists_of_bodies_[static_cast<std::size_t>(index_of(proxy))] = -1;
+    free_.push_back(number);
   }
 }
 
@@ -80,11 +97,11 @@ std::span<btBroadphaseProxy* const> PairCache::static_partners(const btBroadphas
 }
 
 std::span<btBroadphaseProxy* const> PairCache::partners(const btBroadphaseProxy* proxy) const {
-  const int index = index_of(proxy);
-  if (index < 0 || static_cast<std::size_t>(index) >= partners_.size()) {
+  const std::int32_t number = list_of(proxy);
+  if (number < 0) {
     return {};
   }
-  return partners_[static_cast<std::size_t>(index)];
+  return lists_[static_cast<std::size_t>(number)];
 }
 
 }  // namespace talus::bullet

@@ -3,6 +3,7 @@
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,11 +28,14 @@ class PairCache final : public btHashedOverlappingPairCache {
   std::span<btBroadphaseProxy* const> partners(const btBroadphaseProxy* proxy) const;
 
  private:
+  std::int32_t list_of(const btBroadphaseProxy* proxy) const;  // -1: none
   void remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* partner);
   void forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* partner);
 
-  // By body. Ground and obstacles, which meet everybody and never leave, have none.
-  std::vector<std::vector<btBroadphaseProxy*>> partners_;
+  // Ground and obstacles, which meet everybody and never leave, have no list; nor have sleepers far from anybody awake.
+  std::vector<std::vector<btBroadphaseProxy*>> lists_;
+  std::vector<std::int32_t> free_;  // lists that are nobody's
+  std::vector<std::int32_t> lists_of_bodies_;
   std::vector<btBroadphaseProxy*> leaving_;  // scratch
 };
 

@@ -58,18 +58,45 @@ struct WarmStart::Sides {
       std::swap(owner, partner);
     }
   }
-  bool between(const SavedPoint& point) const { return point.partner == partner->getUserIndex(); }
-
   btCollisionObject* owner;
   btCollisionObject* partner;
 };
 
-std::vector<WarmStart::SavedPoint>& WarmStart::points_of(const Sides& sides) {
-  const auto slot = static_cast<std::size_t>(sides.owner->getUserIndex());
-  if (points_.size() <= slot) {
-    points_.resize(slot + 1);
+void WarmStart::keep(const Sides& sides, const SavedPoint& point) {
+  if (free_.empty()) {
+    free_.push_back(static_cast<std::int32_t>(nodes_.size()));
+    nodes_.emplace_back();
   }
-  return points_[slot];
+  const std::int32_t node = free_.back();
+  free_.pop_back();
+  nodes_[static_cast<std::size_t>(node)] = {point, -1};
+  const auto owner = static_cast<std::size_t>(sides.owner->getUserIndex());
+  if (first_.size() <= owner) {
+    first_.resize(owner + 1, -1);
+  }
+  std::int32_t* link = &first_[owner];
+  while (*link >= 0) {
+    link = &nodes_[static_cast<std::size_t>(*link)].next;
+  }
+  *link = node;
+}
+
+void WarmStart::release(const Sides& sides, std::vector<SavedPoint>& out) {
+  const auto owner = static_cast<std::size_t>(sides.owner->getUserIndex());
+  if (first_.size() <= owner) {
+    return;
+  }
+  for (std::int32_t* link = &first_[owner]; *link >= 0;) {
+    const std::int32_t node = *link;
+    const Node& here = nodes_[static_cast<std::size_t>(node)];
+    if (here.point.partner == sides.partner->getUserIndex()) {
+      out.push_back(here.point);
+      *link = here.next;
+      free_.push_back(node);
+    } else {
+      link = &nodes_[static_cast<std::size_t>(node)].next;
+    }
+  }
 }
 
 void WarmStart::save(btBroadphasePair& pair) {
@@ -77,8 +104,8 @@ void WarmStart::save(btBroadphasePair& pair) {
     return;  // no step has passed since the pair came back: what was saved still holds
   }
   const Sides sides(pair);
-  std::vector<SavedPoint>& saved = points_of(sides);
-  std::erase_if(saved, [&](const SavedPoint& point) { return sides.between(point); });
+  release(sides, saved_);  // what an earlier sleep left
+  saved_.clear();
   manifolds_.resize(0);
   pair.m_algorithm->getAllContactManifolds(manifolds_);
   for (int m = 0; m < manifolds_.size(); ++m) {
@@ -90,18 +117,17 @@ void WarmStart::save(btBroadphasePair& pair) {
         const btVector3 normal = first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
         const btVector3 on_first = friction_impulse(point);
         const btVector3 friction = first ? on_first : -on_first;
-        saved.push_back({sides.partner->getUserIndex(),
-                         {place.x(), place.y(), place.z()},
-                         {normal.x(), normal.y(), normal.z()},
-                         point.m_distance1,
-                         point.m_appliedImpulse,
-                         {friction.x(), friction.y(), friction.z()},
-                         static_cast<std::int16_t>(first ? point.m_index0 : point.m_index1),
-                         static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0)});
+        keep(sides, {sides.partner->getUserIndex(),
+                     {place.x(), place.y(), place.z()},
+                     {normal.x(), normal.y(), normal.z()},
+                     point.m_distance1,
+                     point.m_appliedImpulse,
+                     {friction.x(), friction.y(), friction.z()},
+                     static_cast<std::int16_t>(first ? point.m_index0 : point.m_index1),
+                     static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0)});
       }
     }
   }
-  saved.shrink_to_fit();
 }
 
 void WarmStart::announce(btBroadphaseProxy& woken, const PairCache& pairs) {
@@ -111,8 +137,12 @@ void WarmStart::announce(btBroadphaseProxy& woken, const PairCache& pairs) {
 }
 
 void WarmStart::forget(BodyIndex body) {
-  if (static_cast<std::size_t>(body) < points_.size()) {
-    points_[static_cast<std::size_t>(body)] = {};
+  if (static_cast<std::size_t>(body) < first_.size()) {
+    std::int32_t& first = first_[static_cast<std::size_t>(body)];
+    while (first >= 0) {
+      free_.push_back(first);
+      first = nodes_[static_cast<std::size_t>(first)].next;
+    }
   }
   std::erase_if(announced_, [body](const auto& pair) {
     return object_of(pair.first).getUserIndex() == body || object_of(pair.second).getUserIndex() == body;
@@ -133,8 +163,9 @@ void WarmStart::restore(PairCache& pairs, const btDispatcherInfo& info) {
 // belongs to which pieces.
 void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   const Sides sides(pair);
-  std::vector<SavedPoint>& saved = points_of(sides);
-  if (std::none_of(saved.begin(), saved.end(), [&](const SavedPoint& point) { return sides.between(point); })) {
+  saved_.clear();
+  release(sides, saved_);
+  if (saved_.empty()) {
     return;
   }
   const btCollisionObjectWrapper owner(nullptr, sides.owner->getCollisionShape(), sides.owner,
@@ -146,14 +177,13 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   PieceRecorder recorder(owner_first ? &owner : &partner, owner_first ? &partner : &owner);
   pair.m_algorithm->processCollision(owner_first ? &owner : &partner, owner_first ? &partner : &owner, info, &recorder);
   for (const PieceRecorder::Entry& entry : recorder.finish()) {
-    for (const SavedPoint& point : saved) {
-      if (sides.between(point) && point.piece == (owner_first ? entry.piece0 : entry.piece1) &&
+    for (const SavedPoint& point : saved_) {
+      if (point.piece == (owner_first ? entry.piece0 : entry.piece1) &&
           point.partners_piece == (owner_first ? entry.piece1 : entry.piece0)) {
         put_back(point, sides, *entry.manifold);
       }
     }
   }
-  std::erase_if(saved, [&](const SavedPoint& point) { return sides.between(point); });
 }
 
 void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold) {

@@ -4,6 +4,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <cstdint>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -40,12 +41,21 @@ class WarmStart {
     std::int16_t piece;  // number within the owner's shape; -1 where the shape is a single piece
     std::int16_t partners_piece;
   };
+  struct Node {
+    SavedPoint point;
+    std::int32_t next;  // of the same owner, -1: the last
+  };
   struct Sides;
-  std::vector<SavedPoint>& points_of(const Sides& sides);
+  void keep(const Sides& sides, const SavedPoint& point);
+  /// Takes out those between the two and appends them to `out`, in the order in which they were kept.
+  void release(const Sides& sides, std::vector<SavedPoint>& out);
   void restore(btBroadphasePair& pair, const btDispatcherInfo& info);
   static void put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold);
 
-  std::vector<std::vector<SavedPoint>> points_;  // by owner
+  std::deque<Node> nodes_;  // grows without copies and spare room
+  std::vector<std::int32_t> free_;
+  std::vector<std::int32_t> first_;  // by owner; -1: none
+  std::vector<SavedPoint> saved_;    // scratch
   std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*>> announced_;
   btManifoldArray manifolds_;  // scratch
 };
