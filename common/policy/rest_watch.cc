@@ -1,6 +1,7 @@
 #include "common/policy/rest_watch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace talus {
@@ -24,16 +25,26 @@ RestWatch<Dim>::RestWatch(double distance, const std::vector<Shape<Dim>>& shapes
 
 template <int Dim>
 void RestWatch<Dim>::update(std::int64_t step, const BodyStates<Dim>& states, std::span<const BodyIndex> awake) {
-  anchors_.resize(states.shape.size());
+  last_anchors_.swap(anchors_);
+  anchors_.clear();
+  if (last_step_ != step - 1) last_anchors_.clear();  // after a gap all rest begins anew
+  last_step_ = step;
+  auto last = last_anchors_.begin();
   for (const BodyIndex body : awake) {
     const auto i = static_cast<std::size_t>(body);
-    Anchor& anchor = anchors_[i];
     const double reach = reach_[static_cast<std::size_t>(states.shape[i])];
-    if (anchor.seen != step - 1 || farthest_move(anchor.pose, states.pose[i], reach) > distance_) {
-      anchor = {.pose = states.pose[i], .since = step};
-    }
-    anchor.seen = step;
+    while (last != last_anchors_.end() && last->body < body) ++last;
+    const bool rests = last != last_anchors_.end() && last->body == body &&
+                       farthest_move(last->pose, states.pose[i], reach) <= distance_;
+    anchors_.push_back(rests ? *last : Anchor{.body = body, .pose = states.pose[i], .since = step});
   }
+}
+
+template <int Dim>
+std::int64_t RestWatch<Dim>::steps_at_rest(std::int64_t step, BodyIndex body) const {
+  const auto anchor = std::ranges::lower_bound(anchors_, body, {}, &Anchor::body);
+  assert(anchor != anchors_.end() && anchor->body == body);
+  return step - anchor->since;
 }
 
 template class RestWatch<2>;

@@ -20,21 +20,21 @@ class RestWatch {
   /// To be called once a step. Costs O(awake).
   void update(std::int64_t step, const BodyStates<Dim>& states, std::span<const BodyIndex> awake);
 
-  /// Steps since the body's rest began; 0 for one that moves.
-  std::int64_t steps_at_rest(std::int64_t step, BodyIndex body) const {
-    return step - anchors_[static_cast<std::size_t>(body)].since;
-  }
+  /// Steps since the rest of a body that is awake began; 0 for one that moves.
+  std::int64_t steps_at_rest(std::int64_t step, BodyIndex body) const;
 
  private:
   struct Anchor {
+    BodyIndex body = 0;
     Pose<Dim> pose{};
     std::int64_t since = 0;  // step at which the rest began
-    std::int64_t seen = -1;  // last step at which the body was awake; after a gap its rest begins anew
   };
 
   double distance_;
-  std::vector<double> reach_;    // [shape] farthest that a point lies from the centre of mass [m]
-  std::vector<Anchor> anchors_;  // [body]
+  std::vector<double> reach_;         // [shape] farthest that a point lies from the centre of mass [m]
+  std::vector<Anchor> anchors_;       // of the awake, ascending
+  std::vector<Anchor> last_anchors_;  // of the step before
+  std::int64_t last_step_ = -1;
 };
 
 /// No point within `reach` of the centre of mass moves farther than this [m] between two poses.
