@@ -57,9 +57,9 @@ void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
     if (!event.woke) fell_asleep_.push_back(event.body);
   }
   if (frame.step % steps_per_frame_ == 0) {
-    const bool key_frame = frame.step % steps_per_key_frame_ == 0;
-    if (key_frame) write_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
-    write_output(frame, key_frame);
+    const bool due = frame.step % steps_per_key_frame_ == 0;
+    if (due) write_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
+    write_output(frame, due && poses_since_key_frame_ >= frame.world.states().size());
   }
   log_.flush_after(flush_interval_);
 }
@@ -78,7 +78,9 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   auto stats = to_stats<Dim>(states, frame.world.awake(), shapes_);
   write(stats, frame.step, frame.time);
   std::vector<BodyIndex> bodies = moved(frame);
+  poses_since_key_frame_ += static_cast<std::int64_t>(bodies.size());
   if (key_frame) {
+    poses_since_key_frame_ = 0;
     bodies.clear();
     for (BodyIndex body = 0; body < states.size(); ++body) {
       if (states.removed[static_cast<std::size_t>(body)] == 0) bodies.push_back(body);

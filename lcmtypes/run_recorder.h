@@ -12,14 +12,16 @@ namespace talus {
 
 struct RecorderParams {
   double flush_interval = 1.0;      // [s] of wall time, >= 0: what kill -9 may cost. Small: a system call each time
-  double key_frame_interval = 1.0;  // [s] of simulated time, > 0: everybody's pose. Long: a reader that starts in the
-                                    // middle waits long; short: the file grows with the sleepers
+  double key_frame_interval = 1.0;  // [s] of simulated time, > 0: at least so long between two key frames, which have
+                                    // everybody's pose. Long: a reader that starts in the middle waits long; short:
+                                    // the file of a lively run doubles
 };
 
 /// Writes the record of a run: shapes at the start, sleep events of each step, piles, statistics and poses of each
-/// frame of output, key frames, and why it ended. Stamps are simulated time and nothing in the file is from the wall
-/// clock, so the same run gives the same bytes. When the disk is full a call throws std::system_error, and later ones
-/// do nothing.
+/// frame of output, key frames, and why it ended. Key frames come after at least as many poses of moving bodies, so
+/// together they take no more room than what moves, however many sleep. Stamps are simulated time and nothing in the
+/// file is from the wall clock, so the same run gives the same bytes. When the disk is full a call throws
+/// std::system_error, and later ones do nothing.
 template <int Dim>
 class RunRecorder final : public Observer<Dim> {
  public:
@@ -44,6 +46,7 @@ class RunRecorder final : public Observer<Dim> {
   std::vector<Shape<Dim>> shapes_;
   std::int64_t steps_per_frame_;
   std::int64_t steps_per_key_frame_;
+  std::int64_t poses_since_key_frame_ = 0;
   double flush_interval_;
   EventLog log_;
   Sealer sealer_;

@@ -101,6 +101,37 @@ TEST(RunRecorder, TellsTheLastPoseOfABodyThatFellAsleep) {
   EXPECT_EQ(bodies[4].key_frame, 1);
 }
 
+// 12 bodies, all awake for the first four of every eight steps: each second brings 15 times as many poses as there are
+// bodies, so a key frame is due at each; with nobody awake there is nothing that a key frame could tell.
+TEST(RunRecorder, WritesAKeyFrameOnlyAfterAsManyPosesOfMovingBodies) {
+  const ScratchFile lively;
+  record<2>(lively.path(), 180);
+  std::vector<std::int64_t> steps;
+  for (const auto& bodies : read(lively.path()).all<talus_bodies_v1>()) {
+    if (bodies.key_frame != 0) steps.push_back(bodies.step);
+  }
+  EXPECT_EQ(steps, (std::vector<std::int64_t>{60, 120, 180, 180}));
+
+  const ScratchFile calm;
+  {
+    const Scene<2> scene = still_scene<2>();
+    RunRecorder<2> recorder(calm.path(), run_info(scene, "still", "none"), scene, {.key_frame_interval = 1.0 / 30.0});
+    const auto run = still_run<2>(scene, 12);
+    run->add_observer(recorder);
+    for (int step = 0; step < 24; ++step) run->step();
+    run->end("finished");
+  }
+  std::int64_t moving = 0;
+  for (const auto& bodies : read(calm.path()).all<talus_bodies_v1>()) {
+    if (bodies.key_frame == 0) {
+      moving += bodies.body_count;
+      continue;
+    }
+    EXPECT_TRUE(moving >= 12 || bodies.step == 24) << "step " << bodies.step;
+    moving = 0;
+  }
+}
+
 TEST(RunRecorder, StampsWithSimulatedTimeSoThatPlayersKeepThePace) {
   const ScratchFile file;
   record<2>(file.path(), 120);
