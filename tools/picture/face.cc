@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/shape/surface.h"
+#include "tools/picture/exposed.h"
 
 namespace talus {
 
@@ -78,7 +79,7 @@ std::vector<Face> faces_of(const PictureInput<3>& input, const Framing<3>& frami
     shapes.push_back(faces_of(shape, segments));
   }
   std::vector<Face> all;
-  for (const BodyIndex body : framing.drawn) {
+  for (const BodyIndex body : exposed(input, framing.drawn)) {
     const auto i = static_cast<std::size_t>(body);
     add_faces(all, shapes[static_cast<std::size_t>(input.states.shape[i])], input.states.pose[i], body);
   }

@@ -33,7 +33,8 @@ struct Face {
 inline bool is_body(const Face& face) { return face.owner >= 0; }
 inline bool is_obstacle(const Face& face) { return face.owner <= obstacle_owner; }
 
-/// Faces of the framed bodies in order, then of the obstacles, then of the ground if there is one.
+/// Faces of the framed bodies that may be seen (see exposed()) in order, then of the obstacles, then of the ground if
+/// there is one.
 std::vector<Face> faces_of(const PictureInput<3>& input, const Framing<3>& framing);
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 // The 2D scene: a scale drawing of vectors.
 
 #include <array>
+#include <memory>
 
 #include "common/shape/surface.h"
 #include "tools/picture/layer_rim.h"
@@ -11,12 +12,16 @@ namespace talus {
 
 namespace {
 
+constexpr std::size_t most_vectors = 20000;  // bodies; of more, the SVG would take half a kilobyte each
+constexpr int image_scale = 2;               // pixels of the image in one of the page
+
 struct FlatScene {
   const PictureInput<2>& input;
   const Framing<2>& framing;
   const Projection<2>& projection;
   const PictureParams& params;
   int width;
+  std::shared_ptr<cairo_surface_t> many_bodies;  // an image of them; none: drawn as vectors
 
   std::vector<Vec2> on_page(const std::vector<Vec2>& points) const {
     std::vector<Vec2> page;
@@ -35,7 +40,11 @@ struct FlatScene {
     }
     // More beneath the bodies than over them: tinted, they still keep their colours.
     paint_layers(canvas, 0.65);
-    paint_bodies(canvas);
+    if (many_bodies != nullptr) {
+      paint_image(canvas);
+    } else {
+      paint_bodies(canvas);
+    }
     paint_layers(canvas, 0.35);
     paint_layer_lines(canvas);
     if (input.ground.present) {
@@ -67,6 +76,14 @@ struct FlatScene {
     cairo_stroke(canvas);
   }
 
+  void paint_image(cairo_t* canvas) const {
+    cairo_save(canvas);
+    cairo_scale(canvas, 1.0 / image_scale, 1.0 / image_scale);
+    cairo_set_source_surface(canvas, many_bodies.get(), 0.0, 0.0);
+    cairo_paint(canvas);
+    cairo_restore(canvas);
+  }
+
   /// Lines first, then all pieces on top of them: no line is left where two pieces of a body meet.
   void paint_pieces(cairo_t* canvas, const std::vector<Loop<2>>& loops, const Pose<2>& pose, const Colour& fill,
                     const Colour& outline, double line) const {
@@ -77,10 +94,12 @@ struct FlatScene {
       }
       trace_polygon(canvas, corners);
     }
-    set_colour(canvas, outline);
-    cairo_set_line_width(canvas, 2.0 * line);
-    cairo_set_line_join(canvas, CAIRO_LINE_JOIN_ROUND);
-    cairo_stroke_preserve(canvas);
+    if (line > 0.0) {
+      set_colour(canvas, outline);
+      cairo_set_line_width(canvas, 2.0 * line);
+      cairo_set_line_join(canvas, CAIRO_LINE_JOIN_ROUND);
+      cairo_stroke_preserve(canvas);
+    }
     set_colour(canvas, fill);
     cairo_fill(canvas);
   }
@@ -92,7 +111,8 @@ struct FlatScene {
       shapes.push_back(outlines(shape, framing.drawn.size() > 2000 ? 16 : 40));
       extent = std::max(extent, shape.extent);
     }
-    const double line = std::clamp(0.03 * extent * projection.scale, 0.15, 1.2);
+    const double size = extent * projection.scale;
+    const double line = many_bodies != nullptr && size < 2.0 ? 0.0 : std::clamp(0.03 * size, 0.15, 1.2);
     for (const BodyIndex body : framing.drawn) {
       const auto i = static_cast<std::size_t>(body);
       const auto shape = static_cast<std::size_t>(input.states.shape[i]);
@@ -144,8 +164,17 @@ struct FlatScene {
 }  // namespace
 
 Painter scene_painter(const PictureInput<2>& input, const Framing<2>& framing, const Projection<2>& projection,
-                      const PictureParams& params, int width, int) {
-  return [=, scene = FlatScene{input, framing, projection, params, width}](cairo_t* canvas) { scene.paint(canvas); };
+                      const PictureParams& params, int width, int height) {
+  FlatScene scene{input, framing, projection, params, width, nullptr};
+  if (framing.drawn.size() > most_vectors) {
+    scene.many_bodies = {cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image_scale * width, image_scale * height),
+                         cairo_surface_destroy};
+    const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> canvas(cairo_create(scene.many_bodies.get()),
+                                                                    cairo_destroy);
+    cairo_scale(canvas.get(), image_scale, image_scale);
+    scene.paint_bodies(canvas.get());
+  }
+  return [scene](cairo_t* canvas) { scene.paint(canvas); };
 }
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #include "tools/picture/picture.h"
 
+#include "tools/picture/coarse_layers.h"
 #include "tools/picture/layout.h"
 #include "tools/picture/scene_painter.h"
 #include "tools/picture/write_file.h"
@@ -7,6 +8,8 @@
 namespace talus {
 
 namespace {
+
+constexpr int most_layers = 32;  // of a pile
 
 template <int Dim>
 PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& framing) {
@@ -26,9 +29,15 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
 }  // namespace
 
 template <int Dim>
-void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& input,
+void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& whole,
                const PictureParams& params) {
   check(params);
+  std::vector<Pile<Dim>> piles;
+  for (const Pile<Dim>& pile : whole.piles) {
+    piles.push_back(with_coarse_layers(pile, most_layers));
+  }
+  PictureInput<Dim> input = whole;
+  input.piles = piles;
   const Framing<Dim> framing = framing_of(input);
   const Page page(content_of(input, framing), params);
   const Layout<Dim> layout = lay_out(framing, page, params);

@@ -1,0 +1,14 @@
+#pragma once
+// Who can be seen of very many bodies.
+
+#include <vector>
+
+#include "tools/picture/picture.h"
+
+namespace talus {
+
+/// Those of `bodies` that are no deeper than two extents beneath the lowest surface around them, the surface being the
+/// highest body in each column as wide as an extent. All of them, where they are few enough to be drawn one and all.
+std::vector<BodyIndex> exposed(const PictureInput<3>& input, const std::vector<BodyIndex>& bodies);
+
+}  // namespace talus
