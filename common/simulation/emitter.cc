@@ -17,6 +17,9 @@ constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight 
 template <int Dim>
 Emitter<Dim>::Emitter(const Scene<Dim>& scene)
     : shapes_(scene.world.shapes), slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0) {
+  if (scene.world.ground.present) ground_ = scene.world.ground.height;
+  for (const Obstacle<Dim>& obstacle : scene.world.obstacles)
+    fixed_.push_back(bounds_at(obstacle.shape, obstacle.pose));
   std::uint64_t number = 0;
   for (const Source<Dim>& source : scene.sources) {
     std::seed_seq seed{scene.seed, number++};
@@ -124,9 +127,28 @@ void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   for (const BodyIndex body : near_) {
     const auto i = static_cast<std::size_t>(body);
     if (body >= newborn || states.velocity[i].norm() > settled_speed) continue;
-    const double top = height<Dim>(bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]).max());
-    spout.lift = std::max(spout.lift, top + spout.source.ride_above - height<Dim>(spout.source.position));
+    const Box<Dim> bounds = bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]);
+    const double lift = height<Dim>(bounds.max()) + spout.source.ride_above - height<Dim>(spout.source.position);
+    if (lift > spout.lift && lies_on_something(world, body, bounds)) spout.lift = lift;
   }
+}
+
+/// What a blow has thrown up is slow for a moment too.
+template <int Dim>
+bool Emitter<Dim>::lies_on_something(const World<Dim>& world, BodyIndex body, const Box<Dim>& bounds) {
+  Box<Dim> beneath = bounds;
+  beneath.min()[Dim - 1] -= 0.05 * bounds.sizes()[Dim - 1];
+  if (height<Dim>(beneath.min()) < ground_) return true;
+  if (std::any_of(fixed_.begin(), fixed_.end(), [&](const Box<Dim>& box) { return box.intersects(beneath); }))
+    return true;
+  beneath_.clear();
+  world.near(beneath, beneath_);
+  const BodyStates<Dim>& states = world.states();
+  return std::any_of(beneath_.begin(), beneath_.end(), [&](BodyIndex other) {
+    const auto i = static_cast<std::size_t>(other);
+    return other != body &&
+           beneath.intersects(bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]));
+  });
 }
 
 template class Emitter<2>;

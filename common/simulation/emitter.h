@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -49,12 +50,16 @@ class Emitter {
   Vec<Dim> place_in_grid(const Spout& spout) const;
   bool has_room(const World<Dim>& world, const BodyDef<Dim>& body);
   void ride(const World<Dim>& world, Spout& spout, double time);
+  bool lies_on_something(const World<Dim>& world, BodyIndex body, const Box<Dim>& bounds);
 
   std::vector<Shape<Dim>> shapes_;
   std::vector<Spout> spouts_;
-  double slow_time_;             // from rest to the speed of what is in flight [s]
-  std::deque<Birth> births_;     // of the last slow_time_
-  std::vector<BodyIndex> near_;  // scratch
+  std::vector<Box<Dim>> fixed_;                               // around the obstacles
+  double ground_ = -std::numeric_limits<double>::infinity();  // [m]
+  double slow_time_;                                          // from rest to the speed of what is in flight [s]
+  std::deque<Birth> births_;                                  // of the last slow_time_
+  std::vector<BodyIndex> near_;                               // scratch
+  std::vector<BodyIndex> beneath_;                            // scratch
   int emitted_ = 0;
   int total_ = 0;
   std::int64_t waits_ = 0;
