@@ -53,7 +53,7 @@ double median_step(World<Dim>& world, int steps) {
 /// Adds and freezes batch by batch, so that never many are awake at once.
 template <int Dim>
 void add_block(World<Dim>& world, int sleepers, int side) {
-  constexpr int batch = 5000;
+  constexpr int batch = 500;
   std::vector<BodyIndex> block;
   for (int i = 0; i < sleepers; ++i) {
     block.push_back(world.add({.pose = {.position = place<Dim>(i, side)}}));
