@@ -34,14 +34,15 @@ TEST(CoarseLayers, LeaveAPileOfFewAlone) {
   EXPECT_EQ(with_coarse_layers(sample.piles[0], 32).layers.size(), sample.piles[0].layers.size());
 }
 
-// A block of 64 x 64 x 32 bodies, an extent apart: seen are its top, its sides, and one more layer beneath these.
+// A block of 64 x 64 x 32 bodies, just over an extent apart: seen are its top, its sides, and one more layer beneath
+// these.
 TEST(ExposedBodies, AreTheSkinOfAThickBlock) {
   Sample<3> sample;
   constexpr int side = 64;
   constexpr int tall = 32;
-  const double extent = sample.shapes[0].extent;
+  const double spacing = 1.001 * sample.shapes[0].extent;
   for (int i = 0; i < side * side * tall; ++i) {
-    sample.add(extent * Vec3(i % side, i / side % side, i / side / side), true);
+    sample.add(spacing * Vec3(i % side, i / side % side, i / side / side), true);
   }
   std::vector<BodyIndex> all(sample.states.shape.size());
   std::iota(all.begin(), all.end(), 0);
