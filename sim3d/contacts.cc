@@ -1,12 +1,17 @@
 #include "sim3d/contacts.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "sim3d/friction_impulse.h"
 #include "sim3d/plane.h"
 
 namespace talus::bullet {
+namespace {
+
+/// Ascending as (a, b) are; b is negative for ground and obstacles.
+std::int64_t place_of_pair(BodyIndex a, BodyIndex b) { return (std::int64_t{a} << 32) + b; }
+
+}  // namespace
 
 template <int Dim>
 void Contacts<Dim>::before_step(std::span<btRigidBody* const> awake) {
@@ -43,12 +48,12 @@ void Contacts<Dim>::gather(const Engine& engine) {
     }
     // The awake one is a, of two awake ones the first added.
     const bool swap = !first.isActive() || (second.isActive() && second.getUserIndex() < first.getUserIndex());
-    touches_.push_back({&manifold, swap ? &second : &first, swap ? &first : &second, swap});
+    const btCollisionObject& a = swap ? second : first;
+    const btCollisionObject& b = swap ? first : second;
+    touches_.push_back({place_of_pair(a.getUserIndex(), b.getUserIndex()), &manifold, &a, &b, swap});
   }
   // The manifolds' order depends on the history of pairs; those of one pair keep theirs.
-  std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& l, const Touch& r) {
-    return std::tuple(l.a->getUserIndex(), l.b->getUserIndex()) < std::tuple(r.a->getUserIndex(), r.b->getUserIndex());
-  });
+  std::ranges::stable_sort(touches_, {}, &Touch::place);
   contacts_.clear();
   for (const Touch& touch : touches_) {
     append(touch);
@@ -82,6 +87,9 @@ void Contacts<Dim>::append(const Touch& touch) {
 
 template <int Dim>
 typename Contacts<Dim>::Motion Contacts<Dim>::motion_before(const btCollisionObject& object) const {
+  if (object.isStaticObject()) {
+    return {};
+  }
   const BodyIndex index = object.getUserIndex();
   const auto found = std::lower_bound(moving_.begin(), moving_.end(), index);
   if (found == moving_.end() || *found != index) {

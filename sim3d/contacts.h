@@ -3,6 +3,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,7 @@ class Contacts {
   };
   /// The contact of a pair, or of two of its pieces, and its bodies in the order in which they are told.
   struct Touch {
+    std::int64_t place = 0;  // in the order of pairs
     const btPersistentManifold* manifold = nullptr;
     const btCollisionObject* a = nullptr;
     const btCollisionObject* b = nullptr;
