@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
+
+#include "common/pile/natural_slope.h"
 
 namespace talus {
 
@@ -17,13 +20,22 @@ constexpr double least_drift = 0.02;
 /// Piles merge when their centres were near at so many looks in a row: piles that just pass stay apart.
 constexpr int looks_to_merge = 2;
 
+// A slope that is not given is measured each time that the pile has grown by a tenth, and when it has come to rest; all
+// measurements together cost a few dozen passes over the bodies. Until there are enough bodies to tell, it is a usual
+// one.
+constexpr double usual_slope = std::numbers::pi / 6.0;
+constexpr int least_to_measure = 16;
+constexpr double growth_to_measure = 1.1;
+constexpr double growth_to_measure_at_rest = 1.01;
+constexpr double least_turn = std::numbers::pi / 180.0;  // changes below this are not worth a new count
+
 }  // namespace
 
 template <int Dim>
 PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body)
     : body_(body), steps_to_look_(steps_between_looks) {
   for (const PileParams<Dim>& pile : params) {
-    needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true);
+    needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true) || !pile.alpha;
     if (pile.at) {
       add_pile(pile, *pile.at);
     } else {
@@ -34,7 +46,8 @@ PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& bo
 
 template <int Dim>
 void PileSet<Dim>::add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre) {
-  piles_.push_back(make_pile<Dim>(centre, params.alpha, params.initial_size, body_, params.boundary));
+  piles_.push_back(
+      make_pile<Dim>(centre, params.alpha.value_or(usual_slope), params.initial_size, body_, params.boundary));
   ledgers_.push_back({.params = params});
 }
 
@@ -65,7 +78,10 @@ void PileSet<Dim>::update(const BodyStates<Dim>& states, std::span<const BodyInd
     for (const BodyIndex body : awake) count(p, body, membership(p, states, body));
   }
   if (look) {
-    for (std::size_t p = 0; p < piles_.size(); ++p) drift(p, states, dt);
+    for (std::size_t p = 0; p < piles_.size(); ++p) {
+      drift(p, states, dt);
+      find_slope(p, states);
+    }
     if (piles_.size() > 1) merge_near(states);
   }
   for (std::size_t p = 0; p < piles_.size(); ++p) grow(p, states);
@@ -156,6 +172,30 @@ void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double
   step *= 1.0 - std::exp(-ledger.params.drift_rate * steps_between_looks * dt);
   if (step.norm() < least_drift * body_.extent) return;
   piles_[pile].centre += step;
+  recount(pile, states);
+}
+
+/// Section 3.1 has alpha measured on a simulation made before; without one, the pile itself tells. All bodies within
+/// twice its radius that have landed count, since a cone of the wrong slope leaves some outside.
+template <int Dim>
+void PileSet<Dim>::find_slope(std::size_t pile, const BodyStates<Dim>& states) {
+  Ledger& ledger = ledgers_[pile];
+  const Pile<Dim>& now = piles_[pile];
+  if (ledger.params.alpha || now.layers.empty() || ledger.count < least_to_measure) return;
+  const bool at_rest = ledger.count == ledger.count_at_look;
+  ledger.count_at_look = ledger.count;
+  if (ledger.count < (at_rest ? growth_to_measure_at_rest : growth_to_measure) * ledger.measured_count) return;
+  ledger.measured_count = ledger.count;
+  std::vector<Vec<Dim>> places;
+  for (std::size_t i = 0; i < landed_.size(); ++i) {
+    if (landed_[i] == 0 || states.removed[i] != 0) continue;
+    const Vec<Dim> place = states.pose[i].position - now.centre;
+    if (horizontal<Dim>(place).norm() < 2.0 * now.radius) places.push_back(place);
+  }
+  if (places.empty()) return;
+  const double slope = natural_slope<Dim>(places);
+  if (std::abs(slope - now.alpha) < least_turn) return;
+  piles_[pile] = make_pile<Dim>(now.centre, slope, now.structure_size, body_);
   recount(pile, states);
 }
 

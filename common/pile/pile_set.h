@@ -31,9 +31,9 @@ class PileSet {
   bool needs_contacts() const { return needs_contacts_; }
   void land(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
 
-  /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, merges piles (3.5), doubles
-  /// full ones. Costs O(awake), nothing while nobody is: centres then stay where they are. A pile that grew or moved is
-  /// counted anew, which costs O(all bodies) and is rare.
+  /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, measures the slopes that are
+  /// not given, merges piles (3.5), doubles full ones. Costs O(awake), nothing while nobody is: centres then stay where
+  /// they are. A pile that grew or moved is counted anew, which costs O(all bodies) and is rare.
   void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt);
 
   /// Counts everybody anew, to the same result. Costs O(all bodies).
@@ -61,6 +61,8 @@ class PileSet {
     std::vector<Membership> members{};        // by body
     std::array<std::int64_t, Dim - 1> sum{};  // of Membership::at over the pile's bodies
     int count = 0;                            // of the pile's bodies
+    int count_at_look = 0;                    // the count when its slope was looked at last
+    int measured_count = 0;                   // at which its slope was measured last, where none is given
     int near_looks = 0;                       // looks in a row at which another pile's centre was near
   };
 
@@ -70,6 +72,7 @@ class PileSet {
   void add(std::size_t pile, const Membership& member, int sign);
   void recount(std::size_t pile, const BodyStates<Dim>& states);
   void grow(std::size_t pile, const BodyStates<Dim>& states);
+  void find_slope(std::size_t pile, const BodyStates<Dim>& states);
   void drift(std::size_t pile, const BodyStates<Dim>& states, double dt);
   void merge_near(const BodyStates<Dim>& states);
   bool may_merge(std::size_t a, std::size_t b) const;
@@ -81,7 +84,7 @@ class PileSet {
   std::vector<Ledger> ledgers_;  // beside piles_
   int steps_to_look_;            // until centres are looked at again
   bool needs_contacts_ = false;
-  std::vector<std::uint8_t> landed_;  // [body] has touched something; kept only where it is asked for
+  std::vector<std::uint8_t> landed_;  // [body] has touched something; kept only where flights or slopes are asked for
 };
 
 }  // namespace talus

@@ -34,9 +34,10 @@ void read_adaptive(TableReader& table, AdaptiveParams& params) {
 template <int Dim>
 PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
   PileParams<Dim> pile;
-  table.require("alpha_deg");
-  // At 0 and 90 degrees a pile has no height or no base.
-  table.read_degrees("alpha_deg", pile.alpha, between(1.0, 89.0));
+  if (table.has("alpha_deg")) {
+    // At 0 and 90 degrees a pile has no height or no base.
+    table.read_degrees("alpha_deg", pile.alpha.emplace(), between(1.0, 89.0));
+  }
   if (table.has("at")) {
     table.read("at", pile.at.emplace(), coordinate());
   }
@@ -54,6 +55,7 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     if (!pile.at) {
       table.reject("boundary", "must be given together with at, the middle of its floor");
     }
+    table.require("alpha_deg");  // walls hide the slope that bodies take by themselves
   }
   return pile;
 }

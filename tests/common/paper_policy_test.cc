@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <numbers>
 
 #include "common/shape/catalogue.h"
 #include "common/simulation/simulation.h"
@@ -18,6 +19,7 @@ Scene<3> cubes(double structure_size) {
   Scene<3> scene;
   scene.world.shapes.push_back(make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {.density = 1.0}));
   PileParams<3> pile;
+  pile.alpha = std::numbers::pi / 4.0;
   pile.at = Vec3::Zero();
   pile.initial_size = structure_size;
   pile.growth_ratio = 1.0;

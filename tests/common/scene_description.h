@@ -69,7 +69,7 @@ std::string description(const Source<Dim>& source) {
 
 template <int Dim>
 std::string description(const PileParams<Dim>& pile) {
-  std::string text = fmt::format("pile {} {} {} {} {}", pile.alpha, pile.initial_size, pile.growth_ratio,
+  std::string text = fmt::format("pile {} {} {} {} {}", pile.alpha.value_or(0.0), pile.initial_size, pile.growth_ratio,
                                  pile.merge_distance, pile.drift_rate);
   if (pile.count_flying) text += *pile.count_flying ? " counts flying" : " does not count flying";
   text += pile.at ? " at" + numbers(*pile.at) : " where the first lands";

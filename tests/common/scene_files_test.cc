@@ -24,7 +24,7 @@ void expect_example_one(const Scene<Dim>& scene) {
   EXPECT_EQ(scene.steps_per_frame(), 2);
   EXPECT_EQ(scene.steps(), 3636);
   ASSERT_EQ(scene.piles.size(), 1u);
-  EXPECT_DOUBLE_EQ(scene.piles[0].alpha, std::numbers::pi / 4.0);
+  EXPECT_DOUBLE_EQ(scene.piles[0].alpha.value(), std::numbers::pi / 4.0);
   EXPECT_FALSE(scene.piles[0].at.has_value());
   EXPECT_EQ(scene.policy.kind, "adaptive");
   EXPECT_EQ(scene.policy.paper.tau, 0.5);

@@ -31,7 +31,7 @@ TEST(SceneFile, LeavesTheStructsDefaultsAlone) {
 
 TEST(SceneFile, GivesAnglesInDegrees) {
   const Scene<2> scene = flat("[[source]]\nangle_deg = 90\n[[pile]]\nalpha_deg = 30\n");
-  EXPECT_NEAR(scene.piles[0].alpha, std::numbers::pi / 6.0, tolerance);
+  EXPECT_NEAR(scene.piles[0].alpha.value(), std::numbers::pi / 6.0, tolerance);
   EXPECT_NEAR((*scene.sources[0].orientation * Vec2(1, 0) - Vec2(0, 1)).norm(), 0.0, tolerance);
 }
 

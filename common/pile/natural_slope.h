@@ -1,0 +1,18 @@
+#pragma once
+// The slope that a pile takes by itself.
+
+#include <vector>
+
+#include "common/math/vector.h"
+
+namespace talus {
+
+/// Slope [rad] of the cone (2D: wedge) that bodies fill evenly whose median distance from its axis and mean height
+/// above its base are those of `places`, given relative to the middle of the base [m]: a cone of radius r and height h
+/// holds half of its volume within r / 2 and has its centre of mass at h / 4; a wedge within (1 - sqrt(1/2)) r, and at
+/// h / 3. The median, since a few bodies roll away; between 5 and 75 degrees. `places` must not be empty; its order is
+/// lost.
+template <int Dim>
+double natural_slope(std::vector<Vec<Dim>>& places);
+
+}  // namespace talus
