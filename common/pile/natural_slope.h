@@ -1,11 +1,15 @@
 #pragma once
 // The slope that a pile takes by itself.
 
+#include <numbers>
 #include <vector>
 
 #include "common/math/vector.h"
 
 namespace talus {
+
+/// That of a pile of which nothing is known yet [rad].
+inline constexpr double usual_slope = std::numbers::pi / 6.0;
 
 /// Slope [rad] of the cone (2D: wedge) that bodies fill evenly whose median distance from its axis and mean height
 /// above its base are those of `places`, given relative to the middle of the base [m]: a cone of radius r and height h

@@ -49,6 +49,9 @@ class PileSet {
   bool counts_match(const BodyStates<Dim>& states) const;
 
  private:
+  static constexpr double fixed_point = 65536.0;  // steps per metre: 15 micrometres, and 1e4 m still fits 32 bits
+  static constexpr int steps_between_looks = 30;  // at what changes slowly
+
   /// How a body is counted in one pile, so that it can be uncounted exactly.
   struct Membership {
     std::int16_t layer = -1;
@@ -72,6 +75,7 @@ class PileSet {
   void add(std::size_t pile, const Membership& member, int sign);
   void recount(std::size_t pile, const BodyStates<Dim>& states);
   void grow(std::size_t pile, const BodyStates<Dim>& states);
+  void look_around(const BodyStates<Dim>& states, double dt);
   void find_slope(std::size_t pile, const BodyStates<Dim>& states);
   void drift(std::size_t pile, const BodyStates<Dim>& states, double dt);
   void merge_near(const BodyStates<Dim>& states);

@@ -6,36 +6,15 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+
+#include "tests/common/counted_bodies.h"
 
 namespace talus {
 namespace {
 
 constexpr TypicalBody body{.bounding_volume = 0.4, .extent = 1.4, .mass = 1.0};
 constexpr double dt = 1.0 / 60.0;
-
-template <int Dim>
-struct Bodies {
-  BodyStates<Dim> states;
-
-  void add(const Vec<Dim>& at) {
-    states.shape.push_back(0);
-    states.pose.push_back({.position = at});
-    states.velocity.push_back(Vec<Dim>::Zero());
-    states.spin.push_back(Spin<Dim>::Zero());
-    states.asleep.push_back(0);
-    states.removed.push_back(0);
-  }
-  std::vector<BodyIndex> awake() const {
-    std::vector<BodyIndex> list;
-    for (BodyIndex i = 0; i < states.size(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (states.asleep[at] == 0 && states.removed[at] == 0) list.push_back(i);
-    }
-    return list;
-  }
-};
 
 /// Coordinates on a grid of 1/64 m: sums of these are exact, so translations and mirror images lose no bit.
 double any_coordinate(int reach) { return *rc::gen::inRange(-reach * 64, reach * 64) / 64.0; }
@@ -244,59 +223,6 @@ TEST(PileSet, CountsABodyInFlightOnlyWhereThePileSaysSo) {
     EXPECT_EQ(counts(piles).front(), count_flying ? 2 : 1);
     EXPECT_TRUE(piles.counts_match(bodies.states));
   }
-}
-
-/// Bodies by threes around the axis, evenly over a cone or wedge of that slope: `rings` of them, from the middle.
-template <int Dim>
-Bodies<Dim> heap(double slope, int rings) {
-  constexpr double radius = 6.0;
-  Bodies<Dim> bodies;
-  for (int ring = 0; ring < rings; ++ring) {
-    const double at = radius * (ring + 0.5) / rings;
-    const double top = (radius - at) * std::tan(slope);
-    // As many in a column as its share of the volume.
-    const int column = std::max(1, static_cast<int>(std::lround(40.0 * top * (Dim == 3 ? at / radius : 1.0))));
-    for (int i = 0; i < column; ++i) {
-      Vec<Dim> place = Vec<Dim>::Zero();
-      place[0] = i % 2 == 0 ? at : -at;
-      place[Dim - 1] = top * (i + 0.5) / column;
-      bodies.add(place);
-    }
-  }
-  return bodies;
-}
-
-template <int Dim>
-void expect_natural_slope_found() {
-  for (const double slope : {0.3, 0.6, 0.9}) {
-    const Bodies<Dim> bodies = heap<Dim>(slope, 60);
-    PileParams<Dim> params;
-    params.at = Vec<Dim>::Zero();
-    PileSet<Dim> piles({params}, body);
-    std::vector<Contact<Dim>> contacts;
-    for (const BodyIndex each : bodies.awake()) contacts.push_back({.a = each});
-    ASSERT_TRUE(piles.needs_contacts()) << "who flies tells nothing about the slope";
-    piles.land(contacts, bodies.states);
-    for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);
-    // Sums over columns are exact to about a part in 60, and turns below a degree are not worth a new structure.
-    EXPECT_NEAR(piles.piles().front().alpha, slope, 0.03);
-    EXPECT_TRUE(piles.counts_match(bodies.states));
-  }
-}
-
-TEST(PileWithoutASlope, TakesThatOfItsBodies) {
-  expect_natural_slope_found<2>();
-  expect_natural_slope_found<3>();
-}
-
-TEST(PileWithASlope, KeepsIt) {
-  const Bodies<2> bodies = heap<2>(0.9, 60);
-  PileParams<2> params;
-  params.at = Vec2::Zero();
-  params.alpha = 0.4;
-  PileSet<2> piles({params}, body);
-  for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);
-  EXPECT_EQ(piles.piles().front().alpha, 0.4);
 }
 
 }  // namespace
