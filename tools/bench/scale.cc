@@ -29,7 +29,8 @@ struct Engine {
 };
 
 std::vector<Engine> measured(const BenchOptions& options) {
-  const std::vector<int> sizes = options.quick ? std::vector<int>{1000, 10000} : std::vector<int>{1000, 10000, 100000, 1000000};
+  const std::vector<int> sizes =
+      options.quick ? std::vector<int>{1000, 10000} : std::vector<int>{1000, 10000, 100000, 1000000};
   std::vector<Engine> engines;
   for (const int dimension : {2, 3}) {
     for (const std::string& backend : backends(dimension)) {
