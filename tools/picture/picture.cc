@@ -29,19 +29,19 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
 }  // namespace
 
 template <int Dim>
-void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& whole,
+void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& input,
                const PictureParams& params) {
   check(params);
   std::vector<Pile<Dim>> piles;
-  for (const Pile<Dim>& pile : whole.piles) {
+  for (const Pile<Dim>& pile : input.piles) {
     piles.push_back(with_coarse_layers(pile, most_layers));
   }
-  PictureInput<Dim> input = whole;
-  input.piles = piles;
-  const Framing<Dim> framing = framing_of(input);
-  const Page page(content_of(input, framing), params);
+  PictureInput<Dim> drawn = input;
+  drawn.piles = piles;
+  const Framing<Dim> framing = framing_of(drawn);
+  const Page page(content_of(drawn, framing), params);
   const Layout<Dim> layout = lay_out(framing, page, params);
-  const Painter scene = scene_painter(input, framing, layout.projection, params, params.width, layout.height);
+  const Painter scene = scene_painter(drawn, framing, layout.projection, params, params.width, layout.height);
   const Painter paint = [&](cairo_t* canvas) {
     page.draw_background(canvas);
     scene(canvas);
