@@ -1,7 +1,11 @@
 #include "common/shape/convex_hull.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -57,16 +61,19 @@ std::vector<std::vector<int>> read_faces(qhT* qh) {
 std::vector<std::vector<int>> convex_hull_faces(std::span<const Vec3> points) {
   std::vector<double> coordinates;
   coordinates.reserve(points.size() * 3);
+  double largest = 0.0;
   for (const Vec3& point : points) {
     coordinates.insert(coordinates.end(), point.begin(), point.end());
+    largest = std::max(largest, point.cwiseAbs().maxCoeff());
   }
   if (points.size() < 4) {
     return {};
   }
-  char command[] = "qhull";
+  // Corners that were turned lie off their face by more rounding than qhull itself allows for.
+  std::string command = fmt::format("qhull C-{}", 1e-13 * largest);
   QhullState qhull;
-  const int error = qh_new_qhull(qhull.get(), 3, static_cast<int>(points.size()), coordinates.data(), False, command,
-                                 nullptr, qhull.messages());
+  const int error = qh_new_qhull(qhull.get(), 3, static_cast<int>(points.size()), coordinates.data(), False,
+                                 command.data(), nullptr, qhull.messages());
   return error == qh_ERRnone ? read_faces(qhull.get()) : std::vector<std::vector<int>>{};
 }
 

@@ -143,6 +143,17 @@ TEST(BenchSkips, TellsForEachSkipWhetherTheBitsStay) {
   EXPECT_NE(outcome.out.find("continuous"), std::string::npos);
 }
 
+TEST(BenchRest, TellsHowSoonAllSleep) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      talus_command("bench rest --quick --policy adaptive --scene drop_in_a_pile_2d --set source[0].count=5 --out " +
+                    (folder / "rest"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string table = contents(folder.path() / "rest" / "results.md");
+  EXPECT_NE(table.find("| drop_in_a_pile_2d | box2d | 5 | engine |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| drop_in_a_pile_2d | box2d | 5 | adaptive |"), std::string::npos) << table;
+}
+
 TEST(BenchRate, PoursAtSeveralRates) {
   const TemporaryFolder folder;
   const Outcome outcome = talus_command(

@@ -14,6 +14,7 @@ std::span<const Benchmark> benchmarks() {
       Benchmark{"convergence", "The full simulation over time step, iterations and friction directions",
                 bench_convergence},
       Benchmark{"skips", "What a step leaves out, put back in turn: time, and whether the bits stay", bench_skips},
+      Benchmark{"rest", "How soon all sleep once the last body has stopped, and what a step costs then", bench_rest},
       Benchmark{"rate", "Speed-up over the pouring rate", bench_rate},
       Benchmark{"scale", "What sleepers cost a step, freezing, thawing, memory, and the shock of waking", bench_scale}};
   return all;

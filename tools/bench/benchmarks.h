@@ -25,6 +25,9 @@ void bench_convergence(const BenchOptions& options);
 /// What each skip of a step saves, each switched off in turn.
 void bench_skips(const BenchOptions& options);
 
+/// How soon all sleep after the last body has stopped, and what steps cost from then on.
+void bench_rest(const BenchOptions& options);
+
 /// Speed-up over the pouring rate.
 void bench_rate(const BenchOptions& options);
 /// What sleepers cost: steps, freezing and thawing, memory; and what waking does to a pile.

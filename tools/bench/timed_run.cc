@@ -1,37 +1,18 @@
 #include "tools/bench/timed_run.h"
 
 #include <algorithm>
-#include <ctime>
 #include <numeric>
 
 #include "common/policy/sleep_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
+#include "tools/bench/processor_watch.h"
 #include "tools/run/backends.h"
 
 namespace talus {
 
 namespace {
-
-/// Processor time of this thread between laps [s].
-class ProcessorWatch {
- public:
-  double lap() {
-    const double now = read();
-    const double passed = now - last_;
-    last_ = now;
-    return passed;
-  }
-
- private:
-  static double read() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-  double last_ = read();
-};
 
 double mean_of_last(const std::vector<double>& values, std::size_t count) {
   count = std::min(count, values.size());
