@@ -19,6 +19,7 @@ struct PlacedChild {
         place(side.getWorldTransform() * compound(side).getChildTransform(index)) {
     shape->getAabb(place, low, high);
   }
+  bool is_box() const { return shape->getShapeType() == BOX_SHAPE_PROXYTYPE; }
   bool overlaps(const PlacedChild& other) const { return TestAabbAgainstAabb2(low, high, other.low, other.high); }
 
   const btCollisionShape* shape;
@@ -26,6 +27,8 @@ struct PlacedChild {
   btVector3 low;
   btVector3 high;
 };
+
+const btBoxShape& box(const PlacedChild& child) { return *static_cast<const btBoxShape*>(child.shape); }
 
 bool overlap(const btDbvtAabbMm& a, const btDbvtAabbMm& b, const btTransform& from_b_to_a) {
   btVector3 low;
@@ -62,9 +65,11 @@ void CompoundPair::destroy(btCollisionAlgorithm* algorithm) {
   m_dispatcher->freeCollisionAlgorithm(algorithm);
 }
 
+// Whoever asks may put points into them.
 void CompoundPair::getAllContactManifolds(btManifoldArray& manifolds) {
-  for (const PiecePair& pair : pieces_) {
+  for (PiecePair& pair : pieces_) {
     pair.algorithm->getAllContactManifolds(manifolds);
+    pair.may_touch = true;
   }
 }
 
@@ -80,7 +85,11 @@ void CompoundPair::processCollision(const btCollisionObjectWrapper* first, const
 void CompoundPair::refresh(btManifoldResult& result) {
   btManifoldArray& manifolds = maker_.manifolds;
   manifolds.resize(0);
-  getAllContactManifolds(manifolds);
+  for (const PiecePair& pair : pieces_) {
+    if (pair.may_touch) {
+      pair.algorithm->getAllContactManifolds(manifolds);
+    }
+  }
   for (int i = 0; i < manifolds.size(); ++i) {
     if (manifolds[i]->getNumContacts() > 0) {
       result.setPersistentManifold(manifolds[i]);
@@ -116,6 +125,12 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
   if (!a.overlaps(b)) {
     return;
   }
+  const auto known = find(first, second);
+  if (known != pieces_.end() && !known->may_touch && known->apart >= 0 &&
+      apart_along(known->apart, box(a), a.place, box(b), b.place)) {
+    known->overlaps = true;
+    return;
+  }
   const btCollisionObjectWrapper side_a(&visit.first, a.shape, visit.first.getCollisionObject(), a.place, -1, first);
   const btCollisionObjectWrapper side_b(&visit.second, b.shape, visit.second.getCollisionObject(), b.place, -1, second);
   PiecePair& pair = pair_of(first, second, side_a, side_b);
@@ -128,8 +143,23 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
   result.setShapeIdentifiersA(-1, first);
   result.setShapeIdentifiersB(-1, second);
   pair.algorithm->processCollision(&side_a, &side_b, visit.info, &result);
+  pair.may_touch = touch(pair);
+  const bool boxes = a.is_box() && b.is_box();
+  pair.apart = boxes && !pair.may_touch ? separating_axis(box(a), a.place, box(b), b.place) : BoxAxis(-1);
   result.setBody0Wrap(whole_a);
   result.setBody1Wrap(whole_b);
+}
+
+bool CompoundPair::touch(const PiecePair& pair) {
+  btManifoldArray& manifolds = maker_.manifolds;
+  manifolds.resize(0);
+  pair.algorithm->getAllContactManifolds(manifolds);
+  for (int i = 0; i < manifolds.size(); ++i) {
+    if (manifolds[i]->getNumContacts() > 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::vector<CompoundPair::PiecePair>::iterator CompoundPair::find(int first, int second) {

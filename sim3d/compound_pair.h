@@ -6,12 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "sim3d/separation.h"
+
 namespace talus::bullet {
 
 /// Finds the contacts of two compound shapes, to the bit as Bullet 3.24 does (btCompoundCompoundCollisionAlgorithm),
 /// which piles of such bodies spend a third of their time in: there each call builds and drops four contact manifolds
-/// on the stack, and each new pair asks for memory ten times. The order in which pieces meet, come and go is Bullet's,
-/// since it decides the order in which the solver takes the contacts.
+/// on the stack, and each new pair asks for memory ten times. Two boxes that do not touch and are apart along the same
+/// axis as in the last step are left alone, and with them the memory of their algorithm and manifold. The order in
+/// which pieces meet, come and go is Bullet's, since it decides the order in which the solver takes the contacts.
 class CompoundPair final : public btCollisionAlgorithm {
  public:
   struct Maker;
@@ -43,13 +46,16 @@ class CompoundPair final : public btCollisionAlgorithm {
     int first;
     int second;
     btCollisionAlgorithm* algorithm;
-    bool overlaps;  // in this step
+    bool overlaps;          // in this step
+    bool may_touch = true;  // false: its manifold is known to be empty, and need not be looked at
+    BoxAxis apart = -1;     // of two boxes: where they were apart last
   };
   struct Visit;
 
   void refresh(btManifoldResult& result);
   void descend(const btDbvtNode& first, const btDbvtNode& second, const Visit& visit);
   void meet(int first, int second, const Visit& visit);
+  bool touch(const PiecePair& pair);
   PiecePair& pair_of(int first, int second, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   std::vector<PiecePair>::iterator find(int first, int second);
   void part(const Visit& visit);

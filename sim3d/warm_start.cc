@@ -175,6 +175,7 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   // An algorithm expects its two sides in the order it was made for, which is the pair's.
   const bool owner_first = &object_of(pair.m_pProxy0) == sides.owner;
   PieceRecorder recorder(owner_first ? &owner : &partner, owner_first ? &partner : &owner);
+  open_manifolds(*pair.m_algorithm);
   pair.m_algorithm->processCollision(owner_first ? &owner : &partner, owner_first ? &partner : &owner, info, &recorder);
   for (const PieceRecorder::Entry& entry : recorder.finish()) {
     for (const SavedPoint& point : saved_) {
@@ -184,6 +185,13 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
       }
     }
   }
+  open_manifolds(*pair.m_algorithm);
+}
+
+// A pair that has given its manifolds away looks at all of them anew (CompoundPair).
+void WarmStart::open_manifolds(btCollisionAlgorithm& algorithm) {
+  manifolds_.resize(0);
+  algorithm.getAllContactManifolds(manifolds_);
 }
 
 void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold) {

@@ -50,6 +50,7 @@ class WarmStart {
   /// Takes out those between the two and appends them to `out`, in the order in which they were kept.
   void release(const Sides& sides, std::vector<SavedPoint>& out);
   void restore(btBroadphasePair& pair, const btDispatcherInfo& info);
+  void open_manifolds(btCollisionAlgorithm& algorithm);
   static void put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold);
 
   std::deque<Node> nodes_;  // grows without copies and spare room
