@@ -15,8 +15,9 @@ namespace talus {
 /// inelastic impact between free bodies leaves. The sleeper, awake from then on, passes the rest on to its neighbours
 /// in the next steps: a blow goes as far as its momentum carries. A load that does not grow within a step is no blow.
 ///
-/// A sleeper that lies free gives way to lesser blows than one that others lie upon: on a slope a nudge is enough to
-/// set a body rolling, in the depth it is held on all sides.
+/// What counts is how fast the point that was struck would move, since a blow off the centre topples a body that one at
+/// its centre would only press down, and whence the blow comes. Of what can be told when a blow lands this best tells
+/// who will be seen to move (docs/method.md).
 template <int Dim>
 class Blows {
  public:
@@ -42,29 +43,25 @@ class Blows {
   struct Blow {
     Vec<Dim> impulse = Vec<Dim>::Zero();  // on the awake one [N s]
     double share = 0.0;                   // of the impulse that it would feel if the sleeper were free
-    double speed = 0.0;                   // that the sleeper would be given as a whole [m/s]
+    double speed = 0.0;  // that the sleeper would be given where it is struck, as far as it counts [m/s]
   };
 
   void gather(const BodyStates<Dim>& states, std::span<const Contact<Dim>> contacts);
   Blow blow(const BodyStates<Dim>& states, const Push& push) const;
   double growth(const Push& push, const Vec<Dim>& along, double awake_yields) const;
-  bool lies_free(const World<Dim>& world, BodyIndex sleeper);
   void kick(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& place, const Vec<Dim>& impulse,
             std::vector<Kick<Dim>>& kicks) const;
   const Shape<Dim>& shape_of(const BodyStates<Dim>& states, BodyIndex body) const {
     return shapes_[static_cast<std::size_t>(states.shape[static_cast<std::size_t>(body)])];
   }
 
-  double wake_speed_;       // [m/s]
-  double free_wake_speed_;  // the same of a body that lies free [m/s]
-  double extent_;           // D [m]
-  double fastest_spin_;     // that a kick may give [rad/s]
+  double wake_speed_;    // [m/s]
+  double fastest_spin_;  // that a kick may give [rad/s]
   std::vector<Shape<Dim>> shapes_;
   std::vector<Push> pushes_;           // of this step, ascending by pair
   std::vector<Push> last_pushes_;      // of the step before
   std::vector<BodyIndex> last_awake_;  // who was awake then
   double fastest_approach_ = 0.0;      // of all contacts of this step [m/s]
-  std::vector<BodyIndex> near_;        // scratch
 };
 
 }  // namespace talus

@@ -22,8 +22,6 @@ void read_adaptive(TableReader& table, AdaptiveParams& params) {
   table.read("rest_time_deep", params.rest_time_deep, between(0, 1e3));
   table.read("rest_time_surface", params.rest_time_surface, {.low = params.rest_time_deep, .high = 1e3});
   table.read("wake_height", params.wake_height, fraction);
-  table.read("free_wake_height", params.free_wake_height,
-             {.low = 0.0, .high = params.wake_height, .low_excluded = true});
   table.read("heavy_blow", params.heavy_blow, {.low = 0.0, .high = 1e9, .low_excluded = true});
   table.read("support_slack", params.support_slack, fraction);
   table.read("awake_share", params.awake_share, {.low = 0.0, .high = 1.0, .high_excluded = true});
