@@ -2,8 +2,8 @@
 set -eu
 # Names that only one of them has: what one engine needs and the other does not (Box2D's user data, its impulses that
 # die with a contact, its rule for restitution, its search for times of impact; Bullet's list of overlapping pairs, its
-# ground without end, its plane, its world subclass, its solver, the friction its points remember).
-only_one='(tag|warm_start|materials|continuous|bodies|compound_pair|dynamics_world|engine|ground_pair|pairs|pieces|plane|solver|friction_impulse)\.h'
+# ground without end, its plane, where boxes were apart, its world subclass, its solver, the friction its points remember).
+only_one='(tag|warm_start|materials|continuous|bodies|compound_pair|dynamics_world|engine|ground_pair|pairs|pieces|plane|separation|solver|friction_impulse)\.h'
 
 headers() { git ls-files "$1/*.h" | sed "s|^$1/||" | grep -vxE "$only_one" | LC_ALL=C sort | tr '\n' ' '; }
 in_2d=$(headers sim2d)
