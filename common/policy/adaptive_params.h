@@ -10,8 +10,8 @@ struct AdaptiveParams {
   double rest_time_surface = 0.25;  // [s] >= rest_time_deep, where it is zero. Short: a peak too high; long: slow
   double wake_height = 0.03;  // [D] > 0: a blow wakes whom it gives, where it strikes, the speed to rise by this. Low:
                               // much is awake for nothing; high: blows end as on rock, and the pile stays too steep
-  double heavy_blow = 20.0;  // > 0: bodies that a blow must be able to move at once to wake them before it lands. Low:
-                             // each drop wakes a heap; high: what is heavy and fast is stopped as by a rock
+  double heavy_blow = 20.0;   // > 0: bodies that a blow must be able to move at once to wake them before it lands. Low:
+                              // each drop wakes a heap; high: what is heavy and fast is stopped as by a rock
   double support_slack = 0.01;  // [D] > 0: how far a bearer may move before what it bears wakes. Large: bodies hang
   double awake_share = 0.25;    // in [0, 1): part of a body's weight that awake bodies may bear when it falls asleep
 };
