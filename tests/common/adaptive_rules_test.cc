@@ -151,19 +151,24 @@ TEST(Props, DoNotTellASleeperOnWhichAnAwakeBodyMoves) {
   EXPECT_TRUE(left.empty());
 }
 
-/// An awake cube that hit the sleeping one beside it, which stopped it: 1 kg at 4 m/s.
-struct SideBlow {
-  SideBlow() : world(cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(1.0, 0.0, 0.5)})), blows({}, std::sqrt(3.0), cubes()) {
+/// An awake cube of 1 kg that hit the sleeping one beside it, which stopped it. It comes from the side that `from`
+/// names.
+struct Struck {
+  explicit Struck(const Vec3& side = -Vec3::UnitX())
+      : from(side), world(cubes_at({middle() + side, middle()})), blows({}, std::sqrt(3.0), cubes()) {
     world.freeze(std::vector<BodyIndex>{1});
     blows.update(world, {}, hit, kicks);  // the step before: awake, without contact
     hit.clear();
     kicks.clear();
   }
-  void strike(double impulse, double approach) {
-    Contact<3> touch = contact(0, 1, Vec3(0.5, 0.0, 0.5), -Vec3::UnitX(), impulse);
+  static Vec3 middle() { return {0.0, 0.0, 5.0}; }
+  void strike(double impulse, double approach, const Vec3& off_centre = Vec3::Zero()) {
+    Contact<3> touch = contact(0, 1, middle() + 0.5 * from + off_centre, from, impulse);
     touch.approach_speed = approach;
     blows.update(world, std::vector{touch}, hit, kicks);
   }
+  bool wakes() const { return !hit.empty(); }
+  Vec3 from;
   StillWorld<3> world;
   Blows<3> blows;
   std::vector<BodyIndex> hit;
@@ -171,7 +176,7 @@ struct SideBlow {
 };
 
 TEST(Blow, SharesItsMomentumAsBetweenFreeBodiesThatDoNotBounce) {
-  SideBlow blow;
+  Struck blow;
   blow.strike(4.0, 4.0);
   EXPECT_EQ(blow.hit, std::vector<BodyIndex>{1});
   ASSERT_EQ(blow.kicks.size(), 2U);
@@ -180,14 +185,39 @@ TEST(Blow, SharesItsMomentumAsBetweenFreeBodiesThatDoNotBounce) {
 }
 
 TEST(Blow, TooWeakToLiftTheSleeperWakesNobody) {
-  SideBlow blow;
-  blow.strike(0.5, 0.5);  // would give 0.25 m/s, enough to rise by 3 mm of the 17 mm that count
+  Struck blow;
+  blow.strike(0.5, 0.5);  // would give 0.25 m/s, enough to rise by 3 mm of the 52 mm that count
   EXPECT_TRUE(blow.hit.empty());
   EXPECT_TRUE(blow.kicks.empty());
 }
 
+// 1.02 m/s lift a body by 0.03 D. Of equal masses each gets half of what stopped the striker: here 1.1 m/s.
+TEST(Blow, CountsAThirdFromAboveAndFiveThirdsFromBelow) {
+  const auto wakes = [](const Vec3& from, double impulse) {
+    Struck blow(from);
+    blow.strike(impulse, 9.0);
+    return blow.wakes();
+  };
+  EXPECT_TRUE(wakes(Vec3::UnitY(), 2.2));
+  EXPECT_FALSE(wakes(Vec3::UnitZ(), 2.2));
+  EXPECT_FALSE(wakes(Vec3::UnitZ(), 6.0));
+  EXPECT_TRUE(wakes(Vec3::UnitZ(), 6.6));
+  EXPECT_FALSE(wakes(-Vec3::UnitZ(), 1.2));
+  EXPECT_TRUE(wakes(-Vec3::UnitZ(), 1.3));
+}
+
+// 0.4 m off the centre the point struck yields 1 + 6 * 0.16 times as much as the whole.
+TEST(Blow, WakesBySpeedOfThePointThatIsStruck) {
+  Struck central;
+  central.strike(1.2, 9.0);
+  EXPECT_FALSE(central.wakes());
+  Struck off_centre;
+  off_centre.strike(1.2, 9.0, 0.4 * Vec3::UnitY());
+  EXPECT_TRUE(off_centre.wakes());
+}
+
 TEST(Blow, IsOnlyWhatComesOnTopOfTheLoadOfTheStepBefore) {
-  SideBlow blow;
+  Struck blow;
   blow.strike(4.0, 4.0);
   blow.hit.clear();
   blow.strike(4.0, 0.0);  // still the same load, as of a heap that leans against the sleeper
@@ -195,7 +225,7 @@ TEST(Blow, IsOnlyWhatComesOnTopOfTheLoadOfTheStepBefore) {
 }
 
 TEST(Blow, GivesNobodyMoreSpeedThanTheFastestApproachOfTheStep) {
-  SideBlow blow;
+  Struck blow;
   blow.strike(100.0, 3.0);  // an engine pushes bodies apart that overlap
   ASSERT_EQ(blow.kicks.size(), 2U);
   EXPECT_LE(blow.kicks[1].velocity.norm(), 3.0 + 1e-9);
