@@ -99,8 +99,9 @@ TEST(RunCommand, OverwritesNothing) {
 
 TEST(RunCommand, SavesEverythingOnCtrlC) {
   const TemporaryFolder folder;
-  const Outcome outcome = shell("\"$TALUS\" run drop_in_a_pile_2d --no-telemetry --set run.frames=100000 --out " +
-                                (folder / "run") + " & process=$!; sleep 1; kill -INT $process; wait $process");
+  const Outcome outcome =
+      shell("\"$TALUS\" run drop_in_a_pile_2d --policy full --no-telemetry --set run.frames=100000 --out " +
+            (folder / "run") + " & process=$!; sleep 1; kill -INT $process; wait $process");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
   EXPECT_EQ(summary["reason"], "interrupted");
