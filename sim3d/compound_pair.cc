@@ -126,15 +126,15 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
     return;
   }
   const auto known = find(first, second);
-  if (known != pieces_.end() && !known->may_touch && known->apart >= 0 &&
-      apart_along(known->apart, box(a), a.place, box(b), b.place)) {
+  if (known != pieces_.end()) {
     known->overlaps = true;
-    return;
+    if (!known->may_touch && known->apart >= 0 && apart_along(known->apart, box(a), a.place, box(b), b.place)) {
+      return;
+    }
   }
   const btCollisionObjectWrapper side_a(&visit.first, a.shape, visit.first.getCollisionObject(), a.place, -1, first);
   const btCollisionObjectWrapper side_b(&visit.second, b.shape, visit.second.getCollisionObject(), b.place, -1, second);
-  PiecePair& pair = pair_of(first, second, side_a, side_b);
-  pair.overlaps = true;
+  PiecePair& pair = known != pieces_.end() ? *known : add(first, second, side_a, side_b);
   btManifoldResult& result = visit.result;
   const btCollisionObjectWrapper* whole_a = result.getBody0Wrap();
   const btCollisionObjectWrapper* whole_b = result.getBody1Wrap();
@@ -167,12 +167,8 @@ std::vector<CompoundPair::PiecePair>::iterator CompoundPair::find(int first, int
                       [first, second](const PiecePair& pair) { return pair.first == first && pair.second == second; });
 }
 
-CompoundPair::PiecePair& CompoundPair::pair_of(int first, int second, const btCollisionObjectWrapper& a,
-                                               const btCollisionObjectWrapper& b) {
-  const auto known = find(first, second);
-  if (known != pieces_.end()) {
-    return *known;
-  }
+CompoundPair::PiecePair& CompoundPair::add(int first, int second, const btCollisionObjectWrapper& a,
+                                           const btCollisionObjectWrapper& b) {
   if (pieces_.empty()) {
     pieces_.reserve(4);  // two pieces meet two
   }

@@ -56,7 +56,7 @@ class CompoundPair final : public btCollisionAlgorithm {
   void descend(const btDbvtNode& first, const btDbvtNode& second, const Visit& visit);
   void meet(int first, int second, const Visit& visit);
   bool touch(const PiecePair& pair);
-  PiecePair& pair_of(int first, int second, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
+  PiecePair& add(int first, int second, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   std::vector<PiecePair>::iterator find(int first, int second);
   void part(const Visit& visit);
   void destroy(btCollisionAlgorithm* algorithm);

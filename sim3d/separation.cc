@@ -10,9 +10,6 @@ constexpr btScalar clearance = 1e-4F;
 
 bool apart_along(BoxAxis axis, const btBoxShape& first, const btTransform& first_place, const btBoxShape& second,
                  const btTransform& second_place) {
-  if (axis < 0) {
-    return false;
-  }
   const bool of_first = axis < 3;
   const int column = of_first ? axis : axis - 3;
   const btVector3 direction = (of_first ? first_place : second_place).getBasis().getColumn(column);

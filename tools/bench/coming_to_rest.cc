@@ -17,7 +17,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
-/// Where each body was awake last but in its own end, as far as it matters: places of the awake, step by step.
+/// Places of the awake bodies, step by step; sleepers stay where they are.
 template <int Dim>
 class Trail {
  public:
@@ -45,7 +45,7 @@ class Trail {
 
 }  // namespace
 
-double ComingToRest::step_time(double from, double dt) const {
+double ComingToRest::step_time(double from) const {
   const auto first = std::min(step_seconds.size(), static_cast<std::size_t>(std::lround(from / dt)));
   const auto last = std::min(step_seconds.size(), first + static_cast<std::size_t>(std::lround(1.0 / dt)));
   if (first == last) return never;
@@ -61,10 +61,10 @@ ComingToRest coming_to_rest(const Scene<Dim>& scene, const std::string& backend,
   const World<Dim>& world = simulation.world();
   ComingToRest rest;
   rest.bodies = static_cast<int>(world.states().size());
-  rest.poured = simulation.time();
+  rest.dt = scene.world.dt;
   Trail<Dim> trail;
   std::size_t last_awake = 0;
-  const auto steps = static_cast<std::size_t>(std::lround(calm / scene.world.dt));
+  const auto steps = static_cast<std::size_t>(std::lround(calm / rest.dt));
   for (std::size_t step = 1; step <= steps; ++step) {
     ProcessorWatch watch;
     simulation.step();
@@ -73,8 +73,8 @@ ComingToRest coming_to_rest(const Scene<Dim>& scene, const std::string& backend,
     if (!world.awake().empty()) last_awake = step;
   }
   const std::size_t still = trail.steps_until_within(0.01 * typical_body(scene).extent, world.states());
-  rest.stopped = static_cast<double>(still) * scene.world.dt;
-  rest.asleep = last_awake < steps ? static_cast<double>(last_awake + 1) * scene.world.dt : never;
+  rest.stopped = static_cast<double>(still) * rest.dt;
+  rest.asleep = last_awake < steps ? static_cast<double>(last_awake + 1) * rest.dt : never;
   return rest;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <iterator>
 
 #include "tools/bench/bench_plan.h"
 #include "tools/bench/bench_results.h"
@@ -11,28 +12,24 @@ namespace talus {
 
 namespace {
 
-double time_step(const AnyScene& scene) {
-  return std::visit([](const auto& any) { return any.world.dt; }, scene);
-}
-
 /// Of one scene on one engine: the engine's own sleeping first, then the others beside it.
 void add_rows(const BenchOptions& options, const std::string& scene, const std::string& backend, Table& table) {
   const double calm = options.quick ? 5.0 : 25.0;  // [s]; Bullet alone takes 20 to fall asleep
   std::vector<std::string> policies = {"engine"};
   const std::vector<std::string> asked = options.policies.empty() ? known_policies() : options.policies;
-  policies.insert(policies.end(), asked.begin(), asked.end());
+  std::copy_if(asked.begin(), asked.end(), std::back_inserter(policies),
+               [](const std::string& policy) { return policy != "engine"; });
   ComingToRest engine;
   for (const std::string& policy : policies) {
     fmt::print(stderr, "{} {} {}\n", scene, backend, policy);
     const BenchCase each{scene, backend, policy, settings_of(options, scene)};
-    const AnyScene loaded = load(each);
-    const ComingToRest rest = std::visit([&](const auto& any) { return coming_to_rest(any, backend, calm); }, loaded);
+    const ComingToRest rest =
+        std::visit([&](const auto& any) { return coming_to_rest(any, backend, calm); }, load(each));
     if (policy == "engine") engine = rest;
-    const double dt = time_step(loaded);
-    const double at_stop = rest.step_time(rest.stopped, dt);
-    const double later = rest.step_time(rest.stopped + 1.0, dt);
-    const double engine_at_stop = engine.step_time(rest.stopped, dt);
-    const double engine_later = engine.step_time(rest.stopped + 1.0, dt);
+    const double at_stop = rest.step_time(rest.stopped);
+    const double later = rest.step_time(rest.stopped + 1.0);
+    const double engine_at_stop = engine.step_time(rest.stopped);
+    const double engine_later = engine.step_time(rest.stopped + 1.0);
     table.rows.push_back({key_of(each).scene, backend, std::to_string(rest.bodies), policy, shown(rest.stopped),
                           shown(rest.asleep), shown(rest.asleep - rest.stopped), shown(1e6 * at_stop),
                           shown(engine_at_stop / at_stop), shown(1e6 * later), shown(engine_later / later)});
