@@ -101,7 +101,7 @@ std::vector<ShownColumn> state_columns() {
   return {number("floating", "floating"),
           number("penetration 99 % / D", "penetration_p99_D", 2),
           number("max / D", "penetration_max_D", 2),
-          number("drift after waking / D", "drift_mean_D"),
+          with_deviation("drift after waking / D", "drift_mean_D"),
           number("beyond baseline", "drift_mean_excess_D"),
           number("share above 0.1 D", "drift_far", 2),
           number("beyond baseline", "drift_far_excess", 2),

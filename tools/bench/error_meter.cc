@@ -5,6 +5,7 @@
 
 #include "common/measure/compare.h"
 #include "common/measure/divergence.h"
+#include "common/measure/ensemble.h"
 #include "common/measure/short_horizon.h"
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"
@@ -117,6 +118,7 @@ ErrorMeter<Dim>::ErrorMeter(const Scene<Dim>& baseline, std::string backend, int
   values["horizon_R_30_floor"] = values["horizon_R_30"];
   values["horizon_mean_30_D_floor"] = values["horizon_mean_30_D"];
   add_last_state(full_, values);
+  add_drift(ends, values);
   add_work(full_, values);
   for (const auto& [name, x] :
        {std::pair("oracle_001", 0.01), std::pair("oracle_005", 0.05), std::pair("oracle_02", 0.2)}) {
@@ -140,6 +142,7 @@ Values ErrorMeter<Dim>::measure(const Scene<Dim>& scene) const {
     ends.push_back(run.last);
   }
   for (BodyStates<Dim>& end : ends_of(scene, backend_, 1, twins_)) ends.push_back(std::move(end));
+  add_drift(ends, values);
   add_shape_errors(shapes_, shape_ensemble<Dim>(ends, scene_.world.shapes, grid_, extent_), extent_, values);
   for (const char* name : {"relative_floor", "R_floor", "S_floor", "R_ceiling", "S_ceiling", "horizon_R_30_floor",
                            "horizon_mean_30_D_floor", "diverges_at", "oracle_005"}) {
@@ -190,12 +193,27 @@ void ErrorMeter<Dim>::add_last_state(const Recording<Dim>& run, Values& values) 
   values["floating"] = static_cast<double>(floating_sleepers<Dim>(run.last, touches).size());
   values["penetration_p99_D"] = depth.p99 / extent_;
   values["penetration_max_D"] = depth.max / extent_;
-  const WakeTest wake = wake_test<Dim>(maker_of<Dim>(backend_), reference_settings(scene_.world), settled(run.last));
-  if (wake.bodies == 0) return;
-  values["drift_mean_D"] = wake.mean / extent_;
-  values["drift_far"] = wake.share_far;
-  values["wake_energy_mgD"] = wake.energy;
-  values["creep_per_minute"] = wake.creep;
+}
+
+/// Means over the ensemble: where one heap slides as a whole when woken, its twin lies still.
+template <int Dim>
+void ErrorMeter<Dim>::add_drift(std::span<const BodyStates<Dim>> ends, Values& values) const {
+  std::vector<double> drift, far, energy, creep;
+  for (const BodyStates<Dim>& end : ends) {
+    const WakeTest wake = wake_test<Dim>(maker_of<Dim>(backend_), reference_settings(scene_.world), settled(end));
+    if (wake.bodies == 0) continue;
+    drift.push_back(wake.mean / extent_);
+    far.push_back(wake.share_far);
+    energy.push_back(wake.energy);
+    creep.push_back(wake.creep);
+  }
+  if (drift.empty()) return;
+  const EnsembleSummary summary = summarize(drift);
+  values["drift_mean_D"] = summary.mean;
+  values["drift_mean_D_sd"] = summary.deviation;
+  values["drift_far"] = mean(far);
+  values["wake_energy_mgD"] = mean(energy);
+  values["creep_per_minute"] = mean(creep);
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 // How far the runs of a scene are from a baseline: the full simulation at the same settings, or the reference.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ class ErrorMeter {
   void add_motion(const Trajectory<Dim>& frames, Values& values) const;
   void add_horizon(const Recording<Dim>& run, Values& values) const;
   void add_last_state(const Recording<Dim>& run, Values& values) const;
+  void add_drift(std::span<const BodyStates<Dim>> ends, Values& values) const;
   void add_work(const Recording<Dim>& run, Values& values) const;
 
   Scene<Dim> scene_;

@@ -21,9 +21,10 @@ std::span<const char* const> measure_names() {
       "peak", "peak_sd", "peak_off_D", "angle_deg", "angle_deg_sd", "angle_off_deg", "profile_rms_D",
       "profile_rms_D_floor", "ks_z", "ks_z_p", "ks_z_floor", "w1_z", "w1_z_p", "w1_z_floor", "ks_r", "ks_r_p",
       "ks_r_floor", "w1_r", "w1_r_p", "w1_r_floor",
-      // The last state (support.h, wake_test.h); excess: beyond the baseline's.
-      "floating", "penetration_p99_D", "penetration_max_D", "drift_mean_D", "drift_mean_excess_D", "drift_far",
-      "drift_far_excess", "wake_energy_mgD", "creep_per_minute", "settling_per_minute",
+      // The last state (support.h), and what became of those of all twins once woken (wake_test.h): means, of drift
+      // the standard deviation too; excess: beyond the baseline's.
+      "floating", "penetration_p99_D", "penetration_max_D", "drift_mean_D", "drift_mean_D_sd", "drift_mean_excess_D",
+      "drift_far", "drift_far_excess", "wake_energy_mgD", "creep_per_minute", "settling_per_minute",
       // Work (work.h).
       "work_skipped", "oracle_001", "oracle_005", "oracle_02", "oracle_005_pour", "oracle_005_calm", "stops_at",
       "asleep_at"};
