@@ -17,7 +17,8 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       rest_watch_(params.rest_distance * typical.extent, world.shapes),
       props_(params.support_slack * typical.extent),
       heavy_blows_(params, typical, world),
-      blows_(params, typical.extent, world) {
+      blows_(params, typical.extent, world),
+      avalanches_(params, typical.extent, world.ground.height) {
   for (const Shape<Dim>& shape : world.shapes) weights_.push_back(shape.mass * world.gravity * world.dt);
 }
 
@@ -34,19 +35,24 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   bodies_.clear();
   props_.update(contacts, states, bodies_);
   wake(bodies_, SleepCause::lost_support, frame, decision);
+  bodies_.clear();
+  avalanches_.update(frame.world, frame.piles.piles(), bodies_);
+  wake(bodies_, SleepCause::avalanche, frame, decision);
   choose_sleepers(frame, contacts, decision);
+  avalanches_.note(states, decision.freeze, decision.thaw);
 }
 
 template <int Dim>
 void AdaptivePolicy<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame,
                                Decision<Dim>& decision) {
-  const auto before = static_cast<std::ptrdiff_t>(decision.thaw.size());  // ascending, as `bodies` are
+  const auto before = static_cast<std::ptrdiff_t>(decision.thaw.size());
   for (const BodyIndex body : bodies) {
     const auto known = std::ranges::subrange(decision.thaw.begin(), decision.thaw.begin() + before);
     if (std::ranges::binary_search(known, body, {}, &SleepEvent::body)) continue;
     const Readiness place = readiness(frame, body);
     decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = cause});
   }
+  std::ranges::sort(decision.thaw, {}, &SleepEvent::body);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include "common/policy/adaptive_params.h"
 #include "common/policy/blows.h"
 #include "common/policy/heavy_blows.h"
+#include "common/policy/local_avalanches.h"
 #include "common/policy/props.h"
 #include "common/policy/rest_watch.h"
 #include "common/policy/sleep_policy.h"
@@ -14,7 +15,8 @@ namespace talus {
 
 /// A body sleeps alone when it has been at rest for a while and ground, sleepers or others that fall asleep with it
 /// bear it; how long the while is follows from its pile's density and its closeness to the centre (section 3.3). It
-/// wakes when a blow reaches it or when what it rests on moves away; nothing else wakes it.
+/// wakes when a blow reaches it, when what it rests on moves away, or where its heap has grown too steep; nothing else
+/// wakes it.
 template <int Dim>
 class AdaptivePolicy final : public SleepPolicy<Dim> {
  public:
@@ -32,7 +34,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
     double score = 0.0;
   };
 
-  /// `bodies` ascending; to be called with two lists at most in one step.
+  /// `bodies` ascending.
   void wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision);
   void choose_sleepers(const Frame<Dim>& frame, std::span<const Contact<Dim>> contacts, Decision<Dim>& decision);
   Readiness readiness(const Frame<Dim>& frame, BodyIndex body) const;
@@ -44,6 +46,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   Props<Dim> props_;
   HeavyBlows<Dim> heavy_blows_;
   Blows<Dim> blows_;
+  LocalAvalanches<Dim> avalanches_;
   std::vector<BodyIndex> bodies_;  // scratch
 };
 

@@ -1,0 +1,126 @@
+#include "common/policy/local_avalanches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+/// The column and those that share an edge or a corner with it.
+template <std::size_t Axes>
+std::vector<std::array<int, Axes>> around(const std::array<int, Axes>& cell) {
+  std::vector<std::array<int, Axes>> cells = {cell};
+  for (std::size_t axis = 0; axis < Axes; ++axis) {
+    const std::size_t known = cells.size();
+    for (const int step : {-1, 1}) {
+      for (std::size_t i = 0; i < known; ++i) {
+        cells.push_back(cells[i]);
+        cells.back()[axis] += step;
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+template <int Dim>
+LocalAvalanches<Dim>::LocalAvalanches(const AdaptiveParams& params, double extent, double ground)
+    : width_(params.avalanche_width * extent),
+      growth_(params.avalanche_growth),
+      rise_(width_ * std::tan(params.avalanche_angle)),
+      ground_(ground) {}
+
+template <int Dim>
+typename LocalAvalanches<Dim>::Cell LocalAvalanches<Dim>::cell_of(const Vec<Dim>& position) const {
+  Cell cell;
+  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+    const double column = std::floor(position[static_cast<Eigen::Index>(axis)] / width_);
+    cell[axis] = static_cast<int>(std::clamp(column, -1e9, 1e9));
+  }
+  return cell;
+}
+
+template <int Dim>
+void LocalAvalanches<Dim>::note(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
+                                std::span<const SleepEvent> waking) {
+  const auto cell = [&](const SleepEvent& event) {
+    return cell_of(states.pose[static_cast<std::size_t>(event.body)].position);
+  };
+  for (const SleepEvent& event : waking) --columns_[cell(event)].sleepers;
+  for (const SleepEvent& event : falling_asleep) {
+    grown_.push_back(cell(event));
+    ++columns_[grown_.back()].sleepers;
+  }
+}
+
+template <int Dim>
+void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<Dim>> piles,
+                                  std::vector<BodyIndex>& sliding) {
+  for (const Cell& cell : grown_) {
+    Column& column = columns_[cell];
+    if (column.sleepers < growth_ * column.looked_at || !may_slide(world, piles, cell, column)) continue;
+    for (const auto& [place, stack] : neighbourhood_) {
+      sliding.insert(sliding.end(), stack.bodies.begin(), stack.bodies.end());
+    }
+  }
+  grown_.clear();
+  std::sort(sliding.begin(), sliding.end());
+  sliding.erase(std::unique(sliding.begin(), sliding.end()), sliding.end());
+}
+
+template <int Dim>
+bool LocalAvalanches<Dim>::may_slide(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell,
+                                     Column& column) {
+  gather(world, cell);
+  const Stack& stack = neighbourhood_[cell];
+  column.sleepers = static_cast<int>(stack.bodies.size());
+  column.looked_at = std::max(column.looked_at, column.sleepers);
+  return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
+    if (!beside.second.top && walled_off(piles, beside.first)) return false;
+    return stack.top.value_or(ground_) - beside.second.top.value_or(ground_) > rise_;
+  });
+}
+
+template <int Dim>
+void LocalAvalanches<Dim>::gather(const World<Dim>& world, const Cell& cell) {
+  const BodyStates<Dim>& states = world.states();
+  neighbourhood_.clear();
+  Box<Dim> box(Vec<Dim>::Constant(std::numeric_limits<double>::lowest()),
+               Vec<Dim>::Constant(std::numeric_limits<double>::max()));
+  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+    box.min()[static_cast<Eigen::Index>(axis)] = (cell[axis] - 1) * width_;
+    box.max()[static_cast<Eigen::Index>(axis)] = (cell[axis] + 2) * width_;
+  }
+  for (const Cell& beside : around(cell)) neighbourhood_[beside];
+  near_.clear();
+  world.near(box, near_);
+  for (const BodyIndex body : near_) {
+    const auto i = static_cast<std::size_t>(body);
+    if (states.asleep[i] == 0) continue;
+    const auto found = neighbourhood_.find(cell_of(states.pose[i].position));
+    if (found == neighbourhood_.end()) continue;
+    Stack& stack = found->second;
+    const double z = height<Dim>(states.pose[i].position);
+    stack.bodies.push_back(body);
+    stack.top = std::max(stack.top.value_or(z), z);
+  }
+}
+
+/// Whether the middle of the column lies beyond the walls of a pile.
+template <int Dim>
+bool LocalAvalanches<Dim>::walled_off(std::span<const Pile<Dim>> piles, const Cell& cell) const {
+  Horizontal<Dim> middle;
+  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+    middle[static_cast<Eigen::Index>(axis)] = (cell[axis] + 0.5) * width_;
+  }
+  return std::ranges::any_of(piles, [&](const Pile<Dim>& pile) {
+    return pile.boundary && pile.boundary->gauge(middle - horizontal<Dim>(pile.centre)) > 1.0;
+  });
+}
+
+template class LocalAvalanches<2>;
+template class LocalAvalanches<3>;
+
+}  // namespace talus

@@ -1,0 +1,62 @@
+#pragma once
+// Heaps that grow too steep on sleepers.
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/pile/pile.h"
+#include "common/policy/adaptive_params.h"
+#include "common/simulation/sleep_event.h"
+#include "common/world/world.h"
+
+namespace talus {
+
+/// The avalanche of section 3.4, only where a heap may slide. A sleeper bears any load and does not creep, so what is
+/// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds half as many
+/// sleepers again as when it was last looked at, and the highest of them lies steeply above those of a column beside
+/// it, it wakes with all columns around it: what can slide slides, the rest sleeps again a moment later.
+template <int Dim>
+class LocalAvalanches {
+ public:
+  /// `extent` is D [m], `ground` its height [m].
+  LocalAvalanches(const AdaptiveParams& params, double extent, double ground);
+
+  /// Notes who is going to sleep and who wakes; both lie where they will sleep or slept. Costs O(events).
+  void note(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
+            std::span<const SleepEvent> waking);
+
+  /// Appends the sleepers of columns that may slide, each once, ascending. `piles` tell where walls are, behind which
+  /// nothing slides. Costs O(columns that grew); one that may slide, a query of its sleepers.
+  void update(const World<Dim>& world, std::span<const Pile<Dim>> piles, std::vector<BodyIndex>& sliding);
+
+ private:
+  using Cell = std::array<int, Dim - 1>;
+  struct Column {
+    int sleepers = 0;   // as events tell; a body taken away by hand is found missing at the next look
+    int looked_at = 8;  // sleepers at the last look; fewer make no heap
+  };
+  /// The sleepers of a column as they lie.
+  struct Stack {
+    std::vector<BodyIndex> bodies;
+    std::optional<double> top;  // highest centre of mass [m]; none: empty
+  };
+
+  Cell cell_of(const Vec<Dim>& position) const;
+  bool may_slide(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell, Column& column);
+  void gather(const World<Dim>& world, const Cell& cell);
+  bool walled_off(std::span<const Pile<Dim>> piles, const Cell& cell) const;
+
+  double width_;   // of a column [m]
+  double growth_;  // since the last look
+  double rise_;    // from a column to the next from which it may slide [m]
+  double ground_;
+  std::map<Cell, Column> columns_;
+  std::vector<Cell> grown_;              // since the last update
+  std::map<Cell, Stack> neighbourhood_;  // scratch: of the column looked at, and those around it
+  std::vector<BodyIndex> near_;          // scratch
+};
+
+}  // namespace talus
