@@ -161,7 +161,8 @@ TYPED_TEST(AdaptiveTest, EachDecisionHasItsCause) {
     simulation.step();
     for (const SleepEvent& event : simulation.frame().events) {
       if (event.woke) {
-        ASSERT_TRUE(event.cause == SleepCause::momentum || event.cause == SleepCause::lost_support);
+        ASSERT_TRUE(event.cause == SleepCause::momentum || event.cause == SleepCause::lost_support ||
+                    event.cause == SleepCause::avalanche);
       } else {
         ASSERT_EQ(event.cause, SleepCause::rest);
       }

@@ -1,0 +1,123 @@
+// Where the policy `adaptive` lets heaps of sleepers slide.
+
+#include "common/policy/local_avalanches.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "common/shape/catalogue.h"
+#include "tests/common/still_world.h"
+
+namespace talus {
+namespace {
+
+/// Cubes of 1 m that sleep where they are put, and the rule with D = 1 m: columns 4 m wide, which may slide down more
+/// than 4 m tan(25 degrees) = 1.9 m to the next.
+class LocalAvalanchesTest : public testing::Test {
+ protected:
+  LocalAvalanchesTest() : world_(cubes()), avalanches_({}, 1.0, 0.0) {}
+
+  static WorldDescription<3> cubes() {
+    WorldDescription<3> world;
+    world.shapes.push_back(make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {.density = 1.0}));
+    return world;
+  }
+
+  /// Puts so many cubes to sleep in layers of four by four, upwards from the ground, in the column whose corner is at
+  /// (x, 0).
+  std::vector<BodyIndex> lay(int cubes, double x) {
+    std::vector<BodyIndex> bodies;
+    for (int i = 0; i < cubes; ++i) {
+      const Vec3 place(x + 0.5 + i % 4, 0.5 + i / 4 % 4, 0.5 + i / 16);
+      bodies.push_back(world_.add({.pose = {.position = place}}));
+    }
+    put_to_sleep(bodies);
+    return bodies;
+  }
+
+  void put_to_sleep(const std::vector<BodyIndex>& bodies) {
+    world_.freeze(bodies);
+    avalanches_.note(world_.states(), events(bodies), {});
+  }
+
+  void wake(const std::vector<BodyIndex>& bodies) {
+    world_.thaw(bodies);
+    avalanches_.note(world_.states(), {}, events(bodies));
+  }
+
+  std::vector<BodyIndex> sliding() {
+    std::vector<BodyIndex> found;
+    avalanches_.update(world_, piles_, found);
+    return found;
+  }
+
+  static std::vector<SleepEvent> events(const std::vector<BodyIndex>& bodies) {
+    std::vector<SleepEvent> events;
+    for (const BodyIndex body : bodies) events.push_back({.body = body});
+    return events;
+  }
+
+  StillWorld<3> world_;
+  LocalAvalanches<3> avalanches_;
+  std::vector<Pile<3>> piles_;
+};
+
+TEST_F(LocalAvalanchesTest, ASteepHeapWakesWithWhatLiesAroundItAndNoFarther) {
+  std::vector<BodyIndex> heap = lay(48, 0.0);
+  const std::vector<BodyIndex> beside = lay(5, 4.0);
+  lay(5, 8.0);  // another column between them
+  heap.insert(heap.end(), beside.begin(), beside.end());
+  EXPECT_EQ(sliding(), heap);
+}
+
+TEST_F(LocalAvalanchesTest, FewBodiesAreNoHeap) {
+  lay(10, 0.0);
+  EXPECT_TRUE(sliding().empty());
+}
+
+TEST_F(LocalAvalanchesTest, AHeapNoSteeperThanTheAngleStays) {
+  lay(32, 0.0);  // highest centres at 1.5 m, the next column's at the ground
+  EXPECT_TRUE(sliding().empty());
+}
+
+TEST_F(LocalAvalanchesTest, APlainStaysHoweverHigh) {
+  // Walls along both sides: the plain's only slope is the one that it does not have.
+  Pile<3> pile;
+  pile.centre = Vec3(2.0, 2.0, 0.0);
+  pile.boundary = box_boundary<3>(Eigen::Vector2d(20.0, 4.0), 20.0);
+  piles_.push_back(pile);
+  for (const double x : {-8.0, -4.0, 0.0, 4.0, 8.0}) lay(160, x);
+  EXPECT_TRUE(sliding().empty());
+}
+
+TEST_F(LocalAvalanchesTest, AHeapThatWasLookedAtIsLeftAloneUntilItHasGrown) {
+  const std::vector<BodyIndex> heap = lay(48, 0.0);
+  EXPECT_EQ(sliding().size(), heap.size());
+  wake(heap);
+  EXPECT_TRUE(sliding().empty());
+  put_to_sleep(heap);
+  EXPECT_TRUE(sliding().empty());
+  lay(16, 0.0);  // 64 < 1.35 * 48
+  EXPECT_TRUE(sliding().empty());
+  lay(1, 0.0);
+  EXPECT_EQ(sliding().size(), heap.size() + 17);
+}
+
+TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {
+  lay(48, 0.0);
+  Pile<3> pile;
+  pile.centre = Vec3(2.0, 2.0, 0.0);
+  pile.boundary = box_boundary<3>(Eigen::Vector2d(4.0, 4.0), 10.0);
+  piles_.push_back(pile);
+  EXPECT_TRUE(sliding().empty());
+}
+
+TEST_F(LocalAvalanchesTest, ABodyTakenAwayByHandNoLongerCounts) {
+  const std::vector<BodyIndex> heap = lay(48, 0.0);
+  world_.remove(heap.back());
+  EXPECT_EQ(sliding().size(), heap.size() - 1);
+}
+
+}  // namespace
+}  // namespace talus
