@@ -6,7 +6,7 @@
 namespace talus {
 namespace {
 
-constexpr double farthest = 1e9;  // [m, columns]; as an int and as an engine's float still a number
+constexpr double far_away = 1e9;  // [m, columns]; as an int and as an engine's float still a number
 
 /// The column and those that share an edge or a corner with it.
 template <std::size_t Axes>
@@ -38,7 +38,7 @@ typename LocalAvalanches<Dim>::Cell LocalAvalanches<Dim>::cell_of(const Vec<Dim>
   Cell cell;
   for (std::size_t axis = 0; axis < cell.size(); ++axis) {
     const double column = std::floor(position[static_cast<Eigen::Index>(axis)] / width_);
-    cell[axis] = static_cast<int>(std::clamp(column, -farthest, farthest));
+    cell[axis] = static_cast<int>(std::clamp(column, -far_away, far_away));
   }
   return cell;
 }
@@ -88,7 +88,7 @@ template <int Dim>
 void LocalAvalanches<Dim>::gather(const World<Dim>& world, const Cell& cell) {
   const BodyStates<Dim>& states = world.states();
   neighbourhood_.clear();
-  Box<Dim> box(Vec<Dim>::Constant(-farthest), Vec<Dim>::Constant(farthest));
+  Box<Dim> box(Vec<Dim>::Constant(-far_away), Vec<Dim>::Constant(far_away));
   for (std::size_t axis = 0; axis < cell.size(); ++axis) {
     box.min()[static_cast<Eigen::Index>(axis)] = (cell[axis] - 1) * width_;
     box.max()[static_cast<Eigen::Index>(axis)] = (cell[axis] + 2) * width_;
