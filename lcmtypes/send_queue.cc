@@ -9,6 +9,9 @@ constexpr auto pause = std::chrono::microseconds(100);
 constexpr std::size_t max_packets = 4096;
 constexpr auto farewell = std::chrono::milliseconds(200);
 
+/// How a run goes and how it ended must get through before all else.
+bool is_essential(Channel channel) { return channel == Channel::run || channel == Channel::stats; }
+
 }  // namespace
 
 SendQueue::SendQueue(std::unique_ptr<lcm::LCM> lcm, std::size_t capacity) : state_(std::make_shared<State>()) {
@@ -44,8 +47,7 @@ void SendQueue::push(Packet packet) {
 }
 
 bool SendQueue::has_room(const State& state, const Packet& packet) {
-  const bool essential = packet.channel == Channel::run || packet.channel == Channel::stats;
-  const std::size_t eighths = essential ? 8 : 7;
+  const std::size_t eighths = is_essential(packet.channel) ? 8 : 7;
   return state.packets.size() < max_packets / 8 * eighths &&
          state.bytes + packet.bytes.size() <= state.capacity / 8 * eighths;
 }
@@ -55,7 +57,13 @@ void SendQueue::close(std::chrono::milliseconds patience) {
   std::unique_lock lock(state_->mutex);
   state_->closing = true;
   state_->changed.notify_all();
-  const bool finished = state_->changed.wait_for(lock, patience, [this] { return state_->done; });
+  bool finished = state_->changed.wait_for(lock, patience, [this] { return state_->done; });
+  if (!finished) {
+    const auto left_out =
+        std::erase_if(state_->packets, [](const Packet& packet) { return !is_essential(packet.channel); });
+    state_->dropped += static_cast<std::int64_t>(left_out);
+    finished = state_->changed.wait_for(lock, farewell, [this] { return state_->done; });
+  }
   state_->dropped += static_cast<std::int64_t>(state_->packets.size());
   state_->packets.clear();
   state_->bytes = 0;
