@@ -29,8 +29,8 @@ class SendQueue {
   /// Takes the packet, or drops it.
   void push(Packet packet);
 
-  /// Sends what is queued, for at most `patience`, then for at most 0.2 s what tells who ran and how it went, and stops.
-  /// Later packets are dropped.
+  /// Sends what is queued, for at most `patience`, then for at most 0.2 s what tells who ran and how it went, and
+  /// stops. Later packets are dropped.
   void close(std::chrono::milliseconds patience);
 
   std::size_t queued_bytes() const;
