@@ -11,7 +11,7 @@ namespace talus {
 enum class SleepCause : std::uint8_t {
   score,         // rho d v above tau (section 3.3)
   rest,          // slow and supported for long enough
-  avalanche,     // its pile has an overfull layer (section 3.4)
+  avalanche,     // its pile has an overfull layer (section 3.4), or with `adaptive` its part of the heap is steep
   momentum,      // something hit its pile hard (section 3.4)
   lost_support,  // what it rested on left
   growth,        // its pile's layers changed
