@@ -30,6 +30,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   rest_watch_.update(frame.step, states, frame.world.awake());
   bodies_.clear();
   heavy_blows_.update(frame.world, bodies_);
+  rest_watch_.expect_to_move(bodies_);
   blows_.update(frame.world, contacts, bodies_, decision.kicks);
   wake(bodies_, SleepCause::momentum, frame, decision);
   bodies_.clear();
@@ -60,10 +61,7 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, std::span<con
                                           Decision<Dim>& decision) {
   bodies_.clear();
   for (const BodyIndex body : frame.world.awake()) {
-    const double rested = static_cast<double>(rest_watch_.steps_at_rest(frame.step, body)) * dt_;
-    if (rested < params_.rest_time_deep) continue;
-    const double shortened = params_.rest_time_surface - params_.rest_time_deep;
-    if (rested >= params_.rest_time_surface - shortened * readiness(frame, body).score) bodies_.push_back(body);
+    if (rested_enough(frame, body)) bodies_.push_back(body);
   }
   keep_borne<Dim>(contacts, frame.world.states(), weights_, params_.awake_share, bodies_);
   for (const BodyIndex body : bodies_) {
@@ -71,6 +69,16 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, std::span<con
     decision.freeze.push_back(
         {.body = body, .pile = place.pile, .layer = place.layer, .cause = SleepCause::rest, .score = place.score});
   }
+}
+
+/// Whom a blow or a slide did not move where it slept had come to rest before, and need not prove it again.
+template <int Dim>
+bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body) const {
+  const double rested = static_cast<double>(rest_watch_.steps_at_rest(frame.step, body)) * dt_;
+  if (rested >= params_.rest_time_woken && rest_watch_.slept_here(body)) return true;
+  if (rested < params_.rest_time_deep) return false;
+  const double shortened = params_.rest_time_surface - params_.rest_time_deep;
+  return rested >= params_.rest_time_surface - shortened * readiness(frame, body).score;
 }
 
 /// The score of section 3.3 for a body at rest, at most 1.

@@ -14,9 +14,9 @@
 namespace talus {
 
 /// A body sleeps alone when it has been at rest for a while and ground, sleepers or others that fall asleep with it
-/// bear it; how long the while is follows from its pile's density and its closeness to the centre (section 3.3). It
-/// wakes when a blow reaches it, when what it rests on moves away, or where its heap has grown too steep; nothing else
-/// wakes it.
+/// bear it; how long the while is follows from its pile's density and its closeness to the centre (section 3.3), or is
+/// short where it slept before. It wakes when a blow reaches it, when what it rests on moves away, or where its heap
+/// has grown too steep; nothing else wakes it.
 template <int Dim>
 class AdaptivePolicy final : public SleepPolicy<Dim> {
  public:
@@ -37,6 +37,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   /// `bodies` ascending.
   void wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision);
   void choose_sleepers(const Frame<Dim>& frame, std::span<const Contact<Dim>> contacts, Decision<Dim>& decision);
+  bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
   Readiness readiness(const Frame<Dim>& frame, BodyIndex body) const;
 
   AdaptiveParams params_;

@@ -78,9 +78,10 @@ bool LocalAvalanches<Dim>::may_slide(const World<Dim>& world, std::span<const Pi
   const Stack& stack = neighbourhood_[cell];
   column.sleepers = static_cast<int>(stack.bodies.size());
   column.looked_at = std::max(column.looked_at, column.sleepers);
+  const double top = stack.top.value_or(ground_);
   return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
-    if (!beside.second.top && walled_off(piles, beside.first)) return false;
-    return stack.top.value_or(ground_) - beside.second.top.value_or(ground_) > rise_;
+    const double foot = std::max(beside.second.top.value_or(ground_), wall_between(piles, cell, beside.first));
+    return top - foot > rise_;
   });
 }
 
@@ -108,16 +109,22 @@ void LocalAvalanches<Dim>::gather(const World<Dim>& world, const Cell& cell) {
   }
 }
 
-/// Whether the middle of the column lies beyond the walls of a pile.
+/// Height to which walls of piles part the middles of two columns [m]; the ground's where there are none.
 template <int Dim>
-bool LocalAvalanches<Dim>::walled_off(std::span<const Pile<Dim>> piles, const Cell& cell) const {
-  Horizontal<Dim> middle;
-  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
-    middle[static_cast<Eigen::Index>(axis)] = (cell[axis] + 0.5) * width_;
+double LocalAvalanches<Dim>::wall_between(std::span<const Pile<Dim>> piles, const Cell& a, const Cell& b) const {
+  double height = ground_;
+  for (const Pile<Dim>& pile : piles) {
+    if (!pile.boundary) continue;
+    const auto within = [&](const Cell& cell) {
+      Horizontal<Dim> middle;
+      for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+        middle[static_cast<Eigen::Index>(axis)] = (cell[axis] + 0.5) * width_;
+      }
+      return pile.boundary->gauge(middle - horizontal<Dim>(pile.centre)) <= 1.0;
+    };
+    if (within(a) != within(b)) height = std::max(height, talus::height<Dim>(pile.centre) + pile.boundary->rim);
   }
-  return std::ranges::any_of(piles, [&](const Pile<Dim>& pile) {
-    return pile.boundary && pile.boundary->gauge(middle - horizontal<Dim>(pile.centre)) > 1.0;
-  });
+  return height;
 }
 
 template class LocalAvalanches<2>;

@@ -15,9 +15,9 @@
 namespace talus {
 
 /// The avalanche of section 3.4, only where a heap may slide. A sleeper bears any load and does not creep, so what is
-/// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds half as many
-/// sleepers again as when it was last looked at, and the highest of them lies steeply above those of a column beside
-/// it, it wakes with all columns around it: what can slide slides, the rest sleeps again a moment later.
+/// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds a
+/// fifth more sleepers than when it was last looked at, and the highest of them lies steeply above those of a column
+/// beside it, it wakes with all columns around it: what can slide slides, the rest sleeps again a moment later.
 template <int Dim>
 class LocalAvalanches {
  public:
@@ -28,8 +28,8 @@ class LocalAvalanches {
   void note(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
             std::span<const SleepEvent> waking);
 
-  /// Appends the sleepers of columns that may slide, each once, ascending. `piles` tell where walls are, behind which
-  /// nothing slides. Costs O(columns that grew); one that may slide, a query of its sleepers.
+  /// Appends the sleepers of columns that may slide, each once, ascending. `piles` tell where walls are, over which
+  /// only what stands above their rim slides. Costs O(columns that grew); one that may slide, a query of its sleepers.
   void update(const World<Dim>& world, std::span<const Pile<Dim>> piles, std::vector<BodyIndex>& sliding);
 
  private:
@@ -47,7 +47,7 @@ class LocalAvalanches {
   Cell cell_of(const Vec<Dim>& position) const;
   bool may_slide(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell, Column& column);
   void gather(const World<Dim>& world, const Cell& cell);
-  bool walled_off(std::span<const Pile<Dim>> piles, const Cell& cell) const;
+  double wall_between(std::span<const Pile<Dim>> piles, const Cell& a, const Cell& b) const;
 
   double width_;   // of a column [m]
   double growth_;  // since the last look

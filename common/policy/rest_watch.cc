@@ -34,17 +34,35 @@ void RestWatch<Dim>::update(std::int64_t step, const BodyStates<Dim>& states, st
     const auto i = static_cast<std::size_t>(body);
     const double reach = reach_[static_cast<std::size_t>(states.shape[i])];
     while (last != last_anchors_.end() && last->body < body) ++last;
-    const bool rests = last != last_anchors_.end() && last->body == body &&
-                       farthest_move(last->pose, states.pose[i], reach) <= distance_;
-    anchors_.push_back(rests ? *last : Anchor{.body = body, .pose = states.pose[i], .since = step});
+    const bool known = last != last_anchors_.end() && last->body == body;
+    const bool rests = known && farthest_move(last->pose, states.pose[i], reach) <= distance_;
+    const bool woke = !known && body < last_count_ && !std::ranges::binary_search(expected_, body);
+    anchors_.push_back(rests ? *last : Anchor{.body = body, .pose = states.pose[i], .since = step, .slept = woke});
   }
+  last_count_ = states.size();
+  expected_.clear();
+}
+
+template <int Dim>
+void RestWatch<Dim>::expect_to_move(std::span<const BodyIndex> bodies) {
+  expected_.assign(bodies.begin(), bodies.end());
 }
 
 template <int Dim>
 std::int64_t RestWatch<Dim>::steps_at_rest(std::int64_t step, BodyIndex body) const {
+  return step - anchor_of(body).since;
+}
+
+template <int Dim>
+bool RestWatch<Dim>::slept_here(BodyIndex body) const {
+  return anchor_of(body).slept;
+}
+
+template <int Dim>
+const typename RestWatch<Dim>::Anchor& RestWatch<Dim>::anchor_of(BodyIndex body) const {
   const auto anchor = std::ranges::lower_bound(anchors_, body, {}, &Anchor::body);
   assert(anchor != anchors_.end() && anchor->body == body);
-  return step - anchor->since;
+  return *anchor;
 }
 
 template class RestWatch<2>;

@@ -20,21 +20,33 @@ class RestWatch {
   /// To be called once a step. Costs O(awake).
   void update(std::int64_t step, const BodyStates<Dim>& states, std::span<const BodyIndex> awake);
 
+  /// Of sleepers that wake now, those (ascending) that do because they will be hit later: they have not proved their
+  /// rest.
+  void expect_to_move(std::span<const BodyIndex> bodies);
+
   /// Steps since the rest of a body that is awake began; 0 for one that moves.
   std::int64_t steps_at_rest(std::int64_t step, BodyIndex body) const;
+
+  /// Whether a body that is awake woke where it rests, and has not left the place since.
+  bool slept_here(BodyIndex body) const;
 
  private:
   struct Anchor {
     BodyIndex body = 0;
     Pose<Dim> pose{};
     std::int64_t since = 0;  // step at which the rest began
+    bool slept = false;      // it woke here
   };
+
+  const Anchor& anchor_of(BodyIndex body) const;
 
   double distance_;
   std::vector<double> reach_;         // [shape] farthest that a point lies from the centre of mass [m]
   std::vector<Anchor> anchors_;       // of the awake, ascending
   std::vector<Anchor> last_anchors_;  // of the step before
   std::int64_t last_step_ = -1;
+  std::vector<BodyIndex> expected_;  // to move, of those that woke in the last step
+  BodyIndex last_count_ = 0;         // bodies in the world the step before
 };
 
 /// No point within `reach` of the centre of mass moves farther than this [m] between two poses.

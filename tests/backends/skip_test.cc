@@ -85,7 +85,7 @@ TYPED_TEST(SkipTest, WhatBouncesMeetsTheGroundAsIfItHadBeenWatchedInFlight) {
 
 TYPED_TEST(SkipTest, TheTestSceneRestsInBetweenAndWakes) {
   const Outcome outcome = this->run(this->two_strings("adaptive"));
-  EXPECT_GT(outcome.idle_steps, 30);
+  EXPECT_GT(outcome.idle_steps, 20);
   EXPECT_GT(outcome.woken, 0);
   EXPECT_EQ(outcome.frames_seen, 720) << "observers see each step of a world at rest";
 }

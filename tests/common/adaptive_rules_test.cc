@@ -9,7 +9,6 @@
 #include "common/policy/blows.h"
 #include "common/policy/impulse.h"
 #include "common/policy/props.h"
-#include "common/policy/rest_watch.h"
 #include "common/shape/catalogue.h"
 #include "tests/common/still_world.h"
 
@@ -51,38 +50,6 @@ TEST(Impulse, TurnsABodyThatItMeetsOffCentre) {
   push<3>(cube, pose, place, 2.0 * Vec3::UnitX(), velocity, spin);
   EXPECT_NEAR((velocity - Vec3(2.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((spin - Vec3(0.0, 6.0, 0.0)).norm(), 0.0, 1e-12);  // l J / I about y
-}
-
-TEST(RestWatch, CountsFromWhereABodyCameToRestAndAnewWhenItStrays) {
-  StillWorld<3> world = cubes_at({Vec3::Zero()});
-  BodyStates<3> states = world.states();
-  RestWatch<3> watch(0.01, cubes().shapes);
-  for (int step = 1; step <= 10; ++step) {
-    states.pose[0].position[0] = 0.0005 * step;  // creeps, but within the distance
-    watch.update(step, states, world.awake());
-  }
-  EXPECT_EQ(watch.steps_at_rest(10, 0), 9);
-  states.pose[0].position[0] = 0.02;
-  watch.update(11, states, world.awake());
-  EXPECT_EQ(watch.steps_at_rest(11, 0), 0);
-}
-
-TEST(RestWatch, SeesABodyThatOnlyTurns) {
-  StillWorld<3> world = cubes_at({Vec3::Zero()});
-  BodyStates<3> states = world.states();
-  RestWatch<3> watch(0.01, cubes().shapes);
-  watch.update(1, states, world.awake());
-  states.pose[0].rotation = Eigen::AngleAxisd(0.02, Vec3::UnitZ());  // a corner goes 0.017 m
-  watch.update(2, states, world.awake());
-  EXPECT_EQ(watch.steps_at_rest(2, 0), 0);
-}
-
-TEST(RestWatch, BeginsAnewForABodyThatSleptInBetween) {
-  StillWorld<3> world = cubes_at({Vec3::Zero()});
-  RestWatch<3> watch(0.01, cubes().shapes);
-  watch.update(1, world.states(), world.awake());
-  watch.update(5, world.states(), world.awake());
-  EXPECT_EQ(watch.steps_at_rest(5, 0), 0);
 }
 
 /// Cube 1 on cube 0 on the ground, each weighing 1 N s a step.

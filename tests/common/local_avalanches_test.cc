@@ -98,10 +98,10 @@ TEST_F(LocalAvalanchesTest, AHeapThatWasLookedAtIsLeftAloneUntilItHasGrown) {
   EXPECT_TRUE(sliding().empty());
   put_to_sleep(heap);
   EXPECT_TRUE(sliding().empty());
-  lay(16, 0.0);  // 64 < 1.35 * 48
+  lay(9, 0.0);  // 57 < 1.2 * 48
   EXPECT_TRUE(sliding().empty());
   lay(1, 0.0);
-  EXPECT_EQ(sliding().size(), heap.size() + 17);
+  EXPECT_EQ(sliding().size(), heap.size() + 10);
 }
 
 TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {
@@ -111,6 +111,21 @@ TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {
   pile.boundary = box_boundary<3>(Eigen::Vector2d(4.0, 4.0), 10.0);
   piles_.push_back(pile);
   EXPECT_TRUE(sliding().empty());
+}
+
+TEST_F(LocalAvalanchesTest, OnlyWhatStandsAboveTheRimSlidesOverAWall) {
+  Pile<3> pile;
+  pile.centre = Vec3(2.0, 2.0, 0.0);
+  pile.boundary = box_boundary<3>(Eigen::Vector2d(4.0, 4.0), 1.0);
+  piles_.push_back(pile);
+  lay(48, 0.0);  // highest centres at 2.5 m, 1.5 m above the rim
+  EXPECT_TRUE(sliding().empty());
+  lay(5, 4.0);  // spilt, and lower than the rim
+  EXPECT_TRUE(sliding().empty());
+  lay(16, 0.0);  // on the heap's foot, so that it is looked at again
+  EXPECT_TRUE(sliding().empty());
+  lay(80, 0.0);  // up to 4.5 m
+  EXPECT_FALSE(sliding().empty());
 }
 
 TEST_F(LocalAvalanchesTest, ABodyTakenAwayByHandNoLongerCounts) {

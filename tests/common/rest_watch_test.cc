@@ -1,0 +1,91 @@
+// How long bodies rest, and where.
+
+#include "common/policy/rest_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "common/shape/catalogue.h"
+#include "tests/common/still_world.h"
+
+namespace talus {
+namespace {
+
+WorldDescription<3> cubes() {
+  WorldDescription<3> world;
+  world.shapes.push_back(make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {.density = 1.0}));
+  return world;
+}
+
+StillWorld<3> cubes_at(const std::vector<Vec3>& places) {
+  StillWorld<3> world(cubes());
+  for (const Vec3& place : places) world.add({.pose = {.position = place}});
+  return world;
+}
+
+TEST(RestWatch, CountsFromWhereABodyCameToRestAndAnewWhenItStrays) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  BodyStates<3> states = world.states();
+  RestWatch<3> watch(0.01, cubes().shapes);
+  for (int step = 1; step <= 10; ++step) {
+    states.pose[0].position[0] = 0.0005 * step;  // creeps, but within the distance
+    watch.update(step, states, world.awake());
+  }
+  EXPECT_EQ(watch.steps_at_rest(10, 0), 9);
+  states.pose[0].position[0] = 0.02;
+  watch.update(11, states, world.awake());
+  EXPECT_EQ(watch.steps_at_rest(11, 0), 0);
+}
+
+TEST(RestWatch, SeesABodyThatOnlyTurns) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  BodyStates<3> states = world.states();
+  RestWatch<3> watch(0.01, cubes().shapes);
+  watch.update(1, states, world.awake());
+  states.pose[0].rotation = Eigen::AngleAxisd(0.02, Vec3::UnitZ());  // a corner goes 0.017 m
+  watch.update(2, states, world.awake());
+  EXPECT_EQ(watch.steps_at_rest(2, 0), 0);
+}
+
+TEST(RestWatch, BeginsAnewForABodyThatSleptInBetween) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  RestWatch<3> watch(0.01, cubes().shapes);
+  watch.update(1, world.states(), world.awake());
+  watch.update(5, world.states(), world.awake());
+  EXPECT_EQ(watch.steps_at_rest(5, 0), 0);
+}
+
+TEST(RestWatch, KnowsWhoWokeWhereItRestsUntilItStrays) {
+  StillWorld<3> world = cubes_at({Vec3::Zero(), Vec3(5.0, 0.0, 0.0)});
+  BodyStates<3> states = world.states();
+  const BodyIndex first = 0;
+  RestWatch<3> watch(0.01, cubes().shapes);
+  watch.update(1, states, world.awake());
+  EXPECT_FALSE(watch.slept_here(first));  // it is new
+  world.freeze({&first, 1});
+  watch.update(2, states, world.awake());
+  world.thaw({&first, 1});
+  watch.update(3, states, world.awake());
+  EXPECT_TRUE(watch.slept_here(first));
+  EXPECT_FALSE(watch.slept_here(1));  // it never slept
+  states.pose[0].position[0] = 0.02;
+  watch.update(4, states, world.awake());
+  EXPECT_FALSE(watch.slept_here(first));
+}
+
+TEST(RestWatch, DoesNotTakeForRestedWhoWokeForWhatIsToCome) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  const std::vector<BodyIndex> all = {0};
+  RestWatch<3> watch(0.01, cubes().shapes);
+  watch.update(1, world.states(), world.awake());
+  world.freeze(all);
+  watch.update(2, world.states(), world.awake());
+  watch.expect_to_move(all);
+  world.thaw(all);
+  watch.update(3, world.states(), world.awake());
+  EXPECT_FALSE(watch.slept_here(0));
+}
+
+}  // namespace
+}  // namespace talus
