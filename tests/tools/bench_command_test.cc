@@ -51,7 +51,7 @@ Json results_of(const TemporaryFolder& folder, const std::string& name, const st
 TEST(BenchTable1, ShowsErrorsFloorsAndTheCeilingBesideEachSpeedUp) {
   const TemporaryFolder folder;
   const Json json = results_of(folder, "table1", "--scene drop_in_a_pile_2d --reference");
-  ASSERT_EQ(json["cases"].size(), 4U) << "full, engine, paper, reference";
+  ASSERT_EQ(json["cases"].size(), 5U) << "full, engine, paper, reference, shipped";
   const Json& full = json["cases"][0];
   EXPECT_EQ(full["policy"], "full");
   EXPECT_EQ(full["against_full"]["speed_up"], 1.0);
@@ -65,6 +65,10 @@ TEST(BenchTable1, ShowsErrorsFloorsAndTheCeilingBesideEachSpeedUp) {
   }
   EXPECT_GT(paper["against_full"]["work_skipped"], 0.0);
   EXPECT_GT(full["against_reference"]["R"], 0.0) << "the full run at other settings is not the reference";
+  const Json& shipped = json["cases"][4];
+  EXPECT_EQ(shipped["policy"], "shipped");
+  EXPECT_TRUE(shipped["against_reference"].contains("ks_z"));
+  EXPECT_NE(shipped["end_hashes"], json["cases"][1]["end_hashes"]) << "the scene's settings are not the engine's own";
 }
 
 TEST(BenchTable1, GoesOnWhereItStoppedAndMeasuresNothingTwice) {

@@ -19,13 +19,20 @@ RowKey key_of(const BenchCase& bench_case) {
           version_text()};
 }
 
+bool is_yardstick(const BenchCase& bench_case) {
+  return bench_case.policy == reference_policy || bench_case.policy == shipped_policy;
+}
+
 AnyScene load(const BenchCase& bench_case) {
   const bool reference = bench_case.policy == reference_policy;
+  const bool shipped = bench_case.policy == shipped_policy;
+  const std::string policy = reference ? "full" : shipped ? "engine" : bench_case.policy;
   std::vector<Override> overrides;
   for (const std::string& setting : bench_case.settings) overrides.push_back({setting});
-  overrides.push_back({"policy.kind=" + (reference ? std::string("full") : bench_case.policy)});
+  overrides.push_back({"policy.kind=" + policy});
   AnyScene scene = read_scene(find_scene(bench_case.scene), overrides);
   if (reference) std::visit([](auto& any) { any.world = reference_settings(any.world); }, scene);
+  if (shipped) std::visit([](auto& any) { any.world = shipped_settings(any.world); }, scene);
   return scene;
 }
 

@@ -13,11 +13,15 @@ namespace talus {
 struct BenchCase {
   std::string scene;                  // file or name
   std::string backend;                // engine
-  std::string policy;                 // "reference": full at the reference settings
+  std::string policy;                 // or "reference" or "shipped"
   std::vector<std::string> settings;  // path=value, replaces values of the scene file
 };
 
-inline constexpr const char* reference_policy = "reference";
+inline constexpr const char* reference_policy = "reference";  // full at settings that are taken for converged
+inline constexpr const char* shipped_policy = "shipped";      // the engine with its own sleeping and default settings
+
+/// Whether the case is there to be measured against, and not a policy that is measured.
+bool is_yardstick(const BenchCase& bench_case);
 
 /// Without a round: fill that in.
 RowKey key_of(const BenchCase& bench_case);

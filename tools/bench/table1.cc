@@ -67,7 +67,7 @@ Table paper_table_1(const BenchRunner& runner, const std::vector<BenchGroup>& gr
   }
   for (const BenchGroup& group : groups) {
     for (const BenchCase& each : group.cases) {
-      if (each.policy == "full" || each.policy == reference_policy) continue;
+      if (each.policy == "full" || is_yardstick(each)) continue;
       table.rows.push_back(paper_row(runner, group, each));
     }
   }
@@ -84,7 +84,7 @@ Figure ceiling_figure(const BenchRunner& runner, const std::vector<BenchGroup>& 
     for (std::size_t i = 1; i < group.cases.size(); ++i) {
       const Values values = runner.summary(group.cases[i], group.cases.front());
       const double speed_up = value_of(values, "speed_up");
-      if (group.cases[i].policy == reference_policy || !std::isfinite(ceiling) || !std::isfinite(speed_up)) continue;
+      if (is_yardstick(group.cases[i]) || !std::isfinite(ceiling) || !std::isfinite(speed_up)) continue;
       Series& series = by_policy[group.cases[i].policy];
       series.x.push_back(ceiling);
       series.y.push_back(speed_up);
@@ -126,6 +126,8 @@ void bench_table1(const BenchOptions& options) {
   for (const std::string& scene : scenes_of(options, names, quick_scenes)) {
     for (const std::string& backend : backends_of(options, scene)) {
       groups.push_back(policies_group(options, scene, backend));
+      std::vector<BenchCase>& cases = groups.back().cases;
+      if (options.reference) cases.push_back({scene, backend, shipped_policy, cases.front().settings});
     }
   }
   BenchRunner runner(options);

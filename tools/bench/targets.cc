@@ -62,8 +62,10 @@ void add_truth_targets(const RowKey& key, const Values& values, std::vector<Targ
   }
 }
 
-/// Inside the band: off by no more than two standard deviations, and not told apart by a permutation of runs.
-void add_shape_targets(const Values& against_reference, const Values& reference, std::vector<Target>& targets) {
+/// Inside the band: off by no more than two standard deviations, and not told apart by a permutation of runs. And
+/// nearer than the engine at its default settings.
+void add_shape_targets(const Values& against_reference, const Values& reference, const Values& shipped,
+                       std::vector<Target>& targets) {
   if (std::isnan(value_of(against_reference, "ks_z"))) return;
   for (const char* name : {"centre", "r50", "r95"}) {
     const double off = std::abs(value_of(against_reference, name) - value_of(reference, name));
@@ -74,6 +76,10 @@ void add_shape_targets(const Values& against_reference, const Values& reference,
       {"KS(z) over the reference's own", value_of(against_reference, "ks_z") / value_of(reference, "ks_z_floor"), 1.5});
   targets.push_back(
       {"KS(r) over the reference's own", value_of(against_reference, "ks_r") / value_of(reference, "ks_r_floor"), 1.5});
+  for (const auto& [name, what] :
+       {std::pair("ks_z", "KS(z) over the shipped engine's"), std::pair("ks_r", "KS(r) over the shipped engine's")}) {
+    targets.push_back({what, value_of(against_reference, name) / value_of(shipped, name), 1.0});
+  }
 }
 
 std::vector<Target> targets_of(const BenchRunner& runner, const BenchGroup& group, const BenchCase& each) {
@@ -83,13 +89,15 @@ std::vector<Target> targets_of(const BenchRunner& runner, const BenchGroup& grou
   const Values values = runner.summary(each, full);
   add_speed_targets(key, values, runner.summary(group.cases[1], full), targets);
   add_truth_targets(key, values, targets);
-  const auto reference = std::find_if(group.cases.begin(), group.cases.end(),
-                                      [](const BenchCase& other) { return other.policy == reference_policy; });
-  if (reference == group.cases.end()) return targets;
+  const auto of_policy = [&](const char* policy) { return std::ranges::find(group.cases, policy, &BenchCase::policy); };
+  const auto reference = of_policy(reference_policy);
+  const auto shipped = of_policy(shipped_policy);
+  if (reference == group.cases.end() || shipped == group.cases.end()) return targets;
   const Values of_reference = runner.summary(*reference, full, "reference");
   targets.push_back(
       {"over the converged reference", value_of(of_reference, "seconds") / value_of(values, "seconds"), 25.0, true});
-  add_shape_targets(runner.summary(each, full, "reference"), of_reference, targets);
+  add_shape_targets(runner.summary(each, full, "reference"), of_reference, runner.summary(*shipped, full, "reference"),
+                    targets);
   return targets;
 }
 
@@ -99,7 +107,7 @@ Table targets_table(const BenchRunner& runner, const std::vector<BenchGroup>& gr
   Table table{"", {{"scene"}, {"engine"}, {"policy"}, {"what"}, {"measured", true}, {"wanted", true}, {"reached"}}, {}};
   for (const BenchGroup& group : groups) {
     for (const BenchCase& each : group.cases) {
-      if (each.policy == "full" || each.policy == "engine" || each.policy == reference_policy) continue;
+      if (each.policy == "full" || each.policy == "engine" || is_yardstick(each)) continue;
       for (const Target& target : targets_of(runner, group, each)) {
         const bool known = !std::isnan(target.measured);
         const bool reached = target.at_least ? target.measured >= target.limit : target.measured <= target.limit;
