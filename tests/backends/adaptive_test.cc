@@ -6,7 +6,7 @@
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::adaptive_test {
 namespace {
 
 template <typename Backend>
@@ -171,4 +171,4 @@ TYPED_TEST(AdaptiveTest, EachDecisionHasItsCause) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::adaptive_test

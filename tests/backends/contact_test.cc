@@ -4,7 +4,7 @@
 
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::contact_test {
 namespace {
 
 template <typename Backend>
@@ -113,4 +113,4 @@ TYPED_TEST(Seam, WithoutEngineSleepNobodySleeps) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::contact_test

@@ -16,7 +16,7 @@
 #include "common/scene/read_scene.h"
 #include "common/simulation/simulation.h"
 
-namespace talus {
+namespace talus::engines_agree_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,6 +60,6 @@ INSTANTIATE_TEST_SUITE_P(OnScenes, LongEngines,
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::engines_agree_test
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::freeze_test {
 namespace {
 
 template <typename Backend>
@@ -160,4 +160,4 @@ TYPED_TEST(FrozenBody, IsNotAmongTheAwakeWhateverHits) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::freeze_test

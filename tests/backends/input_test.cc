@@ -5,7 +5,7 @@
 
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::input_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -57,4 +57,4 @@ TYPED_TEST(BadInput, OfASpeedBeyondTheEnginesReachIsRefusedOrSimulated) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::input_test

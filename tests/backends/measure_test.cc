@@ -10,7 +10,7 @@
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::measure_test {
 namespace {
 
 template <typename Backend>
@@ -167,4 +167,4 @@ TYPED_TEST(MeasureTest, WakesTheSleepersWhenAPiledRunIsReplayed) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_test

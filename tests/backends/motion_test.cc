@@ -2,7 +2,7 @@
 
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::motion_test {
 namespace {
 
 template <typename Backend>
@@ -135,4 +135,4 @@ TYPED_TEST(Motion, IsTheSameBitsInAFreshWorld) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::motion_test

@@ -13,7 +13,7 @@
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::scene_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TYPED_TEST(SceneRun, DropsAGridAtOnce) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_run_test

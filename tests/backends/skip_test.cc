@@ -7,7 +7,7 @@
 #include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::skip_test {
 namespace {
 
 /// What a run of a scene was like.
@@ -104,4 +104,4 @@ TYPED_TEST(SkipTest, SlowBodiesSparedContinuousCollisionDoNotSinkIn) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::skip_test

@@ -3,7 +3,7 @@
 #include "common/simulation/emitter.h"
 #include "tests/backends/backend.h"
 
-namespace talus {
+namespace talus::spout_rate_test {
 namespace {
 
 template <typename Backend>
@@ -58,4 +58,4 @@ TYPED_TEST(SpoutRate, OfTumblingLsInASpreadIsReached) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::spout_rate_test

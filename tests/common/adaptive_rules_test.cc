@@ -12,7 +12,7 @@
 #include "common/shape/catalogue.h"
 #include "tests/common/still_world.h"
 
-namespace talus {
+namespace talus::adaptive_rules_test {
 namespace {
 
 /// Cubes of 1 kg and 1 m: inertia m / 6 about each axis.
@@ -199,4 +199,4 @@ TEST(Blow, GivesNobodyMoreSpeedThanTheFastestApproachOfTheStep) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::adaptive_rules_test

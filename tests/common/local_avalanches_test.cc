@@ -9,7 +9,7 @@
 #include "common/shape/catalogue.h"
 #include "tests/common/still_world.h"
 
-namespace talus {
+namespace talus::local_avalanches_test {
 namespace {
 
 /// Cubes of 1 m that sleep where they are put, and the rule with D = 1 m: columns 4 m wide, which may slide down more
@@ -135,4 +135,4 @@ TEST_F(LocalAvalanchesTest, ABodyTakenAwayByHandNoLongerCounts) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::local_avalanches_test

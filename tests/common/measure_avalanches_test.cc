@@ -7,7 +7,7 @@
 #include "common/simulation/simulation.h"
 #include "tests/common/still_world.h"
 
-namespace talus {
+namespace talus::measure_avalanches_test {
 namespace {
 
 /// Eight unit cubes in a one-layer pile with room for four: asleep in the first step, woken when it is overfull.
@@ -59,4 +59,4 @@ TEST(AvalancheWatch, KeepsOneThatLastsToTheEndOfTheRun) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_avalanches_test

@@ -4,7 +4,7 @@
 #include "common/shape/catalogue.h"
 #include "tests/common/made_up_run.h"
 
-namespace talus {
+namespace talus::measure_compare_test {
 namespace {
 
 const std::vector<Shape<2>> discs = {make_shape<2>("disc", ball_pieces<2>(0.5), Material{})};
@@ -58,4 +58,4 @@ TEST(RunComparison, RefusesRunsThatCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_compare_test

@@ -6,7 +6,7 @@
 #include "common/math/random.h"
 #include "common/measure/convex_distance.h"
 
-namespace talus {
+namespace talus::measure_convex_distance_test {
 namespace {
 
 constexpr double exact = 1e-9;  // [m]; coordinates near 1 with some hundred roundings of 1e-16 each
@@ -209,4 +209,4 @@ TEST(ConvexDistance, IsExactFarFromTheOriginToo) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_convex_distance_test

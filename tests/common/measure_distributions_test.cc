@@ -4,7 +4,7 @@
 #include "common/measure/distributions.h"
 #include "common/measure/ensemble.h"
 
-namespace talus {
+namespace talus::measure_distributions_test {
 namespace {
 
 /// `runs` runs of `bodies` numbers, uniform in [0, 1) plus a shift of each run's own, uniform within `scatter`.
@@ -117,4 +117,4 @@ TEST(Quantile, IsTheSmallestNumberThatEnoughDoNotExceed) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_distributions_test

@@ -5,7 +5,7 @@
 #include "tests/common/falling_world.h"
 #include "tests/common/made_up_run.h"
 
-namespace talus {
+namespace talus::measure_horizon_test {
 namespace {
 
 const std::vector<double> two_metres = {2.0};
@@ -113,4 +113,4 @@ TEST(RecordedContinuation, RefusesForksBetweenFrames) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_horizon_test

@@ -6,7 +6,7 @@
 #include "common/measure/motion_error.h"
 #include "tests/common/made_up_run.h"
 
-namespace talus {
+namespace talus::measure_motion_error_test {
 namespace {
 
 const std::vector<double> one_metre = {1.0};
@@ -110,4 +110,4 @@ TEST(Skill, IsZeroAtTheFloorAndOneAtTheCeiling) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_motion_error_test

@@ -6,7 +6,7 @@
 #include "common/math/random.h"
 #include "common/measure/shape_statistics.h"
 
-namespace talus {
+namespace talus::measure_shape_test {
 namespace {
 
 constexpr double foot = 10.0;
@@ -143,4 +143,4 @@ TEST(AngleOfRepose, GivesTheFitsStandardError) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_shape_test

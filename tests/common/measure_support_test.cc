@@ -8,7 +8,7 @@
 #include "common/shape/catalogue.h"
 #include "tests/common/made_up_run.h"
 
-namespace talus {
+namespace talus::measure_support_test {
 namespace {
 
 WorldDescription<3> cubes_world() {
@@ -104,4 +104,4 @@ TEST(Penetration, CountsGapsAsNoDepth) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_support_test

@@ -2,7 +2,7 @@
 
 #include "tests/common/made_up_run.h"
 
-namespace talus {
+namespace talus::measure_trajectory_test {
 namespace {
 
 TEST(Trajectory, KeepsPosesAsTheEnginesHaveThemInSinglePrecision) {
@@ -53,4 +53,4 @@ TEST(Trajectory, TellsEqualBodiesFromThoseThatDifferInTheLastBit) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_trajectory_test

@@ -7,7 +7,7 @@
 #include "tests/common/falling_world.h"
 #include "tests/common/made_up_run.h"
 
-namespace talus {
+namespace talus::measure_wake_test {
 namespace {
 
 template <int Dim>
@@ -108,4 +108,4 @@ TEST(ReferenceSettings, AreNeverCoarserThanTheRunsOwn) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_wake_test

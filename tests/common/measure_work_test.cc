@@ -6,7 +6,7 @@
 #include "tests/common/falling_world.h"
 #include "tests/common/made_up_run.h"
 
-namespace talus {
+namespace talus::measure_work_test {
 namespace {
 
 const std::vector<double> two_metres = {2.0};
@@ -58,4 +58,4 @@ TEST(OracleCeiling, SeesABodyThatGoesAndComesBack) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::measure_work_test

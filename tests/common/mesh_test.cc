@@ -16,7 +16,7 @@
 #include "common/shape/surface.h"
 #include "tests/common/shape_generators.h"
 
-namespace talus {
+namespace talus::mesh_test {
 namespace {
 
 // The surface of a shape as a soup: every face a fan of triangles with corners of its own.
@@ -183,4 +183,4 @@ TEST_F(MeshFile, RefusesParametersAndFilesThatGiveNoShape) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::mesh_test

@@ -10,7 +10,7 @@
 #include "common/pile/pile_set.h"
 #include "tests/common/counted_bodies.h"
 
-namespace talus {
+namespace talus::natural_slope_test {
 namespace {
 
 constexpr TypicalBody brick{.bounding_volume = 0.4, .extent = 1.4, .mass = 1.0};
@@ -70,4 +70,4 @@ TEST(PileWithASlope, KeepsIt) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::natural_slope_test

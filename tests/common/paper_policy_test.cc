@@ -11,7 +11,7 @@
 #include "common/simulation/simulation.h"
 #include "tests/common/still_world.h"
 
-namespace talus {
+namespace talus::paper_policy_test {
 namespace {
 
 /// Unit cubes of 1 kg: v_obj = 1, D = sqrt(3). One pile at the origin whose structure never grows or drifts.
@@ -201,4 +201,4 @@ TEST(RemovedBody, WakesTheSleepersAroundIt) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::paper_policy_test

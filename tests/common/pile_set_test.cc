@@ -10,7 +10,7 @@
 
 #include "tests/common/counted_bodies.h"
 
-namespace talus {
+namespace talus::pile_set_test {
 namespace {
 
 constexpr TypicalBody body{.bounding_volume = 0.4, .extent = 1.4, .mass = 1.0};
@@ -226,4 +226,4 @@ TEST(PileSet, CountsABodyInFlightOnlyWhereThePileSaysSo) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::pile_set_test

@@ -9,7 +9,7 @@
 
 #include "common/pile/profile.h"
 
-namespace talus {
+namespace talus::pile_test {
 namespace {
 
 constexpr TypicalBody body{.bounding_volume = 0.4, .extent = 1.4, .mass = 1.0};
@@ -160,4 +160,4 @@ TEST(Boundary, OfAWedgeIsAnInterval) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::pile_test

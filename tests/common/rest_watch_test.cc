@@ -9,7 +9,7 @@
 #include "common/shape/catalogue.h"
 #include "tests/common/still_world.h"
 
-namespace talus {
+namespace talus::rest_watch_test {
 namespace {
 
 WorldDescription<3> cubes() {
@@ -88,4 +88,4 @@ TEST(RestWatch, DoesNotTakeForRestedWhoWokeForWhatIsToCome) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::rest_watch_test

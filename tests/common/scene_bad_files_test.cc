@@ -6,7 +6,7 @@
 
 #include "common/scene/read_scene.h"
 
-namespace talus {
+namespace talus::scene_bad_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ TEST(SceneFileThatIsNotThere, IsAnErrorThatNamesIt) {
 TEST(Folder, IsNoSceneFile) { EXPECT_THROW(read_scene(fs::path(TALUS_SOURCE_DIR)), SceneErrors); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_bad_files_test

@@ -9,7 +9,7 @@
 #include "common/scene/write_scene.h"
 #include "tests/common/scene_description.h"
 
-namespace talus {
+namespace talus::scene_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,4 +81,4 @@ TEST(WriteScene, TellsWhereItCouldNotWrite) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_files_test

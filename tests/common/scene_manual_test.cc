@@ -8,7 +8,7 @@
 #include "common/scene/read_shape.h"
 #include "tests/common/scene_description.h"
 
-namespace talus {
+namespace talus::scene_manual_test {
 namespace {
 
 std::vector<std::string> manual() {
@@ -139,4 +139,4 @@ TEST(Manual, GivesTheDefaultsThatTheReaderHas) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_manual_test

@@ -9,7 +9,7 @@
 #include "common/scene/read_scene.h"
 #include "tests/common/scene_description.h"
 
-namespace talus {
+namespace talus::scene_mutation_test {
 namespace {
 
 std::string text_of(const std::string& file) {
@@ -113,4 +113,4 @@ RC_GTEST_PROP(MutatedOverride, IsASceneOrSceneErrors, ()) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_mutation_test

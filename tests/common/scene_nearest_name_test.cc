@@ -4,7 +4,7 @@
 
 #include "common/scene/nearest_name.h"
 
-namespace talus {
+namespace talus::scene_nearest_name_test {
 namespace {
 
 TEST(EditDistance, CountsChangedAddedMissingAndSwappedLetters) {
@@ -39,4 +39,4 @@ TEST(NearestName, IsNoneIfNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_nearest_name_test

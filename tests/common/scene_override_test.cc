@@ -3,7 +3,7 @@
 #include "common/scene/read_scene.h"
 #include "tests/common/scene_description.h"
 
-namespace talus {
+namespace talus::scene_override_test {
 namespace {
 
 const std::string text = R"(title = "A scene"
@@ -92,4 +92,4 @@ TEST(SceneAsRun, HoldsTheOverrides) {
 TEST(SceneAsRun, IsTheFileItselfWithoutOverrides) { EXPECT_EQ(with({}).toml, text); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_override_test

@@ -4,7 +4,7 @@
 
 #include "common/scene/read_scene.h"
 
-namespace talus {
+namespace talus::scene_parse_test {
 namespace {
 
 constexpr double tolerance = 1e-12;  // rounding only
@@ -170,4 +170,4 @@ TEST(PileInWalls, HasThemAroundItsMiddle) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_parse_test

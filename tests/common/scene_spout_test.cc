@@ -6,7 +6,7 @@
 #include "common/scene/spout_rate.h"
 #include "common/shape/catalogue.h"
 
-namespace talus {
+namespace talus::scene_spout_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -92,4 +92,4 @@ TEST(BoundingRadius, IsThatOfTheFarthestPointOfAnyPiece) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_spout_test

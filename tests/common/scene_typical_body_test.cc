@@ -3,7 +3,7 @@
 #include "common/scene/typical_body.h"
 #include "common/shape/catalogue.h"
 
-namespace talus {
+namespace talus::scene_typical_body_test {
 namespace {
 
 Scene<3> scene_of(int small, int large) {
@@ -34,4 +34,4 @@ TEST(TypicalBody, IsTheMeanOfShapesWhereNothingDropsThem) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_typical_body_test

@@ -3,7 +3,7 @@
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 
-namespace talus {
+namespace talus::scene_warnings_test {
 namespace {
 
 // The warnings of a scene of one ball shape, which has none, with something added or changed.
@@ -62,4 +62,4 @@ TEST(Warnings, TellOfAPolicyWithoutAPile) {
 TEST(Warnings, TellOfLongSteps) { expect_one(warnings_with({{"world.steps_per_second=30"}}), "below 60"); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scene_warnings_test

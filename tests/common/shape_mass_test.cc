@@ -8,7 +8,7 @@
 #include "common/shape/catalogue.h"
 #include "tests/common/shape_generators.h"
 
-namespace talus {
+namespace talus::shape_mass_test {
 namespace {
 
 using std::numbers::pi;
@@ -177,4 +177,4 @@ RC_GTEST_PROP(Masses, OfTwoHalvesMakeTheWholeInThePlane, ()) { two_halves_make_t
 RC_GTEST_PROP(Masses, OfTwoHalvesMakeTheWholeInSpace, ()) { two_halves_make_the_whole<3>(); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::shape_mass_test

@@ -9,7 +9,7 @@
 #include "common/shape/polygon_partition.h"
 #include "tests/common/shape_generators.h"
 
-namespace talus {
+namespace talus::shape_partition_test {
 namespace {
 
 using std::numbers::pi;
@@ -156,4 +156,4 @@ TEST(PolygonPieces, InSpaceAreThoseInThePlaneDrawnOutAlongY) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::shape_partition_test

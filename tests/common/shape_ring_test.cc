@@ -4,7 +4,7 @@
 
 #include "common/shape/catalogue.h"
 
-namespace talus {
+namespace talus::shape_ring_test {
 namespace {
 
 using std::numbers::pi;
@@ -72,4 +72,4 @@ TEST(RingShape, RefusesParametersThatMakeNoRing) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::shape_ring_test

@@ -8,7 +8,7 @@
 #include "common/shape/surface.h"
 #include "tests/common/shape_generators.h"
 
-namespace talus {
+namespace talus::shape_surface_test {
 namespace {
 
 using std::numbers::pi;
@@ -175,4 +175,4 @@ RC_GTEST_PROP(Bounds, TouchTheSurfaceOnEverySideInThePlane, ()) { bounds_touch_t
 RC_GTEST_PROP(Bounds, TouchTheSurfaceOnEverySideInSpace, ()) { bounds_touch_the_surface_on_every_side<3>(); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::shape_surface_test

@@ -9,7 +9,7 @@
 
 #include "common/shape/catalogue.h"
 
-namespace talus {
+namespace talus::world_description_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -211,4 +211,4 @@ TEST(LParameters, ThatMakeNoLAreRefused) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::world_description_test

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus {
+namespace talus::crc32_test {
 namespace {
 
 std::uint32_t of_text(std::string_view text) { return crc32(std::vector<std::uint8_t>(text.begin(), text.end())); }
@@ -26,4 +26,4 @@ RC_GTEST_PROP(Crc32, SeesEveryFlippedBit, (std::vector<std::uint8_t> bytes)) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::crc32_test

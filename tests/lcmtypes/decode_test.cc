@@ -8,7 +8,7 @@
 #include "lcmtypes/crc32.h"
 #include "tests/lcmtypes/sample_packets.h"
 
-namespace talus {
+namespace talus::decode_test {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
@@ -144,4 +144,4 @@ RC_GTEST_PROP(DecoderProperty, SurvivesSealedMessagesWithRandomBytesIn, ()) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::decode_test

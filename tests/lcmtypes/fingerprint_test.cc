@@ -5,7 +5,7 @@
 
 #include "lcmtypes/channels.h"
 
-namespace talus {
+namespace talus::fingerprint_test {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
@@ -27,4 +27,4 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::fingerprint_test

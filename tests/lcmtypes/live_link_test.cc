@@ -9,7 +9,7 @@
 #include "lcmtypes/publisher.h"
 #include "tests/lcmtypes/still_run.h"
 
-namespace talus {
+namespace talus::live_link_test {
 namespace {
 
 TEST(LiveLink, StaysOnThisMachineUnlessAskedOtherwise) {
@@ -54,4 +54,4 @@ TEST(Publisher, DoesNothingWithoutAWayIntoTheNetwork) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::live_link_test

@@ -12,7 +12,7 @@
 #include "tests/lcmtypes/sample_packets.h"
 #include "tests/lcmtypes/scratch_file.h"
 
-namespace talus {
+namespace talus::log_reader_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -197,4 +197,4 @@ RC_GTEST_PROP(LogReaderProperty, NeverPassesOnWhatAChecksumRefuses, ()) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::log_reader_test

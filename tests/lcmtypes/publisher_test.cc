@@ -9,7 +9,7 @@
 #include "lcmtypes/decode.h"
 #include "tests/lcmtypes/still_run.h"
 
-namespace talus {
+namespace talus::publisher_test {
 namespace {
 
 using talus_lcm::talus_piles_v1;
@@ -145,4 +145,4 @@ TEST(Publisher, RefusesBadParameters) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::publisher_test

@@ -12,7 +12,7 @@
 #include "tests/lcmtypes/scratch_file.h"
 #include "tests/lcmtypes/still_run.h"
 
-namespace talus {
+namespace talus::run_recorder_test {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
@@ -185,4 +185,4 @@ TEST(RunRecorder, LeavesAReadableRecordWhenKilled) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::run_recorder_test

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-namespace talus {
+namespace talus::send_queue_test {
 namespace {
 
 /// Counts the packets by channel.
@@ -44,4 +44,4 @@ TEST(SendQueue, AtTheEndSaysHowItWentThoughMoreIsQueuedThanPatienceLasts) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::send_queue_test

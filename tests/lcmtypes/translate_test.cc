@@ -8,7 +8,7 @@
 #include "lcmtypes/decode.h"
 #include "tests/lcmtypes/still_run.h"
 
-namespace talus {
+namespace talus::translate_test {
 namespace {
 
 using talus_lcm::talus_pile_v1;
@@ -172,4 +172,4 @@ TEST(ShapesMessage, RefusesAShapeTooLargeForAMessage) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::translate_test

@@ -9,7 +9,7 @@
 #include "common/shape/catalogue.h"
 #include "common/shape/surface.h"
 
-namespace talus {
+namespace talus::convex_parts_test {
 namespace {
 
 Mesh surface_of(const Shape<3>& shape, int segments) {
@@ -101,4 +101,4 @@ TEST(ConvexParts, RefuseNumbersOutOfRange) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::convex_parts_test

@@ -6,7 +6,7 @@
 
 #include "common/mesh/mesh_shape.h"
 
-namespace talus {
+namespace talus::decompose_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,4 +39,4 @@ TEST(DecomposeCommand, RefusesWhatIsNoMesh) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::decompose_command_test

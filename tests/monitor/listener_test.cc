@@ -10,7 +10,7 @@
 #include "lcmtypes/translate.h"
 #include "tools/monitor/text_view.h"
 
-namespace talus {
+namespace talus::listener_test {
 namespace {
 
 using talus_lcm::talus_layer_v1;
@@ -174,4 +174,4 @@ TEST(DensityBar, HasABlockPerLayerAndGroupsMany) {
 TEST(Printable, TakesTerminalCommandsOut) { EXPECT_EQ(printable("a\x1b[2Jb\nc"), "a?[2Jb?c"); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::listener_test

@@ -10,7 +10,7 @@
 #include "lcmtypes/publisher.h"
 #include "tests/lcmtypes/still_run.h"
 
-namespace talus {
+namespace talus::monitor_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -82,4 +82,4 @@ TEST(Monitor, RefusesBadParameters) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::monitor_test

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace talus {
+namespace talus::sequence_tracker_test {
 namespace {
 
 TEST(SequenceTracker, CountsNothingWhenAllCome) {
@@ -58,4 +58,4 @@ RC_GTEST_PROP(SequenceTracker, CountsExactlyUnderReordering, ()) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::sequence_tracker_test

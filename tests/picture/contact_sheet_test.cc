@@ -7,7 +7,7 @@
 #include "tests/picture/sample.h"
 #include "tools/picture/canvas.h"
 
-namespace talus {
+namespace talus::contact_sheet_test {
 namespace {
 
 /// A picture of one colour.
@@ -66,4 +66,4 @@ TEST(ContactSheet, NamesThePictureThatCannotBeRead) {
 TEST(ContactSheet, RefusesAnEmptySheet) { EXPECT_THROW(write_contact_sheet("sheet.png", {}), std::invalid_argument); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::contact_sheet_test

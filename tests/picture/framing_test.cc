@@ -8,7 +8,7 @@
 #include "tests/picture/sample.h"
 #include "tools/picture/layout.h"
 
-namespace talus {
+namespace talus::framing_test {
 namespace {
 
 using Place = std::array<int, 3>;
@@ -95,4 +95,4 @@ TEST(Framing, IsNotSetByAnObstacleMuchLargerThanThePile) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::framing_test

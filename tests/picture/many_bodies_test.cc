@@ -8,7 +8,7 @@
 #include "tools/picture/coarse_layers.h"
 #include "tools/picture/exposed.h"
 
-namespace talus {
+namespace talus::many_bodies_test {
 namespace {
 
 TEST(CoarseLayers, HoldTheSameBodiesInFewerSlicesOfTheSamePile) {
@@ -64,4 +64,4 @@ TEST(Picture, ShowsTensOfThousandsIn2DAsAnImageWithinTheSvg) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::many_bodies_test

@@ -7,7 +7,7 @@
 #include "tests/picture/sample.h"
 #include "tools/picture/layout.h"
 
-namespace talus {
+namespace talus::picture_test {
 namespace {
 
 const PictureParams small = {.width = 500, .height = 400, .margin = 16.0, .font_size = 9.0};
@@ -142,4 +142,4 @@ TEST(Picture, RefusesParametersByFieldValueAndRule) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::picture_test

@@ -6,7 +6,7 @@
 
 #include "tools/picture/z_buffer.h"
 
-namespace talus {
+namespace talus::projection_test {
 namespace {
 
 Projection<3> camera(double distance) {
@@ -82,4 +82,4 @@ TEST(ZBuffer, CutsOffWhatLiesBehindTheEye) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::projection_test

@@ -8,7 +8,7 @@
 
 #include "tests/picture/sample.h"
 
-namespace talus {
+namespace talus::terminal_test {
 namespace {
 
 constexpr const char* awake_colour = "\x1b[38;5;214m";
@@ -124,4 +124,4 @@ TEST(TerminalPicture, RefusesSizesByFieldValueAndRule) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::terminal_test

@@ -8,7 +8,7 @@
 
 #include "tools/plot/gnuplot_script.h"
 
-namespace talus {
+namespace talus::plot_test {
 namespace {
 
 Plot sample() {
@@ -81,4 +81,4 @@ TEST(Plot, SaysWhichPackageIsMissing) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::plot_test

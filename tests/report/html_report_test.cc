@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::html_report_test {
 namespace {
 
 Report sample() {
@@ -48,4 +48,4 @@ TEST(HtmlReport, RefusesRaggedTablesAndFiguresThatAreNoSvg) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::html_report_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace talus {
+namespace talus::table_test {
 namespace {
 
 const Table sample{
@@ -42,4 +42,4 @@ TEST(Table, RefusesARowOfTooFewCells) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::table_test

@@ -6,7 +6,7 @@
 
 #include "tests/sim2d/heap.h"
 
-namespace talus {
+namespace talus::contacts_test {
 namespace {
 
 TEST(Contacts, ComeOnceEachInTheOrderOfBodies) {
@@ -79,4 +79,4 @@ TEST(Contacts, OfTheLastStepStayWhenBodiesFreezeAfterIt) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::contacts_test

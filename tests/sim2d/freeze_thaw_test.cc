@@ -8,7 +8,7 @@
 #include "sim2d/engine_world.h"
 #include "tests/sim2d/heap.h"
 
-namespace talus {
+namespace talus::freeze_thaw_test {
 namespace {
 
 /// Position, angle and transform that the engine itself holds for each awake body.
@@ -164,4 +164,4 @@ TEST(FrozenBody, IsThawedFromTheEnginesOwnSleepToo) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::freeze_thaw_test

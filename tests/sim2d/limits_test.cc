@@ -9,7 +9,7 @@
 #include "sim2d/engine_world.h"
 #include "tests/sim2d/heap.h"
 
-namespace talus {
+namespace talus::limits_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -123,4 +123,4 @@ TEST(NonFiniteState, IsReportedAndTheStatesBeforeItAreKept) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::limits_test

@@ -8,7 +8,7 @@
 
 #include "tests/sim2d/heap.h"
 
-namespace talus {
+namespace talus::plain_engine_test {
 namespace {
 
 constexpr int bodies = 60;
@@ -123,4 +123,4 @@ TEST_P(NothingFrozen, IsNotDisturbedByAskingForContacts) {
 INSTANTIATE_TEST_SUITE_P(EngineSleep, NothingFrozen, testing::Bool());
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::plain_engine_test

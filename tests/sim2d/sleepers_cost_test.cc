@@ -7,7 +7,7 @@
 #include "sim2d/engine_world.h"
 #include "tests/sim2d/heap.h"
 
-namespace talus {
+namespace talus::sleepers_cost_test {
 namespace {
 
 const b2World& engine_of(const World<2>& world) { return dynamic_cast<const box2d::EngineWorld&>(world).engine(); }
@@ -113,4 +113,4 @@ TEST(Sleepers, AloneCostNothing) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::sleepers_cost_test

@@ -7,7 +7,7 @@
 #include "sim3d/shapes.h"
 #include "tests/sim3d/heap.h"
 
-namespace talus {
+namespace talus::engine_shape_test {
 namespace {
 
 WorldDescription<3> alone(const Shape<3>& shape) {
@@ -116,4 +116,4 @@ TEST(EngineShape, StacksToItsHeight) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::engine_shape_test

@@ -4,7 +4,7 @@
 
 #include "tests/sim3d/heap.h"
 
-namespace talus {
+namespace talus::fast_body_test {
 namespace {
 
 /// How many of 60 small balls, thrown at a wall 0.1 m thick from as many places within one step's way, get behind it.
@@ -48,4 +48,4 @@ INSTANTIATE_TEST_SUITE_P(FastBody, Speed, testing::Values(20.0, 50.0, 100.0, 250
 INSTANTIATE_TEST_SUITE_P(FastBody, SpeedInThePlane, testing::Values(20.0, 50.0, 120.0));
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::fast_body_test

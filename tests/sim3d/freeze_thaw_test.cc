@@ -8,7 +8,7 @@
 #include "sim3d/engine_world.h"
 #include "tests/sim3d/heap.h"
 
-namespace talus {
+namespace talus::freeze_thaw_test {
 namespace {
 
 const bullet::Engine& engine_of(const World<3>& world) {
@@ -163,4 +163,4 @@ TEST(RemovedBody, TakesItsPairsAlongAsleepOrAwake) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::freeze_thaw_test

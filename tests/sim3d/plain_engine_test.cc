@@ -10,7 +10,7 @@
 #include "sim3d/plane.h"
 #include "tests/sim3d/heap.h"
 
-namespace talus {
+namespace talus::plain_engine_test {
 namespace {
 
 constexpr int bodies = 60;
@@ -125,4 +125,4 @@ TEST_P(NothingFrozen, IsNotDisturbedByQuestions) {
 INSTANTIATE_TEST_SUITE_P(EngineSleep, NothingFrozen, testing::Bool());
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::plain_engine_test

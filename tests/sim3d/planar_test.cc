@@ -5,7 +5,7 @@
 #include "sim3d/engine_world.h"
 #include "tests/sim3d/heap.h"
 
-namespace talus {
+namespace talus::planar_test {
 namespace {
 
 void pour(World<2>& world, int count) {
@@ -66,4 +66,4 @@ TEST(PlanarBody, TopplesToTheSideItLeansTo) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::planar_test

@@ -8,7 +8,7 @@
 
 #include "tests/sim3d/heap.h"
 
-namespace talus {
+namespace talus::warm_friction_test {
 namespace {
 
 /// How far the bodies of a heap at rest creep in 200 steps, on average [m].
@@ -62,4 +62,4 @@ TEST(WarmFriction, ObeysCoulomb) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::warm_friction_test

@@ -10,7 +10,7 @@
 
 #include "tests/tools/process.h"
 
-namespace talus {
+namespace talus::bench_command_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -201,4 +201,4 @@ TEST(Bench, DoesNotOverwriteRowsOfAnotherKind) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::bench_command_test

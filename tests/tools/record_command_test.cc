@@ -10,7 +10,7 @@
 
 #include "tests/tools/process.h"
 
-namespace talus {
+namespace talus::record_command_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -97,6 +97,6 @@ TEST(WakeCommand, FindsASceneInTheAirUpset) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::record_command_test
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "tests/tools/process.h"
 
-namespace talus {
+namespace talus::run_command_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -140,4 +140,4 @@ TEST(CheckCommand, TellsWhatASceneWillDoWithoutRunningIt) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::run_command_test

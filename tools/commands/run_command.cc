@@ -16,7 +16,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("scene", options->scene, "Scene file, or the name of a scene that `talus list` shows")
       ->required();
   command->add_option("-b,--backend", options->backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D");
-  command->add_option("-p,--policy", options->policy, "Who may sleep: full (nobody), engine (its own rule), paper, adaptive");
+  command->add_option("-p,--policy", options->policy,
+                      "Who may sleep: full (nobody), engine (its own rule), paper, adaptive");
   command->add_option("-s,--set", options->settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
