@@ -9,26 +9,10 @@
 #include "common/policy/blows.h"
 #include "common/policy/impulse.h"
 #include "common/policy/props.h"
-#include "common/shape/catalogue.h"
-#include "tests/common/still_world.h"
+#include "tests/common/cubes.h"
 
 namespace talus::adaptive_rules_test {
 namespace {
-
-/// Cubes of 1 kg and 1 m: inertia m / 6 about each axis.
-WorldDescription<3> cubes() {
-  WorldDescription<3> world;
-  world.gravity = 10.0;
-  world.shapes.push_back(make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {.density = 1.0}));
-  return world;
-}
-
-/// A still world with cubes at these places.
-StillWorld<3> cubes_at(const std::vector<Vec3>& places) {
-  StillWorld<3> world(cubes());
-  for (const Vec3& place : places) world.add({.pose = {.position = place}});
-  return world;
-}
 
 Contact<3> contact(BodyIndex a, BodyIndex b, const Vec3& point, const Vec3& normal, double impulse) {
   return {.a = a, .b = b, .point = point, .normal = normal, .normal_impulse = impulse};

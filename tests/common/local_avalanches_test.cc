@@ -6,8 +6,7 @@
 
 #include <vector>
 
-#include "common/shape/catalogue.h"
-#include "tests/common/still_world.h"
+#include "tests/common/cubes.h"
 
 namespace talus::local_avalanches_test {
 namespace {
@@ -17,12 +16,6 @@ namespace {
 class LocalAvalanchesTest : public testing::Test {
  protected:
   LocalAvalanchesTest() : world_(cubes()), avalanches_({}, 1.0, 0.0) {}
-
-  static WorldDescription<3> cubes() {
-    WorldDescription<3> world;
-    world.shapes.push_back(make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {.density = 1.0}));
-    return world;
-  }
 
   /// Puts so many cubes to sleep in layers of four by four, upwards from the ground, in the column whose corner is at
   /// (x, 0).

@@ -6,23 +6,10 @@
 
 #include <vector>
 
-#include "common/shape/catalogue.h"
-#include "tests/common/still_world.h"
+#include "tests/common/cubes.h"
 
 namespace talus::rest_watch_test {
 namespace {
-
-WorldDescription<3> cubes() {
-  WorldDescription<3> world;
-  world.shapes.push_back(make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {.density = 1.0}));
-  return world;
-}
-
-StillWorld<3> cubes_at(const std::vector<Vec3>& places) {
-  StillWorld<3> world(cubes());
-  for (const Vec3& place : places) world.add({.pose = {.position = place}});
-  return world;
-}
 
 TEST(RestWatch, CountsFromWhereABodyCameToRestAndAnewWhenItStrays) {
   StillWorld<3> world = cubes_at({Vec3::Zero()});
