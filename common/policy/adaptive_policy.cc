@@ -14,7 +14,7 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
                                     const TypicalBody& typical)
     : params_(params),
       dt_(world.dt),
-      rest_watch_(params.rest_distance * typical.extent, world.shapes),
+      rest_watch_(params.rest_distance * typical.extent, params.rest_distance_woken * typical.extent, world.shapes),
       props_(params.support_slack * typical.extent),
       heavy_blows_(params, typical, world),
       blows_(params, typical.extent, world),

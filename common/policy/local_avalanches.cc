@@ -64,6 +64,7 @@ void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<
     if (column.sleepers < growth_ * column.looked_at || !may_slide(world, piles, cell, column)) continue;
     for (const auto& [place, stack] : neighbourhood_) {
       sliding.insert(sliding.end(), stack.bodies.begin(), stack.bodies.end());
+      columns_[place].note_look(stack.bodies.size());
     }
   }
   grown_.clear();
@@ -77,7 +78,7 @@ bool LocalAvalanches<Dim>::may_slide(const World<Dim>& world, std::span<const Pi
   gather(world, cell);
   const Stack& stack = neighbourhood_[cell];
   column.sleepers = static_cast<int>(stack.bodies.size());
-  column.looked_at = std::max(column.looked_at, column.sleepers);
+  column.note_look(stack.bodies.size());
   const double top = stack.top.value_or(ground_);
   return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
     const double foot = std::max(beside.second.top.value_or(ground_), wall_between(piles, cell, beside.first));

@@ -1,6 +1,7 @@
 #pragma once
 // Heaps that grow too steep on sleepers.
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -16,8 +17,9 @@ namespace talus {
 
 /// The avalanche of section 3.4, only where a heap may slide. A sleeper bears any load and does not creep, so what is
 /// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds a
-/// fifth more sleepers than when it was last looked at, and the highest of them lies steeply above those of a column
-/// beside it, it wakes with all columns around it: what can slide slides, the rest sleeps again a moment later.
+/// seventh more sleepers than when it was last looked at, and the highest of them lies steeply above those of a column
+/// beside it, it wakes with all columns around it: what can slide slides, the rest sleeps again a moment later. Who
+/// woke so has been looked at.
 template <int Dim>
 class LocalAvalanches {
  public:
@@ -37,6 +39,8 @@ class LocalAvalanches {
   struct Column {
     int sleepers = 0;   // as events tell; a body taken away by hand is found missing at the next look
     int looked_at = 8;  // sleepers at the last look; fewer make no heap
+
+    void note_look(std::size_t found) { looked_at = std::max(looked_at, static_cast<int>(found)); }
   };
   /// The sleepers of a column as they lie.
   struct Stack {

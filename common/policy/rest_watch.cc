@@ -19,7 +19,8 @@ double farthest_move(const Pose<Dim>& from, const Pose<Dim>& to, double reach) {
 }
 
 template <int Dim>
-RestWatch<Dim>::RestWatch(double distance, const std::vector<Shape<Dim>>& shapes) : distance_(distance) {
+RestWatch<Dim>::RestWatch(double distance, double distance_woken, const std::vector<Shape<Dim>>& shapes)
+    : distance_(distance), distance_woken_(distance_woken) {
   for (const Shape<Dim>& shape : shapes) reach_.push_back(0.5 * shape.extent);
 }
 
@@ -35,9 +36,14 @@ void RestWatch<Dim>::update(std::int64_t step, const BodyStates<Dim>& states, st
     const double reach = reach_[static_cast<std::size_t>(states.shape[i])];
     while (last != last_anchors_.end() && last->body < body) ++last;
     const bool known = last != last_anchors_.end() && last->body == body;
-    const bool rests = known && farthest_move(last->pose, states.pose[i], reach) <= distance_;
-    const bool woke = !known && body < last_count_ && !std::ranges::binary_search(expected_, body);
-    anchors_.push_back(rests ? *last : Anchor{.body = body, .pose = states.pose[i], .since = step, .slept = woke});
+    const double strayed = known ? farthest_move(last->pose, states.pose[i], reach) : 0.0;
+    if (known && strayed <= distance_) {
+      anchors_.push_back(*last);
+      anchors_.back().slept = last->slept && strayed <= distance_woken_;
+    } else {
+      const bool woke = !known && body < last_count_ && !std::ranges::binary_search(expected_, body);
+      anchors_.push_back({.body = body, .pose = states.pose[i], .since = step, .slept = woke});
+    }
   }
   last_count_ = states.size();
   expected_.clear();

@@ -14,8 +14,9 @@ namespace talus {
 template <int Dim>
 class RestWatch {
  public:
-  /// `distance` [m] > 0; `shapes` as in the world.
-  RestWatch(double distance, const std::vector<Shape<Dim>>& shapes);
+  /// `distance` and `distance_woken` [m] > 0, the latter for who proves that it lies where it slept; `shapes` as in the
+  /// world.
+  RestWatch(double distance, double distance_woken, const std::vector<Shape<Dim>>& shapes);
 
   /// To be called once a step. Costs O(awake).
   void update(std::int64_t step, const BodyStates<Dim>& states, std::span<const BodyIndex> awake);
@@ -27,7 +28,7 @@ class RestWatch {
   /// Steps since the rest of a body that is awake began; 0 for one that moves.
   std::int64_t steps_at_rest(std::int64_t step, BodyIndex body) const;
 
-  /// Whether a body that is awake woke where it rests, and has not left the place since.
+  /// Whether a body that is awake woke where it rests, and has strayed by no more than `distance_woken` since.
   bool slept_here(BodyIndex body) const;
 
  private:
@@ -35,12 +36,13 @@ class RestWatch {
     BodyIndex body = 0;
     Pose<Dim> pose{};
     std::int64_t since = 0;  // step at which the rest began
-    bool slept = false;      // it woke here
+    bool slept = false;      // it woke here, and has not strayed
   };
 
   const Anchor& anchor_of(BodyIndex body) const;
 
   double distance_;
+  double distance_woken_;
   std::vector<double> reach_;         // [shape] farthest that a point lies from the centre of mass [m]
   std::vector<Anchor> anchors_;       // of the awake, ascending
   std::vector<Anchor> last_anchors_;  // of the step before

@@ -21,6 +21,7 @@ void read_adaptive(TableReader& table, AdaptiveParams& params) {
   table.read("rest_distance", params.rest_distance, fraction);
   table.read("rest_time_deep", params.rest_time_deep, between(0, 1e3));
   table.read("rest_time_surface", params.rest_time_surface, {.low = params.rest_time_deep, .high = 1e3});
+  table.read("rest_distance_woken", params.rest_distance_woken, fraction);
   table.read("rest_time_woken", params.rest_time_woken, between(0, 1e3));
   table.read("wake_height", params.wake_height, fraction);
   table.read("heavy_blow", params.heavy_blow, {.low = 0.0, .high = 1e9, .low_excluded = true});

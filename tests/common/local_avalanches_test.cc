@@ -91,10 +91,21 @@ TEST_F(LocalAvalanchesTest, AHeapThatWasLookedAtIsLeftAloneUntilItHasGrown) {
   EXPECT_TRUE(sliding().empty());
   put_to_sleep(heap);
   EXPECT_TRUE(sliding().empty());
-  lay(9, 0.0);  // 57 < 1.2 * 48
+  lay(7, 0.0);  // 55 < 1.15 * 48
   EXPECT_TRUE(sliding().empty());
   lay(1, 0.0);
-  EXPECT_EQ(sliding().size(), heap.size() + 10);
+  EXPECT_EQ(sliding().size(), heap.size() + 8);
+}
+
+TEST_F(LocalAvalanchesTest, WhoWokeBesideAHeapHasBeenLookedAt) {
+  lay(100, 4.0);
+  EXPECT_EQ(sliding().size(), 100);
+  lay(14, 4.0);
+  EXPECT_TRUE(sliding().empty());
+  lay(48, 0.0);
+  EXPECT_EQ(sliding().size(), 162);
+  lay(6, 4.0);  // 120 > 1.15 * 100, but < 1.15 * 114
+  EXPECT_TRUE(sliding().empty());
 }
 
 TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {
