@@ -10,9 +10,9 @@ struct AdaptiveParams {
                                  // topple slowly are caught on edge; small: solver noise keeps the pile awake
   double rest_time_deep = 0.06;  // [s] >= 0, at rest before sleep where the score is highest
   double rest_time_surface = 0.14;     // [s] >= rest_time_deep, where it is zero. Short: a peak too high; long: slow
-  double rest_distance_woken = 0.002;  // [D] > 0: who woke and has strayed no farther ...
-  double rest_time_woken = 0.05;       // [s] >= 0 ... after this may sleep again. A slide has hardly begun by then: far
-                                       // or short catch it; near or long keep much awake for nothing
+  double rest_distance_woken = 0.002;  // [D] > 0: who woke and strayed no farther may sleep after ...
+  double rest_time_woken = 0.05;       // [s] >= 0 ... this time. A slide has hardly begun by then: far or short catch
+                                       // it; near or long keep much awake for nothing
   double wake_height = 0.03;  // [D] > 0: a blow wakes whom it gives, where it strikes, the speed to rise by this. Low:
                               // much is awake for nothing; high: blows end as on rock, and the pile stays too steep
   double heavy_blow = 20.0;   // > 0: bodies that a blow must be able to move at once to wake them before it lands. Low:

@@ -16,10 +16,10 @@
 namespace talus {
 
 /// The avalanche of section 3.4, only where a heap may slide. A sleeper bears any load and does not creep, so what is
-/// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds a
-/// seventh more sleepers than when it was last looked at, and the highest of them lies steeply above those of a column
-/// beside it, it wakes with all columns around it: what can slide slides, the rest sleeps again a moment later. Who
-/// woke so has been looked at.
+/// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds
+/// `avalanche_growth` times the sleepers of its last look, and the highest of them lies steeply above those of a column
+/// beside it, it wakes with all columns around it, which counts as a look at each: what can slide slides, the rest
+/// sleeps again a moment later.
 template <int Dim>
 class LocalAvalanches {
  public:
