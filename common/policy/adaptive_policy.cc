@@ -25,7 +25,7 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
   const BodyStates<Dim>& states = frame.world.states();
-  if (frame.world.awake().empty()) return;
+  if (frame.world.awake().empty() && !avalanches_.waiting()) return;
   const std::span<const Contact<Dim>> contacts = frame.world.contacts();
   rest_watch_.update(frame.step, states, frame.world.awake());
   bodies_.clear();
@@ -37,7 +37,8 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   props_.update(contacts, states, bodies_);
   wake(bodies_, SleepCause::lost_support, frame, decision);
   bodies_.clear();
-  avalanches_.update(frame.world, frame.piles.piles(), bodies_);
+  const bool quiet = std::ranges::none_of(contacts, [](const Contact<Dim>& contact) { return contact.b >= 0; });
+  avalanches_.update(frame.world, frame.piles.piles(), quiet, bodies_);
   wake(bodies_, SleepCause::avalanche, frame, decision);
   choose_sleepers(frame, contacts, decision);
   avalanches_.note(states, decision.freeze, decision.thaw);

@@ -57,29 +57,41 @@ void LocalAvalanches<Dim>::note(const BodyStates<Dim>& states, std::span<const S
 }
 
 template <int Dim>
-void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<Dim>> piles,
+void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<Dim>> piles, bool quiet,
                                   std::vector<BodyIndex>& sliding) {
-  for (const Cell& cell : grown_) {
-    Column& column = columns_[cell];
-    if (column.sleepers < growth_ * column.looked_at || !may_slide(world, piles, cell, column)) continue;
-    for (const auto& [place, stack] : neighbourhood_) {
-      sliding.insert(sliding.end(), stack.bodies.begin(), stack.bodies.end());
-      columns_[place].note_look(stack.bodies.size());
-    }
-  }
+  for (const Cell& cell : grown_) ask(world, piles, cell, growth_ * columns_[cell].looked_at, sliding);
+  unasked_.insert(grown_.begin(), grown_.end());
   grown_.clear();
+  if (quiet) {
+    for (const Cell& cell : unasked_) ask(world, piles, cell, columns_[cell].looked_at + 1, sliding);
+    unasked_.clear();
+  }
   std::sort(sliding.begin(), sliding.end());
   sliding.erase(std::unique(sliding.begin(), sliding.end()), sliding.end());
 }
 
+/// Looks at a column that holds `enough` sleepers, and appends it with those around it where it is steep.
 template <int Dim>
-bool LocalAvalanches<Dim>::may_slide(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell,
-                                     Column& column) {
+void LocalAvalanches<Dim>::ask(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell,
+                               double enough, std::vector<BodyIndex>& sliding) {
+  Column& column = columns_[cell];
+  if (column.sleepers < enough) return;
   gather(world, cell);
-  const Stack& stack = neighbourhood_[cell];
-  column.sleepers = static_cast<int>(stack.bodies.size());
-  column.note_look(stack.bodies.size());
-  const double top = stack.top.value_or(ground_);
+  const std::size_t found = neighbourhood_[cell].bodies.size();
+  column.sleepers = static_cast<int>(found);
+  if (column.sleepers < enough) return;
+  column.note_look(found);
+  if (!is_steep(piles, cell)) return;
+  for (const auto& [place, stack] : neighbourhood_) {
+    sliding.insert(sliding.end(), stack.bodies.begin(), stack.bodies.end());
+    columns_[place].note_look(stack.bodies.size());
+  }
+}
+
+/// Of the column whose neighbourhood is gathered.
+template <int Dim>
+bool LocalAvalanches<Dim>::is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const {
+  const double top = neighbourhood_.at(cell).top.value_or(ground_);
   return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
     const double foot = std::max(beside.second.top.value_or(ground_), wall_between(piles, cell, beside.first));
     return top - foot > rise_;

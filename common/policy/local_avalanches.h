@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,8 @@ namespace talus {
 /// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds
 /// `avalanche_growth` times the sleepers of its last look, and the highest of them lies steeply above those of a column
 /// beside it, it wakes with all columns around it, which counts as a look at each: what can slide slides, the rest
-/// sleeps again a moment later.
+/// sleeps again a moment later. A heap that is quiet is asked whatever it grew by, all its columns at once: so no heap
+/// is left to rest on an answer that it never gave.
 template <int Dim>
 class LocalAvalanches {
  public:
@@ -30,9 +32,13 @@ class LocalAvalanches {
   void note(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
             std::span<const SleepEvent> waking);
 
+  /// Whether columns have grown since all was `quiet`.
+  bool waiting() const { return !unasked_.empty(); }
+
   /// Appends the sleepers of columns that may slide, each once, ascending. `piles` tell where walls are, over which
-  /// only what stands above their rim slides. Costs O(columns that grew); one that may slide, a query of its sleepers.
-  void update(const World<Dim>& world, std::span<const Pile<Dim>> piles, std::vector<BodyIndex>& sliding);
+  /// only what stands above their rim slides; `quiet`, whether no awake body touches another body. Costs O(columns that
+  /// grew); one that may slide, a query of its sleepers.
+  void update(const World<Dim>& world, std::span<const Pile<Dim>> piles, bool quiet, std::vector<BodyIndex>& sliding);
 
  private:
   using Cell = std::array<int, Dim - 1>;
@@ -49,7 +55,9 @@ class LocalAvalanches {
   };
 
   Cell cell_of(const Vec<Dim>& position) const;
-  bool may_slide(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell, Column& column);
+  void ask(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell, double enough,
+           std::vector<BodyIndex>& sliding);
+  bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;
   void gather(const World<Dim>& world, const Cell& cell);
   double wall_between(std::span<const Pile<Dim>> piles, const Cell& a, const Cell& b) const;
 
@@ -59,6 +67,7 @@ class LocalAvalanches {
   double ground_;
   std::map<Cell, Column> columns_;
   std::vector<Cell> grown_;              // since the last update
+  std::set<Cell> unasked_;               // that grew since all was quiet
   std::map<Cell, Stack> neighbourhood_;  // scratch: of the column looked at, and those around it
   std::vector<BodyIndex> near_;          // scratch
 };

@@ -39,9 +39,9 @@ class LocalAvalanchesTest : public testing::Test {
     avalanches_.note(world_.states(), {}, events(bodies));
   }
 
-  std::vector<BodyIndex> sliding() {
+  std::vector<BodyIndex> sliding(bool quiet = false) {
     std::vector<BodyIndex> found;
-    avalanches_.update(world_, piles_, found);
+    avalanches_.update(world_, piles_, quiet, found);
     return found;
   }
 
@@ -106,6 +106,33 @@ TEST_F(LocalAvalanchesTest, WhoWokeBesideAHeapHasBeenLookedAt) {
   EXPECT_EQ(sliding().size(), 162);
   lay(6, 4.0);  // 120 > 1.15 * 100, but < 1.15 * 114
   EXPECT_TRUE(sliding().empty());
+}
+
+TEST_F(LocalAvalanchesTest, AHeapThatIsQuietIsAskedHoweverLittleItGrewButOnce) {
+  const std::vector<BodyIndex> heap = lay(48, 0.0);
+  EXPECT_EQ(sliding().size(), heap.size());
+  lay(1, 0.0);
+  EXPECT_TRUE(sliding().empty());
+  EXPECT_TRUE(avalanches_.waiting());
+  EXPECT_EQ(sliding(true).size(), heap.size() + 1);
+  EXPECT_FALSE(avalanches_.waiting());
+  EXPECT_TRUE(sliding(true).empty());
+}
+
+TEST_F(LocalAvalanchesTest, AHeapThatSleepsAgainAsItLayIsNotAskedASecondTime) {
+  const std::vector<BodyIndex> heap = lay(48, 0.0);
+  EXPECT_EQ(sliding(true).size(), heap.size());
+  wake(heap);
+  put_to_sleep(heap);
+  EXPECT_TRUE(sliding(true).empty());
+}
+
+TEST_F(LocalAvalanchesTest, AHeapWokenByHandIsNotTakenForOneThatGrew) {
+  const std::vector<BodyIndex> heap = lay(48, 0.0);
+  EXPECT_EQ(sliding(true).size(), heap.size());
+  world_.thaw(heap);  // nobody told the rule
+  put_to_sleep(heap);
+  EXPECT_TRUE(sliding(true).empty());
 }
 
 TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {
