@@ -22,6 +22,8 @@ struct AdaptiveParams {
   double avalanche_width = 4.0;    // [D] > 0 of a column. Narrow: heaps do not slide as a whole; wide: much is awake
   double avalanche_growth = 1.15;  // > 1: growth of a column of sleepers until it may slide. Large: heaps too steep;
                                    // small: much is awake for nothing; 1000 in effect never
+  double avalanche_growth_quiet = 1.0;  // >= 1: the same while no awake body touches another; 1: any. Large: piles come
+                                        // to rest too steep; 1000 in effect never
   double avalanche_angle = 25.0 * std::numbers::pi / 180.0;  // [rad] in [0, pi/2): slope between columns from which
                                                              // they may slide. Low: plains wake; high: heaps too steep
 };

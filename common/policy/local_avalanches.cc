@@ -30,6 +30,7 @@ template <int Dim>
 LocalAvalanches<Dim>::LocalAvalanches(const AdaptiveParams& params, double extent, double ground)
     : width_(params.avalanche_width * extent),
       growth_(params.avalanche_growth),
+      growth_quiet_(params.avalanche_growth_quiet),
       rise_(width_ * std::tan(params.avalanche_angle)),
       ground_(ground) {}
 
@@ -63,7 +64,10 @@ void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<
   unasked_.insert(grown_.begin(), grown_.end());
   grown_.clear();
   if (quiet) {
-    for (const Cell& cell : unasked_) ask(world, piles, cell, columns_[cell].looked_at + 1, sliding);
+    for (const Cell& cell : unasked_) {
+      const int last = columns_[cell].looked_at;
+      ask(world, piles, cell, std::max(last + 1.0, growth_quiet_ * last), sliding);
+    }
     unasked_.clear();
   }
   std::sort(sliding.begin(), sliding.end());

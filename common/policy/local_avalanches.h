@@ -20,8 +20,8 @@ namespace talus {
 /// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds
 /// `avalanche_growth` times the sleepers of its last look, and the highest of them lies steeply above those of a column
 /// beside it, it wakes with all columns around it, which counts as a look at each: what can slide slides, the rest
-/// sleeps again a moment later. A heap that is quiet is asked whatever it grew by, all its columns at once: so no heap
-/// is left to rest on an answer that it never gave.
+/// sleeps again a moment later. Columns that have all become quiet are asked together from `avalanche_growth_quiet` on,
+/// so that no heap comes to rest on an answer that it never gave.
 template <int Dim>
 class LocalAvalanches {
  public:
@@ -61,9 +61,10 @@ class LocalAvalanches {
   void gather(const World<Dim>& world, const Cell& cell);
   double wall_between(std::span<const Pile<Dim>> piles, const Cell& a, const Cell& b) const;
 
-  double width_;   // of a column [m]
-  double growth_;  // since the last look
-  double rise_;    // from a column to the next from which it may slide [m]
+  double width_;         // of a column [m]
+  double growth_;        // since the last look
+  double growth_quiet_;  // while all is quiet
+  double rise_;          // from a column to the next from which it may slide [m]
   double ground_;
   std::map<Cell, Column> columns_;
   std::vector<Cell> grown_;              // since the last update

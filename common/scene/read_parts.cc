@@ -29,6 +29,7 @@ void read_adaptive(TableReader& table, AdaptiveParams& params) {
   table.read("awake_share", params.awake_share, {.low = 0.0, .high = 1.0, .high_excluded = true});
   table.read("avalanche_width", params.avalanche_width, {.low = 0.0, .high = 1e3, .low_excluded = true});
   table.read("avalanche_growth", params.avalanche_growth, {.low = 1.0, .high = 1e3, .low_excluded = true});
+  table.read("avalanche_growth_quiet", params.avalanche_growth_quiet, {.low = 1.0, .high = 1e3});
   table.read_degrees("avalanche_angle_deg", params.avalanche_angle, between(0.0, 89.0));
 }
 
