@@ -15,6 +15,7 @@
 #include "common/shape/polygon.h"
 #include "common/shape/surface.h"
 #include "tests/common/shape_generators.h"
+#include "tests/common/temporary_folder.h"
 
 namespace talus::mesh_test {
 namespace {
@@ -131,10 +132,6 @@ class MeshFile : public testing::Test {
       out << "f " << i << " " << next << " " << next + 6 << " " << i + 6 << "\n";
     }
   }
-  void TearDown() override {
-    std::filesystem::remove(file_);
-    std::filesystem::remove(parts_file(file_));
-  }
   // The two arms in the file's axes, where a z-up box's depth and height change places.
   static std::vector<Mesh> arms() { return {arm({50, 20, 0}, {100, 40, 40}), arm({20, 70, 0}, {40, 60, 40})}; }
   static Mesh arm(const Vec3& centre, const Vec3& size) {
@@ -145,7 +142,8 @@ class MeshFile : public testing::Test {
     return repaired(mesh);
   }
 
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / "talus_mesh_test.obj";
+  TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_ / "l.obj";
   MeshParams params_ = {.size = 1.0, .detail = 1e-3};
 };
 
@@ -169,14 +167,14 @@ TEST_F(MeshFile, GivesTheShapeThatItDescribesInSpaceOnceItsPartsAreMade) {
 }
 
 TEST_F(MeshFile, RefusesPartsThatAreMissingOrMadeOfAnotherMesh) {
-  expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "talus_mesh_test.parts.obj");
+  expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "l.parts.obj");
   write_parts(parts_file(file_), repaired(soup(box)), arms());
   expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "must be made anew");
 }
 
 TEST_F(MeshFile, RefusesParametersAndFilesThatGiveNoShape) {
   expect_refused([&] { make_mesh_shape<2>("l", "nowhere.obj", params_, {}); }, "nowhere.obj");
-  expect_refused([&] { make_mesh_shape<2>("l", testing::TempDir(), params_, {}); }, "mesh file");
+  expect_refused([&] { make_mesh_shape<2>("l", folder_.path(), params_, {}); }, "mesh file");
   expect_refused([&] { make_mesh_shape<2>("l", file_, {.size = 0.0}, {}); }, "mesh.size");
   std::ofstream(file_) << "v 0 0 0\n";
   expect_refused([&] { make_mesh_shape<2>("l", file_, params_, {}); }, "must hold faces");

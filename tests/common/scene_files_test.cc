@@ -8,6 +8,7 @@
 #include "common/scene/warnings.h"
 #include "common/scene/write_scene.h"
 #include "tests/common/scene_description.h"
+#include "tests/common/temporary_folder.h"
 
 namespace talus::scene_files_test {
 namespace {
@@ -36,7 +37,8 @@ TEST(DropInAPile, IsThePapersFirstExample) {
 }
 
 std::string written_and_read(const AnyScene& scene) {
-  const fs::path file = fs::path(testing::TempDir()) / "scene_written.toml";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "scene.toml";
   std::visit([&](const auto& one) { write_scene(one, file); }, scene);
   return std::visit([](const auto& one) { return description(one); }, read_scene(file));
 }
@@ -63,16 +65,15 @@ TEST(WriteScene, CopiesTheMeshesThatTheSceneNames) {
   const std::string text =
       "title = \"A scene\"\ndimension = 3\n[shape.bunny]\nkind = \"mesh\"\nfile = \"shapes/bunny.obj\"\n[[source]]\n";
   const AnyScene scene = parse_scene(text, (scenes / "made_up.toml").string());
-  const fs::path folder = fs::path(testing::TempDir()) / "scene_with_mesh";
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   write_scene(std::get<Scene<3>>(scene), folder / "scene.toml");
   const AnyScene again = read_scene(folder / "scene.toml");
   EXPECT_EQ(description(std::get<Scene<3>>(again)), description(std::get<Scene<3>>(scene)));
-  fs::remove_all(folder);
 }
 
 TEST(WriteScene, RefusesASceneMadeByAProgram) {
-  EXPECT_THROW(write_scene(Scene<2>(), testing::TempDir() + "/scene.toml"), std::invalid_argument);
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_scene(Scene<2>(), folder / "scene.toml"), std::invalid_argument);
 }
 
 TEST(WriteScene, TellsWhereItCouldNotWrite) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/mesh/mesh_shape.h"
+#include "tests/common/temporary_folder.h"
 
 namespace talus::decompose_command_test {
 namespace {
@@ -18,9 +19,9 @@ void decompose(const std::string& arguments) {
 }
 
 TEST(DecomposeCommand, MakesThePartsThatASceneNeeds) {
-  const fs::path mesh = fs::path(testing::TempDir()) / "decompose_bunny.obj";
-  const fs::path parts = fs::path(testing::TempDir()) / "decompose_bunny.parts.obj";
-  fs::copy_file(fs::path(TALUS_SOURCE_DIR) / "scenes/shapes/bunny.obj", mesh, fs::copy_options::overwrite_existing);
+  const TemporaryFolder folder;
+  const fs::path mesh = folder / "bunny.obj";
+  fs::copy_file(fs::path(TALUS_SOURCE_DIR) / "scenes/shapes/bunny.obj", mesh);
   testing::internal::CaptureStdout();
   decompose(mesh.string() + " --parts 4 --corners 10");
   const std::string text = testing::internal::GetCapturedStdout();
@@ -29,8 +30,6 @@ TEST(DecomposeCommand, MakesThePartsThatASceneNeeds) {
   const Shape<3> bunny = make_mesh_shape<3>("bunny", mesh, {}, {});
   EXPECT_EQ(bunny.pieces.size(), 4u);
   EXPECT_NEAR(bunny.bounds.sizes().maxCoeff(), 1.0, 0.1);
-  fs::remove(mesh);
-  fs::remove(parts);
 }
 
 TEST(DecomposeCommand, RefusesWhatIsNoMesh) {

@@ -14,13 +14,6 @@ std::string contents(const std::filesystem::path& file) {
   return text.str();
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "talus-test-XXXXXX").string();
-  path_ = mkdtemp(name.data());
-}
-
-TemporaryFolder::~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
 Outcome shell(const std::string& script) {
   const TemporaryFolder folder;
   std::ofstream(folder / "script") << "export TALUS='" TALUS_COMMAND "'\ncd '" TALUS_SOURCE "'\n" << script << '\n';

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/common/temporary_folder.h"
+
 namespace talus {
 
 struct Outcome {
@@ -17,21 +19,6 @@ Outcome talus_command(const std::string& arguments);
 
 /// Runs a shell script in which $TALUS is the command.
 Outcome shell(const std::string& script);
-
-/// A new empty folder that goes when the object goes.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The whole of a file.
 std::string contents(const std::filesystem::path& file);
