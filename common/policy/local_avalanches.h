@@ -20,8 +20,8 @@ namespace talus {
 /// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds
 /// `avalanche_growth` times the sleepers of its last look, and the highest of them lies steeply above those of a column
 /// beside it, it wakes with all columns around it, which counts as a look at each: what can slide slides, the rest
-/// sleeps again a moment later. Columns that have all become quiet are asked together from `avalanche_growth_quiet` on,
-/// so that no heap comes to rest on an answer that it never gave.
+/// sleeps again a moment later. While no awake body touches another, columns are asked from `avalanche_growth_quiet`
+/// on, all at once, so that no heap comes to rest unasked.
 template <int Dim>
 class LocalAvalanches {
  public:
