@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/common/temporary_folder.h"
 #include "tests/picture/sample.h"
 #include "tools/picture/canvas.h"
 
@@ -21,7 +22,7 @@ void write_plain(const std::filesystem::path& path, int width, int height, const
 const ContactSheetParams tight = {.columns = 2, .tile_width = 100, .gap = 10.0, .font_size = 10.0};
 
 TEST(ContactSheet, PlacesTilesRowByRow) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_plain(folder / "red.png", 200, 100, {1.0, 0.0, 0.0});
   write_plain(folder / "green.png", 50, 50, {0.0, 1.0, 0.0});
   write_plain(folder / "blue.png", 400, 100, {0.0, 0.0, 1.0});
@@ -41,7 +42,7 @@ TEST(ContactSheet, PlacesTilesRowByRow) {
 }
 
 TEST(ContactSheet, MakesRoomForTitleAndCaptions) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_plain(folder / "a.png", 100, 100, {1.0, 0.0, 0.0});
   const std::vector<Tile> bare = {{folder / "a.png", ""}};
   const std::vector<Tile> told = {{folder / "a.png", "some words that need more than one line of a hundred pixels"}};
@@ -53,7 +54,7 @@ TEST(ContactSheet, MakesRoomForTitleAndCaptions) {
 }
 
 TEST(ContactSheet, NamesThePictureThatCannotBeRead) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<Tile> tiles = {{folder / "missing.png", ""}};
   try {
     write_contact_sheet(folder / "sheet.png", tiles);

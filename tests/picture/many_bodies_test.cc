@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "tests/common/temporary_folder.h"
 #include "tests/picture/sample.h"
 #include "tools/picture/coarse_layers.h"
 #include "tools/picture/exposed.h"
@@ -55,7 +56,7 @@ TEST(ExposedBodies, AreTheSkinOfAThickBlock) {
 }
 
 TEST(Picture, ShowsTensOfThousandsIn2DAsAnImageWithinTheSvg) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Sample<2> sample;
   sample.add_rows(5001);
   draw_pile<2>(folder / "a.svg", folder / "a.png", sample.input(), {.width = 300, .height = 300});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/common/temporary_folder.h"
 #include "tests/picture/sample.h"
 #include "tools/picture/layout.h"
 
@@ -31,7 +32,7 @@ Layout<Dim> layout_of(const PictureInput<Dim>& input, const PictureParams& param
 /// Body 0 of a sample asleep and body 1 awake, and the colours that the picture shows there.
 template <int Dim>
 std::pair<Colour, Colour> colours_of_asleep_and_awake(double distance) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Sample<Dim> sample;
   sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7, true);
   sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7 + Vec<Dim>::Unit(0) * distance, false);
@@ -55,7 +56,7 @@ TEST(Picture, ShowsSleepersDarkAndAwakeBodiesWarm) {
 }
 
 TEST(Picture, HoldsEachBodyOnceAsVectorsIn2D) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Sample<2> sample;
   sample.add_rows(5);
   sample.states.removed[3] = 1;
@@ -71,7 +72,7 @@ TEST(Picture, HoldsEachBodyOnceAsVectorsIn2D) {
 
 template <int Dim>
 void expect_same_bytes() {
-  const Folder folder;
+  const TemporaryFolder folder;
   Sample<Dim> sample;
   sample.add_rows(3);
   sample.add_pile(30.0);
@@ -89,7 +90,7 @@ TEST(Picture, IsTheSameBytesForTheSameInput) {
 
 template <int Dim>
 void expect_drawn(const Sample<Dim>& sample) {
-  const Folder folder;
+  const TemporaryFolder folder;
   draw_pile<Dim>(folder / "a.svg", folder / "a.png", sample.input(), small);
   const Image image(folder / "a.png");
   EXPECT_EQ(image.width(), small.width);
