@@ -70,6 +70,11 @@ int Pile<Dim>::layer_of(const Vec<Dim>& point) const {
 }
 
 template <int Dim>
+bool Pile<Dim>::reaches(const Vec<Dim>& point) const {
+  return horizontal<Dim>(Vec<Dim>(point - centre)).norm() < 2.0 * radius;
+}
+
+template <int Dim>
 double Pile<Dim>::closeness(const Vec<Dim>& point, const Layer& layer) const {
   const Horizontal<Dim> offset = horizontal<Dim>(point) - horizontal<Dim>(centre);
   const double distance = boundary ? boundary->gauge(offset) * radius : offset.norm();

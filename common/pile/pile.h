@@ -34,6 +34,7 @@ template <int Dim>
 struct Pile {
   Vec<Dim> centre = Vec<Dim>::Zero();     // middle of the base [m]
   double alpha = 0.0;                     // slope [rad]
+  bool held = false;                      // to that slope, steeper than its bodies would lie by themselves
   double structure_size = 0.0;            // N of section 3.1: how many bodies the structure has room for
   double lift = 0.0;                      // height of the part with upright sides; 0 without walls [m]
   double height = 0.0;                    // h, lift included [m]
@@ -45,6 +46,9 @@ struct Pile {
   /// Layer of a point, or -1 outside: by height, then within the layer's radius or walls. A point above the apex counts
   /// to the top layer, as example 4 of the paper describes.
   int layer_of(const Vec<Dim>& point) const;
+
+  /// Whether a point lies within twice the base's radius: a structure of the wrong slope leaves some of its bodies out.
+  bool reaches(const Vec<Dim>& point) const;
 
   /// Equation (2), d of a point in a layer: 1 on the axis, falling to 0 at the layer's edge.
   double closeness(const Vec<Dim>& point, const Layer& layer) const;

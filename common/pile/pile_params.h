@@ -11,6 +11,8 @@ template <int Dim>
 struct PileParams {
   std::optional<double> alpha;  // slope [rad] in (0, pi/2); not given: the slope that the bodies take by themselves,
                                 // found as they come. Far above it the paper's rule lets few bodies sleep
+  bool hold_slope = false;      // whether `adaptive` holds the pile to `alpha`, then given, above what its bodies take
+                                // by themselves: bodies lose motion for it, and a pile so held sinks once it is woken
   std::optional<Vec<Dim>> at;   // middle of the base [m]; not given: where the first body lands (section 3.1)
   double initial_size = 8.0;    // N at the start, >= 1; larger: the first bodies wait longer for a dense layer
   double growth_ratio = 0.5;    // occupation ratio above which N doubles (section 3.2), in (0, 1]

@@ -25,6 +25,7 @@ template <int Dim>
 void PileSet<Dim>::add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre) {
   piles_.push_back(
       make_pile<Dim>(centre, params.alpha.value_or(usual_slope), params.initial_size, body_, params.boundary));
+  piles_.back().held = params.hold_slope;
   ledgers_.push_back({.params = params});
 }
 
@@ -66,6 +67,7 @@ void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
     Pile<Dim> larger =
         make_pile<Dim>(now.centre, now.alpha, 2.0 * now.structure_size, body_, ledgers_[pile].params.boundary);
     if (larger.structure_size <= now.structure_size) return;
+    larger.held = now.held;
     piles_[pile] = std::move(larger);
     recount(pile, states);
   }

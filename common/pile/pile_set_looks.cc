@@ -50,8 +50,8 @@ void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double
   recount(pile, states);
 }
 
-/// Section 3.1 has alpha measured on a simulation made before; without one, the pile itself tells. All bodies within
-/// twice its radius that have landed count, since a cone of the wrong slope leaves some outside.
+/// Section 3.1 has alpha measured on a simulation made before; without one, the pile itself tells. All bodies in
+/// its reach that have landed count.
 template <int Dim>
 void PileSet<Dim>::find_slope(std::size_t pile, const BodyStates<Dim>& states) {
   Ledger& ledger = ledgers_[pile];
@@ -64,8 +64,7 @@ void PileSet<Dim>::find_slope(std::size_t pile, const BodyStates<Dim>& states) {
   std::vector<Vec<Dim>> places;
   for (std::size_t i = 0; i < landed_.size(); ++i) {
     if (landed_[i] == 0 || states.removed[i] != 0) continue;
-    const Vec<Dim> place = states.pose[i].position - now.centre;
-    if (horizontal<Dim>(place).norm() < 2.0 * now.radius) places.push_back(place);
+    if (now.reaches(states.pose[i].position)) places.push_back(states.pose[i].position - now.centre);
   }
   if (places.empty()) return;
   const double slope = natural_slope<Dim>(places);
@@ -91,7 +90,8 @@ bool PileSet<Dim>::may_merge(std::size_t a, std::size_t b) const {
   const PileParams<Dim>& one = ledgers_[a].params;
   const PileParams<Dim>& other = ledgers_[b].params;
   const bool alive = piles_[a].merged_into < 0 && piles_[b].merged_into < 0;
-  if (!alive || one.alpha != other.alpha || one.boundary || other.boundary) return false;
+  const bool alike = one.alpha == other.alpha && one.hold_slope == other.hold_slope;
+  if (!alive || !alike || one.boundary || other.boundary) return false;
   const double distance = (piles_[a].centre - piles_[b].centre).norm();
   return distance < std::min(one.merge_distance, other.merge_distance) * body_.extent;
 }
@@ -104,6 +104,8 @@ void PileSet<Dim>::merge(std::size_t kept, std::size_t gone, const BodyStates<Di
   const Vec<Dim> centre = (1.0 - share) * piles_[kept].centre + share * piles_[gone].centre;
   const double size = std::max(piles_[kept].structure_size, piles_[gone].structure_size);
   piles_[kept] = make_pile<Dim>(centre, piles_[kept].alpha, size, body_);
+  piles_[kept].held = ledgers_[kept].params.hold_slope;
+  piles_[gone].held = false;
   piles_[gone].layers.clear();
   piles_[gone].merged_into = static_cast<int>(kept);
   recount(kept, states);

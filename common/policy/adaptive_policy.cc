@@ -18,7 +18,8 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       props_(params.support_slack * typical.extent),
       heavy_blows_(params, typical, world),
       blows_(params, typical.extent, world),
-      avalanches_(params, typical.extent, world.ground.height) {
+      avalanches_(params, typical.extent, world.ground.height),
+      steering_(params, typical.extent, world) {
   for (const Shape<Dim>& shape : world.shapes) weights_.push_back(shape.mass * world.gravity * world.dt);
 }
 
@@ -40,6 +41,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   const bool quiet = std::ranges::none_of(contacts, [](const Contact<Dim>& contact) { return contact.b >= 0; });
   avalanches_.update(frame.world, frame.piles.piles(), quiet, bodies_);
   wake(bodies_, SleepCause::avalanche, frame, decision);
+  steering_.update(frame, contacts, decision.kicks);
   choose_sleepers(frame, contacts, decision);
   avalanches_.note(states, decision.freeze, decision.thaw);
 }

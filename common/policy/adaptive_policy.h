@@ -10,6 +10,7 @@
 #include "common/policy/props.h"
 #include "common/policy/rest_watch.h"
 #include "common/policy/sleep_policy.h"
+#include "common/policy/steering.h"
 
 namespace talus {
 
@@ -48,6 +49,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   HeavyBlows<Dim> heavy_blows_;
   Blows<Dim> blows_;
   LocalAvalanches<Dim> avalanches_;
+  Steering<Dim> steering_;
   std::vector<BodyIndex> bodies_;  // scratch
 };
 

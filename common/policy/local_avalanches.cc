@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/policy/containment.h"
+
 namespace talus {
 namespace {
 
@@ -28,7 +30,8 @@ std::vector<std::array<int, Axes>> around(const std::array<int, Axes>& cell) {
 
 template <int Dim>
 LocalAvalanches<Dim>::LocalAvalanches(const AdaptiveParams& params, double extent, double ground)
-    : width_(params.avalanche_width * extent),
+    : extent_(extent),
+      width_(params.avalanche_width * extent),
       growth_(params.avalanche_growth),
       growth_quiet_(params.avalanche_growth_quiet),
       rise_(width_ * std::tan(params.avalanche_angle)),
@@ -65,6 +68,7 @@ void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<
   grown_.clear();
   if (quiet) {
     for (const Cell& cell : unasked_) {
+      if (slope_held(piles, middle_of(cell)) > 0.0) continue;  // at last all of it would slide
       const int last = columns_[cell].looked_at;
       ask(world, piles, cell, std::max(last + 1.0, growth_quiet_ * last), sliding);
     }
@@ -96,9 +100,13 @@ void LocalAvalanches<Dim>::ask(const World<Dim>& world, std::span<const Pile<Dim
 template <int Dim>
 bool LocalAvalanches<Dim>::is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const {
   const double top = neighbourhood_.at(cell).top.value_or(ground_);
+  const Vec<Dim> middle = middle_of(cell);
+  const double held = slope_held(piles, middle);
+  // The tops are single bodies, each of which may stand out of the slope by itself.
+  const double rise = held > 0.0 ? std::max(rise_, width_ * std::tan(held) + 2.0 * extent_) : rise_;
   return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
-    const double foot = std::max(beside.second.top.value_or(ground_), wall_between(piles, cell, beside.first));
-    return top - foot > rise_;
+    const double wall = wall_between(piles, middle, middle_of(beside.first)).value_or(ground_);
+    return top - std::max(beside.second.top.value_or(ground_), wall) > rise;
   });
 }
 
@@ -126,22 +134,13 @@ void LocalAvalanches<Dim>::gather(const World<Dim>& world, const Cell& cell) {
   }
 }
 
-/// Height to which walls of piles part the middles of two columns [m]; the ground's where there are none.
 template <int Dim>
-double LocalAvalanches<Dim>::wall_between(std::span<const Pile<Dim>> piles, const Cell& a, const Cell& b) const {
-  double height = ground_;
-  for (const Pile<Dim>& pile : piles) {
-    if (!pile.boundary) continue;
-    const auto within = [&](const Cell& cell) {
-      Horizontal<Dim> middle;
-      for (std::size_t axis = 0; axis < cell.size(); ++axis) {
-        middle[static_cast<Eigen::Index>(axis)] = (cell[axis] + 0.5) * width_;
-      }
-      return pile.boundary->gauge(middle - horizontal<Dim>(pile.centre)) <= 1.0;
-    };
-    if (within(a) != within(b)) height = std::max(height, talus::height<Dim>(pile.centre) + pile.boundary->rim);
+Vec<Dim> LocalAvalanches<Dim>::middle_of(const Cell& cell) const {
+  Vec<Dim> middle = Vec<Dim>::Zero();
+  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+    middle[static_cast<Eigen::Index>(axis)] = (cell[axis] + 0.5) * width_;
   }
-  return height;
+  return middle;
 }
 
 template class LocalAvalanches<2>;

@@ -36,8 +36,8 @@ class LocalAvalanches {
   bool waiting() const { return !unasked_.empty(); }
 
   /// Appends the sleepers of columns that may slide, each once, ascending. `piles` tell where walls are, over which
-  /// only what stands above their rim slides; `quiet`, whether no awake body touches another body. Costs O(columns that
-  /// grew); one that may slide, a query of its sleepers.
+  /// only what stands above their rim slides, and which slopes are held; `quiet`, whether no awake body touches another
+  /// body. Costs O(columns that grew); one that may slide, a query of its sleepers.
   void update(const World<Dim>& world, std::span<const Pile<Dim>> piles, bool quiet, std::vector<BodyIndex>& sliding);
 
  private:
@@ -59,8 +59,9 @@ class LocalAvalanches {
            std::vector<BodyIndex>& sliding);
   bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;
   void gather(const World<Dim>& world, const Cell& cell);
-  double wall_between(std::span<const Pile<Dim>> piles, const Cell& a, const Cell& b) const;
+  Vec<Dim> middle_of(const Cell& cell) const;
 
+  double extent_;        // D [m]
   double width_;         // of a column [m]
   double growth_;        // since the last look
   double growth_quiet_;  // while all is quiet

@@ -31,6 +31,9 @@ void read_adaptive(TableReader& table, AdaptiveParams& params) {
   table.read("avalanche_growth", params.avalanche_growth, {.low = 1.0, .high = 1e3, .low_excluded = true});
   table.read("avalanche_growth_quiet", params.avalanche_growth_quiet, {.low = 1.0, .high = 1e3});
   table.read_degrees("avalanche_angle_deg", params.avalanche_angle, between(0.0, 89.0));
+  table.read("steering_gain", params.steering_gain, between(0.0, 1e6));
+  table.read("steering_growth", params.steering_growth, between(0.0, 1e6));
+  table.read("steering_most", params.steering_most, between(0.0, 1e6));
 }
 
 }  // namespace
@@ -42,6 +45,8 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     // At 0 and 90 degrees a pile has no height or no base.
     table.read_degrees("alpha_deg", pile.alpha.emplace(), between(1.0, 89.0));
   }
+  table.read("hold_slope", pile.hold_slope);
+  if (pile.hold_slope) table.require("alpha_deg");
   if (table.has("at")) {
     table.read("at", pile.at.emplace(), coordinate());
   }
@@ -59,6 +64,7 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     if (!pile.at) {
       table.reject("boundary", "must be given together with at, the middle of its floor");
     }
+    if (pile.hold_slope) table.reject("hold_slope", "must be false within walls, which bear their bodies at any slope");
     table.require("alpha_deg");  // walls hide the slope that bodies take by themselves
   }
   return pile;

@@ -86,6 +86,10 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
   if (scene.policy.kind == "paper" && scene.piles.empty()) {
     lines.emplace_back("policy.kind = \"paper\" without any [[pile]]: no body will ever sleep");
   }
+  if (scene.policy.kind != "adaptive" && std::ranges::any_of(scene.piles, &PileParams<Dim>::hold_slope)) {
+    lines.push_back(
+        fmt::format("policy.kind = \"{}\" holds no pile to a slope, as pile.hold_slope asks", scene.policy.kind));
+  }
   if (scene.world.dt > 1.0 / 60.0) {
     lines.emplace_back("world.steps_per_second below 60: bodies sink visibly into each other");
   }

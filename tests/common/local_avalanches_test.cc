@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <vector>
 
 #include "tests/common/cubes.h"
@@ -133,6 +134,32 @@ TEST_F(LocalAvalanchesTest, AHeapWokenByHandIsNotTakenForOneThatGrew) {
   world_.thaw(heap);  // nobody told the rule
   put_to_sleep(heap);
   EXPECT_TRUE(sliding(true).empty());
+}
+
+// Held to 45 degrees, a column of 4 m may stand 4 m above the next, and a body at both ends 1 m out of the slope.
+TEST_F(LocalAvalanchesTest, WhatIsHeldToASlopeSlidesOnlyWhereItIsSteeperAndIsNotAskedWhenAllIsQuiet) {
+  Pile<3> pile;
+  pile.alpha = std::numbers::pi / 4.0;
+  pile.held = true;
+  pile.radius = 10.0;
+  piles_.push_back(pile);
+  lay(96, 0.0);  // highest centres at 5.5 m
+  EXPECT_TRUE(sliding().empty());
+  lay(1, 0.0);
+  EXPECT_TRUE(sliding(true).empty());
+  lay(128, 0.0);  // at 7.5 m
+  EXPECT_FALSE(sliding().empty());
+}
+
+TEST_F(LocalAvalanchesTest, AHeapOutOfReachOfAPileThatIsHeldSlidesAsEver) {
+  Pile<3> pile;
+  pile.centre = Vec3(40.0, 0.0, 0.0);
+  pile.alpha = std::numbers::pi / 4.0;
+  pile.held = true;
+  pile.radius = 10.0;
+  piles_.push_back(pile);
+  const std::vector<BodyIndex> heap = lay(96, 0.0);
+  EXPECT_EQ(sliding(), heap);
 }
 
 TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {

@@ -54,6 +54,11 @@ TEST(Warnings, DoNotMindOneLargeBodyThatIsThrownIntoAPile) {
   EXPECT_EQ(warnings_with({large, sources, {"run.frames=1200"}}), "");
 }
 
+TEST(Warnings, TellOfAPolicyThatHoldsNoSlopes) {
+  expect_one(warnings_with({{"pile[0].hold_slope=true"}, {"policy.kind=full"}}), "holds no pile to a slope");
+  EXPECT_EQ(warnings_with({{"pile[0].hold_slope=true"}}), "");
+}
+
 TEST(Warnings, TellOfAPolicyWithoutAPile) {
   expect_one(warnings_with({{"pile=[]"}, {"policy.kind=paper"}}), "without any [[pile]]");
   EXPECT_EQ(warnings_with({{"pile=[]"}, {"policy.kind=full"}}), "");
