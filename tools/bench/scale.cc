@@ -52,13 +52,14 @@ Table cost_table(const std::vector<Engine>& engines) {
                {"over 1,000 sleepers", true},
                {"step with none awake [µs]", true},
                {"freeze and thaw [µs a body]", true},
-               {"memory [bytes a sleeper]", true}},
+               {"memory [bytes a sleeper]", true},
+               {"of L shapes", true}},
               {}};
   for (const Engine& engine : engines) {
     for (const SleepersCost& cost : engine.costs) {
       table.rows.push_back({engine.backend, std::to_string(cost.sleepers), shown(cost.step_ms),
                             shown(cost.step_ms / engine.costs.front().step_ms), shown(cost.idle_step_us),
-                            shown(cost.freeze_thaw_us), shown(cost.bytes, 4)});
+                            shown(cost.freeze_thaw_us), shown(cost.bytes, 4), shown(cost.bytes_of_l, 4)});
     }
   }
   return table;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "common/measure/ensemble.h"
@@ -25,7 +27,7 @@ double resident_bytes() {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-/// Place of box `index` in a block that is `side` boxes along each horizontal axis, a centimetre between any two.
+/// Place of body `index` in a block that is `side` bodies along each horizontal axis, a centimetre between any two.
 template <int Dim>
 Vec<Dim> place(int index, int side) {
   constexpr double spacing = 1.01;
@@ -63,6 +65,26 @@ void add_block(World<Dim>& world, int sleepers, int side) {
   }
 }
 
+/// A world of sleepers of one shape, side by side.
+template <int Dim>
+struct BlockOfSleepers {
+  BlockOfSleepers(const std::string& backend, const std::vector<Piece<Dim>>& pieces, int sleepers, int side) {
+    WorldDescription<Dim> description;
+    Material material;
+    material.friction = 0.8;
+    description.shapes = {make_shape<Dim>("body", pieces, material)};
+    malloc_trim(0);
+    const double before = resident_bytes();
+    world = make_world<Dim>(backend, description);
+    add_block(*world, sleepers, side);
+    median_step(*world, 1);
+    bytes = (resident_bytes() - before) / sleepers;
+  }
+
+  std::unique_ptr<World<Dim>> world;
+  double bytes = 0.0;  // a sleeper, everything included
+};
+
 template <int Dim>
 std::vector<BodyIndex> add_top(World<Dim>& world, int sleepers, int side, int awake) {
   std::vector<BodyIndex> top;
@@ -94,23 +116,18 @@ double freeze_thaw_time(World<Dim>& world, std::span<const BodyIndex> bodies) {
 
 template <int Dim>
 SleepersCost sleepers_cost(const std::string& backend, int sleepers, int awake) {
-  WorldDescription<Dim> description;
-  Material material;
-  material.friction = 0.8;
-  description.shapes = {make_shape<Dim>("box", box_pieces<Dim>(Vec<Dim>::Constant(1.0)), material)};
-  malloc_trim(0);
-  const double before = resident_bytes();
-  const auto world = make_world<Dim>(backend, description);
   const int side = std::max(awake, static_cast<int>(std::pow(sleepers, 1.0 / Dim)));  // the awake find a flat top
-  add_block(*world, sleepers, side);
   SleepersCost cost;
   cost.sleepers = sleepers;
-  cost.idle_step_us = 1e6 * median_step(*world, 200);
-  cost.bytes = (resident_bytes() - before) / sleepers;
-  const std::vector<BodyIndex> top = add_top(*world, sleepers, side, awake);
-  median_step(*world, 60);
-  cost.step_ms = 1e3 * median_step(*world, 200);
-  cost.freeze_thaw_us = freeze_thaw_time<Dim>(*world, top);
+  cost.bytes_of_l = BlockOfSleepers<Dim>(backend, l_pieces<Dim>(LParams{}), sleepers, side).bytes;
+  const BlockOfSleepers<Dim> block(backend, box_pieces<Dim>(Vec<Dim>::Constant(1.0)), sleepers, side);
+  World<Dim>& world = *block.world;
+  cost.bytes = block.bytes;
+  cost.idle_step_us = 1e6 * median_step(world, 200);
+  const std::vector<BodyIndex> top = add_top(world, sleepers, side, awake);
+  median_step(world, 60);
+  cost.step_ms = 1e3 * median_step(world, 200);
+  cost.freeze_thaw_us = freeze_thaw_time<Dim>(world, top);
   return cost;
 }
 
