@@ -14,6 +14,8 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
                                     const TypicalBody& typical)
     : params_(params),
       dt_(world.dt),
+      fastest_(0.95 * fastest_speed<Dim>(world.dt)),
+      fastest_spin_(1.5 / world.dt),
       rest_watch_(params.rest_distance * typical.extent, params.rest_distance_woken * typical.extent, world.shapes),
       props_(params.support_slack * typical.extent),
       heavy_blows_(params, typical, world),
@@ -42,6 +44,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   avalanches_.update(frame.world, frame.piles.piles(), quiet, bodies_);
   wake(bodies_, SleepCause::avalanche, frame, decision);
   steering_.update(frame, contacts, decision.kicks);
+  limit(decision.kicks);
   choose_sleepers(frame, contacts, decision);
   avalanches_.note(states, decision.freeze, decision.thaw);
 }
@@ -57,6 +60,14 @@ void AdaptivePolicy<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cau
     decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = cause});
   }
   std::ranges::sort(decision.thaw, {}, &SleepEvent::body);
+}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::limit(std::span<Kick<Dim>> kicks) const {
+  for (Kick<Dim>& kick : kicks) {
+    kick.velocity *= std::min(1.0, fastest_ / std::max(kick.velocity.norm(), fastest_));
+    kick.spin *= std::min(1.0, fastest_spin_ / std::max(kick.spin.norm(), fastest_spin_));
+  }
 }
 
 template <int Dim>

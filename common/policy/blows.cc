@@ -24,9 +24,7 @@ double give_way(const Vec<Dim>& along) {
 
 template <int Dim>
 Blows<Dim>::Blows(const AdaptiveParams& params, double extent, const WorldDescription<Dim>& world)
-    : wake_speed_(speed_to_rise(world.gravity, params.wake_height * extent)),
-      fastest_spin_(1.5 / world.dt),  // just below what the engines cut to
-      shapes_(world.shapes) {}
+    : wake_speed_(speed_to_rise(world.gravity, params.wake_height * extent)), shapes_(world.shapes) {}
 
 template <int Dim>
 void Blows<Dim>::update(const World<Dim>& world, std::span<const Contact<Dim>> contacts, std::vector<BodyIndex>& hit,
@@ -42,7 +40,6 @@ void Blows<Dim>::update(const World<Dim>& world, std::span<const Contact<Dim>> c
   }
   std::sort(hit.begin(), hit.end());
   hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
-  for (Kick<Dim>& kick : kicks) kick.spin *= std::min(1.0, fastest_spin_ / std::max(kick.spin.norm(), fastest_spin_));
   last_awake_.assign(world.awake().begin(), world.awake().end());
 }
 

@@ -55,8 +55,7 @@ class Blows {
     return shapes_[static_cast<std::size_t>(states.shape[static_cast<std::size_t>(body)])];
   }
 
-  double wake_speed_;    // [m/s]
-  double fastest_spin_;  // that a kick may give [rad/s]
+  double wake_speed_;  // [m/s]
   std::vector<Shape<Dim>> shapes_;
   std::vector<Push> pushes_;           // of this step, ascending by pair
   std::vector<Push> last_pushes_;      // of the step before

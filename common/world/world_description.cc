@@ -113,15 +113,12 @@ void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description) {
             "must be finite");
   }
   require(body.spin.allFinite(), "body.spin", body.spin.norm(), "must be finite");
-  // Box2D moves a body by at most 2 m a step (b2_maxTranslation); Bullet's continuous collision was tried up to 500
-  // m/s.
-  const double fastest = Dim == 2 ? 2.0 / description.dt : 500.0;
+  const double fastest = fastest_speed<Dim>(description.dt);
   require(body.velocity.norm() <= fastest, "body.velocity", body.velocity.norm(),
           fmt::format("must be at most {:.6g} m/s: faster ones are slowed down or go through walls", fastest));
-  // Both engines cut a spin to a quarter turn a step (b2_maxRotation, btRigidBody's MAX_ANGVEL).
-  const double fastest_spin = std::numbers::pi / 2.0 / description.dt;
-  require(body.spin.norm() <= fastest_spin, "body.spin", body.spin.norm(),
-          fmt::format("must be at most {:.6g} rad/s, a quarter turn a step", fastest_spin));
+  const double most = fastest_spin(description.dt);
+  require(body.spin.norm() <= most, "body.spin", body.spin.norm(),
+          fmt::format("must be at most {:.6g} rad/s, a quarter turn a step", most));
 }
 
 template void check(const WorldDescription<2>&);

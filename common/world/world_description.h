@@ -1,6 +1,7 @@
 #pragma once
 // All that an engine must know before the first body exists.
 
+#include <numbers>
 #include <vector>
 
 #include "common/shape/shape.h"
@@ -50,5 +51,16 @@ template <int Dim>
 void check(const WorldDescription<Dim>& description);
 template <int Dim>
 void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description);
+
+/// Fastest that a body may be given [m/s] with steps of `dt` [s]. Box2D moves a body by at most 2 m a step
+/// (b2_maxTranslation); Bullet's continuous collision was tried up to 500 m/s.
+template <int Dim>
+double fastest_speed(double dt) {
+  return Dim == 2 ? 2.0 / dt : 500.0;
+}
+
+/// Fastest spin that a body may be given [rad/s]. Both engines cut it to a quarter turn a step (b2_maxRotation,
+/// btRigidBody's MAX_ANGVEL).
+inline double fastest_spin(double dt) { return std::numbers::pi / 2.0 / dt; }
 
 }  // namespace talus

@@ -31,7 +31,7 @@ class StillWorld final : public World<Dim> {
   }
   const BodyStates<Dim>& states() const override { return states_; }
   std::span<const BodyIndex> awake() const override { return awake_; }
-  std::span<const Contact<Dim>> contacts() override { return {}; }
+  std::span<const Contact<Dim>> contacts() override { return touching; }
   void freeze(std::span<const BodyIndex> bodies) override { set_asleep(bodies, 1); }
   void thaw(std::span<const BodyIndex> bodies) override { set_asleep(bodies, 0); }
   void near(const Box<Dim>& box, std::vector<BodyIndex>& found) const override {
@@ -42,6 +42,8 @@ class StillWorld final : public World<Dim> {
     }
   }
   EngineTimes times() const override { return {}; }
+
+  std::vector<Contact<Dim>> touching;  // told as the contacts of each step
 
  private:
   void set_asleep(std::span<const BodyIndex> bodies, std::uint8_t asleep) {
