@@ -18,7 +18,7 @@ double natural_slope(std::vector<Vec<Dim>>& places) {
   constexpr double centre_share = Dim == 3 ? 0.25 : 1.0 / 3.0;                       // of the height
   const double radius = from_axis(*middle) / median_share;
   const double apex = sum_of_heights / static_cast<double>(places.size()) / centre_share;
-  return std::clamp(std::atan2(apex, radius), 5.0 * degree, 75.0 * degree);
+  return std::clamp(std::atan2(apex, radius), 5.0 * degree, steepest_slope);
 }
 
 template double natural_slope(std::vector<Vec<2>>&);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/pile/profile.h"
 
@@ -37,6 +38,20 @@ void cut_into_layers(Pile<Dim>& pile, double base, const TypicalBody& body) {
 }
 
 }  // namespace
+
+template <int Dim>
+int nearest_pile(std::span<const Pile<Dim>> piles, const Vec<Dim>& point) {
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < piles.size(); ++p) {
+    if (piles[p].merged_into >= 0 || !piles[p].reaches(point)) continue;
+    const double distance = horizontal<Dim>(Vec<Dim>(point - piles[p].centre)).norm();
+    if (distance >= least) continue;
+    least = distance;
+    nearest = static_cast<int>(p);
+  }
+  return nearest;
+}
 
 template <int Dim>
 Pile<Dim> make_pile(const Vec<Dim>& centre, double alpha, double structure_size, const TypicalBody& body,
@@ -90,6 +105,8 @@ double Pile<Dim>::occupation_ratio() const {
 
 template struct Pile<2>;
 template struct Pile<3>;
+template int nearest_pile(std::span<const Pile<2>>, const Vec<2>&);
+template int nearest_pile(std::span<const Pile<3>>, const Vec<3>&);
 template Pile<2> make_pile(const Vec<2>&, double, double, const TypicalBody&, const std::optional<Boundary<2>>&);
 template Pile<3> make_pile(const Vec<3>&, double, double, const TypicalBody&, const std::optional<Boundary<3>>&);
 

@@ -2,6 +2,7 @@
 // The stacking structure of section 3.1: a cone or wedge cut into layers; within walls, a prism under it (section 3.5).
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/math/vector.h"
@@ -47,7 +48,8 @@ struct Pile {
   /// to the top layer, as example 4 of the paper describes.
   int layer_of(const Vec<Dim>& point) const;
 
-  /// Whether a point lies within twice the base's radius: a structure of the wrong slope leaves some of its bodies out.
+  /// Whether a point lies within twice the base's radius, at any height: a structure of the wrong slope leaves some of
+  /// its bodies out.
   bool reaches(const Vec<Dim>& point) const;
 
   /// Equation (2), d of a point in a layer: 1 on the axis, falling to 0 at the layer's edge.
@@ -56,6 +58,10 @@ struct Pile {
   /// Sum of m_i over sum of c_i (section 3.2), which is the structure size but for rounding.
   double occupation_ratio() const;
 };
+
+/// Number of the pile that a point belongs to: of those that reach it the one whose axis is nearest; -1: none.
+template <int Dim>
+int nearest_pile(std::span<const Pile<Dim>> piles, const Vec<Dim>& point);
 
 /// The structure with room for `structure_size` bodies, empty (section 3.1). k = max(1, floor(h / D)) layers of equal
 /// thickness h / k, so their volumes sum to N v_obj. Within walls the base grows until it touches the nearest; from

@@ -59,6 +59,14 @@ void PileSet<Dim>::update(const BodyStates<Dim>& states, std::span<const BodyInd
   for (std::size_t p = 0; p < piles_.size(); ++p) grow(p, states);
 }
 
+/// A structure of another place, slope or size for the same pile.
+template <int Dim>
+void PileSet<Dim>::replace(std::size_t pile, Pile<Dim> structure, const BodyStates<Dim>& states) {
+  structure.held = ledgers_[pile].params.hold_slope;
+  piles_[pile] = std::move(structure);
+  recount(pile, states);
+}
+
 /// Section 3.2: above the growth ratio N doubles; a pile that fills its walls to the rim stays as it is (3.5).
 template <int Dim>
 void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
@@ -67,9 +75,7 @@ void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
     Pile<Dim> larger =
         make_pile<Dim>(now.centre, now.alpha, 2.0 * now.structure_size, body_, ledgers_[pile].params.boundary);
     if (larger.structure_size <= now.structure_size) return;
-    larger.held = now.held;
-    piles_[pile] = std::move(larger);
-    recount(pile, states);
+    replace(pile, std::move(larger), states);
   }
 }
 

@@ -74,6 +74,7 @@ class PileSet {
   void count(std::size_t pile, BodyIndex body, const Membership& now);
   void add(std::size_t pile, const Membership& member, int sign);
   void recount(std::size_t pile, const BodyStates<Dim>& states);
+  void replace(std::size_t pile, Pile<Dim> structure, const BodyStates<Dim>& states);
   void grow(std::size_t pile, const BodyStates<Dim>& states);
   void look_around(const BodyStates<Dim>& states, double dt);
   void find_slope(std::size_t pile, const BodyStates<Dim>& states);

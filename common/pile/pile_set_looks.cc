@@ -69,8 +69,7 @@ void PileSet<Dim>::find_slope(std::size_t pile, const BodyStates<Dim>& states) {
   if (places.empty()) return;
   const double slope = natural_slope<Dim>(places);
   if (std::abs(slope - now.alpha) < least_turn) return;
-  piles_[pile] = make_pile<Dim>(now.centre, slope, now.structure_size, body_);
-  recount(pile, states);
+  replace(pile, make_pile<Dim>(now.centre, slope, now.structure_size, body_), states);
 }
 
 /// Section 3.5: two piles of one kind whose centres lie near each other become one.
@@ -103,12 +102,10 @@ void PileSet<Dim>::merge(std::size_t kept, std::size_t gone, const BodyStates<Di
   const double share = bodies > 0.0 ? ledgers_[gone].count / bodies : 0.5;
   const Vec<Dim> centre = (1.0 - share) * piles_[kept].centre + share * piles_[gone].centre;
   const double size = std::max(piles_[kept].structure_size, piles_[gone].structure_size);
-  piles_[kept] = make_pile<Dim>(centre, piles_[kept].alpha, size, body_);
-  piles_[kept].held = ledgers_[kept].params.hold_slope;
+  replace(kept, make_pile<Dim>(centre, piles_[kept].alpha, size, body_), states);
   piles_[gone].held = false;
   piles_[gone].layers.clear();
   piles_[gone].merged_into = static_cast<int>(kept);
-  recount(kept, states);
   recount(gone, states);
 }
 

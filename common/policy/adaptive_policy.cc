@@ -65,8 +65,8 @@ void AdaptivePolicy<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cau
 template <int Dim>
 void AdaptivePolicy<Dim>::limit(std::span<Kick<Dim>> kicks) const {
   for (Kick<Dim>& kick : kicks) {
-    kick.velocity *= std::min(1.0, fastest_ / std::max(kick.velocity.norm(), fastest_));
-    kick.spin *= std::min(1.0, fastest_spin_ / std::max(kick.spin.norm(), fastest_spin_));
+    kick.velocity *= fastest_ / std::max(kick.velocity.norm(), fastest_);
+    kick.spin *= fastest_spin_ / std::max(kick.spin.norm(), fastest_spin_);
   }
 }
 

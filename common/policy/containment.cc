@@ -20,11 +20,8 @@ std::optional<double> wall_between(std::span<const Pile<Dim>> piles, const Vec<D
 
 template <int Dim>
 double slope_held(std::span<const Pile<Dim>> piles, const Vec<Dim>& place) {
-  double slope = 0.0;
-  for (const Pile<Dim>& pile : piles) {
-    if (pile.held && pile.reaches(place)) slope = std::max(slope, pile.alpha);
-  }
-  return slope;
+  const int pile = nearest_pile(piles, place);
+  return pile >= 0 && piles[static_cast<std::size_t>(pile)].held ? piles[static_cast<std::size_t>(pile)].alpha : 0.0;
 }
 
 template std::optional<double> wall_between(std::span<const Pile<2>>, const Vec<2>&, const Vec<2>&);

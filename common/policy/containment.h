@@ -13,7 +13,7 @@ namespace talus {
 template <int Dim>
 std::optional<double> wall_between(std::span<const Pile<Dim>> piles, const Vec<Dim>& a, const Vec<Dim>& b);
 
-/// Steepest slope [rad] of the piles in reach of a place that are held to theirs; 0 where none is.
+/// Slope [rad] to which the pile is held that a place belongs to; 0 where none is.
 template <int Dim>
 double slope_held(std::span<const Pile<Dim>> piles, const Vec<Dim>& place);
 

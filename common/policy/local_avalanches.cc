@@ -34,7 +34,7 @@ LocalAvalanches<Dim>::LocalAvalanches(const AdaptiveParams& params, double exten
       width_(params.avalanche_width * extent),
       growth_(params.avalanche_growth),
       growth_quiet_(params.avalanche_growth_quiet),
-      rise_(width_ * std::tan(params.avalanche_angle)),
+      angle_(params.avalanche_angle),
       ground_(ground) {}
 
 template <int Dim>
@@ -68,7 +68,7 @@ void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<
   grown_.clear();
   if (quiet) {
     for (const Cell& cell : unasked_) {
-      if (slope_held(piles, middle_of(cell)) > 0.0) continue;  // at last all of it would slide
+      if (slope_held(piles, middle_of(cell)) > angle_) continue;  // who asks again and again brings it down
       const int last = columns_[cell].looked_at;
       ask(world, piles, cell, std::max(last + 1.0, growth_quiet_ * last), sliding);
     }
@@ -89,11 +89,19 @@ void LocalAvalanches<Dim>::ask(const World<Dim>& world, std::span<const Pile<Dim
   column.sleepers = static_cast<int>(found);
   if (column.sleepers < enough) return;
   column.note_look(found);
-  if (!is_steep(piles, cell)) return;
+  if (mostly_awake() || !is_steep(piles, cell)) return;
   for (const auto& [place, stack] : neighbourhood_) {
     sliding.insert(sliding.end(), stack.bodies.begin(), stack.bodies.end());
     columns_[place].note_look(stack.bodies.size());
   }
+}
+
+/// Whether more are awake than asleep in the neighbourhood that is gathered.
+template <int Dim>
+bool LocalAvalanches<Dim>::mostly_awake() const {
+  std::size_t asleep = 0;
+  for (const auto& [place, stack] : neighbourhood_) asleep += stack.bodies.size();
+  return awake_near_ > asleep;
 }
 
 /// Of the column whose neighbourhood is gathered.
@@ -102,8 +110,8 @@ bool LocalAvalanches<Dim>::is_steep(std::span<const Pile<Dim>> piles, const Cell
   const double top = neighbourhood_.at(cell).top.value_or(ground_);
   const Vec<Dim> middle = middle_of(cell);
   const double held = slope_held(piles, middle);
-  // The tops are single bodies, each of which may stand out of the slope by itself.
-  const double rise = held > 0.0 ? std::max(rise_, width_ * std::tan(held) + 2.0 * extent_) : rise_;
+  // The tops are single bodies, each of which may stand out of a slope that is held.
+  const double rise = held > angle_ ? width_ * std::tan(held) + 2.0 * extent_ : width_ * std::tan(angle_);
   return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
     const double wall = wall_between(piles, middle, middle_of(beside.first)).value_or(ground_);
     return top - std::max(beside.second.top.value_or(ground_), wall) > rise;
@@ -121,10 +129,14 @@ void LocalAvalanches<Dim>::gather(const World<Dim>& world, const Cell& cell) {
   }
   for (const Cell& beside : around(cell)) neighbourhood_[beside];
   near_.clear();
+  awake_near_ = 0;
   world.near(box, near_);
   for (const BodyIndex body : near_) {
     const auto i = static_cast<std::size_t>(body);
-    if (states.asleep[i] == 0) continue;
+    if (states.asleep[i] == 0) {
+      ++awake_near_;
+      continue;
+    }
     const auto found = neighbourhood_.find(cell_of(states.pose[i].position));
     if (found == neighbourhood_.end()) continue;
     Stack& stack = found->second;

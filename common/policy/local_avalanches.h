@@ -20,8 +20,8 @@ namespace talus {
 /// heaped on sleepers grows steeper than what is awake. Space is cut into upright columns. When one holds
 /// `avalanche_growth` times the sleepers of its last look, and the highest of them lies steeply above those of a column
 /// beside it, it wakes with all columns around it, which counts as a look at each: what can slide slides, the rest
-/// sleeps again a moment later. While no awake body touches another, columns are asked from `avalanche_growth_quiet`
-/// on, all at once, so that no heap comes to rest unasked.
+/// sleeps again a moment later. Where more are awake than asleep, blows ask enough. While no awake body touches
+/// another, columns are asked from `avalanche_growth_quiet` on, all at once, so that no heap comes to rest unasked.
 template <int Dim>
 class LocalAvalanches {
  public:
@@ -57,6 +57,7 @@ class LocalAvalanches {
   Cell cell_of(const Vec<Dim>& position) const;
   void ask(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell, double enough,
            std::vector<BodyIndex>& sliding);
+  bool mostly_awake() const;
   bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;
   void gather(const World<Dim>& world, const Cell& cell);
   Vec<Dim> middle_of(const Cell& cell) const;
@@ -65,13 +66,14 @@ class LocalAvalanches {
   double width_;         // of a column [m]
   double growth_;        // since the last look
   double growth_quiet_;  // while all is quiet
-  double rise_;          // from a column to the next from which it may slide [m]
+  double angle_;         // slope between columns from which they may slide [rad]
   double ground_;
   std::map<Cell, Column> columns_;
   std::vector<Cell> grown_;              // since the last update
   std::set<Cell> unasked_;               // that grew since all was quiet
   std::map<Cell, Stack> neighbourhood_;  // scratch: of the column looked at, and those around it
   std::vector<BodyIndex> near_;          // scratch
+  std::size_t awake_near_ = 0;           // scratch: in and around the column looked at
 };
 
 }  // namespace talus

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/pile/natural_slope.h"
 #include "common/scene/read_walls.h"
 
 namespace talus {
@@ -46,7 +47,12 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     table.read_degrees("alpha_deg", pile.alpha.emplace(), between(1.0, 89.0));
   }
   table.read("hold_slope", pile.hold_slope);
-  if (pile.hold_slope) table.require("alpha_deg");
+  if (pile.hold_slope) {
+    table.require("alpha_deg");
+    if (pile.alpha.value_or(0.0) > steepest_slope) {
+      table.reject("alpha_deg", "must be at most 75 where it is held: no slope above is measured");
+    }
+  }
   if (table.has("at")) {
     table.read("at", pile.at.emplace(), coordinate());
   }
@@ -64,7 +70,9 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     if (!pile.at) {
       table.reject("boundary", "must be given together with at, the middle of its floor");
     }
-    if (pile.hold_slope) table.reject("hold_slope", "must be false within walls, which bear their bodies at any slope");
+    if (pile.hold_slope) {
+      table.reject("hold_slope", "must be false within walls, which bear their bodies at any slope");
+    }
     table.require("alpha_deg");  // walls hide the slope that bodies take by themselves
   }
   return pile;

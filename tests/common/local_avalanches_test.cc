@@ -75,6 +75,12 @@ TEST_F(LocalAvalanchesTest, AHeapNoSteeperThanTheAngleStays) {
   EXPECT_TRUE(sliding().empty());
 }
 
+TEST_F(LocalAvalanchesTest, AHeapAmongMoreThatAreAwakeIsAskedByThem) {
+  lay(48, 0.0);
+  for (int i = 0; i < 49; ++i) world_.add({.pose = {.position = Vec3(5.0 + 0.05 * i, 1.0, 0.5)}});
+  EXPECT_TRUE(sliding().empty());
+}
+
 TEST_F(LocalAvalanchesTest, APlainStaysHoweverHigh) {
   // Walls along both sides: the plain's only slope is the one that it does not have.
   Pile<3> pile;
@@ -142,13 +148,26 @@ TEST_F(LocalAvalanchesTest, WhatIsHeldToASlopeSlidesOnlyWhereItIsSteeperAndIsNot
   pile.alpha = std::numbers::pi / 4.0;
   pile.held = true;
   pile.radius = 10.0;
+  pile.height = 10.0;
   piles_.push_back(pile);
   lay(96, 0.0);  // highest centres at 5.5 m
   EXPECT_TRUE(sliding().empty());
-  lay(1, 0.0);
+  put_to_sleep({world_.add({.pose = {.position = Vec3(0.5, 0.5, 7.5)}})});  // steep, but grown by 1 % only
   EXPECT_TRUE(sliding(true).empty());
-  lay(128, 0.0);  // at 7.5 m
+  lay(16, 0.0);
   EXPECT_FALSE(sliding().empty());
+}
+
+// What may slide from 25 degrees on anyway is held by nobody.
+TEST_F(LocalAvalanchesTest, APileHeldToAFlatSlopeSlidesAsEver) {
+  Pile<3> pile;
+  pile.alpha = 0.4;
+  pile.held = true;
+  pile.radius = 10.0;
+  pile.height = 10.0;
+  piles_.push_back(pile);
+  const std::vector<BodyIndex> heap = lay(48, 0.0);
+  EXPECT_EQ(sliding(true), heap);
 }
 
 TEST_F(LocalAvalanchesTest, AHeapOutOfReachOfAPileThatIsHeldSlidesAsEver) {

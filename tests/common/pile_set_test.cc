@@ -163,13 +163,15 @@ TEST(UnlocatedPile, BeginsWhereItIsToldAndCountsWhoIsThere) {
 }
 
 /// Two piles on the x axis, `distance` apart, with three bodies on each.
-std::pair<PileSet<3>, Bodies<3>> two_piles(double distance, double merge_distance) {
+std::pair<PileSet<3>, Bodies<3>> two_piles(double distance, double merge_distance, std::array<bool, 2> held = {}) {
   Bodies<3> bodies;
   std::vector<PileParams<3>> params(2);
   for (int side = 0; side < 2; ++side) {
     const Vec3 centre(side * distance, 0.0, 0.0);
     params[static_cast<std::size_t>(side)].at = centre;
     params[static_cast<std::size_t>(side)].merge_distance = merge_distance;
+    params[static_cast<std::size_t>(side)].alpha = 0.5;
+    params[static_cast<std::size_t>(side)].hold_slope = held[static_cast<std::size_t>(side)];
     for (int i = 0; i < 3; ++i) bodies.add(centre + Vec3(0.0, 0.0, 0.1));
   }
   return {PileSet<3>(params, body), bodies};
@@ -182,6 +184,25 @@ TEST(PilesNearEachOther, MergeIntoOneAtTheirCommonMean) {
   EXPECT_TRUE(piles.piles()[1].layers.empty());
   EXPECT_NEAR(piles.piles()[0].centre.x(), 0.5, 0.02 * body.extent);
   EXPECT_TRUE(piles.counts_match(bodies.states));
+}
+
+TEST(PilesNearEachOther, StayHeldToTheirSlopeAsOneAndAsTheyGrow) {
+  auto [piles, bodies] = two_piles(1.0, 1.0, {true, true});
+  for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(piles.piles()[1].merged_into, 0);
+  EXPECT_TRUE(piles.piles()[0].held);
+  EXPECT_FALSE(piles.piles()[1].held);
+  const double room = piles.piles()[0].structure_size;
+  for (int i = 0; i < 40; ++i) bodies.add(Vec3(0.5, 0.0, 0.1));
+  piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_GT(piles.piles()[0].structure_size, room);
+  EXPECT_TRUE(piles.piles()[0].held);
+}
+
+TEST(PilesNearEachOther, StayApartWhereOnlyOneIsHeldToItsSlope) {
+  auto [piles, bodies] = two_piles(1.0, 1.0, {true, false});
+  for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(piles.piles()[1].merged_into, -1);
 }
 
 TEST(PilesNearEachOther, StayApartUntilTheyWereNearTwice) {

@@ -53,6 +53,14 @@ class SteeringTest : public testing::Test {
     return kicks;
   }
 
+  /// Rate at which the first body that touches something loses motion after so many steps [1/s].
+  double drag(Steering<3>& steering, std::int64_t step) {
+    std::vector<Kick<3>> kicks;
+    const Frame<3> at{.step = step, .world = world_, .piles = piles_, .events = {}, .phases = {}};
+    steering.update(at, world_.contacts(), kicks);
+    return -std::log(kicks.at(0).velocity.x() / 3.0) / cubes().dt;
+  }
+
   /// Of a body's motion that is left after a step at the largest drag, 4 sqrt(g / D).
   static double kept() { return std::exp(-4.0 * std::sqrt(10.0 / extent) * cubes().dt); }
 
@@ -77,6 +85,43 @@ TEST_F(SteeringTest, WhatABlowGaveABodyIsSlowedAndNoSecondKickGiven) {
   const std::vector<Kick<3>> kicks = steered({{.body = body, .velocity = Vec3(0.0, 7.0, 0.0)}});
   ASSERT_EQ(kicks.size(), 1U);
   EXPECT_NEAR((kicks[0].velocity - kept() * Vec3(0.0, 7.0, 0.0)).norm(), 0.0, 1e-12);
+}
+
+TEST_F(SteeringTest, DragGrowsFromLookToLookWhileSlopeIsMissing) {
+  lay(5.0, 0.0);
+  add_moving(Vec3(1.0, 0.0, 0.5));
+  Steering<3> steering({.steering_gain = 0.0}, extent, cubes());
+  const double first = drag(steering, 0);
+  EXPECT_GT(first, 0.0);
+  EXPECT_NEAR(drag(steering, 1), first, 1e-9);
+  EXPECT_NEAR(drag(steering, 30), 2.0 * first, 1e-9);
+}
+
+TEST_F(SteeringTest, OfFewBodiesNothingIsLearnt) {
+  lay(5.0, 0.0);
+  for (BodyIndex body = 5; body < 20; ++body) world_.remove(body);
+  add_moving(Vec3(1.0, 0.0, 0.5));
+  Steering<3> steering({}, extent, cubes());
+  for (int look = 0; look < 50; ++look) EXPECT_NEAR(std::exp(-drag(steering, 30 * look) * cubes().dt), kept(), 1e-9);
+  lay(1.0, 1.0);
+  std::vector<Kick<3>> kicks;
+  const Frame<3> at{.step = 30 * 50, .world = world_, .piles = piles_, .events = {}, .phases = {}};
+  steering.update(at, world_.contacts(), kicks);
+  EXPECT_TRUE(kicks.empty());
+}
+
+// The other's bodies would make each pile twice as wide as it is.
+TEST_F(SteeringTest, ABodyBelongsToTheNearestOfTwoPilesAlone) {
+  PileParams<3> beside = held();
+  beside.at = Vec3(12.0, 0.0, 0.0);
+  beside.merge_distance = 0.0;
+  piles_ = PileSet<3>({held(), beside}, piles_.typical_body());
+  lay(1.0, 1.0);
+  add_moving(Vec3(1.0, 0.0, 0.5));
+  for (int i = 0; i < 40; ++i) {
+    world_.freeze(std::vector{world_.add({.pose = {.position = Vec3(12.0 + 0.1 * i, 0.0, 0.5)}})});
+  }
+  EXPECT_TRUE(steered().empty());
 }
 
 TEST_F(SteeringTest, ASteepPileMovesFreely) {
