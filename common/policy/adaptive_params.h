@@ -26,10 +26,10 @@ struct AdaptiveParams {
                                         // to rest too steep; 1000 in effect never
   double avalanche_angle = 25.0 * std::numbers::pi / 180.0;  // [rad] in [0, pi/2): slope between columns from which
                                                              // they may slide. Low: plains wake; high: heaps too steep
-  double steering_gain = 20.0;    // [sqrt(g / D) / rad] >= 0: drag on bodies that touch something in a pile held to a
-                                  // slope, per slope missing. Low: late; high: a thin tower on a broad foot
-  double steering_growth = 0.15;  // [g / D / rad] >= 0: what it grows by in a second. Low: too flat; high: waves
-  double steering_most = 4.0;     // [sqrt(g / D)] >= 0: such drag at most. Low: too flat; high: bodies stick anywhere
+  double steering_gain = 20.0;   // [sqrt(g / D) / rad] >= 0: drag on bodies that touch something in a pile held to a
+                                 // slope, per slope missing. Low: late; high: a thin tower on a broad foot
+  double steering_growth = 0.3;  // [g / D / rad] >= 0: what it grows by in a second. Low: too flat; high: waves
+  double steering_most = 4.0;    // [sqrt(g / D)] >= 0: such drag at most. Low: too flat; high: bodies stick anywhere
 };
 
 }  // namespace talus

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double seconds_between_looks = 0.5;
 constexpr std::size_t least_to_measure = 16;  // fewer make no slope
+constexpr double resting_fall = 0.0075;       // [D]: who is slower than after such a free fall has found its place
 
 /// Neither above it, as in a hopper, nor below its base, as who fell off a table.
 template <int Dim>
@@ -25,7 +26,7 @@ bool lies_in(const Pile<Dim>& pile, const Vec<Dim>& position) {
 template <int Dim>
 Steering<Dim>::Steering(const AdaptiveParams& params, double extent, const WorldDescription<Dim>& world)
     : dt_(world.dt),
-      resting_speed_(speed_to_rise(world.gravity, params.wake_height * extent)),
+      resting_speed_(speed_to_rise(world.gravity, resting_fall * extent)),
       gain_(params.steering_gain * std::sqrt(world.gravity / extent)),
       growth_(params.steering_growth * world.gravity / extent),
       most_(params.steering_most * std::sqrt(world.gravity / extent)),
