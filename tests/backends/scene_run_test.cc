@@ -75,7 +75,8 @@ TYPED_TEST(SceneRun, APileWithoutAPlaceBeginsWhereTheFirstBodyTouchesDown) {
 }
 
 // A pile whose slope is not given tells it: that of the cone or wedge with the heap's centre of mass and median radius.
-// The last tenth of the bodies may have come after the last measurement, and what rolled far away belongs to no pile.
+// The last tenth of the bodies may have come after the last measurement, the heap may have slid since, and what rolled
+// far away belongs to no pile.
 TYPED_TEST(SceneRun, APileWithoutASlopeFindsItsOwn) {
   constexpr int dim = TypeParam::dim;
   const std::vector<Override> few = {{"source[0].count=150"}};
@@ -89,7 +90,7 @@ TYPED_TEST(SceneRun, APileWithoutASlopeFindsItsOwn) {
   const ShapeStatistics<dim> shape = shape_statistics<dim>(bodies, grid, typical_body(scene).extent);
   const double apex = (dim == 3 ? 4.0 : 3.0) * shape.centre_height;
   const double foot = shape.r50 / (dim == 3 ? 0.5 : 1.0 - std::sqrt(0.5));
-  EXPECT_NEAR(simulation.piles().piles().front().alpha, std::atan2(apex, foot), 0.08);
+  EXPECT_NEAR(simulation.piles().piles().front().alpha, std::atan2(apex, foot), 0.1);
 }
 
 // 50 rings do not fill the box: not one of them may get through its walls or its floor, or over its rim.
