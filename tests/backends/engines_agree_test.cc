@@ -52,7 +52,8 @@ TEST_P(LongEngines, BuildTheSamePile) {
   RecordProperty("r50", fmt::format("{:.3f} {:.3f}", box2d.r50, planar.r50));
 }
 
-// Not among them: ten_thousand takes minutes; what a ball leaves of a pile (broken_pile) has no shape to compare.
+// Not among them: ten_thousand and million take minutes and hours; what a ball leaves of a pile (broken_pile) has no
+// shape to compare; steep_pile has tests of its own.
 INSTANTIATE_TEST_SUITE_P(OnScenes, LongEngines,
                          ::testing::Values("drop_in_a_pile", "varying_drops", "multiple_piles",
                                            "bunny_matrices_natural", "bunny_matrices_35", "bunny_matrices_45",
