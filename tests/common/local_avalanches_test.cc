@@ -148,7 +148,6 @@ TEST_F(LocalAvalanchesTest, WhatIsHeldToASlopeSlidesOnlyWhereItIsSteeperAndIsNot
   pile.alpha = std::numbers::pi / 4.0;
   pile.held = true;
   pile.radius = 10.0;
-  pile.height = 10.0;
   piles_.push_back(pile);
   lay(96, 0.0);  // highest centres at 5.5 m
   EXPECT_TRUE(sliding().empty());
@@ -164,7 +163,6 @@ TEST_F(LocalAvalanchesTest, APileHeldToAFlatSlopeSlidesAsEver) {
   pile.alpha = 0.4;
   pile.held = true;
   pile.radius = 10.0;
-  pile.height = 10.0;
   piles_.push_back(pile);
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   EXPECT_EQ(sliding(true), heap);
