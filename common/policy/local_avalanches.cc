@@ -63,14 +63,14 @@ void LocalAvalanches<Dim>::note(const BodyStates<Dim>& states, std::span<const S
 template <int Dim>
 void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<Dim>> piles, bool quiet,
                                   std::vector<BodyIndex>& sliding) {
-  for (const Cell& cell : grown_) ask(world, piles, cell, growth_ * columns_[cell].looked_at, sliding);
+  for (const Cell& cell : grown_) ask(world, piles, cell, growth_ * columns_[cell].looked_at, quiet, sliding);
   unasked_.insert(grown_.begin(), grown_.end());
   grown_.clear();
   if (quiet) {
     for (const Cell& cell : unasked_) {
       if (slope_held(piles, middle_of(cell)) > angle_) continue;  // who asks again and again brings it down
       const int last = columns_[cell].looked_at;
-      ask(world, piles, cell, std::max(last + 1.0, growth_quiet_ * last), sliding);
+      ask(world, piles, cell, std::max(last + 1.0, growth_quiet_ * last), true, sliding);
     }
     unasked_.clear();
   }
@@ -81,7 +81,7 @@ void LocalAvalanches<Dim>::update(const World<Dim>& world, std::span<const Pile<
 /// Looks at a column that holds `enough` sleepers, and appends it with those around it where it is steep.
 template <int Dim>
 void LocalAvalanches<Dim>::ask(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell,
-                               double enough, std::vector<BodyIndex>& sliding) {
+                               double enough, bool quiet, std::vector<BodyIndex>& sliding) {
   Column& column = columns_[cell];
   if (column.sleepers < enough) return;
   gather(world, cell);
@@ -89,7 +89,7 @@ void LocalAvalanches<Dim>::ask(const World<Dim>& world, std::span<const Pile<Dim
   column.sleepers = static_cast<int>(found);
   if (column.sleepers < enough) return;
   column.note_look(found);
-  if (mostly_awake() || !is_steep(piles, cell)) return;
+  if ((!quiet && mostly_awake()) || !is_steep(piles, cell)) return;
   for (const auto& [place, stack] : neighbourhood_) {
     sliding.insert(sliding.end(), stack.bodies.begin(), stack.bodies.end());
     columns_[place].note_look(stack.bodies.size());

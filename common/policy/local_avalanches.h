@@ -55,7 +55,7 @@ class LocalAvalanches {
   };
 
   Cell cell_of(const Vec<Dim>& position) const;
-  void ask(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell, double enough,
+  void ask(const World<Dim>& world, std::span<const Pile<Dim>> piles, const Cell& cell, double enough, bool quiet,
            std::vector<BodyIndex>& sliding);
   bool mostly_awake() const;
   bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;

@@ -81,6 +81,12 @@ TEST_F(LocalAvalanchesTest, AHeapAmongMoreThatAreAwakeIsAskedByThem) {
   EXPECT_TRUE(sliding().empty());
 }
 
+TEST_F(LocalAvalanchesTest, AQuietHeapIsAskedHoweverManyFlyAboveIt) {
+  const std::vector<BodyIndex> heap = lay(48, 0.0);
+  for (int i = 0; i < 49; ++i) world_.add({.pose = {.position = Vec3(2.0, 2.0, 20.0 + 2.0 * i)}});
+  EXPECT_EQ(sliding(true), heap);
+}
+
 TEST_F(LocalAvalanchesTest, APlainStaysHoweverHigh) {
   // Walls along both sides: the plain's only slope is the one that it does not have.
   Pile<3> pile;
