@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "sim3d/solver.h"
+#include "sim3d/bullet/solver.h"
 
 namespace talus::bullet {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "common/world/world_description.h"
 #include "sim3d/bodies.h"
-#include "sim3d/compound_pair.h"
-#include "sim3d/dynamics_world.h"
-#include "sim3d/ground_pair.h"
-#include "sim3d/pairs.h"
+#include "sim3d/bullet/compound_pair.h"
+#include "sim3d/bullet/dynamics_world.h"
+#include "sim3d/bullet/ground_pair.h"
+#include "sim3d/bullet/pairs.h"
 
 namespace talus::bullet {
 

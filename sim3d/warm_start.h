@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/world/body.h"
-#include "sim3d/pairs.h"
+#include "sim3d/bullet/pairs.h"
 
 namespace talus::bullet {
 

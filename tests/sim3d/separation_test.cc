@@ -1,6 +1,6 @@
 // Whether boxes are told apart along their edges' directions as their corners' shadows say.
 
-#include "sim3d/separation.h"
+#include "sim3d/bullet/separation.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

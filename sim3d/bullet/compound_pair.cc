@@ -1,4 +1,4 @@
-#include "sim3d/compound_pair.h"
+#include "sim3d/bullet/compound_pair.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <LinearMath/btAabbUtil2.h>

@@ -1,4 +1,4 @@
-#include "sim3d/separation.h"
+#include "sim3d/bullet/separation.h"
 
 namespace talus::bullet {
 namespace {

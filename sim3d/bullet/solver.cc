@@ -1,4 +1,4 @@
-#include "sim3d/solver.h"
+#include "sim3d/bullet/solver.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "sim3d/dynamics_world.h"
+#include "sim3d/bullet/dynamics_world.h"
 
 #include <chrono>
 

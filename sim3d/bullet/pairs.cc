@@ -1,4 +1,4 @@
-#include "sim3d/pairs.h"
+#include "sim3d/bullet/pairs.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim3d/separation.h"
+#include "sim3d/bullet/separation.h"
 
 namespace talus::bullet {
 

@@ -1,4 +1,4 @@
-#include "sim3d/ground_pair.h"
+#include "sim3d/bullet/ground_pair.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
