@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 
 #include "common/policy/bearing.h"
 #include "common/policy/paper_policy.h"
@@ -52,9 +52,9 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
 template <int Dim>
 void AdaptivePolicy<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame,
                                Decision<Dim>& decision) {
-  const auto before = static_cast<std::ptrdiff_t>(decision.thaw.size());
+  const std::size_t before = decision.thaw.size();
   for (const BodyIndex body : bodies) {
-    const auto known = std::ranges::subrange(decision.thaw.begin(), decision.thaw.begin() + before);
+    const auto known = std::span(decision.thaw).first(before);
     if (std::ranges::binary_search(known, body, {}, &SleepEvent::body)) continue;
     const Readiness place = readiness(frame, body);
     decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = cause});

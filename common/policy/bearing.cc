@@ -36,9 +36,10 @@ class Burdens {
 
   /// A candidate that stays awake bears as one awake.
   void drop(std::size_t candidate) {
-    for (const Bearing& bearing : std::ranges::equal_range(bearings_, candidate, {}, &Bearing::bearer)) {
-      on_rest_[bearing.borne] -= bearing.load;
-      on_awake_[bearing.borne] += bearing.load;
+    auto bearing = std::ranges::lower_bound(bearings_, candidate, {}, &Bearing::bearer);
+    for (; bearing != bearings_.end() && bearing->bearer == candidate; ++bearing) {
+      on_rest_[bearing->borne] -= bearing->load;
+      on_awake_[bearing->borne] += bearing->load;
     }
   }
 

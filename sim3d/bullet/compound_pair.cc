@@ -173,7 +173,8 @@ CompoundPair::PiecePair& CompoundPair::add(int first, int second, const btCollis
     pieces_.reserve(4);  // two pieces meet two
   }
   btCollisionAlgorithm* algorithm = m_dispatcher->findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-  return pieces_.emplace_back(first, second, algorithm, true);
+  pieces_.push_back({first, second, algorithm, true});
+  return pieces_.back();
 }
 
 // Drops the pairs of pieces that no longer overlap: all of them first, then their places, each taken by the last.
