@@ -23,6 +23,9 @@ EnsembleSummary summarize(std::span<const double> values, int resamples = 4000, 
 /// The smallest of the numbers that a share `q` in [0, 1] of them does not exceed; 0 for no numbers.
 double quantile(std::vector<double> values, double q);
 
+/// The middle number, of an even count the mean of the two in the middle; 0 for no numbers.
+double median(std::vector<double> values);
+
 /// Mean of the numbers, 0 for none.
 double mean(std::span<const double> values);
 

@@ -34,7 +34,7 @@ WorldDescription<Dim> reference_settings(WorldDescription<Dim> description) {
 }
 
 template <int Dim>
-WorldDescription<Dim> shipped_settings(WorldDescription<Dim> description) {
+WorldDescription<Dim> engine_default_settings(WorldDescription<Dim> description) {
   description.dt = 1.0 / 60.0;
   description.engine_sleep = true;
   description.solver.velocity_iterations = Dim == 2 ? 8 : 10;
@@ -50,7 +50,7 @@ template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDesc
                                            Sleepers);
 template WorldDescription<2> reference_settings(WorldDescription<2>);
 template WorldDescription<3> reference_settings(WorldDescription<3>);
-template WorldDescription<2> shipped_settings(WorldDescription<2>);
-template WorldDescription<3> shipped_settings(WorldDescription<3>);
+template WorldDescription<2> engine_default_settings(WorldDescription<2>);
+template WorldDescription<3> engine_default_settings(WorldDescription<3>);
 
 }  // namespace talus

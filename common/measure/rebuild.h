@@ -32,6 +32,6 @@ WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
 /// Box2D 8 velocity and 3 position iterations (its manual), Bullet 10 iterations, one friction direction, friction from
 /// zero in each step (btContactSolverInfo.h).
 template <int Dim>
-WorldDescription<Dim> shipped_settings(WorldDescription<Dim> description);
+WorldDescription<Dim> engine_default_settings(WorldDescription<Dim> description);
 
 }  // namespace talus

@@ -21,8 +21,8 @@ void WorkCounter<Dim>::on_frame(const Frame<Dim>& frame) {
 }
 
 template <int Dim>
-OracleCeiling oracle_ceiling(const Trajectory<Dim>& full, std::span<const double> extents, double x, double window,
-                             int first, int last) {
+Hindsight hindsight(const Trajectory<Dim>& full, std::span<const double> extents, double x, double window, int first,
+                    int last) {
   require(x > 0.0, "x", x, "must be > 0");
   const int ahead = static_cast<int>(std::lround(window / full.frame_time()));
   require(ahead >= 1, "window", window, "must be at least a frame");
@@ -51,7 +51,7 @@ OracleCeiling oracle_ceiling(const Trajectory<Dim>& full, std::span<const double
 
 template class WorkCounter<2>;
 template class WorkCounter<3>;
-template OracleCeiling oracle_ceiling(const Trajectory<2>&, std::span<const double>, double, double, int, int);
-template OracleCeiling oracle_ceiling(const Trajectory<3>&, std::span<const double>, double, double, int, int);
+template Hindsight hindsight(const Trajectory<2>&, std::span<const double>, double, double, int, int);
+template Hindsight hindsight(const Trajectory<3>&, std::span<const double>, double, double, int, int);
 
 }  // namespace talus

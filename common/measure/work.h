@@ -1,5 +1,5 @@
 #pragma once
-// How much was not simulated, and how much need not have been.
+// How many body-steps a run skipped, and how many it could have skipped.
 
 #include <cstdint>
 #include <span>
@@ -24,7 +24,7 @@ struct Work {
 double contacts_skipped(const Work& run, const Work& full);
 
 /// Counts while a simulation runs. With `contacts` each step's contacts are gathered, which costs time of its own: not
-/// in a run that is timed. Awake is who is awake when a step is over, sleep decisions included.
+/// in a run that is timed. Awake are the bodies that are awake after the step, sleep decisions included.
 template <int Dim>
 class WorkCounter : public Observer<Dim> {
  public:
@@ -37,17 +37,19 @@ class WorkCounter : public Observer<Dim> {
   Work work_;
 };
 
-/// What an oracle could save that simulates only bodies about to move.
-struct OracleCeiling {
-  double share = 0.0;    // of body-frames at which the body moves far within the window
-  double ceiling = 0.0;  // 1 / share: no policy that lets only still bodies sleep is faster; infinite if nothing moves
+/// How many bodies of a full run move. A policy that knew the future and simulated only these would save `ratio`. It is
+/// no bound: a run under a policy creeps less than the full run, so its own hindsight may be higher.
+struct Hindsight {
+  /// Share of body-frames at which the body moves far within the window.
+  double share = 0.0;
+  /// 1 / share; infinite if nothing moves.
+  double ratio = 0.0;
 };
 
 /// From a run without sleeping: a body-frame counts if within the next `window` [s] the body is at some frame more than
 /// `x` D away from where it is. Frames from `first` to before `last` whose window lies within the run; `last` < 0: all.
-/// The pour and the calm after it have ceilings of their own.
 template <int Dim>
-OracleCeiling oracle_ceiling(const Trajectory<Dim>& full, std::span<const double> extents, double x,
-                             double window = 0.5, int first = 0, int last = -1);
+Hindsight hindsight(const Trajectory<Dim>& full, std::span<const double> extents, double x, double window = 0.5,
+                    int first = 0, int last = -1);
 
 }  // namespace talus

@@ -36,25 +36,25 @@ Trajectory<2> walk() {
   return made_up_run<2>(40, 0.1, [](int frame) { return std::vector<Vec2>{{0, 0}, {0.1 * std::min(frame, 20), 5}}; });
 }
 
-TEST(OracleCeiling, IsTheShareOfBodyFramesThatMove) {
+TEST(Hindsight, CountsBodyFramesThatMove) {
   // Within 0.5 s = 5 frames the walker moves more than 0.15 D = 0.3 m (4 steps of 0.1 m) as long as 4 steps are left:
   // from frame 0 to 16. Frames 0 to 34 have their window within the run: 17 of 70 body-frames.
-  const OracleCeiling oracle = oracle_ceiling<2>(walk(), two_metres, 0.15);
-  EXPECT_DOUBLE_EQ(oracle.share, 17.0 / 70);
-  EXPECT_DOUBLE_EQ(oracle.ceiling, 70.0 / 17);
+  const Hindsight moving = hindsight<2>(walk(), two_metres, 0.15);
+  EXPECT_DOUBLE_EQ(moving.share, 17.0 / 70);
+  EXPECT_DOUBLE_EQ(moving.ratio, 70.0 / 17);
 }
 
-TEST(OracleCeiling, OfThePourAndTheCalmAreTheirOwn) {
-  EXPECT_DOUBLE_EQ(oracle_ceiling<2>(walk(), two_metres, 0.15, 0.5, 0, 10).ceiling, 2.0);
-  EXPECT_TRUE(std::isinf(oracle_ceiling<2>(walk(), two_metres, 0.15, 0.5, 20).ceiling));
+TEST(Hindsight, HasRatiosOfItsOwnForThePourAndAfterIt) {
+  EXPECT_DOUBLE_EQ(hindsight<2>(walk(), two_metres, 0.15, 0.5, 0, 10).ratio, 2.0);
+  EXPECT_TRUE(std::isinf(hindsight<2>(walk(), two_metres, 0.15, 0.5, 20).ratio));
 }
 
-TEST(OracleCeiling, SeesABodyThatGoesAndComesBack) {
+TEST(Hindsight, CountsABodyThatLeavesAndReturns) {
   const auto there_and_back = made_up_run<2>(7, 0.1, [](int frame) {
     return std::vector<Vec2>{{frame == 2 ? 1.0 : 0.0, 0}};
   });
-  EXPECT_DOUBLE_EQ(oracle_ceiling<2>(there_and_back, two_metres, 0.2).share, 1.0);
-  EXPECT_THROW(oracle_ceiling<2>(there_and_back, two_metres, 0.0), std::invalid_argument);
+  EXPECT_DOUBLE_EQ(hindsight<2>(there_and_back, two_metres, 0.2).share, 1.0);
+  EXPECT_THROW(hindsight<2>(there_and_back, two_metres, 0.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,36 +3,36 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "common/measure/rebuild.h"
-#include "common/policy/sleep_policy.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/version.h"
 
 namespace talus {
 
-RowKey key_of(const BenchCase& bench_case) {
-  return {find_scene(bench_case.scene).stem().string(),
-          bench_case.backend,
-          bench_case.policy,
-          fmt::format("{}", fmt::join(bench_case.settings, " ")),
-          "",
-          version_text()};
+bool is_baseline(const BenchCase& bench_case) {
+  return bench_case.policy == reference_policy || bench_case.policy == engine_default_policy;
 }
 
-bool is_yardstick(const BenchCase& bench_case) {
-  return bench_case.policy == reference_policy || bench_case.policy == shipped_policy;
+RowKey key_of(const BenchCase& bench_case) {
+  return {.scene = find_scene(bench_case.scene).stem().string(),
+          .backend = bench_case.backend,
+          .policy = bench_case.policy,
+          .settings = fmt::format("{}", fmt::join(bench_case.settings, " ")),
+          .version = version_text()};
 }
 
 AnyScene load(const BenchCase& bench_case) {
   const bool reference = bench_case.policy == reference_policy;
-  const bool shipped = bench_case.policy == shipped_policy;
-  const std::string policy = reference ? "full" : shipped ? "engine" : bench_case.policy;
+  const bool engine_default = bench_case.policy == engine_default_policy;
+  const std::string policy = reference ? "full" : engine_default ? "engine" : bench_case.policy;
   std::vector<Override> overrides;
   for (const std::string& setting : bench_case.settings) overrides.push_back({setting});
   overrides.push_back({"policy.kind=" + policy});
   AnyScene scene = read_scene(find_scene(bench_case.scene), overrides);
   if (reference) std::visit([](auto& any) { any.world = reference_settings(any.world); }, scene);
-  if (shipped) std::visit([](auto& any) { any.world = shipped_settings(any.world); }, scene);
+  if (engine_default) std::visit([](auto& any) { any.world = engine_default_settings(any.world); }, scene);
   return scene;
 }
 
@@ -40,19 +40,9 @@ int dimension_of(const std::string& scene) {
   return std::visit([]<int Dim>(const Scene<Dim>&) { return Dim; }, read_scene(find_scene(scene)));
 }
 
-std::vector<std::string> known_policies() {
-  std::vector<std::string> known;
-  for (const char* name : {"paper", "adaptive"}) {
-    Scene<2> scene;
-    scene.policy.kind = name;
-    try {
-      make_policy(scene);
-      known.emplace_back(name);
-    } catch (const std::invalid_argument&) {
-      continue;  // not in this build
-    }
-  }
-  return known;
+const BenchCase* BenchGroup::find(const std::string& policy) const {
+  const auto found = std::ranges::find(cases, policy, &BenchCase::policy);
+  return found == cases.end() ? nullptr : &*found;
 }
 
 }  // namespace talus

@@ -21,21 +21,22 @@ void add_options(CLI::App& command, BenchOptions& options) {
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   command.add_option("--rounds", options.rounds, "Timed runs of each case (5, quick: 2)");
-  command.add_option("--twins", options.twins, "Runs a side for shapes and distributions (3, quick: 1)");
+  command.add_option("--seeds", options.seeds, "Independent seeds of each case for shapes and drift (3, quick: 1)");
   command.add_option("--share", options.share, "Share of each scene's frames to run, from its start (1, quick: 0.5)");
   command.add_flag("--reference", options.reference, "Errors against the converged simulation too (slow)");
   command.add_flag("!--no-errors", options.errors, "Times only");
-  command.add_option("-o,--out", options.out, "Folder of rows and report; what is there is not measured again");
+  command.add_option("--docs", options.docs, "Folder for the results as Markdown with figures, for manuals");
+  command.add_option("-o,--out", options.out, "Folder of rows and report; rows that are there are not measured again");
 }
 
 }  // namespace
 
 void add_bench_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("bench", "Measure what sleeping saves and what it costs in truth");
+  CLI::App* command = app.add_subcommand("bench", "Measure speed-up and error of sleeping policies");
   command->require_subcommand(1);
   command->footer(
-      "Each leaves rows.csv, results.csv, results.json, results.md and report.html (one page, works offline) in its\n"
-      "folder, bench/NAME by default. Stopped with Ctrl-C it goes on where it was when called again.\n"
+      "Each leaves rows.jsonl, results.csv, results.json, results.md and report.html (one page, works offline) in its\n"
+      "folder, bench/NAME by default. A benchmark that was stopped continues when called again.\n"
       "Example: talus bench table1 --quick --policy paper");
   for (const Benchmark& benchmark : benchmarks()) {
     CLI::App* one = command->add_subcommand(benchmark.name, benchmark.help);

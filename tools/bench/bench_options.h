@@ -6,22 +6,31 @@
 
 namespace talus {
 
-/// What `talus bench` was asked for. Empty lists: what the benchmark itself takes.
+/// Options of `talus bench`. Empty lists: the benchmark's own choice.
 struct BenchOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> backends;
   std::vector<std::string> policies;
-  std::vector<std::string> settings;  // of every case
-  std::filesystem::path out;          // folder of rows and report; empty: bench/NAME
-  int rounds = 0;                     // timed runs of each case, 1..1000; 0: five, quick two
-  int twins = 0;                      // runs a side for shapes, 1..100; 0: three, quick one
-  double share = 1.0;                 // of a scene's frames, in (0, 1]; quick: half unless asked otherwise
+  /// path=value, for every case.
+  std::vector<std::string> settings;
+  /// Folder of rows and report; empty: bench/NAME.
+  std::filesystem::path out;
+  /// Folder for NAME.md and its figures, to be included in manuals; empty: not written.
+  std::filesystem::path docs;
+  /// Timed runs of each case, 1..1000; 0: five, quick two.
+  int rounds = 0;
+  /// Independent seeds of each case for shapes, distributions and drift, 1..100; 0: three, quick one.
+  int seeds = 0;
+  /// Share of a scene's frames to run, in (0, 1]; quick: half unless given.
+  double share = 1.0;
   bool quick = false;
-  bool reference = false;  // errors against the converged simulation too; one run of it costs about ten
-  bool errors = true;      // without: times only
+  /// Errors against the converged simulation too; one run of it costs about ten full runs.
+  bool reference = false;
+  /// False: times only.
+  bool errors = true;
 };
 
-/// Fills in what was not asked for. Throws std::invalid_argument on values out of range.
+/// Fills in the defaults. Throws std::invalid_argument on values out of range.
 BenchOptions completed(BenchOptions options, const std::string& name);
 
 }  // namespace talus

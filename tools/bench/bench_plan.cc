@@ -65,13 +65,18 @@ std::vector<std::string> settings_of(const BenchOptions& options, const std::str
   return settings;
 }
 
+std::vector<std::string> policies_of(const BenchOptions& options) {
+  std::vector<std::string> policies = options.policies;
+  if (policies.empty()) policies = {"paper", "adaptive"};
+  std::erase_if(policies, [](const std::string& policy) { return policy == "full" || policy == "engine"; });
+  return policies;
+}
+
 BenchGroup policies_group(const BenchOptions& options, const std::string& scene, const std::string& backend) {
   const std::vector<std::string> settings = settings_of(options, scene);
   BenchGroup group;
   for (const char* policy : {"full", "engine"}) group.cases.push_back({scene, backend, policy, settings});
-  for (const std::string& policy : options.policies.empty() ? known_policies() : options.policies) {
-    if (policy != "full" && policy != "engine") group.cases.push_back({scene, backend, policy, settings});
-  }
+  for (const std::string& policy : policies_of(options)) group.cases.push_back({scene, backend, policy, settings});
   if (options.reference) group.cases.push_back({scene, backend, reference_policy, settings});
   return group;
 }

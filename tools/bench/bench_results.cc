@@ -23,20 +23,15 @@ void write(const std::filesystem::path& file, const std::string& text) {
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
 }
 
-std::vector<std::string> summary_names() {
-  std::vector<std::string> names = {"speed_up",          "speed_up_min", "speed_up_max", "speed_up_pour",
-                                    "speed_up_last_100", "seconds_min",  "seconds_max"};
-  for (const char* name : measure_names()) names.emplace_back(name);
-  return names;
-}
-
 Json json_of(const Values& values) {
   Json json = Json::object();
-  for (const std::string& name : summary_names()) {
-    const double value = value_of(values, name);
-    if (std::isfinite(value)) json[name] = value;
-  }
+  for (const MeasureId id : values.measured()) json[std::string(id.info().name)] = values[id];
   return json;
+}
+
+std::vector<Pass> passes_of(const BenchOptions& options) {
+  if (options.reference) return {Pass::against_full, Pass::against_reference};
+  return {Pass::against_full};
 }
 
 Json results_json(const BenchRunner& runner, const std::vector<BenchGroup>& groups, const BenchResults& results) {
@@ -46,15 +41,10 @@ Json results_json(const BenchRunner& runner, const std::vector<BenchGroup>& grou
   for (const BenchGroup& group : groups) {
     for (const BenchCase& each : group.cases) {
       const RowKey key = key_of(each);
-      Json row = {{"scene", key.scene},
-                  {"backend", key.backend},
-                  {"policy", key.policy},
-                  {"settings", each.settings},
-                  {"version", key.version},
-                  {"end_hashes", runner.hashes(each)},
-                  {"against_full", json_of(runner.summary(each, group.cases.front()))}};
-      if (runner.options().reference) {
-        row["against_reference"] = json_of(runner.summary(each, group.cases.front(), "reference"));
+      Json row = {{"scene", key.scene},        {"backend", key.backend}, {"policy", key.policy},
+                  {"settings", each.settings}, {"version", key.version}, {"end_hashes", runner.hashes(each)}};
+      for (const Pass pass : passes_of(runner.options())) {
+        row[name_of(pass)] = json_of(runner.summary(each, group.full(), pass));
       }
       json["cases"].push_back(row);
     }
@@ -63,21 +53,17 @@ Json results_json(const BenchRunner& runner, const std::vector<BenchGroup>& grou
 }
 
 Table results_table(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
-  Table table{"", {{"scene"}, {"backend"}, {"policy"}, {"settings"}, {"version"}, {"against"}, {"end_hashes"}}, {}};
-  for (const std::string& name : summary_names()) table.columns.push_back({name, true});
-  std::vector<std::string> baselines = {"errors"};
-  if (runner.options().reference) baselines.emplace_back("reference");
+  Table table{"", {{"scene"}, {"backend"}, {"policy"}, {"settings"}, {"version"}, {"pass"}, {"end_hashes"}}, {}};
+  for (const Measure& measure : measures) table.columns.push_back({std::string(measure.name), true});
   for (const BenchGroup& group : groups) {
     for (const BenchCase& each : group.cases) {
-      for (const std::string& against : baselines) {
+      for (const Pass pass : passes_of(runner.options())) {
         const RowKey key = key_of(each);
-        table.rows.push_back({key.scene, key.backend, key.policy, key.settings, key.version,
-                              against == "errors" ? "full" : against,
+        table.rows.push_back({key.scene, key.backend, key.policy, key.settings, key.version, name_of(pass),
                               fmt::format("{}", fmt::join(runner.hashes(each), " "))});
-        const Values values = runner.summary(each, group.cases.front(), against);
-        for (const std::string& name : summary_names()) {
-          const double value = value_of(values, name);
-          table.rows.back().push_back(std::isfinite(value) ? fmt::format("{}", value) : "");
+        const Values values = runner.summary(each, group.full(), pass);
+        for (const MeasureId id : MeasureId::all()) {
+          table.rows.back().push_back(std::isfinite(values[id]) ? fmt::format("{}", values[id]) : "");
         }
       }
     }
@@ -85,10 +71,12 @@ Table results_table(const BenchRunner& runner, const std::vector<BenchGroup>& gr
   return table;
 }
 
-std::string markdown_of(const BenchResults& results) {
+/// The results as Markdown; figures are linked as NAME-1.svg, NAME-2.svg, ... where `name` is not empty.
+std::string markdown_of(const BenchResults& results, const std::string& name) {
   std::string text = fmt::format("# {}\n\n", results.title);
   for (const std::string& note : results.notes) text += note + "\n\n";
-  for (const auto& [name, value] : machine_facts()) text += fmt::format("- {}: {}\n", name, value);
+  for (const auto& [fact, value] : machine_facts()) text += fmt::format("- {}: {}\n", fact, value);
+  int number = 0;
   for (const Section& section : results.sections) {
     text += fmt::format("\n## {}\n", section.heading);
     for (const Block& block : section.blocks) {
@@ -96,20 +84,31 @@ std::string markdown_of(const BenchResults& results) {
       if (const auto* table = std::get_if<Table>(&block)) {
         text += (table->caption.empty() ? "\n" : fmt::format("\n{}\n\n", table->caption)) + talus::markdown_of(*table);
       }
+      if (const auto* figure = std::get_if<Figure>(&block)) {
+        ++number;
+        text += fmt::format("\n![{}]({}-{}.svg)\n", figure->caption, name, number);
+      }
     }
   }
   return text;
 }
 
-/// The figures as files too, for manuals.
-void write_figures(const std::filesystem::path& folder, const BenchResults& results) {
+/// The figures as NAME-1.svg, NAME-2.svg, ...
+void write_figures(const std::filesystem::path& folder, const std::string& name, const BenchResults& results) {
   int number = 0;
   for (const Section& section : results.sections) {
     for (const Block& block : section.blocks) {
       const auto* figure = std::get_if<Figure>(&block);
-      if (figure != nullptr) write(folder / fmt::format("figure-{}.svg", ++number), figure->svg);
+      if (figure != nullptr) write(folder / fmt::format("{}-{}.svg", name, ++number), figure->svg);
     }
   }
+}
+
+void write_markdown(const std::filesystem::path& folder, const std::string& name, const std::string& figures,
+                    const BenchResults& results) {
+  std::filesystem::create_directories(folder);
+  write(folder / (name + ".md"), markdown_of(results, figures));
+  write_figures(folder, figures, results);
 }
 
 Report report_of(const BenchResults& results) {
@@ -129,39 +128,13 @@ Report report_of(const BenchResults& results) {
 
 }  // namespace
 
-std::string shown(double value, int digits) {
-  if (std::isinf(value)) return "∞";
-  if (std::isnan(value)) return "-";
-  const double size = std::abs(value);
-  if (size >= 1e3 && size < 1e6) return fmt::format("{:.0f}", value);
-  return fmt::format("{:.{}g}", value, digits);
-}
-
-std::string shown_with_range(const Values& values, const std::string& name, int digits) {
-  const double value = value_of(values, name);
-  const double low = value_of(values, name + "_min");
-  if (std::isnan(value) || low == value_of(values, name + "_max")) return shown(value, digits);
-  return fmt::format("{} ({}-{})", shown(value, digits), shown(low, digits),
-                     shown(value_of(values, name + "_max"), digits));
-}
-
-std::string label_of(const BenchGroup& group, const BenchCase& bench_case) {
-  std::string label = bench_case.policy;
-  for (const std::string& setting : bench_case.settings) {
-    const bool everywhere = std::all_of(group.cases.begin(), group.cases.end(), [&](const BenchCase& other) {
-      return std::find(other.settings.begin(), other.settings.end(), setting) != other.settings.end();
-    });
-    if (!everywhere) label += " " + setting;
-  }
-  return label;
-}
-
 void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& groups, const BenchResults& results) {
   const std::filesystem::path& folder = runner.options().out;
   write(folder / "results.csv", csv_of(results_table(runner, groups)));
   write(folder / "results.json", results_json(runner, groups, results).dump(2) + "\n");
-  write(folder / "results.md", markdown_of(results));
-  write_figures(folder, results);
+  write_markdown(folder, "results", "figure", results);
+  const std::string name = folder.filename().string();
+  if (!runner.options().docs.empty()) write_markdown(runner.options().docs, name, name, results);
   write(folder / "report.html", html_of(report_of(results)));
   fmt::print("{}/report.html, results.md, results.csv and results.json\n", folder.string());
 }

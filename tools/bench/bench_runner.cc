@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/measure/ensemble.h"
 #include "common/world/errors.h"
 #include "tools/bench/error_meter.h"
 #include "tools/bench/timed_run.h"
@@ -13,8 +14,9 @@ namespace talus {
 
 namespace {
 
-RowKey key_at(const BenchCase& bench_case, const std::string& round) {
+RowKey key_at(const BenchCase& bench_case, Pass pass, int round) {
   RowKey key = key_of(bench_case);
+  key.pass = pass;
   key.round = round;
   return key;
 }
@@ -24,127 +26,127 @@ std::string as_time(double seconds) {
   return fmt::format("{:.0f} min", seconds / 60.0);
 }
 
-/// Of an even number: between the two in the middle.
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-/// Whether the case has such a row: what is measured against is timed once, and is told against the reference only.
-bool wanted(const BenchCase& bench_case, const std::string& round) {
-  return !is_yardstick(bench_case) || round == "1" || round == "reference";
+std::string text_of(const RowKey& key) {
+  return fmt::format("{} {} {}{}{}, {}", key.scene, key.backend, key.policy, key.settings.empty() ? "" : " ",
+                     key.settings, key.pass == Pass::timing ? fmt::format("round {}", key.round) : name_of(key.pass));
 }
 
 }  // namespace
 
-BenchRunner::BenchRunner(BenchOptions options) : options_(std::move(options)), store_(options_.out / "rows.csv") {}
+BenchRunner::BenchRunner(BenchOptions options) : options_(std::move(options)), store_(options_.out / "rows.jsonl") {}
 
-bool BenchRunner::missing(const BenchCase& bench_case, const std::string& round) const {
-  return wanted(bench_case, round) && store_.find(key_at(bench_case, round)) == nullptr;
+std::vector<BenchRunner::Task> BenchRunner::tasks() const {
+  std::vector<Task> all;
+  for (int round = 1; round <= options_.rounds; ++round) all.push_back({Pass::timing, round});
+  if (options_.errors) all.push_back({Pass::against_full, 0});
+  if (options_.errors && options_.reference) all.push_back({Pass::against_reference, 0});
+  return all;
+}
+
+/// Baselines are timed once and compared with the reference only.
+bool BenchRunner::missing(const BenchCase& bench_case, const Task& task) const {
+  const bool wanted = !is_baseline(bench_case) || task.round == 1 || task.pass == Pass::against_reference;
+  return wanted && store_.find(key_at(bench_case, task.pass, task.round)) == nullptr;
 }
 
 void BenchRunner::run(const std::vector<BenchGroup>& groups) {
-  std::vector<std::string> rounds;
-  for (int round = 1; round <= options_.rounds; ++round) rounds.push_back(std::to_string(round));
-  if (options_.errors) rounds.emplace_back("errors");
-  if (options_.errors && options_.reference) rounds.emplace_back("reference");
   total_ = done_ = 0;
   for (const BenchGroup& group : groups) {
     for (const BenchCase& each : group.cases) {
-      total_ += static_cast<int>(
-          std::count_if(rounds.begin(), rounds.end(), [&](const std::string& round) { return missing(each, round); }));
+      for (const Task& task : tasks()) total_ += missing(each, task) ? 1 : 0;
     }
   }
   watch_.lap();
   for (const BenchGroup& group : groups) {
-    time_rounds(group);
-    if (options_.errors) measure_errors(group, "errors");
-    if (options_.errors && options_.reference) measure_errors(group, "reference");
-  }
-}
-
-void BenchRunner::time_rounds(const BenchGroup& group) {
-  for (int round = 1; round <= options_.rounds; ++round) {
-    for (const BenchCase& each : group.cases) {
-      if (missing(each, std::to_string(round))) time_once(each, std::to_string(round));
+    for (const Task& task : tasks()) {
+      if (task.pass != Pass::timing) {
+        measure_errors(group, task);
+        continue;
+      }
+      for (const BenchCase& each : group.cases) {
+        if (missing(each, task)) time_once(each, task);
+      }
     }
   }
 }
 
-void BenchRunner::time_once(const BenchCase& bench_case, const std::string& round) {
+void BenchRunner::time_once(const BenchCase& bench_case, const Task& task) {
+  const RowKey key = key_at(bench_case, task.pass, task.round);
   try {
     const TimedRun run =
         std::visit([&](const auto& scene) { return timed_run(scene, bench_case.backend); }, load(bench_case));
-    finished({key_at(bench_case, round), fmt::format("{:016x}", run.end_hash), run.values});
+    finished({key, fmt::format("{:016x}", run.end_hash), run.values});
   } catch (const NonFiniteState& error) {
-    failed(bench_case, round, error);
+    failed(key, error);
   }
 }
 
-void BenchRunner::measure_errors(const BenchGroup& group, const std::string& which) {
-  const auto is_missing = [&](const BenchCase& each) { return missing(each, which); };
-  if (std::none_of(group.cases.begin(), group.cases.end(), is_missing)) return;
-  const BenchCase& full = group.cases.front();
-  BenchCase baseline = full;
-  if (which == "reference") baseline.policy = reference_policy;
+void BenchRunner::measure_errors(const BenchGroup& group, const Task& task) {
+  const auto is_missing = [&](const BenchCase& each) { return missing(each, task); };
+  if (std::ranges::none_of(group.cases, is_missing)) return;
+  BenchCase baseline = group.full();
+  if (task.pass == Pass::against_reference) baseline.policy = reference_policy;
   try {
     std::visit(
         [&]<int Dim>(const Scene<Dim>& scene) {
-          const ErrorMeter<Dim> meter(scene, full.backend, options_.twins);
+          const ErrorMeter<Dim> meter(scene, baseline.backend, options_.seeds);
           for (const BenchCase& each : group.cases) {
             if (!is_missing(each)) continue;
             const bool itself = key_of(each) == key_of(baseline);
-            finished({key_at(each, which), "",
+            finished({key_at(each, task.pass, task.round), "",
                       itself ? meter.of_baseline() : meter.measure(std::get<Scene<Dim>>(load(each)))});
           }
         },
         load(baseline));
   } catch (const NonFiniteState& error) {
-    failed(baseline, which, error);
+    failed(key_at(baseline, task.pass, task.round), error);
   }
 }
 
-void BenchRunner::failed(const BenchCase& bench_case, const std::string& round, const std::exception& error) {
+void BenchRunner::failed(const RowKey& key, const std::exception& error) {
   spent_ += watch_.lap();
   ++done_;
-  fmt::print(stderr, "[{}/{}] {} {} {}, {}: failed, left out: {}\n", done_, total_, bench_case.scene,
-             bench_case.backend, bench_case.policy, round, error.what());
+  fmt::print(stderr, "[{}/{}] {}: failed and left out: {}\n", done_, total_, text_of(key), error.what());
 }
 
 void BenchRunner::finished(const Row& row) {
   store_.add(row);
   spent_ += watch_.lap();
   ++done_;
-  const RowKey& key = row.key;
-  const double seconds = value_of(row.values, "seconds");
-  fmt::print(stderr, "[{}/{}] {} {} {}{}{}, {}{}; about {} left\n", done_, total_, key.scene, key.backend, key.policy,
-             key.settings.empty() ? "" : " ", key.settings,
-             std::isnan(seconds) ? key.round : fmt::format("round {}: ", key.round),
-             std::isnan(seconds) ? "" : fmt::format("{:.3g} s", seconds), as_time(spent_ / done_ * (total_ - done_)));
+  const double seconds = row.values["seconds"];
+  fmt::print(stderr, "[{}/{}] {}{}; about {} left\n", done_, total_, text_of(row.key),
+             std::isnan(seconds) ? "" : fmt::format(": {:.3g} s", seconds), as_time(spent_ / done_ * (total_ - done_)));
 }
 
-Values BenchRunner::summary(const BenchCase& bench_case, const BenchCase& full, const std::string& which) const {
+Values BenchRunner::summary(const BenchCase& bench_case, const BenchCase& full, Pass pass) const {
   Values result;
-  if (const Row* errors = store_.find(key_at(bench_case, which))) result = errors->values;
-  std::map<std::string, std::vector<double>> by_name;
+  if (const Row* errors = store_.find(key_at(bench_case, pass, 0))) result = errors->values;
+  std::vector<Values> rounds;
   for (const Row* row : store_.rounds(key_of(bench_case))) {
-    for (const auto& [name, value] : row->values) by_name[name].push_back(value);
-    const Row* other = store_.find(key_at(full, row->key.round));
-    if (other == nullptr) continue;
-    const auto ratio = [&](const std::string& name) {
-      return value_of(other->values, name) / value_of(row->values, name);
-    };
-    by_name["speed_up"].push_back(ratio("seconds"));
-    by_name["speed_up_pour"].push_back(ratio("pour_seconds"));
-    by_name["speed_up_last_100"].push_back(ratio("last_100_ms"));
+    Values values = row->values;
+    if (const Row* other = store_.find(key_at(full, Pass::timing, row->key.round))) {
+      values["speed_up"] = other->values["seconds"] / row->values["seconds"];
+      values["speed_up_pour"] = other->values["pour_seconds"] / row->values["pour_seconds"];
+      values["speed_up_last_100"] = other->values["last_100_ms"] / row->values["last_100_ms"];
+    }
+    rounds.push_back(values);
   }
-  for (const auto& [name, values] : by_name) result[name] = median(values);
-  for (const char* name : {"seconds", "speed_up"}) {
-    if (!by_name.contains(name)) continue;
-    const auto [low, high] = std::minmax_element(by_name[name].begin(), by_name[name].end());
-    result[fmt::format("{}_min", name)] = *low;
-    result[fmt::format("{}_max", name)] = *high;
+  const auto over_rounds = [&](MeasureId id) {
+    std::vector<double> numbers;
+    for (const Values& values : rounds) {
+      if (std::isfinite(values[id])) numbers.push_back(values[id]);
+    }
+    return numbers;
+  };
+  for (const MeasureId id : MeasureId::all()) {
+    const std::vector<double> numbers = over_rounds(id);
+    if (!numbers.empty()) result[id] = median(numbers);
+  }
+  for (const MeasureId id : std::initializer_list<MeasureId>{"seconds", "speed_up"}) {
+    const std::vector<double> numbers = over_rounds(id);
+    if (numbers.empty()) continue;
+    result[id.with("_min")] = std::ranges::min(numbers);
+    result[id.with("_max")] = std::ranges::max(numbers);
   }
   return result;
 }
@@ -152,7 +154,7 @@ Values BenchRunner::summary(const BenchCase& bench_case, const BenchCase& full, 
 std::vector<std::string> BenchRunner::hashes(const BenchCase& bench_case) const {
   std::vector<std::string> all;
   for (const Row* row : store_.rounds(key_of(bench_case))) {
-    if (std::find(all.begin(), all.end(), row->end_hash) == all.end()) all.push_back(row->end_hash);
+    if (std::ranges::find(all, row->end_hash) == all.end()) all.push_back(row->end_hash);
   }
   return all;
 }

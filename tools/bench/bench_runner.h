@@ -1,5 +1,5 @@
 #pragma once
-// Measures cases: in rounds, so that a ratio within a round holds on a machine that is busy now and then.
+// Measures cases in rounds: a ratio within a round holds on a machine whose load changes.
 
 #include <exception>
 #include <string>
@@ -12,37 +12,34 @@
 
 namespace talus {
 
-/// Cases that are compared with one another: one scene and engine at one time step and solver setting. The first is
-/// the full simulation.
-struct BenchGroup {
-  std::vector<BenchCase> cases;
-};
-
 class BenchRunner {
  public:
-  /// `options` completed. Rows go to options.out / rows.csv; what stands there is not measured again.
+  /// `options` completed. Rows go to options.out / rows.jsonl; a row that is there is not measured again.
   explicit BenchRunner(BenchOptions options);
 
-  /// Measures all rows of the groups that are missing, and tells on standard error how far it is.
+  /// Measures all rows of the groups that are missing; progress and the time left go to standard error.
   void run(const std::vector<BenchGroup>& groups);
 
-  const RowStore& rows() const { return store_; }
   const BenchOptions& options() const { return options_; }
 
-  /// Numbers of a case: medians over the rounds of what was timed, ratios to `full` within each round as `speed_up`,
-  /// `speed_up_min` and `speed_up_max`, and the measures of `which` ("errors" or "reference").
-  Values summary(const BenchCase& bench_case, const BenchCase& full, const std::string& which = "errors") const;
+  /// Numbers of a case: medians over the rounds of the timings, speed-ups over `full` within each round with their
+  /// range, and the measures of `pass`.
+  Values summary(const BenchCase& bench_case, const BenchCase& full, Pass pass = Pass::against_full) const;
 
   /// End hashes of all rounds, each once.
   std::vector<std::string> hashes(const BenchCase& bench_case) const;
 
  private:
-  void time_rounds(const BenchGroup& group);
-  void time_once(const BenchCase& bench_case, const std::string& round);
-  void measure_errors(const BenchGroup& group, const std::string& which);
-  bool missing(const BenchCase& bench_case, const std::string& round) const;
+  struct Task {
+    Pass pass;
+    int round;  // 0 unless timing
+  };
+  std::vector<Task> tasks() const;
+  bool missing(const BenchCase& bench_case, const Task& task) const;
+  void time_once(const BenchCase& bench_case, const Task& task);
+  void measure_errors(const BenchGroup& group, const Task& task);
   void finished(const Row& row);
-  void failed(const BenchCase& bench_case, const std::string& round, const std::exception& error);
+  void failed(const RowKey& key, const std::exception& error);
 
   BenchOptions options_;
   RowStore store_;

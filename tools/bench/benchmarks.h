@@ -1,5 +1,5 @@
 #pragma once
-// The benchmarks by name. Each measures what is missing of its rows and writes its results anew.
+// The benchmarks by name. Each measures the rows that are missing and writes its results.
 
 #include <span>
 #include <string>

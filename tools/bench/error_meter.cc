@@ -1,6 +1,7 @@
 #include "tools/bench/error_meter.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "common/measure/compare.h"
@@ -17,14 +18,14 @@ namespace talus {
 
 namespace {
 
-constexpr double still = 1.0;  // [m/s]; what is faster is still on its way
+constexpr double still = 1.0;  // [m/s]; faster bodies are in flight
 
 template <int Dim>
 WorldMaker<Dim> maker_of(const std::string& backend) {
   return [backend](const WorldDescription<Dim>& description) { return make_world<Dim>(backend, description); };
 }
 
-/// Without what is still on its way: it would count as displaced when it lands.
+/// Without the bodies in flight: they would count as displaced when they land.
 template <int Dim>
 BodyStates<Dim> settled(BodyStates<Dim> states) {
   for (std::size_t i = 0; i < states.shape.size(); ++i) {
@@ -49,7 +50,7 @@ std::optional<double> stops_at(const Trajectory<Dim>& run, std::span<const doubl
   constexpr double window = 0.5;
   const int last = run.frames() - 1 - static_cast<int>(window / run.frame_time());
   for (int frame = last; frame >= 0; --frame) {
-    if (oracle_ceiling(run, extents, far, window, frame, frame + 1).share == 0.0) continue;
+    if (hindsight(run, extents, far, window, frame, frame + 1).share == 0.0) continue;
     if (frame == last) return std::nullopt;
     return static_cast<double>(run.step(frame + 1)) * run.step_time();
   }
@@ -79,40 +80,59 @@ std::optional<double> settling(const Trajectory<Dim>& run, double ground) {
   return before > 0.0 ? std::optional((before - middle_at(last)) / before / minutes) : std::nullopt;
 }
 
+/// Last states of the independent runs first_run .. runs - 1.
 template <int Dim>
-std::vector<BodyStates<Dim>> ends_of(const Scene<Dim>& scene, const std::string& backend, int first_twin, int twins) {
+std::vector<BodyStates<Dim>> ends_of(const Scene<Dim>& scene, const std::string& backend, int first_run, int runs) {
   std::vector<BodyStates<Dim>> ends;
-  for (int k = first_twin; k < twins; ++k) ends.push_back(end_state(twin(scene, k), backend));
+  for (int k = first_run; k < runs; ++k) ends.push_back(end_state(reseeded(scene, k), backend));
   return ends;
+}
+
+/// Hindsight of a full run over all of it, during the pour and after.
+template <int Dim>
+void add_hindsight(const Trajectory<Dim>& full, std::span<const double> extents, Values& values) {
+  constexpr double window = 0.5;  // [s]
+  const int poured = end_of_pour(full);
+  values["hindsight_001"] = hindsight(full, extents, 0.01).ratio;
+  values["hindsight_005"] = hindsight(full, extents, 0.05).ratio;
+  values["hindsight_02"] = hindsight(full, extents, 0.2).ratio;
+  values["hindsight_005_pour"] = hindsight(full, extents, 0.05, window, 0, poured).ratio;
+  values["hindsight_005_after_pour"] = hindsight(full, extents, 0.05, window, poured).ratio;
 }
 
 }  // namespace
 
 template <int Dim>
-ErrorMeter<Dim>::ErrorMeter(const Scene<Dim>& baseline, std::string backend, int twins)
+ErrorMeter<Dim>::ErrorMeter(const Scene<Dim>& baseline, std::string backend, int seeds)
     : scene_(baseline),
       backend_(std::move(backend)),
-      twins_(twins),
+      seeds_(std::max(seeds, 2)),
       extent_(typical_body(baseline).extent),
       full_(record(baseline, backend_)) {
   const auto bodies = placed_bodies<Dim>(scene_.world.shapes, full_.last, still);
   grid_ = grid_around<Dim>(bodies, scene_.world.ground.height, extent_);
-  const Recording<Dim> other_twin = record(twin(baseline, 1), backend_);
-  std::vector<BodyStates<Dim>> ends = {full_.last, other_twin.last};
-  for (BodyStates<Dim>& end : ends_of(baseline, backend_, 2, twins)) ends.push_back(std::move(end));
+  std::vector<BodyStates<Dim>> ends = {full_.last};
+  for (BodyStates<Dim>& end : ends_of(baseline, backend_, 1, seeds_)) ends.push_back(std::move(end));
   shapes_ = shape_ensemble<Dim>(ends, scene_.world.shapes, grid_, extent_);
+  add_floors(ends);
+}
 
+template <int Dim>
+void ErrorMeter<Dim>::add_floors(std::span<const BodyStates<Dim>> ends) {
   const std::vector<double> extents = extents_of<Dim>(scene_.world.shapes);
-  const auto floors = motion_errors<Dim>(full_.frames, other_twin.frames, extents, scene_.world.gravity);
-  const MotionError floor = average(floors);
-  const auto ceilings =
-      motion_errors<Dim>(full_.frames, record(unrelated(baseline), backend_).frames, extents, scene_.world.gravity);
-  const MotionError ceiling = average(ceilings);
-  const auto apart = position_differences(full_.frames, other_twin.frames);
+  const auto errors_of = [&](const Recording<Dim>& other) {
+    return average(motion_errors<Dim>(full_.frames, other.frames, extents, scene_.world.gravity));
+  };
+  const Recording<Dim> near = record(perturbed(scene_), backend_);
+  const MotionError floor = errors_of(near);
+  const MotionError other_seed = errors_of(record(reseeded(scene_, 1), backend_));
   Values& values = of_baseline_;
-  values = {{"relative_floor", floor.relative}, {"R_floor", floor.ratio},
-            {"S_floor", floor.symmetric},       {"R_ceiling", ceiling.ratio},
-            {"S_ceiling", ceiling.symmetric},   {"diverges_at", divergence_frame(apart) * full_.frames.frame_time()}};
+  values["relative_floor"] = floor.relative;
+  values["R_floor"] = floor.ratio;
+  values["S_floor"] = floor.symmetric;
+  values["R_ceiling"] = other_seed.ratio;
+  values["S_ceiling"] = other_seed.symmetric;
+  values["diverges_at"] = divergence_frame(position_differences(full_.frames, near.frames)) * full_.frames.frame_time();
   add_shape_errors(shapes_, shapes_, extent_, values);
   add_horizon(full_, values);
   values["horizon_R_30_floor"] = values["horizon_R_30"];
@@ -120,36 +140,28 @@ ErrorMeter<Dim>::ErrorMeter(const Scene<Dim>& baseline, std::string backend, int
   add_last_state(full_, values);
   add_drift(ends, values);
   add_work(full_, values);
-  for (const auto& [name, x] :
-       {std::pair("oracle_001", 0.01), std::pair("oracle_005", 0.05), std::pair("oracle_02", 0.2)}) {
-    values[name] = oracle_ceiling(full_.frames, extents, x).ceiling;
-  }
-  const int poured = end_of_pour(full_.frames);
-  values["oracle_005_pour"] = oracle_ceiling(full_.frames, extents, 0.05, 0.5, 0, poured).ceiling;
-  values["oracle_005_calm"] = oracle_ceiling(full_.frames, extents, 0.05, 0.5, poured).ceiling;
+  add_hindsight<Dim>(full_.frames, extents, values);
 }
 
 template <int Dim>
 Values ErrorMeter<Dim>::measure(const Scene<Dim>& scene) const {
   Values values;
-  std::vector<BodyStates<Dim>> ends;
-  {
-    const Recording<Dim> run = record(scene, backend_);
-    add_motion(run.frames, values);
-    add_horizon(run, values);
-    add_last_state(run, values);
-    add_work(run, values);
-    ends.push_back(run.last);
-  }
-  for (BodyStates<Dim>& end : ends_of(scene, backend_, 1, twins_)) ends.push_back(std::move(end));
+  const Recording<Dim> run = record(scene, backend_);
+  add_motion(run.frames, values);
+  add_horizon(run, values);
+  add_last_state(run, values);
+  add_work(run, values);
+  std::vector<BodyStates<Dim>> ends = {run.last};
+  for (BodyStates<Dim>& end : ends_of(scene, backend_, 1, seeds_)) ends.push_back(std::move(end));
   add_drift(ends, values);
   add_shape_errors(shapes_, shape_ensemble<Dim>(ends, scene_.world.shapes, grid_, extent_), extent_, values);
-  for (const char* name : {"relative_floor", "R_floor", "S_floor", "R_ceiling", "S_ceiling", "horizon_R_30_floor",
-                           "horizon_mean_30_D_floor", "diverges_at", "oracle_005"}) {
-    values[name] = value_of(of_baseline_, name);
-  }
-  values["drift_mean_excess_D"] = values["drift_mean_D"] - value_of(of_baseline_, "drift_mean_D");
-  values["drift_far_excess"] = values["drift_far"] - value_of(of_baseline_, "drift_far");
+  const Values& baseline = of_baseline_;
+  constexpr std::array<MeasureId, 9> of_the_baseline = {
+      "relative_floor",          "R_floor",     "S_floor",      "R_ceiling", "S_ceiling", "horizon_R_30_floor",
+      "horizon_mean_30_D_floor", "diverges_at", "hindsight_005"};
+  for (const MeasureId id : of_the_baseline) values[id] = baseline[id];
+  values["drift_mean_excess_D"] = values["drift_mean_D"] - baseline["drift_mean_D"];
+  values["drift_far_excess"] = values["drift_far"] - baseline["drift_far"];
   return values;
 }
 
@@ -164,13 +176,12 @@ void ErrorMeter<Dim>::add_motion(const Trajectory<Dim>& frames, Values& values) 
   values["R"] = error.ratio;
   values["S"] = error.symmetric;
   values["turning"] = error.turning;
-  const auto add_skill = [&](const std::string& name, double value) {
-    const double floor = value_of(of_baseline_, name + "_floor");
-    const double ceiling = value_of(of_baseline_, name + "_ceiling");
-    if (ceiling > floor) values[name + "_skill"] = skill(value, floor, ceiling);
-  };
-  add_skill("R", error.ratio);
-  add_skill("S", error.symmetric);
+  const Values& baseline = of_baseline_;
+  for (const MeasureId id : std::initializer_list<MeasureId>{"R", "S"}) {
+    const double floor = baseline[id.with("_floor")];
+    const double ceiling = baseline[id.with("_ceiling")];
+    if (ceiling > floor) values[id.with("_skill")] = skill(values[id], floor, ceiling);
+  }
 }
 
 template <int Dim>
@@ -195,7 +206,7 @@ void ErrorMeter<Dim>::add_last_state(const Recording<Dim>& run, Values& values) 
   values["penetration_max_D"] = depth.max / extent_;
 }
 
-/// Means over the ensemble: where one heap slides as a whole when woken, its twin lies still.
+/// Means over the ensemble, since one heap slides as a whole when woken and the next does not.
 template <int Dim>
 void ErrorMeter<Dim>::add_drift(std::span<const BodyStates<Dim>> ends, Values& values) const {
   std::vector<double> drift, far, energy, creep;

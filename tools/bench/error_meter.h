@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/measure.h"
 #include "tools/bench/recording.h"
-#include "tools/bench/row.h"
 #include "tools/bench/shape_errors.h"
 
 namespace talus {
@@ -14,16 +14,17 @@ namespace talus {
 template <int Dim>
 class ErrorMeter {
  public:
-  /// Runs the baseline, twins of it and one unrelated run. `twins` >= 1 runs a side; the baseline has two at least.
-  ErrorMeter(const Scene<Dim>& baseline, std::string backend, int twins);
+  /// Runs the baseline over `seeds` >= 1 independent seeds (two at least), and one perturbed run for the floors.
+  ErrorMeter(const Scene<Dim>& baseline, std::string backend, int seeds);
 
-  /// What the baseline itself shows: floors, ceilings, oracle, its own shape and drift.
+  /// Measures of the baseline itself: floors, hindsight, its own shape and drift.
   const Values& of_baseline() const { return of_baseline_; }
 
-  /// Runs `scene` and its twins and measures them.
+  /// Runs `scene` over the same seeds and measures its errors.
   Values measure(const Scene<Dim>& scene) const;
 
  private:
+  void add_floors(std::span<const BodyStates<Dim>> ends);
   void add_motion(const Trajectory<Dim>& frames, Values& values) const;
   void add_horizon(const Recording<Dim>& run, Values& values) const;
   void add_last_state(const Recording<Dim>& run, Values& values) const;
@@ -32,8 +33,9 @@ class ErrorMeter {
 
   Scene<Dim> scene_;
   std::string backend_;
-  int twins_;
-  double extent_;  // D of the scene's bodies [m]
+  int seeds_;
+  /// D of the scene's bodies [m].
+  double extent_;
   Recording<Dim> full_;
   ProfileGrid<Dim> grid_;
   ShapeEnsemble<Dim> shapes_;

@@ -6,6 +6,7 @@
 #include "common/measure/compare.h"
 #include "common/measure/ensemble.h"
 #include "tools/bench/bench_plan.h"
+#include "tools/bench/bench_report.h"
 #include "tools/bench/bench_results.h"
 #include "tools/bench/benchmarks.h"
 #include "tools/bench/frame_series.h"
@@ -61,7 +62,7 @@ Section section_of(const BenchRunner& runner, const BenchGroup& group) {
     const FrameSeries series = frame_series(options.out, each, group.cases.front(), options.rounds);
     constexpr double milliseconds = 1e3;
     time.series.push_back(smoothed(each.policy, series.seconds, series.frame_time, milliseconds));
-    const std::string name = each.policy == "full" ? "full, moved by a micrometre" : each.policy;
+    const std::string name = each.policy == "full" ? "full, perturbed by a micrometre" : each.policy;
     relative.series.push_back(smoothed(name, series.relative, series.frame_time, 1.0));
     absolute.series.push_back(smoothed(name, series.absolute, series.frame_time, 1.0));
     ratio.series.push_back(smoothed(name, series.ratio, series.frame_time, 1.0));

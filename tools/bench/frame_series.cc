@@ -5,11 +5,11 @@
 #include <charconv>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "common/measure/compare.h"
 #include "common/measure/ensemble.h"
 #include "tools/bench/recording.h"
-#include "tools/bench/row_store.h"
 #include "tools/bench/timed_run.h"
 #include "tools/run/version.h"
 
@@ -28,7 +28,9 @@ bool read(const std::filesystem::path& file, FrameSeries& series) {
   std::string line;
   if (!std::getline(in, line) || line != "frame,seconds,relative,absolute,ratio," + version_text()) return false;
   while (std::getline(in, line)) {
-    const std::vector<std::string> cells = cells_of(line);
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
     if (cells.size() != 5) return false;
     series.seconds.push_back(number(cells[1]));
     series.relative.push_back(number(cells[2]));
@@ -52,7 +54,7 @@ FrameSeries measured(const Scene<Dim>& scene, const Scene<Dim>& full, const Benc
                      int rounds) {
   FrameSeries series;
   const Recording<Dim> baseline = record(full, bench_case.backend);
-  const Recording<Dim> run = record(itself ? twin(scene, 1) : scene, bench_case.backend);
+  const Recording<Dim> run = record(itself ? perturbed(scene) : scene, bench_case.backend);
   const auto errors =
       motion_errors<Dim>(baseline.frames, run.frames, extents_of<Dim>(scene.world.shapes), scene.world.gravity);
   for (const MotionError& error : errors) {

@@ -16,8 +16,8 @@ struct FrameSeries {
   std::vector<double> ratio;     // R
 };
 
-/// Measures it, or reads what an earlier call left as a file in `folder`. Errors of `full` itself are those of its
-/// twin.
+/// Measures it, or reads what an earlier call left as a file in `folder`. The errors of `full` itself are those of its
+/// perturbed run.
 FrameSeries frame_series(const std::filesystem::path& folder, const BenchCase& bench_case, const BenchCase& full,
                          int rounds);
 

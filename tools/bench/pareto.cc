@@ -1,133 +1,83 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-#include <utility>
-#include <vector>
+#include <initializer_list>
 
 #include "tools/bench/bench_plan.h"
-#include "tools/bench/bench_results.h"
+#include "tools/bench/bench_report.h"
 #include "tools/bench/benchmarks.h"
-#include "tools/plot/plot.h"
 
 namespace talus {
 
 namespace {
 
-/// One curve: a policy while one parameter takes several values.
-struct Curve {
-  std::string name;
+/// One curve: a policy while one setting takes several values.
+struct Sweep {
+  std::string curve;
   std::string policy;
-  std::vector<std::string> values;  // settings, one a point
+  std::string path;
+  std::vector<double> values;
 };
 
-std::vector<std::string> values(const std::string& path, const std::vector<std::string>& all) {
-  std::vector<std::string> settings;
-  for (const std::string& value : all) settings.push_back(path + "=" + value);
-  return settings;
-}
-
-std::vector<Curve> curves(const BenchOptions& options) {
+std::vector<Sweep> pareto_sweeps(const BenchOptions& options) {
   const std::string iterations = "world.solver.velocity_iterations";
-  const std::string rate = "world.steps_per_second";
-  const auto some = [&](const std::vector<std::string>& few, const std::vector<std::string>& all) {
+  const auto some = [&](const std::vector<double>& few, const std::vector<double>& all) {
     return options.quick ? few : all;
   };
-  std::vector<Curve> list = {{"full, iterations", "full", values(iterations, some({"5", "20"}, {"5", "20", "40"}))},
-                             {"full, steps a second", "full", values(rate, some({"120"}, {"120", "240"}))}};
-  for (const std::string& policy : options.policies.empty() ? known_policies() : options.policies) {
-    if (policy == "full" || policy == "engine") continue;
+  std::vector<Sweep> sweeps = {{"full, iterations", "full", iterations, some({5, 20}, {5, 20, 40})},
+                               {"full, steps a second", "full", "world.steps_per_second", some({120}, {120, 240})}};
+  for (const std::string& policy : policies_of(options)) {
     if (policy == "paper") {
-      list.push_back(
-          {"paper, tau", "paper", values("policy.tau", some({"0.3", "0.5"}, {"0.1", "0.2", "0.3", "0.4", "0.5"}))});
+      sweeps.push_back({"paper, tau", "paper", "policy.tau", some({0.3, 0.5}, {0.1, 0.2, 0.3, 0.4, 0.5})});
     }
-    list.push_back({policy + ", iterations", policy, values(iterations, some({"10"}, {"5", "10", "20", "40"}))});
+    sweeps.push_back({policy + ", iterations", policy, iterations, some({10}, {5, 10, 20, 40})});
   }
-  return list;
+  return sweeps;
 }
 
-BenchCase case_of(const BenchCase& full, const Curve& curve, const std::string& value) {
-  BenchCase point{full.scene, full.backend, curve.policy, full.settings};
-  point.settings.push_back(value);
-  return point;
-}
-
-BenchGroup group_of(const BenchOptions& options, const std::string& scene, const std::string& backend) {
+std::vector<BenchGroup> pareto_groups(const BenchOptions& options, const std::string& scene,
+                                      const std::string& backend) {
   const std::vector<std::string> settings = settings_of(options, scene);
-  BenchGroup group{{{scene, backend, "full", settings}, {scene, backend, "engine", settings}}};
-  for (const Curve& curve : curves(options)) {
-    for (const std::string& value : curve.values) group.cases.push_back(case_of(group.cases.front(), curve, value));
+  BenchGroup group{{{scene, backend, "full", settings, "full"}, {scene, backend, "engine", settings, "engine"}}};
+  for (const Sweep& sweep : pareto_sweeps(options)) {
+    for (const double value : sweep.values) {
+      BenchCase point{scene, backend, sweep.policy, settings, sweep.curve, value};
+      point.settings.push_back(fmt::format("{}={}", sweep.path, value));
+      group.cases.push_back(point);
+    }
   }
   if (options.reference) group.cases.push_back({scene, backend, reference_policy, settings});
-  return group;
-}
-
-/// By time, so that a line joins neighbours.
-void sort_by_time(Series& series) {
-  std::vector<std::pair<double, double>> points;
-  for (std::size_t i = 0; i < series.x.size(); ++i) points.emplace_back(series.x[i], series.y[i]);
-  std::sort(points.begin(), points.end());
-  for (std::size_t i = 0; i < points.size(); ++i) std::tie(series.x[i], series.y[i]) = points[i];
-}
-
-/// Error over time, a series a curve.
-Plot plot_of(const BenchRunner& runner, const BenchGroup& group, const std::string& error, const std::string& label) {
-  const std::string against = runner.options().reference ? "reference" : "errors";
-  Plot plot{.title = key_of(group.cases.front()).scene + ", " + group.cases.front().backend,
-            .x_label = "time [s]",
-            .y_label = label,
-            .log_x = true,
-            .series = {}};
-  const auto add_point = [&](Series& series, const BenchCase& point) {
-    const Values of_point = runner.summary(point, group.cases.front(), against);
-    const double seconds = value_of(of_point, "seconds");
-    const double value = value_of(of_point, error);
-    if (!std::isfinite(seconds) || !std::isfinite(value)) return;
-    series.x.push_back(seconds);
-    series.y.push_back(value);
-  };
-  for (const Curve& curve : curves(runner.options())) {
-    Series series{curve.name, {}, {}};
-    series.style = SeriesStyle::line_and_points;
-    if (curve.policy == "full") add_point(series, group.cases.front());
-    for (const std::string& value : curve.values) add_point(series, case_of(group.cases.front(), curve, value));
-    sort_by_time(series);
-    constexpr std::size_t most_series = 7;
-    if (!series.x.empty() && plot.series.size() < most_series) plot.series.push_back(series);
-  }
-  return plot;
+  return {group};
 }
 
 }  // namespace
 
-void bench_pareto(const BenchOptions& options) {
-  BenchOptions own = options;
-  own.errors = true;
-  std::vector<BenchGroup> groups;
-  for (const std::string& scene : scenes_of(own, {"drop_in_a_pile"}, 1)) {
-    for (const std::string& backend : backends_of(own, scene)) groups.push_back(group_of(own, scene, backend));
+void bench_pareto(const BenchOptions& asked) {
+  BenchOptions options = asked;
+  options.errors = true;
+  const Pass pass = options.reference ? Pass::against_reference : Pass::against_full;
+  std::vector<CaseColumn> columns = name_columns();
+  std::vector<CasePlot> plots;
+  columns.push_back(plain("seconds"));
+  for (const MeasureId id : std::initializer_list<MeasureId>{"drift_mean_D", "profile_rms_D", "w1_r", "horizon_R_30"}) {
+    columns.push_back(plain(id));
+    plots.push_back({.caption = std::string(id.info().meaning),
+                     .x_label = "processor time of the run [s]",
+                     .x = measured("seconds"),
+                     .y = id,
+                     .log_x = true,
+                     .pass = pass,
+                     .curve = curve_of_case});
   }
-  BenchRunner runner(own);
-  runner.run(groups);
-  BenchResults results{"Time against error", {}, {}};
-  results.notes.push_back(fmt::format(
-      "Each curve a policy over one parameter; down and to the left is better. Errors are against the {}. {}",
-      own.reference ? "converged reference" : "full run at default settings, which is itself the one to beat",
-      own.reference ? "" : "With --reference they are against the converged simulation."));
-  for (const BenchGroup& group : groups) {
-    Section section{"Time against error: " + key_of(group.cases.front()).scene, {}};
-    for (const auto& [name, label] :
-         {std::pair("drift_mean_D", "drift after waking / D"),
-          std::pair("profile_rms_D", "difference of height profiles (rms) / D"), std::pair("w1_r", "W1 of radii [m]"),
-          std::pair("horizon_R_30", "R after 30 frames from a fork")}) {
-      const Plot plot = plot_of(runner, group, name, label);
-      if (!plot.series.empty()) section.blocks.emplace_back(Figure{svg_of(plot), label});
-    }
-    results.sections.push_back(section);
-  }
-  for (Section& section : common_sections(runner, groups)) results.sections.push_back(std::move(section));
-  write_results(runner, groups, results);
+  run_report(
+      {.title = "Time against error",
+       .note = fmt::format("Each curve is a policy over one parameter; down and to the left is better. Errors are "
+                           "against the {}.",
+                           options.reference ? "converged reference" : "full run at the scene's settings"),
+       .scenes = {"drop_in_a_pile"},
+       .groups = pareto_groups,
+       .columns = columns,
+       .plots = plots},
+      options);
 }
 
 }  // namespace talus

@@ -11,7 +11,7 @@ namespace talus {
 
 namespace {
 
-/// Since when nobody has been awake.
+/// Time from which on no body has been awake.
 template <int Dim>
 class RestObserver final : public Observer<Dim> {
  public:
@@ -65,14 +65,14 @@ BodyStates<Dim> end_state(const Scene<Dim>& scene, const std::string& backend) {
 }
 
 template <int Dim>
-Scene<Dim> twin(Scene<Dim> scene, int k) {
-  if (!scene.sources.empty()) scene.sources.front().position[0] += 1e-6 * k;
+Scene<Dim> perturbed(Scene<Dim> scene) {
+  if (!scene.sources.empty()) scene.sources.front().position[0] += 1e-6;
   return scene;
 }
 
 template <int Dim>
-Scene<Dim> unrelated(Scene<Dim> scene) {
-  scene.seed += 1000;
+Scene<Dim> reseeded(Scene<Dim> scene, int k) {
+  scene.seed += 1000 * static_cast<std::uint64_t>(k);
   return scene;
 }
 
@@ -80,9 +80,9 @@ template Recording<2> record(const Scene<2>&, const std::string&);
 template Recording<3> record(const Scene<3>&, const std::string&);
 template BodyStates<2> end_state(const Scene<2>&, const std::string&);
 template BodyStates<3> end_state(const Scene<3>&, const std::string&);
-template Scene<2> twin(Scene<2>, int);
-template Scene<3> twin(Scene<3>, int);
-template Scene<2> unrelated(Scene<2>);
-template Scene<3> unrelated(Scene<3>);
+template Scene<2> perturbed(Scene<2>);
+template Scene<3> perturbed(Scene<3>);
+template Scene<2> reseeded(Scene<2>, int);
+template Scene<3> reseeded(Scene<3>, int);
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 #pragma once
-// A run recorded for the measures; its time is not taken.
+// A run recorded for the measures; it is not timed.
 
 #include <optional>
 #include <string>
@@ -14,10 +14,13 @@ template <int Dim>
 struct Recording {
   Trajectory<Dim> frames;
   BodyStates<Dim> last;
-  std::vector<Fork<Dim>> forks;  // eight or fewer, sixty frames or more apart
+  /// Eight or fewer, sixty frames or more apart.
+  std::vector<Fork<Dim>> forks;
   std::vector<Arrival<Dim>> arrivals;
-  double work_skipped = 0.0;        // share of body-steps
-  std::optional<double> asleep_at;  // from when on nobody was awake [s]; nothing where somebody is at the end
+  /// Share of body-steps.
+  double work_skipped = 0.0;
+  /// From then on every body sleeps [s]; empty where one is awake at the end.
+  std::optional<double> asleep_at;
 };
 
 template <int Dim>
@@ -27,12 +30,12 @@ Recording<Dim> record(const Scene<Dim>& scene, const std::string& backend);
 template <int Dim>
 BodyStates<Dim> end_state(const Scene<Dim>& scene, const std::string& backend);
 
-/// Twin `k` of a scene: the first source moved by 1e-6 k m along x. Twin 0 is the scene itself.
+/// The scene with its first source moved by 1e-6 m along x: how far apart chaos alone brings two runs.
 template <int Dim>
-Scene<Dim> twin(Scene<Dim> scene, int k);
+Scene<Dim> perturbed(Scene<Dim> scene);
 
-/// Another world of chances: the same scene, another seed.
+/// Independent run `k` of the scene: the same scene with another seed; 0 is the scene itself.
 template <int Dim>
-Scene<Dim> unrelated(Scene<Dim> scene);
+Scene<Dim> reseeded(Scene<Dim> scene, int k);
 
 }  // namespace talus

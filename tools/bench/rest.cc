@@ -16,9 +16,7 @@ namespace {
 void add_rows(const BenchOptions& options, const std::string& scene, const std::string& backend, Table& table) {
   const double calm = options.quick ? 5.0 : 25.0;  // [s]; Bullet alone takes 20 to fall asleep
   std::vector<std::string> policies = {"engine"};
-  const std::vector<std::string> asked = options.policies.empty() ? known_policies() : options.policies;
-  std::copy_if(asked.begin(), asked.end(), std::back_inserter(policies),
-               [](const std::string& policy) { return policy != "engine"; });
+  std::ranges::copy(policies_of(options), std::back_inserter(policies));
   ComingToRest engine;
   for (const std::string& policy : policies) {
     fmt::print(stderr, "{} {} {}\n", scene, backend, policy);

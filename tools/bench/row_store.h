@@ -1,19 +1,56 @@
 #pragma once
+// Measured rows, and the file that keeps them.
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "tools/bench/row.h"
+#include "tools/bench/measure.h"
 
 namespace talus {
 
-/// Rows in a file of comma-separated values, one appended as soon as it is measured, so that a benchmark that was
-/// stopped goes on where it was.
+/// What a row measured: time and end hash, or the errors against a baseline.
+enum class Pass {
+  timing,
+  against_full,       // the full run at the same settings
+  against_reference,  // the converged full run
+};
+
+/// "timing", "against_full", "against_reference": as in files and in progress lines.
+std::string name_of(Pass pass);
+
+/// What a row is about. Two rows of one key measured the same thing in the same build.
+struct RowKey {
+  std::string scene;
+  std::string backend;
+  std::string policy;
+  /// Overrides of the scene file with spaces between; empty: as the scene says.
+  std::string settings;
+  /// Version of talus with its commit.
+  std::string version;
+  Pass pass = Pass::timing;
+  /// Number of a timed run, from 1; 0 in the other passes.
+  int round = 0;
+
+  auto operator<=>(const RowKey&) const = default;
+};
+
+struct Row {
+  RowKey key;
+  /// Of a timed run.
+  std::string end_hash;
+  Values values;
+};
+
+/// Rows in a file of JSON lines, one appended as soon as it is measured, so that a benchmark that was stopped goes on
+/// where it was.
 class RowStore {
  public:
-  /// Reads the rows that `file` has; a last line that was cut is dropped. Throws std::invalid_argument where the file
-  /// is something else, std::runtime_error where it cannot be written.
+  /// Reads the rows of `file`; a last line that was cut is dropped. Throws std::invalid_argument with file and line
+  /// where the file holds anything else, std::runtime_error where it cannot be written.
   explicit RowStore(const std::filesystem::path& file);
 
   /// The row of this key, or nullptr.
@@ -24,16 +61,13 @@ class RowStore {
 
   std::span<const Row> rows() const { return rows_; }
 
-  /// Rows of all rounds of a case, in their order; `key.round` is not looked at, and rounds that are no number are left
-  /// out.
-  std::vector<const Row*> rounds(const RowKey& key) const;
+  /// The timed rows of a case, by round; pass and round of `key` do not matter.
+  std::vector<const Row*> rounds(RowKey key) const;
 
  private:
+  std::filesystem::path file_;
   std::vector<Row> rows_;
   std::ofstream out_;
 };
-
-/// Cells of one line of comma-separated values (RFC 4180, no line breaks in cells).
-std::vector<std::string> cells_of(const std::string& line);
 
 }  // namespace talus

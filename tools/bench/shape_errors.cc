@@ -38,7 +38,7 @@ struct Distances {
   double wasserstein = 0.0;
 };
 
-/// Mean distance of one run's bodies from all others'.
+/// Distance of each run's bodies from those of all other runs, mean over the runs.
 Distances scatter(const RunSamples& samples) {
   Distances sum;
   for (std::size_t run = 0; run < samples.size(); ++run) {
@@ -54,16 +54,17 @@ Distances scatter(const RunSamples& samples) {
   return {sum.kolmogorov_smirnov / runs, sum.wasserstein / runs};
 }
 
-void add_distribution(const std::string& axis, const RunSamples& baseline, const RunSamples& runs, Values& values) {
+/// Measures of one axis: `ks` and `w1` with their companions _p and _floor.
+void add_distribution(MeasureId ks, MeasureId w1, const RunSamples& baseline, const RunSamples& runs, Values& values) {
   const DistributionTest test = test_distributions(runs, baseline);
-  values["ks_" + axis] = test.distance.kolmogorov_smirnov;
-  values["ks_" + axis + "_p"] = test.p.kolmogorov_smirnov;
-  values["w1_" + axis] = test.distance.wasserstein;
-  values["w1_" + axis + "_p"] = test.p.wasserstein;
+  values[ks] = test.distance.kolmogorov_smirnov;
+  values[ks.with("_p")] = test.p.kolmogorov_smirnov;
+  values[w1] = test.distance.wasserstein;
+  values[w1.with("_p")] = test.p.wasserstein;
   if (baseline.size() < 2) return;
   const Distances floor = scatter(baseline);
-  values["ks_" + axis + "_floor"] = floor.kolmogorov_smirnov;
-  values["w1_" + axis + "_floor"] = floor.wasserstein;
+  values[ks.with("_floor")] = floor.kolmogorov_smirnov;
+  values[w1.with("_floor")] = floor.wasserstein;
 }
 
 }  // namespace
@@ -87,14 +88,14 @@ template <int Dim>
 void add_shape_errors(const ShapeEnsemble<Dim>& baseline, const ShapeEnsemble<Dim>& runs, double extent,
                       Values& values) {
   if (baseline.runs.empty() || runs.runs.empty()) return;
-  const auto add = [&](const std::string& name, const std::string& off, double unit, const Number<Dim>& number) {
+  const auto add = [&](MeasureId id, MeasureId off, double unit, const Number<Dim>& number) {
     const EnsembleSummary own = summary_of(runs, number);
-    values[name] = own.mean;
-    values[name + "_sd"] = own.deviation;
+    values[id] = own.mean;
+    values[id.with("_sd")] = own.deviation;
     values[off] = (own.mean - summary_of(baseline, number).mean) / unit;
   };
   constexpr double degrees = 180.0 / std::numbers::pi;
-  values["twins"] = static_cast<double>(runs.runs.size());
+  values["runs"] = static_cast<double>(runs.runs.size());
   add("centre", "centre_off_D", extent, [](const auto& shape) { return shape.centre_height; });
   add("r50", "r50_off_D", extent, [](const auto& shape) { return shape.r50; });
   add("r95", "r95_off_D", extent, [](const auto& shape) { return shape.r95; });
@@ -109,8 +110,8 @@ void add_shape_errors(const ShapeEnsemble<Dim>& baseline, const ShapeEnsemble<Di
     }
     values["profile_rms_D_floor"] = mean(floors);
   }
-  add_distribution("z", baseline.heights, runs.heights, values);
-  add_distribution("r", baseline.radii, runs.radii, values);
+  add_distribution("ks_z", "w1_z", baseline.heights, runs.heights, values);
+  add_distribution("ks_r", "w1_r", baseline.radii, runs.radii, values);
 }
 
 template ShapeEnsemble<2> shape_ensemble(std::span<const BodyStates<2>>, std::span<const Shape<2>>,

@@ -5,7 +5,7 @@
 
 #include "common/measure/distributions.h"
 #include "common/measure/shape_statistics.h"
-#include "tools/bench/row.h"
+#include "tools/bench/measure.h"
 
 namespace talus {
 
@@ -17,13 +17,13 @@ struct ShapeEnsemble {
   RunSamples radii;
 };
 
-/// Bodies faster than 1 m/s are no part of the pile. A run without any other body is left out.
+/// Bodies faster than 1 m/s do not belong to the pile. A run without any slower body is left out.
 template <int Dim>
 ShapeEnsemble<Dim> shape_ensemble(std::span<const BodyStates<Dim>> states, std::span<const Shape<Dim>> shapes,
                                   const ProfileGrid<Dim>& grid, double extent);
 
-/// Adds the shape's columns of a row: `runs`' own means and deviations, and how far from `baseline`, whose own scatter
-/// (each of its runs against the others) is the floor. Nothing where either is empty.
+/// Adds the shape's measures: means and deviations of `runs`, and their distance from `baseline`; the floor is the
+/// scatter of `baseline`, each of its runs against the others. Adds nothing where either ensemble is empty.
 template <int Dim>
 void add_shape_errors(const ShapeEnsemble<Dim>& baseline, const ShapeEnsemble<Dim>& runs, double extent,
                       Values& values);

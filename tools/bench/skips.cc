@@ -7,6 +7,7 @@
 #include "tools/bench/bench_plan.h"
 #include "tools/bench/bench_results.h"
 #include "tools/bench/benchmarks.h"
+#include "tools/bench/measure.h"
 
 namespace talus {
 
@@ -61,27 +62,25 @@ void measure(const std::vector<BenchGroup>& groups, const BenchOptions& options)
 
 /// Fastest round with the skip off over the fastest with all on.
 std::string ratio_of(const Values& off, const Values& all_on) {
-  return shown(value_of(off, "seconds_min") / value_of(all_on, "seconds_min"));
+  return shown(off["seconds_min"] / all_on["seconds_min"]);
 }
 
 std::vector<std::string> row_of(const BenchRunner& runner, const BenchGroup& group, const BenchCase& each) {
   const BenchCase& first = group.cases.front();
   const Values values = runner.summary(each, first);
   const bool same = same_bits(runner, group, each);
-  const auto error = [&](const std::string& name, const std::string& floor) {
-    return same ? "0" : shown(value_of(values, name)) + " / " + shown(value_of(values, floor));
-  };
+  const auto error = [&](MeasureId id) { return same ? "0" : shown_with_floor(values, id); };
   return {key_of(each).scene,
           each.backend,
           each.policy,
           key_of(each) == key_of(first) ? "all on" : each.settings.back(),
           shown_with_range(values, "seconds"),
           ratio_of(values, runner.summary(first, first)),
-          shown(value_of(values, "mean_awake")),
+          shown(values, "mean_awake"),
           same ? "yes" : "no",
-          error("horizon_R_30", "horizon_R_30_floor"),
-          error("profile_rms_D", "profile_rms_D_floor"),
-          error("ks_r", "ks_r_floor")};
+          error("horizon_R_30"),
+          error("profile_rms_D"),
+          error("ks_r")};
 }
 
 Table skips_table(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {

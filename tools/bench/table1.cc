@@ -1,149 +1,102 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "tools/bench/bench_plan.h"
-#include "tools/bench/bench_results.h"
+#include "tools/bench/bench_report.h"
 #include "tools/bench/benchmarks.h"
 #include "tools/bench/paper_figures.h"
-#include "tools/bench/targets.h"
-#include "tools/plot/plot.h"
 
 namespace talus {
 
 namespace {
 
-std::string without_dimension(const std::string& scene) {
-  return scene.size() > 3 && (scene.ends_with("_2d") || scene.ends_with("_3d")) ? scene.substr(0, scene.size() - 3)
-                                                                                : scene;
-}
-
-const paper::Example* example_of(const std::string& scene) {
-  const auto found = std::find_if(paper::table_1.begin(), paper::table_1.end(), [&](const paper::Example& example) {
-    return example.scene == without_dimension(scene);
+const paper::Example* example_of(const CaseView& view) {
+  const std::string scene = key_of(view.bench_case).scene;
+  const auto found = std::ranges::find_if(paper::table_1, [&](const paper::Example& example) {
+    return scene == std::string(example.scene) + "_2d" || scene == std::string(example.scene) + "_3d";
   });
   return found == paper::table_1.end() ? nullptr : &*found;
 }
 
-/// Cells of one case; the paper's own figures only beside its own policy.
-std::vector<std::string> paper_row(const BenchRunner& runner, const BenchGroup& group, const BenchCase& each) {
-  const BenchCase& full = group.cases.front();
-  const Values of_full = runner.summary(full, full);
-  const Values of_engine = runner.summary(group.cases[1], full);
-  const Values values = runner.summary(each, full);
-  const paper::Example* example = example_of(key_of(full).scene);
-  const std::int64_t frames = std::visit([](const auto& scene) { return scene.run.frames; }, load(each));
-  constexpr double percent = 100.0;
-  std::vector<std::string> cells = {example != nullptr ? std::string(example->number) : "-",
-                                    key_of(each).scene,
-                                    each.backend,
-                                    each.policy,
-                                    std::to_string(frames),
-                                    shown(value_of(values, "bodies"), 6),
-                                    shown(value_of(of_full, "seconds")),
-                                    shown(value_of(values, "seconds")),
-                                    shown_with_range(values, "speed_up"),
-                                    shown(value_of(of_engine, "seconds") / value_of(values, "seconds")),
-                                    shown(value_of(of_full, "oracle_005")),
-                                    shown(percent * value_of(values, "relative")),
-                                    shown(percent * value_of(of_full, "relative_floor")),
-                                    shown(value_of(values, "drift_mean_excess_D"))};
-  if (example == nullptr || each.policy != "paper") {
-    cells.insert(cells.end(), 4, "");
-  } else {
-    cells.insert(cells.end(),
-                 {shown(example->full, 5), shown(example->piling, 5), shown(example->speed_up), shown(example->error)});
-  }
-  return cells;
+/// A number of the paper, in the rows of its own policy.
+CaseColumn of_the_paper(const std::string& heading, double paper::Example::*number) {
+  return {heading, [=](const CaseView& view) {
+            const paper::Example* example = example_of(view);
+            return example == nullptr || view.bench_case.policy != "paper" ? "" : shown(example->*number, 5);
+          }};
 }
 
-Table paper_table_1(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
-  Table table{"", {{"example"}, {"scene"}, {"engine"}, {"policy"}}, {}};
-  for (const char* name :
-       {"frames", "objects", "full [s]", "this [s]", "speed-up", "over engine sleeping", "ceiling", "error e [%]",
-        "its floor [%]", "drift beyond full / D", "paper: full [s]", "piling [s]", "speed-up", "error [%]"}) {
-    table.columns.push_back({name, true});
-  }
-  for (const BenchGroup& group : groups) {
-    for (const BenchCase& each : group.cases) {
-      if (each.policy == "full" || is_yardstick(each)) continue;
-      table.rows.push_back(paper_row(runner, group, each));
-    }
-  }
-  return table;
+std::string example_number(const CaseView& view) {
+  const paper::Example* example = example_of(view);
+  return example == nullptr ? "-" : std::string(example->number);
 }
 
-/// Speed-up over what an oracle could save: a point a scene, a series a policy, and the line where both are equal.
-Figure ceiling_figure(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
-  std::map<std::string, Series> by_policy;
-  double least = 1.0;
-  double most = 2.0;
-  for (const BenchGroup& group : groups) {
-    const double ceiling = value_of(runner.summary(group.cases.front(), group.cases.front()), "oracle_005");
-    for (std::size_t i = 1; i < group.cases.size(); ++i) {
-      const Values values = runner.summary(group.cases[i], group.cases.front());
-      const double speed_up = value_of(values, "speed_up");
-      if (is_yardstick(group.cases[i]) || !std::isfinite(ceiling) || !std::isfinite(speed_up)) continue;
-      Series& series = by_policy[group.cases[i].policy];
-      series.x.push_back(ceiling);
-      series.y.push_back(speed_up);
-      series.low.push_back(value_of(values, "speed_up_min"));
-      series.high.push_back(value_of(values, "speed_up_max"));
-      least = std::min({least, series.low.back(), ceiling});
-      most = std::max({most, series.high.back(), ceiling});
-    }
+std::string speed_up_over_engine(const CaseView& view) {
+  const BenchCase* engine = view.group.find("engine");
+  return engine == nullptr ? "-" : shown(view.of(*engine)["seconds"] / view.values["seconds"]);
+}
+
+std::vector<CaseColumn> table1_columns() {
+  std::vector<CaseColumn> columns = {{"example", example_number, false}};
+  for (const CaseColumn& column : name_columns()) columns.push_back(column);
+  columns.push_back(plain("bodies"));
+  columns.push_back({"full [s]", [](const CaseView& view) { return shown(view.of(view.group.full()), "seconds"); }});
+  columns.push_back(plain("seconds"));
+  columns.push_back(with_range("speed_up"));
+  columns.push_back({"over engine sleeping", speed_up_over_engine});
+  columns.push_back(hindsight_column());
+  columns.push_back(with_floor("relative"));
+  columns.push_back(plain("drift_mean_excess_D"));
+  columns.push_back(with_deviation("centre"));
+  columns.push_back(of_the_paper("paper: full [s]", &paper::Example::full));
+  columns.push_back(of_the_paper("piling [s]", &paper::Example::piling));
+  columns.push_back(of_the_paper("speed-up", &paper::Example::speed_up));
+  columns.push_back(of_the_paper("error [%]", &paper::Example::error));
+  return columns;
+}
+
+/// Scenes of Table 1; four that differ most come first, for --quick.
+std::vector<std::string> table1_scenes() {
+  std::vector<std::string> names = {"drop_in_a_pile", "varying_drops", "multiple_piles", "drop_in_a_line"};
+  for (const paper::Example& example : paper::table_1) {
+    if (std::ranges::find(names, example.scene) == names.end()) names.emplace_back(example.scene);
   }
-  Plot plot{.title = "",
-            .x_label = "oracle's ceiling (x = 0.05 D)",
-            .y_label = "speed-up over full",
-            .log_x = true,
-            .log_y = true,
-            .series = {}};
-  for (auto& [policy, series] : by_policy) {
-    series.name = policy;
-    series.style = SeriesStyle::points;
-    plot.series.push_back(series);
-  }
-  plot.series.push_back({"all that an oracle saves", {least, most}, {least, most}});
-  return {svg_of(plot), "Each point a scene: what a policy gained against what could be gained."};
+  return names;
+}
+
+std::vector<BenchGroup> table1_groups(const BenchOptions& options, const std::string& scene,
+                                      const std::string& backend) {
+  BenchGroup group = policies_group(options, scene, backend);
+  if (options.reference) group.cases.push_back({scene, backend, engine_default_policy, group.full().settings});
+  return {group};
 }
 
 }  // namespace
 
 void bench_table1(const BenchOptions& options) {
-  std::vector<std::string> names;
-  for (const char* first : {"drop_in_a_pile", "varying_drops", "multiple_piles", "drop_in_a_line"})
-    names.emplace_back(first);
-  for (const paper::Example& example : paper::table_1) {
-    if (std::find(names.begin(), names.end(), example.scene) == names.end()) names.emplace_back(example.scene);
-  }
-  if (!options.quick)
-    std::sort(names.begin(), names.end(),
-              [](const std::string& a, const std::string& b) { return example_of(a) < example_of(b); });
-  constexpr std::size_t quick_scenes = 4;
-  std::vector<BenchGroup> groups;
-  for (const std::string& scene : scenes_of(options, names, quick_scenes)) {
-    for (const std::string& backend : backends_of(options, scene)) {
-      groups.push_back(policies_group(options, scene, backend));
-      std::vector<BenchCase>& cases = groups.back().cases;
-      if (options.reference) cases.push_back({scene, backend, shipped_policy, cases.front().settings});
-    }
-  }
-  BenchRunner runner(options);
-  runner.run(groups);
-  BenchResults results{"Table 1 of the paper", {}, {}};
-  results.notes.push_back(
-      "The paper's examples, each under full simulation, the engine's own sleeping and the policies. The paper's own "
-      "figures stand in the rows of its policy; its machine, engine and step are not known, so ratios may be compared, "
-      "seconds not. Its error e is mean |m - m~| / |m|; what two equal simulations show of it when one is moved by a "
-      "micrometre stands beside it as its floor.");
-  results.sections.push_back({"The paper's table", {paper_table_1(runner, groups)}});
-  if (options.errors) results.sections.push_back({"What could be gained", {ceiling_figure(runner, groups)}});
-  if (options.errors) results.sections.push_back({"Targets", {targets_table(runner, groups)}});
-  for (Section& section : common_sections(runner, groups)) results.sections.push_back(std::move(section));
-  write_results(runner, groups, results);
-  fmt::print("{}", text_of(paper_table_1(runner, groups)));
+  const CasePlot over_hindsight = {
+      .caption = "Each point a scene: speed-up of a policy over hindsight.",
+      .x_label = "hindsight (bodies over bodies that move by 0.05 D)",
+      .x = [](const CaseView& view) { return view.of(view.group.full())["hindsight_005"]; },
+      .y = "speed_up",
+      .log_x = true,
+      .log_y = true,
+      .bars = Bars::rounds,
+      .curve = sleeping_policy_of,
+      .per_scene = false,
+      .more = {{"as much as hindsight", {1.0, 20.0}, {1.0, 20.0}}}};
+  run_report(
+      {.title = "Table 1 of the paper",
+       .note = "The paper's examples under full simulation, the engine's own sleeping and the policies. The paper's "
+               "figures stand in the rows of its policy; its machine, engine and step are not known, so ratios may "
+               "be compared and seconds may not. Its error e is mean |m - m~| / |m|; its floor is what a shift of "
+               "the source by a micrometre gives.",
+       .scenes = table1_scenes(),
+       .quick_scenes = 4,
+       .groups = table1_groups,
+       .columns = table1_columns(),
+       .in_table = sleeps,
+       .plots = {over_hindsight}},
+      options);
 }
 
 }  // namespace talus

@@ -73,17 +73,19 @@ TimedRun timed_run(const Scene<Dim>& scene, const std::string& backend) {
   TimedRun run;
   run.end_hash = state_hash(states);
   run.frame_seconds = by_frame(sums.step_seconds, scene.steps_per_frame(), scene.run.frames);
-  run.values = {{"seconds", seconds},
-                {"wall_seconds", wall_seconds},
-                {"pour_seconds", sums.pour},
-                {"calm_seconds", seconds - sums.pour},
-                {"poured_at", sums.poured_at},
-                {"last_100_ms", 1e3 * mean_of_last(sums.step_seconds, 100)},
-                {"rule_ms", 1e3 * sums.rule / measured},
-                {"mean_awake", sums.awake / measured},
-                {"steps", static_cast<double>(scene.steps())},
-                {"bodies", static_cast<double>(states.size())},
-                {"asleep_at_end", static_cast<double>(std::count(states.asleep.begin(), states.asleep.end(), 1))}};
+  Values& values = run.values;
+  values["seconds"] = seconds;
+  values["wall_seconds"] = wall_seconds;
+  values["pour_seconds"] = sums.pour;
+  values["after_pour_seconds"] = seconds - sums.pour;
+  values["poured_at"] = sums.poured_at;
+  values["last_100_ms"] = 1e3 * mean_of_last(sums.step_seconds, 100);
+  values["rule_ms"] = 1e3 * sums.rule / measured;
+  values["mean_awake"] = sums.awake / measured;
+  values["steps"] = static_cast<double>(scene.steps());
+  values["bodies"] = static_cast<double>(states.size());
+  values["asleep_at_end"] = static_cast<double>(std::count(states.asleep.begin(), states.asleep.end(), 1));
+  if (sums.poured_at > 0.0) values["reached_rate"] = values["bodies"] / sums.poured_at;
   return run;
 }
 

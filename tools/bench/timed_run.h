@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "tools/bench/row.h"
+#include "tools/bench/measure.h"
 
 namespace talus {
 
