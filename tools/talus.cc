@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   talus::add_monitor_command(app);
   talus::add_compare_command(app, exit_code);
   talus::add_wake_command(app, exit_code);
+  talus::add_film_command(app, exit_code);
 #endif
   try {
     app.parse(argc, argv);

@@ -3,9 +3,11 @@
 
 #include <cairo.h>
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/math/vector.h"
 #include "tools/picture/picture_params.h"
@@ -40,5 +42,8 @@ using Painter = std::function<void(cairo_t*)>;
 /// The page as the bytes of a file, the same for the same drawing. Throws std::runtime_error with Cairo's reason.
 std::string svg_bytes(int width, int height, const Painter& paint);
 std::string png_bytes(int width, int height, const Painter& paint);
+
+/// The page as pixels row by row, 0x??RRGGBB each.
+std::vector<std::uint32_t> pixels_of(int width, int height, const Painter& paint);
 
 }  // namespace talus

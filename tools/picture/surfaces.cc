@@ -2,6 +2,7 @@
 
 #include <cairo-svg.h>
 
+#include <cstring>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -67,6 +68,20 @@ std::string png_bytes(int width, int height, const Painter& paint) {
   std::string bytes;
   require(cairo_surface_write_to_png_stream(surface.get(), append, &bytes), "writing a PNG");
   return bytes;
+}
+
+std::vector<std::uint32_t> pixels_of(int width, int height, const Painter& paint) {
+  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+  paint_on(surface, paint);
+  cairo_surface_flush(surface.get());
+  const unsigned char* data = cairo_image_surface_get_data(surface.get());
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  std::vector<std::uint32_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int row = 0; row < height; ++row) {
+    std::memcpy(pixels.data() + static_cast<std::ptrdiff_t>(row) * width,
+                data + static_cast<std::ptrdiff_t>(row) * stride, static_cast<std::size_t>(width) * 4);
+  }
+  return pixels;
 }
 
 std::string svg_bytes(int width, int height, const Painter& paint) {

@@ -1,0 +1,80 @@
+#include "tools/picture/film.h"
+
+#include <algorithm>
+
+#include "tools/picture/layout.h"
+#include "tools/picture/scene_painter.h"
+
+namespace talus {
+
+namespace {
+
+/// Counts of the bodies present, for the legend.
+template <int Dim>
+PageContent page_content(const PictureInput<Dim>& input) {
+  PageContent content = {.title = input.title, .caption = input.caption};
+  for (std::size_t i = 0; i < input.states.removed.size(); ++i) {
+    if (input.states.removed[i] == 0) ++(input.states.asleep[i] != 0 ? content.asleep : content.awake);
+  }
+  content.shapes = static_cast<int>(input.shapes.size());
+  content.layers = !input.piles.empty();
+  content.parallel = Dim == 2;
+  return content;
+}
+
+/// All bodies present, since none is left out for being far from the others.
+template <int Dim>
+std::vector<BodyIndex> present_in(const BodyStates<Dim>& states) {
+  std::vector<BodyIndex> present;
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    if (states.removed[static_cast<std::size_t>(body)] == 0) present.push_back(body);
+  }
+  return present;
+}
+
+}  // namespace
+
+template <int Dim>
+struct FilmFrames<Dim>::Setting {
+  PictureParams params;
+  Framing<Dim> framing;
+  Layout<Dim> layout;
+};
+
+template <int Dim>
+FilmFrames<Dim>::FilmFrames(const PictureInput<Dim>& framed, const PictureParams& params) {
+  check(params);
+  const Framing<Dim> framing = framing_of(framed);
+  setting_ =
+      std::make_unique<Setting>(Setting{params, framing, lay_out(framing, Page(page_content(framed), params), params)});
+}
+
+template <int Dim>
+FilmFrames<Dim>::~FilmFrames() = default;
+
+template <int Dim>
+Image FilmFrames<Dim>::draw(const PictureInput<Dim>& input) const {
+  const PictureParams& params = setting_->params;
+  const int height = setting_->layout.height;
+  Framing<Dim> framing = setting_->framing;
+  framing.drawn = present_in(input.states);
+  const Page page(page_content(input), params);
+  const Painter scene = scene_painter(input, framing, setting_->layout.projection, params, params.width, height);
+  const Painter paint = [&](cairo_t* canvas) {
+    page.draw_background(canvas);
+    cairo_save(canvas);
+    cairo_rectangle(canvas, 0.0, page.header(), params.width, height - page.header() - page.footer());
+    cairo_clip(canvas);
+    scene(canvas);
+    cairo_restore(canvas);
+    page.draw(canvas, height, setting_->layout.projection.pixels_per_metre());
+  };
+  Image image{params.width, height, pixels_of(params.width, height, paint)};
+  for (std::uint32_t& pixel : image.pixels) pixel |= 0xFF000000U;
+  return image;
+}
+
+template class FilmFrames<2>;
+template class FilmFrames<3>;
+
+}  // namespace talus

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "common/math/require.h"
+#include "tools/commands/commands.h"
+#include "tools/picture/webp.h"
+#include "tools/record/record_commands.h"
+#include "tools/record/recorded_run.h"
+
+namespace talus {
+
+namespace {
+
+struct FilmOptions {
+  std::string run;
+  std::string out;
+  /// Simulated time that the film shows [s]; `to` < 0: to the end of the run.
+  double from = 0.0;
+  double to = -1.0;
+  /// Simulated seconds per second of film.
+  double speed = 4.0;
+  /// Frames per second of film, at most 50 (browsers show no more).
+  double rate = 15.0;
+  /// [px]
+  int width = 800;
+};
+
+void check(const FilmOptions& options) {
+  const auto in = [](double value, double low, double high) { return value >= low && value <= high; };
+  require(in(options.from, 0.0, 1e9), "--from", options.from, "must be in 0 .. 1e9 s");
+  require(options.to < 0.0 || in(options.to, options.from, 1e9), "--to", options.to, "must be --from or later");
+  require(in(options.speed, 0.01, 1e4), "--speed", options.speed, "must be in 0.01 .. 10000");
+  require(in(options.rate, 1.0, 50.0), "--rate", options.rate, "must be in 1 .. 50 frames per second");
+  require(options.out.ends_with(".webp"), "--out", options.out, "must end in .webp");
+}
+
+/// The bodies of a recorded frame; velocities are zero.
+template <int Dim>
+BodyStates<Dim> states_at(const Trajectory<Dim>& run, int frame) {
+  BodyStates<Dim> states;
+  for (BodyIndex body = 0; body < run.bodies(frame); ++body) {
+    const bool present = run.present(frame, body);
+    states.shape.push_back(run.shape(body));
+    states.pose.push_back(present ? Pose<Dim>{run.position(frame, body), run.rotation(frame, body)} : Pose<Dim>{});
+    states.velocity.push_back(Vec<Dim>::Zero());
+    states.spin.push_back(Spin<Dim>::Zero());
+    states.asleep.push_back(present && run.asleep(frame, body) ? 1 : 0);
+    states.removed.push_back(present ? 0 : 1);
+  }
+  return states;
+}
+
+template <int Dim>
+void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
+  const Trajectory<Dim>& frames = run.frames;
+  require(frames.frames() > 0, "run", options.run, "must have recorded a frame");
+  const auto input_at = [&](const BodyStates<Dim>& states, double time) {
+    return PictureInput<Dim>{run.scene.world.shapes,
+                             states,
+                             {},
+                             run.scene.world.obstacles,
+                             run.scene.world.ground,
+                             run.scene.title,
+                             fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time)};
+  };
+  const auto last = std::min(
+      frames.frames() - 1, options.to < 0.0 ? frames.frames() - 1 : static_cast<int>(options.to / frames.frame_time()));
+  const auto first = static_cast<int>(options.from / frames.frame_time());
+  require(first <= last, "--from", options.from, "must lie within the run");
+  const BodyStates<Dim> end = states_at(frames, last);
+  PictureParams params;
+  params.width = options.width;
+  params.height = options.width;
+  params.font_size = std::max(11.0, options.width / 50.0);
+  params.margin = options.width / 30.0;
+  const FilmFrames<Dim> page(input_at(end, 0.0), params);
+  const bool progress = isatty(STDERR_FILENO) != 0;
+  std::unique_ptr<WebpFilm> webp;
+  const double step = std::max(1.0, options.speed / options.rate / frames.frame_time());
+  const int milliseconds = static_cast<int>(std::lround(1e3 * step * frames.frame_time() / options.speed));
+  for (double at = first; at <= last; at += step) {
+    const int frame = static_cast<int>(at);
+    const BodyStates<Dim> states = states_at(frames, frame);
+    const double time = static_cast<double>(frames.step(frame)) * frames.step_time();
+    const Image image = page.draw(input_at(states, time));
+    if (!webp) webp = std::make_unique<WebpFilm>(image.width, image.height);
+    const bool ends = at + step > last;
+    constexpr int pause = 1500;  // [ms] on the last frame
+    webp->add(image, ends ? pause : milliseconds);
+    if (progress) fmt::print(stderr, "\r{:.0f} %", 100.0 * (at - first + 1.0) / (last - first + 1.0));
+  }
+  webp->write(options.out);
+  if (progress) fmt::print(stderr, "\r     \r");
+  fmt::print("{}: {:.0f} kB\n", options.out, static_cast<double>(std::filesystem::file_size(options.out)) / 1e3);
+}
+
+}  // namespace
+
+void add_film_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("film", "Make a moving picture of a recorded run");
+  auto options = std::make_shared<FilmOptions>();
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required();
+  command->add_option("-o,--out", options->out, "Animated WebP to write, overwritten if there")->required();
+  command->add_option("--from", options->from, "Simulated time at which the film begins [s]")->capture_default_str();
+  command->add_option("--to", options->to, "Simulated time at which it ends [s]; default: the run's end");
+  command->add_option("--speed", options->speed, "Simulated seconds per second of film")->capture_default_str();
+  command->add_option("--rate", options->rate, "Frames per second of film, 1 to 50")->capture_default_str();
+  command->add_option("--width", options->width, "Width, 200 to 8000 pixels")->capture_default_str();
+  command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
+  command->callback([options, &exit_code] {
+    check(*options);
+    std::visit([&](const auto& run) { film(*options, run); }, read_run(options->run));
+    exit_code = exit_codes::success;
+  });
+}
+
+}  // namespace talus
