@@ -1,0 +1,45 @@
+// Input: the text of an OBJ file. It is read as a body's shape in 2D, and in 3D with itself as its one convex part.
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "common/mesh/mesh_file.h"
+#include "common/mesh/mesh_repair.h"
+#include "common/mesh/mesh_shape.h"
+#include "common/shape/shape.h"
+#include "tests/common/temporary_folder.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/limits.h"
+
+namespace {
+
+using namespace talus;
+
+template <int Dim>
+void require_sound(const Shape<Dim>& shape) {
+  fuzz::require_that(shape.mass > 0.0 && std::isfinite(shape.mass), "a shape has a finite mass above 0");
+  fuzz::require_that(shape.bounds.min().allFinite() && shape.bounds.max().allFinite(), "a shape has finite bounds");
+}
+
+void read_as_shape(const std::filesystem::path& file) {
+  const fuzz::TimeLimit limit;
+  try {
+    const Mesh mesh = repaired(read_mesh(file));
+    write_parts(parts_file(file), mesh, {mesh});
+    require_sound(make_mesh_shape<2>("mesh", file, {}, {}));
+    require_sound(make_mesh_shape<3>("mesh", file, {}, {}));
+  } catch (const std::invalid_argument& error) {
+    fuzz::require_that(*error.what() != '\0', "a refused mesh has a reason");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "mesh.obj";
+  std::filesystem::remove(parts_file(file));
+  std::ofstream(file, std::ios::binary) << fuzz::text({data, size});
+  read_as_shape(file);
+  return 0;
+}
