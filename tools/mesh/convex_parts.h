@@ -7,15 +7,22 @@
 
 namespace talus {
 
+constexpr int most_parts = 64;
+constexpr int most_part_corners = 128;
+/// Largest mesh that convex_parts() accepts: HACD's time grows with the square of the number of triangles.
+constexpr std::size_t most_triangles = 5000;
+
 struct ConvexPartsParams {
-  int parts = 8;  // at most, 1 to 64; few fill hollows up, many cost in each contact of each body nearly in proportion
-  int corners = 24;  // at most in each part, 4 to 128; few cut bumps off, many cost in each contact
+  /// Largest number of parts, 1 to most_parts. Few fill hollows, many cost time in each contact of each body.
+  int parts = 8;
+  /// Largest number of corners of a part, 4 to most_part_corners. Few cut bumps off, many cost time in each contact.
+  int corners = 24;
 };
 
 /// Convex parts of a mesh that repaired() has passed, by HACD (Mamou 2009). They cover it nearly and overlap a little:
 /// the Stanford bunny, whose hull has 1.56 times its volume, is covered to 0.97 of it by 8 parts of 32 corners whose
 /// volumes add up to 1.09. Takes seconds for thousands of triangles. The same mesh gives the same parts.
-/// Throws std::invalid_argument on parameters out of range.
+/// Throws std::invalid_argument on parameters out of range and on a mesh of more than most_triangles.
 std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params);
 
 }  // namespace talus
