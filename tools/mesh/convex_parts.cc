@@ -19,8 +19,6 @@ using Indices = HACD::Vec3<long>;
 std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params) {
   require(params.parts >= 1 && params.parts <= most_parts, "parts", params.parts, "must be in 1..64");
   require(params.corners >= 4 && params.corners <= most_part_corners, "corners", params.corners, "must be in 4..128");
-  require(mesh.triangles.size() <= most_triangles, "mesh triangles", static_cast<double>(mesh.triangles.size()),
-          "must be at most 5000 to be decomposed; simplify the mesh first");
   std::vector<Point> points;
   points.reserve(mesh.corners.size());
   for (const Vec3& corner : mesh.corners) {

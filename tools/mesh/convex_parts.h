@@ -9,8 +9,6 @@ namespace talus {
 
 constexpr int most_parts = 64;
 constexpr int most_part_corners = 128;
-/// Largest mesh that convex_parts() accepts: HACD's time grows with the square of the number of triangles.
-constexpr std::size_t most_triangles = 5000;
 
 struct ConvexPartsParams {
   /// Largest number of parts, 1 to most_parts. Few fill hollows, many cost time in each contact of each body.
@@ -22,7 +20,7 @@ struct ConvexPartsParams {
 /// Convex parts of a mesh that repaired() has passed, by HACD (Mamou 2009). They cover it nearly and overlap a little:
 /// the Stanford bunny, whose hull has 1.56 times its volume, is covered to 0.97 of it by 8 parts of 32 corners whose
 /// volumes add up to 1.09. Takes seconds for thousands of triangles. The same mesh gives the same parts.
-/// Throws std::invalid_argument on parameters out of range and on a mesh of more than most_triangles.
+/// Throws std::invalid_argument on parameters out of range.
 std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params);
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/math/require.h"
 #include "common/mesh/parts_volume.h"
 #include "common/shape/piece_width.h"
 #include "tools/mesh/hull_mesh.h"
@@ -14,7 +15,7 @@
 namespace talus {
 namespace {
 
-constexpr double convexity_tolerance = 1e-3;  // share by which the hull's volume may exceed a convex mesh's
+constexpr double convexity_tolerance = 1e-3;  // share by which the hull's volume may differ from a convex mesh's
 
 double longest_side(const Mesh& mesh) {
   Box<3> bounds;
@@ -62,8 +63,10 @@ Decomposition best_number_of_parts(const Mesh& mesh, ConvexPartsParams params) {
 }  // namespace
 
 Decomposition decomposed(const Mesh& mesh, const ConvexPartsParams& params) {
+  require(mesh.triangles.size() <= most_triangles, "mesh triangles", static_cast<double>(mesh.triangles.size()),
+          "must be at most 5000 to be decomposed; simplify the mesh first");
   const Mesh hull = hull_mesh(mesh.corners);
-  if (moments(hull).volume <= (1.0 + convexity_tolerance) * moments(mesh).volume) {
+  if (fills_mesh(moments(hull).volume / moments(mesh).volume, convexity_tolerance)) {
     const bool few = hull.corners.size() <= static_cast<std::size_t>(params.corners);
     Decomposition one{{few ? hull : coarser_hull(hull, params.corners)}, 0.0, params};
     one.ratio = moments(one.parts[0]).volume / moments(mesh).volume;
