@@ -138,6 +138,9 @@ Source<Dim> read_source(TableReader& table, std::span<const std::string> shape_n
   read_motion(table, source);
   read_orientation(table, source);
   if (table.sound() && !source.shapes.empty() && world.shapes.size() == shape_names.size()) {
+    if (!table.has("spread")) {
+      source.spread = default_spread(source, world);
+    }
     check_bodies(table, source, world);
     check_height(table, source, world);
     check_spacing(table, source, world);

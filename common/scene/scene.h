@@ -26,7 +26,8 @@ struct Source {
   // as a whole, the next one n / rate later. [1, 1, 1]: one body at a time.
   Eigen::Matrix<int, Dim, 1> grid = Eigen::Matrix<int, Dim, 1>::Ones();
   Vec<Dim> spacing = Vec<Dim>::Zero();            // [m] >= 0, between rows, from middle to middle
-  Vec<Dim> spread = Vec<Dim>::Zero();             // [m] >= 0, uniform to both sides of `position` on each axis
+  // [m] >= 0, uniform to both sides of `position` on each axis. The scene reader's default is default_spread().
+  Vec<Dim> spread = Vec<Dim>::Zero();
   Vec<Dim> velocity = Vec<Dim>::Zero();           // [m/s]
   Vec<Dim> velocity_spread = Vec<Dim>::Zero();    // [m/s] >= 0, uniform to both sides
   std::optional<Rotation<Dim>> orientation = {};  // not given: uniformly random

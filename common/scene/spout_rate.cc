@@ -34,6 +34,15 @@ double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& wo
 }
 
 template <int Dim>
+Vec<Dim> default_spread(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  Vec<Dim> spread = Vec<Dim>::Zero();
+  for (int axis = 0; axis < Dim - 1; ++axis) {
+    spread[axis] = source.grid[axis] == 1 ? largest_radius(source, world) : 0.0;
+  }
+  return spread;
+}
+
+template <int Dim>
 double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& world) {
   constexpr int up = Dim - 1;
   const Vec<Dim> distance =
@@ -58,6 +67,8 @@ double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& wo
   return std::min(source.rate, source.bodies_at_once() / clearing_time(source, world));
 }
 
+template Vec2 default_spread(const Source<2>&, const WorldDescription<2>&);
+template Vec3 default_spread(const Source<3>&, const WorldDescription<3>&);
 template double clearing_time(const Source<2>&, const WorldDescription<2>&);
 template double clearing_time(const Source<3>&, const WorldDescription<3>&);
 template double reachable_rate(const Source<2>&, const WorldDescription<2>&);

@@ -17,6 +17,13 @@ double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& wor
 template <int Dim>
 double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& world);
 
+/// The spread of a source whose `spread` is not given [m]: largest_radius() along each horizontal axis on which its
+/// grid has one row, else 0. Measured with 60 bodies of seven shapes from 16 radii on each engine: with 0 a spout may
+/// build a tower up to itself (8 discs), at half the radius it still may (boxes turned alike), at the radius it makes a
+/// pile.
+template <int Dim>
+Vec<Dim> default_spread(const Source<Dim>& source, const WorldDescription<Dim>& world);
+
 /// Bounding radius of the largest shape that a source drops [m].
 template <int Dim>
 double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world);

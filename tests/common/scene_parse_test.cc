@@ -157,7 +157,7 @@ TEST(PileInWalls, AreBuiltWhereTheyHaveAThickness) {
   EXPECT_EQ(convex.world.obstacles.size(), 5u);
   EXPECT_NEAR(convex.piles[0].boundary->area(), 6.0, 1e-8);
   EXPECT_NEAR(convex.piles[0].boundary->inner_radius(), 1.0, tolerance);
-  EXPECT_EQ(full(pile + "kind = \"cylinder\"\nradius = 2\n").world.obstacles.size(), 32u);
+  EXPECT_EQ(full(pile + "kind = \"cylinder\"\nradius = 1.5\n").world.obstacles.size(), 32u);
 }
 
 TEST(PileInWalls, HasThemAroundItsMiddle) {
@@ -167,6 +167,13 @@ TEST(PileInWalls, HasThemAroundItsMiddle) {
   EXPECT_NEAR(scene.piles[0].boundary->area(), 24.0, tolerance);
   EXPECT_EQ(scene.piles[0].boundary->rim, 3.0);
   EXPECT_NEAR(scene.piles[1].boundary->area(), 4.0 * std::numbers::pi, 1e-9);
+}
+
+TEST(Source, SpreadsByTheRadiusOfItsLargestBodyAlongAxesWithOneRow) {
+  const std::string balls = "[shape.large]\nkind = \"ball\"\nradius = 1.5\n";
+  EXPECT_EQ(full(balls + "[[source]]\n").sources[0].spread, Vec3(1.5, 1.5, 0));
+  EXPECT_EQ(full(balls + "[[source]]\ngrid = [3, 1, 1]\nspacing = [9, 0, 0]\n").sources[0].spread, Vec3(0, 1.5, 0));
+  EXPECT_EQ(full(balls + "[[source]]\nspread = [0, 0, 0]\n").sources[0].spread, Vec3::Zero());
 }
 
 }  // namespace

@@ -12,8 +12,10 @@ namespace talus {
 namespace fs = std::filesystem;
 
 fs::path scene_folder() {
-  const fs::path here = "scenes";
-  return fs::is_directory(here) ? here : fs::path(TALUS_SCENE_FOLDER);
+  std::error_code unknown;
+  const fs::path command = fs::read_symlink("/proc/self/exe", unknown);
+  const fs::path installed = command.parent_path().parent_path() / "share/talus/scenes";
+  return !unknown && fs::is_directory(installed, unknown) ? installed : fs::path(TALUS_SCENE_FOLDER);
 }
 
 std::vector<fs::path> scene_files() {

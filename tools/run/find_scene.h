@@ -6,14 +6,15 @@
 
 namespace talus {
 
-/// Folder of the scenes that come with talus: ./scenes, else where they were installed or built from.
+/// Folder of the scenes that come with talus: share/talus/scenes beside the folder of the running command if it is
+/// installed, else the source tree's. It does not depend on the current directory.
 std::filesystem::path scene_folder();
 
 /// Scene files in that folder, by name.
 std::vector<std::filesystem::path> scene_files();
 
-/// `scene` itself if there is such a file, else the scene of that name. Throws std::invalid_argument for neither,
-/// naming the nearest.
+/// `scene` itself if a file has this path, else the file of that name in scene_folder(). Throws std::invalid_argument
+/// with the nearest name when neither exists.
 std::filesystem::path find_scene(const std::string& scene);
 
 }  // namespace talus
