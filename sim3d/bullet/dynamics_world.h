@@ -7,13 +7,19 @@
 #include <span>
 #include <utility>
 
+#include "common/world/skips.h"
+#include "sim3d/bullet/islands.h"
+#include "sim3d/bullet/near_pairs.h"
+
 namespace talus::bullet {
 
 /// btDiscreteDynamicsWorld works each step through all bodies in its two lists. A sleeper needs neither: what makes it
 /// solid is its entry in the broadphase alone.
 class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
-  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+  /// `pairs`: what the broadphase keeps its pairs in.
+  DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, PairCache& pairs,
+                btConstraintSolver& solver, btCollisionConfiguration& configuration, const Skips& skips);
 
   /// Puts just these bodies into the lists, after the static objects; their broadphase entries exist already.
   void set_bodies(std::span<btRigidBody* const> bodies);
@@ -33,8 +39,12 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void set_after_collision(std::function<void()> action) { after_collision_ = std::move(action); }
 
   void performDiscreteCollisionDetection() override;
+  void solveConstraints(btContactSolverInfo& info) override;
 
  private:
+  Skips skips_;
+  NearPairs near_pairs_;
+  Islands islands_;
   int statics_ = 0;
   double collide_seconds_ = 0.0;
   std::function<void()> after_collision_ = [] {};
