@@ -12,8 +12,6 @@
 namespace talus {
 namespace {
 
-constexpr double farthest_place =
-    1e4;  // [m] beyond, single precision resolves a millimetre at best and contacts jitter
 constexpr double largest_mass_ratio = 100.0;
 
 void require_within(double value, double low, double high, const std::string& field, std::string_view rule) {
