@@ -11,6 +11,7 @@
 #include "talus_lcm/talus_shapes_v1.hpp"
 #include "talus_lcm/talus_sleep_v1.hpp"
 #include "talus_lcm/talus_stats_v1.hpp"
+#include "talus_lcm/talus_stats_v2.hpp"
 
 namespace talus {
 
@@ -29,7 +30,9 @@ inline constexpr Channel channel_of<talus_lcm::talus_piles_v1> = Channel::piles;
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_sleep_v1> = Channel::sleep;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_stats_v1> = Channel::stats;
+inline constexpr Channel channel_of<talus_lcm::talus_stats_v1> = Channel::stats;  // in old records
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_stats_v2> = Channel::stats;
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_bodies_v1> = Channel::bodies;
 template <>

@@ -15,6 +15,7 @@ bool checksum_holds(std::span<const std::uint8_t> bytes);
 /// Decodes `bytes` and returns what is wrong with them, or nothing (then `message` is safe to use). Checks size,
 /// checksum, fingerprint and every count against the bytes left before the generated decoder runs (which would resize
 /// to a count of 2^31 at once), then that every value is finite and within its range. Throws nothing but bad_alloc.
+/// A talus_stats_v1 is taken for a talus_stats_v2 without what it does not have, so that old records still read.
 template <class Message>
 std::string_view decode(std::span<const std::uint8_t> bytes, Message& message);
 

@@ -53,6 +53,7 @@ template Packet Sealer::seal(talus_lcm::talus_run_v1&, const Moment&);
 template Packet Sealer::seal(talus_lcm::talus_piles_v1&, const Moment&);
 template Packet Sealer::seal(talus_lcm::talus_sleep_v1&, const Moment&);
 template Packet Sealer::seal(talus_lcm::talus_stats_v1&, const Moment&);
+template Packet Sealer::seal(talus_lcm::talus_stats_v2&, const Moment&);
 template Packet Sealer::seal(talus_lcm::talus_bodies_v1&, const Moment&);
 template Packet Sealer::seal(talus_lcm::talus_shapes_v1&, const Moment&);
 

@@ -48,7 +48,7 @@ void add(PhaseTimes& sum, const PhaseTimes& step) {
   sum.engine.read += step.engine.read;
 }
 
-void put(talus_lcm::talus_stats_v1& message, const PhaseTimes& sum, std::int64_t steps) {
+void put(talus_lcm::talus_stats_v2& message, const PhaseTimes& sum, std::int64_t steps) {
   const auto mean = [&](double seconds) { return static_cast<float>(1e3 * seconds / static_cast<double>(steps)); };
   message.ms_emit = mean(sum.emit);
   message.ms_step = mean(sum.step);
@@ -123,7 +123,7 @@ void Publisher<Dim>::send_run(std::int8_t phase, std::string_view reason, std::i
 
 template <int Dim>
 void Publisher<Dim>::send_stats(const Frame<Dim>& frame, Clock::time_point now) {
-  auto message = to_stats<Dim>(frame.world.states(), frame.world.awake(), shapes_);
+  auto message = to_stats<Dim>(frame, shapes_);
   message.timed = 1;
   if (summed_steps_ > 0) put(message, sum_, summed_steps_);
   const std::chrono::duration<double> passed = now - stats_wall_;

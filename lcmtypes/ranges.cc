@@ -15,6 +15,7 @@ using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 // A layer of almost no volume at the apex, with a stream of bodies above it, reaches thousands.
 constexpr float max_density = 1e9F;
@@ -66,6 +67,20 @@ bool piece_length_holds(int kind, int length, int dimension) {
   }
 }
 
+/// What both versions of the statistics have.
+template <class Message>
+std::string_view stats_fault(const Message& m) {
+  if (!header_holds(m)) return "header out of range";
+  if (m.awake < 0 || m.asleep < 0 || m.contacts < -1) return "negative count";
+  if (!not_negative(m.kinetic_energy) || !is_flag(m.timed)) return "kinetic energy out of range";
+  for (const float value : {m.ms_emit, m.ms_step, m.ms_collide, m.ms_solve, m.ms_read, m.ms_count, m.ms_decide,
+                            m.ms_apply, m.ms_observe, m.real_time_factor}) {
+    if (!not_negative(value)) return "time out of range";
+  }
+  if (m.queued_bytes < 0 || m.dropped < 0) return "negative count";
+  return {};
+}
+
 }  // namespace
 
 std::string_view range_fault(const talus_run_v1& m) {
@@ -97,16 +112,21 @@ std::string_view range_fault(const talus_sleep_v1& m) {
   return {};
 }
 
-std::string_view range_fault(const talus_stats_v1& m) {
-  if (!header_holds(m)) return "header out of range";
-  if (m.awake < 0 || m.asleep < 0 || m.contacts < -1) return "negative count";
-  if (!not_negative(m.kinetic_energy) || !is_flag(m.timed)) return "kinetic energy out of range";
-  for (const float value : {m.ms_emit, m.ms_step, m.ms_collide, m.ms_solve, m.ms_read, m.ms_count, m.ms_decide,
-                            m.ms_apply, m.ms_observe, m.real_time_factor}) {
-    if (!not_negative(value)) return "time out of range";
-  }
-  if (m.queued_bytes < 0 || m.dropped < 0) return "negative count";
-  return {};
+std::string_view range_fault(const talus_stats_v1& m) { return stats_fault(m); }
+
+std::string_view range_fault(const talus_stats_v2& m) {
+  if (m.asked < -1 || m.appeared < -1) return "negative count";
+  if (m.warning_count > talus_stats_v2::NOT_APPEARED + 1) return "more warnings than kinds";
+  const auto known = [](auto kind) {
+    return kind >= talus_stats_v2::BELOW_GROUND && kind <= talus_stats_v2::NOT_APPEARED;
+  };
+  if (!std::all_of(m.warning_kind.begin(), m.warning_kind.end(), known)) return "unknown kind of warning";
+  const auto negative = [](auto count) { return count < 0; };
+  if (std::any_of(m.warning_step.begin(), m.warning_step.end(), negative)) return "negative step of a warning";
+  if (std::any_of(m.warning_bodies.begin(), m.warning_bodies.end(), negative)) return "negative count";
+  if (!std::all_of(m.warning_body.begin(), m.warning_body.end(), is_index_or_none)) return "body out of range";
+  if (!std::all_of(m.warning_value.begin(), m.warning_value.end(), is_finite)) return "value is not finite";
+  return stats_fault(m);
 }
 
 std::string_view range_fault(const talus_bodies_v1& m) {

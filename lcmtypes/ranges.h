@@ -11,6 +11,7 @@ std::string_view range_fault(const talus_lcm::talus_run_v1& message);
 std::string_view range_fault(const talus_lcm::talus_piles_v1& message);
 std::string_view range_fault(const talus_lcm::talus_sleep_v1& message);
 std::string_view range_fault(const talus_lcm::talus_stats_v1& message);
+std::string_view range_fault(const talus_lcm::talus_stats_v2& message);
 std::string_view range_fault(const talus_lcm::talus_bodies_v1& message);
 std::string_view range_fault(const talus_lcm::talus_shapes_v1& message);
 

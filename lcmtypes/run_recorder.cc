@@ -75,7 +75,7 @@ template <int Dim>
 void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   const BodyStates<Dim>& states = frame.world.states();
   write(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);
-  auto stats = to_stats<Dim>(states, frame.world.awake(), shapes_);
+  auto stats = to_stats<Dim>(frame, shapes_);
   write(stats, frame.step, frame.time);
   std::vector<BodyIndex> bodies = moved(frame);
   poses_since_key_frame_ += static_cast<std::int64_t>(bodies.size());

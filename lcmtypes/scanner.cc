@@ -12,6 +12,7 @@ using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 void scan(Scanner& scanner, const talus_run_v1*) {
   scanner.skip(1);                        // phase
@@ -52,6 +53,13 @@ void scan(Scanner& scanner, const talus_stats_v1*) {
   scanner.skip(10 * 4 + 2 * 8);  // nine times, real_time_factor, queued_bytes, dropped
 }
 
+void scan(Scanner& scanner, const talus_stats_v2*) {
+  scanner.skip(3 * 4 + 8 + 2 * 4);  // awake, asleep, contacts, kinetic_energy, asked, appeared
+  const std::size_t warnings = scanner.count();
+  scanner.array(warnings, 1 + 8 + 4 + 8 + 8);  // kind, step, body, bodies, value
+  scanner.skip(1 + 10 * 4 + 2 * 8);            // timed, nine times, real_time_factor, queued_bytes, dropped
+}
+
 void scan(Scanner& scanner, const talus_bodies_v1*) {
   scanner.skip(1 + 3 * 4);  // key_frame, part, parts, dimension
   const std::size_t bodies = scanner.count();
@@ -85,6 +93,7 @@ template bool counts_fit<talus_run_v1>(std::span<const std::uint8_t>);
 template bool counts_fit<talus_piles_v1>(std::span<const std::uint8_t>);
 template bool counts_fit<talus_sleep_v1>(std::span<const std::uint8_t>);
 template bool counts_fit<talus_stats_v1>(std::span<const std::uint8_t>);
+template bool counts_fit<talus_stats_v2>(std::span<const std::uint8_t>);
 template bool counts_fit<talus_bodies_v1>(std::span<const std::uint8_t>);
 template bool counts_fit<talus_shapes_v1>(std::span<const std::uint8_t>);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/world/energy.h"
+
 namespace talus {
 
 using talus_lcm::talus_bodies_v1;
@@ -11,7 +13,7 @@ using talus_lcm::talus_pile_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 namespace {
 
@@ -86,18 +88,6 @@ void append(const Pose<Dim>& pose, std::vector<float>& values) {
   }
 }
 
-template <int Dim>
-double kinetic_energy(const Shape<Dim>& shape, const Rotation<Dim>& rotation, const Vec<Dim>& velocity,
-                      const Spin<Dim>& spin) {
-  const double moving = shape.mass * velocity.squaredNorm();
-  if constexpr (Dim == 2) {
-    return 0.5 * (moving + shape.inertia(0, 0) * spin.squaredNorm());
-  } else {
-    const Vec3 own = rotation.inverse() * spin;  // the inertia is given in the body's own axes
-    return 0.5 * (moving + own.dot(shape.inertia * own));
-  }
-}
-
 }  // namespace
 
 talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view reason, std::span<const Channel> channels,
@@ -164,19 +154,41 @@ std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
 }
 
 template <int Dim>
-talus_stats_v1 to_stats(const BodyStates<Dim>& states, std::span<const BodyIndex> awake,
-                        std::span<const Shape<Dim>> shapes) {
-  talus_stats_v1 message{};
+talus_stats_v2 to_stats(const Frame<Dim>& frame, std::span<const Shape<Dim>> shapes) {
+  const BodyStates<Dim>& states = frame.world.states();
+  const std::span<const BodyIndex> awake = frame.world.awake();
+  talus_stats_v2 message{};
   const auto removed = std::count(states.removed.begin(), states.removed.end(), 1);
   message.awake = static_cast<std::int32_t>(awake.size());
   message.asleep = states.size() - message.awake - static_cast<std::int32_t>(removed);
   message.contacts = -1;
   for (const BodyIndex body : awake) {
     const auto i = static_cast<std::size_t>(body);
-    message.kinetic_energy += kinetic_energy<Dim>(shapes[static_cast<std::size_t>(states.shape[i])],
-                                                  states.pose[i].rotation, states.velocity[i], states.spin[i]);
+    message.kinetic_energy += kinetic_energy(shapes[static_cast<std::size_t>(states.shape[i])], states, i);
   }
+  message.asked = frame.bodies_asked;
+  message.appeared = states.size();
+  for (const Warning& warning : frame.warnings) {
+    message.warning_kind.push_back(static_cast<std::int8_t>(warning.kind));
+    message.warning_step.push_back(warning.step);
+    message.warning_body.push_back(warning.body);
+    message.warning_bodies.push_back(warning.bodies);
+    message.warning_value.push_back(warning.value);
+  }
+  message.warning_count = static_cast<std::int32_t>(frame.warnings.size());
   return message;
+}
+
+std::vector<Warning> warnings_of(const talus_stats_v2& message) {
+  std::vector<Warning> warnings;
+  for (std::size_t i = 0; i < message.warning_kind.size(); ++i) {
+    warnings.push_back({.kind = static_cast<WarningKind>(message.warning_kind[i]),
+                        .step = message.warning_step[i],
+                        .body = message.warning_body[i],
+                        .bodies = message.warning_bodies[i],
+                        .value = message.warning_value[i]});
+  }
+  return warnings;
 }
 
 template <int Dim>
@@ -205,8 +217,8 @@ std::vector<talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<
 
 template std::vector<talus_piles_v1> to_piles<2>(std::span<const Pile<2>>);
 template std::vector<talus_piles_v1> to_piles<3>(std::span<const Pile<3>>);
-template talus_stats_v1 to_stats<2>(const BodyStates<2>&, std::span<const BodyIndex>, std::span<const Shape<2>>);
-template talus_stats_v1 to_stats<3>(const BodyStates<3>&, std::span<const BodyIndex>, std::span<const Shape<3>>);
+template talus_stats_v2 to_stats<2>(const Frame<2>&, std::span<const Shape<2>>);
+template talus_stats_v2 to_stats<3>(const Frame<3>&, std::span<const Shape<3>>);
 template std::vector<talus_bodies_v1> to_bodies<2>(const BodyStates<2>&, std::span<const BodyIndex>, bool);
 template std::vector<talus_bodies_v1> to_bodies<3>(const BodyStates<3>&, std::span<const BodyIndex>, bool);
 

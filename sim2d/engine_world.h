@@ -32,6 +32,9 @@ class EngineWorld final : public World<2> {
   void thaw(std::span<const BodyIndex> bodies) override;
   void near(const Box<2>& box, std::vector<BodyIndex>& found) const override;
   EngineTimes times() const override { return times_; }
+  SpeedLimits speed_limits() const override {
+    return {fastest_speed<2>(description_.dt), fastest_spin(description_.dt)};
+  }
 
   /// The engine's own world, for tests that count what is in it.
   const b2World& engine() const { return world_; }

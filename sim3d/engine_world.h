@@ -33,6 +33,9 @@ class EngineWorld final : public World<Dim> {
   void thaw(std::span<const BodyIndex> bodies) override;
   void near(const Box<Dim>& box, std::vector<BodyIndex>& found) const override;
   EngineTimes times() const override { return times_; }
+  SpeedLimits speed_limits() const override {
+    return {fastest_speed<3>(description_.dt), fastest_spin(description_.dt)};  // planar as free: one engine
+  }
 
   /// What stands behind the seam, for tests that count Bullet's objects.
   const Engine& engine() const { return engine_; }

@@ -5,17 +5,10 @@
 
 #include "common/math/require.h"
 #include "common/measure/ensemble.h"
+#include "common/world/energy.h"
 
 namespace talus {
 namespace {
-
-/// Of motion and of turning [J].
-template <int Dim>
-double kinetic_energy(const Shape<Dim>& shape, const BodyStates<Dim>& states, std::size_t i) {
-  Spin<Dim> spin = states.spin[i];
-  if constexpr (Dim == 3) spin = states.pose[i].rotation.inverse() * spin;
-  return 0.5 * shape.mass * states.velocity[i].squaredNorm() + 0.5 * spin.dot(shape.inertia * spin);
-}
 
 template <int Dim>
 class Observation {

@@ -37,6 +37,10 @@ struct Source {
   double ride_above = 0.0;  // [m] >= 0: the spout rises so as to stay this far above what lies beneath; 0: it does not
 
   int bodies_at_once() const { return grid.prod(); }
+  /// When the body of this number is due, from 0 on [s].
+  double due_time(int number) const { return start + number / bodies_at_once() * bodies_at_once() / rate; }
+  /// Bodies that are due by `time` [s], up to `count`.
+  int due_by(double time) const;
   /// From the middle of the grid's first row to that of its last, along each axis [m].
   Vec<Dim> grid_extent() const { return ((grid.array() - 1).template cast<double>() * spacing.array()).matrix(); }
 };

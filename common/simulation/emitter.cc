@@ -54,9 +54,7 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
 
 template <int Dim>
 bool Emitter<Dim>::due(const Spout& spout, double time) const {
-  const int at_once = spout.source.bodies_at_once();
-  const int before_grid = spout.emitted / at_once * at_once;
-  return spout.emitted < spout.source.count && time >= spout.source.start + before_grid / spout.source.rate;
+  return spout.emitted < spout.source.count && time >= spout.source.due_time(spout.emitted);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 
 #include "common/pile/pile_set.h"
 #include "common/simulation/sleep_event.h"
+#include "common/simulation/warning.h"
 #include "common/world/world.h"
 
 namespace talus {
@@ -32,6 +33,8 @@ struct Frame {
   const PileSet<Dim>& piles;
   std::span<const SleepEvent> events;  // of this step, by body; empty while a policy decides
   PhaseTimes phases;
+  std::span<const Warning> warnings = {};  // one of each kind that the run has shown so far, if it is observed
+  int bodies_asked = 0;                    // that the scene's sources add in all
 };
 
 }  // namespace talus

@@ -28,6 +28,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       shapes_(scene.world.shapes),
       emitter_(scene),
       piles_(piles_as_counted(scene.piles, *policy_), typical_body(scene)),
+      watchdog_(scene, world_->speed_limits()),
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep),
       skips_(scene.world.skips) {}
@@ -36,6 +37,7 @@ template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
   emitter_.emit(*world_, time());
+  if (watched()) watchdog_.note_added(world_->states());
   phases_.emit = watch.lap();
   world_->step();
   ++step_;
@@ -108,20 +110,25 @@ void Simulation<Dim>::apply() {
     events_.insert(events_.end(), list.begin(), list.end());
   };
   if (!decision_.thaw.empty()) take(decision_.thaw, true);
-  for (const Kick<Dim>& kick : decision_.kicks) world_->set_velocity(kick.body, kick.velocity, kick.spin);
+  for (const Kick<Dim>& kick : decision_.kicks) {
+    if (watched()) watchdog_.note_kick(world_->states(), kick.body, kick.velocity, kick.spin);
+    world_->set_velocity(kick.body, kick.velocity, kick.spin);
+  }
   if (!decision_.freeze.empty()) take(decision_.freeze, false);
   std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
 }
 
 template <int Dim>
 void Simulation<Dim>::show() {
-  if (observers_.empty()) return;
+  if (!watched()) return;
+  watchdog_.look(*world_, events_, step_);
   const Frame<Dim> finished = frame();
   for (Observer<Dim>* observer : observers_) observer->on_frame(finished);
 }
 
 template <int Dim>
 void Simulation<Dim>::end(std::string_view reason) {
+  if (watched()) watchdog_.finish(*world_, step_);
   const Frame<Dim> last = frame();
   for (Observer<Dim>* observer : observers_) observer->on_end(last, reason);
 }

@@ -9,6 +9,7 @@
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
 #include "common/simulation/observer.h"
+#include "common/simulation/watchdog.h"
 
 namespace talus {
 
@@ -35,11 +36,15 @@ class Simulation {
   void thaw_all();
 
   /// The last finished step.
-  Frame<Dim> frame() { return {step_, time(), *world_, piles_, events_, phases_}; }
+  Frame<Dim> frame() {
+    return {step_, time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_asked()};
+  }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }
   const PileSet<Dim>& piles() const { return piles_; }
   const Emitter<Dim>& emitter() const { return emitter_; }
+  /// What observers were shown as Frame::warnings; after end() with the bodies that never appeared.
+  std::span<const Warning> warnings() const { return watchdog_.warnings(); }
 
  private:
   void count_piles();
@@ -48,6 +53,7 @@ class Simulation {
   void apply();
   void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);
   void note_engine_sleep();
+  bool watched() const { return !observers_.empty(); }
   void show();
 
   std::unique_ptr<World<Dim>> world_;
@@ -55,6 +61,7 @@ class Simulation {
   std::vector<Shape<Dim>> shapes_;
   Emitter<Dim> emitter_;
   PileSet<Dim> piles_;
+  Watchdog<Dim> watchdog_;  // at work while there are observers
   std::vector<Observer<Dim>*> observers_;
   Decision<Dim> decision_;
   std::vector<BodyIndex> bodies_;            // scratch

@@ -1,6 +1,7 @@
 #pragma once
 // The seam to a physics engine.
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,13 @@ struct EngineTimes {
   double collide = 0.0;  // broad and narrow phase
   double solve = 0.0;    // islands, constraints, integration
   double read = 0.0;     // copying the awake bodies' states out
+};
+
+/// What an engine can move a body at. At these Box2D cuts speed and spin and Bullet the spin; up to this speed Bullet's
+/// continuous collision was tried.
+struct SpeedLimits {
+  double speed = std::numeric_limits<double>::infinity();  // [m/s]
+  double spin = std::numeric_limits<double>::infinity();   // [rad/s]
 };
 
 /// A world of rigid bodies in one engine. A new world with the same calls gives the same bits.
@@ -60,6 +68,9 @@ class World {
   virtual void near(const Box<Dim>& box, std::vector<BodyIndex>& found) const = 0;
 
   virtual EngineTimes times() const = 0;
+
+  /// Infinite where the engine has none.
+  virtual SpeedLimits speed_limits() const { return {}; }
 };
 
 }  // namespace talus

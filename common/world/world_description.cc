@@ -12,8 +12,6 @@
 namespace talus {
 namespace {
 
-constexpr double farthest_place =
-    1e4;  // [m] beyond, single precision resolves a millimetre at best and contacts jitter
 constexpr double largest_mass_ratio = 100.0;
 constexpr double least_mass = 1e-20;  // [kg], and of inertia [kg m^2]: single precision must hold products of inverses
 

@@ -52,6 +52,10 @@ void check(const WorldDescription<Dim>& description);
 template <int Dim>
 void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description);
 
+/// Farthest from the origin that a coordinate of a place may be [m]. Beyond, single precision resolves a millimetre at
+/// best and contacts jitter.
+inline constexpr double farthest_place = 1e4;
+
 /// Fastest that a body may be given [m/s] with steps of `dt` [s]. Box2D moves a body by at most 2 m a step
 /// (b2_maxTranslation); Bullet's continuous collision was tried up to 500 m/s.
 template <int Dim>

@@ -17,6 +17,7 @@ using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 using Bytes = std::vector<std::uint8_t>;
 
 template <class Message>
@@ -34,7 +35,7 @@ std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
     case Channel::sleep:
       return fault_of<talus_sleep_v1>(bytes);
     case Channel::stats:
-      return fault_of<talus_stats_v1>(bytes);
+      return fault_of<talus_stats_v2>(bytes);
     case Channel::bodies:
       return fault_of<talus_bodies_v1>(bytes);
     case Channel::shapes:
@@ -122,9 +123,53 @@ TEST(Decoder, RefusesWhatIsNotFinite) {
   EXPECT_EQ(fault_of<talus_piles_v1>(sealer.seal(piles, {0, 1, 0.5}).bytes), "");
   EXPECT_NE(fault_of<talus_piles_v1>(sealer.seal(piles, {0, 1, std::nan("")}).bytes), "");
   EXPECT_NE(fault_of<talus_piles_v1>(sealer.seal(piles, {0, -1, 0.5}).bytes), "");
-  talus_stats_v1 stats{};
+  talus_stats_v2 stats{};
   stats.kinetic_energy = std::numeric_limits<double>::infinity();
-  EXPECT_NE(fault_of<talus_stats_v1>(sealer.seal(stats, {0, 1, 0.5}).bytes), "");
+  EXPECT_NE(fault_of<talus_stats_v2>(sealer.seal(stats, {0, 1, 0.5}).bytes), "");
+}
+
+TEST(Decoder, ReadsStatisticsOfTheVersionBefore) {
+  talus_stats_v1 old{};
+  old.awake = 3;
+  old.asleep = 4;
+  old.kinetic_energy = 2.5;
+  old.timed = 1;
+  old.ms_observe = 0.5F;
+  old.dropped = 9;
+  Sealer sealer(1);
+  Packet packet = sealer.seal(old, {0, 6, 0.5});
+  talus_stats_v2 read;
+  ASSERT_EQ(decode(packet.bytes, read), "");
+  EXPECT_EQ(read.step, 6);
+  EXPECT_EQ(read.awake, 3);
+  EXPECT_EQ(read.asleep, 4);
+  EXPECT_EQ(read.kinetic_energy, 2.5);
+  EXPECT_EQ(read.asked, -1);
+  EXPECT_EQ(read.warning_count, 0);
+  EXPECT_EQ(read.ms_observe, 0.5F);
+  EXPECT_EQ(read.dropped, 9);
+  packet.bytes[60] ^= 1U;
+  EXPECT_EQ(decode(packet.bytes, read), "wrong checksum");
+}
+
+TEST(Decoder, RefusesWarningsThatNoRunGives) {
+  Sealer sealer(1);
+  const auto fault = [&](std::int8_t kind, std::int64_t step, double value, std::size_t number) {
+    talus_stats_v2 stats{};
+    stats.warning_count = static_cast<std::int32_t>(number);
+    stats.warning_kind.assign(number, kind);
+    stats.warning_step.assign(number, step);
+    stats.warning_body.assign(number, 0);
+    stats.warning_bodies.assign(number, 1);
+    stats.warning_value.assign(number, value);
+    return fault_of<talus_stats_v2>(sealer.seal(stats, {0, 1, 0.5}).bytes);
+  };
+  EXPECT_EQ(fault(talus_stats_v2::NOT_APPEARED, 1, 1.0, 6), "");
+  EXPECT_NE(fault(talus_stats_v2::NOT_APPEARED + 1, 1, 1.0, 1), "");
+  EXPECT_NE(fault(-1, 1, 1.0, 1), "");
+  EXPECT_NE(fault(0, -1, 1.0, 1), "");
+  EXPECT_NE(fault(0, 1, std::nan(""), 1), "");
+  EXPECT_NE(fault(0, 1, 1.0, 7), "");
 }
 
 RC_GTEST_PROP(DecoderProperty, SurvivesAnything, (Bytes bytes, bool sealed)) {

@@ -15,7 +15,7 @@ namespace {
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 /// Keeps all messages of one LCM object's own memory queue.
 class Ear {
@@ -113,7 +113,7 @@ TEST(Publisher, SendsEverySleepEvent) {
 
 TEST(Publisher, SendsStatisticsWithWallTimes) {
   const PublishedRun<2> run(100);
-  const auto stats = run.ear.all<talus_stats_v1>();
+  const auto stats = run.ear.all<talus_stats_v2>();
   ASSERT_GE(stats.size(), 2U);
   EXPECT_EQ(stats.back().awake + stats.back().asleep, 12);
   EXPECT_EQ(stats.back().timed, 1);
@@ -134,7 +134,7 @@ TEST(Publisher, DropsRatherThanWaitsAndSaysSo) {
   EXPECT_GT(run.dropped, 0);
   const auto piles = run.ear.all<talus_piles_v1>();
   EXPECT_LT(piles.size(), 20'000U);
-  const auto stats = run.ear.all<talus_stats_v1>();
+  const auto stats = run.ear.all<talus_stats_v2>();
   EXPECT_TRUE(std::any_of(stats.begin(), stats.end(), [](const auto& s) { return s.dropped > 0; }));
 }
 

@@ -18,7 +18,7 @@ namespace {
 using talus_lcm::talus_bodies_v1;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 /// Records `steps` steps of 12 bodies.
 template <int Dim>
@@ -141,7 +141,7 @@ TEST(RunRecorder, StampsWithSimulatedTimeSoThatPlayersKeepThePace) {
     EXPECT_GE(event.timestamp, last + 100);  // never a burst
     last = event.timestamp;
   }
-  for (const auto& stats : record.all<talus_stats_v1>()) {
+  for (const auto& stats : record.all<talus_stats_v2>()) {
     EXPECT_NEAR(static_cast<double>(stats.utime), 1e6 * stats.sim_time, 1500.0);  // a frame's few messages, 100 us each
   }
 }

@@ -33,7 +33,7 @@ std::vector<Packet> sample_packets(int bodies) {
   seal(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run_v1::ALIVE, "", channels, sealer)});
   seal(to_piles<Dim>(frame.piles.piles()));
   seal(to_sleep(frame.events));
-  seal(std::vector{to_stats<Dim>(states, frame.world.awake(), scene.world.shapes)});
+  seal(std::vector{to_stats<Dim>(frame, scene.world.shapes)});
   seal(to_bodies<Dim>(states, all, true));
   seal(to_shapes<Dim>(scene.world));
   return packets;

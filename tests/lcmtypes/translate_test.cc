@@ -14,6 +14,7 @@ namespace {
 using talus_lcm::talus_pile_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v2;
 
 template <class Message>
 void expect_sendable(std::vector<Message>& messages) {
@@ -133,7 +134,8 @@ TEST(StatsMessage, GivesTheKineticEnergy) {
   const Rotation<3> x_to_z(Eigen::AngleAxisd(-0.5 * std::numbers::pi, Vec3::UnitY()));
   world.add(
       {.shape = 1, .pose = {.position = {}, .rotation = x_to_z}, .velocity = Vec3::Zero(), .spin = Vec3(0, 0, 2)});
-  const auto stats = to_stats<3>(world.states(), world.awake(), shapes);
+  const PileSet<3> piles({}, {});
+  const auto stats = to_stats<3>(Frame<3>{.world = world, .piles = piles, .events = {}, .phases = {}}, shapes);
   const double cube = 0.5 * 1000 * 25 + 0.5 * (1000.0 / 6) * 36;
   const double bar = 0.5 * (2000 * (1 + 0.25) / 12) * 4;
   EXPECT_NEAR(stats.kinetic_energy, cube + bar, 1e-6);  // rounding of a sum near 2e4
@@ -148,9 +150,47 @@ TEST(StatsMessage, CountsNeitherRemovedBodiesNorSleepersTwice) {
   world.freeze(std::vector<BodyIndex>{0, 1, 2});
   world.remove(1);
   world.remove(9);
-  const auto stats = to_stats<2>(world.states(), world.awake(), scene.world.shapes);
+  const PileSet<2> piles({}, {});
+  const auto stats =
+      to_stats<2>(Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}}, scene.world.shapes);
   EXPECT_EQ(stats.awake, 6);
   EXPECT_EQ(stats.asleep, 2);
+}
+
+TEST(StatsMessage, CarriesEveryWarningThereAndBack) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  world.add({});
+  const PileSet<2> piles({}, {});
+  const std::vector<Warning> warnings = {
+      {.kind = WarningKind::energy, .step = 7, .body = 3, .bodies = 12, .value = 1.5},
+      {.kind = WarningKind::not_appeared, .step = 9, .body = -1, .bodies = 4, .value = 4.0}};
+  auto stats = to_stats<2>(
+      Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .warnings = warnings, .bodies_asked = 5},
+      scene.world.shapes);
+  Sealer sealer(1);
+  talus_stats_v2 decoded;
+  ASSERT_EQ(decode(sealer.seal(stats, {}).bytes, decoded), "");
+  EXPECT_EQ(decoded.asked, 5);
+  EXPECT_EQ(decoded.appeared, 1);
+  const std::vector<Warning> told = warnings_of(decoded);
+  ASSERT_EQ(told.size(), 2U);
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(told[i].kind, warnings[i].kind);
+    EXPECT_EQ(told[i].step, warnings[i].step);
+    EXPECT_EQ(told[i].body, warnings[i].body);
+    EXPECT_EQ(told[i].bodies, warnings[i].bodies);
+    EXPECT_EQ(told[i].value, warnings[i].value);
+  }
+}
+
+TEST(StatsMessage, NumbersKindsOfWarningAsTheCoreDoes) {
+  EXPECT_EQ(talus_stats_v2::BELOW_GROUND, static_cast<int>(WarningKind::below_ground));
+  EXPECT_EQ(talus_stats_v2::OUTSIDE_WORLD, static_cast<int>(WarningKind::outside_world));
+  EXPECT_EQ(talus_stats_v2::ENERGY, static_cast<int>(WarningKind::energy));
+  EXPECT_EQ(talus_stats_v2::SPEED_LIMIT, static_cast<int>(WarningKind::speed_limit));
+  EXPECT_EQ(talus_stats_v2::SPIN_LIMIT, static_cast<int>(WarningKind::spin_limit));
+  EXPECT_EQ(talus_stats_v2::NOT_APPEARED, static_cast<int>(WarningKind::not_appeared));
 }
 
 TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {

@@ -15,7 +15,7 @@ namespace {
 
 using talus_lcm::talus_layer_v1;
 using talus_lcm::talus_run_v1;
-using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 /// Hands packets to a listener.
 class Wire {
@@ -49,7 +49,7 @@ std::vector<Packet> stream(int steps) {
     const Moment moment{.utime = step, .step = step, .sim_time = 0.1 * step};
     for (auto& message : to_piles<2>(std::span(&pile, 1))) packets.push_back(sealer.seal(message, moment));
     for (auto& message : to_sleep(std::span(&event, 1))) packets.push_back(sealer.seal(message, moment));
-    talus_stats_v1 stats{};
+    talus_stats_v2 stats{};
     stats.awake = step;
     packets.push_back(sealer.seal(stats, moment));
   }

@@ -55,6 +55,34 @@ TEST(SheetCommand, PutsPicturesOfRunsSideBySide) {
   EXPECT_NE(refused.err.find("must be a run folder"), std::string::npos) << refused.err;
 }
 
+TEST(RunCommand, WarnsAtOnceAndAtTheEndAndInTheSummaryOfBodiesThatWereLost) {
+  const TemporaryFolder folder;
+  const std::string thrown =
+      "--set source[0].count=1 --set source[0].position=[9990,5] --set source[0].velocity=[90,0] ";
+  const Outcome outcome = talus_command("run " + short_scene + thrown + "--out " + (folder / "run"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: step 7, body 0: a coordinate is 100"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("warning: 1 body since step 7"), std::string::npos) << outcome.out;
+  const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
+  EXPECT_EQ(summary["bodies_asked"], 1);
+  EXPECT_EQ(summary["bodies_appeared"], 1);
+  EXPECT_EQ(summary["bodies_lost"], 1);
+  ASSERT_EQ(summary["warnings"].size(), 1U);
+  EXPECT_EQ(summary["warnings"][0]["kind"], "outside_world");
+  EXPECT_EQ(summary["warnings"][0]["step"], 7);
+  EXPECT_EQ(summary["warnings"][0]["body"], 0);
+  EXPECT_EQ(summary["warnings"][0]["bodies"], 1);
+  EXPECT_GT(summary["warnings"][0]["value"], 10'000.0);
+  EXPECT_EQ(talus_command("run " + short_scene + thrown + "--strict --out " + (folder / "strict")).exit_code, 1);
+  EXPECT_EQ(talus_command("run " + short_scene + thrown + "--strict --hash").exit_code, 1);
+}
+
+TEST(RunCommand, IsContentWithASoundRunEvenWhenStrict) {
+  const Outcome outcome = talus_command("run " + short_scene + "--strict --hash");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("warning: step"), std::string::npos) << outcome.err;
+}
+
 TEST(RunCommand, WritesOneRowAStep) {
   const TemporaryFolder folder;
   talus_command("run " + short_scene + "--out " + (folder / "run"));

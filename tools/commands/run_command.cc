@@ -11,7 +11,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "  talus run drop_in_a_pile_2d\n"
       "  talus run scenes/drop_in_a_pile_3d.toml --policy full --out runs/reference\n"
       "  talus run drop_in_a_pile_2d --backend bullet-planar --set policy.tau=0.3 --set pile[0].alpha_deg=25\n\n"
-      "Exit code: 0 done, 1 the run failed, 2 bad input, 130 interrupted (everything up to then is saved).");
+      "Exit code: 0 done, 1 the run failed (with --strict: or gave a warning), 2 bad input, 130 interrupted "
+      "(everything up to then is saved).");
   auto options = std::make_shared<RunOptions>();
   command->add_option("scene", options->scene, "Scene file, or the name of a scene that `talus list` shows")
       ->required();
@@ -29,6 +30,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("!--no-telemetry", options->telemetry, "Publish nothing over LCM")->excludes(url);
   command->add_option("--against", options->against, "Run the scene under this policy too and tell the speed-up");
+  command->add_flag("--strict", options->strict, "Exit with 1 when a body was lost or the run gave any other warning");
   command->add_flag("--hash", options->hash_only, "Print the end hash and nothing else; no folder unless --out");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }

@@ -3,13 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "lcmtypes/run_info.h"
+#include "lcmtypes/translate.h"
 
 namespace talus {
 
 using talus_lcm::talus_layer_v1;
 using talus_lcm::talus_pile_v1;
 using talus_lcm::talus_run_v1;
-using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -41,8 +42,20 @@ Json of(const talus_run_v1& run) {
           {"reason", run.reason}};
 }
 
-Json of(const talus_stats_v1& stats) {
+/// As in summary.json.
+Json of(const Warning& warning) {
+  return {{"kind", to_string(warning.kind)},
+          {"step", warning.step},
+          {"body", warning.body},
+          {"bodies", warning.bodies},
+          {"value", warning.value}};
+}
+
+Json of(const talus_stats_v2& stats) {
   Json object = {{"awake", stats.awake}, {"asleep", stats.asleep}, {"kinetic_energy", stats.kinetic_energy}};
+  if (stats.asked >= 0) object.update({{"asked", stats.asked}, {"appeared", stats.appeared}});
+  object["warnings"] = Json::array();
+  for (const Warning& warning : warnings_of(stats)) object["warnings"].push_back(of(warning));
   if (stats.timed == 0) return object;
   object["real_time_factor"] = stats.real_time_factor;
   object["ms"] = {{"emit", stats.ms_emit},     {"step", stats.ms_step},   {"collide", stats.ms_collide},

@@ -9,7 +9,7 @@ namespace talus {
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 namespace {
 
@@ -22,7 +22,7 @@ Listener::Listener(lcm::LCM& lcm) : lcm_(lcm) {
   subscribe<talus_run_v1>();
   subscribe<talus_piles_v1>();
   subscribe<talus_sleep_v1>();
-  subscribe<talus_stats_v1>();
+  subscribe<talus_stats_v2>();
 }
 
 Listener::~Listener() {

@@ -8,7 +8,7 @@ using talus_lcm::talus_pile_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
 
 namespace {
 
@@ -60,7 +60,7 @@ void RunView::take(const talus_sleep_v1& message) {
   slept_ += message.event_count - woken;
 }
 
-void RunView::take(const talus_stats_v1& message) {
+void RunView::take(const talus_stats_v2& message) {
   if (note(message)) stats_ = message;
 }
 

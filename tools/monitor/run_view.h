@@ -21,13 +21,13 @@ class RunView {
   void take(const talus_lcm::talus_run_v1& message);
   void take(const talus_lcm::talus_piles_v1& message);
   void take(const talus_lcm::talus_sleep_v1& message);
-  void take(const talus_lcm::talus_stats_v1& message);
+  void take(const talus_lcm::talus_stats_v2& message);
 
   /// The run's number was used before; nothing of that is left. A record that is played twice does so.
   bool is_restart(const talus_lcm::talus_run_v1& message) const;
 
   const std::optional<talus_lcm::talus_run_v1>& run() const { return run_; }
-  const std::optional<talus_lcm::talus_stats_v1>& stats() const { return stats_; }
+  const std::optional<talus_lcm::talus_stats_v2>& stats() const { return stats_; }
   /// By number, as last heard of; without those that became part of another.
   const std::map<std::int32_t, talus_lcm::talus_pile_v1>& piles() const { return piles_; }
 
@@ -48,7 +48,7 @@ class RunView {
 
   std::array<SequenceTracker, channel_names.size()> trackers_;
   std::optional<talus_lcm::talus_run_v1> run_;
-  std::optional<talus_lcm::talus_stats_v1> stats_;
+  std::optional<talus_lcm::talus_stats_v2> stats_;
   std::map<std::int32_t, talus_lcm::talus_pile_v1> piles_;
   std::int64_t piles_step_ = -1;
   std::int64_t step_ = 0;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lcmtypes/run_info.h"
+#include "lcmtypes/translate.h"
 
 namespace talus {
 
@@ -72,6 +73,7 @@ std::string text_line(std::int64_t run_id, const RunView& view) {
   if (view.stats()) {
     line += fmt::format("  awake {}  asleep {}", view.stats()->awake, view.stats()->asleep);
     if (view.stats()->timed != 0) line += fmt::format("  {:.2f} x real time", view.stats()->real_time_factor);
+    for (const Warning& warning : warnings_of(*view.stats())) line += fmt::format("  warning: {}", account(warning));
     if (view.stats()->dropped > 0) line += fmt::format("  dropped by the sender {}", view.stats()->dropped);
   }
   line += fmt::format("  lost {}", view.lost());

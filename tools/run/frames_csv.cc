@@ -5,21 +5,25 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/world/energy.h"
+
 namespace talus {
 
+namespace {
+
+/// Kinetic energy of the awake bodies [J]; sleepers have none.
 template <int Dim>
-double kinetic_energy(const World<Dim>& world, std::span<const Shape<Dim>> shapes) {
+double kinetic_energy_of(const World<Dim>& world, std::span<const Shape<Dim>> shapes) {
   const BodyStates<Dim>& states = world.states();
   double energy = 0.0;
   for (const BodyIndex body : world.awake()) {
     const auto i = static_cast<std::size_t>(body);
-    const Shape<Dim>& shape = shapes[static_cast<std::size_t>(states.shape[i])];
-    Spin<Dim> spin = states.spin[i];
-    if constexpr (Dim == 3) spin = states.pose[i].rotation.inverse() * spin;
-    energy += 0.5 * (shape.mass * states.velocity[i].squaredNorm() + spin.dot(shape.inertia * spin));
+    energy += kinetic_energy(shapes[static_cast<std::size_t>(states.shape[i])], states, i);
   }
   return energy;
 }
+
+}  // namespace
 
 template <int Dim>
 FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file, const Scene<Dim>& scene)
@@ -41,7 +45,7 @@ void FramesCsv<Dim>::on_frame(const Frame<Dim>& frame) {
   const PhaseTimes& t = frame.phases;
   out_ << fmt::format("{},{:.6f},{},{},{},{},{},{},{:.4f},{:.6g},", frame.step, frame.time, frame.world.states().size(),
                       frame.world.awake().size(), static_cast<std::ptrdiff_t>(frame.events.size()) - woken, woken,
-                      frame.piles.piles().size(), layers, ratio, kinetic_energy<Dim>(frame.world, shapes_));
+                      frame.piles.piles().size(), layers, ratio, kinetic_energy_of<Dim>(frame.world, shapes_));
   out_ << fmt::format("{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f}\n", 1e3 * t.emit, 1e3 * t.step,
                       1e3 * t.engine.collide, 1e3 * t.engine.solve, 1e3 * t.count, 1e3 * t.decide, 1e3 * t.apply,
                       1e3 * t.observe);
@@ -52,8 +56,6 @@ void FramesCsv<Dim>::on_end(const Frame<Dim>&, std::string_view) {
   out_.flush();
 }
 
-template double kinetic_energy(const World<2>&, std::span<const Shape<2>>);
-template double kinetic_energy(const World<3>&, std::span<const Shape<3>>);
 template class FramesCsv<2>;
 template class FramesCsv<3>;
 

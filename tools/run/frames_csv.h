@@ -22,8 +22,4 @@ class FramesCsv final : public Observer<Dim> {
   std::vector<Shape<Dim>> shapes_;
 };
 
-/// Kinetic energy of the awake bodies [J]; sleepers have none.
-template <int Dim>
-double kinetic_energy(const World<Dim>& world, std::span<const Shape<Dim>> shapes);
-
 }  // namespace talus

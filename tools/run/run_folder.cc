@@ -79,11 +79,26 @@ Json shape_json(const Scene<Dim>& scene, const World<Dim>& world, double extent)
           {"packing", shape.packing.all}};
 }
 
+Json warnings_json(std::span<const Warning> warnings) {
+  Json list = Json::array();
+  for (const Warning& warning : warnings) {
+    list.push_back({{"kind", to_string(warning.kind)},
+                    {"step", warning.step},
+                    {"body", warning.body},
+                    {"bodies", warning.bodies},
+                    {"value", warning.value},
+                    {"text", advice(warning)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 template <int Dim>
-void write_summary(const fs::path& file, const SummaryInput& input, const Scene<Dim>& scene, const World<Dim>& world,
-                   const PileSet<Dim>& piles, const RunStatistics<Dim>& statistics) {
+void write_summary(const fs::path& file, const SummaryInput& input, const Scene<Dim>& scene,
+                   const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics) {
+  const World<Dim>& world = simulation.world();
+  const PileSet<Dim>& piles = simulation.piles();
   const auto bodies = world.states().shape.size();
   Json piles_json = Json::array();
   for (const Pile<Dim>& pile : piles.piles()) {
@@ -102,6 +117,10 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                         {"settings", settings_json(scene)},
                         {"reason", input.reason},
                         {"bodies", bodies},
+                        {"bodies_asked", simulation.emitter().total()},
+                        {"bodies_appeared", simulation.emitter().emitted()},
+                        {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
+                        {"warnings", warnings_json(simulation.warnings())},
                         {"steps", statistics.steps()},
                         {"wall_s", input.wall_seconds},
                         {"ms_per_step", statistics.mean_step_ms()},
@@ -121,9 +140,9 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
   if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
 }
 
-template void write_summary(const fs::path&, const SummaryInput&, const Scene<2>&, const World<2>&, const PileSet<2>&,
+template void write_summary(const fs::path&, const SummaryInput&, const Scene<2>&, const Simulation<2>&,
                             const RunStatistics<2>&);
-template void write_summary(const fs::path&, const SummaryInput&, const Scene<3>&, const World<3>&, const PileSet<3>&,
+template void write_summary(const fs::path&, const SummaryInput&, const Scene<3>&, const Simulation<3>&,
                             const RunStatistics<3>&);
 
 }  // namespace talus

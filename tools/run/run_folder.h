@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/scene/scene.h"
+#include "common/simulation/simulation.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_statistics.h"
 
@@ -26,6 +26,6 @@ struct SummaryInput {
 /// Writes summary.json.
 template <int Dim>
 void write_summary(const std::filesystem::path& file, const SummaryInput& input, const Scene<Dim>& scene,
-                   const World<Dim>& world, const PileSet<Dim>& piles, const RunStatistics<Dim>& statistics);
+                   const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics);
 
 }  // namespace talus

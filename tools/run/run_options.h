@@ -20,6 +20,7 @@ struct RunOptions {
   bool telemetry = true;              // live over LCM
   double telemetry_hz = 60.0;         // pile messages a second of wall time; 0: every step
   std::string against;                // policy to run the scene under once more, to tell the speed-up; empty: none
+  bool strict = false;                // exit code 1 when the run gave a warning
   bool hash_only = false;             // print the end hash and nothing else; write no folder unless `out` is given
 };
 

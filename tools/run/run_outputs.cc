@@ -7,6 +7,7 @@
 #include "tools/run/frames_csv.h"
 #include "tools/run/progress.h"
 #include "tools/run/version.h"
+#include "tools/run/warning_teller.h"
 #ifdef TALUS_LCM
 #include "lcmtypes/publisher.h"
 #include "lcmtypes/run_recorder.h"
@@ -47,6 +48,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
     add(std::make_unique<Publisher<Dim>>(info, scene, params), simulation);
   }
 #endif
+  add(std::make_unique<WarningTeller<Dim>>(), simulation);
   if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
 }
 
@@ -58,7 +60,7 @@ void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Di
 
 template <int Dim>
 void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
-  write_summary(folder_ / "summary.json", summary, scene, simulation.world(), simulation.piles(), statistics_);
+  write_summary(folder_ / "summary.json", summary, scene, simulation, statistics_);
   if (!avalanches_.records().empty()) write_avalanches(folder_ / "avalanches.csv", avalanches_.records());
   draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture_input(summary, scene, simulation));
 }

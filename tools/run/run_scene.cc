@@ -15,6 +15,7 @@
 #include "tools/run/make_simulation.h"
 #include "tools/run/run_outputs.h"
 #include "tools/run/tell_run.h"
+#include "tools/run/warning_teller.h"
 
 namespace talus {
 
@@ -43,8 +44,11 @@ std::string advance(Simulation<Dim>& simulation, std::int64_t steps, const Inter
   return "finished";
 }
 
-int exit_code_of(std::string_view reason) {
-  if (reason == "finished") return exit_codes::success;
+template <int Dim>
+int exit_code_of(std::string_view reason, bool strict, const Simulation<Dim>& simulation) {
+  if (reason == "finished") {
+    return strict && !simulation.warnings().empty() ? exit_codes::failed : exit_codes::success;
+  }
   return reason == "interrupted" ? exit_codes::interrupted : exit_codes::failed;
 }
 
@@ -56,12 +60,15 @@ void warn(const Scene<Dim>& scene, const std::string& backend) {
 }
 
 template <int Dim>
-int print_hash(const Scene<Dim>& scene, const std::string& backend) {
+int print_hash(const Scene<Dim>& scene, const std::string& backend, bool strict) {
   const Interrupt interrupt;
   Simulation<Dim> simulation = make_simulation(scene, backend);
+  WarningTeller<Dim> teller;
+  if (strict) simulation.add_observer(teller);
   const std::string reason = advance(simulation, scene.steps(), interrupt);
+  simulation.end(reason);
   fmt::print("{:016x}\n", state_hash(simulation.world().states()));
-  return exit_code_of(reason);
+  return exit_code_of(reason, strict, simulation);
 }
 
 /// Mean time of a step [ms] of the same scene under another policy, with nothing recorded.
@@ -78,7 +85,7 @@ int run(const RunOptions& options, const std::string& name, const Scene<Dim>& sc
   const std::vector<std::string> engines = backends(Dim);
   const std::string backend = options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
   if (!options.hash_only) warn(scene, backend);
-  if (options.hash_only && options.out.empty()) return print_hash(scene, backend);
+  if (options.hash_only && options.out.empty()) return print_hash(scene, backend, options.strict);
 
   Simulation<Dim> simulation = make_simulation(scene, backend);
   RunOutputs<Dim> outputs(options, scene, name, backend, simulation);
@@ -90,7 +97,7 @@ int run(const RunOptions& options, const std::string& name, const Scene<Dim>& sc
   outputs.finish(summary, scene, simulation);
   if (options.hash_only) {
     fmt::print("{:016x}\n", state_hash(simulation.world().states()));
-    return exit_code_of(reason);
+    return exit_code_of(reason, options.strict, simulation);
   }
   tell_run(summary, scene, simulation, outputs);
   if (!options.against.empty() && reason == "finished") {
@@ -98,7 +105,7 @@ int run(const RunOptions& options, const std::string& name, const Scene<Dim>& sc
     tell_speed_up(options.against, step_ms_of(std::get<Scene<Dim>>(other), backend, interrupt),
                   outputs.statistics().mean_step_ms());
   }
-  return exit_code_of(reason);
+  return exit_code_of(reason, options.strict, simulation);
 }
 
 }  // namespace

@@ -27,6 +27,10 @@ void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<D
   fmt::print("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
              statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
              simulation.time() / summary.wall_seconds);
+  for (const Warning& warning : simulation.warnings()) fmt::print("  warning: {}\n", account(warning));
+  if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total()) {
+    fmt::print("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
+  }
   if (summary.emit_waits > 0) {
     fmt::print("  the sources waited {} times for a free place; `talus check` tells what rate they can reach\n",
                summary.emit_waits);

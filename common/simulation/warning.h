@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "common/world/body.h"
+
+namespace talus {
+
+/// A kind of state that a sound run does not reach.
+enum class WarningKind : std::uint8_t {
+  below_ground,   // a centre of mass below the ground plane
+  outside_world,  // a centre of mass beyond the coordinates that positions are resolved at
+  energy,         // more energy than sources, gravity and the policy gave
+  speed_limit,    // a body as fast as the engine moves one
+  spin_limit,     // a body that turns as fast as the engine turns one
+  not_appeared,   // bodies that were due and found no free place until the end
+};
+
+/// The name in files: "below_ground", ...
+std::string_view to_string(WarningKind kind);
+
+/// What a run has shown of one kind.
+struct Warning {
+  WarningKind kind = WarningKind::below_ground;
+  std::int64_t step = 0;    // the first
+  BodyIndex body = -1;      // the first; of `energy` the one with the most kinetic energy then; -1: none
+  std::int64_t bodies = 0;  // different ones so far; of `energy` those awake at the first step
+  double value = 0.0;  // the largest so far: depth of the centre [m], coordinate [m], energy gained [J], speed [m/s],
+                       // spin [rad/s], number of bodies
+};
+
+/// First step, body, value, and what to change in the scene; one line without end.
+std::string advice(const Warning& warning);
+
+/// How many bodies, since when, and the largest value; one line without end.
+std::string account(const Warning& warning);
+
+}  // namespace talus

@@ -1,0 +1,138 @@
+#include "common/simulation/watchdog.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "common/world/energy.h"
+
+namespace talus {
+namespace {
+
+constexpr double contact_gap = 0.01;  // [m]: so far engines let bodies that rest sink in, however thin
+constexpr double near_limit = 0.999;  // share of a limit; engines compute in single precision
+
+double at_limit(double limit) { return near_limit * near_limit * limit * limit; }
+
+double lowest_centre(const Ground& ground) {
+  return ground.present ? ground.height - contact_gap : -std::numeric_limits<double>::infinity();
+}
+
+template <int Dim>
+double farthest(const Vec<Dim>& place) {
+  return place.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+template <int Dim>
+Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
+    : shapes_(scene.world.shapes),
+      sources_(scene.sources),
+      ledger_(scene.world),
+      lowest_(lowest_centre(scene.world.ground)),
+      ground_(scene.world.ground.height),
+      dt_(scene.world.dt),
+      speed_squared_(at_limit(limits.speed)),
+      spin_squared_(at_limit(limits.spin)) {
+  for (const Source<Dim>& source : sources_) bodies_asked_ += source.count;
+}
+
+template <int Dim>
+void Watchdog<Dim>::look(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step) {
+  const BodyStates<Dim>& states = world.states();
+  for (const BodyIndex body : world.awake()) {
+    ledger_.note_state(states, body);
+    look_at_place(states, body, step);
+    look_at_speed(states, body, step);
+  }
+  for (const SleepEvent& event : events) {
+    if (states.asleep[static_cast<std::size_t>(event.body)] == 0) continue;
+    ledger_.note_state(states, event.body);
+    look_at_place(states, event.body, step);
+  }
+  ledger_.close_step();
+  look_at_energy(world, step);
+}
+
+template <int Dim>
+void Watchdog<Dim>::look_at_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
+  const Vec<Dim>& place = states.pose[static_cast<std::size_t>(body)].position;
+  if (height<Dim>(place) < lowest_) note(WarningKind::below_ground, body, step, ground_ - height<Dim>(place));
+  if (farthest<Dim>(place) > farthest_place) note(WarningKind::outside_world, body, step, farthest<Dim>(place));
+}
+
+template <int Dim>
+void Watchdog<Dim>::look_at_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
+  const auto i = static_cast<std::size_t>(body);
+  const double speed = states.velocity[i].squaredNorm();
+  const double spin = states.spin[i].squaredNorm();
+  if (speed >= speed_squared_) note(WarningKind::speed_limit, body, step, std::sqrt(speed));
+  if (spin >= spin_squared_) note(WarningKind::spin_limit, body, step, std::sqrt(spin));
+}
+
+template <int Dim>
+void Watchdog<Dim>::look_at_energy(const World<Dim>& world, std::int64_t step) {
+  if (ledger_.rise() <= ledger_.tolerance()) return;
+  const auto known = std::ranges::find(warnings_, WarningKind::energy, &Warning::kind);
+  if (known != warnings_.end()) {
+    known->value = std::max(known->value, ledger_.rise());
+    return;
+  }
+  const BodyStates<Dim>& states = world.states();
+  const auto kinetic = [&](BodyIndex body) {
+    const auto i = static_cast<std::size_t>(body);
+    return kinetic_energy(shapes_[static_cast<std::size_t>(states.shape[i])], states, i);
+  };
+  const auto awake = world.awake();
+  const auto fastest = std::ranges::max_element(awake, {}, kinetic);
+  warnings_.push_back({.kind = WarningKind::energy,
+                       .step = step,
+                       .body = fastest == awake.end() ? -1 : *fastest,
+                       .bodies = static_cast<std::int64_t>(awake.size()),
+                       .value = ledger_.rise()});
+}
+
+template <int Dim>
+void Watchdog<Dim>::note(WarningKind kind, BodyIndex body, std::int64_t step, double value) {
+  auto known = std::ranges::find(warnings_, kind, &Warning::kind);
+  if (known == warnings_.end()) {
+    warnings_.push_back({.kind = kind, .step = step, .body = body});
+    known = warnings_.end() - 1;
+  }
+  const auto i = static_cast<std::size_t>(body);
+  if (seen_.size() <= i) seen_.resize(i + 1, 0);
+  const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(kind));
+  if ((seen_[i] & bit) == 0) ++known->bodies;
+  seen_[i] |= bit;
+  known->value = std::max(known->value, value);
+}
+
+template <int Dim>
+void Watchdog<Dim>::finish(const World<Dim>& world, std::int64_t step) {
+  if (step == 0) return;
+  const double last_emission = static_cast<double>(step - 1) * dt_;
+  const auto add_due = [&](int sum, const Source<Dim>& source) { return sum + source.due_by(last_emission); };
+  const int missing = std::accumulate(sources_.begin(), sources_.end(), 0, add_due) - world.states().size();
+  if (missing <= 0) return;
+  warnings_.push_back(
+      {.kind = WarningKind::not_appeared, .step = step, .bodies = missing, .value = static_cast<double>(missing)});
+}
+
+template <int Dim>
+int bodies_lost(const BodyStates<Dim>& states, const Ground& ground) {
+  int lost = 0;
+  for (std::size_t i = 0; i < states.pose.size(); ++i) {
+    const Vec<Dim>& place = states.pose[i].position;
+    if (states.removed[i] != 0) continue;
+    lost += height<Dim>(place) < lowest_centre(ground) || farthest<Dim>(place) > farthest_place ? 1 : 0;
+  }
+  return lost;
+}
+
+template class Watchdog<2>;
+template class Watchdog<3>;
+template int bodies_lost(const BodyStates<2>&, const Ground&);
+template int bodies_lost(const BodyStates<3>&, const Ground&);
+
+}  // namespace talus

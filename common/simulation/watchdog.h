@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/simulation/energy_ledger.h"
+#include "common/simulation/sleep_event.h"
+#include "common/simulation/warning.h"
+#include "common/world/world.h"
+
+namespace talus {
+
+/// Looks after each step for states that a sound run does not reach. Costs O(awake) and changes nothing.
+template <int Dim>
+class Watchdog {
+ public:
+  Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits);
+
+  /// Bodies added since the last call, before the step that moves them.
+  void note_added(const BodyStates<Dim>& states) { ledger_.note_added(states); }
+
+  /// Before an awake body gets a new velocity from outside the engine.
+  void note_kick(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+    ledger_.note_kick(states, body, velocity, spin);
+  }
+
+  /// After a step and the policy's decision. `events` are those of the step.
+  void look(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step);
+
+  /// After the last step.
+  void finish(const World<Dim>& world, std::int64_t step);
+
+  /// One of each kind that was seen, in the order of first sight.
+  std::span<const Warning> warnings() const { return warnings_; }
+  /// Bodies that the scene's sources add in all.
+  int bodies_asked() const { return bodies_asked_; }
+
+ private:
+  void look_at_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
+  void look_at_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
+  void look_at_energy(const World<Dim>& world, std::int64_t step);
+  void note(WarningKind kind, BodyIndex body, std::int64_t step, double value);
+
+  std::vector<Shape<Dim>> shapes_;
+  std::vector<Source<Dim>> sources_;
+  EnergyLedger<Dim> ledger_;
+  double lowest_;         // height that no centre may lie below [m]
+  double ground_;         // [m]
+  double dt_;             // [s]
+  double speed_squared_;  // from here on a speed is at the limit
+  double spin_squared_;
+  int bodies_asked_ = 0;
+  std::vector<Warning> warnings_;
+  std::vector<std::uint8_t> seen_;  // by body: bit k for kind k; empty until the first warning
+};
+
+/// Bodies in the world with the centre below the ground or outside the world's 10,000 m. Costs O(all bodies).
+template <int Dim>
+int bodies_lost(const BodyStates<Dim>& states, const Ground& ground);
+
+}  // namespace talus

@@ -1,0 +1,141 @@
+// Each kind of warning on each engine, and none where a run is sound.
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/policy/sleep_policy.h"
+#include "common/scene/read_scene.h"
+#include "common/simulation/simulation.h"
+#include "tests/backends/backend.h"
+
+namespace talus::watchdog_on_engines_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <int Dim>
+struct Nothing final : Observer<Dim> {
+  void on_frame(const Frame<Dim>&) override {}
+};
+
+template <typename Backend>
+class WatchedRun : public BackendTest<Backend> {
+ protected:
+  static constexpr int dim = Backend::dim;
+
+  static Scene<dim> scene() {
+    Scene<dim> scene;
+    scene.world = BackendTest<Backend>::description();
+    scene.policy.kind = "full";
+    return scene;
+  }
+
+  /// The warnings of so many steps.
+  static std::vector<Warning> warnings(const Scene<dim>& scene, std::int64_t steps, const BodyDef<dim>* body = nullptr) {
+    Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+    Nothing<dim> nothing;
+    simulation.add_observer(nothing);
+    if (body != nullptr) simulation.add(*body);
+    for (std::int64_t i = 0; i < steps; ++i) simulation.step();
+    simulation.end("finished");
+    return {simulation.warnings().begin(), simulation.warnings().end()};
+  }
+
+  static bool has(const std::vector<Warning>& warnings, WarningKind kind) {
+    return std::ranges::any_of(warnings, [&](const Warning& warning) { return warning.kind == kind; });
+  }
+
+  /// Every shipped scene that is not of a million bodies.
+  static void expect_silence(std::int64_t frames) {
+    for (const auto& entry : fs::directory_iterator(fs::path(TALUS_SOURCE_DIR) / "scenes")) {
+      const std::string name = entry.path().filename().string();
+      if (!name.ends_with(dim == 2 ? "_2d.toml" : "_3d.toml") || name.starts_with("million")) continue;
+      for (const char* policy : {"full", "adaptive"}) {
+        SCOPED_TRACE(name + " " + policy);
+        auto scene = std::get<Scene<dim>>(read_scene(entry.path()));
+        scene.policy.kind = policy;
+        for (const Warning& warning : warnings(scene, frames * scene.steps_per_frame())) {
+          ADD_FAILURE() << advice(warning);
+        }
+      }
+    }
+  }
+};
+
+TYPED_TEST_SUITE(WatchedRun, Backends, BackendName);
+
+TYPED_TEST(WatchedRun, WarnsOfABodyBelowTheGround) {
+  const auto scene = TestFixture::scene();
+  const auto body = TestFixture::at(up<TypeParam::dim>(-0.4));
+  EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 1, &body), WarningKind::below_ground));
+}
+
+TYPED_TEST(WatchedRun, WarnsOfABodyThatIsThrownOutOfTheWorld) {
+  auto scene = TestFixture::scene();
+  scene.world.gravity = 0.0;
+  auto body = TestFixture::at(up<TypeParam::dim>(5.0));
+  body.pose.position[0] = 9'990.0;
+  body.velocity[0] = 100.0;
+  EXPECT_FALSE(TestFixture::has(TestFixture::warnings(scene, 3, &body), WarningKind::outside_world));
+  EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 12, &body), WarningKind::outside_world));
+}
+
+TYPED_TEST(WatchedRun, WarnsOfAFallThatReachesTheSpeedLimit) {
+  const auto scene = TestFixture::scene();
+  const double limit = TypeParam::make(scene.world)->speed_limits().speed;
+  auto body = TestFixture::at(up<TypeParam::dim>(8.0 * limit));
+  body.velocity = -up<TypeParam::dim>(limit - 3.0);
+  EXPECT_TRUE(TestFixture::warnings(scene, 6, &body).empty());
+  EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 30, &body), WarningKind::speed_limit));
+}
+
+TYPED_TEST(WatchedRun, WarnsOfABodyAtTheSpinLimit) {
+  const auto scene = TestFixture::scene();
+  auto body = TestFixture::at(up<TypeParam::dim>(50.0), 1);
+  body.spin[0] = TypeParam::make(scene.world)->speed_limits().spin;
+  EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 1, &body), WarningKind::spin_limit));
+}
+
+TYPED_TEST(WatchedRun, WarnsOfEnergyThatTheEngineCreates) {
+  auto scene = TestFixture::scene();
+  scene.world.gravity = 9.81;
+  scene.world.solver.restitution_threshold = 0.0;
+  scene.world.ground.material.restitution = 1.0;
+  scene.world.shapes = {make_shape<TypeParam::dim>("ball", ball_pieces<TypeParam::dim>(0.5), {.restitution = 1.0})};
+  scene.sources.resize(1);
+  scene.sources[0].count = 5;
+  scene.sources[0].position = up<TypeParam::dim>(12.0);
+  EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 10'000), WarningKind::energy));
+}
+
+TYPED_TEST(WatchedRun, IsSilentOverABounceThatLosesEnergy) {
+  auto scene = TestFixture::scene();
+  scene.world.ground.material.restitution = 0.8;
+  scene.world.shapes = {make_shape<TypeParam::dim>("ball", ball_pieces<TypeParam::dim>(0.5), {.restitution = 0.8})};
+  const auto body = TestFixture::at(up<TypeParam::dim>(12.0));
+  EXPECT_TRUE(TestFixture::warnings(scene, 2'000, &body).empty());
+}
+
+TYPED_TEST(WatchedRun, WarnsOfBodiesThatTheirSourceNeverFoundRoomFor) {
+  auto scene = TestFixture::scene();
+  scene.sources.resize(1);
+  scene.sources[0].count = 4;
+  scene.sources[0].rate = 10.0;
+  scene.sources[0].position = up<TypeParam::dim>(0.8);
+  scene.sources[0].orientation = identity_rotation<TypeParam::dim>();
+  const std::vector<Warning> warnings = TestFixture::warnings(scene, 120);
+  ASSERT_TRUE(TestFixture::has(warnings, WarningKind::not_appeared));
+  EXPECT_EQ(warnings.back().bodies, 3);
+}
+
+TYPED_TEST(WatchedRun, IsSilentOverShippedScenes) { TestFixture::expect_silence(20); }
+
+template <typename Backend>
+class LongWatchedRun : public WatchedRun<Backend> {};
+
+TYPED_TEST_SUITE(LongWatchedRun, Backends, BackendName);
+
+TYPED_TEST(LongWatchedRun, IsSilentOverShippedScenes) { TestFixture::expect_silence(600); }
+
+}  // namespace
+}  // namespace talus::watchdog_on_engines_test

@@ -1,0 +1,282 @@
+// What the watchdog sees, against closed forms: bodies in free fall lose m g^2 dt^2 / 2 a step, as semi-implicit Euler
+// does, and nothing else.
+
+#include "common/simulation/watchdog.h"
+
+#include <gtest/gtest.h>
+
+#include "common/shape/catalogue.h"
+#include "tests/common/falling_world.h"
+
+namespace talus::watchdog_test {
+namespace {
+
+constexpr double gravity = 10.0;
+constexpr double dt = 1.0 / 60.0;
+
+template <int Dim>
+Scene<Dim> scene() {
+  Scene<Dim> scene;
+  scene.world.gravity = gravity;
+  scene.world.dt = dt;
+  scene.world.shapes = {make_shape<Dim>("ball", ball_pieces<Dim>(0.5), {})};
+  return scene;
+}
+
+/// A world of falling balls that is looked at after each step.
+class Watch {
+ public:
+  explicit Watch(const SpeedLimits& limits = {}) : dog_(scene_, limits) {}
+
+  BodyIndex add(double x, double height, const Vec2& velocity = Vec2::Zero()) {
+    BodyDef<2> body;
+    body.pose.position = {x, height};
+    body.velocity = velocity;
+    const BodyIndex index = world.add(body);
+    dog_.note_added(world.states());
+    return index;
+  }
+  void step(int steps = 1) {
+    for (int i = 0; i < steps; ++i) {
+      world.step();
+      look();
+    }
+  }
+  void look() {
+    dog_.look(world, events_, ++step_);
+    events_.clear();
+  }
+  void freeze(BodyIndex body) {
+    world.freeze(std::vector<BodyIndex>{body});
+    events_.push_back({.body = body, .woke = false});
+  }
+  std::span<const Warning> warnings() const { return dog_.warnings(); }
+  Watchdog<2>& dog() { return dog_; }
+
+ private:
+  Scene<2> scene_ = scene<2>();
+
+ public:
+  FallingWorld<2> world{scene_.world};
+
+ private:
+  Watchdog<2> dog_;
+  std::vector<SleepEvent> events_;
+  std::int64_t step_ = 0;
+};
+
+TEST(Watchdog, IsSilentWhileBodiesFallAndComeToRest) {
+  Watch watch;
+  for (int i = 0; i < 5; ++i) watch.add(i, 3.0 + i);
+  watch.step(200);
+  EXPECT_TRUE(watch.warnings().empty());
+}
+
+TEST(Watchdog, CountsEachBodyBelowTheGroundOnceWithItsFirstStep) {
+  Watch watch;
+  watch.add(0.0, 5.0);
+  watch.add(2.0, -0.2);  // the world lifts it to 0.5 in its first step
+  watch.dog().look(watch.world, {}, 1);
+  watch.dog().look(watch.world, {}, 2);
+  ASSERT_EQ(watch.warnings().size(), 1U);
+  EXPECT_EQ(watch.warnings()[0].kind, WarningKind::below_ground);
+  EXPECT_EQ(watch.warnings()[0].step, 1);
+  EXPECT_EQ(watch.warnings()[0].body, 1);
+  EXPECT_EQ(watch.warnings()[0].bodies, 1);
+  EXPECT_NEAR(watch.warnings()[0].value, 0.2, 1e-12);
+}
+
+TEST(Watchdog, AllowsTheGapThatEnginesKeepInContact) {
+  Watch watch;
+  watch.add(0.0, -0.009);
+  watch.dog().look(watch.world, {}, 1);
+  EXPECT_TRUE(watch.warnings().empty());
+}
+
+TEST(Watchdog, SeesABodyThatIsFrozenBelowTheGround) {
+  Watch watch;
+  const BodyIndex body = watch.add(0.0, -0.3);
+  watch.freeze(body);
+  watch.look();
+  ASSERT_EQ(watch.warnings().size(), 1U);
+  EXPECT_EQ(watch.warnings()[0].kind, WarningKind::below_ground);
+}
+
+TEST(Watchdog, SeesABodyThatLeavesTheWorld) {
+  Watch watch;
+  watch.add(9'999.5, 5.0, Vec2(100.0, 0.0));
+  watch.step(1);
+  ASSERT_EQ(watch.warnings().size(), 1U);
+  EXPECT_EQ(watch.warnings()[0].kind, WarningKind::outside_world);
+  EXPECT_NEAR(watch.warnings()[0].value, 9'999.5 + 100.0 * dt, 1e-6);
+}
+
+TEST(Watchdog, SeesABodyAtTheSpeedLimitAndNoneBelowIt) {
+  Watch watch({.speed = 20.0, .spin = 5.0});
+  watch.add(0.0, 100.0, Vec2(0.0, -19.5));
+  watch.step(1);
+  EXPECT_TRUE(watch.warnings().empty());
+  watch.step(3);
+  ASSERT_EQ(watch.warnings().size(), 1U);
+  EXPECT_EQ(watch.warnings()[0].kind, WarningKind::speed_limit);
+  EXPECT_EQ(watch.warnings()[0].step, 3);
+}
+
+TEST(Watchdog, SeesABodyAtTheSpinLimit) {
+  Watch watch({.speed = 20.0, .spin = 5.0});
+  BodyDef<2> body;
+  body.pose.position = {0.0, 5.0};
+  body.spin[0] = -5.0;
+  watch.world.add(body);
+  watch.dog().note_added(watch.world.states());
+  watch.step(1);
+  ASSERT_EQ(watch.warnings().size(), 1U);
+  EXPECT_EQ(watch.warnings()[0].kind, WarningKind::spin_limit);
+}
+
+TEST(Watchdog, CountsBodiesThatWereDueAndNeverAppeared) {
+  Scene<2> asked = scene<2>();
+  asked.sources.resize(1);
+  asked.sources[0].count = 10;
+  asked.sources[0].rate = 2.0;
+  Watchdog<2> dog(asked, {});
+  FallingWorld<2> world(asked.world);
+  world.add({});
+  EXPECT_EQ(dog.bodies_asked(), 10);
+  dog.finish(world, 121);  // the last emission is at 2 s: bodies 0 to 4 are due
+  ASSERT_EQ(dog.warnings().size(), 1U);
+  EXPECT_EQ(dog.warnings()[0].kind, WarningKind::not_appeared);
+  EXPECT_EQ(dog.warnings()[0].bodies, 4);
+}
+
+TEST(Watchdog, IsSilentAboutBodiesThatAreNotYetDue) {
+  Scene<2> asked = scene<2>();
+  asked.sources.resize(1);
+  Watchdog<2> dog(asked, {});
+  FallingWorld<2> world(asked.world);
+  world.add({});
+  dog.finish(world, 5);
+  EXPECT_TRUE(dog.warnings().empty());
+}
+
+TEST(Watchdog, CountsBodiesLostAtTheEnd) {
+  Watch watch;
+  watch.add(0.0, 5.0);
+  watch.add(1.0, -1.0);
+  watch.add(20'000.0, 5.0);
+  watch.add(30'000.0, 5.0);
+  watch.world.remove(3);
+  EXPECT_EQ(bodies_lost(watch.world.states(), Ground{}), 2);
+  EXPECT_EQ(bodies_lost(watch.world.states(), Ground{.present = false}), 1);
+}
+
+/// The ledger alone.
+class Ledger : public ::testing::Test {
+ protected:
+  BodyIndex add(double height, double speed = 0.0) {
+    BodyDef<3> body;
+    body.pose.position = {0.0, 0.0, height};
+    body.velocity = {0.0, 0.0, speed};
+    const BodyIndex index = world.add(body);
+    ledger.note_added(world.states());
+    return index;
+  }
+  void look() {
+    for (const BodyIndex body : world.awake()) ledger.note_state(world.states(), body);
+    ledger.close_step();
+  }
+  void set_speed(BodyIndex body, double speed) { world.set_velocity(body, {0.0, 0.0, speed}, Vec3::Zero()); }
+
+  WorldDescription<3> description = scene<3>().world;
+  double mass = description.shapes[0].mass;
+  FallingWorld<3> world{description};
+  EnergyLedger<3> ledger{description};
+};
+
+TEST_F(Ledger, AddingBodiesIsNoRise) {
+  add(50.0, -7.0);
+  look();
+  add(80.0, 3.0);
+  look();
+  EXPECT_EQ(ledger.rise(), 0.0);
+}
+
+TEST_F(Ledger, AnElasticBounceReturnsExactlyWhatTheFallTook) {
+  const BodyIndex body = add(50.0, -7.0);
+  look();
+  set_speed(body, 7.0);
+  look();
+  EXPECT_EQ(ledger.rise(), 0.0);
+}
+
+TEST_F(Ledger, EnergyFromNowhereIsARiseInFull) {
+  const BodyIndex body = add(50.0, -7.0);
+  look();
+  set_speed(body, 9.0);
+  look();
+  EXPECT_NEAR(ledger.rise(), 0.5 * mass * (81.0 - 49.0), 1e-6);
+}
+
+TEST_F(Ledger, AnEarlyLossDoesNotHideALateGain) {
+  const BodyIndex body = add(50.0, -30.0);
+  look();
+  set_speed(body, 0.0);
+  look();
+  set_speed(body, 10.0);
+  look();
+  EXPECT_NEAR(ledger.rise(), 0.5 * mass * 100.0, 1e-6);
+}
+
+TEST_F(Ledger, EnergyThatThePolicyGivesIsNoRise) {
+  const BodyIndex body = add(50.0);
+  look();
+  ledger.note_kick(world.states(), body, {0.0, 0.0, 12.0}, Vec3::Zero());
+  set_speed(body, 12.0);
+  look();
+  EXPECT_NEAR(ledger.rise(), 0.0, 1e-6);
+}
+
+TEST_F(Ledger, FreezingAndThawingIsNoRise) {
+  const BodyIndex body = add(50.0, 2.0);
+  look();
+  world.freeze(std::vector<BodyIndex>{body});
+  ledger.note_state(world.states(), body);
+  ledger.close_step();
+  world.thaw(std::vector<BodyIndex>{body});
+  look();
+  EXPECT_EQ(ledger.rise(), 0.0);
+}
+
+TEST_F(Ledger, ARemovedBodyTakesItsEnergyAway) {
+  add(50.0);
+  const BodyIndex high = add(5'000.0);
+  look();
+  world.remove(high);
+  look();
+  EXPECT_EQ(ledger.rise(), 0.0);
+}
+
+TEST_F(Ledger, AFallLosesWhatTheIntegratorLoses) {
+  const BodyIndex body = add(1'000.0);
+  for (int step = 0; step < 100; ++step) {
+    world.step();
+    look();
+  }
+  EXPECT_EQ(ledger.rise(), 0.0);
+  const double lost = 100 * 0.5 * mass * gravity * gravity * dt * dt;
+  const double speed = -world.states().velocity[0][2];
+  set_speed(body, std::sqrt(speed * speed + 2.0 * lost / mass));  // just what it has lost, and so back at the start
+  look();
+  EXPECT_NEAR(ledger.rise(), lost, 1e-6 * lost);
+}
+
+TEST_F(Ledger, ToleratesATenthOfTheLargestKineticEnergy) {
+  add(50.0, -20.0);
+  look();
+  const double extent = description.shapes[0].extent;
+  const double expected = 0.1 * (0.5 * mass * 400.0 + mass * gravity * extent + 0.5 * mass * 0.25);
+  EXPECT_NEAR(ledger.tolerance(), expected, 1e-9 * expected);
+}
+
+}  // namespace
+}  // namespace talus::watchdog_test
