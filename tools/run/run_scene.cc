@@ -6,6 +6,7 @@
 #include "common/scene/warnings.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
+#include "common/text/printable.h"
 #include "common/world/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/run/backends.h"
@@ -48,7 +49,7 @@ int exit_code_of(std::string_view reason) {
 
 template <int Dim>
 void warn(const Scene<Dim>& scene) {
-  for (const std::string& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", printable(warning));
 }
 
 template <int Dim>
