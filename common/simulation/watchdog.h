@@ -5,8 +5,8 @@
 
 #include "common/scene/scene.h"
 #include "common/simulation/energy_ledger.h"
-#include "common/simulation/sleep_event.h"
-#include "common/simulation/warning.h"
+#include "common/policy/sleep_event.h"
+#include "common/world/warning.h"
 #include "common/world/world.h"
 
 namespace talus {

@@ -18,6 +18,7 @@
 #include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/toml_text.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/world/errors.h"
 #include "tests/backends/backend.h"

@@ -9,6 +9,7 @@
 #include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 

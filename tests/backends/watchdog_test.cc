@@ -5,6 +5,7 @@
 
 #include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
