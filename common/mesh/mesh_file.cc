@@ -4,35 +4,75 @@
 #include <tiny_obj_loader.h>
 
 #include <fstream>
+#include <span>
+#include <sstream>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "common/math/require.h"
+#include "common/mesh/face_triangles.h"
 #include "common/mesh/mesh_repair.h"
+#include "common/mesh/obj_text.h"
 
 namespace talus {
 namespace {
 
-// One mesh for each object or group of the file; every one holds all the file's corners.
-std::vector<Mesh> read_objects(const std::filesystem::path& file) {
-  tinyobj::ObjReaderConfig config;
-  config.triangulate = true;
-  config.vertex_color = false;
-  tinyobj::ObjReader reader;
-  const bool ok = std::filesystem::is_regular_file(file) && reader.ParseFromFile(file.string(), config);
-  require(ok, "mesh file", file.string(), "must be a readable Wavefront OBJ file. " + reader.Error());
-  const std::vector<double>& values = reader.GetAttrib().vertices;
-  std::vector<Mesh> objects;
-  for (const tinyobj::shape_t& shape : reader.GetShapes()) {
-    Mesh& mesh = objects.emplace_back();
-    for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
-      mesh.corners.emplace_back(values[i], values[i + 1], values[i + 2]);
+struct ObjFile {
+  std::vector<Vec3> corners;
+  std::vector<std::vector<std::array<int, 3>>> objects;  // triangles of each object or group
+};
+
+std::vector<std::array<int, 3>> triangles_of(const tinyobj::mesh_t& mesh, std::span<const Vec3> corners) {
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> face;
+  auto index = mesh.indices.begin();
+  for (const unsigned char count : mesh.num_face_vertices) {
+    face.clear();
+    for (int i = 0; i < count; ++i, ++index) {
+      face.push_back(index->vertex_index);
     }
-    for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
-      mesh.triangles.push_back({shape.mesh.indices[i].vertex_index, shape.mesh.indices[i + 1].vertex_index,
-                                shape.mesh.indices[i + 2].vertex_index});
+    const auto cut = face_triangles(face, corners);
+    triangles.insert(triangles.end(), cut.begin(), cut.end());
+  }
+  return triangles;
+}
+
+ObjFile read_obj(const std::filesystem::path& file) {
+  std::istringstream text(checked_obj_text(file));
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::string warnings;
+  std::string errors;
+  // tinyobj's own triangles are not used: of some concave faces they leave the surface open.
+  const bool ok = tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &text, nullptr, false, false);
+  require(ok, "mesh file", file.string(), "must be a readable Wavefront OBJ file. " + errors);
+  ObjFile result;
+  const std::vector<double>& values = attributes.vertices;
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+    result.corners.emplace_back(values[i], values[i + 1], values[i + 2]);
+  }
+  for (const tinyobj::shape_t& shape : shapes) {
+    result.objects.push_back(triangles_of(shape.mesh, result.corners));
+  }
+  return result;
+}
+
+// The corners that `triangles` use, numbered in the order of their first use.
+Mesh mesh_of(const std::vector<Vec3>& corners, std::vector<std::array<int, 3>> triangles) {
+  Mesh mesh;
+  std::unordered_map<int, int> number_of;
+  for (auto& triangle : triangles) {
+    for (int& corner : triangle) {
+      const auto [entry, is_new] = number_of.try_emplace(corner, static_cast<int>(mesh.corners.size()));
+      if (is_new) {
+        mesh.corners.push_back(corners[static_cast<std::size_t>(corner)]);
+      }
+      corner = entry->second;
     }
   }
-  return objects;
+  mesh.triangles = std::move(triangles);
+  return mesh;
 }
 
 std::string header(const Mesh& mesh) { return fmt::format("# convex parts of mesh {:016x}", content_hash(mesh)); }
@@ -40,11 +80,12 @@ std::string header(const Mesh& mesh) { return fmt::format("# convex parts of mes
 }  // namespace
 
 Mesh read_mesh(const std::filesystem::path& file) {
+  ObjFile obj = read_obj(file);
   Mesh whole;
-  for (Mesh& object : read_objects(file)) {
-    whole.triangles.insert(whole.triangles.end(), object.triangles.begin(), object.triangles.end());
-    whole.corners = std::move(object.corners);
+  for (const auto& object : obj.objects) {
+    whole.triangles.insert(whole.triangles.end(), object.begin(), object.end());
   }
+  whole.corners = std::move(obj.corners);
   require(!whole.triangles.empty(), "mesh file", file.string(), "must hold faces");
   return whole;
 }
@@ -55,7 +96,9 @@ std::filesystem::path parts_file(const std::filesystem::path& mesh_file) {
 }
 
 void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std::vector<Mesh>& parts) {
-  std::ofstream out(file);
+  // Under another name first, so that a failure leaves an older file as it is.
+  const std::filesystem::path unfinished = file.string() + ".unfinished";
+  std::ofstream out(unfinished);
   out << header(mesh) << '\n';
   int first = 1;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -69,7 +112,12 @@ void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std:
     first += static_cast<int>(parts[i].corners.size());
   }
   out.close();
-  if (!out) {
+  std::error_code error;
+  if (out) {
+    std::filesystem::rename(unfinished, file, error);
+  }
+  if (!out || error) {
+    std::filesystem::remove(unfinished, error);
     throw std::runtime_error("cannot write " + file.string());
   }
 }
@@ -81,9 +129,10 @@ std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh
   require(static_cast<bool>(std::getline(in, line)), "parts of mesh", file.string(), "must be made first, " + command);
   require(line == header(mesh), "parts of mesh", file.string(),
           "must be made anew, " + command + ": the mesh has changed");
+  const ObjFile obj = read_obj(file);
   std::vector<Mesh> parts;
-  for (const Mesh& object : read_objects(file)) {
-    parts.push_back(repaired(object));
+  for (const auto& object : obj.objects) {
+    parts.push_back(repaired(mesh_of(obj.corners, object)));
   }
   return parts;
 }

@@ -9,13 +9,14 @@
 namespace talus {
 
 /// All surfaces of an OBJ file as one mesh, polygons cut into triangles, as it stands in the file: not yet repaired().
-/// Throws std::invalid_argument with the file's name when it cannot be read or holds no surface.
+/// Throws std::invalid_argument as checked_obj_text() does, and with the file's name when it holds no surface.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// Where the convex parts of a mesh file lie: bunny.obj has them in bunny.parts.obj.
 std::filesystem::path parts_file(const std::filesystem::path& mesh_file);
 
-/// Writes convex parts, one OBJ object each, and the hash of the mesh that they were made of.
+/// Writes convex parts, one OBJ object each, and the hash of the mesh that they were made of. A file that
+/// stands there already is replaced only by a whole one. Throws std::runtime_error when it cannot be written.
 void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std::vector<Mesh>& parts);
 
 /// Reads them back, each with its own corners. Throws std::invalid_argument when there is no such file, or when it was

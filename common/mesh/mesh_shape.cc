@@ -1,8 +1,11 @@
 #include "common/mesh/mesh_shape.h"
 
+#include <fmt/format.h>
+
 #include "common/math/require.h"
 #include "common/mesh/mesh_file.h"
 #include "common/mesh/mesh_repair.h"
+#include "common/mesh/parts_volume.h"
 #include "common/mesh/silhouette.h"
 #include "common/shape/catalogue.h"
 
@@ -37,8 +40,14 @@ Shape<3> make_mesh_shape(std::string name, const std::filesystem::path& file, co
   const Mesh mesh = repaired(read_mesh(file));
   const Mesh body = fitted(mesh, params);
   const double factor = params.size / longest_side(mesh);
+  const std::vector<Mesh> parts = read_parts(parts_file(file), mesh);
+  const double ratio = volume_ratio(parts, mesh);
+  require(fills_mesh(ratio, parts_refused), "parts of mesh", parts_file(file).string(),
+          fmt::format("must have the mesh's volume within {:.0f} %, but have {:.3g} times that; make them again with "
+                      "`talus decompose`",
+                      100.0 * parts_refused, ratio));
   std::vector<Piece<3>> pieces;
-  for (const Mesh& part : read_parts(parts_file(file), mesh)) {
+  for (const Mesh& part : parts) {
     pieces.push_back(hull_pieces<3>(scaled(part, factor, params.y_up).corners).front());
   }
   const Moments<3> integrals = moments(body);

@@ -10,8 +10,8 @@ namespace talus {
 namespace {
 
 constexpr double seconds_between_looks = 0.5;
-constexpr std::size_t least_to_measure = 16;  // fewer make no slope
-constexpr double resting_fall = 0.0075;       // [D]: who is slower than after such a free fall has found its place
+constexpr std::size_t least_to_steer = 16;  // fewer make no slope
+constexpr double resting_fall = 0.0075;     // [D]: who is slower than after such a free fall has found its place
 
 /// Neither above it, as in a hopper, nor below its base, as who fell off a table.
 template <int Dim>
@@ -72,7 +72,7 @@ template <int Dim>
 void Steering<Dim>::aim(const Frame<Dim>& frame, std::size_t pile) {
   Hold& hold = holds_[pile];
   find_places(frame, pile);
-  if (places_.size() < least_to_measure) {
+  if (places_.size() < least_to_steer) {
     hold.drag = most_;
     return;
   }

@@ -172,6 +172,14 @@ TEST_F(MeshFile, RefusesPartsThatAreMissingOrMadeOfAnotherMesh) {
   expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "must be made anew");
 }
 
+TEST_F(MeshFile, RefusesPartsThatDoNotFillTheMesh) {
+  const Mesh mesh = repaired(read_mesh(file_));
+  write_parts(parts_file(file_), mesh, {arms().front()});
+  expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "but have 0.625 times that");
+  write_parts(parts_file(file_), mesh, {});
+  expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "but have 0 times that");
+}
+
 TEST_F(MeshFile, RefusesParametersAndFilesThatGiveNoShape) {
   expect_refused([&] { make_mesh_shape<2>("l", "nowhere.obj", params_, {}); }, "nowhere.obj");
   expect_refused([&] { make_mesh_shape<2>("l", folder_.path(), params_, {}); }, "mesh file");

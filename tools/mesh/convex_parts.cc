@@ -6,7 +6,7 @@
 
 #include "common/math/require.h"
 #include "common/mesh/mesh_repair.h"
-#include "common/shape/convex_hull.h"
+#include "tools/mesh/hull_mesh.h"
 
 namespace talus {
 namespace {
@@ -14,25 +14,11 @@ namespace {
 using Point = HACD::Vec3<HACD::Real>;
 using Indices = HACD::Vec3<long>;
 
-// HACD's own triangles are not needed: the hull of its points is the part.
-Mesh hull_of(const std::vector<Point>& points) {
-  Mesh part;
-  for (const Point& point : points) {
-    part.corners.emplace_back(point.X(), point.Y(), point.Z());
-  }
-  for (const std::vector<int>& face : convex_hull_faces(part.corners)) {
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-      part.triangles.push_back({face[0], face[i], face[i + 1]});
-    }
-  }
-  return part;
-}
-
 }  // namespace
 
 std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params) {
-  require(params.parts >= 1 && params.parts <= 64, "parts", params.parts, "must be in 1..64");
-  require(params.corners >= 4 && params.corners <= 128, "corners", params.corners, "must be in 4..128");
+  require(params.parts >= 1 && params.parts <= most_parts, "parts", params.parts, "must be in 1..64");
+  require(params.corners >= 4 && params.corners <= most_part_corners, "corners", params.corners, "must be in 4..128");
   std::vector<Point> points;
   points.reserve(mesh.corners.size());
   for (const Vec3& corner : mesh.corners) {
@@ -62,7 +48,11 @@ std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params
     std::vector<Point> corners(decomposition.GetNPointsCH(k));
     std::vector<Indices> faces(decomposition.GetNTrianglesCH(k));
     decomposition.GetCH(k, corners.data(), faces.data());
-    const Mesh part = hull_of(corners);
+    std::vector<Vec3> places;
+    for (const Point& corner : corners) {
+      places.emplace_back(corner.X(), corner.Y(), corner.Z());
+    }
+    const Mesh part = hull_mesh(places);  // HACD's own triangles are not needed
     if (!part.triangles.empty()) {
       parts.push_back(repaired(part));
     }

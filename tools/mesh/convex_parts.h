@@ -7,9 +7,14 @@
 
 namespace talus {
 
+constexpr int most_parts = 64;
+constexpr int most_part_corners = 128;
+
 struct ConvexPartsParams {
-  int parts = 8;  // at most, 1 to 64; few fill hollows up, many cost in each contact of each body nearly in proportion
-  int corners = 24;  // at most in each part, 4 to 128; few cut bumps off, many cost in each contact
+  /// Largest number of parts, 1 to most_parts. Few fill hollows, many cost time in each contact of each body.
+  int parts = 8;
+  /// Largest number of corners of a part, 4 to most_part_corners. Few cut bumps off, many cost time in each contact.
+  int corners = 24;
 };
 
 /// Convex parts of a mesh that repaired() has passed, by HACD (Mamou 2009). They cover it nearly and overlap a little:

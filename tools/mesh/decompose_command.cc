@@ -7,22 +7,15 @@
 
 #include "common/mesh/mesh_file.h"
 #include "common/mesh/mesh_repair.h"
-#include "common/shape/convex_hull.h"
-#include "tools/mesh/convex_parts.h"
+#include "tools/mesh/decomposition.h"
+#include "tools/mesh/hull_mesh.h"
 
 namespace talus {
 
 namespace {
 
-double hull_volume(const Mesh& mesh) {
-  std::vector<std::array<int, 3>> triangles;
-  for (const std::vector<int>& face : convex_hull_faces(mesh.corners)) {
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) triangles.push_back({face[0], face[i], face[i + 1]});
-  }
-  return moments_within<3>(mesh.corners, triangles).volume;
-}
-
-void tell(const Mesh& mesh, const std::vector<Mesh>& parts, const std::filesystem::path& file) {
+void tell(const Mesh& mesh, const Decomposition& decomposition, const std::filesystem::path& file) {
+  const std::vector<Mesh>& parts = decomposition.parts;
   const double volume = moments(mesh).volume;
   double sum = 0.0;
   std::size_t most = 0;
@@ -31,9 +24,9 @@ void tell(const Mesh& mesh, const std::vector<Mesh>& parts, const std::filesyste
     most = std::max(most, part.corners.size());
   }
   fmt::print("mesh: {} corners, {} triangles, volume {:.4g}, its hull {:.3g} times that\n", mesh.corners.size(),
-             mesh.triangles.size(), volume, hull_volume(mesh) / volume);
-  fmt::print("parts: {}, volumes together {:.3g} times the mesh's, {} corners at most\n", parts.size(), sum / volume,
-             most);
+             mesh.triangles.size(), volume, moments(hull_mesh(mesh.corners)).volume / volume);
+  fmt::print("parts: {}, volume of their union {:.3g} times the mesh's, sum {:.3g} times, {} corners at most\n",
+             parts.size(), decomposition.ratio, sum / volume, most);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     fmt::print("  part {}: {} corners, volume {:.3g} times the mesh's\n", i, parts[i].corners.size(),
                moments(parts[i]).volume / volume);
@@ -43,9 +36,9 @@ void tell(const Mesh& mesh, const std::vector<Mesh>& parts, const std::filesyste
 
 void decompose(const std::filesystem::path& mesh_file, const ConvexPartsParams& params) {
   const Mesh mesh = repaired(read_mesh(mesh_file));
-  const std::vector<Mesh> parts = convex_parts(mesh, params);
-  write_parts(parts_file(mesh_file), mesh, parts);
-  tell(mesh, parts, parts_file(mesh_file));
+  const Decomposition decomposition = decomposed(mesh, params);
+  write_parts(parts_file(mesh_file), mesh, decomposition.parts);
+  tell(mesh, decomposition, parts_file(mesh_file));
 }
 
 }  // namespace
@@ -54,16 +47,17 @@ void add_decompose_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("decompose", "Cut a mesh into the convex parts with which it collides in 3D scenes");
   command->footer(
-      "Writes MESH.parts.obj beside MESH.obj; a scene in 3D with the mesh needs it. To be made anew when the mesh\n"
-      "changes. Look at how far the parts' volumes together are from 1: more parts follow the surface better.");
+      "Writes MESH.parts.obj beside MESH.obj; a 3D scene with the mesh needs it. Repeat it when the mesh changes.\n"
+      "When the volume of the parts' union differs from the mesh's by over 5 %, other numbers of parts and corners\n"
+      "are tried; when none fits, the exit code is 1 and nothing is written. A convex mesh gives one part.");
   auto mesh = std::make_shared<std::string>();
   auto params = std::make_shared<ConvexPartsParams>();
   command->add_option("mesh", *mesh, "Wavefront OBJ file, closed surface")->required();
-  command->add_option("--parts", params->parts, "Parts at most; each costs in every contact")
-      ->check(CLI::Range(1, 64))
+  command->add_option("--parts", params->parts, "Number of parts to try first; each costs time in every contact")
+      ->check(CLI::Range(1, most_parts))
       ->capture_default_str();
-  command->add_option("--corners", params->corners, "Corners of a part at most")
-      ->check(CLI::Range(4, 128))
+  command->add_option("--corners", params->corners, "Corners of a part at most, tried first")
+      ->check(CLI::Range(4, most_part_corners))
       ->capture_default_str();
   command->callback([=] { decompose(*mesh, *params); });
 }
