@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/process.h"
+#include "tests/process/process.h"
 
 namespace talus::record_command_test {
 namespace {

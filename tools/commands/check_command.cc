@@ -1,10 +1,10 @@
-#include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
 #include "common/scene/warnings.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/run/find_scene.h"
 
 namespace talus {
@@ -14,17 +14,17 @@ namespace {
 template <int Dim>
 void tell(const Scene<Dim>& scene) {
   const TypicalBody body = typical_body(scene);
-  fmt::print("{}\n", scene.title);
-  fmt::print("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second), policy {}\n", Dim, scene.steps(),
-             scene.world.dt, scene.run.frames, scene.run.frame_rate, scene.policy.kind);
-  fmt::print("  bodies of {:.4g} kg in the mean, bounding volume {:.4g} {}, largest extent {:.4g} m\n", body.mass,
-             body.bounding_volume, Dim == 2 ? "m^2" : "m^3", body.extent);
+  print_result("{}\n", scene.title);
+  print_result("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second), policy {}\n", Dim, scene.steps(),
+               scene.world.dt, scene.run.frames, scene.run.frame_rate, scene.policy.kind);
+  print_result("  bodies of {:.4g} kg in the mean, bounding volume {:.4g} {}, largest extent {:.4g} m\n", body.mass,
+               body.bounding_volume, Dim == 2 ? "m^2" : "m^3", body.extent);
   for (std::size_t i = 0; i < scene.sources.size(); ++i) {
     const Source<Dim>& source = scene.sources[i];
-    fmt::print("  source[{}]: {} bodies at {:g} a second from {:g} s on; its spout reaches {:.3g} a second\n", i,
-               source.count, source.rate, source.start, reachable_rate(source, scene.world));
+    print_result("  source[{}]: {} bodies at {:g} a second from {:g} s on; its spout reaches {:.3g} a second\n", i,
+                 source.count, source.rate, source.start, reachable_rate(source, scene.world));
   }
-  for (const std::string& warning : warnings(scene)) fmt::print("  warning: {}\n", warning);
+  for (const std::string& warning : warnings(scene)) print_result("  warning: {}\n", warning);
 }
 
 int check_scene(const std::string& name, const std::vector<std::string>& settings) {
@@ -32,7 +32,7 @@ int check_scene(const std::string& name, const std::vector<std::string>& setting
   for (const std::string& setting : settings) overrides.push_back({setting});
   const std::filesystem::path file = find_scene(name);
   const AnyScene scene = read_scene(file, overrides);
-  fmt::print("{}: sound\n", file.string());
+  print_result("{}: sound\n", file.string());
   std::visit([](const auto& of_dimension) { tell(of_dimension); }, scene);
   return exit_codes::success;
 }

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/run/find_scene.h"
 
 namespace talus {
@@ -13,10 +13,11 @@ int list_scenes() {
   for (const std::filesystem::path& file : scene_files()) {
     try {
       const auto scene = read_scene(file, {});
-      std::visit([&](const auto& of_dimension) { fmt::print("{:26} {}\n", file.stem().string(), of_dimension.title); },
-                 scene);
+      std::visit(
+          [&](const auto& of_dimension) { print_result("{:26} {}\n", file.stem().string(), of_dimension.title); },
+          scene);
     } catch (const SceneErrors& errors) {
-      fmt::print("{:26} not readable: {}\n", file.stem().string(), errors.what());
+      print_result("{:26} not readable: {}\n", file.stem().string(), errors.what());
       exit_code = exit_codes::bad_input;
     }
   }

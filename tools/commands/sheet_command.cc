@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/picture/contact_sheet.h"
 
 namespace talus {
@@ -28,7 +29,7 @@ void write_sheet(const std::string& out, const std::vector<std::string>& runs, c
   tiles.reserve(runs.size());
   for (const fs::path run : runs) tiles.push_back({run / "pile.png", title_of(run)});
   write_contact_sheet(out, tiles, "", params);
-  fmt::print("{}\n", out);
+  print_result("{}\n", out);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "tools/mesh/decompose_command.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 
@@ -9,6 +7,7 @@
 #include "common/mesh/mesh_repair.h"
 #include "common/shape/convex_hull.h"
 #include "tools/mesh/convex_parts.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -30,15 +29,15 @@ void tell(const Mesh& mesh, const std::vector<Mesh>& parts, const std::filesyste
     sum += moments(part).volume;
     most = std::max(most, part.corners.size());
   }
-  fmt::print("mesh: {} corners, {} triangles, volume {:.4g}, its hull {:.3g} times that\n", mesh.corners.size(),
-             mesh.triangles.size(), volume, hull_volume(mesh) / volume);
-  fmt::print("parts: {}, volumes together {:.3g} times the mesh's, {} corners at most\n", parts.size(), sum / volume,
-             most);
+  print_result("mesh: {} corners, {} triangles, volume {:.4g}, its hull {:.3g} times that\n", mesh.corners.size(),
+               mesh.triangles.size(), volume, hull_volume(mesh) / volume);
+  print_result("parts: {}, volumes together {:.3g} times the mesh's, {} corners at most\n", parts.size(), sum / volume,
+               most);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    fmt::print("  part {}: {} corners, volume {:.3g} times the mesh's\n", i, parts[i].corners.size(),
-               moments(parts[i]).volume / volume);
+    print_result("  part {}: {} corners, volume {:.3g} times the mesh's\n", i, parts[i].corners.size(),
+                 moments(parts[i]).volume / volume);
   }
-  fmt::print("{}\n", file.string());
+  print_result("{}\n", file.string());
 }
 
 void decompose(const std::filesystem::path& mesh_file, const ConvexPartsParams& params) {

@@ -69,7 +69,7 @@ int monitor(lcm::LCM& lcm, const MonitorParams& params, std::ostream& out, const
   const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(params.interval));
   const auto begin = Clock::now();
   auto next_report = begin + interval;
-  while (!stop && std::chrono::duration<double>(Clock::now() - begin).count() < params.seconds) {
+  while (!stop && out && std::chrono::duration<double>(Clock::now() - begin).count() < params.seconds) {
     if (lcm.handleTimeout(milliseconds_until(next_report)) < 0 && !stop) {
       throw std::runtime_error("LCM stopped receiving");
     }

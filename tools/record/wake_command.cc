@@ -7,6 +7,7 @@
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
 #include "tools/report/table.h"
@@ -85,13 +86,13 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
 std::string in_short(const Json& value) { return fmt::format("{:.4g}", value.get<double>()); }
 
 void print_wake(const Json& json) {
-  fmt::print("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", json["run"].get<std::string>(),
-             json["backend"].get<std::string>(), json["policy"].get<std::string>(), json["step"].get<int>(),
-             json["bodies"].get<int>(), json["asleep"].get<int>());
-  fmt::print("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
+  print_result("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", json["run"].get<std::string>(),
+               json["backend"].get<std::string>(), json["policy"].get<std::string>(), json["step"].get<int>(),
+               json["bodies"].get<int>(), json["asleep"].get<int>());
+  print_result("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
   const Json& depth = json["penetration_D"];
-  fmt::print("penetration over D: mean {}, 99 % {}, max {}\n", in_short(depth["mean"]), in_short(depth["p99"]),
-             in_short(depth["max"]));
+  print_result("penetration over D: mean {}, 99 % {}, max {}\n", in_short(depth["mean"]), in_short(depth["p99"]),
+               in_short(depth["max"]));
   const bool with_full = json.contains("full_run");
   Table table{
       fmt::format("\nAll woken and simulated for {:g} s at the reference settings", json["simulated_s"].get<double>()),
@@ -104,13 +105,13 @@ void print_wake(const Json& json) {
     table.rows.back().push_back(in_short(json["full_run"][name]));
     table.rows.back().push_back(in_short(json["beyond_full_run"][name]));
   }
-  fmt::print("{}", text_of(table));
+  print_text(text_of(table));
 }
 
 int wake_command(const WakeOptions& options) {
   const Json json = std::visit([&](const auto& run) { return result_of(run, options); }, read_run(options.run));
   if (options.json) {
-    fmt::print("{}\n", json.dump(2));
+    print_result("{}\n", json.dump(2));
   } else {
     print_wake(json);
   }
