@@ -1,9 +1,11 @@
 // The talus command.
 
-#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <new>
 
 #include "common/scene/scene_errors.h"
-#include "common/text/printable.h"
 #include "tools/bench/bench_command.h"
 #include "tools/commands/commands.h"
 #ifdef TALUS_BULLET
@@ -13,10 +15,19 @@
 #include "tools/monitor/monitor_command.h"
 #include "tools/record/record_commands.h"
 #endif
+#include "tools/output/output.h"
 #include "tools/run/version.h"
 
-// NOLINTNEXTLINE(bugprone-exception-escape): only a failure to print an error's text gets out
-int main(int argc, char** argv) {
+namespace {
+
+/// The libraries' warnings go where the command's own go.
+void send_log_to_standard_error() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("talus"));
+  spdlog::set_pattern("%l: %v");
+}
+
+/// Reads and executes the command line; returns the exit code.
+int execute(int argc, char** argv) {
   CLI::App app("talus: piles of rigid bodies, simulated faster by freezing who need not move", "talus");
   app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());
   app.require_subcommand(1);
@@ -42,13 +53,33 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? talus::exit_codes::success : talus::exit_codes::bad_input;
   } catch (const talus::SceneErrors& errors) {
-    fmt::print(stderr, "{}\n", talus::printable_lines(errors.what()));
+    talus::write_message(errors.what());
     return talus::exit_codes::bad_input;
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "talus: {}\n", talus::printable_lines(error.what()));
+    talus::print_message("talus: {}", error.what());
     return talus::exit_codes::bad_input;
+  } catch (const std::bad_alloc&) {
+    talus::write_message("talus: out of memory");
+    return talus::exit_codes::failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "talus: {}\n", talus::printable_lines(error.what()));
+    talus::print_message("talus: {}", error.what());
+    return talus::exit_codes::failed;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(bugprone-exception-escape): only a failure to make an error's text gets out
+int main(int argc, char** argv) {
+  talus::prepare_output();
+  send_log_to_standard_error();
+  const int exit_code = execute(argc, argv);
+  try {
+    talus::flush_results();
+  } catch (const std::system_error& error) {
+    if (exit_code != talus::exit_codes::success) return exit_code;  // of which a message has been printed
+    talus::print_message("talus: {}", error.what());
     return talus::exit_codes::failed;
   }
   return exit_code;

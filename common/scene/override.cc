@@ -69,8 +69,10 @@ toml::node& enter(toml::node& parent, const toml::path_component& part, const st
 // The rule that the override breaks; empty if it was applied.
 std::string apply(toml::table& table, const Override& one, const std::string& origin) {
   const std::size_t equals = one.text.find('=');
-  const toml::path path(std::string_view(one.text).substr(0, equals));
-  if (equals == std::string::npos || equals == 0 || path.empty()) {
+  const std::string_view written = std::string_view(one.text).substr(0, equals);
+  const toml::path path(written);
+  // The parser of paths takes much for right, such as a bracket without its other half; its text then differs.
+  if (equals == std::string::npos || equals == 0 || path.empty() || path.str() != written) {
     return "must be path=value, the path as in source[0].rate";
   }
   toml::node* parent = &table;
@@ -91,7 +93,7 @@ std::string apply(toml::table& table, const Override& one, const std::string& or
 
 void apply_overrides(toml::table& table, std::span<const Override> overrides, std::vector<SceneError>& errors) {
   for (const Override& one : overrides) {
-    const std::string origin = "--set " + one.text;
+    const std::string origin = one.origin.empty() ? "--set " + one.text : one.origin;
     if (std::string rule = apply(table, one, origin); !rule.empty()) {
       errors.push_back({origin, 0, 0, "", "", std::move(rule), ""});
     }

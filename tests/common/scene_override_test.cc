@@ -61,6 +61,15 @@ TEST(WrongOverride, IsNamedInItsError) {
   EXPECT_EQ(error_of("source[0].rate=fast"), "--set source[0].rate=fast: source[0].rate = \"fast\": must be a number");
 }
 
+TEST(WrongOverride, FromAnotherOptionIsNamedByThatOption) {
+  try {
+    with({{"seed=-1", "--seed -1"}});
+    FAIL() << "a negative seed was taken";
+  } catch (const SceneErrors& errors) {
+    EXPECT_STREQ(errors.what(), "--seed -1: seed = -1: must be at least 0");
+  }
+}
+
 TEST(WrongOverride, OfAnUnknownPathIsToldTheNearest) {
   EXPECT_EQ(error_of("policy.tua=0.4"),
             "--set policy.tua=0.4: policy.tua = 0.4: no such key here (did you mean \"tau\"?)");
@@ -77,8 +86,8 @@ TEST(WrongOverride, OfAPathThatLeadsNowhereIsRefused) {
 }
 
 TEST(WrongOverride, WithoutAPathOrAValueIsRefused) {
-  for (const std::string one :
-       {"", "=", "=3", "policy.tau", "policy..tau=3", "source[=3", "source[x].rate=3", "policy.tau="}) {
+  for (const std::string one : {"", "=", "=3", "policy.tau", "policy..tau=3", "source[=3", "source[0.rate=7",
+                                "source[0]rate=7", "policy.tau =0.3", "source[x].rate=3", "policy.tau="}) {
     EXPECT_TRUE(error_of(one).starts_with("--set " + one)) << error_of(one);
   }
 }

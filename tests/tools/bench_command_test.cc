@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/process.h"
+#include "tests/process/process.h"
 
 namespace talus::bench_command_test {
 namespace {
@@ -68,7 +68,8 @@ TEST(BenchTable1, ShowsErrorsFloorsAndHindsightBesideEachSpeedUp) {
   const Json& engine_default = json["cases"][4];
   EXPECT_EQ(engine_default["policy"], "engine_default");
   EXPECT_TRUE(engine_default["against_reference"].contains("ks_z"));
-  EXPECT_NE(engine_default["end_hashes"], json["cases"][1]["end_hashes"]) << "the scene's settings are not the engine's own";
+  EXPECT_NE(engine_default["end_hashes"], json["cases"][1]["end_hashes"])
+      << "the scene's settings are not the engine's own";
 }
 
 TEST(BenchTable1, GoesOnWhereItStoppedAndMeasuresNothingTwice) {

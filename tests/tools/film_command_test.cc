@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/tools/process.h"
+#include "tests/process/process.h"
 
 namespace talus::film_command_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/tools/process.h"
+#include "tests/process/process.h"
 
 namespace talus::find_scene_test {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "lcmtypes/big_endian.h"
 #include "lcmtypes/crc32.h"
-#include "tests/tools/process.h"
+#include "tests/process/process.h"
 
 namespace talus::record_command_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/process.h"
+#include "tests/process/process.h"
 
 namespace talus::run_command_test {
 namespace {
@@ -136,6 +136,26 @@ TEST(RunCommand, SavesEverythingOnCtrlC) {
   EXPECT_GT(fs::file_size(folder.path() / "run" / "pile.png"), 100U);
 }
 
+TEST(RunCommand, TellsTheReasonWhereThereIsNoEndHash) {
+  const Outcome outcome = shell(
+      "\"$TALUS\" run drop_in_a_pile_2d --policy full --set run.frames=100000 --hash & process=$!; sleep 0.3; kill "
+      "-INT $process; wait $process");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("no end hash: interrupted"), std::string::npos) << outcome.err;
+}
+
+TEST(RunCommand, TimesTwoPoliciesInTurnAndPrintsMedianAndRange) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      talus_command("run " + short_scene + "--policy full --against full --out " + (folder / "run"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::size_t line = outcome.out.find(" times as fast as policy full (median; ");
+  ASSERT_NE(line, std::string::npos) << outcome.out;
+  const double ratio = std::stod(outcome.out.substr(outcome.out.rfind('\n', line) + 1));
+  EXPECT_NEAR(ratio, 1.0, 0.1) << "the same policy against itself";
+}
+
 TEST(RunCommand, RefusesBadInputWithExitCodeTwoAndWritesNothing) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& arguments, const std::string& said) {
@@ -151,6 +171,11 @@ TEST(RunCommand, RefusesBadInputWithExitCodeTwoAndWritesNothing) {
   refused("drop_in_a_pile_2d --set policy.tau=3", "policy.tau");
   refused("drop_in_a_pile_2d --set policy.tau", "=");
   refused("drop_in_a_pile_2d --no-such-option", "no-such-option");
+  refused("drop_in_a_pile_2d --against nonsense", "--against nonsense: policy.kind");
+  refused("drop_in_a_pile_2d --against full --hash", "--against excludes --hash");
+  refused("drop_in_a_pile_2d --seed -1", "--seed -1: seed = -1: must be at least 0");
+  refused("drop_in_a_pile_2d --policy ''", "--policy: must not be empty");
+  refused("drop_in_a_pile_2d --backend ''", "--backend: must not be empty");
 }
 
 TEST(ListCommand, ShowsEachSceneInOneLine) {

@@ -1,9 +1,8 @@
 #include "tools/bench/bench_command.h"
 
-#include <fmt/format.h>
-
 #include "tools/bench/benchmarks.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -45,8 +44,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
     one->callback([=, &exit_code] {
       const BenchOptions all = completed(*options, benchmark.name);
       if (all.quick) {
-        fmt::print("Quick: fewer scenes and rounds, {:g} % of each scene's frames; piles are smaller than in full.\n",
-                   100.0 * all.share);
+        print_result("Quick: fewer scenes and rounds, {:g} % of each scene's frames; piles are smaller than in full.\n",
+                     100.0 * all.share);
       }
       benchmark.run(all);
       exit_code = exit_codes::success;

@@ -1,11 +1,10 @@
 #include "tools/bench/bench_report.h"
 
-#include <fmt/format.h>
-
 #include <iterator>
 
 #include "tools/bench/bench_plan.h"
 #include "tools/bench/bench_results.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -84,7 +83,7 @@ void run_report(const BenchReport& report, const BenchOptions& options) {
   }
   std::ranges::move(common_sections(runner, groups), std::back_inserter(results.sections));
   write_results(runner, groups, results);
-  fmt::print("{}", text_of(table));
+  print_text(text_of(table));
 }
 
 }  // namespace talus

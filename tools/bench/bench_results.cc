@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "tools/bench/machine.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -136,7 +137,7 @@ void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& gro
   const std::string name = folder.filename().string();
   if (!runner.options().docs.empty()) write_markdown(runner.options().docs, name, name, results);
   write(folder / "report.html", html_of(report_of(results)));
-  fmt::print("{}/report.html, results.md, results.csv and results.json\n", folder.string());
+  print_result("{}/report.html, results.md, results.csv and results.json\n", folder.string());
 }
 
 }  // namespace talus

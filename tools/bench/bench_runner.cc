@@ -9,6 +9,7 @@
 #include "common/world/errors.h"
 #include "tools/bench/error_meter.h"
 #include "tools/bench/timed_run.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -106,7 +107,7 @@ void BenchRunner::measure_errors(const BenchGroup& group, const Task& task) {
 void BenchRunner::failed(const RowKey& key, const std::exception& error) {
   spent_ += watch_.lap();
   ++done_;
-  fmt::print(stderr, "[{}/{}] {}: failed and left out: {}\n", done_, total_, text_of(key), error.what());
+  print_message("[{}/{}] {}: failed and left out: {}", done_, total_, text_of(key), error.what());
 }
 
 void BenchRunner::finished(const Row& row) {
@@ -114,8 +115,9 @@ void BenchRunner::finished(const Row& row) {
   spent_ += watch_.lap();
   ++done_;
   const double seconds = row.values["seconds"];
-  fmt::print(stderr, "[{}/{}] {}{}; about {} left\n", done_, total_, text_of(row.key),
-             std::isnan(seconds) ? "" : fmt::format(": {:.3g} s", seconds), as_time(spent_ / done_ * (total_ - done_)));
+  print_message("[{}/{}] {}{}; about {} left", done_, total_, text_of(row.key),
+                std::isnan(seconds) ? "" : fmt::format(": {:.3g} s", seconds),
+                as_time(spent_ / done_ * (total_ - done_)));
 }
 
 Values BenchRunner::summary(const BenchCase& bench_case, const BenchCase& full, Pass pass) const {

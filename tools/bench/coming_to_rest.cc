@@ -9,8 +9,8 @@
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
-#include "tools/bench/processor_watch.h"
 #include "tools/run/backends.h"
+#include "tools/run/processor_watch.h"
 
 namespace talus {
 

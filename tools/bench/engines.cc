@@ -9,6 +9,7 @@
 #include "tools/bench/bench_report.h"
 #include "tools/bench/bench_results.h"
 #include "tools/bench/benchmarks.h"
+#include "tools/output/output.h"
 #include "tools/run/backends.h"
 
 namespace talus {
@@ -83,7 +84,7 @@ void bench_engines(const BenchOptions& asked) {
   results.sections.push_back({"Side by side", {side_by_side(runner, scenes)}});
   std::ranges::move(common_sections(runner, groups), std::back_inserter(results.sections));
   write_results(runner, groups, results);
-  fmt::print("{}", text_of(side_by_side(runner, scenes)));
+  print_text(text_of(side_by_side(runner, scenes)));
 }
 
 }  // namespace talus

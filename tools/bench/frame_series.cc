@@ -11,6 +11,7 @@
 #include "common/measure/ensemble.h"
 #include "tools/bench/recording.h"
 #include "tools/bench/timed_run.h"
+#include "tools/output/output.h"
 #include "tools/run/version.h"
 
 namespace talus {
@@ -81,7 +82,7 @@ FrameSeries frame_series(const std::filesystem::path& folder, const BenchCase& b
   FrameSeries series;
   const AnyScene scene = load(bench_case);
   if (!read(file, series)) {
-    fmt::print(stderr, "frame by frame: {} {} {}\n", key.scene, key.backend, key.policy);
+    print_message("frame by frame: {} {} {}", key.scene, key.backend, key.policy);
     series = std::visit(
         [&]<int Dim>(const Scene<Dim>& one) {
           return measured(one, std::get<Scene<Dim>>(load(full)), bench_case, key == key_of(full), rounds);

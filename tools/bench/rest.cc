@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
@@ -7,6 +6,7 @@
 #include "tools/bench/bench_results.h"
 #include "tools/bench/benchmarks.h"
 #include "tools/bench/coming_to_rest.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -19,7 +19,7 @@ void add_rows(const BenchOptions& options, const std::string& scene, const std::
   std::ranges::copy(policies_of(options), std::back_inserter(policies));
   ComingToRest engine;
   for (const std::string& policy : policies) {
-    fmt::print(stderr, "{} {} {}\n", scene, backend, policy);
+    print_message("{} {} {}", scene, backend, policy);
     const BenchCase each{scene, backend, policy, settings_of(options, scene)};
     const ComingToRest rest =
         std::visit([&](const auto& any) { return coming_to_rest(any, backend, calm); }, load(each));
@@ -62,7 +62,7 @@ void bench_rest(const BenchOptions& options) {
       "own sleeping at the same simulated time.");
   results.sections.push_back({"Coming to rest", {table}});
   write_results(runner, {}, results);
-  fmt::print("{}", text_of(table));
+  print_text(text_of(table));
 }
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include "tools/bench/benchmarks.h"
 #include "tools/bench/sleepers_cost.h"
 #include "tools/bench/waking_shock.h"
+#include "tools/output/output.h"
 #include "tools/plot/plot.h"
 #include "tools/run/backends.h"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr int awake_bodies = 100;
 
 SleepersCost cost_on(const std::string& backend, int dimension, int sleepers) {
-  fmt::print(stderr, "{}: {} sleepers\n", backend, sleepers);
+  print_message("{}: {} sleepers", backend, sleepers);
   return dimension == 2 ? sleepers_cost<2>(backend, sleepers, awake_bodies)
                         : sleepers_cost<3>(backend, sleepers, awake_bodies);
 }
@@ -93,7 +94,7 @@ Table waking_table(const BenchOptions& options) {
   for (const std::string& scene : scenes_of(options, {"drop_in_a_pile"}, 1)) {
     for (const std::string& backend :
          options.backends.empty() ? backends(dimension_of(scene)) : backends_of(options, scene)) {
-      fmt::print(stderr, "waking: {} {}\n", scene, backend);
+      print_message("waking: {} {}", scene, backend);
       const int bodies = options.quick ? 50 : 200;
       const BenchCase pile{scene,
                            backend,
@@ -123,7 +124,7 @@ void bench_scale(const BenchOptions& options) {
       {"Steps", {cost_table(engines), Figure{svg_of(cost_plot(engines)), "A step should cost what moves."}}});
   results.sections.push_back({"Waking", {waking}});
   write_results(runner, {}, results);
-  fmt::print("{}\n{}", text_of(cost_table(engines)), text_of(waking));
+  print_result("{}\n{}", text_of(cost_table(engines)), text_of(waking));
 }
 
 }  // namespace talus

@@ -8,6 +8,7 @@
 #include "tools/bench/bench_results.h"
 #include "tools/bench/benchmarks.h"
 #include "tools/bench/measure.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -109,7 +110,7 @@ void bench_skips(const BenchOptions& options) {
       "bits, the two runs are compared; the floor is what a micrometre does to the run with all skips on.");
   results.sections.push_back({"What each skip saves", {skips_table(runner, groups)}});
   write_results(runner, groups, results);
-  fmt::print("{}", text_of(skips_table(runner, groups)));
+  print_text(text_of(skips_table(runner, groups)));
 }
 
 }  // namespace talus

@@ -7,8 +7,8 @@
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
-#include "tools/bench/processor_watch.h"
 #include "tools/run/backends.h"
+#include "tools/run/processor_watch.h"
 
 namespace talus {
 

@@ -12,6 +12,11 @@ inline constexpr int bad_input = 2;      // a scene, option or file is not as it
 inline constexpr int interrupted = 130;  // Ctrl-C; all is saved
 }  // namespace exit_codes
 
+/// For options with a text: `--out ''` is not the same as no --out.
+inline CLI::Validator not_empty() {
+  return {[](const std::string& text) { return std::string(text.empty() ? "must not be empty" : ""); }, ""};
+}
+
 void add_run_command(CLI::App& app, int& exit_code);
 void add_list_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);

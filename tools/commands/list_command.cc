@@ -1,8 +1,8 @@
-#include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/run/find_scene.h"
 
 namespace talus {
@@ -16,11 +16,11 @@ int list_scenes() {
       const auto scene = read_scene(file, {});
       std::visit(
           [&](const auto& of_dimension) {
-            fmt::print("{:26} {}\n", printable(file.stem().string()), printable(of_dimension.title));
+            print_result("{:26} {}\n", printable(file.stem().string()), printable(of_dimension.title));
           },
           scene);
     } catch (const SceneErrors& errors) {
-      fmt::print("{:26} not readable: {}\n", printable(file.stem().string()), printable_lines(errors.what()));
+      print_result("{:26} not readable: {}\n", printable(file.stem().string()), printable_lines(errors.what()));
       exit_code = exit_codes::bad_input;
     }
   }

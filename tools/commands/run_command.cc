@@ -16,24 +16,37 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "(everything up to then is saved).");
   auto options = std::make_shared<RunOptions>();
   command->add_option("scene", options->scene, "Scene file, or the name of a scene that `talus list` shows")
-      ->required();
-  command->add_option("-b,--backend", options->backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D");
-  command->add_option("-p,--policy", options->policy,
-                      "Who may sleep: full (nobody), engine (its own rule), paper, adaptive");
+      ->required()
+      ->check(not_empty());
+  command->add_option("-b,--backend", options->backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D")
+      ->check(not_empty());
+  command
+      ->add_option("-p,--policy", options->policy,
+                   "Which bodies may sleep: full (none), engine (the engine's own rule), paper, adaptive")
+      ->check(not_empty());
   command->add_option("-s,--set", options->settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--seed", options->seed, "Seed of all that is random in the scene");
-  command->add_option("-o,--out", options->out, "Run folder, new or empty; without it a new one under runs/");
-  auto* url = command->add_option("--lcm-url", options->lcm_url,
-                                  "Where to publish; default: LCM_DEFAULT_URL, else this machine only");
+  command->add_option("--seed", options->seed, "Seed of all that is random in the scene, 0 or more");
+  command->add_option("-o,--out", options->out, "Run folder, new or empty; without it a new one under runs/")
+      ->check(not_empty());
+  auto* url = command
+                  ->add_option("--lcm-url", options->lcm_url,
+                               "Where to publish; default: LCM_DEFAULT_URL, else this machine only")
+                  ->check(not_empty());
   command->add_option("--telemetry-hz", options->telemetry_hz, "Pile messages a second of wall time; 0: one a step")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   command->add_flag("!--no-telemetry", options->telemetry, "Publish nothing over LCM")->excludes(url);
-  command->add_option("--against", options->against, "Run the scene under this policy too and tell the speed-up");
+  auto* against =
+      command
+          ->add_option("--against", options->against,
+                       "Afterwards time the scene under this policy and under --policy, several rounds in turn; print "
+                       "how many times faster the run is: median and range")
+          ->check(not_empty());
   command->add_flag("--strict", options->strict, "Exit with 1 when a body was lost or the run gave any other warning");
-  command->add_flag("--hash", options->hash_only, "Print the end hash and nothing else; no folder unless --out");
+  command->add_flag("--hash", options->hash_only, "Print the end hash and nothing else; no folder unless --out")
+      ->excludes(against);
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

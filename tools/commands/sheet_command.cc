@@ -5,6 +5,7 @@
 
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/picture/contact_sheet.h"
 
 namespace talus {
@@ -29,7 +30,7 @@ void write_sheet(const std::string& out, const std::vector<std::string>& runs, c
   tiles.reserve(runs.size());
   for (const fs::path run : runs) tiles.push_back({run / "pile.png", printable(title_of(run))});
   write_contact_sheet(out, tiles, "", params);
-  fmt::print("{}\n", printable(out));
+  print_result("{}\n", printable(out));
 }
 
 }  // namespace

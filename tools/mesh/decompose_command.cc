@@ -1,7 +1,5 @@
 #include "tools/mesh/decompose_command.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 
@@ -9,6 +7,7 @@
 #include "common/mesh/mesh_repair.h"
 #include "tools/mesh/decomposition.h"
 #include "tools/mesh/hull_mesh.h"
+#include "tools/output/output.h"
 
 namespace talus {
 
@@ -23,15 +22,15 @@ void tell(const Mesh& mesh, const Decomposition& decomposition, const std::files
     sum += moments(part).volume;
     most = std::max(most, part.corners.size());
   }
-  fmt::print("mesh: {} corners, {} triangles, volume {:.4g}, its hull {:.3g} times that\n", mesh.corners.size(),
-             mesh.triangles.size(), volume, moments(hull_mesh(mesh.corners)).volume / volume);
-  fmt::print("parts: {}, volume of their union {:.3g} times the mesh's, sum {:.3g} times, {} corners at most\n",
-             parts.size(), decomposition.ratio, sum / volume, most);
+  print_result("mesh: {} corners, {} triangles, volume {:.4g}, its hull {:.3g} times that\n", mesh.corners.size(),
+               mesh.triangles.size(), volume, moments(hull_mesh(mesh.corners)).volume / volume);
+  print_result("parts: {}, volume of their union {:.3g} times the mesh's, sum {:.3g} times, {} corners at most\n",
+               parts.size(), decomposition.ratio, sum / volume, most);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    fmt::print("  part {}: {} corners, volume {:.3g} times the mesh's\n", i, parts[i].corners.size(),
-               moments(parts[i]).volume / volume);
+    print_result("  part {}: {} corners, volume {:.3g} times the mesh's\n", i, parts[i].corners.size(),
+                 moments(parts[i]).volume / volume);
   }
-  fmt::print("{}\n", file.string());
+  print_result("{}\n", file.string());
 }
 
 void decompose(const std::filesystem::path& mesh_file, const ConvexPartsParams& params) {

@@ -74,7 +74,7 @@ int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream
   const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(params.interval));
   const auto begin = Clock::now();
   auto next_report = begin + interval;
-  while (!stop && std::chrono::duration<double>(Clock::now() - begin).count() < params.seconds) {
+  while (!stop && out && std::chrono::duration<double>(Clock::now() - begin).count() < params.seconds) {
     hear_until(next_report);
     if (Clock::now() < next_report) continue;
     reporter.report();

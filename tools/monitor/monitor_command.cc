@@ -13,6 +13,7 @@
 #include "tools/commands/number_between.h"
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
+#include "tools/output/output.h"
 
 namespace talus {
 namespace {
@@ -27,7 +28,7 @@ std::string problem_with(const std::string& url) { return open_live_link(url).pr
 int run_monitor(const MonitorParams& params, const std::string& url) {
   const std::string address = receiving_url(url);
   if (const std::string problem = problem_with(address); !problem.empty()) {
-    std::cerr << "talus monitor: " << problem << '\n';
+    print_message("talus monitor: {}", problem);
     return 1;
   }
   ReceiverProcess receiver([&address](const DatagramSender& sender) {

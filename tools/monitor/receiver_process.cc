@@ -16,6 +16,8 @@
 #include <thread>
 #include <utility>
 
+#include "tools/output/output.h"
+
 namespace talus {
 namespace {
 
@@ -124,7 +126,7 @@ void ReceiverProcess::run_child(int socket, pid_t parent) {
   try {
     body_(DatagramSender(socket));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "talus monitor: {}\n", error.what());
+    print_message("talus monitor: {}", error.what());
   }
   _exit(1);
 }

@@ -11,6 +11,7 @@
 #include "common/scene/typical_body.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
 #include "tools/report/json_text.h"
@@ -136,39 +137,39 @@ std::string number(const Json& value) {
 std::string printed(const Json& text) { return printable(text.get<std::string>()); }
 
 void print_head(const Json& run, char letter) {
-  fmt::print("{}: {}: {}, policy {}, {} steps, {} bodies, {} sleep events\n", letter, printed(run["run"]),
-             printed(run["backend"]), printed(run["policy"]), run["steps"].get<std::int64_t>(),
-             run["bodies"].get<int>(), run["sleep_events"].get<int>());
-  if (run["damage"] != "") fmt::print("   the record is damaged: {}\n", run["damage"].get<std::string>());
+  print_result("{}: {}: {}, policy {}, {} steps, {} bodies, {} sleep events\n", letter, printed(run["run"]),
+               printed(run["backend"]), printed(run["policy"]), run["steps"].get<std::int64_t>(),
+               run["bodies"].get<int>(), run["sleep_events"].get<int>());
+  if (run["damage"] != "") print_result("   the record is damaged: {}\n", run["damage"].get<std::string>());
 }
 
 void print_settings(const Json& settings) {
   const bool other_scene = std::any_of(settings.begin(), settings.end(),
                                        [](const Json& setting) { return setting["of_scene"].get<bool>(); });
-  if (other_scene) fmt::print("These are runs of different scenes: a body of A is not the same body in B.\n");
+  if (other_scene) print_result("These are runs of different scenes: a body of A is not the same body in B.\n");
   if (settings.empty()) return;
   Table table{"Settings that differ", {{"setting"}, {"A"}, {"B"}}, {}};
   for (const Json& setting : settings) {
     table.rows.push_back({printed(setting["path"]), printed(setting["a"]), printed(setting["b"])});
   }
-  fmt::print("{}\n", text_of(table));
+  print_result("{}\n", text_of(table));
 }
 
 void print_first_differences(const Json& json) {
   const Json& first = json["first_difference"];
   const auto left_out = json["frames_left_out"].get<int>();
-  if (left_out > 0) fmt::print("Frames left out, lost in A or B: {}.\n", left_out);
+  if (left_out > 0) print_result("Frames left out, lost in A or B: {}.\n", left_out);
   if (first.is_null()) {
-    fmt::print("All {} frames that both have are equal bit for bit.\n", json["frames_compared"].get<int>());
+    print_result("All {} frames that both have are equal bit for bit.\n", json["frames_compared"].get<int>());
   } else {
-    fmt::print("Equal bit for bit up to step {}; by step {} body {} (and perhaps others) differs.\n",
-               first["after_step"].get<int>(), first["by_step"].get<int>(), first["body"].get<int>());
+    print_result("Equal bit for bit up to step {}; by step {} body {} (and perhaps others) differs.\n",
+                 first["after_step"].get<int>(), first["by_step"].get<int>(), first["body"].get<int>());
   }
   const Json& event = json["first_other_sleep_decision"];
   if (event.is_null()) return;
-  fmt::print("First sleep decision of one alone: step {}, body {} {} ({}).\n", event["step"].get<int>(),
-             event["body"].get<int>(), event["woke"].get<bool>() ? "wakes" : "falls asleep",
-             event["cause"].get<std::string>());
+  print_result("First sleep decision of one alone: step {}, body {} {} ({}).\n", event["step"].get<int>(),
+               event["body"].get<int>(), event["woke"].get<bool>() ? "wakes" : "falls asleep",
+               event["cause"].get<std::string>());
 }
 
 void print_comparison(const Json& json) {
@@ -180,19 +181,19 @@ void print_comparison(const Json& json) {
   for (const auto& [name, value] : json["motion"].items()) motion.rows.push_back({name, number(value)});
   for (const auto& [name, value] : json["distance_D"].items())
     motion.rows.push_back({"distance_D " + name, number(value)});
-  fmt::print("{}", text_of(motion));
+  print_text(text_of(motion));
   Table shape{"\nShape at the last frame that both have", {{"measure"}, {"A", true}, {"B", true}}, {}};
   for (const auto& [name, value] : json["shape_a"].items()) {
     shape.rows.push_back({name, number(value), number(json["shape_b"][name])});
   }
-  fmt::print("{}", text_of(shape));
+  print_text(text_of(shape));
   Table between{
       "\nBetween the shapes", {{"measure"}, {"value", true}}, {{"profile_rms_D", number(json["profile_rms_D"])}}};
   for (const char* axis : {"z", "r"}) {
     for (const auto& [name, value] : json[axis].items())
       between.rows.push_back({fmt::format("{} {}", axis, name), number(value)});
   }
-  fmt::print("{}", text_of(between));
+  print_text(text_of(between));
 }
 
 int compare(const std::string& folder_a, const std::string& folder_b, bool as_json) {
@@ -202,7 +203,7 @@ int compare(const std::string& folder_a, const std::string& folder_b, bool as_js
   const Json json = std::visit(
       [&]<int Dim>(const RecordedRun<Dim>& one) { return comparison_json(one, std::get<RecordedRun<Dim>>(b)); }, a);
   if (as_json) {
-    fmt::print("{}\n", json_text(json, 2));
+    print_result("{}\n", json_text(json, 2));
   } else {
     print_comparison(json);
   }

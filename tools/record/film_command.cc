@@ -8,6 +8,7 @@
 #include "common/math/require.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/picture/webp.h"
 #include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
@@ -93,12 +94,12 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
     const bool ends = at + step > last;
     constexpr int pause = 1500;  // [ms] on the last frame
     webp->add(image, ends ? pause : milliseconds);
-    if (progress) fmt::print(stderr, "\r{:.0f} %", 100.0 * (at - first + 1.0) / (last - first + 1.0));
+    if (progress) write_note(fmt::format("\r{:.0f} %", 100.0 * (at - first + 1.0) / (last - first + 1.0)));
   }
   webp->write(options.out);
-  if (progress) fmt::print(stderr, "\r     \r");
-  fmt::print("{}: {:.0f} kB\n", printable(options.out),
-             static_cast<double>(std::filesystem::file_size(options.out)) / 1e3);
+  if (progress) write_note("\r     \r");
+  print_result("{}: {:.0f} kB\n", printable(options.out),
+               static_cast<double>(std::filesystem::file_size(options.out)) / 1e3);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/number_between.h"
+#include "tools/output/output.h"
 #include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
 #include "tools/report/json_text.h"
@@ -110,7 +111,7 @@ void print_unfinished(const Json& unfinished) {
   const auto moving = unfinished["moving"].get<int>();
   const auto reason = unfinished["reason"].get<std::string>();
   if (to_come <= 0 && moving == 0 && reason == "finished") return;
-  fmt::print(
+  print_result(
       "not a finished pile: {} bodies have yet to appear, {} move faster than 1 m/s, the run ended: {};\n"
       "  what falls counts as displaced below\n",
       to_come, moving, printable(reason));
@@ -118,15 +119,15 @@ void print_unfinished(const Json& unfinished) {
 
 void print_wake(const Json& json) {
   const auto text = [&](const char* key) { return printable(json[key].get<std::string>()); };
-  fmt::print("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", text("run"), text("backend"),
-             text("policy"), json["step"].get<std::int64_t>(), json["bodies"].get<int>(), json["asleep"].get<int>());
-  if (json["damage"] != "") fmt::print("the record is damaged: {}\n", json["damage"].get<std::string>());
+  print_result("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", text("run"), text("backend"),
+               text("policy"), json["step"].get<std::int64_t>(), json["bodies"].get<int>(), json["asleep"].get<int>());
+  if (json["damage"] != "") print_result("the record is damaged: {}\n", json["damage"].get<std::string>());
   print_unfinished(json["unfinished"]);
-  fmt::print("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
-  fmt::print("sleepers below ground: {} (must be 0)\n", json["sunken_sleepers"].get<int>());
+  print_result("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
+  print_result("sleepers below ground: {} (must be 0)\n", json["sunken_sleepers"].get<int>());
   const Json& depth = json["penetration_D"];
-  fmt::print("penetration over D: mean {}, 99 % {}, max {}\n", in_short(depth["mean"]), in_short(depth["p99"]),
-             in_short(depth["max"]));
+  print_result("penetration over D: mean {}, 99 % {}, max {}\n", in_short(depth["mean"]), in_short(depth["p99"]),
+               in_short(depth["max"]));
   const bool with_full = json.contains("full_run");
   Table table{
       fmt::format("\nAll woken and simulated for {:g} s at the reference settings", json["simulated_s"].get<double>()),
@@ -139,13 +140,13 @@ void print_wake(const Json& json) {
     table.rows.back().push_back(in_short(json["full_run"][name]));
     table.rows.back().push_back(in_short(json["beyond_full_run"][name]));
   }
-  fmt::print("{}", text_of(table));
+  print_text(text_of(table));
 }
 
 int wake_command(const WakeOptions& options) {
   const Json json = std::visit([&](const auto& run) { return result_of(run, options); }, read_run(options.run));
   if (options.json) {
-    fmt::print("{}\n", json_text(json, 2));
+    print_result("{}\n", json_text(json, 2));
   } else {
     print_wake(json);
   }

@@ -30,7 +30,12 @@ std::vector<fs::path> scene_files() {
 }
 
 fs::path find_scene(const std::string& scene) {
-  if (fs::is_regular_file(scene)) return scene;
+  std::error_code error;
+  const fs::file_type type = fs::status(scene, error).type();
+  if (type == fs::file_type::regular) return scene;
+  if (type == fs::file_type::none) {  // its folder cannot be read, its name is too long, ...
+    throw std::invalid_argument(fmt::format("scene = {}: {}", scene, error.message()));
+  }
   std::vector<std::string> names;
   for (const fs::path& file : scene_files()) {
     if (file.stem() == scene) return file;

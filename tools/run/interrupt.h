@@ -2,7 +2,8 @@
 
 namespace talus {
 
-/// From construction on, Ctrl-C and SIGTERM ask the run to end instead of killing it; a second one kills.
+/// While it exists, Ctrl-C, SIGTERM and SIGHUP (the terminal was closed) end the run in good order; the second signal
+/// kills. A SIGHUP that is ignored, as under nohup, stays ignored.
 class Interrupt {
  public:
   Interrupt();

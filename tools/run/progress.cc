@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/output/output.h"
 #include "tools/run/terminal_width.h"
 
 namespace talus {
@@ -44,18 +45,17 @@ void Progress<Dim>::write(const Frame<Dim>& frame) {
                                  frame.world.states().shape.size() - awake, step_ms);
   if (terminal_) {
     line.resize(std::min(line.size(), static_cast<std::size_t>(terminal_width(STDERR_FILENO) - 1)));
-    fmt::print(stderr, "\r\x1b[K{}", line);
+    write_note("\r\x1b[K" + line);
   } else {
-    fmt::print(stderr, "{}\n", line);
+    write_message(line);
   }
-  std::fflush(stderr);
   since_line_ = 0.0;
   line_step_ = frame.step;
 }
 
 template <int Dim>
 void Progress<Dim>::on_end(const Frame<Dim>&, std::string_view) {
-  if (terminal_) fmt::print(stderr, "\r\x1b[K");
+  if (terminal_) write_note("\r\x1b[K");
 }
 
 template class Progress<2>;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -15,17 +17,41 @@ namespace talus {
 
 namespace fs = std::filesystem;
 
-fs::path make_run_folder(const fs::path& asked, const std::string& name) {
-  fs::path folder = asked;
-  if (asked.empty()) {
-    folder = fs::path("runs") / name;
-    for (int number = 2; fs::exists(folder); ++number) folder = fs::path("runs") / fmt::format("{}-{}", name, number);
-  } else if (fs::exists(asked) && (!fs::is_directory(asked) || !fs::is_empty(asked))) {
-    throw std::invalid_argument(
-        fmt::format("--out = {}: must be a new or empty folder; nothing is overwritten", asked.string()));
-  }
+namespace {
+
+/// Whether the folder is this run's alone: it was empty or not there, and this process made the first file in it. Of
+/// runs that start at the same time one wins. Throws std::filesystem::filesystem_error where no file can be made.
+bool claim(const fs::path& folder) {
   fs::create_directories(folder);
+  if (!fs::is_empty(folder)) return false;
+  const fs::path first = folder / scene_file_name;
+  std::FILE* file = std::fopen(first.c_str(), "wx");
+  if (file != nullptr) return std::fclose(file) == 0;
+  if (errno == EEXIST) return false;
+  throw fs::filesystem_error("cannot make a file", first, std::error_code(errno, std::generic_category()));
+}
+
+/// The first folder of runs/NAME, runs/NAME-2, ... that is this run's alone.
+fs::path claim_numbered(const std::string& name) {
+  fs::path folder = fs::path("runs") / name;
+  for (int number = 2; fs::exists(folder) || !claim(folder); ++number) {
+    folder = fs::path("runs") / fmt::format("{}-{}", name, number);
+  }
   return folder;
+}
+
+}  // namespace
+
+fs::path make_run_folder(const fs::path& asked, const std::string& name) {
+  try {
+    if (asked.empty()) return claim_numbered(name);
+    if ((!fs::exists(asked) || fs::is_directory(asked)) && claim(asked)) return asked;
+  } catch (const fs::filesystem_error& error) {
+    throw std::invalid_argument(fmt::format("{} = {}: {}", asked.empty() ? "run folder" : "--out",
+                                            error.path1().string(), error.code().message()));
+  }
+  throw std::invalid_argument(
+      fmt::format("--out = {}: must be a new or empty folder; nothing is overwritten", asked.string()));
 }
 
 namespace {

@@ -14,12 +14,12 @@ struct RunOptions {
   std::string backend;                // empty: the dimension's first
   std::string policy;                 // empty: the scene's
   std::vector<std::string> settings;  // path=value, applied to the scene file before it is checked
-  std::optional<std::uint64_t> seed;  // not given: the scene's
+  std::optional<std::int64_t> seed;   // not given: the scene's
   std::filesystem::path out;          // run folder; empty: a new one under runs/
   std::string lcm_url;                // empty: LCM_DEFAULT_URL, else LCM's own default with ttl=0
   bool telemetry = true;              // live over LCM
   double telemetry_hz = 60.0;         // pile messages a second of wall time; 0: every step
-  std::string against;                // policy to run the scene under once more, to tell the speed-up; empty: none
+  std::string against;                // policy to time the run against; empty: none
   bool strict = false;                // exit code 1 when the run gave a warning
   bool hash_only = false;             // print the end hash and nothing else; write no folder unless `out` is given
 };

@@ -36,7 +36,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
       avalanches_(scene.world.dt) {
-  write_scene(scene, folder_ / "scene.toml");
+  write_scene(scene, folder_ / scene_file_name);
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv", scene), simulation);

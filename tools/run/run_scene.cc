@@ -2,20 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
-#include "common/text/printable.h"
 #include "common/world/errors.h"
 #include "tools/commands/commands.h"
+#include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/run_outputs.h"
+#include "tools/run/speed_up.h"
 #include "tools/run/tell_run.h"
 #include "tools/run/warning_teller.h"
 
@@ -23,12 +26,15 @@ namespace talus {
 
 namespace {
 
-/// The command line's wishes as overrides of the scene file, so that they are checked and recorded like its own values.
-std::vector<Override> overrides(const RunOptions& options, const std::string& policy) {
+/// What the command line sets, as overrides of the scene file, so that it is checked and recorded like the file's own
+/// values. `option` is the one that gave the policy.
+std::vector<Override> overrides(const RunOptions& options, const char* option, const std::string& policy) {
   std::vector<Override> list;
   for (const std::string& setting : options.settings) list.push_back({setting});
-  if (!policy.empty()) list.push_back({"policy.kind=" + policy});
-  if (options.seed) list.push_back({fmt::format("seed={}", *options.seed)});
+  if (!policy.empty()) {
+    list.push_back({"policy.kind=" + policy, fmt::format("{} {}", option, policy)});
+  }
+  if (options.seed) list.push_back({fmt::format("seed={}", *options.seed), fmt::format("--seed {}", *options.seed)});
   return list;
 }
 
@@ -56,39 +62,37 @@ int exit_code_of(std::string_view reason, bool strict, const Simulation<Dim>& si
 
 template <int Dim>
 void warn(const Scene<Dim>& scene, const std::string& backend) {
-  for (const std::string& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", printable(warning));
+  for (const std::string& warning : warnings(scene)) print_message("warning: {}", warning);
   for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
-    fmt::print(stderr, "warning: {}: {}\n", backend, printable(warning));
+    print_message("warning: {}: {}", backend, warning);
+}
+
+/// A run that did not finish has no end: its reason instead of a hash.
+template <int Dim>
+int print_hash(const Simulation<Dim>& simulation, const std::string& reason, bool strict) {
+  if (reason == "finished") {
+    print_result("{:016x}\n", state_hash(simulation.world().states()));
+  } else {
+    print_message("talus: no end hash: {}", reason);
+  }
+  return exit_code_of(reason, strict, simulation);
 }
 
 template <int Dim>
-int print_hash(const Scene<Dim>& scene, const std::string& backend, bool strict) {
+int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict) {
   const Interrupt interrupt;
   Simulation<Dim> simulation = make_simulation(scene, backend);
   WarningTeller<Dim> teller;
   if (strict) simulation.add_observer(teller);
   const std::string reason = advance(simulation, scene.steps(), interrupt);
   simulation.end(reason);
-  fmt::print("{:016x}\n", state_hash(simulation.world().states()));
-  return exit_code_of(reason, strict, simulation);
+  return print_hash(simulation, reason, strict);
 }
 
-/// Mean time of a step [ms] of the same scene under another policy, with nothing recorded.
+/// Runs and records; tells what came of it.
 template <int Dim>
-double step_ms_of(const Scene<Dim>& scene, const std::string& backend, const Interrupt& interrupt) {
-  Simulation<Dim> simulation = make_simulation(scene, backend);
-  Stopwatch watch;
-  advance(simulation, scene.steps(), interrupt);
-  return 1e3 * watch.lap() / static_cast<double>(scene.steps());
-}
-
-template <int Dim>
-int run(const RunOptions& options, const std::string& name, const Scene<Dim>& scene) {
-  const std::vector<std::string> engines = backends(Dim);
-  const std::string backend = options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
-  if (!options.hash_only) warn(scene, backend);
-  if (options.hash_only && options.out.empty()) return print_hash(scene, backend, options.strict);
-
+int record_run(const RunOptions& options, const std::string& name, const std::string& backend,
+               const Scene<Dim>& scene) {
   Simulation<Dim> simulation = make_simulation(scene, backend);
   RunOutputs<Dim> outputs(options, scene, name, backend, simulation);
   const Interrupt interrupt;
@@ -97,25 +101,34 @@ int run(const RunOptions& options, const std::string& name, const Scene<Dim>& sc
   const SummaryInput summary{name, backend, reason, watch.lap(), simulation.emitter().waits()};
   simulation.end(reason);
   outputs.finish(summary, scene, simulation);
-  if (options.hash_only) {
-    fmt::print("{:016x}\n", state_hash(simulation.world().states()));
-    return exit_code_of(reason, options.strict, simulation);
-  }
+  if (options.hash_only) return print_hash(simulation, reason, options.strict);
   tell_run(summary, scene, simulation, outputs);
-  if (!options.against.empty() && reason == "finished") {
-    const auto other = read_scene(find_scene(options.scene), overrides(options, options.against));
-    tell_speed_up(options.against, step_ms_of(std::get<Scene<Dim>>(other), backend, interrupt),
-                  outputs.statistics().mean_step_ms());
-  }
   return exit_code_of(reason, options.strict, simulation);
+}
+
+std::string backend_for(const RunOptions& options, int dimension) {
+  const std::vector<std::string> engines = backends(dimension);
+  return options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
 }
 
 }  // namespace
 
 int run_scene(const RunOptions& options) {
   const std::filesystem::path file = find_scene(options.scene);
-  const auto scene = read_scene(file, overrides(options, options.policy));
-  return std::visit([&](const auto& of_dimension) { return run(options, file.stem().string(), of_dimension); }, scene);
+  const AnyScene scene = read_scene(file, overrides(options, "--policy", options.policy));
+  // Read before the run, so that a policy that does not exist is refused before it.
+  std::optional<AnyScene> other;
+  if (!options.against.empty()) other = read_scene(file, overrides(options, "--against", options.against));
+  return std::visit(
+      [&]<int Dim>(const Scene<Dim>& of_dimension) {
+        const std::string backend = backend_for(options, Dim);
+        if (options.hash_only && options.out.empty()) return hash_run(of_dimension, backend, options.strict);
+        if (!options.hash_only) warn(of_dimension, backend);
+        const int exit_code = record_run(options, file.stem().string(), backend, of_dimension);
+        if (!other || exit_code != exit_codes::success) return exit_code;
+        return tell_speed_up(of_dimension, std::get<Scene<Dim>>(*other), backend);
+      },
+      scene);
 }
 
 }  // namespace talus

@@ -10,7 +10,4 @@ template <int Dim>
 void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
               const RunOutputs<Dim>& outputs);
 
-/// One line: how the run compares with one under another policy; both [ms] per step.
-void tell_speed_up(const std::string& other_policy, double other_ms, double own_ms);
-
 }  // namespace talus

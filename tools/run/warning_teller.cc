@@ -1,17 +1,16 @@
 #include "tools/run/warning_teller.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include "tools/output/output.h"
 
 namespace talus {
 
 template <int Dim>
 void WarningTeller<Dim>::tell(const Frame<Dim>& frame) {
   for (; told_ < frame.warnings.size(); ++told_) {
-    const char* clear_progress = isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
-    std::fputs(fmt::format("{}warning: {}\n", clear_progress, advice(frame.warnings[told_])).c_str(), stderr);
+    if (isatty(STDERR_FILENO) != 0) write_note("\r\x1b[K");  // the line of progress
+    print_message("warning: {}", advice(frame.warnings[told_]));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "tests/tools/process.h"
+#include "tests/process/process.h"
 
 #include <sys/wait.h>
 

@@ -1,0 +1,38 @@
+#pragma once
+// What the sub-commands print. Results go to standard output: one that cannot be written is an error. Warnings, errors
+// and progress go to standard error: one that cannot be written is lost, and changes nothing else.
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace talus {
+
+/// At the start of the program. Reserves the descriptors 0 to 2 where they are closed, so that no file of a run gets
+/// the number of a standard stream; a write to such a descriptor fails. A pipe without a reader becomes a failed write.
+void prepare_output();
+
+/// Text on standard output, buffered as by the C library. Throws std::system_error when it cannot be written.
+void print_text(std::string_view text);
+
+template <class... Values>
+void print_result(fmt::format_string<Values...> format, Values&&... values) {
+  print_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// Writes what is buffered. Throws std::system_error when any result so far could not be written.
+void flush_results();
+
+/// Text on standard error as it is, for progress lines that steer a terminal. Never fails.
+void write_note(std::string_view text) noexcept;
+
+/// A line on standard error, printable: a file or a command line may hold control characters.
+void write_message(std::string_view line);
+
+template <class... Values>
+void print_message(fmt::format_string<Values...> format, Values&&... values) {
+  write_message(fmt::format(format, std::forward<Values>(values)...));
+}
+
+}  // namespace talus

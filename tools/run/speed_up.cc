@@ -1,0 +1,85 @@
+#include "tools/run/speed_up.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/measure/ensemble.h"
+#include "common/policy/sleep_policy.h"
+#include "common/simulation/simulation.h"
+#include "common/simulation/stopwatch.h"
+#include "tools/commands/commands.h"
+#include "tools/output/output.h"
+#include "tools/run/backends.h"
+#include "tools/run/processor_watch.h"
+
+namespace talus {
+
+namespace {
+
+/// Processor time [s] of all steps but the first, in which the engine allocates.
+template <int Dim>
+double seconds_of(const Scene<Dim>& scene, const std::string& backend) {
+  Simulation<Dim> simulation(scene, make_world<Dim>(backend, scene.world), make_policy(scene));
+  simulation.step();
+  ProcessorWatch processor;
+  for (std::int64_t step = 1; step < scene.steps(); ++step) simulation.step();
+  return processor.lap();
+}
+
+/// Where a round is long, how far the rounds are.
+void tell_round(const SpeedUp& so_far, double elapsed, const SpeedUpParams& params) {
+  constexpr double long_round = 5.0;  // [s]
+  const auto rounds = static_cast<int>(so_far.own.size());
+  const double seconds = elapsed / rounds;
+  if (seconds < long_round || rounds >= params.least_rounds) return;
+  print_message("round {} of {}: {:.2f} times as fast; about {:.0f} s left", rounds, params.least_rounds,
+                so_far.ratios().back(), seconds * (params.least_rounds - rounds));
+}
+
+}  // namespace
+
+std::vector<double> SpeedUp::ratios() const {
+  std::vector<double> list;
+  for (std::size_t round = 0; round < own.size(); ++round) list.push_back(other[round] / own[round]);
+  return list;
+}
+
+template <int Dim>
+SpeedUp measure_speed_up(const Scene<Dim>& own, const Scene<Dim>& other, const std::string& backend,
+                         const SpeedUpParams& params) {
+  SpeedUp result;
+  Stopwatch watch;
+  double elapsed = 0.0;
+  for (int round = 0; round < params.most_rounds; ++round) {
+    if (round >= params.least_rounds && elapsed >= params.most_seconds) break;
+    // What comes second finds the caches and the allocator as the first left them.
+    if (round % 2 == 0) result.own.push_back(seconds_of(own, backend));
+    result.other.push_back(seconds_of(other, backend));
+    if (round % 2 == 1) result.own.push_back(seconds_of(own, backend));
+    elapsed += watch.lap();
+    tell_round(result, elapsed, params);
+  }
+  return result;
+}
+
+template <int Dim>
+int tell_speed_up(const Scene<Dim>& own, const Scene<Dim>& other, const std::string& backend) {
+  flush_results();
+  const SpeedUp measured = measure_speed_up(own, other, backend);
+  const std::vector<double> ratios = measured.ratios();
+  const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
+  const double step_ms = 1e3 / static_cast<double>(own.steps());
+  print_result(
+      "  {:.2f} times as fast as policy {} (median; {:.2f} to {:.2f} in {} rounds of processor time, nothing "
+      "recorded: {:.3f} and {:.3f} ms a step)\n",
+      median(ratios), other.policy.kind, *low, *high, ratios.size(), median(measured.own) * step_ms,
+      median(measured.other) * step_ms);
+  return exit_codes::success;
+}
+
+template SpeedUp measure_speed_up(const Scene<2>&, const Scene<2>&, const std::string&, const SpeedUpParams&);
+template SpeedUp measure_speed_up(const Scene<3>&, const Scene<3>&, const std::string&, const SpeedUpParams&);
+template int tell_speed_up(const Scene<2>&, const Scene<2>&, const std::string&);
+template int tell_speed_up(const Scene<3>&, const Scene<3>&, const std::string&);
+
+}  // namespace talus
