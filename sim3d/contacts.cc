@@ -78,8 +78,8 @@ void Contacts<Dim>::append(const Touch& touch) {
     contact.b = touch.b->getUserIndex();
     contact.point = from_bullet<Dim>(where);
     contact.normal = from_bullet<Dim>(normal);
-    contact.normal_impulse = point.m_appliedImpulse;
-    contact.friction_impulse = from_bullet<Dim>(touch.swap ? -friction : friction);
+    contact.normal_impulse = impulse_unit_ * point.m_appliedImpulse;
+    contact.friction_impulse = impulse_unit_ * from_bullet<Dim>(touch.swap ? -friction : friction);
     contact.approach_speed = std::max(btScalar(0), normal.dot(approach));
     contact.depth = -point.getDistance();
   }

@@ -18,6 +18,9 @@ namespace talus::bullet {
 template <int Dim>
 class Contacts {
  public:
+  /// `mass_scale`: of the world, taken off the impulses again.
+  explicit Contacts(double mass_scale) : impulse_unit_(1.0 / mass_scale) {}
+
   /// To be called before each step with the awake bodies, ascending.
   void before_step(std::span<btRigidBody* const> awake);
   /// To be called after each step.
@@ -49,6 +52,7 @@ class Contacts {
   std::vector<Touch> touches_;     // scratch
   std::vector<Motion> motion_;     // before the step, of the awake bodies
   std::vector<BodyIndex> moving_;  // whose motion
+  double impulse_unit_;            // [N s]
   bool keep_motion_ = false;
   bool gathered_ = false;
 };

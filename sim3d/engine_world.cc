@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim3d/bodies.h"
+#include "sim3d/mass_scale.h"
 #include "sim3d/plane.h"
 #include "sim3d/states.h"
 
@@ -23,9 +24,11 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
-    : description_(description), engine_(description.gravity, description.solver, description.skips) {
+    : description_(description),
+      mass_scale_(mass_scale<Dim>(description.shapes)),
+      engine_(description.gravity, description.solver, description.skips) {
   for (const Shape<Dim>& shape : description.shapes) {
-    shapes_.push_back(make_engine_shape(shape));
+    shapes_.push_back(make_engine_shape(shape, mass_scale_));
     if (!description.skips.continuous) {
       shapes_.back().sweep_from = shortest_sweep;
     }

@@ -50,6 +50,7 @@ class EngineWorld final : public World<Dim> {
   const EngineShape& shape_of(std::size_t i) const { return shapes_[static_cast<std::size_t>(states_.shape[i])]; }
 
   WorldDescription<Dim> description_;
+  double mass_scale_;
   std::vector<EngineShape> shapes_;
   std::vector<EngineShape> obstacle_shapes_;
   std::unique_ptr<btCollisionShape> ground_shape_;
@@ -57,7 +58,7 @@ class EngineWorld final : public World<Dim> {
   std::vector<std::unique_ptr<btCollisionObject>> objects_;  // by body; null once removed
   Engine engine_;
   Freezer freezer_{engine_};
-  Contacts<Dim> contacts_;
+  Contacts<Dim> contacts_{mass_scale_};
   BodyStates<Dim> states_;
   std::vector<BodyIndex> listed_;           // bodies in Bullet's lists, ascending: all but the frozen
   std::vector<btRigidBody*> rigid_;         // the same

@@ -82,13 +82,13 @@ Eigen::Quaterniond choose_frame(const Shape<Dim>& shape) {
 }  // namespace
 
 template <int Dim>
-EngineShape make_engine_shape(const Shape<Dim>& shape) {
+EngineShape make_engine_shape(const Shape<Dim>& shape, double mass_scale) {
   EngineShape made;
   made.frame = choose_frame(shape);
   made.frame_inverse = made.frame.conjugate();
   assemble(made, make_pieces(shape, made));
-  made.mass = static_cast<btScalar>(shape.mass);
-  set_inertia(made, shape.inertia);
+  made.mass = static_cast<btScalar>(mass_scale * shape.mass);
+  set_inertia(made, Inertia<Dim>(mass_scale * shape.inertia));
   made.friction = static_cast<btScalar>(std::sqrt(shape.material.friction));
   made.restitution = static_cast<btScalar>(std::sqrt(shape.material.restitution));
   double width = smallest_width(shape.pieces[0]);
@@ -100,7 +100,7 @@ EngineShape make_engine_shape(const Shape<Dim>& shape) {
   return made;
 }
 
-template EngineShape make_engine_shape(const Shape<2>&);
-template EngineShape make_engine_shape(const Shape<3>&);
+template EngineShape make_engine_shape(const Shape<2>&, double);
+template EngineShape make_engine_shape(const Shape<3>&, double);
 
 }  // namespace talus::bullet

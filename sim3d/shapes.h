@@ -20,8 +20,8 @@ struct EngineShape {
   std::vector<std::unique_ptr<btCollisionShape>> parts;
   Eigen::Quaterniond frame = Eigen::Quaterniond::Identity();
   Eigen::Quaterniond frame_inverse = Eigen::Quaterniond::Identity();
-  btScalar mass = 0;                             // [kg]
-  btVector3 inertia = btVector3(0, 0, 0);        // about the principal axes [kg m^2]
+  btScalar mass = 0;                             // [kg times the world's mass scale]
+  btVector3 inertia = btVector3(0, 0, 0);        // about the principal axes [kg m^2 times the mass scale]
   btVector3 linear_factor = btVector3(1, 1, 1);  // 0 where a planar body must not move
   btVector3 angular_factor = btVector3(1, 1, 1);
   btScalar friction = 0;      // square roots of the material's values: Bullet multiplies those of both bodies, which
@@ -34,7 +34,8 @@ struct EngineShape {
 /// between two surfaces that touch. More lifts bodies visibly, less makes its normals unsteady.
 inline constexpr double hull_margin = 0.001;
 
+/// `mass_scale`: factor of mass and inertia, see mass_scale.h.
 template <int Dim>
-EngineShape make_engine_shape(const Shape<Dim>& shape);
+EngineShape make_engine_shape(const Shape<Dim>& shape, double mass_scale = 1.0);
 
 }  // namespace talus::bullet

@@ -2,9 +2,9 @@
 # holds replacements of Bullet's own classes and is left out.
 set -eu
 # Names that only one of them has: what one engine needs and the other does not (Box2D's user data, its impulses that
-# die with a contact, its rule for restitution, its search for times of impact; Bullet's plane and the friction that its
-# points remember).
-only_one='(tag|warm_start|materials|continuous|bodies|engine|pieces|plane|friction_impulse)\.h'
+# die with a contact, its rule for restitution, its search for times of impact; Bullet's unit of mass, its plane and the
+# friction that its points remember).
+only_one='(tag|warm_start|materials|continuous|bodies|engine|mass_scale|pieces|plane|friction_impulse)\.h'
 
 headers() { git ls-files "$1/*.h" | sed "s|^$1/||" | grep -v '^bullet/' | grep -vxE "$only_one" | LC_ALL=C sort | tr '\n' ' '; }
 in_2d=$(headers sim2d)
