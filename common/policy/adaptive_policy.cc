@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "common/policy/bearing.h"
@@ -14,6 +15,7 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
                                     const TypicalBody& typical)
     : params_(params),
       dt_(world.dt),
+      ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
       fastest_(0.95 * fastest_speed<Dim>(world.dt)),
       fastest_spin_(1.5 / world.dt),
       rest_watch_(params.rest_distance * typical.extent, params.rest_distance_woken * typical.extent, world.shapes),
@@ -73,16 +75,23 @@ void AdaptivePolicy<Dim>::limit(std::span<Kick<Dim>> kicks) const {
 template <int Dim>
 void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, std::span<const Contact<Dim>> contacts,
                                           Decision<Dim>& decision) {
+  const BodyStates<Dim>& states = frame.world.states();
   bodies_.clear();
   for (const BodyIndex body : frame.world.awake()) {
-    if (rested_enough(frame, body)) bodies_.push_back(body);
+    if (!below_ground(states, body) && rested_enough(frame, body)) bodies_.push_back(body);
   }
-  keep_borne<Dim>(contacts, frame.world.states(), weights_, params_.awake_share, bodies_);
+  keep_borne<Dim>(contacts, states, weights_, params_.awake_share, bodies_);
   for (const BodyIndex body : bodies_) {
     const Readiness place = readiness(frame, body);
     decision.freeze.push_back(
         {.body = body, .pile = place.pile, .layer = place.layer, .cause = SleepCause::rest, .score = place.score});
   }
+}
+
+/// An engine pushes a body out of the ground so slowly that it counts as at rest. Asleep it would stay there.
+template <int Dim>
+bool AdaptivePolicy<Dim>::below_ground(const BodyStates<Dim>& states, BodyIndex body) const {
+  return height<Dim>(states.pose[static_cast<std::size_t>(body)].position) < ground_;
 }
 
 /// Whom a blow or a slide did not move where it slept had come to rest before, and need not prove it again.

@@ -39,11 +39,13 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   void wake(std::span<const BodyIndex> bodies, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision);
   void limit(std::span<Kick<Dim>> kicks) const;
   void choose_sleepers(const Frame<Dim>& frame, std::span<const Contact<Dim>> contacts, Decision<Dim>& decision);
+  bool below_ground(const BodyStates<Dim>& states, BodyIndex body) const;
   bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
   Readiness readiness(const Frame<Dim>& frame, BodyIndex body) const;
 
   AdaptiveParams params_;
   double dt_;
+  double ground_;                // its height [m]; without ground the lowest number
   double fastest_;               // that a kick may leave a body, just below what the engines cut to [m/s]
   double fastest_spin_;          // likewise [rad/s]
   std::vector<double> weights_;  // [shape] g dt times mass [N s]

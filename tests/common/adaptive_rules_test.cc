@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "common/policy/blows.h"
 #include "common/policy/impulse.h"
 #include "common/policy/props.h"
+#include "common/simulation/simulation.h"
 #include "tests/common/cubes.h"
 
 namespace talus::adaptive_rules_test {
@@ -47,6 +49,24 @@ TEST(Bearing, KeepsAStackThatRestsAsAWhole) {
   std::vector<BodyIndex> candidates = {0, 1};
   keep_borne<3>(stack_of_two(), world.states(), std::vector{1.0}, 0.25, candidates);
   EXPECT_EQ(candidates, (std::vector<BodyIndex>{0, 1}));
+}
+
+/// Whether the policy freezes a cube that rests on the ground with its centre at this height.
+bool sleeps_at(double height) {
+  Scene<3> scene;
+  scene.world = cubes();
+  auto world = std::make_unique<StillWorld<3>>(scene.world);
+  const double weight = scene.world.shapes[0].mass * scene.world.gravity * scene.world.dt;
+  world->touching = {contact(0, ground_index, Vec3::Zero(), Vec3::UnitZ(), weight)};
+  Simulation<3> simulation(scene, std::move(world), make_policy(scene));
+  simulation.add({.pose = {.position = Vec3(0.0, 0.0, height)}});
+  for (int step = 0; step < 60; ++step) simulation.step();
+  return simulation.world().awake().empty();
+}
+
+TEST(AdaptivePolicy, LetsABodySleepOnTheGroundAndNotBelowIt) {
+  EXPECT_TRUE(sleeps_at(0.1));
+  EXPECT_FALSE(sleeps_at(-0.1));
 }
 
 TEST(Bearing, LeavesOutABodyThatLiesOnOneWhichStaysAwake) {

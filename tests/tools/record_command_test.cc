@@ -83,6 +83,7 @@ TEST(WakeCommand, TellsHowFarTheSleepersDriftAndTakesTheFullRunsDriftOff) {
   EXPECT_EQ(json["bodies"], 15);
   EXPECT_GT(json["asleep"], 0);
   EXPECT_EQ(json["floating_sleepers"], 0);
+  EXPECT_EQ(json["sunken_sleepers"], 0);
   EXPECT_LT(json["penetration_D"]["max"], 0.2);
   const double drift = json["after_waking"]["drift_mean_D"];
   EXPECT_GT(drift, 0.0);

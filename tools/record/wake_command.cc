@@ -69,6 +69,7 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
       {"bodies", test.bodies},
       {"asleep", asleep},
       {"floating_sleepers", floating_sleepers<Dim>(run.last, touches).size()},
+      {"sunken_sleepers", sunken_sleepers<Dim>(run.scene.world, run.last).size()},
       {"penetration_D", {{"mean", depth.mean / extent}, {"p99", depth.p99 / extent}, {"max", depth.max / extent}}},
       {"simulated_s", options.seconds},
       {"after_waking", wake_json(test, extent)}};
@@ -89,6 +90,7 @@ void print_wake(const Json& json) {
              json["backend"].get<std::string>(), json["policy"].get<std::string>(), json["step"].get<int>(),
              json["bodies"].get<int>(), json["asleep"].get<int>());
   fmt::print("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
+  fmt::print("sleepers below ground: {} (must be 0)\n", json["sunken_sleepers"].get<int>());
   const Json& depth = json["penetration_D"];
   fmt::print("penetration over D: mean {}, 99 % {}, max {}\n", in_short(depth["mean"]), in_short(depth["p99"]),
              in_short(depth["max"]));
