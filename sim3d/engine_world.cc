@@ -165,7 +165,7 @@ void EngineWorld<Dim>::set_velocity(BodyIndex body, const Vec<Dim>& velocity, co
   if (states_.asleep[i] != 0) {
     throw std::invalid_argument("body: " + std::to_string(body) + " sleeps; only an awake body can be pushed");
   }
-  check(BodyDef<Dim>{states_.shape[i], states_.pose[i], velocity, spin}, description_);
+  check(BodyDef<Dim>{states_.shape[i], {}, velocity, spin}, description_);
   btRigidBody& pushed = *rigid_body(i);
   pushed.setLinearVelocity(to_bullet(velocity));
   pushed.setAngularVelocity(spin_to_bullet<Dim>(spin));

@@ -56,5 +56,14 @@ TYPED_TEST(BadInput, OfASpeedBeyondTheEnginesReachIsRefusedOrSimulated) {
   EXPECT_NEAR(this->pose(*world, fast).position[0], 50.0, 0.1);
 }
 
+TYPED_TEST(BadInput, IsNoVelocityOfABodyFarAway) {
+  constexpr int dim = TypeParam::dim;
+  auto world = TypeParam::make(this->description());
+  const BodyIndex body = world->add(this->at(up<dim>(5.0) + 1e4 * Vec<dim>::Unit(0), 1, 50.0 * Vec<dim>::Unit(0)));
+  this->run(*world, 0.5);
+  EXPECT_GT(this->pose(*world, body).position[0], 1e4);
+  EXPECT_NO_THROW(world->set_velocity(body, Vec<dim>::Zero(), Spin<dim>::Zero()));
+}
+
 }  // namespace
 }  // namespace talus::input_test
