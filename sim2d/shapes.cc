@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "common/math/require.h"
-
 namespace talus::box2d {
 namespace {
 
@@ -81,10 +79,6 @@ EngineShape moved(const EngineShape& shape, const b2Transform& pose) {
 }
 
 b2MassData engine_mass(const Shape<2>& shape) {
-  constexpr double least = 1e-20;  // inverses and their products must stay below 3e38
-  require(shape.mass >= least, "mass of shape '" + shape.name + "'", shape.mass, "must be at least 1e-20 kg");
-  require(shape.inertia(0, 0) >= least, "inertia of shape '" + shape.name + "'", shape.inertia(0, 0),
-          "must be at least 1e-20 kg m^2");
   b2MassData mass;
   mass.mass = static_cast<float>(shape.mass);
   mass.center.SetZero();

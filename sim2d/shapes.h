@@ -23,8 +23,7 @@ std::vector<EngineShape> engine_shapes(const Shape<2>& shape);
 /// The same shape in the axes that `pose` leads to. Corners keep their order.
 EngineShape moved(const EngineShape& shape, const b2Transform& pose);
 
-/// Mass and inertia about the origin, which is the centre of mass. Throws std::invalid_argument where single precision
-/// cannot hold them: Box2D would take 1 kg for a mass of 0.
+/// Mass and inertia about the origin, which is the centre of mass.
 b2MassData engine_mass(const Shape<2>& shape);
 
 inline b2Vec2 to_engine(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }

@@ -1,5 +1,8 @@
 #include "common/scene/convex_container.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,12 +18,17 @@ Vec2 outwards(std::span<const Vec2> outline, std::size_t from) {
   return Vec2(along.y(), -along.x()).normalized();
 }
 
-// The outline of the walls' outer faces, corner by corner.
+// The outline of the walls' outer faces, corner by corner. Throws std::invalid_argument for a sharp corner.
 std::vector<Vec2> widened(std::span<const Vec2> outline, double by) {
+  constexpr double sharpest = 5.0;  // [degrees]; the outer corner then lies 23 times the walls' thickness away
   std::vector<Vec2> wide;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2 before = outwards(outline, (i + outline.size() - 1) % outline.size());
     const Vec2 after = outwards(outline, i);
+    const double angle = std::acos(std::clamp(-before.dot(after), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+    require(angle >= sharpest, "corners", angle,
+            fmt::format("must meet at {} degrees or more, here {:.3g}: walls around a sharper corner have no end",
+                        sharpest, angle));
     wide.emplace_back(outline[i] + by * (before + after) / (1.0 + before.dot(after)));
   }
   return wide;

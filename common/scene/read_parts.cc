@@ -57,7 +57,7 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     table.read("at", pile.at.emplace(), coordinate());
   }
   table.read("initial_size", pile.initial_size, between(1.0, 1e7));
-  table.read("growth_ratio", pile.growth_ratio, {.low = 0.0, .high = 1.0, .low_excluded = true});
+  table.read("growth_ratio", pile.growth_ratio, between(0.01, 1.0));
   table.read("merge_distance", pile.merge_distance, between(0.0, 1e6));
   table.read("drift_rate", pile.drift_rate, between(0.0, 1e3));
   if (table.has("count_flying")) {
@@ -88,14 +88,21 @@ void read_policy(TableReader& table, PolicyParams& policy) {
   table.table("adaptive", [&](TableReader& own) { read_adaptive(own, policy.adaptive); });
 }
 
+/// A run's steps: at 60 a second half a year, at a quarter of a microsecond for a world at rest four minutes.
+constexpr double most_steps = 1e9;
+
 void read_run(TableReader& table, double dt, RunParams& run) {
   table.read("frames", run.frames, between(1, 1e9));
-  table.read("frame_rate", run.frame_rate, {.low = 0.0, .high = 1e5, .low_excluded = true});
+  table.read("frame_rate", run.frame_rate, between(1e-3, 1e5));
   const double steps = 1.0 / (run.frame_rate * dt);
   if (table.sound() && (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6)) {
     table.reject("frame_rate", fmt::format("must divide world.steps_per_second, here {:.6g}: a frame is one or more "
                                            "whole steps",
                                            1.0 / dt));
+    return;
+  }
+  if (table.sound() && steps * static_cast<double>(run.frames) > most_steps) {
+    table.reject("frames", fmt::format("must make at most {} steps, here {:.3g} steps a frame", most_steps, steps));
   }
 }
 

@@ -114,6 +114,10 @@ void read_motion(TableReader& table, Source<Dim>& source) {
   table.read("spin_spread", source.spin_spread, between(0.0, 1e4));
   table.read("sweep", source.sweep, coordinate());
   table.read("sweep_period", source.sweep_period, between(0.0, 1e6));
+  constexpr double shortest_period = 0.01;  // [s]
+  if (table.sound() && source.sweep_period != 0.0 && source.sweep_period < shortest_period) {
+    table.reject("sweep_period", fmt::format("must be 0 or at least {}", shortest_period));
+  }
   table.read("ride_above", source.ride_above, between(0.0, 1e4));
   if (source.sweep.norm() > 0.0 && source.sweep_period == 0.0) {
     table.reject("sweep", "must be given together with a sweep_period above 0");

@@ -60,13 +60,13 @@ void read_obstacle(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
   kinds.emplace_back("container");
   const std::string kind = read_kind(table, kinds);
   WorldDescription<Dim> alone;
-  if (kind == "container") {
-    alone.obstacles = read_container(table, pose, material);
-  } else if (const auto shape = read_shape<Dim>(table, kind, table.path(), material)) {
-    alone.obstacles = {{*shape, pose_of_centre(*shape, pose)}};
-  }
   try {
-    check(alone);  // here, so that the answer has its place in the file
+    if (kind == "container") {
+      alone.obstacles = read_container(table, pose, material);
+    } else if (const auto shape = read_shape<Dim>(table, kind, table.path(), material)) {
+      alone.obstacles = {{*shape, pose_of_centre(*shape, pose)}};
+    }
+    check(alone);  // here, so that the error has its place in the file
   } catch (const std::invalid_argument& refusal) {
     table.reject_as(refusal);
   }

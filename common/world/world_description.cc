@@ -15,6 +15,7 @@ namespace {
 constexpr double farthest_place =
     1e4;  // [m] beyond, single precision resolves a millimetre at best and contacts jitter
 constexpr double largest_mass_ratio = 100.0;
+constexpr double least_mass = 1e-20;  // [kg], and of inertia [kg m^2]: single precision must hold products of inverses
 
 void require_within(double value, double low, double high, const std::string& field, std::string_view rule) {
   require(value >= low && value <= high, field, value, rule);
@@ -51,10 +52,11 @@ void check_shape(const Shape<Dim>& shape, const std::string& field) {
     check_piece(shape.pieces[i], piece);
     check_width(shape.pieces[i], piece);
   }
-  require(std::isfinite(shape.mass) && shape.mass > 0.0, field + ".mass", shape.mass,
-          "must be finite and above 0 kg, as make_shape() sets it");
-  require(shape.inertia.allFinite() && shape.inertia.determinant() > 0.0, field + ".inertia",
-          shape.inertia.determinant(), "must be finite and positive, as make_shape() sets it");
+  require(std::isfinite(shape.mass) && shape.mass >= least_mass, field + ".mass", shape.mass,
+          fmt::format("must be finite and at least {} kg", least_mass));
+  const double least_inertia = shape.inertia.diagonal().minCoeff();
+  require(shape.inertia.allFinite() && least_inertia >= least_mass && shape.inertia.determinant() > 0.0,
+          field + ".inertia", least_inertia, fmt::format("must be finite and at least {} kg m^2", least_mass));
   require(shape.extent <= 2.0 * farthest_place, field + ".extent", shape.extent, "must be at most 20,000 m");
 }
 
