@@ -19,6 +19,15 @@ void check_for_box2d(const WorldDescription<2>& description) {
 
 }  // namespace
 
+EngineTraits box2d_traits() {
+  return {.name = "box2d",
+          .fastest_step = b2_maxTranslation,
+          .restitution_gain = 0.19,
+          .awake_bytes = 1200.0,
+          .sleeper_bytes = 700.0,
+          .awake_seconds = 3e-6};
+}
+
 std::unique_ptr<World<2>> make_box2d_world(const WorldDescription<2>& description) {
   check(description);
   check_for_box2d(description);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 
@@ -65,6 +66,54 @@ TEST(Warnings, TellOfAPolicyWithoutAPile) {
 }
 
 TEST(Warnings, TellOfLongSteps) { expect_one(warnings_with({{"world.steps_per_second=30"}}), "below 60"); }
+
+constexpr EngineTraits slow_engine = {.name = "slow",
+                                      .fastest_step = 0.25,
+                                      .sinking_fall = 0.1,
+                                      .restitution_gain = 0.4,
+                                      .awake_bytes = 1e4,
+                                      .sleeper_bytes = 1e3,
+                                      .awake_seconds = 1e-5};
+
+// The same scene's warnings for an engine that moves bodies by at most 15 m/s.
+std::string engine_warnings_with(std::vector<Override> overrides) {
+  const std::string text =
+      "title = \"A scene\"\ndimension = 3\nshape.ball = {kind = \"ball\", radius = 0.5}\n"
+      "source = [{rate = 2, count = 10}]\n";
+  std::string lines;
+  for (const std::string& line :
+       engine_warnings(std::get<Scene<3>>(parse_scene(text, "text", overrides)), slow_engine)) {
+    lines += line + "\n";
+  }
+  return lines;
+}
+
+TEST(EngineWarnings, AreNoneForASoundScene) { EXPECT_EQ(engine_warnings_with({}), ""); }
+
+TEST(EngineWarnings, TellOfAFallThatIsTooFastWithHeightAndSpeed) {
+  expect_one(engine_warnings_with({{"source[0].position=[0,0,20]"}}), "a fall of 20 m ends at 19.81 m/s");
+}
+
+TEST(EngineWarnings, TellOfGravityThatPressesBodiesIntoTheGround) {
+  expect_one(engine_warnings_with({{"world.gravity=400"}, {"source[0].position=[0,0,0.5]"}}),
+             "a step's fall of 0.111 m is more than a tenth");
+}
+
+TEST(EngineWarnings, TellOfImpactsThatAddEnergy) {
+  expect_one(engine_warnings_with({{"shape.ball.restitution=1"}}), "impacts add energy, 40 % in a minute");
+  EXPECT_EQ(engine_warnings_with({{"shape.ball.restitution=0.99"}}), "");
+}
+
+TEST(EngineWarnings, ForetellTimeAndMemoryOfManyBodiesAtOnce) {
+  const std::vector<Override> grid = {{"source[0].count=1000000"},
+                                      {"source[0].grid=[1000,1000,1]"},
+                                      {"source[0].spacing=[2,2,2]"},
+                                      {"source[0].position=[0,0,10]"}};
+  expect_one(engine_warnings_with(grid), "1000000 bodies awake at once take 10 s a step or more and about 10 GB");
+  EXPECT_EQ(engine_warnings_with({{"source[0].count=1000000"}}), "");
+  std::vector<Override> awake = {{"source[0].count=30000"}, {"policy.kind=full"}};
+  expect_one(engine_warnings_with(awake), "30000 bodies awake at once");
+}
 
 }  // namespace
 }  // namespace talus::scene_warnings_test

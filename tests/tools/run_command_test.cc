@@ -139,5 +139,37 @@ TEST(CheckCommand, TellsWhatASceneWillDoWithoutRunningIt) {
   EXPECT_NE(outcome.out.find("warning"), std::string::npos) << "60 a second is more than the spout can do";
 }
 
+#ifdef TALUS_BULLET
+TEST(CheckCommand, RefusesWhatNoEngineOfTheDimensionRuns) {
+  const std::string pressed = "drop_in_a_pile_3d --set world.gravity=1000";
+  const std::string rule = "world.gravity = 1000: must be at most";
+  for (const std::string command : {"check ", "run --hash "}) {
+    const Outcome outcome = talus_command(command + pressed);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_NE(outcome.err.find(rule), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(RunCommand, WarnsOfWhatItsEngineDoesBadly) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command(
+      "run drop_in_a_pile_3d --no-telemetry --set run.frames=2 "
+      "--set shape.L.restitution=1 --out " +
+      (folder / "run"));
+  EXPECT_NE(outcome.err.find("warning: bullet: shape.L.restitution = 1"), std::string::npos) << outcome.err;
+}
+#endif
+
+#ifndef __SANITIZE_ADDRESS__
+TEST(CheckCommand, RefusesBodiesThatDoNotFitIntoMemory) {
+  const std::string many = " drop_in_a_pile_2d --set source[0].count=10000000 --set policy.kind=full";
+  for (const std::string command : {"check", "run --hash"}) {
+    const Outcome outcome = shell("ulimit -v 4000000; \"$TALUS\" " + command + many);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_NE(outcome.err.find("source: must drop fewer bodies"), std::string::npos) << outcome.err;
+  }
+}
+#endif
+
 }  // namespace
 }  // namespace talus::run_command_test

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
 #include "common/scene/warnings.h"
 #include "tools/commands/commands.h"
+#include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
+#include "tools/run/make_simulation.h"
 
 namespace talus {
 
@@ -25,6 +28,28 @@ void tell(const Scene<Dim>& scene) {
                source.count, source.rate, source.start, reachable_rate(source, scene.world));
   }
   for (const std::string& warning : warnings(scene)) fmt::print("  warning: {}\n", warning);
+  for (const std::string& backend : backends(Dim)) {
+    for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
+      fmt::print("  warning: {}: {}\n", backend, warning);
+  }
+}
+
+/// Builds what a run would build on each engine of this build: `check` refuses what every one of them refuses.
+template <int Dim>
+void try_engines(const Scene<Dim>& scene, const std::string& file) {
+  const std::vector<std::string> engines = backends(Dim);
+  std::string refusals;
+  std::size_t refused = 0;
+  for (const std::string& backend : engines) {
+    try {
+      make_simulation(scene, backend);
+    } catch (const std::invalid_argument& refusal) {
+      refusals += fmt::format("{}{}: {}: {}", refused == 0 ? "" : "\n", file, backend, refusal.what());
+      ++refused;
+    }
+  }
+  if (refused > 0 && refused == engines.size()) throw std::invalid_argument(refusals);
+  if (refused > 0) fmt::print("{}\n", refusals);
 }
 
 int check_scene(const std::string& name, const std::vector<std::string>& settings) {
@@ -32,6 +57,7 @@ int check_scene(const std::string& name, const std::vector<std::string>& setting
   for (const std::string& setting : settings) overrides.push_back({setting});
   const std::filesystem::path file = find_scene(name);
   const AnyScene scene = read_scene(file, overrides);
+  std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string()); }, scene);
   fmt::print("{}: sound\n", file.string());
   std::visit([](const auto& of_dimension) { tell(of_dimension); }, scene);
   return exit_codes::success;

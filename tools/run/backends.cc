@@ -18,7 +18,7 @@ namespace {
 
 template <int Dim>
 struct Backend {
-  std::string_view name;
+  EngineTraits traits;
   std::unique_ptr<World<Dim>> (*make)(const WorldDescription<Dim>&);
 };
 
@@ -27,14 +27,14 @@ std::vector<Backend<Dim>> table() {
   std::vector<Backend<Dim>> list;
   if constexpr (Dim == 2) {
 #ifdef TALUS_BOX2D
-    list.push_back({"box2d", make_box2d_world});
+    list.push_back({box2d_traits(), make_box2d_world});
 #endif
 #ifdef TALUS_BULLET
-    list.push_back({"bullet-planar", make_bullet_planar_world});
+    list.push_back({bullet_planar_traits(), make_bullet_planar_world});
 #endif
   } else {
 #ifdef TALUS_BULLET
-    list.push_back({"bullet", make_bullet_world});
+    list.push_back({bullet_traits(), make_bullet_world});
 #endif
   }
   return list;
@@ -43,8 +43,18 @@ std::vector<Backend<Dim>> table() {
 template <int Dim>
 std::vector<std::string> names() {
   std::vector<std::string> list;
-  for (const Backend<Dim>& backend : table<Dim>()) list.emplace_back(backend.name);
+  for (const Backend<Dim>& backend : table<Dim>()) list.emplace_back(backend.traits.name);
   return list;
+}
+
+template <int Dim>
+Backend<Dim> find_backend(std::string_view name) {
+  for (const Backend<Dim>& known : table<Dim>()) {
+    if (known.traits.name == name) return known;
+  }
+  throw std::invalid_argument(fmt::format(
+      "backend = \"{}\": a scene in {}D runs here on {}", name, Dim,
+      names<Dim>().empty() ? "no engine: none was built in" : fmt::format("{}", fmt::join(names<Dim>(), ", "))));
 }
 
 }  // namespace
@@ -52,15 +62,17 @@ std::vector<std::string> names() {
 std::vector<std::string> backends(int dimension) { return dimension == 2 ? names<2>() : names<3>(); }
 
 template <int Dim>
-std::unique_ptr<World<Dim>> make_world(std::string_view backend, const WorldDescription<Dim>& description) {
-  for (const Backend<Dim>& known : table<Dim>()) {
-    if (known.name == backend) return known.make(description);
-  }
-  throw std::invalid_argument(fmt::format(
-      "backend = \"{}\": a scene in {}D runs here on {}", backend, Dim,
-      names<Dim>().empty() ? "no engine: none was built in" : fmt::format("{}", fmt::join(names<Dim>(), ", "))));
+EngineTraits engine_traits(std::string_view backend) {
+  return find_backend<Dim>(backend).traits;
 }
 
+template <int Dim>
+std::unique_ptr<World<Dim>> make_world(std::string_view backend, const WorldDescription<Dim>& description) {
+  return find_backend<Dim>(backend).make(description);
+}
+
+template EngineTraits engine_traits<2>(std::string_view);
+template EngineTraits engine_traits<3>(std::string_view);
 template std::unique_ptr<World<2>> make_world(std::string_view, const WorldDescription<2>&);
 template std::unique_ptr<World<3>> make_world(std::string_view, const WorldDescription<3>&);
 

@@ -6,12 +6,17 @@
 #include <string_view>
 #include <vector>
 
+#include "common/world/engine_traits.h"
 #include "common/world/world.h"
 
 namespace talus {
 
 /// Names of the engines in this build that can simulate `dimension`, the default first.
 std::vector<std::string> backends(int dimension);
+
+/// What the engine of that name does badly. Throws std::invalid_argument where this build has no such engine.
+template <int Dim>
+EngineTraits engine_traits(std::string_view backend);
 
 /// A new world in the engine of that name. Throws std::invalid_argument where this build has no such engine for Dim.
 template <int Dim>

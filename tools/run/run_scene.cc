@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 #include "common/simulation/state_hash.h"
@@ -11,6 +12,7 @@
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
+#include "tools/run/make_simulation.h"
 #include "tools/run/run_outputs.h"
 #include "tools/run/tell_run.h"
 
@@ -47,13 +49,10 @@ int exit_code_of(std::string_view reason) {
 }
 
 template <int Dim>
-void warn(const Scene<Dim>& scene) {
+void warn(const Scene<Dim>& scene, const std::string& backend) {
   for (const std::string& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
-}
-
-template <int Dim>
-Simulation<Dim> make_simulation(const Scene<Dim>& scene, const std::string& backend) {
-  return Simulation<Dim>(scene, make_world<Dim>(backend, scene.world), make_policy(scene));
+  for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
+    fmt::print(stderr, "warning: {}: {}\n", backend, warning);
 }
 
 template <int Dim>
@@ -78,6 +77,7 @@ template <int Dim>
 int run(const RunOptions& options, const std::string& name, const Scene<Dim>& scene) {
   const std::vector<std::string> engines = backends(Dim);
   const std::string backend = options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
+  if (!options.hash_only) warn(scene, backend);
   if (options.hash_only && options.out.empty()) return print_hash(scene, backend);
 
   Simulation<Dim> simulation = make_simulation(scene, backend);
@@ -106,12 +106,7 @@ int run(const RunOptions& options, const std::string& name, const Scene<Dim>& sc
 int run_scene(const RunOptions& options) {
   const std::filesystem::path file = find_scene(options.scene);
   const auto scene = read_scene(file, overrides(options, options.policy));
-  return std::visit(
-      [&](const auto& of_dimension) {
-        if (!options.hash_only) warn(of_dimension);
-        return run(options, file.stem().string(), of_dimension);
-      },
-      scene);
+  return std::visit([&](const auto& of_dimension) { return run(options, file.stem().string(), of_dimension); }, scene);
 }
 
 }  // namespace talus

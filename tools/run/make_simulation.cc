@@ -1,0 +1,45 @@
+#include "tools/run/make_simulation.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "common/policy/sleep_policy.h"
+#include "common/scene/engine_warnings.h"
+#include "tools/run/backends.h"
+
+namespace talus {
+
+namespace {
+
+/// Memory that the process may have at most [bytes].
+double memory() {
+  const double installed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return installed;
+  return std::min(installed, static_cast<double>(limit.rlim_cur));
+}
+
+template <int Dim>
+void check_memory(const Scene<Dim>& scene, const std::string& backend) {
+  const double need = demand(scene, engine_traits<Dim>(backend)).bytes;
+  if (need <= memory()) return;
+  throw std::invalid_argument(
+      fmt::format("source: must drop fewer bodies: on {} they take about {:.3g} GB, of which there are {:.3g}", backend,
+                  need * 1e-9, memory() * 1e-9));
+}
+
+}  // namespace
+
+template <int Dim>
+Simulation<Dim> make_simulation(const Scene<Dim>& scene, const std::string& backend) {
+  check_memory(scene, backend);
+  return Simulation<Dim>(scene, make_world<Dim>(backend, scene.world), make_policy(scene));
+}
+
+template Simulation<2> make_simulation(const Scene<2>&, const std::string&);
+template Simulation<3> make_simulation(const Scene<3>&, const std::string&);
+
+}  // namespace talus
