@@ -95,8 +95,8 @@ TEST(EngineWarnings, TellOfAFallThatIsTooFastWithHeightAndSpeed) {
 }
 
 TEST(EngineWarnings, TellOfGravityThatPressesBodiesIntoTheGround) {
-  expect_one(engine_warnings_with({{"world.gravity=400"}, {"source[0].position=[0,0,0.5]"}}),
-             "a step's fall of 0.111 m is more than a tenth");
+  const std::string lines = engine_warnings_with({{"world.gravity=400"}});
+  EXPECT_NE(lines.find("a step's fall of 0.111 m is more than a tenth"), std::string::npos) << lines;
 }
 
 TEST(EngineWarnings, TellOfImpactsThatAddEnergy) {
