@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/scene_errors.h"
+#include "common/text/printable.h"
 #include "tools/bench/bench_command.h"
 #include "tools/commands/commands.h"
 #ifdef TALUS_BULLET
@@ -41,13 +42,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? talus::exit_codes::success : talus::exit_codes::bad_input;
   } catch (const talus::SceneErrors& errors) {
-    fmt::print(stderr, "{}\n", errors.what());
+    fmt::print(stderr, "{}\n", talus::printable_lines(errors.what()));
     return talus::exit_codes::bad_input;
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "talus: {}\n", error.what());
+    fmt::print(stderr, "talus: {}\n", talus::printable_lines(error.what()));
     return talus::exit_codes::bad_input;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "talus: {}\n", error.what());
+    fmt::print(stderr, "talus: {}\n", talus::printable_lines(error.what()));
     return talus::exit_codes::failed;
   }
   return exit_code;

@@ -5,6 +5,7 @@
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
 #include "common/scene/warnings.h"
+#include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
@@ -17,7 +18,7 @@ namespace {
 template <int Dim>
 void tell(const Scene<Dim>& scene) {
   const TypicalBody body = typical_body(scene);
-  fmt::print("{}\n", scene.title);
+  fmt::print("{}\n", printable(scene.title));
   fmt::print("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second), policy {}\n", Dim, scene.steps(),
              scene.world.dt, scene.run.frames, scene.run.frame_rate, scene.policy.kind);
   fmt::print("  bodies of {:.4g} kg in the mean, bounding volume {:.4g} {}, largest extent {:.4g} m\n", body.mass,
@@ -27,10 +28,10 @@ void tell(const Scene<Dim>& scene) {
     fmt::print("  source[{}]: {} bodies at {:g} a second from {:g} s on; its spout reaches {:.3g} a second\n", i,
                source.count, source.rate, source.start, reachable_rate(source, scene.world));
   }
-  for (const std::string& warning : warnings(scene)) fmt::print("  warning: {}\n", warning);
+  for (const std::string& warning : warnings(scene)) fmt::print("  warning: {}\n", printable(warning));
   for (const std::string& backend : backends(Dim)) {
     for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
-      fmt::print("  warning: {}: {}\n", backend, warning);
+      fmt::print("  warning: {}: {}\n", backend, printable(warning));
   }
 }
 
@@ -49,7 +50,7 @@ void try_engines(const Scene<Dim>& scene, const std::string& file) {
     }
   }
   if (refused > 0 && refused == engines.size()) throw std::invalid_argument(refusals);
-  if (refused > 0) fmt::print("{}\n", refusals);
+  if (refused > 0) fmt::print("{}\n", printable_lines(refusals));
 }
 
 int check_scene(const std::string& name, const std::vector<std::string>& settings) {
@@ -58,7 +59,7 @@ int check_scene(const std::string& name, const std::vector<std::string>& setting
   const std::filesystem::path file = find_scene(name);
   const AnyScene scene = read_scene(file, overrides);
   std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string()); }, scene);
-  fmt::print("{}: sound\n", file.string());
+  fmt::print("{}: sound\n", printable(file.string()));
   std::visit([](const auto& of_dimension) { tell(of_dimension); }, scene);
   return exit_codes::success;
 }

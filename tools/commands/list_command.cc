@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
+#include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/run/find_scene.h"
 
@@ -13,10 +14,13 @@ int list_scenes() {
   for (const std::filesystem::path& file : scene_files()) {
     try {
       const auto scene = read_scene(file, {});
-      std::visit([&](const auto& of_dimension) { fmt::print("{:26} {}\n", file.stem().string(), of_dimension.title); },
-                 scene);
+      std::visit(
+          [&](const auto& of_dimension) {
+            fmt::print("{:26} {}\n", printable(file.stem().string()), printable(of_dimension.title));
+          },
+          scene);
     } catch (const SceneErrors& errors) {
-      fmt::print("{:26} not readable: {}\n", file.stem().string(), errors.what());
+      fmt::print("{:26} not readable: {}\n", printable(file.stem().string()), printable_lines(errors.what()));
       exit_code = exit_codes::bad_input;
     }
   }

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/picture/contact_sheet.h"
 
@@ -26,9 +27,9 @@ std::string title_of(const fs::path& run) {
 void write_sheet(const std::string& out, const std::vector<std::string>& runs, const ContactSheetParams& params) {
   std::vector<Tile> tiles;
   tiles.reserve(runs.size());
-  for (const fs::path run : runs) tiles.push_back({run / "pile.png", title_of(run)});
+  for (const fs::path run : runs) tiles.push_back({run / "pile.png", printable(title_of(run))});
   write_contact_sheet(out, tiles, "", params);
-  fmt::print("{}\n", out);
+  fmt::print("{}\n", printable(out));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/write_scene.h"
+#include "common/text/printable.h"
 #include "tools/run/avalanches_csv.h"
 #include "tools/run/frames_csv.h"
 #include "tools/run/progress.h"
@@ -24,7 +25,7 @@ PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& s
           simulation.piles().piles(),
           scene.world.obstacles,
           scene.world.ground,
-          scene.title,
+          printable(scene.title),
           fmt::format("{}, policy {}: {} bodies, {} asleep", summary.backend, scene.policy.kind, bodies,
                       bodies - world.awake().size())};
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "common/simulation/state_hash.h"
+#include "common/text/printable.h"
 #include "tools/picture/terminal.h"
 #include "tools/run/terminal_width.h"
 
@@ -18,8 +19,8 @@ void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<D
   const RunStatistics<Dim>& statistics = outputs.statistics();
   const World<Dim>& world = simulation.world();
   const auto bodies = world.states().shape.size();
-  fmt::print("{}: {}, {} on {}, policy {}\n", summary.scene_name, summary.reason, scene.title, summary.backend,
-             scene.policy.kind);
+  fmt::print("{}: {}, {} on {}, policy {}\n", printable(summary.scene_name), printable(summary.reason),
+             printable(scene.title), summary.backend, scene.policy.kind);
   fmt::print(
       "  {} bodies, {} asleep at the end; over {} steps {:.1f} awake in the mean, {:.1f} % of body-steps skipped\n",
       bodies, bodies - world.awake().size(), statistics.steps(), statistics.mean_awake(),
@@ -32,7 +33,7 @@ void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<D
                summary.emit_waits);
   }
   fmt::print("  end hash {:016x}\n  {}/pile.png shows the pile, summary.json has the numbers\n",
-             state_hash(world.states()), outputs.folder().string());
+             state_hash(world.states()), printable(outputs.folder().string()));
   if (isatty(STDOUT_FILENO) == 0) return;
   constexpr int widest = 100;    // wider ones only magnify
   constexpr int narrowest = 48;  // narrower ones show nothing
