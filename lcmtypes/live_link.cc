@@ -38,12 +38,31 @@ bool has_route(const std::string& group) {
   return reached;
 }
 
+/// The largest receive buffer [bytes] that a socket gets here; 0: unknown.
+int largest_receive_buffer() {
+  constexpr int asked = 64 << 20;  // more is of no use: seconds of what a run sends
+  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+  int given = 0;
+  socklen_t size = sizeof given;
+  const bool known = setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &asked, sizeof asked) == 0 &&
+                     getsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &given, &size) == 0;
+  close(descriptor);
+  return known ? given / 2 : 0;  // Linux grants at most rmem_max, and tells twice what it granted
+}
+
 }  // namespace
 
 std::string effective_url(const std::string& url) {
   if (!url.empty()) return url;
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
   return from_environment != nullptr && *from_environment != '\0' ? from_environment : default_url;
+}
+
+std::string receiving_url(const std::string& url) {
+  const std::string address = effective_url(url);
+  const int bytes = largest_receive_buffer();
+  if (!is_multicast(address) || address.find("recv_buf_size=") != std::string::npos || bytes == 0) return address;
+  return fmt::format("{}{}recv_buf_size={}", address, address.find('?') == std::string::npos ? '?' : '&', bytes);
 }
 
 void require_local(const std::string& url) {

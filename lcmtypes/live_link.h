@@ -18,6 +18,10 @@ struct LiveLink {
 /// The address that counts: `url`, else the variable LCM_DEFAULT_URL, else multicast that stays on this machine.
 std::string effective_url(const std::string& url);
 
+/// effective_url(url) for a receiver: a multicast address without `recv_buf_size` gets the largest receive buffer that
+/// the kernel allows (sysctl net.core.rmem_max), so that bursts are not lost.
+std::string receiving_url(const std::string& url);
+
 /// Throws std::invalid_argument when packets to this address would leave the machine (ttl is not 0).
 void require_local(const std::string& effective_url);
 

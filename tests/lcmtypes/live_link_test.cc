@@ -31,6 +31,17 @@ TEST(LiveLink, TakesTheAddressGivenThenTheVariableThenTheDefault) {
   EXPECT_EQ(effective_url(""), "udpm://239.255.76.67:7667?ttl=0");
 }
 
+TEST(LiveLink, ReceivesWithTheLargestBufferThatTheKernelAllowsUnlessTheAddressSaysAnother) {
+  unsetenv("LCM_DEFAULT_URL");
+  const std::string url = receiving_url("");
+  const std::string begin = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=";
+  ASSERT_TRUE(url.starts_with(begin)) << url;
+  EXPECT_GE(std::stoi(url.substr(begin.size())), 1 << 16);
+  EXPECT_TRUE(receiving_url("udpm://").starts_with("udpm://?recv_buf_size="));
+  EXPECT_EQ(receiving_url("udpm://?recv_buf_size=5000"), "udpm://?recv_buf_size=5000");
+  EXPECT_EQ(receiving_url("memq://"), "memq://");
+}
+
 TEST(LiveLink, SaysWhatItCannotOpen) {
   EXPECT_NE(open_live_link("nosuch://").problem, "");
   EXPECT_EQ(open_live_link("memq://").problem, "");

@@ -1,10 +1,16 @@
 // What the tests of the live view start: a run of a small pile with record and telemetry, the monitor, and a look into
 // a log.
 
+#include <arpa/inet.h>
 #include <fmt/core.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
+#include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <string>
 #include <thread>
@@ -12,6 +18,7 @@
 #include "common/shape/catalogue.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
+#include "lcmtypes/live_link.h"
 #include "lcmtypes/log_reader.h"
 #include "lcmtypes/publisher.h"
 #include "lcmtypes/run_recorder.h"
@@ -72,6 +79,54 @@ void count(const std::string& path) {
   fmt::print("damaged {}\n", reader.damage().bytes);
 }
 
+using Bytes = std::vector<std::uint8_t>;
+
+void append(Bytes& bytes, std::uint64_t number, int size) {
+  for (int i = size - 1; i >= 0; --i) bytes.push_back(static_cast<std::uint8_t>(number >> (8 * i)));
+}
+
+/// A fragment of a message as LCM sends it (magic LC03): number, size of the message, where it belongs, which of how
+/// many it is.
+Bytes fragment(std::uint32_t offset, std::uint16_t index, const std::string& payload) {
+  Bytes bytes;
+  for (const std::uint32_t field : {0x4c433033U, 1U, 100'000U, offset}) append(bytes, field, 4);
+  append(bytes, index, 2);
+  append(bytes, 2, 2);
+  bytes.insert(bytes.end(), payload.begin(), payload.end());
+  return bytes;
+}
+
+/// Sends pairs of fragments, the second of which belongs far outside of its message: LCM 1.3.1 writes there.
+void forge(int port, int pairs) {
+  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in group{};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(static_cast<std::uint16_t>(port));
+  inet_pton(AF_INET, "239.255.76.67", &group.sin_addr);
+  const int ttl = 0;
+  setsockopt(descriptor, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
+  const std::string first = std::string("TALUS_RUN") + '\0' + std::string(1000, 'x');
+  constexpr std::array offsets = {99'999U, 0x7fffffffU, 0xfffffff0U, 200'000U};
+  for (int i = 0; i < pairs; ++i) {
+    const std::uint32_t outside = offsets[static_cast<std::size_t>(i) % offsets.size()];
+    for (const Bytes& bytes : {fragment(0, 0, first), fragment(outside, 1, std::string(1400, 'y'))}) {
+      sendto(descriptor, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&group), sizeof group);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  close(descriptor);
+}
+
+/// Publishes statistics of so many runs that do not exist, one message each.
+void invent(const std::string& url, int runs) {
+  const LiveLink link = open_live_link(url);
+  for (int id = 1; id <= runs; ++id) {
+    talus_lcm::talus_stats_v1 message{};
+    const Packet packet = Sealer(id).seal(message, {});
+    link.lcm->publish(name_of(packet.channel), packet.bytes.data(), static_cast<unsigned int>(packet.bytes.size()));
+  }
+}
+
 }  // namespace
 }  // namespace talus
 
@@ -90,5 +145,15 @@ int main(int argc, char** argv) {
   CLI::App* count = app.add_subcommand("count");
   count->add_option("log", log)->required();
   count->callback([&] { talus::count(log); });
+  int port = 0;
+  int number = 1;
+  CLI::App* forge = app.add_subcommand("forge");
+  forge->add_option("port", port)->required();
+  forge->add_option("pairs", number);
+  forge->callback([&] { talus::forge(port, number); });
+  CLI::App* invent = app.add_subcommand("invent");
+  invent->add_option("--lcm-url", options.url);
+  invent->add_option("runs", number);
+  invent->callback([&] { talus::invent(options.url, number); });
   CLI11_PARSE(app, argc, argv);
 }

@@ -18,7 +18,8 @@ fi
 folder=$(mktemp -d)
 trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
-url="udpm://239.255.76.67:$((20000 + $$ % 20000))?ttl=0"
+port=$((20000 + $$ % 20000))
+url="udpm://239.255.76.67:$port?ttl=0"
 
 fail() {
   echo "live_test $part: $*" >&2
@@ -92,6 +93,41 @@ stopped_listener) # a subscriber that stands still changes neither the run nor i
   "$program" run --record silent.lcm --frames 300 --silent >silent.txt
   cmp hash.txt silent.txt
   cmp run.lcm silent.lcm
+  ;;
+
+receiver_crash) # forged fragments crash LCM in the monitor's receiving process: it starts again within a second
+  monitor seen.json --fail-on-loss
+  "$program" run --record run.lcm --lcm-url "$url" --paced --frames 150 >hash.txt &
+  run=$!
+  sleep 2
+  "$program" forge "$port" 40
+  wait $run
+  sleep 1.2
+  kill -INT $monitor
+  code=0
+  wait $monitor || code=$?
+  [[ $code == 1 ]] || fail "the monitor's exit code is $code: a crash is a fault"
+  expect '"faults":{.*"receiver_crashes":[1-9].*"last_crash":"signal' seen.json
+  grep '"run"' seen.json | tail -n 1 >last.json
+  expect '"phase":"end","reason":"finished"' last.json
+  [[ $(grep -c '"step":' seen.json) -ge 4 ]] || fail "the run was not shown each second"
+  "$program" run --record silent.lcm --silent --frames 150 >silent.txt
+  cmp hash.txt silent.txt
+  ;;
+
+invented_runs) # invented runs fill the monitor's table before the run begins: it is shown all the same
+  monitor seen.json --fail-on-loss
+  "$program" invent --lcm-url "$url" 64
+  sleep 2.2
+  "$program" run --record run.lcm --lcm-url "$url" --paced --frames 60 >hash.txt
+  sleep 1.2
+  kill -INT $monitor
+  code=0
+  wait $monitor || code=$?
+  [[ $code == 1 ]] || fail "the monitor's exit code is $code: a dropped run is a fault"
+  expect '"scene":"small_pile"' seen.json
+  expect '"phase":"end","reason":"finished"' seen.json
+  expect '"faults":{.*"dropped_runs":[1-9]' seen.json
   ;;
 
 killed) # kill -9: the record is whole up to the last flush

@@ -1,14 +1,20 @@
 #include "tools/monitor/monitor.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <fstream>
 #include <lcm/lcm-cpp.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "lcmtypes/publisher.h"
+#include "tests/common/temporary_folder.h"
 #include "tests/lcmtypes/still_run.h"
+#include "tools/monitor/receive.h"
 
 namespace talus::monitor_test {
 namespace {
@@ -17,22 +23,36 @@ using Json = nlohmann::json;
 
 const std::atomic<bool> go_on = false;
 
-/// Publishes a run on `lcm` while a monitor with these parameters listens; what the monitor printed and returned.
-std::pair<std::string, int> watch(const MonitorParams& params, int steps) {
+/// Publishes a run of so many steps and receives it.
+void receive_run(const DatagramSender& sender, int steps) {
   lcm::LCM lcm("memq://");
   const Scene<2> scene = still_scene<2>();
   std::thread simulation([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the monitor is there first
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the receiver is there first
     Publisher<2> publisher(run_info(scene, "still", "none"), scene, {.piles_rate = 0.0}, lcm);
     const auto run = still_run<2>(scene, 12);
     run->add_observer(publisher);
     for (int step = 0; step < steps; ++step) run->step();
     run->end("finished");
   });
+  receive(lcm, sender);
+}
+
+void receive_nothing(const DatagramSender&) {
+  for (;;) pause();
+}
+
+/// What a monitor printed and returned.
+std::pair<std::string, int> watch(const MonitorParams& params, const ReceiverProcess::Body& body,
+                                  const std::atomic<bool>& stop = go_on) {
+  ReceiverProcess receiver(body);
   std::ostringstream out;
-  const int code = monitor(lcm, params, out, go_on);
-  simulation.join();
+  const int code = monitor(receiver, params, out, stop);
   return {out.str(), code};
+}
+
+std::pair<std::string, int> watch(const MonitorParams& params, int steps) {
+  return watch(params, [=](const DatagramSender& sender) { receive_run(sender, steps); });
 }
 
 TEST(Monitor, ShowsARunInALineForPeople) {
@@ -61,24 +81,47 @@ TEST(Monitor, GivesJsonForPrograms) {
 }
 
 TEST(Monitor, FailsOnRequestWhenItHeardNothing) {
-  lcm::LCM lcm("memq://");
-  std::ostringstream out;
-  EXPECT_EQ(monitor(lcm, {.seconds = 0.1}, out, go_on), 0);
-  EXPECT_EQ(monitor(lcm, {.seconds = 0.1, .fail_on_loss = true}, out, go_on), 1);
+  EXPECT_EQ(watch({.seconds = 0.1}, receive_nothing).second, 0);
+  EXPECT_EQ(watch({.seconds = 0.1, .fail_on_loss = true}, receive_nothing).second, 1);
 }
 
 TEST(Monitor, StopsWhenAsked) {
-  lcm::LCM lcm("memq://");
-  std::ostringstream out;
   const std::atomic<bool> stop = true;
-  EXPECT_EQ(monitor(lcm, {}, out, stop), 0);
+  EXPECT_EQ(watch({}, receive_nothing, stop).second, 0);
 }
 
 TEST(Monitor, RefusesBadParameters) {
-  lcm::LCM lcm("memq://");
-  std::ostringstream out;
-  EXPECT_THROW(monitor(lcm, {.seconds = 0.0}, out, go_on), std::invalid_argument);
-  EXPECT_THROW(monitor(lcm, {.interval = -1.0}, out, go_on), std::invalid_argument);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double seconds : {0.0, -1.0, nan}) {
+    EXPECT_THROW(watch({.seconds = seconds}, receive_nothing), std::invalid_argument) << seconds;
+  }
+  for (const double interval : {0.0, -1.0, nan, 1e300, std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(watch({.interval = interval}, receive_nothing), std::invalid_argument) << interval;
+  }
+}
+
+/// Sends one message of a run, dies at once in the first process, and later in none.
+void crash_once(const DatagramSender& sender, const std::string& mark) {
+  const bool first = access(mark.c_str(), F_OK) != 0;
+  std::ofstream(mark) << "was here";
+  Sealer sealer(42);
+  talus_lcm::talus_stats_v1 stats{};
+  const Packet packet = sealer.seal(stats, {});
+  sender.send(packet.channel, packet.bytes.data(), packet.bytes.size());
+  if (first) std::raise(SIGSEGV);
+  receive_nothing(sender);
+}
+
+TEST(Monitor, GoesOnAfterACrashOfItsReceiverAndShowsIt) {
+  for (const bool json : {false, true}) {
+    const TemporaryFolder folder;
+    const auto [text, code] = watch({.seconds = 1.0, .interval = 0.4, .json = json, .fail_on_loss = true},
+                                    [&](const DatagramSender& sender) { crash_once(sender, folder / "mark"); });
+    EXPECT_EQ(code, 1);
+    EXPECT_NE(text.find("0000002a"), std::string::npos) << text;
+    EXPECT_NE(text.find("signal 11 (Segmentation fault)"), std::string::npos) << text;
+    EXPECT_NE(text.find(json ? R"("receiver_crashes":1)" : "receiver crashed 1 times"), std::string::npos) << text;
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -36,6 +37,16 @@ TEST(SequenceTracker, SeesThatTheLastOnesAreMissing) {
   EXPECT_EQ(tracker.lost(), 2);
   EXPECT_FALSE(tracker.see(1));
   EXPECT_EQ(tracker.lost(), 2);
+}
+
+TEST(SequenceTracker, HoldsAtTheLargestNumbers) {
+  constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+  SequenceTracker tracker;
+  EXPECT_TRUE(tracker.see(0));
+  EXPECT_TRUE(tracker.see(largest));
+  EXPECT_TRUE(tracker.see(largest));
+  tracker.expect(largest);
+  EXPECT_GT(tracker.lost(), largest - 5);
 }
 
 // Numbers arrive at most 20 places from where they belong, some never, some twice.

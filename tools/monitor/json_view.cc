@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lcmtypes/run_info.h"
+#include "tools/report/json_text.h"
 
 namespace talus {
 
@@ -54,7 +55,7 @@ Json of(const talus_stats_v1& stats) {
 
 }  // namespace
 
-std::string json_line(std::int64_t run_id, const RunView& view, std::int64_t undecodable) {
+std::string json_line(std::int64_t run_id, const RunView& view, const Faults& faults) {
   Json object = {{"run", short_id(run_id)}, {"step", view.step()}, {"sim_time", view.sim_time()}};
   if (view.run()) object.update(of(*view.run()));
   if (view.stats()) object.update(of(*view.stats()));
@@ -63,15 +64,30 @@ std::string json_line(std::int64_t run_id, const RunView& view, std::int64_t und
     object["piles"].push_back({{"number", number}});
     object["piles"].back().update(of(pile));
   }
+  object["piles_left_out"] = view.piles_left_out();
   object["slept"] = view.slept();
   object["woken"] = view.woken();
   object["received"] = view.received();
   for (const Channel channel : heard_channels) {
     object["lost"][name_of(channel)] = view.lost(channel);
   }
-  object["undecodable"] = undecodable;
-  // Texts come from the network: what is no UTF-8 is replaced.
-  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+  object["undecodable"] = faults.undecodable;
+  object["receiver_crashes"] = faults.receiver_crashes;
+  object["dropped_runs"] = faults.dropped_runs;
+  return json_text(object);
+}
+
+std::string json_line(const Faults& faults) {
+  Json object = {{"undecodable", faults.undecodable},
+                 {"last_undecodable", faults.last_undecodable},
+                 {"receiver_crashes", faults.receiver_crashes},
+                 {"last_crash", faults.last_crash},
+                 {"restart_delay_ms", faults.restart_delay_ms},
+                 {"dropped_runs", faults.dropped_runs},
+                 {"last_dropped", faults.dropped_runs > 0 ? Json(short_id(faults.last_dropped)) : Json(nullptr)},
+                 {"unplaced_messages", faults.unplaced_messages},
+                 {"piles_left_out", faults.piles_left_out}};
+  return json_text({{"faults", object}});
 }
 
 }  // namespace talus

@@ -4,82 +4,84 @@
 
 #include <algorithm>
 #include <chrono>
-#include <lcm/lcm-cpp.hpp>
-#include <map>
 #include <ostream>
 #include <stdexcept>
 
+#include "tools/monitor/faults.h"
 #include "tools/monitor/json_view.h"
 #include "tools/monitor/listener.h"
+#include "tools/monitor/receiver_process.h"
 #include "tools/monitor/text_view.h"
 
 namespace talus {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::milliseconds;
 
 void check(const MonitorParams& params) {
   if (!(params.seconds > 0.0)) throw std::invalid_argument(fmt::format("seconds = {}: must be > 0", params.seconds));
-  if (!(params.interval > 0.0)) throw std::invalid_argument(fmt::format("interval = {}: must be > 0", params.interval));
+  if (!(params.interval > 0.0 && params.interval <= MonitorParams::longest_interval)) {
+    throw std::invalid_argument(
+        fmt::format("interval = {}: must be > 0 and at most {}", params.interval, MonitorParams::longest_interval));
+  }
 }
 
 /// Prints what there is, and keeps the sums that the exit code depends on.
 class Reporter {
  public:
-  Reporter(Listener& listener, const MonitorParams& params, std::ostream& out)
-      : listener_(listener), params_(params), out_(out) {}
+  Reporter(Listener& listener, const ReceiverProcess& receiver, const MonitorParams& params, std::ostream& out)
+      : listener_(listener), receiver_(receiver), params_(params), out_(out) {}
 
   void report() {
-    for (const auto& [run_id, view] : listener_.runs()) {
+    const Faults faults = faults_of(listener_, receiver_);
+    for (auto& [run_id, entry] : listener_.runs().entries()) {
       heard_ = true;
-      if (told_.contains(run_id) && view.received() == told_.at(run_id)) continue;  // silent since
-      told_[run_id] = view.received();
-      out_ << (params_.json ? json_line(run_id, view, listener_.undecodable()) : text_line(run_id, view)) << '\n';
+      if (entry.view.received() == entry.printed) continue;  // silent since
+      entry.printed = entry.view.received();
+      out_ << (params_.json ? json_line(run_id, entry.view, faults) : text_line(run_id, entry.view)) << '\n';
     }
-    std::erase_if(told_, [this](const auto& entry) { return !listener_.runs().contains(entry.first); });
-    if (!params_.json && listener_.undecodable() > undecodable_told_) {
-      out_ << fmt::format("undecodable {}, the last one on {}\n", listener_.undecodable(), listener_.last_fault());
-    }
-    undecodable_told_ = listener_.undecodable();
-    out_.flush();
+    if (faults != printed_) out_ << (params_.json ? json_line(faults) : text_line(faults)) << '\n';
+    printed_ = faults;
+    if (!out_.flush()) throw std::runtime_error("standard output cannot be written");
   }
 
-  bool flawless() const { return heard_ && listener_.lost() == 0 && listener_.undecodable() == 0; }
+  bool flawless() const { return heard_ && listener_.runs().lost() == 0 && faults_of(listener_, receiver_).none(); }
 
  private:
   Listener& listener_;
+  const ReceiverProcess& receiver_;
   const MonitorParams& params_;
   std::ostream& out_;
-  std::map<std::int64_t, std::int64_t> told_;  // by run: messages received when last printed
-  std::int64_t undecodable_told_ = 0;
+  Faults printed_;
   bool heard_ = false;
 };
 
-int milliseconds_until(Clock::time_point then) {
-  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(then - Clock::now()).count();
-  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 100));  // 100: how soon `stop` is seen
+Milliseconds time_until(Clock::time_point then) {
+  constexpr Milliseconds longest(100);  // how soon `stop` is seen
+  return std::clamp(std::chrono::duration_cast<Milliseconds>(then - Clock::now()), Milliseconds(0), longest);
 }
 
 }  // namespace
 
-int monitor(lcm::LCM& lcm, const MonitorParams& params, std::ostream& out, const std::atomic<bool>& stop) {
+int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream& out, const std::atomic<bool>& stop) {
   check(params);
-  Listener listener(lcm);
-  Reporter reporter(listener, params, out);
+  Listener listener;
+  Reporter reporter(listener, receiver, params, out);
+  const auto hear_until = [&](Clock::time_point then) {
+    if (const auto datagram = receiver.next(time_until(then))) listener.hear(*datagram);
+  };
   const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(params.interval));
   const auto begin = Clock::now();
   auto next_report = begin + interval;
   while (!stop && std::chrono::duration<double>(Clock::now() - begin).count() < params.seconds) {
-    if (lcm.handleTimeout(milliseconds_until(next_report)) < 0 && !stop) {
-      throw std::runtime_error("LCM stopped receiving");
-    }
+    hear_until(next_report);
     if (Clock::now() < next_report) continue;
     reporter.report();
     next_report += interval;
   }
-  const auto last_call = Clock::now() + std::chrono::milliseconds(100);
-  while (Clock::now() < last_call && lcm.handleTimeout(0) > 0) {  // what had arrived by then
-  }
+  const auto last_call = Clock::now() + Milliseconds(100);  // for what had arrived by then
+  while (Clock::now() < last_call) hear_until(last_call);
   reporter.report();
   return params.fail_on_loss && !reporter.flawless() ? 1 : 0;
 }

@@ -6,10 +6,13 @@
 #include <iostream>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "lcmtypes/live_link.h"
+#include "tools/commands/number_between.h"
 #include "tools/monitor/monitor.h"
+#include "tools/monitor/receive.h"
 
 namespace talus {
 namespace {
@@ -18,15 +21,24 @@ namespace {
 std::atomic<bool> interrupted = false;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+/// Why the address cannot be used; empty where it can.
+std::string problem_with(const std::string& url) { return open_live_link(url).problem; }
+
 int run_monitor(const MonitorParams& params, const std::string& url) {
-  LiveLink link = open_live_link(url);
-  if (!link.lcm) {
-    std::cerr << "talus monitor: " << link.problem << '\n';
+  const std::string address = receiving_url(url);
+  if (const std::string problem = problem_with(address); !problem.empty()) {
+    std::cerr << "talus monitor: " << problem << '\n';
     return 1;
   }
+  ReceiverProcess receiver([&address](const DatagramSender& sender) {
+    const LiveLink link = open_live_link(address);
+    if (!link.lcm) throw std::runtime_error(link.problem);
+    receive(*link.lcm, sender);
+    throw std::runtime_error("LCM stopped receiving");
+  });
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
-  return monitor(*link.lcm, params, std::cout, interrupted);
+  return monitor(receiver, params, std::cout, interrupted);
 }
 
 }  // namespace
@@ -37,17 +49,18 @@ void add_monitor_command(CLI::App& app) {
   const auto url = std::make_shared<std::string>();
   command->add_option("--lcm-url", *url, "Where to listen; else LCM_DEFAULT_URL, else this machine's runs");
   command->add_option("--seconds", params->seconds, "Stop after so many seconds; else Ctrl-C stops")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(0.0, 1e9, Bound::left_out));
   command->add_option("--interval", params->interval, "Seconds between two lines of one run")
-      ->check(CLI::PositiveNumber)
+      ->check(number_between(0.0, MonitorParams::longest_interval, Bound::left_out))
       ->capture_default_str();
   command->add_flag("--json", params->json, "One JSON object a line, for programs");
   command->add_flag("--fail-on-loss", params->fail_on_loss,
-                    "Exit with 1 when a message was lost or undecodable, or no run was heard");
+                    "Exit with 1 when anything sent could not be shown (messages lost or undecodable, runs\n"
+                    "dropped, crashes of the receiver), or no run was heard");
   command->footer(
       "A bar shows the density of a pile's layers, bottom first. \"lost\" counts messages that this monitor missed;\n"
-      "against that: export LCM_DEFAULT_URL='udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304'\n"
-      "and, as root: sysctl -w net.core.rmem_max=4194304. The record of the run is complete in any case.");
+      "against that, as root: sysctl -w net.core.rmem_max=4194304, of which the monitor takes all. The record of the "
+      "run is complete in any case.");
   command->callback([params, url] {
     const int code = run_monitor(*params, *url);
     if (code != 0) throw CLI::RuntimeError(code);

@@ -12,8 +12,9 @@ using talus_lcm::talus_stats_v1;
 
 namespace {
 
-// Anybody can invent piles; more than these nobody looks at.
+// Forged messages can name any number of piles and layers: beyond these a pile is not kept.
 constexpr std::size_t max_piles = 1000;
+constexpr std::size_t max_layers_kept = 64 * max_layers;
 
 }  // namespace
 
@@ -46,11 +47,28 @@ void RunView::take(const talus_piles_v1& message) {
     const talus_pile_v1& pile = message.piles[static_cast<std::size_t>(i)];
     const std::int32_t number = message.first_pile + i;
     if (pile.merged_into >= 0) {
-      piles_.erase(number);
-    } else if (piles_.contains(number) || piles_.size() < max_piles) {
-      piles_[number] = pile;
+      forget(number);
+    } else {
+      keep(number, pile);
     }
   }
+}
+
+void RunView::forget(std::int32_t number) {
+  const auto known = piles_.find(number);
+  if (known == piles_.end()) return;
+  layers_kept_ -= known->second.layers.size();
+  piles_.erase(known);
+}
+
+void RunView::keep(std::int32_t number, const talus_pile_v1& pile) {
+  forget(number);
+  if (piles_.size() >= max_piles || layers_kept_ + pile.layers.size() > max_layers_kept) {
+    ++piles_left_out_;
+    return;
+  }
+  layers_kept_ += pile.layers.size();
+  piles_.emplace(number, pile);
 }
 
 void RunView::take(const talus_sleep_v1& message) {
@@ -70,7 +88,7 @@ bool RunView::is_restart(const talus_run_v1& message) const {
 
 std::int64_t RunView::lost() const {
   std::int64_t sum = 0;
-  for (const SequenceTracker& tracker : trackers_) sum += tracker.lost();
+  for (const SequenceTracker& tracker : trackers_) sum = sum_of_counts(sum, tracker.lost());
   return sum;
 }
 

@@ -31,6 +31,9 @@ class RunView {
   /// By number, as last heard of; without those that became part of another.
   const std::map<std::int32_t, talus_lcm::talus_pile_v1>& piles() const { return piles_; }
 
+  /// Piles told that found no room here; each message counts.
+  std::int64_t piles_left_out() const { return piles_left_out_; }
+
   std::int64_t step() const { return step_; }    // the newest that any message told
   double sim_time() const { return sim_time_; }  // [s] at that step
   bool ended() const { return run_ && run_->phase == talus_lcm::talus_run_v1::END; }
@@ -45,11 +48,15 @@ class RunView {
   /// Counts a message. Whether it is the newest of its channel.
   template <class Message>
   bool note(const Message& message);
+  void forget(std::int32_t number);
+  void keep(std::int32_t number, const talus_lcm::talus_pile_v1& pile);
 
   std::array<SequenceTracker, channel_names.size()> trackers_;
   std::optional<talus_lcm::talus_run_v1> run_;
   std::optional<talus_lcm::talus_stats_v1> stats_;
   std::map<std::int32_t, talus_lcm::talus_pile_v1> piles_;
+  std::size_t layers_kept_ = 0;  // of all piles_
+  std::int64_t piles_left_out_ = 0;
   std::int64_t piles_step_ = -1;
   std::int64_t step_ = 0;
   double sim_time_ = 0.0;

@@ -11,7 +11,7 @@ bool SequenceTracker::see(std::int64_t number) {
     ++received_;
     return false;
   }
-  advance_to(number + 1);
+  advance_to(sum_of_counts(number, 1));
   seen_ |= 1U;
   ++received_;
   return true;

@@ -1,14 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace talus {
+
+/// Sum of two counts >= 0, at most the largest number: forged messages can claim any loss.
+inline std::int64_t sum_of_counts(std::int64_t a, std::int64_t b) {
+  constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+  return a > largest - b ? largest : a + b;
+}
 
 /// Counts the messages that are missing on one channel, from their numbers. Knows duplicates and late ones apart within
 /// the last 64 numbers; what comes later than that counts as lost.
 class SequenceTracker {
  public:
-  /// A message with this number came. Whether it is the newest so far: not late, and no duplicate.
+  /// A message with this number, >= 0, came. Whether it is the newest so far: not late, and no duplicate.
   bool see(std::int64_t number);
 
   /// The sender says that all numbers below `next` were sent.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/text/printable.h"
 #include "lcmtypes/run_info.h"
 
 namespace talus {
@@ -58,13 +59,6 @@ std::string density_bar(std::span<const talus_layer_v1> layers) {
   return text;
 }
 
-std::string printable(std::string_view text) {
-  std::string clean(text);
-  const auto is_control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; };
-  std::replace_if(clean.begin(), clean.end(), is_control, '?');
-  return clean;
-}
-
 std::string text_line(std::int64_t run_id, const RunView& view) {
   std::string line =
       fmt::format("{} {}  step {}  {:.2f} s ", short_id(run_id), name(view), view.step(), view.sim_time());
@@ -76,6 +70,25 @@ std::string text_line(std::int64_t run_id, const RunView& view) {
   }
   line += fmt::format("  lost {}", view.lost());
   if (view.ended()) line += fmt::format("  ended: {}", printable(view.run()->reason));
+  return line;
+}
+
+std::string text_line(const Faults& faults) {
+  std::string line = "not all could be shown:";
+  if (faults.receiver_crashes > 0) {
+    line += fmt::format(" receiver crashed {} times, the last time by {}, restarted after {} ms;",
+                        faults.receiver_crashes, faults.last_crash, faults.restart_delay_ms);
+  }
+  if (faults.undecodable > 0) {
+    line += fmt::format(" undecodable {}, the last one on {};", faults.undecodable, faults.last_undecodable);
+  }
+  if (faults.dropped_runs > 0) {
+    line += fmt::format(" {} runs dropped from a full table, the last one {};", faults.dropped_runs,
+                        short_id(faults.last_dropped));
+  }
+  if (faults.unplaced_messages > 0) line += fmt::format(" {} messages of further runs;", faults.unplaced_messages);
+  if (faults.piles_left_out > 0) line += fmt::format(" {} piles above the limits;", faults.piles_left_out);
+  line.pop_back();
   return line;
 }
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 
+#include "tools/monitor/faults.h"
 #include "tools/monitor/run_view.h"
 
 namespace talus {
@@ -13,10 +13,10 @@ namespace talus {
 /// blank. Of more than 24 layers, neighbours share a block with their mean.
 std::string density_bar(std::span<const talus_lcm::talus_layer_v1> layers);
 
-/// Text from the network without what a terminal would take for commands.
-std::string printable(std::string_view text);
-
 /// A run in one line for people.
 std::string text_line(std::int64_t run_id, const RunView& view);
+
+/// The faults there are, in one line.
+std::string text_line(const Faults& faults);
 
 }  // namespace talus
