@@ -41,6 +41,13 @@ std::optional<FirstDifference> first_difference(const Trajectory<Dim>& a, const 
 }
 
 template <int Dim>
+int last_common_frame(const Trajectory<Dim>& a, const Trajectory<Dim>& b) {
+  int last = std::min(a.frames(), b.frames()) - 1;
+  while (last >= 0 && (a.lost(last) || b.lost(last))) --last;
+  return last;
+}
+
+template <int Dim>
 std::vector<double> extents_of(std::span<const Shape<Dim>> shapes) {
   std::vector<double> extents;
   extents.reserve(shapes.size());
@@ -51,11 +58,13 @@ std::vector<double> extents_of(std::span<const Shape<Dim>> shapes) {
 template <int Dim>
 RunComparison<Dim> compare_runs(const Trajectory<Dim>& a, const Trajectory<Dim>& b, std::span<const Shape<Dim>> shapes,
                                 double gravity, const ProfileGrid<Dim>& grid) {
-  if (a.frames() == 0 || b.frames() == 0) throw std::invalid_argument("run: must have at least one frame");
   check_comparable(a, b);
   RunComparison<Dim> result;
   result.frames = std::min(a.frames(), b.frames());
-  const int last = result.frames - 1;
+  const int last = last_common_frame(a, b);
+  if (last < 0) throw std::invalid_argument("runs: must have a frame in common");
+  result.last = last;
+  for (int frame = 0; frame < result.frames; ++frame) result.left_out += a.lost(frame) || b.lost(frame) ? 1 : 0;
   const std::vector<double> extents = extents_of(shapes);
   const double extent = mean_extent<Dim>(a, last, extents);
   result.first_difference = first_difference(a, b);
@@ -81,6 +90,8 @@ RunComparison<Dim> compare_runs(const Trajectory<Dim>& a, const Trajectory<Dim>&
 
 template std::optional<FirstDifference> first_difference(const Trajectory<2>&, const Trajectory<2>&);
 template std::optional<FirstDifference> first_difference(const Trajectory<3>&, const Trajectory<3>&);
+template int last_common_frame(const Trajectory<2>&, const Trajectory<2>&);
+template int last_common_frame(const Trajectory<3>&, const Trajectory<3>&);
 template std::vector<double> extents_of(std::span<const Shape<2>>);
 template std::vector<double> extents_of(std::span<const Shape<3>>);
 template RunComparison<2> compare_runs(const Trajectory<2>&, const Trajectory<2>&, std::span<const Shape<2>>, double,

@@ -22,10 +22,16 @@ struct FirstDifference {
 template <int Dim>
 std::optional<FirstDifference> first_difference(const Trajectory<Dim>& a, const Trajectory<Dim>& b);
 
-/// `a` in the role of the full run. States are compared at the last frame that both runs have.
+/// The last frame that both runs have and know, or -1.
+template <int Dim>
+int last_common_frame(const Trajectory<Dim>& a, const Trajectory<Dim>& b);
+
+/// `a` in the role of the full run. States are compared at last_common_frame().
 template <int Dim>
 struct RunComparison {
-  int frames = 0;  // that both runs have
+  int frames = 0;    // that both runs have, lost ones included
+  int last = 0;      // last_common_frame()
+  int left_out = 0;  // frames of these that are lost in either run
   std::optional<FirstDifference> first_difference;
   std::vector<MotionError> motion;    // per frame
   MotionError motion_mean;            // over all frames
@@ -40,7 +46,7 @@ struct RunComparison {
 };
 
 /// `shapes` and `gravity` [m/s^2] are those of both runs' worlds; D is the mean over `shapes`' bodies in `a`. Throws
-/// std::invalid_argument where the runs' frames do not fall on the same times or either has none.
+/// std::invalid_argument where the runs' frames do not fall on the same times or they have none in common.
 template <int Dim>
 RunComparison<Dim> compare_runs(const Trajectory<Dim>& a, const Trajectory<Dim>& b, std::span<const Shape<Dim>> shapes,
                                 double gravity, const ProfileGrid<Dim>& grid);

@@ -19,17 +19,29 @@ Trajectory<Dim>::Trajectory(double step_time, std::int64_t steps_per_frame)
 }
 
 template <int Dim>
-void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_number) {
+void Trajectory<Dim>::begin_frame(std::int64_t step_number, bool lost) {
   if (frames() == 0) first_step_ = step_number;
   if (step_number != step(frames())) {
     throw std::invalid_argument(
         fmt::format("step = {}: the frame after step {} is step {}", step_number, step(frames() - 1), step(frames())));
   }
+  first_.push_back(flags_.size());
+  lost_.push_back(lost ? 1 : 0);
+}
+
+template <int Dim>
+void Trajectory<Dim>::append_lost(std::int64_t step_number) {
+  begin_frame(step_number, true);
+}
+
+template <int Dim>
+void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_number,
+                             std::span<const std::uint8_t> unknown) {
   if (states.size() < bodies()) {
     throw std::invalid_argument(fmt::format("states hold {} bodies: {} were there before", states.size(), bodies()));
   }
+  begin_frame(step_number, false);
   shape_.assign(states.shape.begin(), states.shape.end());
-  first_.push_back(flags_.size());
   for (std::size_t i = 0; i < states.shape.size(); ++i) {
     const Pose<Dim>& pose = states.pose[i];
     for (int axis = 0; axis < Dim; ++axis) poses_.push_back(static_cast<float>(pose.position[axis]));
@@ -38,9 +50,10 @@ void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_nu
     } else {
       for (int k = 0; k < 4; ++k) poses_.push_back(static_cast<float>(pose.rotation.coeffs()[k]));
     }
-    const int here = states.removed[i] ? 0 : present_flag;
+    const bool is_unknown = !unknown.empty() && unknown[i] != 0;
+    const int here = states.removed[i] || is_unknown ? 0 : present_flag;
     const int sleeps = states.asleep[i] ? asleep_flag : 0;
-    flags_.push_back(static_cast<std::uint8_t>(here | sleeps));
+    flags_.push_back(static_cast<std::uint8_t>(here | sleeps | (is_unknown ? unknown_flag : 0)));
   }
 }
 
@@ -77,8 +90,13 @@ Trajectory<Dim> Trajectory<Dim>::part(int first, int count) const {
   copy.first_step_ = step(first);
   const std::size_t from = entry(first, 0);
   const std::size_t to = entry(end - 1, bodies(end - 1));
-  for (int frame = first; frame < end; ++frame) copy.first_.push_back(entry(frame, 0) - from);
-  copy.shape_.assign(shape_.begin(), shape_.begin() + bodies(end - 1));
+  BodyIndex most = 0;
+  for (int frame = first; frame < end; ++frame) {
+    copy.first_.push_back(entry(frame, 0) - from);
+    copy.lost_.push_back(lost_[static_cast<std::size_t>(frame)]);
+    most = std::max(most, bodies(frame));
+  }
+  copy.shape_.assign(shape_.begin(), shape_.begin() + most);
   copy.poses_.assign(poses_.begin() + static_cast<std::ptrdiff_t>(from * floats_per_body),
                      poses_.begin() + static_cast<std::ptrdiff_t>(to * floats_per_body));
   copy.flags_.assign(flags_.begin() + static_cast<std::ptrdiff_t>(from),
@@ -88,6 +106,7 @@ Trajectory<Dim> Trajectory<Dim>::part(int first, int count) const {
 
 template <int Dim>
 bool Trajectory<Dim>::same(int frame, const Trajectory& other, BodyIndex body) const {
+  if (unknown(frame, body) || other.unknown(frame, body)) return true;
   if (!present(frame, body) || !other.present(frame, body)) {
     return present(frame, body) == other.present(frame, body);
   }

@@ -1,7 +1,9 @@
 #pragma once
 // Where every body was, frame by frame: what the measures compare.
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/simulation/observer.h"
@@ -11,7 +13,8 @@ namespace talus {
 
 /// Poses of all bodies at each frame of output, in single precision, which is what the engines compute in: nothing of
 /// theirs is lost. 29 bytes per body and frame in 3D, 13 in 2D. A body is absent before its emission and after its
-/// removal.
+/// removal. What a damaged record no longer says is unknown: a body whose pose is unknown counts as absent, and same()
+/// leaves it out.
 template <int Dim>
 class Trajectory {
  public:
@@ -19,8 +22,12 @@ class Trajectory {
   explicit Trajectory(double step_time, std::int64_t steps_per_frame = 1);
 
   /// Adds a frame: the states after step number `step`. Frames follow one another at the distance of steps_per_frame,
-  /// and bodies never become fewer; throws std::invalid_argument otherwise.
-  void append(const BodyStates<Dim>& states, std::int64_t step);
+  /// and bodies never become fewer; throws std::invalid_argument otherwise. `unknown` flags, per body, poses that are
+  /// not known; empty: all are known.
+  void append(const BodyStates<Dim>& states, std::int64_t step, std::span<const std::uint8_t> unknown = {});
+
+  /// Adds a frame of which nothing is known.
+  void append_lost(std::int64_t step);
 
   double step_time() const { return step_time_; }
   std::int64_t steps_per_frame() const { return steps_per_frame_; }
@@ -29,7 +36,11 @@ class Trajectory {
   int frames() const { return static_cast<int>(first_.size()); }
   std::int64_t step(int frame) const { return first_step_ + frame * steps_per_frame_; }
 
-  /// Bodies added by the last frame, by a given frame.
+  /// Whether nothing is known of a frame.
+  bool lost(int frame) const { return lost_[static_cast<std::size_t>(frame)] != 0; }
+  int lost_frames() const { return static_cast<int>(std::count(lost_.begin(), lost_.end(), 1)); }
+
+  /// Bodies added by the last frame, by a given frame; 0 for a lost frame.
   BodyIndex bodies() const { return static_cast<BodyIndex>(shape_.size()); }
   BodyIndex bodies(int frame) const;
   int shape(BodyIndex body) const { return shape_[static_cast<std::size_t>(body)]; }
@@ -45,21 +56,29 @@ class Trajectory {
   /// A copy of `count` frames from `first` on, fewer where the trajectory ends.
   Trajectory part(int first, int count) const;
 
-  /// Whether body `body` of two trajectories is the same bit for bit at a frame, absence included.
+  /// Whether body `body` of two trajectories is the same bit for bit at a frame, absence included. True where either is
+  /// unknown.
   bool same(int frame, const Trajectory& other, BodyIndex body) const;
 
  private:
   static constexpr std::uint8_t present_flag = 1;
   static constexpr std::uint8_t asleep_flag = 2;
+  static constexpr std::uint8_t unknown_flag = 4;
   static constexpr std::size_t floats_per_body = Dim == 2 ? 3 : 7;  // position, then angle or quaternion (x, y, z, w)
   std::size_t entry(int frame, BodyIndex body) const {
     return first_[static_cast<std::size_t>(frame)] + static_cast<std::size_t>(body);
   }
 
+  bool unknown(int frame, BodyIndex body) const {
+    return lost(frame) || (body < bodies(frame) && (flags_[entry(frame, body)] & unknown_flag) != 0);
+  }
+  void begin_frame(std::int64_t step_number, bool lost);
+
   double step_time_;
   std::int64_t steps_per_frame_;
   std::int64_t first_step_ = 0;
   std::vector<std::size_t> first_;   // entry of body 0, per frame
+  std::vector<std::uint8_t> lost_;   // per frame
   std::vector<int> shape_;           // per body
   std::vector<float> poses_;         // per entry
   std::vector<std::uint8_t> flags_;  // per entry

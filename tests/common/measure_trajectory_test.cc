@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "common/measure/compare.h"
 #include "tests/common/made_up_run.h"
 
 namespace talus::measure_trajectory_test {
@@ -50,6 +51,43 @@ TEST(Trajectory, TellsEqualBodiesFromThoseThatDifferInTheLastBit) {
   EXPECT_TRUE(a.same(0, b, 0));
   EXPECT_FALSE(a.same(0, b, 1));
   EXPECT_TRUE(a.same(0, b, 2)) << "absent in both";
+}
+
+TEST(Trajectory, LeavesUnknownBodiesAndLostFramesOutOfAllMeasures) {
+  Trajectory<2> whole(0.01);
+  Trajectory<2> harmed(0.01);
+  for (int step = 1; step <= 4; ++step) {
+    const auto states = states_at<2>({{0.1 * step, 0}, {2, 0.2 * step}});
+    whole.append(states, step);
+    const std::vector<std::uint8_t> unknown = {0, 1};
+    if (step == 2) {
+      harmed.append_lost(step);
+    } else {
+      harmed.append(step == 3 ? states_at<2>({{0.3, 0}, {7, 7}}) : states, step,
+                    step == 3 ? unknown : std::vector<std::uint8_t>{});
+    }
+  }
+  EXPECT_EQ(harmed.lost_frames(), 1);
+  EXPECT_EQ(harmed.bodies(1), 0);
+  EXPECT_FALSE(harmed.present(1, 0));
+  EXPECT_FALSE(harmed.present(2, 1));
+  EXPECT_TRUE(harmed.present(3, 1));
+  for (int frame = 0; frame < 4; ++frame) {
+    EXPECT_TRUE(whole.same(frame, harmed, 0) && harmed.same(frame, whole, 1)) << frame;
+  }
+  EXPECT_EQ(average(motion_errors<2>(whole, harmed, std::vector{1.0}, 9.81)).ratio, 0.0);
+  EXPECT_EQ(harmed.part(1, 2).bodies(), 2);
+  EXPECT_EQ(harmed.part(1, 1).lost_frames(), 1);
+}
+
+TEST(Trajectory, FindsTheLastFrameThatTwoRunsKnow) {
+  Trajectory<2> a(0.01);
+  Trajectory<2> b(0.01);
+  EXPECT_EQ(last_common_frame(a, b), -1);
+  for (int step = 1; step <= 3; ++step) a.append(states_at<2>({{0, 0}}), step);
+  b.append(states_at<2>({{0, 0}}), 1);
+  b.append_lost(2);
+  EXPECT_EQ(last_common_frame(a, b), 0);
 }
 
 }  // namespace

@@ -2,12 +2,17 @@
 
 #ifdef TALUS_LCM
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "lcmtypes/big_endian.h"
+#include "lcmtypes/crc32.h"
 #include "tests/tools/process.h"
 
 namespace talus::record_command_test {
@@ -95,6 +100,135 @@ TEST(WakeCommand, FindsASceneInTheAirUpset) {
   record(folder, "falling", "--policy full --set run.frames=15");
   const Json json = answer("wake " + (folder / "falling") + " --seconds 1");
   EXPECT_GT(json["after_waking"]["drift_max_D"], 1.0) << "what falls at 10 m/s goes on falling: velocities come along";
+}
+
+TEST(WakeCommand, TellsThatTheRunEndedInMidPour) {
+  const TemporaryFolder folder;
+  record(folder, "pouring", "--set run.frames=30");
+  const Json json = answer("wake " + (folder / "pouring") + " --seconds 0.1");
+  EXPECT_EQ(json["unfinished"]["bodies_to_come"].get<int>(), 400 - json["bodies"].get<int>());
+  EXPECT_GT(json["unfinished"]["moving"], 0);
+  const Outcome text = talus_command("wake " + (folder / "pouring") + " --seconds 0.1");
+  EXPECT_NE(text.out.find("not a finished pile"), std::string::npos) << text.out;
+}
+
+TEST(WakeCommand, RefusesATimeThatIsNoSensibleNumber) {
+  for (const char* seconds : {"inf", "nan", "-1", "0", "1e300", "3601", "five"}) {
+    const Outcome outcome = talus_command(std::string("wake nowhere --seconds=") + seconds);
+    EXPECT_EQ(outcome.exit_code, 2) << seconds;
+    EXPECT_NE(outcome.err.find("must be a number above 0 and at most 3600"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(CompareCommand, NamesTheSettingsInWhichTwoScenesDiffer) {
+  const TemporaryFolder folder;
+  record(folder, "a", "");
+  record(folder, "b", "--set source[0].rate=5");
+  const std::string both = (folder / "a") + " " + (folder / "b");
+  const Json settings = answer("compare " + both)["settings_that_differ"];
+  ASSERT_EQ(settings.size(), 1U);
+  EXPECT_EQ(settings[0]["path"], "source[0].rate");
+  EXPECT_EQ(settings[0]["b"], "5");
+  EXPECT_NE(talus_command("compare " + both).out.find("runs of different scenes"), std::string::npos);
+}
+
+TEST(CompareCommand, RefusesARecordWithoutAFrame) {
+  const TemporaryFolder folder;
+  record(folder, "a", "");
+  fs::copy(folder.path() / "a", folder.path() / "b");
+  std::ofstream(folder.path() / "b" / "run.lcm", std::ios::trunc);
+  for (const std::string& arguments : {"compare " + (folder / "a") + " " + (folder / "b"), "wake " + (folder / "b")}) {
+    const Outcome outcome = talus_command(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("run.lcm holds no frame"), std::string::npos) << outcome.err;
+  }
+}
+
+/// Where the data of an event lies in a log.
+struct Place {
+  std::size_t at = 0;
+  std::size_t size = 0;
+};
+
+/// The data of each event on a channel of a sound log (for its format see lcmtypes/log_reader.cc).
+std::vector<Place> events(const std::string& log, const std::string& channel) {
+  const auto number = [&](std::size_t at) {
+    return big_endian(std::span(reinterpret_cast<const std::uint8_t*>(log.data()) + at, 4));
+  };
+  std::vector<Place> places;
+  for (std::size_t at = 0; at < log.size();) {
+    const std::size_t data = at + 28 + number(at + 20);
+    const std::size_t size = number(at + 24);
+    if (log.substr(at + 28, number(at + 20)) == channel) places.push_back({data, size});
+    at = data + size;
+  }
+  return places;
+}
+
+/// Copies run `from` to `to` with its record as `change` leaves it.
+void copy_run(const TemporaryFolder& folder, const char* from, const char* to,
+              const std::function<void(std::string&)>& change) {
+  fs::remove_all(folder.path() / to);
+  fs::copy(folder.path() / from, folder.path() / to);
+  std::string log = contents(folder.path() / to / "run.lcm");
+  change(log);
+  std::ofstream(folder.path() / to / "run.lcm", std::ios::binary | std::ios::trunc) << log;
+}
+
+TEST(CompareCommand, LeavesOutADamagedFrameAndNothingElse) {
+  const TemporaryFolder folder;
+  record(folder, "whole", "--set policy.tau=0.2");
+  const std::string both = "compare " + (folder / "whole") + " " + (folder / "harmed");
+  for (const std::size_t frame : {0U, 1U, 39U, 75U, 76U, 148U}) {
+    copy_run(folder, "whole", "harmed",
+             [&](std::string& log) { log[events(log, "TALUS_BODIES").at(frame).at + 60] ^= 4; });
+    const Json json = answer(both);
+    EXPECT_EQ(json["b"]["lost_steps"], Json({2 * frame + 2}));
+    EXPECT_EQ(json["frames_compared"], 149);
+    EXPECT_TRUE(json["first_difference"].is_null()) << "all that is known is equal: " << json["first_difference"];
+    EXPECT_EQ(json["motion"]["ratio_R"], 0.0);
+    EXPECT_EQ(json["distance_D"]["max_at_end"], 0.0);
+    EXPECT_NE(talus_command(both).out.find(fmt::format("1 frame left out (step {})", 2 * frame + 2)),
+              std::string::npos);
+    const Json wake = answer("wake " + (folder / "harmed") + " --seconds 0.1");
+    EXPECT_NE(wake["damage"].get<std::string>().find("1 frame left out"), std::string::npos);
+  }
+}
+
+TEST(CompareCommand, PrintsForgedTextsWithoutHarm) {
+  const TemporaryFolder folder;
+  record(folder, "a", "");
+  copy_run(folder, "a", "b", [](std::string& log) {
+    for (const Place& place : events(log, "TALUS_RUN")) {
+      std::string data = log.substr(place.at, place.size);
+      data.replace(data.find("adaptive"), 8, "\xff\x1b[2J\xc3(\x9b");
+      const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(data.data()), data.size() - 4);
+      const std::uint32_t sum = crc32(bytes);
+      for (std::size_t i = 0; i < 4; ++i) data[data.size() - 4 + i] = static_cast<char>(sum >> (24 - 8 * i));
+      log.replace(place.at, place.size, data);
+    }
+  });
+  const std::string both = "compare " + (folder / "b") + " " + (folder / "a");
+  EXPECT_EQ(answer(both)["a"]["policy"], "\ufffd\x1b[2J\ufffd(\ufffd");
+  for (const std::string& arguments : {both, both + " --json", "wake --seconds 0.1 " + (folder / "b")}) {
+    const Outcome outcome = talus_command(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find_first_of("\x1b\xff\x9b"), std::string::npos) << outcome.out;
+  }
+}
+
+TEST(Titles, ArePrintedWithoutTerminalCommands) {
+  const TemporaryFolder folder;
+  const std::string title = R"(--set 'title="a\u001b[2Jb\u009b3Jc"')";
+  const std::string run = folder / "run";
+  for (const std::string& arguments :
+       {"check drop_in_a_pile_2d " + title,
+        "run drop_in_a_pile_2d --no-telemetry --set run.frames=2 " + title + " --out " + run,
+        "sheet " + run + " --out " + (folder / "sheet.png")}) {
+    const Outcome outcome = talus_command(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ((outcome.out + outcome.err).find_first_of("\x1b\x9b"), std::string::npos) << outcome.out;
+  }
 }
 
 }  // namespace

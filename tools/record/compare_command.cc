@@ -7,10 +7,13 @@
 #include <optional>
 
 #include "common/measure/compare.h"
+#include "common/scene/setting_differences.h"
 #include "common/scene/typical_body.h"
+#include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
+#include "tools/report/json_text.h"
 #include "tools/report/table.h"
 
 namespace talus {
@@ -44,7 +47,9 @@ Json head_json(const RecordedRun<Dim>& run) {
           {"steps", run.last_step},
           {"bodies", run.last.size()},
           {"sleep_events", run.events.size()},
-          {"damaged_bytes", run.damaged_bytes}};
+          {"damaged_bytes", run.damage.bytes},
+          {"lost_steps", run.damage.lost_steps},
+          {"damage", text_of(run.damage)}};
 }
 
 template <int Dim>
@@ -65,13 +70,39 @@ Json motion_json(const MotionError& error) {
 }
 
 template <int Dim>
+Json settings_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
+  Json list = Json::array();
+  for (const SettingDifference& difference : setting_differences(a.scene.toml, b.scene.toml)) {
+    list.push_back(
+        {{"path", difference.path}, {"a", difference.a}, {"b", difference.b}, {"of_scene", is_of_scene(difference)}});
+  }
+  return list;
+}
+
+/// Refuses runs that no measure is defined for.
+template <int Dim>
+void check_comparable_runs(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
+  if (a.scene.world.shapes.size() != b.scene.world.shapes.size()) {
+    throw std::invalid_argument(
+        fmt::format("{} and {} are runs of different scenes, with {} and {} shapes: must be of the same shapes", a.name,
+                    b.name, a.scene.world.shapes.size(), b.scene.world.shapes.size()));
+  }
+  if (last_common_frame(a.frames, b.frames) >= 0) return;
+  throw std::invalid_argument(fmt::format("{} and {}: must have a frame of output in common", a.name, b.name));
+}
+
+template <int Dim>
 Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
-  const auto bodies =
-      placed_bodies<Dim>(a.scene.world.shapes, a.frames, std::min(a.frames.frames(), b.frames.frames()) - 1);
+  check_comparable_runs(a, b);
+  const auto bodies = placed_bodies<Dim>(a.scene.world.shapes, a.frames, last_common_frame(a.frames, b.frames));
   const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, a.scene.world.ground.height, typical_body(a.scene).extent);
   const RunComparison<Dim> result =
       compare_runs<Dim>(a.frames, b.frames, a.scene.world.shapes, a.scene.world.gravity, grid);
-  Json json = {{"a", head_json(a)}, {"b", head_json(b)}, {"frames_compared", result.frames}};
+  Json json = {{"a", head_json(a)},
+               {"b", head_json(b)},
+               {"settings_that_differ", settings_json(a, b)},
+               {"frames_compared", result.frames - result.left_out},
+               {"frames_left_out", result.left_out}};
   json["first_difference"] = nullptr;
   if (result.first_difference) {
     const FirstDifference& first = *result.first_difference;
@@ -86,7 +117,7 @@ Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
                                           {"cause", std::string(to_string(event->cause))}};
   }
   json["motion"] = motion_json(result.motion_mean);
-  json["distance_D"] = {{"mean_at_end", result.position_mean.back()},
+  json["distance_D"] = {{"mean_at_end", result.position_mean[static_cast<std::size_t>(result.last)]},
                         {"p95_at_end", result.position_p95},
                         {"max_at_end", result.position_max}};
   json["shape_a"] = shape_json(result.shape_a);
@@ -102,16 +133,31 @@ std::string number(const Json& value) {
   return std::isfinite(known) ? fmt::format("{:.4g}", known) : "-";
 }
 
+std::string printed(const Json& text) { return printable(text.get<std::string>()); }
+
 void print_head(const Json& run, char letter) {
-  fmt::print(
-      "{}: {}: {}, policy {}, {} steps, {} bodies, {} sleep events{}\n", letter, run["run"].get<std::string>(),
-      run["backend"].get<std::string>(), run["policy"].get<std::string>(), run["steps"].get<int>(),
-      run["bodies"].get<int>(), run["sleep_events"].get<int>(),
-      run["damaged_bytes"] == 0 ? "" : fmt::format(", {} damaged bytes left out", run["damaged_bytes"].get<int>()));
+  fmt::print("{}: {}: {}, policy {}, {} steps, {} bodies, {} sleep events\n", letter, printed(run["run"]),
+             printed(run["backend"]), printed(run["policy"]), run["steps"].get<std::int64_t>(),
+             run["bodies"].get<int>(), run["sleep_events"].get<int>());
+  if (run["damage"] != "") fmt::print("   the record is damaged: {}\n", run["damage"].get<std::string>());
+}
+
+void print_settings(const Json& settings) {
+  const bool other_scene = std::any_of(settings.begin(), settings.end(),
+                                       [](const Json& setting) { return setting["of_scene"].get<bool>(); });
+  if (other_scene) fmt::print("These are runs of different scenes: a body of A is not the same body in B.\n");
+  if (settings.empty()) return;
+  Table table{"Settings that differ", {{"setting"}, {"A"}, {"B"}}, {}};
+  for (const Json& setting : settings) {
+    table.rows.push_back({printed(setting["path"]), printed(setting["a"]), printed(setting["b"])});
+  }
+  fmt::print("{}\n", text_of(table));
 }
 
 void print_first_differences(const Json& json) {
   const Json& first = json["first_difference"];
+  const auto left_out = json["frames_left_out"].get<int>();
+  if (left_out > 0) fmt::print("{} frames are lost in A or B and not compared.\n", left_out);
   if (first.is_null()) {
     fmt::print("All {} frames that both have are equal bit for bit.\n", json["frames_compared"].get<int>());
   } else {
@@ -128,6 +174,7 @@ void print_first_differences(const Json& json) {
 void print_comparison(const Json& json) {
   print_head(json["a"], 'A');
   print_head(json["b"], 'B');
+  print_settings(json["settings_that_differ"]);
   print_first_differences(json);
   Table motion{"\nMotion, mean over frames, A in the role of the full run", {{"measure"}, {"value", true}}, {}};
   for (const auto& [name, value] : json["motion"].items()) motion.rows.push_back({name, number(value)});
@@ -155,7 +202,7 @@ int compare(const std::string& folder_a, const std::string& folder_b, bool as_js
   const Json json = std::visit(
       [&]<int Dim>(const RecordedRun<Dim>& one) { return comparison_json(one, std::get<RecordedRun<Dim>>(b)); }, a);
   if (as_json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
   } else {
     print_comparison(json);
   }

@@ -2,52 +2,58 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "common/scene/read_scene.h"
+#include "common/text/printable.h"
 #include "lcmtypes/decode.h"
 #include "lcmtypes/log_reader.h"
 #include "tools/record/state_reader.h"
 
 namespace talus {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-template <class Message>
-Message decoded(const LogEvent& event) {
-  Message message;
-  const std::string_view wrong = decode<Message>(event.data, message);
-  if (!wrong.empty()) throw std::invalid_argument(fmt::format("run.lcm, event {}: {}", event.number, wrong));
-  return message;
-}
-
-template <int Dim>
-int bodies_of(const Scene<Dim>& scene) {
-  int bodies = 0;
-  for (const Source<Dim>& source : scene.sources) bodies += source.count;
-  return bodies;
-}
+// Bounds what a forged step number costs.
+constexpr std::size_t max_lost_frames = 1'000'000;
 
 template <int Dim>
 class RunReader {
  public:
   explicit RunReader(const Scene<Dim>& scene)
-      : run_(scene), states_(bodies_of(scene), static_cast<int>(scene.world.shapes.size())) {}
+      : run_(scene), states_(static_cast<int>(bodies_of(scene)), static_cast<int>(scene.world.shapes.size())) {}
 
   void take(const LogEvent& event) {
-    if (event.channel == name_of(Channel::run)) take(decoded<talus_lcm::talus_run_v1>(event));
-    if (event.channel == name_of(Channel::sleep)) take(decoded<talus_lcm::talus_sleep_v1>(event));
-    if (event.channel == name_of(Channel::bodies)) take(decoded<talus_lcm::talus_bodies_v1>(event));
+    if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
+    if (event.channel == name_of(Channel::sleep)) decode_and_take<talus_lcm::talus_sleep_v1>(event);
+    if (event.channel == name_of(Channel::bodies)) decode_and_take<talus_lcm::talus_bodies_v1>(event);
   }
 
   RecordedRun<Dim> finish() {
     run_.last = states_.states_with_velocities(run_.scene.world.dt);
     run_.last_step = states_.step();
+    for (std::size_t i = 0; i < states_.unknown().size(); ++i) {
+      run_.damage.unknown_bodies += states_.unknown()[i] != 0 ? 1 : 0;
+    }
     return std::move(run_);
   }
 
  private:
+  template <class Message>
+  void decode_and_take(const LogEvent& event) {
+    Message message;
+    if (decode<Message>(event.data, message).empty()) {
+      take(message);
+    } else {
+      ++run_.damage.undecodable;
+    }
+  }
+
   void take(const talus_lcm::talus_run_v1& message) {
     if (message.dimension != Dim) {
       throw std::invalid_argument(
@@ -59,6 +65,12 @@ class RunReader {
   }
 
   void take(const talus_lcm::talus_sleep_v1& message) {
+    if (message.seq > next_sleep_) {
+      run_.damage.lost_events += message.seq - next_sleep_;
+      states_.note_lost_events();
+    }
+    next_sleep_ = message.seq + 1;
+    for (const BodyIndex body : message.body) states_.note_event(body);
     for (std::size_t i = 0; i < message.body.size(); ++i) {
       run_.events.push_back({.step = message.step,
                              .body = message.body[i],
@@ -73,15 +85,58 @@ class RunReader {
   void take(const talus_lcm::talus_bodies_v1& message) {
     if (!states_.take(message)) return;
     const std::int64_t step = states_.step();
-    const bool again = run_.frames.frames() > 0 && step <= run_.frames.step(run_.frames.frames() - 1);
-    if (step % run_.frames.steps_per_frame() == 0 && !again) run_.frames.append(states_.states(), step);
+    const std::int64_t distance = run_.frames.steps_per_frame();
+    std::int64_t next = run_.frames.frames() == 0 ? distance : run_.frames.step(run_.frames.frames());
+    if (step % distance != 0 || step < next) return;  // the last state of an interrupted run; a frame again
+    for (; next < step; next += distance) {
+      if (step > run_.scene.steps() || run_.damage.lost_steps.size() >= max_lost_frames) {
+        throw std::invalid_argument(
+            fmt::format("run.lcm: step {}, but the run of scene.toml has {} steps", step, run_.scene.steps()));
+      }
+      run_.damage.lost_steps.push_back(next);
+      run_.frames.append_lost(next);
+    }
+    run_.frames.append(states_.states(), step, states_.unknown());
   }
 
   RecordedRun<Dim> run_;
   StateReader<Dim> states_;
+  std::int64_t next_sleep_ = 0;  // number of the next message with sleep events
 };
 
+std::string plural(std::size_t number, const char* noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
 }  // namespace
+
+std::string text_of(const RecordDamage& damage) {
+  constexpr std::size_t shown = 10;
+  std::vector<std::string> parts;
+  if (!damage.lost_steps.empty()) {
+    const auto first = std::span(damage.lost_steps).first(std::min(damage.lost_steps.size(), shown));
+    parts.push_back(fmt::format("{} left out (step{} {}{})", plural(damage.lost_steps.size(), "frame"),
+                                damage.lost_steps.size() == 1 ? "" : "s", fmt::join(first, ", "),
+                                damage.lost_steps.size() > shown ? ", ..." : ""));
+  }
+  if (damage.lost_events > 0) parts.push_back(fmt::format("{} messages of sleep events missing", damage.lost_events));
+  if (damage.undecodable > 0) parts.push_back(fmt::format("{} messages not decodable", damage.undecodable));
+  if (damage.bytes > 0) parts.push_back(plural(damage.bytes, "damaged byte"));
+  if (damage.unknown_bodies > 0) {
+    parts.push_back(fmt::format("{} bodies of unknown pose in the last state", damage.unknown_bodies));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+template <int Dim>
+std::int64_t bodies_of(const Scene<Dim>& scene) {
+  std::int64_t bodies = 0;
+  for (const Source<Dim>& source : scene.sources) bodies += source.count;
+  return bodies;
+}
+
+template std::int64_t bodies_of(const Scene<2>&);
+template std::int64_t bodies_of(const Scene<3>&);
 
 AnyRecordedRun read_run(const std::filesystem::path& folder) {
   for (const char* name : {"scene.toml", "run.lcm"}) {
@@ -96,9 +151,14 @@ AnyRecordedRun read_run(const std::filesystem::path& folder) {
         LogReader log((folder / "run.lcm").string());
         for (LogEvent event; log.next(event);) reader.take(event);
         RecordedRun<Dim> run = reader.finish();
-        run.name = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
-        run.damaged_bytes = log.damage().bytes;
-        return run;
+        const fs::path base = folder.filename().empty() ? folder.parent_path() : folder;
+        run.name = printable(base.filename().string());
+        run.damage.bytes = log.damage().bytes;
+        if (run.last_step > 0) return run;
+        throw std::invalid_argument(
+            fmt::format("{}: run.lcm holds no frame; the run ended before its first one, or all are damaged ({} "
+                        "damaged bytes)",
+                        folder.string(), run.damage.bytes));
       },
       scene);
 }

@@ -12,28 +12,46 @@
 
 namespace talus {
 
+/// What of a record could not be used.
+struct RecordDamage {
+  std::uint64_t bytes = 0;               // that are no message
+  std::int64_t undecodable = 0;          // messages whose checksum holds and that are of another kind all the same
+  std::vector<std::int64_t> lost_steps;  // steps of the frames of output that are missing between others
+  std::int64_t lost_events = 0;          // messages with sleep events that are missing between others
+  int unknown_bodies = 0;                // bodies whose pose in the last state is older than that state
+
+  bool none() const { return bytes == 0 && undecodable == 0 && lost_steps.empty() && lost_events == 0; }
+};
+
+/// One line, as "1 frame left out (step 80), 57 damaged bytes"; empty where there is no damage.
+std::string text_of(const RecordDamage& damage);
+
 /// What scene.toml and run.lcm of a run folder hold.
 template <int Dim>
 struct RecordedRun {
   explicit RecordedRun(const Scene<Dim>& as_run) : scene(as_run), frames(as_run.world.dt, as_run.steps_per_frame()) {}
 
-  std::string name;     // of the folder
-  std::string backend;  // that the run was on
+  std::string name;     // of the folder, printable
+  std::string backend;  // that the run was on; empty: no message says so
   std::string policy;
   std::string reason;      // why it ended; empty: it was killed
   Scene<Dim> scene;        // as it was run
-  Trajectory<Dim> frames;  // poses at each frame of output
+  Trajectory<Dim> frames;  // poses at each frame of output; lost where the record is damaged
   BodyStates<Dim> last;    // the last recorded state. A record has no velocities: those of the awake are the mean ones
                            // since the record before
   std::int64_t last_step = 0;
-  std::vector<SleepEvent> events;   // all of the run, in order
-  std::uint64_t damaged_bytes = 0;  // that had to be left out
+  std::vector<SleepEvent> events;  // in order
+  RecordDamage damage;
 };
 
 using AnyRecordedRun = std::variant<RecordedRun<2>, RecordedRun<3>>;
 
-/// Reads the run folder. Throws std::invalid_argument where it is none, where run.lcm belongs to another scene, or
-/// where damage took a frame out of the middle; std::system_error where a file cannot be read.
+/// Bodies that the sources of a scene drop in all.
+template <int Dim>
+std::int64_t bodies_of(const Scene<Dim>& scene);
+
+/// Reads the run folder; damage costs what it hit. Throws std::invalid_argument where the folder is not of a run, where
+/// run.lcm belongs to another scene or holds no frame; std::system_error where a file cannot be read.
 AnyRecordedRun read_run(const std::filesystem::path& folder);
 
 }  // namespace talus

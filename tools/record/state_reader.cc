@@ -31,50 +31,101 @@ Spin<Dim> turn(const Rotation<Dim>& from, const Rotation<Dim>& to) {
 }  // namespace
 
 template <int Dim>
-bool StateReader<Dim>::take(const talus_lcm::talus_bodies_v1& message) {
-  if (message.dimension != Dim)
-    throw std::invalid_argument(fmt::format("poses in {}D: must be {}D", message.dimension, Dim));
-  if (message.part == 0) begin(message);
-  for (std::size_t entry = 0; entry < message.body.size(); ++entry) set(message, entry);
-  if (message.part + 1 < message.parts) return false;
-  if (message.key_frame) {
-    for (std::size_t i = 0; i < seen_.size(); ++i) states_.removed[i] = seen_[i] != 0 ? 0 : 1;
+bool StateReader<Dim>::take(const Message& message) {
+  check(message);
+  if (message.part == 0) parts_.clear();
+  const bool next_part = message.part == static_cast<std::int32_t>(parts_.size());
+  const bool same_frame = parts_.empty() || (message.step == parts_[0].step && message.parts == parts_[0].parts &&
+                                             message.key_frame == parts_[0].key_frame);
+  if (!next_part || !same_frame || message.step < step_) {
+    parts_.clear();
+    return false;
   }
+  parts_.push_back(message);
+  if (message.part + 1 < message.parts) return false;
+  apply();
   return true;
 }
 
 template <int Dim>
-void StateReader<Dim>::begin(const talus_lcm::talus_bodies_v1& message) {
-  if (message.step > step_) {
-    before_ = states_;
-    step_before_ = step_;
-  }
-  step_ = message.step;
-  seen_.assign(states_.shape.size(), 0);
-}
-
-template <int Dim>
-void StateReader<Dim>::set(const talus_lcm::talus_bodies_v1& message, std::size_t entry) {
-  constexpr std::size_t values = Dim == 2 ? 3 : 7;
-  if (message.body[entry] >= bodies_ || message.shape[entry] >= shapes_) {
+void StateReader<Dim>::check(const Message& message) const {
+  if (message.dimension != Dim)
+    throw std::invalid_argument(fmt::format("poses in {}D: must be {}D", message.dimension, Dim));
+  for (std::size_t entry = 0; entry < message.body.size(); ++entry) {
+    if (message.body[entry] < bodies_ && message.shape[entry] < shapes_) continue;
     throw std::invalid_argument(fmt::format("step {}: body {} of shape {}, but the scene has {} bodies and {} shapes",
                                             message.step, message.body[entry], message.shape[entry], bodies_, shapes_));
   }
-  const auto body = static_cast<std::size_t>(message.body[entry]);
-  if (body >= states_.shape.size()) {
-    states_.shape.resize(body + 1, 0);
-    states_.pose.resize(body + 1);
-    states_.velocity.resize(body + 1, Vec<Dim>::Zero());
-    states_.spin.resize(body + 1, Spin<Dim>::Zero());
-    states_.asleep.resize(body + 1, 0);
-    states_.removed.resize(body + 1, 1);
-    seen_.resize(body + 1, 0);
+}
+
+template <int Dim>
+void StateReader<Dim>::note_event(BodyIndex body) {
+  if (body >= bodies_) {
+    throw std::invalid_argument(fmt::format("sleep event of body {}, but the scene has {} bodies", body, bodies_));
   }
+  events_.push_back(body);
+}
+
+template <int Dim>
+void StateReader<Dim>::apply() {
+  if (parts_[0].seq != next_number_) doubt();
+  next_number_ = parts_.back().seq + 1;
+  if (parts_[0].step > step_) {
+    before_ = states_;
+    unknown_before_ = unknown_;
+    step_before_ = step_;
+  }
+  step_ = parts_[0].step;
+  seen_.assign(states_.shape.size(), 0);
+  for (const Message& part : parts_) {
+    for (std::size_t entry = 0; entry < part.body.size(); ++entry) set(part, entry);
+  }
+  if (parts_[0].key_frame != 0) {
+    for (std::size_t i = 0; i < seen_.size(); ++i) states_.removed[i] = seen_[i] != 0 ? 0 : 1;
+    unknown_.assign(states_.shape.size(), 0);
+  }
+  parts_.clear();
+  events_.clear();
+  events_lost_ = false;
+}
+
+/// Frames are missing: the poses of the bodies that were awake, or fell asleep or woke since, are unknown, and of all
+/// where not all events are known.
+template <int Dim>
+void StateReader<Dim>::doubt() {
+  for (std::size_t i = 0; i < unknown_.size(); ++i) {
+    if (events_lost_ || (states_.asleep[i] == 0 && states_.removed[i] == 0)) unknown_[i] = 1;
+  }
+  for (const BodyIndex body : events_) {
+    grow(static_cast<std::size_t>(body) + 1);
+    unknown_[static_cast<std::size_t>(body)] = 1;
+  }
+}
+
+template <int Dim>
+void StateReader<Dim>::grow(std::size_t bodies) {
+  if (bodies <= states_.shape.size()) return;
+  states_.shape.resize(bodies, 0);
+  states_.pose.resize(bodies);
+  states_.velocity.resize(bodies, Vec<Dim>::Zero());
+  states_.spin.resize(bodies, Spin<Dim>::Zero());
+  states_.asleep.resize(bodies, 0);
+  states_.removed.resize(bodies, 1);
+  seen_.resize(bodies, 0);
+  unknown_.resize(bodies, 0);
+}
+
+template <int Dim>
+void StateReader<Dim>::set(const Message& message, std::size_t entry) {
+  const auto body = static_cast<std::size_t>(message.body[entry]);
+  constexpr std::size_t values = Dim == 2 ? 3 : 7;
+  grow(body + 1);
   states_.shape[body] = message.shape[entry];
   states_.pose[body] = pose_of<Dim>(message.poses.data() + values * entry);
   states_.asleep[body] = message.asleep[entry] != 0 ? 1 : 0;
   states_.removed[body] = 0;
   seen_[body] = 1;
+  unknown_[body] = 0;
 }
 
 template <int Dim>
@@ -82,7 +133,9 @@ BodyStates<Dim> StateReader<Dim>::states_with_velocities(double dt) const {
   BodyStates<Dim> states = states_;
   const double time = dt * static_cast<double>(step_ - step_before_);
   for (std::size_t i = 0; i < before_.shape.size(); ++i) {
-    if (states.asleep[i] != 0 || states.removed[i] != 0 || before_.removed[i] != 0) continue;
+    if (unknown_[i] != 0 || unknown_before_[i] != 0 || states.asleep[i] != 0 || states.removed[i] != 0 ||
+        before_.removed[i] != 0)
+      continue;
     states.velocity[i] = (states.pose[i].position - before_.pose[i].position) / time;
     states.spin[i] = turn<Dim>(before_.pose[i].rotation, states.pose[i].rotation) / time;
   }

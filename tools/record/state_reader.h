@@ -7,35 +7,55 @@
 
 namespace talus {
 
-/// Puts a record's poses together again: a frame names only who moved.
+/// Puts a record's poses together again: a frame names only the bodies that moved. Where frames are missing, the pose
+/// of each body that may have moved in them is unknown until a later frame names it, at the latest the next key frame.
 template <int Dim>
 class StateReader {
  public:
   /// `bodies`: how many there may be, `shapes`: how many of these there are.
   StateReader(int bodies, int shapes) : bodies_(bodies), shapes_(shapes) {}
 
-  /// Whether `message`, sound as decode() leaves it, was the last part of its frame, so that states() is the state at
-  /// step(). Throws std::invalid_argument where it names a body or shape that cannot be.
+  /// Whether `message`, sound as decode() leaves it, was the last part of a whole frame, so that states() is the state
+  /// at step(). A frame without all its parts, or of a step that is over, changes nothing. Throws std::invalid_argument
+  /// where the message names a body or shape that the scene does not have.
   bool take(const talus_lcm::talus_bodies_v1& message);
+
+  /// Tells that `body` fell asleep or woke since the last frame. Throws std::invalid_argument like take().
+  void note_event(BodyIndex body);
+  /// Tells that not all of these events are known.
+  void note_lost_events() { events_lost_ = true; }
 
   /// All velocities zero.
   const BodyStates<Dim>& states() const { return states_; }
+  /// Per body, whether its pose may not be that of step().
+  const std::vector<std::uint8_t>& unknown() const { return unknown_; }
   std::int64_t step() const { return step_; }
 
   /// The same with velocities of the awake bodies: the mean since the frame before. `dt` of a step in s.
   BodyStates<Dim> states_with_velocities(double dt) const;
 
  private:
-  void begin(const talus_lcm::talus_bodies_v1& message);
-  void set(const talus_lcm::talus_bodies_v1& message, std::size_t entry);
+  using Message = talus_lcm::talus_bodies_v1;
+
+  void check(const Message& message) const;
+  void grow(std::size_t bodies);
+  void apply();
+  void doubt();
+  void set(const Message& message, std::size_t entry);
 
   int bodies_;
   int shapes_;
+  std::vector<Message> parts_;  // of the frame that is being read
+  std::int64_t next_number_ = 0;
   BodyStates<Dim> states_;
   BodyStates<Dim> before_;  // a frame earlier
   std::int64_t step_ = 0;
   std::int64_t step_before_ = 0;
-  std::vector<std::uint8_t> seen_;  // bodies that a key frame names; who is missing is gone
+  std::vector<std::uint8_t> unknown_;
+  std::vector<std::uint8_t> unknown_before_;
+  std::vector<std::uint8_t> seen_;  // bodies that a key frame names; others are gone
+  std::vector<BodyIndex> events_;   // bodies that fell asleep or woke since the last frame
+  bool events_lost_ = false;        // since the last frame
 };
 
 }  // namespace talus

@@ -6,9 +6,12 @@
 #include "common/measure/ensemble.h"
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"
+#include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/number_between.h"
 #include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
+#include "tools/report/json_text.h"
 #include "tools/report/table.h"
 #include "tools/run/backends.h"
 
@@ -25,7 +28,8 @@ struct WakeOptions {
   bool json = false;
 };
 
-constexpr double contact_reach = 0.05;  // [m], see touching_pairs()
+constexpr double longest_wake = 3600.0;  // [s]
+constexpr double contact_reach = 0.05;   // [m], see touching_pairs()
 
 template <int Dim>
 WakeTest wake(const RecordedRun<Dim>& run, double seconds) {
@@ -52,8 +56,22 @@ double mean_extent(const RecordedRun<Dim>& run) {
   return mean(all);
 }
 
+/// What the last state lacks of a finished pile. The bodies that move are those faster than what counts as at rest in a
+/// run's summary.
+template <int Dim>
+Json unfinished_json(const RecordedRun<Dim>& run) {
+  constexpr double still = 1.0;  // [m/s]
+  int moving = 0;
+  for (const Vec<Dim>& velocity : run.last.velocity) moving += velocity.norm() > still ? 1 : 0;
+  return {{"bodies_to_come", bodies_of(run.scene) - run.last.size()},
+          {"moving", moving},
+          {"reason", run.reason.empty() ? "killed, or its record is cut" : run.reason}};
+}
+
 template <int Dim>
 Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
+  if (run.backend.empty())
+    throw std::invalid_argument(fmt::format("{}: no message is left that names the engine", options.run));
   if (run.last.size() == 0) throw std::invalid_argument(fmt::format("{}: must hold a body", options.run));
   const double extent = mean_extent(run);
   const std::vector<Touch> touches = touching_pairs<Dim>(run.scene.world, run.last, contact_reach);
@@ -71,6 +89,8 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
       {"floating_sleepers", floating_sleepers<Dim>(run.last, touches).size()},
       {"sunken_sleepers", sunken_sleepers<Dim>(run.scene.world, run.last).size()},
       {"penetration_D", {{"mean", depth.mean / extent}, {"p99", depth.p99 / extent}, {"max", depth.max / extent}}},
+      {"unfinished", unfinished_json(run)},
+      {"damage", text_of(run.damage)},
       {"simulated_s", options.seconds},
       {"after_waking", wake_json(test, extent)}};
   if (options.full.empty()) return json;
@@ -85,10 +105,23 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
 
 std::string in_short(const Json& value) { return fmt::format("{:.4g}", value.get<double>()); }
 
+void print_unfinished(const Json& unfinished) {
+  const auto to_come = unfinished["bodies_to_come"].get<std::int64_t>();
+  const auto moving = unfinished["moving"].get<int>();
+  const auto reason = unfinished["reason"].get<std::string>();
+  if (to_come <= 0 && moving == 0 && reason == "finished") return;
+  fmt::print(
+      "not a finished pile: {} bodies have yet to appear, {} move faster than 1 m/s, the run ended: {};\n"
+      "  what falls counts as displaced below\n",
+      to_come, moving, printable(reason));
+}
+
 void print_wake(const Json& json) {
-  fmt::print("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", json["run"].get<std::string>(),
-             json["backend"].get<std::string>(), json["policy"].get<std::string>(), json["step"].get<int>(),
-             json["bodies"].get<int>(), json["asleep"].get<int>());
+  const auto text = [&](const char* key) { return printable(json[key].get<std::string>()); };
+  fmt::print("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", text("run"), text("backend"),
+             text("policy"), json["step"].get<std::int64_t>(), json["bodies"].get<int>(), json["asleep"].get<int>());
+  if (json["damage"] != "") fmt::print("the record is damaged: {}\n", json["damage"].get<std::string>());
+  print_unfinished(json["unfinished"]);
   fmt::print("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
   fmt::print("sleepers below ground: {} (must be 0)\n", json["sunken_sleepers"].get<int>());
   const Json& depth = json["penetration_D"];
@@ -112,7 +145,7 @@ void print_wake(const Json& json) {
 int wake_command(const WakeOptions& options) {
   const Json json = std::visit([&](const auto& run) { return result_of(run, options); }, read_run(options.run));
   if (options.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
   } else {
     print_wake(json);
   }
@@ -130,7 +163,9 @@ void add_wake_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<WakeOptions>();
   command->add_option("run", options->run, "Run folder")->required();
   command->add_option("--full", options->full, "Run folder of the full run, whose own drift is taken off");
-  command->add_option("--seconds", options->seconds, "Simulated after waking")->capture_default_str();
+  command->add_option("--seconds", options->seconds, "Simulated after waking")
+      ->check(number_between(0.0, longest_wake, Bound::left_out))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "As JSON");
   command->callback([options, &exit_code] { exit_code = wake_command(*options); });
 }

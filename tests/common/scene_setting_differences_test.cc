@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+
+#include "common/scene/setting_differences.h"
+
+namespace talus::scene_setting_differences_test {
+namespace {
+
+TEST(SettingDifferences, NamesEachSettingWithBothValues) {
+  const auto differences = setting_differences(R"(
+title = "a"
+[world]
+gravity = 9.81
+[[source]]
+count = 400
+position = [0.0, 5.0]
+)",
+                                               R"(
+title = "a"
+[world]
+gravity = 9.81
+dt = 0.01
+[[source]]
+count = 200
+position = [0.0, 6.0]
+)");
+  const std::vector<SettingDifference> expected = {
+      {"source[0].count", "400", "200"}, {"source[0].position", "[0.0, 5.0]", "[0.0, 6.0]"}, {"world.dt", "", "0.01"}};
+  EXPECT_EQ(differences, expected);
+}
+
+TEST(SettingDifferences, TakesAWholeNumberForTheSameWithOrWithoutAPoint) {
+  EXPECT_TRUE(setting_differences("x = 30", "x = 30.0").empty());
+  EXPECT_EQ(setting_differences("x = 30", "x = 31.0").size(), 1U);
+}
+
+TEST(SettingDifferences, CountPolicyTitleAndLengthAsTheSameScene) {
+  for (const char* path : {"title", "run.frames", "policy.kind", "policy.tau"}) {
+    EXPECT_FALSE(is_of_scene({path, "1", "2"})) << path;
+  }
+  for (const char* path : {"seed", "source[0].count", "world.gravity", "run.frame_rate"}) {
+    EXPECT_TRUE(is_of_scene({path, "1", "2"})) << path;
+  }
+}
+
+}  // namespace
+}  // namespace talus::scene_setting_differences_test
