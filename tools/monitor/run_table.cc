@@ -1,6 +1,7 @@
 #include "tools/monitor/run_table.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -30,7 +31,7 @@ bool RunTable::make_room(std::int64_t run_id, Clock::time_point now) {
   if (leaving == entries_.end()) {
     if (!is_next(run_id)) return false;
     leaving = longest_silent(false);
-    if (now - leaving->second.heard < silence) leaving = quietest(now - stay);
+    if (now - leaving->second.heard < silence) leaving = quietest(now - stay, waiting_.at(run_id));
   }
   if (leaving == entries_.end()) return false;
   drop(leaving);
@@ -64,12 +65,16 @@ RunTable::Iterator RunTable::longest_silent(bool ended) {
   return found;
 }
 
-/// The run with the fewest messages among those that entered before.
-RunTable::Iterator RunTable::quietest(Clock::time_point entered_before) {
+/// Of the runs that entered before a time and have at most so many messages: the one with the fewest, of equal ones the
+/// one that entered first. Above enough_messages all count as equal.
+RunTable::Iterator RunTable::quietest(Clock::time_point entered_before, std::int64_t at_most) {
+  const auto rank = [](const Entry& entry) {
+    return std::pair(std::min(entry.view.received(), enough_messages), entry.entered);
+  };
   auto found = entries_.end();
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-    if (entry->second.entered > entered_before) continue;
-    if (found == entries_.end() || entry->second.view.received() < found->second.view.received()) found = entry;
+    if (entry->second.entered > entered_before || rank(entry->second).first > at_most) continue;
+    if (found == entries_.end() || rank(entry->second) < rank(found->second)) found = entry;
   }
   return found;
 }

@@ -11,8 +11,8 @@ namespace talus {
 
 /// The runs that a monitor shows, at most `max_runs`. Any process can invent runs, so a full table makes room: for any
 /// run in place of one that ended; else for the run heard most often of those without room, in place of the longest
-/// silent one or, where all send, of the one with the fewest messages. Runs that send once or little can neither drive
-/// out nor keep out a run that sends all the time.
+/// silent one or, where all send, of one with fewer messages; runs with many messages take turns. So runs that send
+/// once or little can neither drive out nor keep out a run that sends all the time.
 class RunTable {
  public:
   using Clock = std::chrono::steady_clock;
@@ -23,6 +23,7 @@ class RunTable {
   // A run enters a full table with its third message at the earliest, and stays for this time at least if it sends.
   static constexpr int messages_to_enter = 3;
   static constexpr auto stay = std::chrono::seconds(3);
+  static constexpr std::int64_t enough_messages = 100;  // from which on runs count as equal and take turns
 
   struct Entry {
     RunView view;
@@ -54,7 +55,7 @@ class RunTable {
   bool is_next(std::int64_t run_id);
   void stop_waiting(std::int64_t run_id);
   Iterator longest_silent(bool ended);
-  Iterator quietest(Clock::time_point entered_before);
+  Iterator quietest(Clock::time_point entered_before, std::int64_t at_most);
   void drop(Iterator entry);
 
   std::map<std::int64_t, Entry> entries_;

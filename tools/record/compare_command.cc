@@ -157,7 +157,7 @@ void print_settings(const Json& settings) {
 void print_first_differences(const Json& json) {
   const Json& first = json["first_difference"];
   const auto left_out = json["frames_left_out"].get<int>();
-  if (left_out > 0) fmt::print("{} frames are lost in A or B and not compared.\n", left_out);
+  if (left_out > 0) fmt::print("Frames left out, lost in A or B: {}.\n", left_out);
   if (first.is_null()) {
     fmt::print("All {} frames that both have are equal bit for bit.\n", json["frames_compared"].get<int>());
   } else {
