@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <memory>
@@ -25,9 +26,10 @@ struct PublisherParams {
 class Pulse {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Rate 0: always due.
+  /// Rate 0: always due. At most a day passes between two.
   explicit Pulse(double rate)
-      : period_(rate > 0.0 ? std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))
+      : period_(rate > 0.0 ? std::chrono::duration_cast<Clock::duration>(
+                                 std::chrono::duration<double>(std::min(1.0 / rate, 86400.0)))
                            : Clock::duration::zero()) {}
   bool due(Clock::time_point now) {
     if (now < next_) return false;

@@ -120,6 +120,15 @@ TEST(WakeCommand, RefusesATimeThatIsNoSensibleNumber) {
   }
 }
 
+TEST(Options, AreRefusedWhereTheyAreNoSensibleNumber) {
+  for (const char* value : {"inf", "nan", "-1", "1e300", "1e99999"}) {
+    for (const char* option :
+         {"run drop_in_a_pile_2d --hash --telemetry-hz=", "monitor --seconds=", "monitor --interval="}) {
+      EXPECT_EQ(talus_command(std::string(option) + value).exit_code, 2) << option << value;
+    }
+  }
+}
+
 TEST(CompareCommand, NamesTheSettingsInWhichTwoScenesDiffer) {
   const TemporaryFolder folder;
   record(folder, "a", "");

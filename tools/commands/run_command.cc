@@ -1,4 +1,5 @@
 #include "tools/commands/commands.h"
+#include "tools/commands/number_between.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_scene.h"
 
@@ -26,6 +27,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   auto* url = command->add_option("--lcm-url", options->lcm_url,
                                   "Where to publish; default: LCM_DEFAULT_URL, else this machine only");
   command->add_option("--telemetry-hz", options->telemetry_hz, "Pile messages a second of wall time; 0: one a step")
+      ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   command->add_flag("!--no-telemetry", options->telemetry, "Publish nothing over LCM")->excludes(url);
   command->add_option("--against", options->against, "Run the scene under this policy too and tell the speed-up");

@@ -27,7 +27,7 @@ RunView* RunTable::find(std::int64_t run_id, Clock::time_point now) {
 }
 
 bool RunTable::make_room(std::int64_t run_id, Clock::time_point now) {
-  Iterator leaving = longest_silent(true);
+  auto leaving = longest_silent(true);
   if (leaving == entries_.end()) {
     if (!is_next(run_id)) return false;
     leaving = longest_silent(false);
