@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "common/math/require.h"
+#include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/picture/webp.h"
 #include "tools/record/record_commands.h"
@@ -64,8 +65,8 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
                              {},
                              run.scene.world.obstacles,
                              run.scene.world.ground,
-                             run.scene.title,
-                             fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time)};
+                             printable(run.scene.title),
+                             printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time))};
   };
   const auto last = std::min(
       frames.frames() - 1, options.to < 0.0 ? frames.frames() - 1 : static_cast<int>(options.to / frames.frame_time()));
@@ -83,7 +84,8 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   const double step = std::max(1.0, options.speed / options.rate / frames.frame_time());
   const int milliseconds = static_cast<int>(std::lround(1e3 * step * frames.frame_time() / options.speed));
   for (double at = first; at <= last; at += step) {
-    const int frame = static_cast<int>(at);
+    int frame = static_cast<int>(at);
+    while (frame > 0 && frames.lost(frame)) --frame;  // the record is damaged
     const BodyStates<Dim> states = states_at(frames, frame);
     const double time = static_cast<double>(frames.step(frame)) * frames.step_time();
     const Image image = page.draw(input_at(states, time));
@@ -95,7 +97,8 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   }
   webp->write(options.out);
   if (progress) fmt::print(stderr, "\r     \r");
-  fmt::print("{}: {:.0f} kB\n", options.out, static_cast<double>(std::filesystem::file_size(options.out)) / 1e3);
+  fmt::print("{}: {:.0f} kB\n", printable(options.out),
+             static_cast<double>(std::filesystem::file_size(options.out)) / 1e3);
 }
 
 }  // namespace
