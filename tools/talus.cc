@@ -6,6 +6,7 @@
 #include <new>
 
 #include "common/scene/scene_errors.h"
+#include "common/text/printable.h"
 #include "tools/bench/bench_command.h"
 #include "tools/commands/commands.h"
 #ifdef TALUS_BULLET

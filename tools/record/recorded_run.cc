@@ -11,6 +11,7 @@
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
 #include "lcmtypes/log_reader.h"
+#include "tools/monitor/sequence_tracker.h"
 #include "tools/record/state_reader.h"
 
 namespace talus {

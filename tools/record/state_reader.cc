@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "tools/monitor/sequence_tracker.h"
+
 namespace talus {
 
 namespace {

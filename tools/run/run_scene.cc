@@ -10,6 +10,7 @@
 #include "common/simulation/make_policy.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
+#include "common/text/printable.h"
 #include "common/world/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/output/output.h"
