@@ -27,7 +27,9 @@ template <int Dim>
 class RunReader {
  public:
   explicit RunReader(const Scene<Dim>& scene)
-      : run_(scene), states_(static_cast<int>(bodies_of(scene)), static_cast<int>(scene.world.shapes.size())) {}
+      : run_(scene), states_(static_cast<int>(bodies_of(scene)), static_cast<int>(scene.world.shapes.size())) {
+    sleep_numbers_.expect(0);
+  }
 
   void take(const LogEvent& event) {
     if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
@@ -38,6 +40,7 @@ class RunReader {
   RecordedRun<Dim> finish() {
     run_.last = states_.states_with_velocities(run_.scene.world.dt);
     run_.last_step = states_.step();
+    run_.damage.lost_events = sleep_numbers_.lost();
     for (std::size_t i = 0; i < states_.unknown().size(); ++i) {
       run_.damage.unknown_bodies += states_.unknown()[i] != 0 ? 1 : 0;
     }
@@ -66,11 +69,9 @@ class RunReader {
   }
 
   void take(const talus_lcm::talus_sleep_v1& message) {
-    if (message.seq > next_sleep_) {
-      run_.damage.lost_events += message.seq - next_sleep_;
-      states_.note_lost_events();
-    }
-    next_sleep_ = message.seq + 1;
+    const std::int64_t lost_before = sleep_numbers_.lost();
+    sleep_numbers_.see(message.seq);
+    if (sleep_numbers_.lost() > lost_before) states_.note_lost_events();
     for (const BodyIndex body : message.body) states_.note_event(body);
     for (std::size_t i = 0; i < message.body.size(); ++i) {
       run_.events.push_back({.step = message.step,
@@ -102,7 +103,7 @@ class RunReader {
 
   RecordedRun<Dim> run_;
   StateReader<Dim> states_;
-  std::int64_t next_sleep_ = 0;  // number of the next message with sleep events
+  SequenceTracker sleep_numbers_;  // of the messages with sleep events
 };
 
 std::string plural(std::size_t number, const char* noun) {

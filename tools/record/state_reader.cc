@@ -71,7 +71,7 @@ void StateReader<Dim>::note_event(BodyIndex body) {
 template <int Dim>
 void StateReader<Dim>::apply() {
   if (parts_[0].seq != next_number_) doubt();
-  next_number_ = parts_.back().seq + 1;
+  next_number_ = sum_of_counts(parts_.back().seq, 1);
   if (parts_[0].step > step_) {
     before_ = states_;
     unknown_before_ = unknown_;
