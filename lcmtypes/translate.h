@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/simulation/frame.h"
+#include "common/policy/frame.h"
 #include "lcmtypes/encode.h"
 #include "lcmtypes/run_info.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/math/require.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 
 namespace talus {

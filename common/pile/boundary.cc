@@ -9,7 +9,7 @@ namespace talus {
 
 namespace {
 
-constexpr double far_away = 1e6;  // [m] beyond any scene: what still reaches out there is not closed
+constexpr double far_away = 1e6;  // [m], beyond any scene: a container that reaches so far is not closed
 
 /// Keeps the part of a convex polygon (counter-clockwise) behind a wall.
 std::vector<Vec2> clip(const std::vector<Vec2>& corners, const Wall<3>& wall) {

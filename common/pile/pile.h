@@ -1,6 +1,9 @@
 #pragma once
 // The stacking structure of section 3.1: a cone or wedge cut into layers; within walls, a prism under it (section 3.5).
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,7 +13,16 @@
 
 namespace talus {
 
-/// What bodies of a pile are taken to be like: the means over the bodies that the scene's sources will drop.
+/// Time between updates of what changes slowly in a pile: its place, its slope and what depends on it [s]. Chosen, not
+/// measured: a hundredth of the time in which the scenes' piles grow.
+inline constexpr double slow_update_interval = 0.5;
+
+/// The same in steps of `dt` [s], at least 1.
+inline std::int64_t steps_between_slow_updates(double dt) {
+  return std::max<std::int64_t>(1, std::llround(slow_update_interval / dt));
+}
+
+/// The body for which a pile's layers are made: means over the bodies that the scene's sources will drop.
 struct TypicalBody {
   double bounding_volume = 1.0;  // v_obj [m^3], in 2D [m^2]
   double extent = 1.0;           // D [m]
@@ -35,7 +47,7 @@ template <int Dim>
 struct Pile {
   Vec<Dim> centre = Vec<Dim>::Zero();     // middle of the base [m]
   double alpha = 0.0;                     // slope [rad]
-  bool held = false;                      // to that slope, steeper than its bodies would lie by themselves
+  bool slope_controlled = false;          // whether `adaptive` holds the pile at alpha (PileParams::control_slope)
   double structure_size = 0.0;            // N of section 3.1: how many bodies the structure has room for
   double lift = 0.0;                      // height of the part with upright sides; 0 without walls [m]
   double height = 0.0;                    // h, lift included [m]
@@ -55,17 +67,18 @@ struct Pile {
   /// Equation (2), d of a point in a layer: 1 on the axis, falling to 0 at the layer's edge.
   double closeness(const Vec<Dim>& point, const Layer& layer) const;
 
-  /// Sum of m_i over sum of c_i (section 3.2), which is the structure size but for rounding.
+  /// Sum of m_i over sum of c_i (section 3.2); the latter equals the structure size up to rounding.
   double occupation_ratio() const;
 };
 
-/// Number of the pile that a point belongs to: of those that reach it the one whose axis is nearest; -1: none.
+/// Number of the pile that a point belongs to: of the piles that reach it the one with the nearest axis; -1: none.
 template <int Dim>
 int nearest_pile(std::span<const Pile<Dim>> piles, const Vec<Dim>& point);
 
-/// The structure with room for `structure_size` bodies, empty (section 3.1). k = max(1, floor(h / D)) layers of equal
-/// thickness h / k, so their volumes sum to N v_obj. Within walls the base grows until it touches the nearest; from
-/// then on it fills them and the tip, of slope alpha, is lifted, up to the rim: there N stays below what was asked for.
+/// An empty structure with room for `structure_size` bodies (section 3.1): k = max(1, floor(h / D)) layers of equal
+/// thickness h / k, so that their volumes sum to N v_obj. Within walls the base grows until it touches the nearest
+/// wall. From then on it fills the container and the tip, of slope alpha, is lifted, at most up to the rim; beyond that
+/// the structure's N stays below `structure_size`.
 template <int Dim>
 Pile<Dim> make_pile(const Vec<Dim>& centre, double alpha, double structure_size, const TypicalBody& body,
                     const std::optional<Boundary<Dim>>& boundary = {});

@@ -1,148 +1,127 @@
 #include "common/pile/pile_set.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <numbers>
 
-#include "common/pile/natural_slope.h"
+#include "common/pile/angle_of_repose.h"
 
 namespace talus {
 
+namespace {
+
+/// Least distance by which a centre drifts [D]. A drift makes all bodies be recounted, so smaller ones wait.
+constexpr double min_drift = 0.02;
+
+/// Piles merge when their centres were near at so many slow updates: piles that pass each other stay apart.
+constexpr int updates_to_merge = 2;
+
+// A slope that is not given is measured each time that the pile has grown by a tenth, and by a hundredth if the pile
+// has stopped growing. All measurements of a run together cost a few dozen passes over the bodies.
+constexpr double growth_to_measure = 1.1;
+constexpr double growth_to_measure_at_rest = 1.01;
+constexpr double min_slope_change = std::numbers::pi / 180.0;  // [rad]; less is not worth a recount
+
+}  // namespace
+
 template <int Dim>
-PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body)
-    : body_(body), steps_to_look_(steps_between_looks) {
+PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body) : body_(body) {
   for (const PileParams<Dim>& pile : params) {
     needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true) || !pile.alpha;
     if (pile.at) {
       add_pile(pile, *pile.at);
     } else {
-      unlocated_.push_back(pile);
+      unplaced_.push_back(pile);
     }
   }
 }
 
 template <int Dim>
 void PileSet<Dim>::add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre) {
-  piles_.push_back(
-      make_pile<Dim>(centre, params.alpha.value_or(usual_slope), params.initial_size, body_, params.boundary));
-  piles_.back().held = params.hold_slope;
-  ledgers_.push_back({.params = params});
+  piles_.push_back(make_pile<Dim>(centre, params.alpha.value_or(default_angle_of_repose), params.initial_size, body_,
+                                  params.boundary));
+  piles_.back().slope_controlled = params.control_slope;
+  records_.push_back({.params = params});
 }
 
 template <int Dim>
-void PileSet<Dim>::locate(const Vec<Dim>& landing, const BodyStates<Dim>& states) {
-  assert(waiting());
-  add_pile(unlocated_.front(), landing);
-  unlocated_.erase(unlocated_.begin());
+void PileSet<Dim>::place(const Vec<Dim>& landing, const BodyStates<Dim>& states) {
+  assert(has_unplaced());
+  add_pile(unplaced_.front(), landing);
+  unplaced_.erase(unplaced_.begin());
   recount(piles_.size() - 1, states);
 }
 
 template <int Dim>
-void PileSet<Dim>::land(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states) {
-  landed_.resize(states.shape.size(), 0);
+void PileSet<Dim>::note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states) {
+  has_touched_.resize(states.shape.size(), 0);
   for (const Contact<Dim>& contact : contacts) {
-    landed_[static_cast<std::size_t>(contact.a)] = 1;
-    if (contact.b >= 0) landed_[static_cast<std::size_t>(contact.b)] = 1;
+    has_touched_[static_cast<std::size_t>(contact.a)] = 1;
+    if (contact.b >= 0) has_touched_[static_cast<std::size_t>(contact.b)] = 1;
   }
 }
 
 template <int Dim>
 void PileSet<Dim>::update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt) {
-  const bool look = --steps_to_look_ == 0;
-  if (look) steps_to_look_ = steps_between_looks;
+  const bool slow_update_due = ++since_slow_update_ >= steps_between_slow_updates(dt);
+  if (slow_update_due) since_slow_update_ = 0;
   if (awake.empty()) return;
   for (std::size_t p = 0; p < piles_.size(); ++p) {
-    ledgers_[p].members.resize(states.shape.size());
-    for (const BodyIndex body : awake) count(p, body, membership(p, states, body));
+    records_[p].counts.resize(states.shape.size());
+    for (const BodyIndex body : awake) records_[p].counts.count(piles_[p], body, counted_now(p, states, body));
   }
-  if (look) look_around(states, dt);
+  if (slow_update_due) update_slowly(states, dt);
   for (std::size_t p = 0; p < piles_.size(); ++p) grow(p, states);
 }
 
-/// A structure of another place, slope or size for the same pile.
+/// Gives a pile a structure of another place, slope or size.
 template <int Dim>
 void PileSet<Dim>::replace(std::size_t pile, Pile<Dim> structure, const BodyStates<Dim>& states) {
-  structure.held = ledgers_[pile].params.hold_slope;
+  structure.slope_controlled = records_[pile].params.control_slope;
   piles_[pile] = std::move(structure);
   recount(pile, states);
 }
 
-/// Section 3.2: above the growth ratio N doubles; a pile that fills its walls to the rim stays as it is (3.5).
+/// Section 3.2: above the growth ratio N doubles. A pile that fills its walls to the rim stays as it is (3.5).
 template <int Dim>
 void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
-  while (piles_[pile].occupation_ratio() > ledgers_[pile].params.growth_ratio) {
+  const PileParams<Dim>& params = records_[pile].params;
+  while (piles_[pile].occupation_ratio() > params.growth_ratio) {
     const Pile<Dim>& now = piles_[pile];
-    Pile<Dim> larger =
-        make_pile<Dim>(now.centre, now.alpha, 2.0 * now.structure_size, body_, ledgers_[pile].params.boundary);
+    Pile<Dim> larger = make_pile<Dim>(now.centre, now.alpha, 2.0 * now.structure_size, body_, params.boundary);
     if (larger.structure_size <= now.structure_size) return;
     replace(pile, std::move(larger), states);
   }
 }
 
 template <int Dim>
-void PileSet<Dim>::refresh(const BodyStates<Dim>& states, BodyIndex body) {
-  for (std::size_t p = 0; p < piles_.size(); ++p) {
-    ledgers_[p].members.resize(states.shape.size());
-    count(p, body, membership(p, states, body));
-  }
-}
-
-template <int Dim>
-typename PileSet<Dim>::Membership PileSet<Dim>::membership(std::size_t pile, const BodyStates<Dim>& states,
-                                                           BodyIndex body) const {
+CountedAs<Dim> PileSet<Dim>::counted_now(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const {
   const auto i = static_cast<std::size_t>(body);
-  Membership now;
-  if (states.removed[i] != 0) return now;
-  if (!ledgers_[pile].params.count_flying.value_or(true) && (i >= landed_.size() || landed_[i] == 0)) return now;
-  const Vec<Dim>& position = states.pose[i].position;
-  now.layer = static_cast<std::int16_t>(piles_[pile].layer_of(position));
-  now.asleep = states.asleep[i] != 0;
-  if (now.layer < 0) return now;
-  for (std::size_t axis = 0; axis < now.at.size(); ++axis) {
-    now.at[axis] = static_cast<std::int32_t>(std::lround(position[static_cast<Eigen::Index>(axis)] * fixed_point));
-  }
-  return now;
-}
-
-template <int Dim>
-void PileSet<Dim>::count(std::size_t pile, BodyIndex body, const Membership& now) {
-  Membership& kept = ledgers_[pile].members[static_cast<std::size_t>(body)];
-  add(pile, kept, -1);
-  add(pile, now, +1);
-  kept = now;
-}
-
-template <int Dim>
-void PileSet<Dim>::add(std::size_t pile, const Membership& member, int sign) {
-  if (member.layer < 0) return;
-  Layer& layer = piles_[pile].layers[static_cast<std::size_t>(member.layer)];
-  layer.count += sign;
-  layer.sleeping += member.asleep ? sign : 0;
-  Ledger& ledger = ledgers_[pile];
-  ledger.count += sign;
-  for (std::size_t axis = 0; axis < member.at.size(); ++axis) ledger.sum[axis] += sign * member.at[axis];
+  if (states.removed[i] != 0) return {};
+  const bool has_touched = i < has_touched_.size() && has_touched_[i] != 0;
+  if (!has_touched && !records_[pile].params.count_flying.value_or(true)) return {};
+  return counted_as(piles_[pile], states, body);
 }
 
 template <int Dim>
 void PileSet<Dim>::recount(std::size_t pile, const BodyStates<Dim>& states) {
-  Ledger& ledger = ledgers_[pile];
-  for (Layer& layer : piles_[pile].layers) layer.count = layer.sleeping = 0;
-  ledger.members.assign(states.shape.size(), {});
-  ledger.sum = {};
-  ledger.count = 0;
-  for (BodyIndex body = 0; body < states.size(); ++body) count(pile, body, membership(pile, states, body));
+  PileCounts<Dim>& counts = records_[pile].counts;
+  counts.clear(piles_[pile], states.shape.size());
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    counts.count(piles_[pile], body, counted_now(pile, states, body));
+  }
 }
 
 template <int Dim>
-void PileSet<Dim>::count_anew(const BodyStates<Dim>& states) {
+void PileSet<Dim>::recount_all(const BodyStates<Dim>& states) {
   for (std::size_t p = 0; p < piles_.size(); ++p) recount(p, states);
 }
 
 template <int Dim>
-int PileSet<Dim>::layer_of(std::size_t pile, BodyIndex body) const {
-  const std::vector<Membership>& members = ledgers_[pile].members;
-  const auto i = static_cast<std::size_t>(body);
-  return i < members.size() ? members[i].layer : -1;
+void PileSet<Dim>::recount_body(const BodyStates<Dim>& states, BodyIndex body) {
+  for (std::size_t p = 0; p < piles_.size(); ++p) {
+    records_[p].counts.resize(states.shape.size());
+    records_[p].counts.count(piles_[p], body, counted_now(p, states, body));
+  }
 }
 
 template <int Dim>
@@ -150,7 +129,7 @@ bool PileSet<Dim>::counts_match(const BodyStates<Dim>& states) const {
   PileSet fresh = *this;
   for (std::size_t p = 0; p < piles_.size(); ++p) {
     fresh.recount(p, states);
-    if (fresh.ledgers_[p].count != ledgers_[p].count || fresh.ledgers_[p].sum != ledgers_[p].sum) return false;
+    if (!fresh.records_[p].counts.same_totals(records_[p].counts)) return false;
     for (std::size_t i = 0; i < piles_[p].layers.size(); ++i) {
       const Layer& kept = piles_[p].layers[i];
       const Layer& counted = fresh.piles_[p].layers[i];
@@ -158,6 +137,93 @@ bool PileSet<Dim>::counts_match(const BodyStates<Dim>& states) const {
     }
   }
   return true;
+}
+
+/// What changes slowly: the piles' places, their slopes, and which of them are one.
+template <int Dim>
+void PileSet<Dim>::update_slowly(const BodyStates<Dim>& states, double dt) {
+  for (std::size_t p = 0; p < piles_.size(); ++p) {
+    drift(p, states, dt);
+    update_slope(p, states);
+  }
+  if (piles_.size() > 1) merge_near(states);
+}
+
+/// Section 3.2: the centre approaches the horizontal mean of the pile's bodies. Walls hold it in place.
+template <int Dim>
+void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double dt) {
+  const Record& record = records_[pile];
+  if (record.counts.bodies() == 0 || record.params.boundary) return;
+  Vec<Dim> step = Vec<Dim>::Zero();
+  for (Eigen::Index axis = 0; axis < Dim - 1; ++axis) {
+    step[axis] = record.counts.mean(static_cast<std::size_t>(axis)) - piles_[pile].centre[axis];
+  }
+  const auto steps = static_cast<double>(steps_between_slow_updates(dt));
+  step *= 1.0 - std::exp(-record.params.drift_rate * steps * dt);
+  if (step.norm() < min_drift * body_.extent) return;
+  piles_[pile].centre += step;
+  recount(pile, states);
+}
+
+/// Section 3.1 measures alpha in a simulation made before. Without one it is measured on the pile itself, over all
+/// bodies in its reach that have touched something.
+template <int Dim>
+void PileSet<Dim>::update_slope(std::size_t pile, const BodyStates<Dim>& states) {
+  Record& record = records_[pile];
+  const Pile<Dim>& now = piles_[pile];
+  const int count = record.counts.bodies();
+  if (record.params.alpha || now.layers.empty() || count < static_cast<int>(min_bodies_for_slope)) return;
+  const bool at_rest = count == record.last_count;
+  record.last_count = count;
+  if (count < (at_rest ? growth_to_measure_at_rest : growth_to_measure) * record.measured_count) return;
+  record.measured_count = count;
+  std::vector<Vec<Dim>> positions;
+  for (std::size_t i = 0; i < has_touched_.size(); ++i) {
+    if (has_touched_[i] == 0 || states.removed[i] != 0) continue;
+    if (now.reaches(states.pose[i].position)) positions.push_back(states.pose[i].position - now.centre);
+  }
+  if (positions.empty()) return;
+  const double slope = estimate_angle_of_repose<Dim>(positions);
+  if (std::abs(slope - now.alpha) < min_slope_change) return;
+  replace(pile, make_pile<Dim>(now.centre, slope, now.structure_size, body_), states);
+}
+
+/// Section 3.5: two piles of one kind whose centres lie near each other become one.
+template <int Dim>
+void PileSet<Dim>::merge_near(const BodyStates<Dim>& states) {
+  for (std::size_t a = 0; a < piles_.size(); ++a) {
+    for (std::size_t b = a + 1; b < piles_.size(); ++b) {
+      if (!may_merge(a, b)) continue;
+      if (++records_[b].near_updates < updates_to_merge) continue;
+      merge(a, b, states);
+    }
+  }
+}
+
+template <int Dim>
+bool PileSet<Dim>::may_merge(std::size_t a, std::size_t b) const {
+  const PileParams<Dim>& one = records_[a].params;
+  const PileParams<Dim>& other = records_[b].params;
+  const bool alive = piles_[a].merged_into < 0 && piles_[b].merged_into < 0;
+  const bool alike = one.alpha == other.alpha && one.control_slope == other.control_slope;
+  if (!alive || !alike || one.boundary || other.boundary) return false;
+  const double distance = (piles_[a].centre - piles_[b].centre).norm();
+  return distance < std::min(one.merge_distance, other.merge_distance) * body_.extent;
+}
+
+/// The kept pile moves to the common mean and has room for both.
+template <int Dim>
+void PileSet<Dim>::merge(std::size_t kept, std::size_t gone, const BodyStates<Dim>& states) {
+  const double gone_bodies = records_[gone].counts.bodies();
+  const double bodies = records_[kept].counts.bodies() + gone_bodies;
+  const double share = bodies > 0.0 ? gone_bodies / bodies : 0.5;
+  const Vec<Dim> centre = (1.0 - share) * piles_[kept].centre + share * piles_[gone].centre;
+  const double size = std::max(piles_[kept].structure_size, piles_[gone].structure_size);
+  replace(kept, make_pile<Dim>(centre, piles_[kept].alpha, size, body_), states);
+  piles_[gone].slope_controlled = false;
+  piles_[gone].layers.clear();
+  piles_[gone].merged_into = static_cast<int>(kept);
+  recount(gone, states);
 }
 
 template class PileSet<2>;

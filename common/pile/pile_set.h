@@ -1,12 +1,14 @@
 #pragma once
-// All piles of a run and who lies in which layer, kept up from the awake bodies alone.
+// All piles of a run, with the bodies in their layers: counting, growth, drift, slope and merging.
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/pile/pile.h"
+#include "common/pile/pile_counts.h"
 #include "common/pile/pile_params.h"
 #include "common/world/body.h"
 
@@ -18,78 +20,67 @@ class PileSet {
  public:
   PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body);
 
-  /// Piles located so far; those still waiting for their first body to land come into being with locate().
+  /// The piles that have a place. The others get theirs by place().
   std::span<const Pile<Dim>> piles() const { return piles_; }
   const TypicalBody& typical_body() const { return body_; }
 
-  /// Whether some pile still waits for the place where the first body lands.
-  bool waiting() const { return !unlocated_.empty(); }
-  /// Puts the next waiting pile's base at `landing`.
-  void locate(const Vec<Dim>& landing, const BodyStates<Dim>& states);
+  /// Whether a pile waits for the place where the first body lands.
+  bool has_unplaced() const { return !unplaced_.empty(); }
+  /// Puts the base of the next pile without a place at `landing` [m].
+  void place(const Vec<Dim>& landing, const BodyStates<Dim>& states);
 
-  /// Whether some pile counts only who has touched something; it must then be told the contacts before update().
+  /// Whether note_contacts() must be called before update(): some pile counts only bodies that have touched something.
   bool needs_contacts() const { return needs_contacts_; }
-  void land(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
+  /// Notes which bodies have touched something.
+  void note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
 
-  /// Section 3.2 after a step of `dt` [s]: moves the awake bodies' counts, drifts centres, measures the slopes that are
-  /// not given, merges piles (3.5), doubles full ones. Costs O(awake), nothing while nobody is: centres then stay where
-  /// they are. A pile that grew or moved is counted anew, which costs O(all bodies) and is rare.
+  /// Section 3.2, after a step of `dt` [s]: recounts the awake bodies and doubles full piles; at each
+  /// `slow_update_interval` also drifts centres, measures slopes that are not given, and merges piles (3.5). Costs
+  /// O(awake), nothing while all bodies sleep: then centres stay where they are. A pile that grew or moved is recounted
+  /// in O(all bodies), which is rare.
   void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt);
 
-  /// Counts everybody anew, to the same result. Costs O(all bodies).
-  void count_anew(const BodyStates<Dim>& states);
+  /// Recounts every body, to the same result. Costs O(all bodies).
+  void recount_all(const BodyStates<Dim>& states);
 
-  /// Counts a body anew that fell asleep, woke or left the world.
-  void refresh(const BodyStates<Dim>& states, BodyIndex body);
+  /// Recounts one body, after it fell asleep, woke or was removed.
+  void recount_body(const BodyStates<Dim>& states, BodyIndex body);
 
   /// Layer of a body in a pile, or -1.
-  int layer_of(std::size_t pile, BodyIndex body) const;
+  int layer_of(std::size_t pile, BodyIndex body) const { return records_[pile].counts.layer_of(body); }
 
-  /// Whether every count equals one made from scratch; for tests and debug builds.
+  /// Whether every count equals one made from the beginning; for tests and debug builds. Costs O(all bodies).
   bool counts_match(const BodyStates<Dim>& states) const;
 
  private:
-  static constexpr double fixed_point = 65536.0;  // steps per metre: 15 micrometres, and 1e4 m still fits 32 bits
-  static constexpr int steps_between_looks = 30;  // at what changes slowly
-
-  /// How a body is counted in one pile, so that it can be uncounted exactly.
-  struct Membership {
-    std::int16_t layer = -1;
-    bool asleep = false;
-    std::array<std::int32_t, Dim - 1> at{};  // horizontal position in steps of 1/65536 m: integers add up exactly
-  };
-  /// One pile's bookkeeping beside its public counts.
-  struct Ledger {
+  /// What belongs to one pile beside its public geometry and counts.
+  struct Record {
     PileParams<Dim> params{};
-    std::vector<Membership> members{};        // by body
-    std::array<std::int64_t, Dim - 1> sum{};  // of Membership::at over the pile's bodies
-    int count = 0;                            // of the pile's bodies
-    int count_at_look = 0;                    // the count when its slope was looked at last
-    int measured_count = 0;                   // at which its slope was measured last, where none is given
-    int near_looks = 0;                       // looks in a row at which another pile's centre was near
+    PileCounts<Dim> counts{};
+    int last_count = 0;      // bodies at the last slow update
+    int measured_count = 0;  // bodies when the slope was measured last, where none is given
+    int near_updates = 0;    // slow updates at which another pile's centre was near
   };
 
   void add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre);
-  Membership membership(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const;
-  void count(std::size_t pile, BodyIndex body, const Membership& now);
-  void add(std::size_t pile, const Membership& member, int sign);
+  CountedAs<Dim> counted_now(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const;
   void recount(std::size_t pile, const BodyStates<Dim>& states);
   void replace(std::size_t pile, Pile<Dim> structure, const BodyStates<Dim>& states);
   void grow(std::size_t pile, const BodyStates<Dim>& states);
-  void look_around(const BodyStates<Dim>& states, double dt);
-  void find_slope(std::size_t pile, const BodyStates<Dim>& states);
+  void update_slowly(const BodyStates<Dim>& states, double dt);
   void drift(std::size_t pile, const BodyStates<Dim>& states, double dt);
+  void update_slope(std::size_t pile, const BodyStates<Dim>& states);
   void merge_near(const BodyStates<Dim>& states);
   bool may_merge(std::size_t a, std::size_t b) const;
   void merge(std::size_t kept, std::size_t gone, const BodyStates<Dim>& states);
 
   TypicalBody body_;
-  std::vector<PileParams<Dim>> unlocated_;  // in the scene's order
+  std::vector<PileParams<Dim>> unplaced_;  // in the scene's order
   std::vector<Pile<Dim>> piles_;
-  std::vector<Ledger> ledgers_;  // beside piles_
-  int steps_to_look_;            // until centres are looked at again
+  std::vector<Record> records_;         // beside piles_
+  std::int64_t since_slow_update_ = 0;  // calls of update()
   bool needs_contacts_ = false;
-  std::vector<std::uint8_t> landed_;  // [body] has touched something; kept only where flights or slopes are asked for
+  std::vector<std::uint8_t> has_touched_;  // [body] something; kept only where a pile needs contacts
 };
 
 }  // namespace talus

@@ -1,29 +1,27 @@
 #pragma once
-// Who may sleep, who must wake.
+// What a sleep policy is: the part that decides which bodies sleep and which wake.
 
-#include <memory>
 #include <vector>
 
-#include "common/scene/scene.h"
-#include "common/simulation/frame.h"
+#include "common/policy/frame.h"
 
 namespace talus {
 
 /// A new velocity for a body that is awake or woken by the same decision.
 template <int Dim>
-struct Kick {
+struct VelocityChange {
   BodyIndex body = 0;
   Vec<Dim> velocity = Vec<Dim>::Zero();  // of the centre of mass [m/s]
   Spin<Dim> spin = Spin<Dim>::Zero();    // [rad/s]
 };
 
-/// A policy's answer for one frame: each event names a body and its cause; `step` and `woke` are filled in by the
-/// simulation.
+/// A policy's decision for one frame. In each event the policy sets all but `step` and `woke`, which the simulation
+/// fills in.
 template <int Dim>
 struct Decision {
   std::vector<SleepEvent> freeze;
   std::vector<SleepEvent> thaw;
-  std::vector<Kick<Dim>> kicks;  // in force once the bodies to thaw are awake
+  std::vector<VelocityChange<Dim>> velocities;  // applied once the bodies to thaw are awake
 };
 
 template <int Dim>
@@ -31,18 +29,22 @@ class SleepPolicy {
  public:
   virtual ~SleepPolicy() = default;
 
-  /// Whether decide() does anything; without, piles are counted only for observers.
+  /// Whether decide() does anything. If not, piles are counted for observers only.
   virtual bool decides() const { return true; }
 
-  /// Whether bodies that have touched nothing yet count in layers, for piles that do not say.
+  /// Whether bodies that have touched nothing yet count in layers, for piles whose parameters leave it open.
   virtual bool counts_flying() const { return true; }
 
-  /// Fills `decision` (empty on entry).
+  /// Fills `decision` (empty on entry). Called once a step.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
 };
 
-/// The policy that the scene names. Throws std::invalid_argument for a name that none has.
+/// Leaves all sleeping to the engine: policy `full` (the engine never sleeps) and `engine` (its own rule).
 template <int Dim>
-std::unique_ptr<SleepPolicy<Dim>> make_policy(const Scene<Dim>& scene);
+class NoPolicy final : public SleepPolicy<Dim> {
+ public:
+  bool decides() const override { return false; }
+  void decide(const Frame<Dim>&, Decision<Dim>&) override {}
+};
 
 }  // namespace talus

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "common/pile/natural_slope.h"
+#include "common/pile/angle_of_repose.h"
 #include "common/scene/read_walls.h"
 
 namespace talus {
@@ -25,16 +25,20 @@ void read_adaptive(TableReader& table, AdaptiveParams& params) {
   table.read("rest_distance_woken", params.rest_distance_woken, fraction);
   table.read("rest_time_woken", params.rest_time_woken, between(0, 1e3));
   table.read("wake_height", params.wake_height, fraction);
-  table.read("heavy_blow", params.heavy_blow, {.low = 0.0, .high = 1e9, .low_excluded = true});
+  table.renamed("heavy_blow", "heavy_impact");
+  table.read("heavy_impact", params.heavy_impact, {.low = 0.0, .high = 1e9, .low_excluded = true});
   table.read("support_slack", params.support_slack, fraction);
   table.read("awake_share", params.awake_share, {.low = 0.0, .high = 1.0, .high_excluded = true});
   table.read("avalanche_width", params.avalanche_width, {.low = 0.0, .high = 1e3, .low_excluded = true});
   table.read("avalanche_growth", params.avalanche_growth, {.low = 1.0, .high = 1e3, .low_excluded = true});
   table.read("avalanche_growth_quiet", params.avalanche_growth_quiet, {.low = 1.0, .high = 1e3});
   table.read_degrees("avalanche_angle_deg", params.avalanche_angle, between(0.0, 89.0));
-  table.read("steering_gain", params.steering_gain, between(0.0, 1e6));
-  table.read("steering_growth", params.steering_growth, between(0.0, 1e6));
-  table.read("steering_most", params.steering_most, between(0.0, 1e6));
+  table.renamed("steering_gain", "slope_proportional_gain");
+  table.renamed("steering_growth", "slope_integral_gain");
+  table.renamed("steering_most", "slope_max_damping");
+  table.read("slope_proportional_gain", params.slope_proportional_gain, between(0.0, 1e6));
+  table.read("slope_integral_gain", params.slope_integral_gain, between(0.0, 1e6));
+  table.read("slope_max_damping", params.slope_max_damping, between(0.0, 1e6));
 }
 
 }  // namespace
@@ -46,11 +50,12 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     // At 0 and 90 degrees a pile has no height or no base.
     table.read_degrees("alpha_deg", pile.alpha.emplace(), between(1.0, 89.0));
   }
-  table.read("hold_slope", pile.hold_slope);
-  if (pile.hold_slope) {
+  table.renamed("hold_slope", "control_slope");
+  table.read("control_slope", pile.control_slope);
+  if (pile.control_slope) {
     table.require("alpha_deg");
-    if (pile.alpha.value_or(0.0) > steepest_slope) {
-      table.reject("alpha_deg", "must be at most 75 where it is held: no slope above is measured");
+    if (pile.alpha.value_or(0.0) > max_angle_of_repose) {
+      table.reject("alpha_deg", "must be at most 75 with control_slope: no steeper slope is measured");
     }
   }
   if (table.has("at")) {
@@ -70,8 +75,8 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
     if (!pile.at) {
       table.reject("boundary", "must be given together with at, the middle of its floor");
     }
-    if (pile.hold_slope) {
-      table.reject("hold_slope", "must be false within walls, which bear their bodies at any slope");
+    if (pile.control_slope) {
+      table.reject("control_slope", "must be false within walls, which support their bodies at any slope");
     }
     table.require("alpha_deg");  // walls hide the slope that bodies take by themselves
   }

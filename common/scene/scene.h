@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/pile/pile_params.h"
-#include "common/policy/adaptive_params.h"
+#include "common/policy/adaptive/adaptive_params.h"
 #include "common/policy/paper_params.h"
 #include "common/world/world_description.h"
 
@@ -65,6 +65,7 @@ struct Scene {
   std::string toml;  // the file it was read from, `--set` values put in; empty for a scene made by a program
   std::filesystem::path folder;                 // of that file
   std::vector<std::filesystem::path> referred;  // files in or below it that `toml` names, relative to it
+  std::vector<std::string> renamed;             // a warning for each key that `toml` gives under an old name
 
   /// Steps of dt in one frame of output.
   std::int64_t steps_per_frame() const;

@@ -57,7 +57,29 @@ std::string TableReader::field(std::string_view key) const {
 const toml::node* TableReader::find(std::string_view key) {
   known_.emplace_back(key);
   findings_.keys.insert(generic_path_.empty() ? std::string(key) : fmt::format("{}.{}", generic_path_, key));
-  return table_.get(key);
+  return node_of(key);
+}
+
+const toml::node* TableReader::node_of(std::string_view key) const {
+  const auto old = old_names_.find(key);
+  return table_.get(old == old_names_.end() ? key : std::string_view(old->second));
+}
+
+void TableReader::renamed(std::string_view old_key, std::string_view key) {
+  const toml::node* node = table_.get(old_key);
+  if (node == nullptr) {
+    return;
+  }
+  known_.emplace_back(old_key);
+  if (table_.contains(key)) {
+    note(*node, field(old_key), fmt::format("must not be given beside {}, its new name", key));
+    return;
+  }
+  old_names_.emplace(key, old_key);
+  const Location at = locate(node->source());
+  const std::string place = at.line > 0 ? fmt::format("{}:{}:{}", at.file, at.line, at.column) : at.file;
+  findings_.renamed.push_back(
+      fmt::format("{}: {} is now named {}; only this version still reads the old name", place, field(old_key), key));
 }
 
 TableReader::Location TableReader::locate(const toml::source_region& region) const {
@@ -106,7 +128,7 @@ void TableReader::refuse(std::string_view key, std::string rule) {
 }
 
 void TableReader::reject(std::string_view key, std::string rule, std::string suggestion) {
-  const toml::node* node = key.empty() ? nullptr : table_.get(key);
+  const toml::node* node = key.empty() ? nullptr : node_of(key);
   if (node != nullptr) {
     note(*node, field(key), std::move(rule), std::move(suggestion));
   } else {
@@ -127,7 +149,7 @@ void TableReader::reject_as(const std::invalid_argument& refusal, std::string_vi
     const std::string_view name = text.substr(0, equals);
     key = name.substr(name.find_last_of('.') + 1);
   }
-  if (table_.contains(key)) {
+  if (node_of(key) != nullptr) {
     reject(key, std::string(text.substr(colon + 2)));
   } else {
     reject("", std::string(text));

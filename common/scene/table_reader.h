@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -24,6 +25,7 @@ struct Findings {
   std::vector<SceneError> errors;
   std::set<std::string> keys;                   // every key that was asked for, as `source[].rate` or `shape.*.kind`
   std::vector<std::filesystem::path> referred;  // files that it names, as it names them
+  std::vector<std::string> renamed;             // a warning for each key that is given under an old name
 };
 
 /// One table. Every read() leaves the variable, that is the struct's own default, alone where the key is absent, and
@@ -69,6 +71,10 @@ class TableReader {
   /// The tables `[key.NAME]`, ordered by name. Whether it is such tables, or absent.
   bool named_tables(std::string_view key, const NamedBody& body);
 
+  /// `key` had the name `old_key` before, under which it can still be given in this version, with a warning. To be
+  /// called before `key` is read.
+  void renamed(std::string_view old_key, std::string_view key);
+
   bool has(std::string_view key);
   /// Notes an error if the key is absent.
   void require(std::string_view key);
@@ -96,6 +102,7 @@ class TableReader {
               Findings& findings);
 
   const toml::node* find(std::string_view key);
+  const toml::node* node_of(std::string_view key) const;
   template <typename Number>
   void read_whole(std::string_view key, Number& value, const Range& range);
   bool read_number(const toml::node& node, const std::string& name, double& value, const Range& range);
@@ -115,6 +122,7 @@ class TableReader {
   Findings& findings_;
   std::size_t errors_before_;
   std::vector<std::string> known_;
+  std::map<std::string, std::string, std::less<>> old_names_;  // of keys that are given under one
   bool unknown_keys_allowed_ = false;
 };
 

@@ -86,9 +86,9 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
   if (scene.policy.kind == "paper" && scene.piles.empty()) {
     lines.emplace_back("policy.kind = \"paper\" without any [[pile]]: no body will ever sleep");
   }
-  if (scene.policy.kind != "adaptive" && std::ranges::any_of(scene.piles, &PileParams<Dim>::hold_slope)) {
+  if (scene.policy.kind != "adaptive" && std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope)) {
     lines.push_back(
-        fmt::format("policy.kind = \"{}\" holds no pile to a slope, as pile.hold_slope asks", scene.policy.kind));
+        fmt::format("policy.kind = \"{}\" controls no slope; pile.control_slope has no effect", scene.policy.kind));
   }
   if (scene.world.dt > 1.0 / 60.0) {
     lines.emplace_back("world.steps_per_second below 60: bodies sink visibly into each other");
@@ -99,7 +99,7 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
 
 template <int Dim>
 std::vector<std::string> warnings(const Scene<Dim>& scene) {
-  Lines lines;
+  Lines lines = scene.renamed;
   warn_of_sources(scene, lines);
   warn_of_sizes(scene.world.shapes, lines);
   warn_of_mixtures(scene, lines);

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "common/simulation/frame.h"
+#include "common/policy/frame.h"
 
 namespace talus {
 

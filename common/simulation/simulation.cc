@@ -9,7 +9,7 @@
 namespace talus {
 namespace {
 
-/// Where a pile does not say whether bodies in flight count, the policy's own reading holds.
+/// Where a pile's parameters leave open whether bodies in flight count, the policy decides it.
 template <int Dim>
 std::vector<PileParams<Dim>> piles_as_counted(std::vector<PileParams<Dim>> piles, const SleepPolicy<Dim>& policy) {
   for (PileParams<Dim>& pile : piles) {
@@ -51,7 +51,7 @@ void Simulation<Dim>::step() {
   phases_.observe = watch.lap();
 }
 
-/// Section 3.2. Piles that neither a policy nor an observer asks for are not counted.
+/// Section 3.2. Without a policy and without observers piles are not counted.
 template <int Dim>
 void Simulation<Dim>::count_piles() {
   events_.swap(user_events_);
@@ -59,16 +59,16 @@ void Simulation<Dim>::count_piles() {
   if (!skips_.contacts) world_->contacts();
   if (!policy_->decides() && observers_.empty()) return;
   if (engine_sleep_) note_engine_sleep();
-  if (piles_.waiting()) locate_pile();
-  if (piles_.needs_contacts() && !world_->awake().empty()) piles_.land(world_->contacts(), world_->states());
-  if (!skips_.counts) piles_.count_anew(world_->states());
+  if (piles_.has_unplaced()) place_pile();
+  if (piles_.needs_contacts() && !world_->awake().empty()) piles_.note_contacts(world_->contacts(), world_->states());
+  if (!skips_.counts) piles_.recount_all(world_->states());
   piles_.update(world_->states(), world_->awake(), dt_);
   assert(piles_.counts_match(world_->states()));
 }
 
-/// A pile whose place is not given begins where a body first touches ground or obstacle, clear of the piles that are.
+/// A pile whose place is not given begins where a body first touches ground or obstacle outside of the other piles.
 template <int Dim>
-void Simulation<Dim>::locate_pile() {
+void Simulation<Dim>::place_pile() {
   const double clearance = 2.0 * piles_.typical_body().extent;
   for (const Contact<Dim>& contact : world_->contacts()) {
     if (contact.b >= 0) continue;
@@ -77,7 +77,7 @@ void Simulation<Dim>::locate_pile() {
       return (horizontal<Dim>(contact.point) - horizontal<Dim>(pile.centre)).norm() > pile.radius + clearance;
     });
     if (!clear) continue;
-    piles_.locate(contact.point, world_->states());
+    piles_.place(contact.point, world_->states());
     return;
   }
 }
@@ -86,7 +86,7 @@ template <int Dim>
 void Simulation<Dim>::decide() {
   decision_.freeze.clear();
   decision_.thaw.clear();
-  decision_.kicks.clear();
+  decision_.velocities.clear();
   if (policy_->decides()) policy_->decide(frame(), decision_);
 }
 
@@ -104,11 +104,13 @@ void Simulation<Dim>::apply() {
     } else {
       world_->freeze(bodies_);
     }
-    for (const BodyIndex body : bodies_) piles_.refresh(world_->states(), body);
+    for (const BodyIndex body : bodies_) piles_.recount_body(world_->states(), body);
     events_.insert(events_.end(), list.begin(), list.end());
   };
   if (!decision_.thaw.empty()) take(decision_.thaw, true);
-  for (const Kick<Dim>& kick : decision_.kicks) world_->set_velocity(kick.body, kick.velocity, kick.spin);
+  for (const VelocityChange<Dim>& change : decision_.velocities) {
+    world_->set_velocity(change.body, change.velocity, change.spin);
+  }
   if (!decision_.freeze.empty()) take(decision_.freeze, false);
   std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
 }
@@ -126,7 +128,7 @@ void Simulation<Dim>::end(std::string_view reason) {
   for (Observer<Dim>* observer : observers_) observer->on_end(last, reason);
 }
 
-/// The engine tells nobody when it puts a body to sleep or wakes it: compare.
+/// The engine sends no events when it puts a body to sleep or wakes it, so the states before and after are compared.
 template <int Dim>
 void Simulation<Dim>::note_engine_sleep() {
   const BodyStates<Dim>& states = world_->states();
@@ -136,7 +138,7 @@ void Simulation<Dim>::note_engine_sleep() {
     if (states.asleep[i] == asleep_before_[i]) continue;
     asleep_before_[i] = states.asleep[i];
     events_.push_back({.step = step_, .body = body, .woke = states.asleep[i] == 0, .cause = SleepCause::engine});
-    piles_.refresh(states, body);
+    piles_.recount_body(states, body);
   }
 }
 
@@ -149,7 +151,7 @@ void Simulation<Dim>::remove(BodyIndex body) {
   const Vec<Dim> reach = Vec<Dim>::Constant(0.05 * shape.extent);  // what rests on a body touches its box
   around = Box<Dim>(around.min() - reach, around.max() + reach);
   world_->remove(body);
-  piles_.refresh(world_->states(), body);
+  piles_.recount_body(world_->states(), body);
   std::vector<BodyIndex> neighbours;
   world_->near(around, neighbours);
   thaw_now(neighbours, SleepCause::lost_support);
@@ -172,7 +174,7 @@ void Simulation<Dim>::thaw_now(std::span<const BodyIndex> bodies, SleepCause cau
   });
   world_->thaw(bodies_);
   for (const BodyIndex body : bodies_) {
-    piles_.refresh(states, body);
+    piles_.recount_body(states, body);
     user_events_.push_back({.step = step_ + 1, .body = body, .woke = true, .cause = cause});
   }
 }

@@ -22,7 +22,7 @@ class Simulation {
   /// Observers are called in the order added and must outlive the simulation. With none, nothing is prepared for them.
   void add_observer(Observer<Dim>& observer) { observers_.push_back(&observer); }
 
-  /// One step: emit due bodies, step the world, recount the piles, ask the policy, apply its two lists.
+  /// One step: emit due bodies, step the world, recount the piles, let the policy decide, apply its three lists.
   void step();
 
   /// Tells the observers that the run is over: "finished", "interrupted", or what went wrong.
@@ -43,7 +43,7 @@ class Simulation {
 
  private:
   void count_piles();
-  void locate_pile();
+  void place_pile();
   void decide();
   void apply();
   void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);

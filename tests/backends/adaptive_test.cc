@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/measure/support.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 

@@ -14,6 +14,7 @@
 #include <filesystem>
 
 #include "common/scene/read_scene.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 
 namespace talus::engines_agree_test {

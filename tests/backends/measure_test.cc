@@ -7,6 +7,7 @@
 #include "common/measure/short_horizon.h"
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "common/measure/shape_statistics.h"
-#include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/typical_body.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 

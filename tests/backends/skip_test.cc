@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "common/policy/sleep_policy.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"

@@ -1,39 +1,58 @@
-// The parts of the policy `adaptive`, each on contacts made up for it.
+// Rules of the policy `adaptive`, each with contacts made for the test.
+
+#include "tests/common/adaptive_rules.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <numbers>
 #include <vector>
 
-#include "common/policy/bearing.h"
-#include "common/policy/blows.h"
-#include "common/policy/impulse.h"
-#include "common/policy/props.h"
+#include "common/policy/adaptive/impacts.h"
+#include "common/policy/adaptive/rigid_impulse.h"
+#include "common/policy/adaptive/support_criterion.h"
+#include "common/policy/adaptive/support_loss.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
-#include "tests/common/cubes.h"
 
 namespace talus::adaptive_rules_test {
 namespace {
 
-Contact<3> contact(BodyIndex a, BodyIndex b, const Vec3& point, const Vec3& normal, double impulse) {
-  return {.a = a, .b = b, .point = point, .normal = normal, .normal_impulse = impulse};
+TEST(WakeList, IsAscendingAndKeepsTheFirstCauseOfABody) {
+  WakeList wakes;
+  wakes.add(7, {.cause = SleepCause::momentum, .before_impact = true});
+  wakes.add(3, {.cause = SleepCause::lost_support});
+  wakes.add(7, {.cause = SleepCause::avalanche});
+  EXPECT_EQ(bodies_in(wakes), (std::vector<BodyIndex>{3, 7}));
+  EXPECT_EQ(std::next(wakes.begin())->second.cause, SleepCause::momentum);
+  EXPECT_TRUE(std::next(wakes.begin())->second.before_impact);
 }
 
-TEST(Impulse, MovesABodyAtItsCentreByItsMassAlone) {
+TEST(RuleOutput, HasOneVelocityForEachBodyWhichBeginsWithItsOwn) {
+  StillWorld<3> world = cubes_at({Vec3::Zero(), Vec3::UnitX()});
+  world.set_velocity(0, Vec3::UnitZ(), Vec3::UnitY());
+  RuleOutput<3> out;
+  out.velocity_of(1, world.states()).velocity = Vec3::UnitX();
+  EXPECT_EQ(out.velocity_of(0, world.states()).velocity, Vec3::UnitZ());
+  EXPECT_EQ(out.velocity_of(1, world.states()).velocity, Vec3::UnitX());
+  ASSERT_EQ(out.velocities.size(), 2U);
+  EXPECT_EQ(out.velocities[0].body, 0);
+  EXPECT_EQ(out.velocities[0].spin, Vec3::UnitY());
+}
+
+TEST(RigidImpulse, AtTheCentreChangesVelocityByTheMassAlone) {
   const Shape<3> cube = cubes().shapes.front();
-  EXPECT_DOUBLE_EQ(yielding<3>(cube, {}, Vec3::Zero(), Vec3::UnitX()), 1.0);
+  EXPECT_DOUBLE_EQ(inverse_effective_mass<3>(cube, {}, Vec3::Zero(), Vec3::UnitX()), 1.0);
 }
 
-TEST(Impulse, TurnsABodyThatItMeetsOffCentre) {
+TEST(RigidImpulse, OffTheCentreAlsoTurnsTheBody) {
   const Shape<3> cube = cubes().shapes.front();
   const Pose<3> pose{.position = Vec3(1.0, 2.0, 3.0)};
-  const Vec3 place = pose.position + Vec3(0.0, 0.0, 0.5);
+  const Vec3 point = pose.position + Vec3(0.0, 0.0, 0.5);
   // 1/m + l^2/I = 1 + 0.25 * 6
-  EXPECT_NEAR(yielding<3>(cube, pose, place, Vec3::UnitX()), 2.5, 1e-12);
+  EXPECT_NEAR(inverse_effective_mass<3>(cube, pose, point, Vec3::UnitX()), 2.5, 1e-12);
   Vec3 velocity = Vec3::Zero();
   Spin<3> spin = Spin<3>::Zero();
-  push<3>(cube, pose, place, 2.0 * Vec3::UnitX(), velocity, spin);
+  apply_impulse<3>(cube, pose, point, 2.0 * Vec3::UnitX(), velocity, spin);
   EXPECT_NEAR((velocity - Vec3(2.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((spin - Vec3(0.0, 6.0, 0.0)).norm(), 0.0, 1e-12);  // l J / I about y
 }
@@ -44,11 +63,36 @@ std::vector<Contact<3>> stack_of_two() {
           contact(0, 1, Vec3(0.0, 0.0, 1.0), -Vec3::UnitZ(), 1.0)};
 }
 
-TEST(Bearing, KeepsAStackThatRestsAsAWhole) {
+/// Those of `candidates` that are supported. The weight of a cube is 1 N s a step.
+std::vector<BodyIndex> supported(StillWorld<3> world, std::vector<Contact<3>> contacts,
+                                 std::vector<BodyIndex> candidates) {
+  RuleParts parts;
+  parts.world.gravity = 1.0 / parts.world.dt;
+  world.touching = std::move(contacts);
+  SupportCriterion<3>(parts.setup()).keep_supported(input(world), candidates);
+  return candidates;
+}
+
+TEST(SupportCriterion, KeepsAStackThatRestsAsAWhole) {
   const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
-  std::vector<BodyIndex> candidates = {0, 1};
-  keep_borne<3>(stack_of_two(), world.states(), std::vector{1.0}, 0.25, candidates);
-  EXPECT_EQ(candidates, (std::vector<BodyIndex>{0, 1}));
+  EXPECT_EQ(supported(world, stack_of_two(), {0, 1}), (std::vector<BodyIndex>{0, 1}));
+}
+
+TEST(SupportCriterion, RemovesABodyOnOneThatStaysAwake) {
+  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  EXPECT_TRUE(supported(world, stack_of_two(), {1}).empty());
+}
+
+TEST(SupportCriterion, RemovesAWholeTowerWithItsLowestBody) {
+  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 2.5)});
+  // Nothing supports the lowest: it falls, and the others with it.
+  const std::vector<Contact<3>> contacts = {contact(0, 1, Vec3(0.0, 0.0, 1.0), -Vec3::UnitZ(), 1.0),
+                                            contact(1, 2, Vec3(0.0, 0.0, 2.0), -Vec3::UnitZ(), 1.0)};
+  EXPECT_TRUE(supported(world, contacts, {0, 1, 2}).empty());
+}
+
+TEST(SupportCriterion, RemovesABodyInFlight) {
+  EXPECT_TRUE(supported(cubes_at({Vec3(0.0, 0.0, 5.0)}), {}, {0}).empty());
 }
 
 /// Whether the policy freezes a cube that rests on the ground with its centre at this height.
@@ -69,105 +113,83 @@ TEST(AdaptivePolicy, LetsABodySleepOnTheGroundAndNotBelowIt) {
   EXPECT_FALSE(sleeps_at(-0.1));
 }
 
-TEST(Bearing, LeavesOutABodyThatLiesOnOneWhichStaysAwake) {
-  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
-  std::vector<BodyIndex> candidates = {1};
-  keep_borne<3>(stack_of_two(), world.states(), std::vector{1.0}, 0.25, candidates);
-  EXPECT_TRUE(candidates.empty());
-}
+/// The rule with a slack of 0.01 m, and the bodies that it wakes in each step.
+struct SupportLossRule {
+  SupportLoss<3> rule{RuleParts{.params = {.support_slack = 0.01}, .extent = 1.0}.setup()};
 
-TEST(Bearing, LeavesOutAWholeTowerWhoseFootIsLeftOut) {
-  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 2.5)});
-  std::vector<BodyIndex> candidates = {0, 1, 2};
-  // Nothing bears the lowest: it falls, and the others with it.
-  const std::vector<Contact<3>> contacts = {contact(0, 1, Vec3(0.0, 0.0, 1.0), -Vec3::UnitZ(), 1.0),
-                                            contact(1, 2, Vec3(0.0, 0.0, 2.0), -Vec3::UnitZ(), 1.0)};
-  keep_borne<3>(contacts, world.states(), std::vector{1.0}, 0.25, candidates);
-  EXPECT_TRUE(candidates.empty());
-}
+  std::vector<BodyIndex> woken(StillWorld<3>& world, std::vector<Contact<3>> contacts) {
+    world.touching = std::move(contacts);
+    RuleOutput<3> out;
+    rule.update(input(world), out);
+    return bodies_in(out.wakes);
+  }
+};
 
-TEST(Bearing, LeavesOutABodyInFlight) {
-  const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 5.0)});
-  std::vector<BodyIndex> candidates = {0};
-  keep_borne<3>({}, world.states(), std::vector{1.0}, 0.25, candidates);
-  EXPECT_TRUE(candidates.empty());
-}
-
-TEST(Props, TellASleeperWhoseSupportWentAway) {
+TEST(SupportLoss, WakesABodyWhoseSupportMovedAway) {
   StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
   world.freeze(std::vector<BodyIndex>{1});
-  BodyStates<3> states = world.states();
-  Props<3> props(0.01);
-  std::vector<BodyIndex> left;
-  props.update(stack_of_two(), states, left);
-  EXPECT_TRUE(left.empty());
-  states.pose[0].position[2] -= 0.005;  // within the slack
-  props.update({}, states, left);
-  EXPECT_TRUE(left.empty());
-  states.pose[0].position[0] += 0.02;
-  props.update({}, states, left);
-  EXPECT_EQ(left, std::vector<BodyIndex>{1});
+  SupportLossRule loss;
+  EXPECT_TRUE(loss.woken(world, stack_of_two()).empty());
+  world.move(0, {.position = Vec3(0.0, 0.0, 0.495)});  // within the slack
+  EXPECT_TRUE(loss.woken(world, {}).empty());
+  world.move(0, {.position = Vec3(0.02, 0.0, 0.495)});
+  EXPECT_EQ(loss.woken(world, {}), std::vector<BodyIndex>{1});
 }
 
-TEST(Props, DoNotTellASleeperOnWhichAnAwakeBodyMoves) {
+TEST(SupportLoss, DoesNotWakeABodyOnWhichAnAwakeOneMoves) {
   StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 0.5)});
   world.freeze(std::vector<BodyIndex>{1});
-  BodyStates<3> states = world.states();
-  Props<3> props(0.01);
-  std::vector<BodyIndex> left;
+  SupportLossRule loss;
   const std::vector<Contact<3>> contacts = {contact(0, 1, Vec3(0.0, 0.0, 1.0), Vec3::UnitZ(), 1.0)};
-  props.update(contacts, states, left);
-  states.pose[0].position[0] += 0.5;
-  props.update(contacts, states, left);
-  EXPECT_TRUE(left.empty());
+  loss.woken(world, contacts);
+  world.move(0, {.position = Vec3(0.5, 0.0, 1.5)});
+  EXPECT_TRUE(loss.woken(world, contacts).empty());
 }
 
-/// An awake cube of 1 kg that hit the sleeping one beside it, which stopped it. It comes from the side that `from`
-/// names.
-struct Struck {
-  explicit Struck(const Vec3& side = -Vec3::UnitX())
-      : from(side), world(cubes_at({middle() + side, middle()})), blows({}, std::sqrt(3.0), cubes()) {
+/// An awake cube of 1 kg hits a sleeping one beside it and is stopped. It comes from the side `from`.
+struct Collision {
+  explicit Collision(const Vec3& side = -Vec3::UnitX())
+      : from(side), world(cubes_at({middle() + side, middle()})), impacts(RuleParts{}.setup()) {
     world.freeze(std::vector<BodyIndex>{1});
-    blows.update(world, {}, hit, kicks);  // the step before: awake, without contact
-    hit.clear();
-    kicks.clear();
+    impacts.update(input(world), out);  // the step before: awake, without contact
   }
   static Vec3 middle() { return {0.0, 0.0, 5.0}; }
   void strike(double impulse, double approach, const Vec3& off_centre = Vec3::Zero()) {
     Contact<3> touch = contact(0, 1, middle() + 0.5 * from + off_centre, from, impulse);
     touch.approach_speed = approach;
-    blows.update(world, std::vector{touch}, hit, kicks);
+    world.touching = {touch};
+    out.clear();
+    impacts.update(input(world), out);
   }
-  bool wakes() const { return !hit.empty(); }
+  bool wakes() const { return !out.wakes.empty(); }
   Vec3 from;
   StillWorld<3> world;
-  Blows<3> blows;
-  std::vector<BodyIndex> hit;
-  std::vector<Kick<3>> kicks;
+  Impacts<3> impacts;
+  RuleOutput<3> out;
 };
 
-TEST(Blow, SharesItsMomentumAsBetweenFreeBodiesThatDoNotBounce) {
-  Struck blow;
-  blow.strike(4.0, 4.0);
-  EXPECT_EQ(blow.hit, std::vector<BodyIndex>{1});
-  ASSERT_EQ(blow.kicks.size(), 2U);
-  EXPECT_NEAR(blow.kicks[0].velocity[0], 2.0, 1e-12);  // equal masses: half of 4 m/s each
-  EXPECT_NEAR(blow.kicks[1].velocity[0], 2.0, 1e-12);
+TEST(Impacts, ShareMomentumAsBetweenFreeBodiesThatDoNotBounce) {
+  Collision collision;
+  collision.strike(4.0, 4.0);
+  EXPECT_EQ(bodies_in(collision.out.wakes), std::vector<BodyIndex>{1});
+  ASSERT_EQ(collision.out.velocities.size(), 2U);
+  EXPECT_NEAR(collision.out.velocities[0].velocity[0], 2.0, 1e-12);  // equal masses: half of 4 m/s each
+  EXPECT_NEAR(collision.out.velocities[1].velocity[0], 2.0, 1e-12);
 }
 
-TEST(Blow, TooWeakToLiftTheSleeperWakesNobody) {
-  Struck blow;
-  blow.strike(0.5, 0.5);  // would give 0.25 m/s, enough to rise by 3 mm of the 52 mm that count
-  EXPECT_TRUE(blow.hit.empty());
-  EXPECT_TRUE(blow.kicks.empty());
+TEST(Impacts, TooWeakToLiftTheSleepingBodyDoNotWakeIt) {
+  Collision collision;
+  collision.strike(0.5, 0.5);  // would give 0.25 m/s, enough to rise by 3 mm of the required 52 mm
+  EXPECT_FALSE(collision.wakes());
+  EXPECT_TRUE(collision.out.velocities.empty());
 }
 
-// 1.02 m/s lift a body by 0.03 D. Of equal masses each gets half of what stopped the striker: here 1.1 m/s.
-TEST(Blow, CountsAThirdFromAboveAndFiveThirdsFromBelow) {
+// 1.02 m/s lift a body by 0.03 D. Of equal masses each gets half of what stopped the awake one: here 1.1 m/s.
+TEST(Impacts, CountByAThirdFromAboveAndByFiveThirdsFromBelow) {
   const auto wakes = [](const Vec3& from, double impulse) {
-    Struck blow(from);
-    blow.strike(impulse, 9.0);
-    return blow.wakes();
+    Collision collision(from);
+    collision.strike(impulse, 9.0);
+    return collision.wakes();
   };
   EXPECT_TRUE(wakes(Vec3::UnitY(), 2.2));
   EXPECT_FALSE(wakes(Vec3::UnitZ(), 2.2));
@@ -177,29 +199,28 @@ TEST(Blow, CountsAThirdFromAboveAndFiveThirdsFromBelow) {
   EXPECT_TRUE(wakes(-Vec3::UnitZ(), 1.3));
 }
 
-// 0.4 m off the centre the point struck yields 1 + 6 * 0.16 times as much as the whole.
-TEST(Blow, WakesBySpeedOfThePointThatIsStruck) {
-  Struck central;
+// 0.4 m off the centre the struck point has 1 + 6 * 0.16 times the inverse mass of the centre.
+TEST(Impacts, WakeByTheSpeedOfTheStruckPoint) {
+  Collision central;
   central.strike(1.2, 9.0);
   EXPECT_FALSE(central.wakes());
-  Struck off_centre;
+  Collision off_centre;
   off_centre.strike(1.2, 9.0, 0.4 * Vec3::UnitY());
   EXPECT_TRUE(off_centre.wakes());
 }
 
-TEST(Blow, IsOnlyWhatComesOnTopOfTheLoadOfTheStepBefore) {
-  Struck blow;
-  blow.strike(4.0, 4.0);
-  blow.hit.clear();
-  blow.strike(4.0, 0.0);  // still the same load, as of a heap that leans against the sleeper
-  EXPECT_TRUE(blow.hit.empty());
+TEST(Impacts, AreOnlyWhatExceedsTheLoadOfTheStepBefore) {
+  Collision collision;
+  collision.strike(4.0, 4.0);
+  collision.strike(4.0, 0.0);  // still the same load, as of a heap that leans against the sleeping body
+  EXPECT_FALSE(collision.wakes());
 }
 
-TEST(Blow, GivesNobodyMoreSpeedThanTheFastestApproachOfTheStep) {
-  Struck blow;
-  blow.strike(100.0, 3.0);  // an engine pushes bodies apart that overlap
-  ASSERT_EQ(blow.kicks.size(), 2U);
-  EXPECT_LE(blow.kicks[1].velocity.norm(), 3.0 + 1e-9);
+TEST(Impacts, GiveNoBodyMoreSpeedThanTheFastestApproachOfTheStep) {
+  Collision collision;
+  collision.strike(100.0, 3.0);  // an engine pushes overlapping bodies apart
+  ASSERT_EQ(collision.out.velocities.size(), 2U);
+  EXPECT_LE(collision.out.velocities[1].velocity.norm(), 3.0 + 1e-9);
 }
 
 }  // namespace

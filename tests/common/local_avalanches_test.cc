@@ -1,13 +1,13 @@
-// Where the policy `adaptive` lets heaps of sleepers slide.
+// Where the policy `adaptive` lets heaps of sleeping bodies slide.
 
-#include "common/policy/local_avalanches.h"
+#include "common/policy/adaptive/local_avalanches.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <vector>
 
-#include "tests/common/cubes.h"
+#include "tests/common/adaptive_rules.h"
 
 namespace talus::local_avalanches_test {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// than 4 m tan(25 degrees) = 1.9 m to the next.
 class LocalAvalanchesTest : public testing::Test {
  protected:
-  LocalAvalanchesTest() : world_(cubes()), avalanches_({}, 1.0, 0.0) {}
+  LocalAvalanchesTest() : world_(cubes()), avalanches_(RuleParts{.extent = 1.0}.setup()) {}
 
   /// Puts so many cubes to sleep in layers of four by four, upwards from the ground, in the column whose corner is at
   /// (x, 0).
@@ -32,18 +32,20 @@ class LocalAvalanchesTest : public testing::Test {
 
   void put_to_sleep(const std::vector<BodyIndex>& bodies) {
     world_.freeze(bodies);
-    avalanches_.note(world_.states(), events(bodies), {});
+    avalanches_.count(world_.states(), events(bodies), {});
   }
 
   void wake(const std::vector<BodyIndex>& bodies) {
     world_.thaw(bodies);
-    avalanches_.note(world_.states(), {}, events(bodies));
+    avalanches_.count(world_.states(), {}, events(bodies));
   }
 
+  /// The bodies that the rule wakes. Unless the world is quiet, two bodies far away touch.
   std::vector<BodyIndex> sliding(bool quiet = false) {
-    std::vector<BodyIndex> found;
-    avalanches_.update(world_, piles_, quiet, found);
-    return found;
+    world_.touching.assign(quiet ? 0 : 1, {.a = 0, .b = 0});
+    RuleOutput<3> out;
+    avalanches_.update(input(world_, 0, piles_), out);
+    return bodies_in(out.wakes);
   }
 
   static std::vector<SleepEvent> events(const std::vector<BodyIndex>& bodies) {
@@ -75,20 +77,20 @@ TEST_F(LocalAvalanchesTest, AHeapNoSteeperThanTheAngleStays) {
   EXPECT_TRUE(sliding().empty());
 }
 
-TEST_F(LocalAvalanchesTest, AHeapAmongMoreThatAreAwakeIsAskedByThem) {
+TEST_F(LocalAvalanchesTest, AHeapAmongMoreAwakeBodiesIsLeftToTheirImpacts) {
   lay(48, 0.0);
   for (int i = 0; i < 49; ++i) world_.add({.pose = {.position = Vec3(5.0 + 0.05 * i, 1.0, 0.5)}});
   EXPECT_TRUE(sliding().empty());
 }
 
-TEST_F(LocalAvalanchesTest, AQuietHeapIsAskedHoweverManyFlyAboveIt) {
+TEST_F(LocalAvalanchesTest, AQuietHeapIsCheckedHoweverManyBodiesFlyAboveIt) {
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   for (int i = 0; i < 49; ++i) world_.add({.pose = {.position = Vec3(2.0, 2.0, 20.0 + 2.0 * i)}});
   EXPECT_EQ(sliding(true), heap);
 }
 
 TEST_F(LocalAvalanchesTest, APlainStaysHoweverHigh) {
-  // Walls along both sides: the plain's only slope is the one that it does not have.
+  // Walls along both sides: nothing can slide off the plain's edges.
   Pile<3> pile;
   pile.centre = Vec3(2.0, 2.0, 0.0);
   pile.boundary = box_boundary<3>(Eigen::Vector2d(20.0, 4.0), 20.0);
@@ -97,7 +99,7 @@ TEST_F(LocalAvalanchesTest, APlainStaysHoweverHigh) {
   EXPECT_TRUE(sliding().empty());
 }
 
-TEST_F(LocalAvalanchesTest, AHeapThatWasLookedAtIsLeftAloneUntilItHasGrown) {
+TEST_F(LocalAvalanchesTest, AHeapThatWasCheckedIsNotCheckedUntilItHasGrown) {
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   EXPECT_EQ(sliding().size(), heap.size());
   wake(heap);
@@ -110,7 +112,7 @@ TEST_F(LocalAvalanchesTest, AHeapThatWasLookedAtIsLeftAloneUntilItHasGrown) {
   EXPECT_EQ(sliding().size(), heap.size() + 8);
 }
 
-TEST_F(LocalAvalanchesTest, WhoWokeBesideAHeapHasBeenLookedAt) {
+TEST_F(LocalAvalanchesTest, AColumnThatWokeBesideAHeapCountsAsChecked) {
   lay(100, 4.0);
   EXPECT_EQ(sliding().size(), 100);
   lay(14, 4.0);
@@ -121,18 +123,18 @@ TEST_F(LocalAvalanchesTest, WhoWokeBesideAHeapHasBeenLookedAt) {
   EXPECT_TRUE(sliding().empty());
 }
 
-TEST_F(LocalAvalanchesTest, AHeapThatIsQuietIsAskedHoweverLittleItGrewButOnce) {
+TEST_F(LocalAvalanchesTest, AQuietHeapIsCheckedOnceHoweverLittleItGrew) {
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   EXPECT_EQ(sliding().size(), heap.size());
   lay(1, 0.0);
   EXPECT_TRUE(sliding().empty());
-  EXPECT_TRUE(avalanches_.waiting());
+  EXPECT_TRUE(avalanches_.has_unchecked());
   EXPECT_EQ(sliding(true).size(), heap.size() + 1);
-  EXPECT_FALSE(avalanches_.waiting());
+  EXPECT_FALSE(avalanches_.has_unchecked());
   EXPECT_TRUE(sliding(true).empty());
 }
 
-TEST_F(LocalAvalanchesTest, AHeapThatSleepsAgainAsItLayIsNotAskedASecondTime) {
+TEST_F(LocalAvalanchesTest, AHeapThatSleepsAgainUnchangedIsNotCheckedAgain) {
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   EXPECT_EQ(sliding(true).size(), heap.size());
   wake(heap);
@@ -140,19 +142,19 @@ TEST_F(LocalAvalanchesTest, AHeapThatSleepsAgainAsItLayIsNotAskedASecondTime) {
   EXPECT_TRUE(sliding(true).empty());
 }
 
-TEST_F(LocalAvalanchesTest, AHeapWokenByHandIsNotTakenForOneThatGrew) {
+TEST_F(LocalAvalanchesTest, AHeapWokenByHandDoesNotCountAsGrown) {
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   EXPECT_EQ(sliding(true).size(), heap.size());
-  world_.thaw(heap);  // nobody told the rule
+  world_.thaw(heap);  // without an event
   put_to_sleep(heap);
   EXPECT_TRUE(sliding(true).empty());
 }
 
-// Held to 45 degrees, a column of 4 m may stand 4 m above the next, and a body at both ends 1 m out of the slope.
-TEST_F(LocalAvalanchesTest, WhatIsHeldToASlopeSlidesOnlyWhereItIsSteeperAndIsNotAskedWhenAllIsQuiet) {
+// At 45 degrees a column of 4 m may stand 4 m above the next, and the top body of each 1 m out of the slope.
+TEST_F(LocalAvalanchesTest, AControlledPileSlidesOnlyAboveItsSlopeAndIsNotCheckedWhenQuiet) {
   Pile<3> pile;
   pile.alpha = std::numbers::pi / 4.0;
-  pile.held = true;
+  pile.slope_controlled = true;
   pile.radius = 10.0;
   piles_.push_back(pile);
   lay(96, 0.0);  // highest centres at 5.5 m
@@ -163,22 +165,22 @@ TEST_F(LocalAvalanchesTest, WhatIsHeldToASlopeSlidesOnlyWhereItIsSteeperAndIsNot
   EXPECT_FALSE(sliding().empty());
 }
 
-// What may slide from 25 degrees on anyway is held by nobody.
-TEST_F(LocalAvalanchesTest, APileHeldToAFlatSlopeSlidesAsEver) {
+// A controlled slope below the 25 degrees of the rule changes nothing.
+TEST_F(LocalAvalanchesTest, APileControlledAtAFlatSlopeSlidesAsOthersDo) {
   Pile<3> pile;
   pile.alpha = 0.4;
-  pile.held = true;
+  pile.slope_controlled = true;
   pile.radius = 10.0;
   piles_.push_back(pile);
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   EXPECT_EQ(sliding(true), heap);
 }
 
-TEST_F(LocalAvalanchesTest, AHeapOutOfReachOfAPileThatIsHeldSlidesAsEver) {
+TEST_F(LocalAvalanchesTest, AHeapOutOfReachOfAControlledPileSlidesAsOthersDo) {
   Pile<3> pile;
   pile.centre = Vec3(40.0, 0.0, 0.0);
   pile.alpha = std::numbers::pi / 4.0;
-  pile.held = true;
+  pile.slope_controlled = true;
   pile.radius = 10.0;
   piles_.push_back(pile);
   const std::vector<BodyIndex> heap = lay(96, 0.0);
@@ -194,7 +196,7 @@ TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {
   EXPECT_TRUE(sliding().empty());
 }
 
-TEST_F(LocalAvalanchesTest, OnlyWhatStandsAboveTheRimSlidesOverAWall) {
+TEST_F(LocalAvalanchesTest, OnlyBodiesAboveTheRimSlideOverAWall) {
   Pile<3> pile;
   pile.centre = Vec3(2.0, 2.0, 0.0);
   pile.boundary = box_boundary<3>(Eigen::Vector2d(4.0, 4.0), 1.0);
@@ -203,13 +205,13 @@ TEST_F(LocalAvalanchesTest, OnlyWhatStandsAboveTheRimSlidesOverAWall) {
   EXPECT_TRUE(sliding().empty());
   lay(5, 4.0);  // spilt, and lower than the rim
   EXPECT_TRUE(sliding().empty());
-  lay(16, 0.0);  // on the heap's foot, so that it is looked at again
+  lay(16, 0.0);  // on the heap's foot, so that it is checked again
   EXPECT_TRUE(sliding().empty());
   lay(80, 0.0);  // up to 4.5 m
   EXPECT_FALSE(sliding().empty());
 }
 
-TEST_F(LocalAvalanchesTest, ABodyTakenAwayByHandNoLongerCounts) {
+TEST_F(LocalAvalanchesTest, ARemovedBodyNoLongerCounts) {
   const std::vector<BodyIndex> heap = lay(48, 0.0);
   world_.remove(heap.back());
   EXPECT_EQ(sliding().size(), heap.size() - 1);

@@ -4,6 +4,7 @@
 
 #include "common/measure/avalanches.h"
 #include "common/shape/catalogue.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/common/still_world.h"
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/shape/catalogue.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/common/still_world.h"
 

@@ -54,11 +54,11 @@ void expect_counts_kept_through_a_history() {
         break;
       case 1:
         bodies.states.asleep[pick] = bodies.states.asleep[pick] == 0 ? 1 : 0;
-        piles.refresh(bodies.states, static_cast<BodyIndex>(pick));
+        piles.recount_body(bodies.states, static_cast<BodyIndex>(pick));
         break;
       case 2:
         bodies.states.removed[pick] = 1;
-        piles.refresh(bodies.states, static_cast<BodyIndex>(pick));
+        piles.recount_body(bodies.states, static_cast<BodyIndex>(pick));
         break;
       default:
         break;
@@ -155,10 +155,10 @@ TEST(UnlocatedPile, BeginsWhereItIsToldAndCountsWhoIsThere) {
   Bodies<3> bodies;
   bodies.add(Vec3(7.0, 1.0, 0.1));
   PileSet<3> piles({PileParams<3>{}}, body);
-  EXPECT_TRUE(piles.waiting());
+  EXPECT_TRUE(piles.has_unplaced());
   EXPECT_TRUE(piles.piles().empty());
-  piles.locate(Vec3(7.0, 1.0, 0.0), bodies.states);
-  EXPECT_FALSE(piles.waiting());
+  piles.place(Vec3(7.0, 1.0, 0.0), bodies.states);
+  EXPECT_FALSE(piles.has_unplaced());
   EXPECT_EQ(counts(piles).front(), 1);
 }
 
@@ -171,7 +171,7 @@ std::pair<PileSet<3>, Bodies<3>> two_piles(double distance, double merge_distanc
     params[static_cast<std::size_t>(side)].at = centre;
     params[static_cast<std::size_t>(side)].merge_distance = merge_distance;
     params[static_cast<std::size_t>(side)].alpha = 0.5;
-    params[static_cast<std::size_t>(side)].hold_slope = held[static_cast<std::size_t>(side)];
+    params[static_cast<std::size_t>(side)].control_slope = held[static_cast<std::size_t>(side)];
     for (int i = 0; i < 3; ++i) bodies.add(centre + Vec3(0.0, 0.0, 0.1));
   }
   return {PileSet<3>(params, body), bodies};
@@ -190,13 +190,13 @@ TEST(PilesNearEachOther, StayHeldToTheirSlopeAsOneAndAsTheyGrow) {
   auto [piles, bodies] = two_piles(1.0, 1.0, {true, true});
   for (int step = 0; step < 90; ++step) piles.update(bodies.states, bodies.awake(), dt);
   EXPECT_EQ(piles.piles()[1].merged_into, 0);
-  EXPECT_TRUE(piles.piles()[0].held);
-  EXPECT_FALSE(piles.piles()[1].held);
+  EXPECT_TRUE(piles.piles()[0].slope_controlled);
+  EXPECT_FALSE(piles.piles()[1].slope_controlled);
   const double room = piles.piles()[0].structure_size;
   for (int i = 0; i < 40; ++i) bodies.add(Vec3(0.5, 0.0, 0.1));
   piles.update(bodies.states, bodies.awake(), dt);
   EXPECT_GT(piles.piles()[0].structure_size, room);
-  EXPECT_TRUE(piles.piles()[0].held);
+  EXPECT_TRUE(piles.piles()[0].slope_controlled);
 }
 
 TEST(PilesNearEachOther, StayApartWhereOnlyOneIsHeldToItsSlope) {
@@ -239,7 +239,7 @@ TEST(PileSet, CountsABodyInFlightOnlyWhereThePileSaysSo) {
     bodies.add(Vec2(0.0, 0.5));
     ASSERT_EQ(piles.needs_contacts(), !count_flying);
     const std::vector<Contact<2>> contacts = {{.a = 1, .b = ground_index}};
-    if (piles.needs_contacts()) piles.land(contacts, bodies.states);
+    if (piles.needs_contacts()) piles.note_contacts(contacts, bodies.states);
     piles.update(bodies.states, bodies.awake(), dt);
     EXPECT_EQ(counts(piles).front(), count_flying ? 2 : 1);
     EXPECT_TRUE(piles.counts_match(bodies.states));

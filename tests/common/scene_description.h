@@ -71,7 +71,7 @@ template <int Dim>
 std::string description(const PileParams<Dim>& pile) {
   std::string text = fmt::format("pile {} {} {} {} {}", pile.alpha.value_or(0.0), pile.initial_size, pile.growth_ratio,
                                  pile.merge_distance, pile.drift_rate);
-  if (pile.hold_slope) text += " holds its slope";
+  if (pile.control_slope) text += " controls its slope";
   if (pile.count_flying) text += *pile.count_flying ? " counts flying" : " does not count flying";
   text += pile.at ? " at" + numbers(*pile.at) : " where the first lands";
   if (pile.boundary) {
@@ -96,9 +96,9 @@ std::string description(const Scene<Dim>& scene) {
   const AdaptiveParams& own = scene.policy.adaptive;
   text += fmt::format("adaptive {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", own.rest_distance,
                       own.rest_time_deep, own.rest_time_surface, own.rest_distance_woken, own.rest_time_woken,
-                      own.wake_height, own.heavy_blow, own.support_slack, own.awake_share, own.avalanche_width,
-                      own.avalanche_growth, own.avalanche_growth_quiet, own.avalanche_angle, own.steering_gain,
-                      own.steering_growth, own.steering_most);
+                      own.wake_height, own.heavy_impact, own.support_slack, own.awake_share, own.avalanche_width,
+                      own.avalanche_growth, own.avalanche_growth_quiet, own.avalanche_angle,
+                      own.slope_proportional_gain, own.slope_integral_gain, own.slope_max_damping);
   const PaperParams& paper = scene.policy.paper;
   return text + fmt::format("policy {} {} {} {} {}\nrun {} at {}\n", scene.policy.kind, paper.tau,
                             fmt::join(paper.avalanche_density, " "), paper.awake_steps, paper.wake_speed,

@@ -43,7 +43,9 @@ class StillWorld final : public World<Dim> {
   }
   EngineTimes times() const override { return {}; }
 
-  std::vector<Contact<Dim>> touching;  // told as the contacts of each step
+  void move(BodyIndex body, const Pose<Dim>& to) { states_.pose[static_cast<std::size_t>(body)] = to; }
+
+  std::vector<Contact<Dim>> touching;  // the contacts of each step
 
  private:
   void set_asleep(std::span<const BodyIndex> bodies, std::uint8_t asleep) {

@@ -77,7 +77,7 @@ RC_GTEST_PROP(SleepMessage, CarriesAllEventsInOrderInSmallMessages, ()) {
   const auto number = *rc::gen::inRange<std::size_t>(0, 12000);
   std::vector<SleepEvent> events(number);
   for (std::size_t i = 0; i < number; ++i) {
-    events[i] = {.body = static_cast<BodyIndex>(i), .layer = 3, .woke = i % 3 == 0, .cause = SleepCause::growth};
+    events[i] = {.body = static_cast<BodyIndex>(i), .layer = 3, .woke = i % 3 == 0, .cause = SleepCause::lost_support};
   }
   auto messages = to_sleep(events);
   RC_ASSERT(messages.empty() == events.empty());
@@ -86,7 +86,7 @@ RC_GTEST_PROP(SleepMessage, CarriesAllEventsInOrderInSmallMessages, ()) {
     for (std::size_t i = 0; i < message.body.size(); ++i, ++next) {
       RC_ASSERT(message.body[i] == next);
       RC_ASSERT(message.woke[i] == (next % 3 == 0 ? 1 : 0));
-      RC_ASSERT(message.cause[i] == talus_sleep_v1::GROWTH);
+      RC_ASSERT(message.cause[i] == talus_sleep_v1::LOST_SUPPORT);
     }
   }
   RC_ASSERT(next == static_cast<BodyIndex>(number));
@@ -99,8 +99,6 @@ TEST(SleepMessage, NumbersCausesAsTheCoreDoes) {
   EXPECT_EQ(talus_sleep_v1::AVALANCHE, static_cast<int>(SleepCause::avalanche));
   EXPECT_EQ(talus_sleep_v1::MOMENTUM, static_cast<int>(SleepCause::momentum));
   EXPECT_EQ(talus_sleep_v1::LOST_SUPPORT, static_cast<int>(SleepCause::lost_support));
-  EXPECT_EQ(talus_sleep_v1::GROWTH, static_cast<int>(SleepCause::growth));
-  EXPECT_EQ(talus_sleep_v1::MERGE, static_cast<int>(SleepCause::merge));
   EXPECT_EQ(talus_sleep_v1::ENGINE, static_cast<int>(SleepCause::engine));
   EXPECT_EQ(talus_sleep_v1::USER, static_cast<int>(SleepCause::user));
 }

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "common/shape/catalogue.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "lcmtypes/live_link.h"

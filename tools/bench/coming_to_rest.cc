@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/scene/typical_body.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tools/bench/processor_watch.h"
 #include "tools/run/backends.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/measure/work.h"
-#include "common/policy/sleep_policy.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tools/run/backends.h"
 

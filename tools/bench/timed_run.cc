@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/policy/sleep_policy.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/policy/no_policy.h"
+#include "common/policy/sleep_policy.h"
 #include "common/simulation/simulation.h"
 #include "tools/run/backends.h"
 

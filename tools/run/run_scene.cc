@@ -5,6 +5,7 @@
 #include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
 #include "common/text/printable.h"

@@ -1,0 +1,112 @@
+#include "common/policy/adaptive/adaptive_policy.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/policy/paper_policy.h"
+
+namespace talus {
+namespace {
+
+// Velocities stay below what the engines cut off, so that rounding cannot push one over the limit, which World refuses.
+constexpr double speed_margin = 0.95;      // of fastest_speed()
+constexpr double max_turn_per_step = 1.5;  // [rad]; fastest_spin() allows pi / 2 a step
+
+}  // namespace
+
+template <int Dim>
+AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world,
+                                    const TypicalBody& typical)
+    : params_(params),
+      shapes_(world.shapes),
+      ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
+      max_speed_(speed_margin * fastest_speed<Dim>(world.dt)),
+      max_spin_(max_turn_per_step / world.dt),
+      rest_({params, typical, world}),
+      support_({params, typical, world}),
+      heavy_impacts_({params, typical, world}),
+      impacts_({params, typical, world}),
+      support_loss_({params, typical, world}),
+      avalanches_({params, typical, world}),
+      slope_controller_({params, typical, world}) {}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
+  if (frame.world.awake().empty() && !avalanches_.has_unchecked()) return;
+  const RuleInput<Dim> in{frame.world, shapes_, frame.world.contacts(), frame.piles.piles(), frame.step};
+  output_.clear();
+  rest_.update(in);
+  heavy_impacts_.update(in, output_);
+  impacts_.update(in, output_);
+  support_loss_.update(in, output_);
+  avalanches_.update(in, output_);
+  slope_controller_.update(in, output_);
+  limit_velocities();
+  for (const auto& [body, wake] : output_.wakes) {
+    const Placement place = placement(frame, body);
+    decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = wake.cause});
+  }
+  decision.velocities.swap(output_.velocities);
+  choose_sleepers(frame, in, decision);
+  rest_.expect_motion(output_.wakes);
+  avalanches_.count(in.states(), decision.freeze, decision.thaw);
+}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::limit_velocities() {
+  for (VelocityChange<Dim>& change : output_.velocities) {
+    change.velocity *= max_speed_ / std::max(change.velocity.norm(), max_speed_);
+    change.spin *= max_spin_ / std::max(change.spin.norm(), max_spin_);
+  }
+}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
+  bodies_.clear();
+  for (const BodyIndex body : in.world.awake()) {
+    if (!below_ground(in, body) && rested_enough(frame, body)) bodies_.push_back(body);
+  }
+  support_.keep_supported(in, bodies_);
+  for (const BodyIndex body : bodies_) {
+    const Placement place = placement(frame, body);
+    decision.freeze.push_back(
+        {.body = body, .pile = place.pile, .layer = place.layer, .cause = SleepCause::rest, .score = place.score});
+  }
+}
+
+/// An engine pushes a body out of the ground so slowly that it counts as at rest. Asleep it would stay there.
+template <int Dim>
+bool AdaptivePolicy<Dim>::below_ground(const RuleInput<Dim>& in, BodyIndex body) const {
+  return height<Dim>(in.pose_of(body).position) < ground_;
+}
+
+/// The short time holds for a body that woke and did not move: it was found at rest before.
+template <int Dim>
+bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body) const {
+  const double rested = rest_.time_at_rest(body);
+  if (rested >= params_.rest_time_woken && rest_.unmoved_since_wake(body)) return true;
+  if (rested < params_.rest_time_deep) return false;
+  const double shortened = params_.rest_time_surface - params_.rest_time_deep;
+  return rested >= params_.rest_time_surface - shortened * placement(frame, body).score;
+}
+
+/// With the score of section 3.3 for a body at rest, at most 1.
+template <int Dim>
+typename AdaptivePolicy<Dim>::Placement AdaptivePolicy<Dim>::placement(const Frame<Dim>& frame, BodyIndex body) const {
+  Placement best;
+  const Vec<Dim>& position = frame.world.states().pose[static_cast<std::size_t>(body)].position;
+  const auto piles = frame.piles.piles();
+  for (std::size_t p = 0; p < piles.size(); ++p) {
+    const int layer = frame.piles.layer_of(p, body);
+    if (layer < 0) continue;
+    const Layer& slice = piles[p].layers[static_cast<std::size_t>(layer)];
+    const double score = std::min(1.0, sleep_score(slice.density(), piles[p].closeness(position, slice), 0.0));
+    if (best.pile < 0 || score > best.score) best = {static_cast<int>(p), layer, score};
+  }
+  return best;
+}
+
+template class AdaptivePolicy<2>;
+template class AdaptivePolicy<3>;
+
+}  // namespace talus

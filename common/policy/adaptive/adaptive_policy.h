@@ -1,0 +1,62 @@
+#pragma once
+// Sleep by contact. The paper's layers set how long a body must have been at rest; its contacts decide whether it may
+// sleep.
+
+#include <vector>
+
+#include "common/policy/adaptive/adaptive_params.h"
+#include "common/policy/adaptive/heavy_impacts.h"
+#include "common/policy/adaptive/impacts.h"
+#include "common/policy/adaptive/local_avalanches.h"
+#include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/adaptive/slope_controller.h"
+#include "common/policy/adaptive/support_criterion.h"
+#include "common/policy/adaptive/support_loss.h"
+#include "common/policy/sleep_policy.h"
+
+namespace talus {
+
+/// Each body sleeps by itself, once it has been at rest for a while and is supported by ground, sleeping bodies or
+/// bodies that fall asleep with it. The time depends on its pile's density and on its closeness to the centre (section
+/// 3.3), and is short for a body that woke and did not move. A body wakes when an impact reaches it, when its support
+/// moves away, or when its heap is too steep; nothing else wakes it.
+template <int Dim>
+class AdaptivePolicy final : public SleepPolicy<Dim> {
+ public:
+  /// `typical` gives D and the mass of a body.
+  AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world, const TypicalBody& typical);
+
+  bool counts_flying() const override { return false; }
+  void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
+
+ private:
+  /// A body's layer in the pile that scores it highest.
+  struct Placement {
+    int pile = -1;
+    int layer = -1;
+    double score = 0.0;
+  };
+
+  void limit_velocities();
+  void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
+  bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
+  bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
+  Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
+
+  AdaptiveParams params_;
+  std::vector<Shape<Dim>> shapes_;
+  double ground_;     // its height [m]; without ground the lowest number
+  double max_speed_;  // [m/s]
+  double max_spin_;   // [rad/s]
+  RestCriterion<Dim> rest_;
+  SupportCriterion<Dim> support_;
+  HeavyImpacts<Dim> heavy_impacts_;
+  Impacts<Dim> impacts_;
+  SupportLoss<Dim> support_loss_;
+  LocalAvalanches<Dim> avalanches_;
+  SlopeController<Dim> slope_controller_;
+  RuleOutput<Dim> output_;         // scratch
+  std::vector<BodyIndex> bodies_;  // scratch
+};
+
+}  // namespace talus

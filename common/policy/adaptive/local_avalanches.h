@@ -1,0 +1,80 @@
+#pragma once
+// Heaps of sleeping bodies that grow too steep.
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "common/policy/adaptive/rule.h"
+
+namespace talus {
+
+/// The avalanche of section 3.4, limited to the part of a heap that may slide. A sleeping body carries any load and
+/// does not creep, so a heap on sleeping bodies grows steeper than one of awake bodies.
+///
+/// Space is cut into vertical columns. A column is checked when it holds `avalanche_growth` times the sleeping bodies
+/// of its last check. If its highest body lies above that of a neighbouring column by a slope of `avalanche_angle`, the
+/// column wakes with all columns around it, which counts as a check of each. Bodies that can slide do so, the others
+/// sleep again a moment later. Where more bodies are awake than asleep nothing wakes, since impacts wake enough.
+///
+/// While the world is quiet, that is no awake body touches another, the factor is `avalanche_growth_quiet`, and all
+/// columns that have grown are checked at once, so that no heap comes to rest unchecked.
+template <int Dim>
+class LocalAvalanches {
+ public:
+  explicit LocalAvalanches(const RuleSetup<Dim>& setup);
+
+  /// Counts the bodies that fall asleep and that wake after this step. Costs O(events).
+  void count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
+             std::span<const SleepEvent> waking);
+
+  /// Whether a column has grown since the world was quiet last. update() must be called then although all bodies sleep.
+  bool has_unchecked() const { return !unchecked_.empty(); }
+
+  /// Wakes the columns that may slide. Over the wall of a pile only what lies above its rim can slide; a pile whose
+  /// slope is controlled may be as steep as that. Costs O(columns that grew), and a box query for each that is checked.
+  void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
+
+ private:
+  using Cell = std::array<int, Dim - 1>;
+  struct Column {
+    /// Sleeping bodies at the last check. The initial value is the least from which bodies make a heap (chosen, not
+    /// measured): in a column 4 D wide fewer lie in about one layer.
+    int last_checked = 8;
+    int sleepers = 0;  // as events count them; bodies that were removed are noticed at the next check
+
+    void note_check(std::size_t found) { last_checked = std::max(last_checked, static_cast<int>(found)); }
+  };
+  /// The sleeping bodies of a column.
+  struct Stack {
+    std::vector<BodyIndex> bodies;
+    std::optional<double> top;  // height of the highest centre of mass [m]; none if empty
+  };
+
+  Cell cell_of(const Vec<Dim>& position) const;
+  Vec<Dim> middle_of(const Cell& cell) const;
+  void check_quiet(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
+  void check_column(const RuleInput<Dim>& in, const Cell& cell, double enough, bool quiet, RuleOutput<Dim>& out);
+  void collect_neighbourhood(const RuleInput<Dim>& in, const Cell& cell);
+  bool mostly_awake() const;
+  bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;
+
+  double extent_;        // D [m]
+  double width_;         // of a column [m]
+  double growth_;        // of a column until it is checked, as a factor
+  double growth_quiet_;  // the same while the world is quiet
+  double angle_;         // slope between columns from which they may slide [rad]
+  double ground_;        // [m]
+  std::map<Cell, Column> columns_;
+  std::vector<Cell> grown_;              // since the last update
+  std::set<Cell> unchecked_;             // grown since the world was quiet last
+  std::map<Cell, Stack> neighbourhood_;  // scratch: the column that is checked and those around it
+  std::vector<BodyIndex> near_;          // scratch
+  std::size_t awake_near_ = 0;           // scratch: awake bodies in the neighbourhood
+};
+
+}  // namespace talus

@@ -1,0 +1,57 @@
+#pragma once
+// How long each awake body has been at rest.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/policy/adaptive/rule.h"
+
+namespace talus {
+
+/// A body is at rest while no point of it has moved farther than `rest_distance` from where its rest began. Distance is
+/// a better measure than speed: the solver's noise has speed but goes nowhere, and a slow creep adds up. A body that
+/// woke and has stayed within `rest_distance_woken` is marked as unmoved, since it has been at rest before.
+template <int Dim>
+class RestCriterion {
+ public:
+  explicit RestCriterion(const RuleSetup<Dim>& setup);
+
+  /// Costs O(awake).
+  void update(const RuleInput<Dim>& in);
+
+  /// Bodies in `wakes` whose impact is still to come are not marked as unmoved when they wake.
+  void expect_motion(const WakeList& wakes);
+
+  /// Time since the rest of an awake body began [s]; 0 for a body that moves.
+  double time_at_rest(BodyIndex body) const;
+
+  /// Whether an awake body woke where it rests and has stayed within `rest_distance_woken` since.
+  bool unmoved_since_wake(BodyIndex body) const;
+
+ private:
+  /// Where and when a body's rest began.
+  struct Reference {
+    BodyIndex body = 0;
+    Pose<Dim> pose{};
+    std::int64_t since = 0;  // step
+    bool unmoved_since_wake = false;
+  };
+
+  const Reference& reference_of(BodyIndex body) const;
+
+  double distance_;                         // [m]
+  double distance_woken_;                   // [m]
+  double dt_;                               // [s]
+  std::vector<double> reach_;               // [shape] largest distance of a point from the centre of mass [m]
+  std::vector<Reference> references_;       // of the awake bodies, ascending
+  std::vector<Reference> last_references_;  // of the step before
+  std::int64_t last_step_ = -1;
+  std::vector<BodyIndex> expected_to_move_;  // of the bodies that the last step woke, ascending
+  BodyIndex last_count_ = 0;                 // bodies in the world in the last step
+};
+
+/// Upper bound of the distance [m] that any point within `reach` [m] of the centre of mass moves between two poses.
+template <int Dim>
+double max_displacement(const Pose<Dim>& from, const Pose<Dim>& to, double reach);
+
+}  // namespace talus

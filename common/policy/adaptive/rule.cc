@@ -1,0 +1,24 @@
+#include "common/policy/adaptive/rule.h"
+
+#include <algorithm>
+
+namespace talus {
+
+template <int Dim>
+VelocityChange<Dim>& RuleOutput<Dim>::velocity_of(BodyIndex body, const BodyStates<Dim>& states) {
+  const auto entry = std::ranges::lower_bound(velocities, body, {}, &VelocityChange<Dim>::body);
+  if (entry != velocities.end() && entry->body == body) return *entry;
+  const auto i = static_cast<std::size_t>(body);
+  return *velocities.insert(entry, {.body = body, .velocity = states.velocity[i], .spin = states.spin[i]});
+}
+
+template <int Dim>
+void RuleOutput<Dim>::clear() {
+  wakes.clear();
+  velocities.clear();
+}
+
+template struct RuleOutput<2>;
+template struct RuleOutput<3>;
+
+}  // namespace talus

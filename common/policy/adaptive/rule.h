@@ -1,0 +1,78 @@
+#pragma once
+// What the rules of the policy `adaptive` have in common: what they are made from, what they see of a step, and what
+// they may change. Each rule is a class with a constructor from RuleSetup and a function update(RuleInput, RuleOutput)
+// that is called once a step.
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "common/pile/pile.h"
+#include "common/policy/adaptive/adaptive_params.h"
+#include "common/policy/sleep_policy.h"
+#include "common/world/world.h"
+
+namespace talus {
+
+/// What a rule is made from; references are needed during the rule's constructor only.
+template <int Dim>
+struct RuleSetup {
+  const AdaptiveParams& params;
+  const TypicalBody& typical;  // gives D and the mass of a body
+  const WorldDescription<Dim>& world;
+};
+
+/// One finished step; references are valid during one update().
+template <int Dim>
+struct RuleInput {
+  const World<Dim>& world;
+  std::span<const Shape<Dim>> shapes;      // the world's
+  std::span<const Contact<Dim>> contacts;  // as World::contacts() gives them
+  std::span<const Pile<Dim>> piles;
+  std::int64_t step = 0;  // steps done, 1 after the first
+
+  const BodyStates<Dim>& states() const { return world.states(); }
+  const Shape<Dim>& shape_of(BodyIndex body) const {
+    return shapes[static_cast<std::size_t>(states().shape[static_cast<std::size_t>(body)])];
+  }
+  const Pose<Dim>& pose_of(BodyIndex body) const { return states().pose[static_cast<std::size_t>(body)]; }
+  bool asleep(BodyIndex body) const { return states().asleep[static_cast<std::size_t>(body)] != 0; }
+};
+
+/// Why one sleeping body wakes.
+struct Wake {
+  SleepCause cause = SleepCause::momentum;
+  bool before_impact = false;  // the impact is still to come: the body is expected to move
+};
+
+/// The bodies to wake after a step, ascending, each once.
+class WakeList {
+ public:
+  /// Adds a sleeping body. One that is in the list keeps its first entry.
+  void add(BodyIndex body, const Wake& wake) { wakes_.try_emplace(body, wake); }
+  void clear() { wakes_.clear(); }
+
+  bool empty() const { return wakes_.empty(); }
+  std::size_t size() const { return wakes_.size(); }
+  /// Pairs of body and Wake.
+  auto begin() const { return wakes_.begin(); }
+  auto end() const { return wakes_.end(); }
+
+ private:
+  std::map<BodyIndex, Wake> wakes_;
+};
+
+/// What the rules change after a step. Each rule adds to what the rules before it have put in.
+template <int Dim>
+struct RuleOutput {
+  WakeList wakes;
+  std::vector<VelocityChange<Dim>> velocities;  // ascending by body, each once; of bodies awake or about to wake
+
+  /// The entry of a body, to be changed; a new one begins with the body's velocity in `states`. Valid until the next
+  /// call.
+  VelocityChange<Dim>& velocity_of(BodyIndex body, const BodyStates<Dim>& states);
+  void clear();
+};
+
+}  // namespace talus

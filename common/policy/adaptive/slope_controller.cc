@@ -1,0 +1,114 @@
+#include "common/policy/adaptive/slope_controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/pile/angle_of_repose.h"
+#include "common/policy/adaptive/rigid_impulse.h"
+
+namespace talus {
+namespace {
+
+/// Bodies slower than after a free fall of this height [D] count as part of the slope. At 0.03 D the piles became 1 to
+/// 2 degrees too flat, with sleeping bodies alone 3 degrees too steep (docs/research/slope_control.md).
+constexpr double resting_fall = 0.0075;
+
+/// Whether a body at `position` may be part of the pile: within its reach, not below its base (fallen off a table), and
+/// not higher than twice its height (in a hopper above it).
+template <int Dim>
+bool within_pile(const Pile<Dim>& pile, const Vec<Dim>& position) {
+  const double above = height<Dim>(position) - height<Dim>(pile.centre);
+  return pile.reaches(position) && above >= 0.0 && above < 2.0 * pile.height;
+}
+
+}  // namespace
+
+// Rates are in units of sqrt(g / D), so that the same parameters hold for bodies of any size.
+template <int Dim>
+SlopeController<Dim>::SlopeController(const RuleSetup<Dim>& setup)
+    : dt_(setup.world.dt),
+      resting_speed_(speed_to_rise(setup.world.gravity, resting_fall * setup.typical.extent)),
+      proportional_(setup.params.slope_proportional_gain * std::sqrt(setup.world.gravity / setup.typical.extent)),
+      integral_(setup.params.slope_integral_gain * setup.world.gravity / setup.typical.extent),
+      max_damping_(setup.params.slope_max_damping * std::sqrt(setup.world.gravity / setup.typical.extent)) {}
+
+template <int Dim>
+void SlopeController<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
+  if (std::ranges::none_of(in.piles, &Pile<Dim>::slope_controlled)) return;
+  find_touching(in);
+  const bool due = in.step % steps_between_slow_updates(dt_) == 0 || in.piles.size() != controls_.size();
+  controls_.resize(in.piles.size());
+  for (std::size_t p = 0; p < in.piles.size() && due; ++p) {
+    if (std::ranges::find(touching_, p, &Touching::pile) != touching_.end()) update_damping(in, p);
+  }
+  damp(in.states(), out);
+}
+
+template <int Dim>
+void SlopeController<Dim>::find_touching(const RuleInput<Dim>& in) {
+  bodies_.clear();
+  for (const Contact<Dim>& contact : in.contacts) {
+    bodies_.push_back(contact.a);
+    if (contact.b >= 0 && !in.asleep(contact.b)) bodies_.push_back(contact.b);
+  }
+  std::ranges::sort(bodies_);
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+  touching_.clear();
+  for (const BodyIndex body : bodies_) {
+    const Vec<Dim>& position = in.pose_of(body).position;
+    const int nearest = nearest_pile(in.piles, position);
+    if (nearest < 0) continue;
+    const auto pile = static_cast<std::size_t>(nearest);
+    if (in.piles[pile].slope_controlled && within_pile(in.piles[pile], position)) touching_.push_back({body, pile});
+  }
+}
+
+/// The integral part is needed because keeping a slope takes lasting damping. Too few bodies make no slope: they get
+/// the largest damping, and the integral stays as it is.
+template <int Dim>
+void SlopeController<Dim>::update_damping(const RuleInput<Dim>& in, std::size_t pile) {
+  Control& control = controls_[pile];
+  collect_positions(in, pile);
+  if (positions_.size() < min_bodies_for_slope) {
+    control.damping = max_damping_;
+    return;
+  }
+  const double missing = in.piles[pile].alpha - estimate_angle_of_repose<Dim>(positions_);
+  control.integral = std::clamp(control.integral + integral_ * slow_update_interval * missing, 0.0, max_damping_);
+  control.damping = std::clamp(control.integral + proportional_ * missing, 0.0, max_damping_);
+}
+
+/// Of the pile's bodies at rest, asleep or awake: bodies that still come down the flank would change the slope.
+template <int Dim>
+void SlopeController<Dim>::collect_positions(const RuleInput<Dim>& in, std::size_t pile) {
+  const BodyStates<Dim>& states = in.states();
+  positions_.clear();
+  for (std::size_t i = 0; i < states.pose.size(); ++i) {
+    const Vec<Dim>& position = states.pose[i].position;
+    if (states.asleep[i] == 0 || states.removed[i] != 0 || !within_pile(in.piles[pile], position)) continue;
+    if (nearest_pile(in.piles, position) == static_cast<int>(pile)) {
+      positions_.push_back(position - in.piles[pile].centre);
+    }
+  }
+  for (const Touching& touching : touching_) {
+    const auto i = static_cast<std::size_t>(touching.body);
+    if (touching.pile != pile || states.velocity[i].norm() >= resting_speed_) continue;
+    positions_.push_back(states.pose[i].position - in.piles[pile].centre);
+  }
+}
+
+template <int Dim>
+void SlopeController<Dim>::damp(const BodyStates<Dim>& states, RuleOutput<Dim>& out) const {
+  for (const Touching& touching : touching_) {
+    const double damping = controls_[touching.pile].damping;
+    if (!(damping > 0.0)) continue;
+    VelocityChange<Dim>& change = out.velocity_of(touching.body, states);
+    change.velocity *= std::exp(-damping * dt_);
+    change.spin *= std::exp(-damping * dt_);
+  }
+}
+
+template class SlopeController<2>;
+template class SlopeController<3>;
+
+}  // namespace talus

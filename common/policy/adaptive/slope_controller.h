@@ -1,0 +1,55 @@
+#pragma once
+// Control of a pile's slope by damping.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/policy/adaptive/rule.h"
+
+namespace talus {
+
+/// Holds each pile for which the scene asks it at its slope alpha (section 3.1: "set by the user"). Friction cannot do
+/// that: bodies that fall on a steep pile knock it down, and what they knock off rolls away. So bodies in contact are
+/// damped, by a proportional-integral controller of the pile's measured slope:
+///
+///     damping = clamp(k_p e + I, 0, max),  dI/dt = k_i e,  0 <= I <= max
+///
+/// with e the slope that is missing. A pile steeper than asked for by more than I / k_p is not damped.
+template <int Dim>
+class SlopeController {
+ public:
+  explicit SlopeController(const RuleSetup<Dim>& setup);
+
+  /// Damps bodies for one step. A body belongs to its nearest pile. Costs O(contacts) and, each `slow_update_interval`,
+  /// O(all bodies); nothing without a controlled pile.
+  void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
+
+ private:
+  /// The controller's state for one pile.
+  struct Control {
+    double integral = 0.0;  // I [1/s]
+    double damping = 0.0;   // rate at which bodies lose velocity [1/s]
+  };
+  /// An awake body in contact that belongs to a controlled pile.
+  struct Touching {
+    BodyIndex body = 0;
+    std::size_t pile = 0;
+  };
+
+  void find_touching(const RuleInput<Dim>& in);
+  void update_damping(const RuleInput<Dim>& in, std::size_t pile);
+  void collect_positions(const RuleInput<Dim>& in, std::size_t pile);
+  void damp(const BodyStates<Dim>& states, RuleOutput<Dim>& out) const;
+
+  double dt_;                        // [s]
+  double resting_speed_;             // bodies of the pile slower than this count as part of the slope [m/s]
+  double proportional_;              // k_p [1/(s rad)]
+  double integral_;                  // k_i [1/(s^2 rad)]
+  double max_damping_;               // [1/s]
+  std::vector<Control> controls_;    // [pile]
+  std::vector<Touching> touching_;   // scratch, ascending
+  std::vector<BodyIndex> bodies_;    // scratch
+  std::vector<Vec<Dim>> positions_;  // scratch: of bodies, relative to the middle of their pile's base [m]
+};
+
+}  // namespace talus

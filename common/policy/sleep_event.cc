@@ -1,0 +1,25 @@
+#include "common/policy/sleep_event.h"
+
+namespace talus {
+
+std::string_view to_string(SleepCause cause) {
+  switch (cause) {
+    case SleepCause::score:
+      return "score";
+    case SleepCause::rest:
+      return "rest";
+    case SleepCause::avalanche:
+      return "avalanche";
+    case SleepCause::momentum:
+      return "momentum";
+    case SleepCause::lost_support:
+      return "lost support";
+    case SleepCause::engine:
+      return "engine";
+    case SleepCause::user:
+      return "user";
+  }
+  return "unknown";
+}
+
+}  // namespace talus
