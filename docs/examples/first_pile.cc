@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "common/shape/catalogue.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "sim2d/make_world.h"
 
