@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/toml_text.h"
 #include "common/simulation/make_policy.h"
@@ -167,7 +166,7 @@ std::string generic(const std::string& path) {
 }
 
 TYPED_TEST(Door, IsTriedWithEveryNumberThatTheReaderLooksFor) {
-  const std::set<std::string> no_numbers = {"count_flying", "kind",  "orientation", "hold_slope", "warm_friction",
+  const std::set<std::string> no_numbers = {"count_flying", "kind",  "orientation", "control_slope", "warm_friction",
                                             "present",      "floor", "shape",       "title"};
   const std::set<std::string> tables = {"world", "world.solver", "ground",   "policy", "policy.adaptive", "run",
                                         "skip",  "source",       "obstacle", "pile",   "pile[].boundary"};

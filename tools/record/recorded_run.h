@@ -8,7 +8,7 @@
 
 #include "common/measure/trajectory.h"
 #include "common/scene/scene.h"
-#include "common/simulation/sleep_event.h"
+#include "common/policy/sleep_event.h"
 
 namespace talus {
 

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "common/policy/sleep_policy.h"
 #include "common/scene/engine_warnings.h"
+#include "common/simulation/make_policy.h"
 #include "tools/run/backends.h"
 
 namespace talus {
