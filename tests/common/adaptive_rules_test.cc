@@ -73,24 +73,6 @@ std::vector<BodyIndex> supported(StillWorld<3> world, std::vector<Contact<3>> co
   return candidates;
 }
 
-/// Whether the policy freezes a cube that rests on the ground with its centre at this height.
-bool sleeps_at(double height) {
-  Scene<3> scene;
-  scene.world = cubes();
-  auto world = std::make_unique<StillWorld<3>>(scene.world);
-  const double weight = scene.world.shapes[0].mass * scene.world.gravity * scene.world.dt;
-  world->touching = {contact(0, ground_index, Vec3::Zero(), Vec3::UnitZ(), weight)};
-  Simulation<3> simulation(scene, std::move(world), make_policy(scene));
-  simulation.add({.pose = {.position = Vec3(0.0, 0.0, height)}});
-  for (int step = 0; step < 60; ++step) simulation.step();
-  return simulation.world().awake().empty();
-}
-
-TEST(AdaptivePolicy, LetsABodySleepOnTheGroundAndNotBelowIt) {
-  EXPECT_TRUE(sleeps_at(0.1));
-  EXPECT_FALSE(sleeps_at(-0.1));
-}
-
 TEST(SupportCriterion, KeepsAStackThatRestsAsAWhole) {
   const StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
   EXPECT_EQ(supported(world, stack_of_two(), {0, 1}), (std::vector<BodyIndex>{0, 1}));
@@ -111,6 +93,24 @@ TEST(SupportCriterion, RemovesAWholeTowerWithItsLowestBody) {
 
 TEST(SupportCriterion, RemovesABodyInFlight) {
   EXPECT_TRUE(supported(cubes_at({Vec3(0.0, 0.0, 5.0)}), {}, {0}).empty());
+}
+
+/// Whether the policy freezes a cube that rests on the ground with its centre at this height.
+bool sleeps_at(double height) {
+  Scene<3> scene;
+  scene.world = cubes();
+  auto world = std::make_unique<StillWorld<3>>(scene.world);
+  const double weight = scene.world.shapes[0].mass * scene.world.gravity * scene.world.dt;
+  world->touching = {contact(0, ground_index, Vec3::Zero(), Vec3::UnitZ(), weight)};
+  Simulation<3> simulation(scene, std::move(world), make_policy(scene));
+  simulation.add({.pose = {.position = Vec3(0.0, 0.0, height)}});
+  for (int step = 0; step < 60; ++step) simulation.step();
+  return simulation.world().awake().empty();
+}
+
+TEST(AdaptivePolicy, LetsABodySleepOnTheGroundAndNotBelowIt) {
+  EXPECT_TRUE(sleeps_at(0.1));
+  EXPECT_FALSE(sleeps_at(-0.1));
 }
 
 /// The rule with a slack of 0.01 m, and the bodies that it wakes in each step.

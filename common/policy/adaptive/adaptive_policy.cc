@@ -64,7 +64,7 @@ template <int Dim>
 void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
   bodies_.clear();
   for (const BodyIndex body : in.world.awake()) {
-    if (!below_ground(in.states(), body) && rested_enough(frame, body)) bodies_.push_back(body);
+    if (!below_ground(in, body) && rested_enough(frame, body)) bodies_.push_back(body);
   }
   support_.keep_supported(in, bodies_);
   for (const BodyIndex body : bodies_) {
@@ -76,8 +76,8 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInp
 
 /// An engine pushes a body out of the ground so slowly that it counts as at rest. Asleep it would stay there.
 template <int Dim>
-bool AdaptivePolicy<Dim>::below_ground(const BodyStates<Dim>& states, BodyIndex body) const {
-  return height<Dim>(states.pose[static_cast<std::size_t>(body)].position) < ground_;
+bool AdaptivePolicy<Dim>::below_ground(const RuleInput<Dim>& in, BodyIndex body) const {
+  return height<Dim>(in.pose_of(body).position) < ground_;
 }
 
 /// The short time holds for a body that woke and did not move: it was found at rest before.

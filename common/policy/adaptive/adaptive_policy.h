@@ -39,13 +39,13 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
 
   void limit_velocities();
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
-  bool below_ground(const BodyStates<Dim>& states, BodyIndex body) const;
+  bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
   bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
   AdaptiveParams params_;
   std::vector<Shape<Dim>> shapes_;
-  double ground_;     // height of the ground [m]; without ground the lowest number
+  double ground_;     // its height [m]; without ground the lowest number
   double max_speed_;  // [m/s]
   double max_spin_;   // [rad/s]
   RestCriterion<Dim> rest_;
