@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "sim3d/bullet/solver.h"
+#include "sim3d/bullet/packed_solver.h"
 
 namespace talus::bullet {
 namespace {
@@ -21,11 +21,11 @@ const bool takes_little = [] {
   return true;
 }();
 
-std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params) {
-  if (params.warm_friction) {
-    return std::make_unique<WarmFrictionSolver>();
+std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params, const Skips& skips) {
+  if (skips.rows) {
+    return std::make_unique<PackedSolver>(params.warm_friction, skips);
   }
-  return std::make_unique<btSequentialImpulseConstraintSolver>();
+  return std::make_unique<WarmFrictionSolver>(params.warm_friction);
 }
 
 }  // namespace
@@ -33,8 +33,8 @@ std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverPar
 Engine::Engine(double gravity, const SolverParams& params, const Skips& skips)
     : dispatcher(&configuration),
       broadphase(&pairs),
-      solver(make_solver(params)),
-      world(&dispatcher, &broadphase, solver.get(), &configuration) {
+      solver(make_solver(params, skips)),
+      world(&dispatcher, &broadphase, solver.get(), &configuration, skips.islands) {
   dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
   if (skips.flight) {
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE, &ground_pairs);

@@ -27,4 +27,12 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
   collide_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
+  if (own_islands_) {
+    islands_.solve(*this, getSimulationIslandManager()->getUnionFind(), *getConstraintSolver(), info);
+  } else {
+    btDiscreteDynamicsWorld::solveConstraints(info);
+  }
+}
+
 }  // namespace talus::bullet

@@ -7,13 +7,18 @@
 #include <span>
 #include <utility>
 
+#include "sim3d/bullet/islands.h"
+
 namespace talus::bullet {
 
 /// btDiscreteDynamicsWorld works each step through all bodies in its two lists. A sleeper needs neither: what makes it
 /// solid is its entry in the broadphase alone.
 class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
-  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+  /// `own_islands`: whether Islands replaces Bullet's.
+  DynamicsWorld(btDispatcher* dispatcher, btBroadphaseInterface* broadphase, btConstraintSolver* solver,
+                btCollisionConfiguration* configuration, bool own_islands)
+      : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, configuration), own_islands_(own_islands) {}
 
   /// Puts just these bodies into the lists, after the static objects; their broadphase entries exist already.
   void set_bodies(std::span<btRigidBody* const> bodies);
@@ -33,8 +38,11 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void set_after_collision(std::function<void()> action) { after_collision_ = std::move(action); }
 
   void performDiscreteCollisionDetection() override;
+  void solveConstraints(btContactSolverInfo& info) override;
 
  private:
+  bool own_islands_;
+  Islands islands_;
   int statics_ = 0;
   double collide_seconds_ = 0.0;
   std::function<void()> after_collision_ = [] {};

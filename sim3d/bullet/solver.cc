@@ -7,6 +7,10 @@
 namespace talus::bullet {
 
 void WarmFrictionSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
+  if (!warm_friction_) {
+    btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
+    return;
+  }
   // Read before Bullet chooses this step's friction directions, in the order in which it makes the contacts' rows.
   last_.clear();
   for (int m = 0; m < count; ++m) {
@@ -49,7 +53,7 @@ btScalar WarmFrictionSolver::solveSingleIteration(int iteration, btCollisionObje
   const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
       iteration, bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
   // Bullet leaves out the friction of a contact that no longer pushes; what it started with must go.
-  for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
+  for (int i = 0; warm_friction_ && i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
     btSolverConstraint& friction = m_tmpSolverContactFrictionConstraintPool[i];
     const btScalar push = m_tmpSolverContactConstraintPool[friction.m_frictionIndex].m_appliedImpulse;
     if (push <= 0 && btScalar(friction.m_appliedImpulse) != 0) {
@@ -67,7 +71,7 @@ btScalar WarmFrictionSolver::solveSingleIteration(int iteration, btCollisionObje
 btScalar WarmFrictionSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
                                                            const btContactSolverInfo& info) {
   points_.clear();
-  for (int c = 0; c < m_tmpSolverContactConstraintPool.size(); ++c) {
+  for (int c = 0; warm_friction_ && c < m_tmpSolverContactConstraintPool.size(); ++c) {
     points_.push_back(static_cast<btManifoldPoint*>(m_tmpSolverContactConstraintPool[c].m_originalContactPoint));
   }
   const btScalar residual = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, count, info);

@@ -11,8 +11,13 @@ namespace talus::bullet {
 /// friction at zero: ten iterations never find the friction that holds a pile, and it creeps on for ever. This solver
 /// starts friction at the last step's, turned into the step's directions, as far as Coulomb's law and the normal
 /// impulse started with allow. Ten iterations then creep like fifty without, at the price of ten.
-class WarmFrictionSolver final : public btSequentialImpulseConstraintSolver {
+class WarmFrictionSolver : public btSequentialImpulseConstraintSolver {
+ public:
+  /// `warm_friction` false: Bullet's own solver.
+  explicit WarmFrictionSolver(bool warm_friction) : warm_friction_(warm_friction) {}
+
  protected:
+  bool warm_friction() const { return warm_friction_; }
   void convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) override;
   btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
                                 btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** joints,
@@ -23,6 +28,7 @@ class WarmFrictionSolver final : public btSequentialImpulseConstraintSolver {
  private:
   void start(btSolverConstraint& friction, const btSolverConstraint& contact, const btVector3& impulse);
 
+  bool warm_friction_;
   std::vector<btVector3> last_;           // friction impulse of the last step, by contact [N s]
   std::vector<btManifoldPoint*> points_;  // scratch
 };
