@@ -34,8 +34,10 @@ Engine::Engine(double gravity, const SolverParams& params, const Skips& skips)
     : dispatcher(&configuration),
       broadphase(&pairs),
       solver(make_solver(params, skips)),
-      world(&dispatcher, &broadphase, solver.get(), &configuration, skips.islands) {
-  dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
+      world(dispatcher, broadphase, pairs, *solver, configuration, skips) {
+  if (skips.places) {
+    dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
+  }
   if (skips.flight) {
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE, &ground_pairs);
     dispatcher.registerCollisionCreateFunc(STATIC_PLANE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &swapped_ground_pairs);

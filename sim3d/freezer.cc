@@ -50,6 +50,7 @@ void Freezer::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_p
     }
   }
   proxy->m_clientObject = successor.get();
+  engine_.pairs.forget_place(proxy);
   std::swap(object, successor);
   engine_.rigid_bodies.retire(std::move(successor));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim3d/bullet/idle_pairs.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
@@ -174,6 +175,7 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
                                          sides.partner->getWorldTransform(), -1, -1);
   // An algorithm expects its two sides in the order it was made for, which is the pair's.
   const bool owner_first = &object_of(pair.m_pProxy0) == sides.owner;
+  IdleMark::clear(pair);
   PieceRecorder recorder(owner_first ? &owner : &partner, owner_first ? &partner : &owner);
   open_manifolds(*pair.m_algorithm);
   pair.m_algorithm->processCollision(owner_first ? &owner : &partner, owner_first ? &partner : &owner, info, &recorder);

@@ -1,48 +1,55 @@
 #include "sim3d/bullet/compound_pair.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-#include <LinearMath/btAabbUtil2.h>
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 
 #include <algorithm>
 
 namespace talus::bullet {
 namespace {
 
+// The dispatcher takes memory for algorithms from a pool whose places are as large as Bullet's largest.
+static_assert(sizeof(CompoundPair) <= sizeof(btCompoundCompoundCollisionAlgorithm));
+
 const btCompoundShape& compound(const btCollisionObjectWrapper& side) {
   return *static_cast<const btCompoundShape*>(side.getCollisionShape());
 }
 
-/// A piece where its body is.
-struct PlacedChild {
-  PlacedChild(const btCollisionObjectWrapper& side, int index)
-      : shape(compound(side).getChildShape(index)),
-        place(side.getWorldTransform() * compound(side).getChildTransform(index)) {
-    shape->getAabb(place, low, high);
-  }
-  bool is_box() const { return shape->getShapeType() == BOX_SHAPE_PROXYTYPE; }
-  bool overlaps(const PlacedChild& other) const { return TestAabbAgainstAabb2(low, high, other.low, other.high); }
+const btDbvtNode& tree(const CompoundPair::Side& side) { return *compound(side.whole).getDynamicAabbTree()->m_root; }
 
-  const btCollisionShape* shape;
-  btTransform place;
-  btVector3 low;
-  btVector3 high;
+bool is_box(const PlacedPiece& piece) { return piece.shape->getShapeType() == BOX_SHAPE_PROXYTYPE; }
+const btBoxShape& box(const PlacedPiece& piece) { return *static_cast<const btBoxShape*>(piece.shape); }
+
+/// A transform's columns, as they are and without signs.
+struct Columns {
+  explicit Columns(const btTransform& transform) : origin(lanes(transform.getOrigin())) {
+    for (int i = 0; i < 3; ++i) {
+      column[i] = lanes(transform.getBasis().getColumn(i));
+      size[i] = absolute(column[i]);
+    }
+  }
+  Lanes column[3];
+  Lanes size[3];
+  Lanes origin;
 };
 
-const btBoxShape& box(const PlacedChild& child) { return *static_cast<const btBoxShape*>(child.shape); }
-
-bool overlap(const btDbvtAabbMm& a, const btDbvtAabbMm& b, const btTransform& from_b_to_a) {
-  btVector3 low;
-  btVector3 high;
-  btTransformAabb(b.Mins(), b.Maxs(), btScalar(0), from_b_to_a, low, high);
-  return Intersect(a, btDbvtAabbMm::FromMM(low, high));
+/// Whether a box of the first body's tree overlaps the box around one of the second's, as btTransformAabb makes it.
+bool nodes_overlap(const btDbvtAabbMm& a, const btDbvtAabbMm& b, const Columns& from_b_to_a) {
+  const btVector3 half = btScalar(0.5) * (b.Maxs() - b.Mins());
+  const btVector3 middle = btScalar(0.5) * (b.Maxs() + b.Mins());
+  const auto& [column, size, origin] = from_b_to_a;
+  const Lanes centre =
+      column[0] * splat(middle.x()) + column[1] * splat(middle.y()) + column[2] * splat(middle.z()) + origin;
+  const Lanes extent = size[0] * splat(half.x()) + size[1] * splat(half.y()) + size[2] * splat(half.z());
+  return all_at_most(load(a.Mins()), centre + extent, centre - extent, load(a.Maxs()));
 }
 
 }  // namespace
 
 struct CompoundPair::Visit {
-  const btCollisionObjectWrapper& first;
-  const btCollisionObjectWrapper& second;
-  const btTransform second_in_first;
+  const Side& first;
+  const Side& second;
+  const Columns second_in_first;
   const btDispatcherInfo& info;
   btManifoldResult& result;
 };
@@ -65,7 +72,7 @@ void CompoundPair::destroy(btCollisionAlgorithm* algorithm) {
   m_dispatcher->freeCollisionAlgorithm(algorithm);
 }
 
-// Whoever asks may put points into them.
+// The caller may put points into them.
 void CompoundPair::getAllContactManifolds(btManifoldArray& manifolds) {
   for (PiecePair& pair : pieces_) {
     pair.algorithm->getAllContactManifolds(manifolds);
@@ -73,26 +80,41 @@ void CompoundPair::getAllContactManifolds(btManifoldArray& manifolds) {
   }
 }
 
+// For callers that do not place the pieces: restoring contacts (WarmStart).
 void CompoundPair::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                                     const btDispatcherInfo& info, btManifoldResult* result) {
-  refresh(*result);
-  const Visit visit{*first, *second, first->getWorldTransform().inverse() * second->getWorldTransform(), info, *result};
-  descend(*compound(*first).getDynamicAabbTree()->m_root, *compound(*second).getDynamicAabbTree()->m_root, visit);
-  part(visit);
+  maker_.first.place(compound(*first), first->getWorldTransform());
+  maker_.second.place(compound(*second), second->getWorldTransform());
+  collide({*first, maker_.first}, {*second, maker_.second}, info, *result);
+}
+
+void CompoundPair::collide(const Side& first, const Side& second, const btDispatcherInfo& info,
+                           btManifoldResult& result) {
+  refresh(result);
+  if (pieces_overlap(first.placed, second.placed)) {
+    const Columns transform(first.whole.getWorldTransform().inverse() * second.whole.getWorldTransform());
+    descend(tree(first), tree(second), {first, second, transform, info, result});
+  }
+  part(first, second);
+}
+
+void CompoundPair::fetch_points() const {
+  for (const PiecePair& pair : pieces_) {
+    if (pair.may_touch && pair.manifold != nullptr) {
+      const auto* memory = reinterpret_cast<const char*>(pair.manifold);
+      __builtin_prefetch(memory + sizeof(btPersistentManifold) - 64);
+      for (int line = 0; line < 4; ++line) {
+        __builtin_prefetch(memory + 64 * line);
+      }
+    }
+  }
 }
 
 // Follows the known points to where the bodies have moved.
-void CompoundPair::refresh(btManifoldResult& result) {
-  btManifoldArray& manifolds = maker_.manifolds;
-  manifolds.resize(0);
+void CompoundPair::refresh(btManifoldResult& result) const {
   for (const PiecePair& pair : pieces_) {
-    if (pair.may_touch) {
-      pair.algorithm->getAllContactManifolds(manifolds);
-    }
-  }
-  for (int i = 0; i < manifolds.size(); ++i) {
-    if (manifolds[i]->getNumContacts() > 0) {
-      result.setPersistentManifold(manifolds[i]);
+    if (pair.may_touch && pair.manifold != nullptr && pair.manifold->getNumContacts() > 0) {
+      result.setPersistentManifold(pair.manifold);
       result.refreshContactPoints();
     }
   }
@@ -100,10 +122,15 @@ void CompoundPair::refresh(btManifoldResult& result) {
 }
 
 void CompoundPair::descend(const btDbvtNode& first, const btDbvtNode& second, const Visit& visit) {
-  if (!overlap(first.volume, second.volume, visit.second_in_first)) {
+  const bool leaves = first.isleaf() && second.isleaf();
+  if (leaves && !overlap(visit.first.placed.pieces[static_cast<std::size_t>(first.dataAsInt)].box,
+                         visit.second.placed.pieces[static_cast<std::size_t>(second.dataAsInt)].box)) {
     return;
   }
-  if (first.isleaf() && second.isleaf()) {
+  if (!nodes_overlap(first.volume, second.volume, visit.second_in_first)) {
+    return;
+  }
+  if (leaves) {
     meet(first.dataAsInt, second.dataAsInt, visit);
   } else if (second.isleaf()) {
     descend(*first.childs[1], second, visit);
@@ -120,51 +147,52 @@ void CompoundPair::descend(const btDbvtNode& first, const btDbvtNode& second, co
 }
 
 void CompoundPair::meet(int first, int second, const Visit& visit) {
-  const PlacedChild a(visit.first, first);
-  const PlacedChild b(visit.second, second);
-  if (!a.overlaps(b)) {
+  const PlacedPiece& a = visit.first.placed.pieces[static_cast<std::size_t>(first)];
+  const PlacedPiece& b = visit.second.placed.pieces[static_cast<std::size_t>(second)];
+  const auto known = find(first, second);
+  if (known != pieces_.end() && !known->may_touch && known->apart >= 0 &&
+      apart_along(known->apart, box(a), a.place, box(b), b.place)) {
     return;
   }
-  const auto known = find(first, second);
-  if (known != pieces_.end()) {
-    known->overlaps = true;
-    if (!known->may_touch && known->apart >= 0 && apart_along(known->apart, box(a), a.place, box(b), b.place)) {
-      return;
-    }
-  }
-  const btCollisionObjectWrapper side_a(&visit.first, a.shape, visit.first.getCollisionObject(), a.place, -1, first);
-  const btCollisionObjectWrapper side_b(&visit.second, b.shape, visit.second.getCollisionObject(), b.place, -1, second);
+  const btCollisionObjectWrapper& whole_a = visit.first.whole;
+  const btCollisionObjectWrapper& whole_b = visit.second.whole;
+  const btCollisionObjectWrapper side_a(&whole_a, a.shape, whole_a.getCollisionObject(), a.place, -1, first);
+  const btCollisionObjectWrapper side_b(&whole_b, b.shape, whole_b.getCollisionObject(), b.place, -1, second);
   PiecePair& pair = known != pieces_.end() ? *known : add(first, second, side_a, side_b);
+  work(pair, side_a, side_b, visit);
+  const bool boxes = is_box(a) && is_box(b);
+  pair.apart = boxes && !pair.may_touch ? separating_axis(box(a), a.place, box(b), b.place) : BoxAxis(-1);
+}
+
+void CompoundPair::work(PiecePair& pair, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                        const Visit& visit) {
   btManifoldResult& result = visit.result;
   const btCollisionObjectWrapper* whole_a = result.getBody0Wrap();
   const btCollisionObjectWrapper* whole_b = result.getBody1Wrap();
-  result.setBody0Wrap(&side_a);
-  result.setBody1Wrap(&side_b);
-  result.setShapeIdentifiersA(-1, first);
-  result.setShapeIdentifiersB(-1, second);
-  pair.algorithm->processCollision(&side_a, &side_b, visit.info, &result);
-  pair.may_touch = touch(pair);
-  const bool boxes = a.is_box() && b.is_box();
-  pair.apart = boxes && !pair.may_touch ? separating_axis(box(a), a.place, box(b), b.place) : BoxAxis(-1);
+  result.setBody0Wrap(&a);
+  result.setBody1Wrap(&b);
+  result.setShapeIdentifiersA(-1, pair.first);
+  result.setShapeIdentifiersB(-1, pair.second);
+  pair.algorithm->processCollision(&a, &b, visit.info, &result);
   result.setBody0Wrap(whole_a);
   result.setBody1Wrap(whole_b);
+  if (pair.manifold == nullptr) {
+    pair.manifold = manifold_of(*pair.algorithm);
+  }
+  pair.may_touch = pair.manifold != nullptr && pair.manifold->getNumContacts() > 0;
 }
 
-bool CompoundPair::touch(const PiecePair& pair) {
+// Two convex pieces have one manifold, from their first meeting or from their first point on.
+btPersistentManifold* CompoundPair::manifold_of(btCollisionAlgorithm& algorithm) const {
   btManifoldArray& manifolds = maker_.manifolds;
   manifolds.resize(0);
-  pair.algorithm->getAllContactManifolds(manifolds);
-  for (int i = 0; i < manifolds.size(); ++i) {
-    if (manifolds[i]->getNumContacts() > 0) {
-      return true;
-    }
-  }
-  return false;
+  algorithm.getAllContactManifolds(manifolds);
+  return manifolds.size() > 0 ? manifolds[0] : nullptr;
 }
 
 std::vector<CompoundPair::PiecePair>::iterator CompoundPair::find(int first, int second) {
-  return std::find_if(pieces_.begin(), pieces_.end(),
-                      [first, second](const PiecePair& pair) { return pair.first == first && pair.second == second; });
+  return std::ranges::find_if(
+      pieces_, [first, second](const PiecePair& pair) { return pair.first == first && pair.second == second; });
 }
 
 CompoundPair::PiecePair& CompoundPair::add(int first, int second, const btCollisionObjectWrapper& a,
@@ -173,23 +201,23 @@ CompoundPair::PiecePair& CompoundPair::add(int first, int second, const btCollis
     pieces_.reserve(4);  // two pieces meet two
   }
   btCollisionAlgorithm* algorithm = m_dispatcher->findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-  pieces_.push_back({first, second, algorithm, true});
+  pieces_.push_back({first, second, algorithm});
   return pieces_.back();
 }
 
 // Drops the pairs of pieces that no longer overlap: all of them first, then their places, each taken by the last.
-void CompoundPair::part(const Visit& visit) {
+void CompoundPair::part(const Side& first, const Side& second) {
   std::vector<std::pair<int, int>>& parted = maker_.parted;
   parted.clear();
-  for (PiecePair& pair : pieces_) {
-    if (!pair.overlaps && !PlacedChild(visit.first, pair.first).overlaps(PlacedChild(visit.second, pair.second))) {
+  for (const PiecePair& pair : pieces_) {
+    if (!overlap(first.placed.pieces[static_cast<std::size_t>(pair.first)].box,
+                 second.placed.pieces[static_cast<std::size_t>(pair.second)].box)) {
       destroy(pair.algorithm);
       parted.emplace_back(pair.first, pair.second);
     }
-    pair.overlaps = false;
   }
-  for (const auto& [first, second] : parted) {
-    *find(first, second) = pieces_.back();
+  for (const auto& [a, b] : parted) {
+    *find(a, b) = pieces_.back();
     pieces_.pop_back();
   }
 }

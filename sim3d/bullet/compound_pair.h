@@ -6,15 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "sim3d/bullet/placed_pieces.h"
 #include "sim3d/bullet/separation.h"
 
 namespace talus::bullet {
 
-/// Finds the contacts of two compound shapes, to the bit as Bullet 3.24 does (btCompoundCompoundCollisionAlgorithm),
-/// which piles of such bodies spend a third of their time in: there each call builds and drops four contact manifolds
-/// on the stack, and each new pair asks for memory ten times. Two boxes that do not touch and are apart along the same
-/// axis as in the last step are left alone, and with them the memory of their algorithm and manifold. The order in
-/// which pieces meet, come and go is Bullet's, since it decides the order in which the solver takes the contacts.
+/// Replaces btCompoundCompoundCollisionAlgorithm, to the bit. There each call places each pair of pieces again, builds
+/// and drops four contact manifolds on the stack, and each new pair asks for memory ten times. Here pieces are placed
+/// once a step (placed_pieces.h); where no boxes of pieces overlap, the trees of pieces are not walked; two boxes that
+/// do not touch and are apart along the same axis as in the last step are left alone, and with them the memory of
+/// their algorithm; the manifold of two pieces is kept beside them. The order in which pieces meet, come and go is
+/// Bullet's, since it decides the order in which the solver takes the contacts.
 class CompoundPair final : public btCollisionAlgorithm {
  public:
   struct Maker;
@@ -22,6 +24,20 @@ class CompoundPair final : public btCollisionAlgorithm {
   CompoundPair(const CompoundPair&) = delete;
   CompoundPair& operator=(const CompoundPair&) = delete;
   ~CompoundPair() override;
+
+  /// One of the two bodies.
+  struct Side {
+    const btCollisionObjectWrapper& whole;
+    const PlacedBody& placed;
+  };
+  void collide(const Side& first, const Side& second, const btDispatcherInfo& info, btManifoldResult& result);
+
+  /// Whether no two pieces are near each other: nothing to follow.
+  bool is_empty() const { return pieces_.empty(); }
+
+  /// Fetches what collide() will read first.
+  void fetch() const { __builtin_prefetch(pieces_.data()); }
+  void fetch_points() const;
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                         const btDispatcherInfo& info, btManifoldResult* result) override;
@@ -38,6 +54,8 @@ class CompoundPair final : public btCollisionAlgorithm {
                                                    const btCollisionObjectWrapper* second) override;
     btManifoldArray manifolds;  // scratch of all pairs
     std::vector<std::pair<int, int>> parted;
+    PlacedBody first;
+    PlacedBody second;
   };
 
  private:
@@ -46,19 +64,20 @@ class CompoundPair final : public btCollisionAlgorithm {
     int first;
     int second;
     btCollisionAlgorithm* algorithm;
-    bool overlaps;          // in this step
-    bool may_touch = true;  // false: its manifold is known to be empty, and need not be looked at
-    BoxAxis apart = -1;     // of two boxes: where they were apart last
+    btPersistentManifold* manifold = nullptr;  // the algorithm's; null before its first point
+    bool may_touch = true;                     // false: its manifold is known to be empty, and need not be looked at
+    BoxAxis apart = -1;                        // of two boxes: where they were apart last
   };
   struct Visit;
 
-  void refresh(btManifoldResult& result);
+  void refresh(btManifoldResult& result) const;
   void descend(const btDbvtNode& first, const btDbvtNode& second, const Visit& visit);
   void meet(int first, int second, const Visit& visit);
-  bool touch(const PiecePair& pair);
+  void work(PiecePair& pair, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, const Visit& visit);
   PiecePair& add(int first, int second, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   std::vector<PiecePair>::iterator find(int first, int second);
-  void part(const Visit& visit);
+  btPersistentManifold* manifold_of(btCollisionAlgorithm& algorithm) const;
+  void part(const Side& first, const Side& second);
   void destroy(btCollisionAlgorithm* algorithm);
 
   Maker& maker_;

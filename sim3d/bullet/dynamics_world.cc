@@ -4,6 +4,12 @@
 
 namespace talus::bullet {
 
+DynamicsWorld::DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, PairCache& pairs,
+                             btConstraintSolver& solver, btCollisionConfiguration& configuration, const Skips& skips)
+    : btDiscreteDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration),
+      skips_(skips),
+      near_pairs_(dispatcher, pairs, skips.idle_pairs) {}
+
 void DynamicsWorld::set_bodies(std::span<btRigidBody* const> bodies) {
   m_collisionObjects.resize(statics_);
   m_nonStaticRigidBodies.resize(0);
@@ -22,13 +28,19 @@ void DynamicsWorld::add_static(btCollisionObject& object) {
 
 void DynamicsWorld::performDiscreteCollisionDetection() {
   const auto start = std::chrono::steady_clock::now();
-  btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
+  if (skips_.places) {
+    updateAabbs();
+    computeOverlappingPairs();
+    near_pairs_.collide(getDispatchInfo());
+  } else {
+    btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
+  }
   after_collision_();
   collide_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
-  if (own_islands_) {
+  if (skips_.islands) {
     islands_.solve(*this, getSimulationIslandManager()->getUnionFind(), *getConstraintSolver(), info);
   } else {
     btDiscreteDynamicsWorld::solveConstraints(info);

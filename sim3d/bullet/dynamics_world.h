@@ -7,7 +7,9 @@
 #include <span>
 #include <utility>
 
+#include "common/world/skips.h"
 #include "sim3d/bullet/islands.h"
+#include "sim3d/bullet/near_pairs.h"
 
 namespace talus::bullet {
 
@@ -15,10 +17,9 @@ namespace talus::bullet {
 /// solid is its entry in the broadphase alone.
 class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
-  /// `own_islands`: whether Islands replaces Bullet's.
-  DynamicsWorld(btDispatcher* dispatcher, btBroadphaseInterface* broadphase, btConstraintSolver* solver,
-                btCollisionConfiguration* configuration, bool own_islands)
-      : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, configuration), own_islands_(own_islands) {}
+  /// `pairs`: what the broadphase keeps its pairs in.
+  DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, PairCache& pairs,
+                btConstraintSolver& solver, btCollisionConfiguration& configuration, const Skips& skips);
 
   /// Puts just these bodies into the lists, after the static objects; their broadphase entries exist already.
   void set_bodies(std::span<btRigidBody* const> bodies);
@@ -41,7 +42,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void solveConstraints(btContactSolverInfo& info) override;
 
  private:
-  bool own_islands_;
+  Skips skips_;
+  NearPairs near_pairs_;
   Islands islands_;
   int statics_ = 0;
   double collide_seconds_ = 0.0;

@@ -40,8 +40,14 @@ inline Lanes select_equal(Lanes x, Lanes y, Lanes a, Lanes b) {
   const __m128 mask = _mm_cmpeq_ps(x.v, y.v);
   return {_mm_or_ps(_mm_and_ps(mask, a.v), _mm_andnot_ps(mask, b.v))};
 }
-/// Whether a <= b in the first three lanes.
-inline bool three_at_most(Lanes a, Lanes b) { return (_mm_movemask_ps(_mm_cmple_ps(a.v, b.v)) & 7) == 7; }
+/// Whether a > b and c > d in none of the first three lanes.
+inline bool none_above(Lanes a, Lanes b, Lanes c, Lanes d) {
+  return (_mm_movemask_ps(_mm_or_ps(_mm_cmpgt_ps(a.v, b.v), _mm_cmpgt_ps(c.v, d.v))) & 7) == 0;
+}
+/// Whether a <= b and c <= d in all of the first three lanes.
+inline bool all_at_most(Lanes a, Lanes b, Lanes c, Lanes d) {
+  return (_mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a.v, b.v), _mm_cmple_ps(c.v, d.v))) & 7) == 7;
+}
 template <int I, int J, int K, int L>
 Lanes shuffled(Lanes a) {
   return {_mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(L, K, J, I))};
@@ -89,7 +95,18 @@ inline Lanes smaller(Lanes a, Lanes b) {
 inline Lanes select_equal(Lanes x, Lanes y, Lanes a, Lanes b) {
   return each_lane([&](int i) { return x.v[i] == y.v[i] ? a.v[i] : b.v[i]; });
 }
-inline bool three_at_most(Lanes a, Lanes b) { return a.v[0] <= b.v[0] && a.v[1] <= b.v[1] && a.v[2] <= b.v[2]; }
+inline bool none_above(Lanes a, Lanes b, Lanes c, Lanes d) {
+  for (int i = 0; i < 3; ++i) {
+    if (a.v[i] > b.v[i] || c.v[i] > d.v[i]) return false;
+  }
+  return true;
+}
+inline bool all_at_most(Lanes a, Lanes b, Lanes c, Lanes d) {
+  for (int i = 0; i < 3; ++i) {
+    if (!(a.v[i] <= b.v[i]) || !(c.v[i] <= d.v[i])) return false;
+  }
+  return true;
+}
 template <int I, int J, int K, int L>
 Lanes shuffled(Lanes a) {
   return {{a.v[I], a.v[J], a.v[K], a.v[L]}};

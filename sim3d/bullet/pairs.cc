@@ -61,7 +61,11 @@ void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispat
 }
 
 std::int32_t PairCache::list_of(const btBroadphaseProxy* proxy) const {
-  const int index = index_of(proxy);
+  return list_of(*static_cast<const btCollisionObject*>(proxy->m_clientObject));
+}
+
+std::int32_t PairCache::list_of(const btCollisionObject& object) const {
+  const int index = object.getUserIndex();
   const bool known = index >= 0 && static_cast<std::size_t>(index) < lists_of_bodies_.size();
   return known ? lists_of_bodies_[static_cast<std::size_t>(index)] : -1;
 }
@@ -81,6 +85,8 @@ void PairCache::remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* part
       lists_of_bodies_.resize(body + 1, -1);
     }
     lists_of_bodies_[body] = free_.back();
+    places_.grow(free_.back());
+    places_.forget(free_.back());
     free_.pop_back();
   }
   lists_[static_cast<std::size_t>(list_of(proxy))].push_back(partner);
@@ -99,6 +105,12 @@ void PairCache::forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* 
   if (list.empty()) {
     lists_of_bodies_[static_cast<std::size_t>(index_of(proxy))] = -1;
     free_.push_back(number);
+  }
+}
+
+void PairCache::forget_place(const btBroadphaseProxy* proxy) {
+  if (const std::int32_t slot = list_of(proxy); slot >= 0) {
+    places_.forget(slot);
   }
 }
 

@@ -7,11 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "sim3d/bullet/placed_pieces.h"
+
 namespace talus::bullet {
 
-/// btHashedOverlappingPairCache finds the pairs of one body only by walking all pairs of the world; this one keeps a
-/// list of partners per body, so that freezing, thawing and removing cost a body's own neighbours. The order of pairs,
-/// on which results depend, is Bullet's.
+/// Replaces btHashedOverlappingPairCache, which finds the pairs of one body only by walking all pairs of the world;
+/// this one keeps a list of partners per body, so that freezing, thawing and removing cost a body's own neighbours. The
+/// number of a body's list is also its slot among the placed pieces. The order of pairs, on which results depend, is
+/// Bullet's.
 class PairCache final : public btHashedOverlappingPairCache {
  public:
   btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override;
@@ -31,16 +34,27 @@ class PairCache final : public btHashedOverlappingPairCache {
   /// The other sides of a body's pairs, in order of appearance.
   std::span<btBroadphaseProxy* const> partners(const btBroadphaseProxy* proxy) const;
 
+  /// Number of the list of a body that has pairs; -1: it has none, or is ground or an obstacle.
+  std::int32_t list_of(const btCollisionObject& object) const;
+
+  /// The pieces of the bodies that have pairs.
+  PlacedPieces& places() { return places_; }
+
+  /// To be called when the body's form changes between awake and asleep.
+  void forget_place(const btBroadphaseProxy* proxy);
+
  private:
-  std::int32_t list_of(const btBroadphaseProxy* proxy) const;  // -1: none
+  std::int32_t list_of(const btBroadphaseProxy* proxy) const;
   void remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* partner);
   void forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* partner);
 
-  // Ground and obstacles, which meet everybody and never leave, have no list; nor have sleepers far from anybody awake.
+  // Ground and obstacles, which meet all bodies and never leave, have no list; nor have sleepers far from all awake
+  // bodies.
   std::vector<std::vector<btBroadphaseProxy*>> lists_;
-  std::vector<std::int32_t> free_;  // lists that are nobody's
+  std::vector<std::int32_t> free_;  // lists of no body
   std::vector<std::int32_t> lists_of_bodies_;
   std::vector<btBroadphaseProxy*> leaving_;  // scratch
+  PlacedPieces places_;
 };
 
 }  // namespace talus::bullet

@@ -1,0 +1,98 @@
+#include "sim3d/bullet/near_pairs.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+
+#include "sim3d/bullet/idle_pairs.h"
+
+namespace talus::bullet {
+namespace {
+
+const btCollisionObject& body_of(const btBroadphaseProxy* proxy) {
+  return *static_cast<const btCollisionObject*>(proxy->m_clientObject);
+}
+
+}  // namespace
+
+void NearPairs::collide(const btDispatcherInfo& info) {
+  pairs_.places().start_step();
+  btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();
+  for (int i = 0; i < pairs.size(); ++i) {
+    fetch_ahead(i);
+    btBroadphasePair& pair = pairs[i];
+    if (!IdleMark::is_set(pair) || !is_idle(pair)) {
+      visit(pair, info);
+    }
+  }
+}
+
+// In three strides: the parts of a pair, then what only those lead to.
+void NearPairs::fetch_ahead(int i) const {
+  constexpr int stride = 4;
+  const btBroadphasePairArray& pairs = const_cast<PairCache&>(pairs_).getOverlappingPairArray();
+  if (i + 3 * stride >= pairs.size()) {
+    return;
+  }
+  const btBroadphasePair& far = pairs[i + 3 * stride];
+  if (IdleMark::is_set(far)) {
+    const IdleMark mark = IdleMark::of(far);
+    const_cast<PairCache&>(pairs_).places().fetch(mark.first);
+    const_cast<PairCache&>(pairs_).places().fetch(mark.second);
+  } else {
+    __builtin_prefetch(far.m_algorithm);
+    __builtin_prefetch(far.m_pProxy0);
+    __builtin_prefetch(far.m_pProxy1);
+  }
+  if (const btBroadphasePair& near = pairs[i + 2 * stride]; !IdleMark::is_set(near)) {
+    __builtin_prefetch(near.m_pProxy0->m_clientObject);
+    __builtin_prefetch(near.m_pProxy1->m_clientObject);
+  }
+}
+
+bool NearPairs::is_idle(const btBroadphasePair& pair) {
+  const IdleMark mark = IdleMark::of(pair);
+  PlacedPieces& places = pairs_.places();
+  const PlacedBody* first = places.known(mark.first);
+  const PlacedBody* second = places.known(mark.second);
+  if (first == nullptr) {
+    first = &places.of(mark.first, body_of(pair.m_pProxy0));
+  }
+  if (second == nullptr) {
+    second = &places.of(mark.second, body_of(pair.m_pProxy1));
+  }
+  return !pieces_overlap(*first, *second);
+}
+
+void NearPairs::visit(btBroadphasePair& pair, const btDispatcherInfo& info) {
+  const btCollisionObject& first = body_of(pair.m_pProxy0);
+  const btCollisionObject& second = body_of(pair.m_pProxy1);
+  if (!first.getCollisionShape()->isCompound() || !second.getCollisionShape()->isCompound()) {
+    dispatcher_.getNearCallback()(pair, dispatcher_, info);
+  } else if ((first.isActive() || second.isActive()) && first.checkCollideWith(&second) &&
+             second.checkCollideWith(&first)) {
+    meet(pair, first, second, info);
+  }
+}
+
+void NearPairs::meet(btBroadphasePair& pair, const btCollisionObject& first, const btCollisionObject& second,
+                     const btDispatcherInfo& info) {
+  const btCollisionObjectWrapper first_whole(nullptr, first.getCollisionShape(), &first, first.getWorldTransform(), -1,
+                                             -1);
+  const btCollisionObjectWrapper second_whole(nullptr, second.getCollisionShape(), &second, second.getWorldTransform(),
+                                              -1, -1);
+  if (pair.m_algorithm == nullptr) {
+    pair.m_algorithm = dispatcher_.findAlgorithm(&first_whole, &second_whole, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+  }
+  auto& algorithm = *static_cast<CompoundPair*>(pair.m_algorithm);
+  const IdleMark slots{pairs_.list_of(first), pairs_.list_of(second)};
+  const PlacedBody& first_placed = pairs_.places().of(slots.first, first);
+  const PlacedBody& second_placed = pairs_.places().of(slots.second, second);
+  btManifoldResult result(&first_whole, &second_whole);
+  algorithm.collide({first_whole, first_placed}, {second_whole, second_placed}, info, result);
+  if (skip_idle_ && algorithm.is_empty() && slots.first >= 0 && slots.second >= 0) {
+    slots.set(pair);
+  } else {
+    IdleMark::clear(pair);
+  }
+}
+
+}  // namespace talus::bullet

@@ -1,0 +1,50 @@
+#include "sim3d/bullet/placed_pieces.h"
+
+#include <algorithm>
+
+namespace talus::bullet {
+
+void PlacedBody::place(const btCompoundShape& shape, const btTransform& body) {
+  pieces.resize(static_cast<std::size_t>(shape.getNumChildShapes()));
+  for (int i = 0; i < shape.getNumChildShapes(); ++i) {
+    PlacedPiece& piece = pieces[static_cast<std::size_t>(i)];
+    piece.shape = shape.getChildShape(i);
+    piece.place = body * shape.getChildTransform(i);
+    btVector3 low;
+    btVector3 high;
+    piece.shape->getAabb(piece.place, low, high);
+    piece.box = {lanes(low), lanes(high)};
+    box = i == 0 ? piece.box : PieceBox{smaller(box.low, piece.box.low), larger(box.high, piece.box.high)};
+  }
+}
+
+bool pieces_overlap(const PlacedBody& a, const PlacedBody& b) {
+  if (!overlap(a.box, b.box)) {
+    return false;
+  }
+  return std::ranges::any_of(a.pieces, [&b](const PlacedPiece& piece) {
+    return overlap(piece.box, b.box) &&
+           std::ranges::any_of(b.pieces, [&piece](const PlacedPiece& other) { return overlap(piece.box, other.box); });
+  });
+}
+
+void PlacedPieces::grow(std::int32_t slot) {
+  if (slots_.size() <= static_cast<std::size_t>(slot)) {
+    slots_.resize(static_cast<std::size_t>(slot) + 1);
+  }
+}
+
+PlacedBody& PlacedPieces::obstacle(int index) {
+  const auto number = static_cast<std::size_t>(-index);
+  if (obstacles_.size() <= number) {
+    obstacles_.resize(number + 1);
+  }
+  return obstacles_[number];
+}
+
+void PlacedPieces::update(PlacedBody& placed, const btCollisionObject& body) const {
+  placed.place(*static_cast<const btCompoundShape*>(body.getCollisionShape()), body.getWorldTransform());
+  placed.known_until = body.isStaticObject() ? std::numeric_limits<std::int64_t>::max() : step_;
+}
+
+}  // namespace talus::bullet
