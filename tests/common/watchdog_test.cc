@@ -167,7 +167,7 @@ TEST(Watchdog, CountsBodiesLostAtTheEnd) {
   watch.add(30'000.0, 5.0);
   watch.world.remove(3);
   EXPECT_EQ(bodies_lost(watch.world.states(), Ground{}), 2);
-  EXPECT_EQ(bodies_lost(watch.world.states(), Ground{.present = false}), 1);
+  EXPECT_EQ(bodies_lost(watch.world.states(), Ground{.present = false, .material = {}}), 1);
 }
 
 /// The ledger alone.

@@ -2,6 +2,7 @@
 
 #include "sim2d/contact_records.h"
 
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <bit>
