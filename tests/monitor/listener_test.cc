@@ -159,7 +159,7 @@ TEST(Listener, CountsTheLossThatForgedNumbersClaimWithoutOverflow) {
   Wire wire;
   for (std::int64_t id = 1; id < 200; ++id) {
     for (const std::int64_t number : {std::int64_t{0}, largest}) {
-      talus_stats_v1 stats{};
+      talus_stats_v2 stats{};
       Packet packet = Sealer(id).seal(stats, {});
       for (std::size_t i = 0; i < 8; ++i) packet.bytes[40 + i] = static_cast<std::uint8_t>(number >> (56 - 8 * i));
       const std::uint32_t sum = crc32(std::span(packet.bytes).first(packet.bytes.size() - checksum_bytes));

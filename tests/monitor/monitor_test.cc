@@ -105,7 +105,7 @@ void crash_once(const DatagramSender& sender, const std::string& mark) {
   const bool first = access(mark.c_str(), F_OK) != 0;
   std::ofstream(mark) << "was here";
   Sealer sealer(42);
-  talus_lcm::talus_stats_v1 stats{};
+  talus_lcm::talus_stats_v2 stats{};
   const Packet packet = sealer.seal(stats, {});
   sender.send(packet.channel, packet.bytes.data(), packet.bytes.size());
   if (first) std::raise(SIGSEGV);

@@ -15,7 +15,7 @@ struct Network {
   std::map<std::int64_t, std::int64_t> sent;
 
   void send(std::int64_t run_id) {
-    talus_lcm::talus_stats_v1 message{};
+    talus_lcm::talus_stats_v2 message{};
     message.run_id = run_id;
     message.seq = sent[run_id]++;
     if (RunView* view = table.find(run_id, now)) view->take(message);
