@@ -29,8 +29,8 @@ void EnergyLedger<Dim>::note_added(const BodyStates<Dim>& states) {
 }
 
 template <int Dim>
-void EnergyLedger<Dim>::note_kick(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity,
-                                  const Spin<Dim>& spin) {
+void EnergyLedger<Dim>::note_velocity(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity,
+                                      const Spin<Dim>& spin) {
   const auto i = static_cast<std::size_t>(body);
   const Shape<Dim>& shape = shapes_[static_cast<std::size_t>(states.shape[i])];
   change_ += kinetic_energy(shape, states, i) - kinetic_energy<Dim>(shape, states.pose[i].rotation, velocity, spin);

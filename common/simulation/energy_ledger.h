@@ -22,7 +22,7 @@ class EnergyLedger {
   void note_added(const BodyStates<Dim>& states);
 
   /// A body will get a new velocity from outside the engine.
-  void note_kick(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
+  void note_velocity(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
 
   /// The state of a body after a step. To be called for each body that is awake or fell asleep in the step.
   void note_state(const BodyStates<Dim>& states, BodyIndex body);

@@ -111,7 +111,7 @@ void Simulation<Dim>::apply() {
   };
   if (!decision_.thaw.empty()) take(decision_.thaw, true);
   for (const VelocityChange<Dim>& change : decision_.velocities) {
-    if (watched()) watchdog_.note_kick(world_->states(), change.body, change.velocity, change.spin);
+    if (watched()) watchdog_.note_velocity(world_->states(), change.body, change.velocity, change.spin);
     world_->set_velocity(change.body, change.velocity, change.spin);
   }
   if (!decision_.freeze.empty()) take(decision_.freeze, false);

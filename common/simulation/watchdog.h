@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
+#include "common/policy/sleep_event.h"
 #include "common/scene/scene.h"
 #include "common/simulation/energy_ledger.h"
-#include "common/policy/sleep_event.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
 
@@ -21,8 +21,8 @@ class Watchdog {
   void note_added(const BodyStates<Dim>& states) { ledger_.note_added(states); }
 
   /// Before an awake body gets a new velocity from outside the engine.
-  void note_kick(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
-    ledger_.note_kick(states, body, velocity, spin);
+  void note_velocity(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+    ledger_.note_velocity(states, body, velocity, spin);
   }
 
   /// After a step and the policy's decision. `events` are those of the step.

@@ -1,6 +1,7 @@
 // Each kind of warning on each engine, and none where a run is sound.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "common/policy/sleep_policy.h"
@@ -32,7 +33,8 @@ class WatchedRun : public BackendTest<Backend> {
   }
 
   /// The warnings of so many steps.
-  static std::vector<Warning> warnings(const Scene<dim>& scene, std::int64_t steps, const BodyDef<dim>* body = nullptr) {
+  static std::vector<Warning> warnings(const Scene<dim>& scene, std::int64_t steps,
+                                       const BodyDef<dim>* body = nullptr) {
     Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
     Nothing<dim> nothing;
     simulation.add_observer(nothing);
@@ -82,12 +84,14 @@ TYPED_TEST(WatchedRun, WarnsOfABodyThatIsThrownOutOfTheWorld) {
 }
 
 TYPED_TEST(WatchedRun, WarnsOfAFallThatReachesTheSpeedLimit) {
-  const auto scene = TestFixture::scene();
+  auto scene = TestFixture::scene();
+  scene.world.gravity = 400.0;
   const double limit = TypeParam::make(scene.world)->speed_limits().speed;
-  auto body = TestFixture::at(up<TypeParam::dim>(8.0 * limit));
-  body.velocity = -up<TypeParam::dim>(limit - 3.0);
-  EXPECT_TRUE(TestFixture::warnings(scene, 6, &body).empty());
-  EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 30, &body), WarningKind::speed_limit));
+  const double steps = limit / scene.world.gravity / scene.world.dt;
+  const auto body = TestFixture::at(up<TypeParam::dim>(5'000.0));
+  EXPECT_TRUE(TestFixture::warnings(scene, std::lround(0.9 * steps), &body).empty());
+  EXPECT_TRUE(
+      TestFixture::has(TestFixture::warnings(scene, std::lround(1.2 * steps), &body), WarningKind::speed_limit));
 }
 
 TYPED_TEST(WatchedRun, WarnsOfABodyAtTheSpinLimit) {

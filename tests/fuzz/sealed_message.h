@@ -20,7 +20,7 @@ void with_message_of(Channel channel, const Use& use) {
     case Channel::sleep:
       return use(talus_lcm::talus_sleep_v1{});
     case Channel::stats:
-      return use(talus_lcm::talus_stats_v1{});
+      return use(talus_lcm::talus_stats_v2{});
     case Channel::bodies:
       return use(talus_lcm::talus_bodies_v1{});
     case Channel::shapes:
