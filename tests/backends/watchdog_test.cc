@@ -128,7 +128,7 @@ TYPED_TEST(WatchedRun, WarnsOfBodiesThatTheirSourceNeverFoundRoomFor) {
   scene.sources[0].rate = 10.0;
   scene.sources[0].position = up<TypeParam::dim>(0.8);
   scene.sources[0].orientation = identity_rotation<TypeParam::dim>();
-  const std::vector<Warning> warnings = TestFixture::warnings(scene, 120);
+  const std::vector<Warning> warnings = TestFixture::warnings(scene, 200);
   ASSERT_TRUE(TestFixture::has(warnings, WarningKind::not_appeared));
   EXPECT_EQ(warnings.back().bodies, 3);
 }
