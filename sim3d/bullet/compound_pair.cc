@@ -17,41 +17,39 @@ const btCompoundShape& compound(const btCollisionObjectWrapper& side) {
 
 const btDbvtNode& tree(const CompoundPair::Side& side) { return *compound(side.whole).getDynamicAabbTree()->m_root; }
 
-bool is_box(const PlacedPiece& piece) { return piece.shape->getShapeType() == BOX_SHAPE_PROXYTYPE; }
-const btBoxShape& box(const PlacedPiece& piece) { return *static_cast<const btBoxShape*>(piece.shape); }
-
-/// A transform's columns, as they are and without signs.
-struct Columns {
-  explicit Columns(const btTransform& transform) : origin(lanes(transform.getOrigin())) {
-    for (int i = 0; i < 3; ++i) {
-      column[i] = lanes(transform.getBasis().getColumn(i));
-      size[i] = absolute(column[i]);
-    }
-  }
-  Lanes column[3];
-  Lanes size[3];
-  Lanes origin;
-};
-
-/// Whether a box of the first body's tree overlaps the box around one of the second's, as btTransformAabb makes it.
-bool nodes_overlap(const btDbvtAabbMm& a, const btDbvtAabbMm& b, const Columns& from_b_to_a) {
-  const btVector3 half = btScalar(0.5) * (b.Maxs() - b.Mins());
-  const btVector3 middle = btScalar(0.5) * (b.Maxs() + b.Mins());
-  const auto& [column, size, origin] = from_b_to_a;
-  const Lanes centre =
-      column[0] * splat(middle.x()) + column[1] * splat(middle.y()) + column[2] * splat(middle.z()) + origin;
-  const Lanes extent = size[0] * splat(half.x()) + size[1] * splat(half.y()) + size[2] * splat(half.z());
-  return all_at_most(load(a.Mins()), centre + extent, centre - extent, load(a.Maxs()));
-}
+bool is_box(const WorldPiece& piece) { return piece.shape->getShapeType() == BOX_SHAPE_PROXYTYPE; }
+const btBoxShape& box(const WorldPiece& piece) { return *static_cast<const btBoxShape*>(piece.shape); }
 
 }  // namespace
 
 struct CompoundPair::Visit {
+  Visit(const Side& one, const Side& other, const btDispatcherInfo& dispatcher_info, btManifoldResult& into)
+      : first(one), second(other), info(dispatcher_info), result(into) {
+    const btTransform second_in_first = one.whole.getWorldTransform().inverse() * other.whole.getWorldTransform();
+    origin = lanes(second_in_first.getOrigin());
+    for (int i = 0; i < 3; ++i) {
+      column[i] = lanes(second_in_first.getBasis().getColumn(i));
+      size[i] = absolute(column[i]);
+    }
+  }
+
+  /// Whether a box of the first body's tree overlaps the box around one of the second's, as btTransformAabb makes it.
+  bool overlap(const btDbvtAabbMm& a, const btDbvtAabbMm& b) const {
+    const btVector3 half = btScalar(0.5) * (b.Maxs() - b.Mins());
+    const btVector3 middle = btScalar(0.5) * (b.Maxs() + b.Mins());
+    const Lanes centre =
+        column[0] * splat(middle.x()) + column[1] * splat(middle.y()) + column[2] * splat(middle.z()) + origin;
+    const Lanes extent = size[0] * splat(half.x()) + size[1] * splat(half.y()) + size[2] * splat(half.z());
+    return all_at_most(load(a.Mins()), centre + extent, centre - extent, load(a.Maxs()));
+  }
+
   const Side& first;
   const Side& second;
-  const Columns second_in_first;
   const btDispatcherInfo& info;
   btManifoldResult& result;
+  Lanes column[3];  // of the transform from the second body's axes to the first's
+  Lanes size[3];    // the same without signs
+  Lanes origin;
 };
 
 btCollisionAlgorithm* CompoundPair::Maker::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
@@ -92,8 +90,7 @@ void CompoundPair::collide(const Side& first, const Side& second, const btDispat
                            btManifoldResult& result) {
   refresh(result);
   if (pieces_overlap(first.placed, second.placed)) {
-    const Columns transform(first.whole.getWorldTransform().inverse() * second.whole.getWorldTransform());
-    descend(tree(first), tree(second), {first, second, transform, info, result});
+    descend(tree(first), tree(second), Visit(first, second, info, result));
   }
   part(first, second);
 }
@@ -127,7 +124,7 @@ void CompoundPair::descend(const btDbvtNode& first, const btDbvtNode& second, co
                          visit.second.placed.pieces[static_cast<std::size_t>(second.dataAsInt)].box)) {
     return;
   }
-  if (!nodes_overlap(first.volume, second.volume, visit.second_in_first)) {
+  if (!visit.overlap(first.volume, second.volume)) {
     return;
   }
   if (leaves) {
@@ -147,8 +144,8 @@ void CompoundPair::descend(const btDbvtNode& first, const btDbvtNode& second, co
 }
 
 void CompoundPair::meet(int first, int second, const Visit& visit) {
-  const PlacedPiece& a = visit.first.placed.pieces[static_cast<std::size_t>(first)];
-  const PlacedPiece& b = visit.second.placed.pieces[static_cast<std::size_t>(second)];
+  const WorldPiece& a = visit.first.placed.pieces[static_cast<std::size_t>(first)];
+  const WorldPiece& b = visit.second.placed.pieces[static_cast<std::size_t>(second)];
   const auto known = find(first, second);
   if (known != pieces_.end() && !known->may_touch && known->apart >= 0 &&
       apart_along(known->apart, box(a), a.place, box(b), b.place)) {

@@ -19,6 +19,30 @@ PackedRow packed(const btSolverConstraint& row) {
 
 }  // namespace
 
+btScalar PackedSolver::solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
+                                  int manifold_count, btTypedConstraint** joints, int joint_count,
+                                  const btContactSolverInfo& info, btIDebugDraw* drawer, btDispatcher* dispatcher) {
+  if (!can_set_up(info, joint_count)) {
+    return WarmFrictionSolver::solveGroup(bodies, body_count, manifolds, manifold_count, joints, joint_count, info,
+                                          drawer, dispatcher);
+  }
+  setup_.make({bodies, static_cast<std::size_t>(body_count)}, {manifolds, static_cast<std::size_t>(manifold_count)},
+              info, skips_.levels, system_);
+  system_.solve(settings(info));
+  setup_.write_back(info, system_);
+  return 0;
+}
+
+bool PackedSolver::can_set_up(const btContactSolverInfo& info, int joints) const {
+  constexpr int mode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS;
+  return skips_.row_setup && joints == 0 && info.m_solverMode == mode && info.m_splitImpulse != 0 &&
+         info.m_globalCfm == 0;
+}
+
+RowSystem::Settings PackedSolver::settings(const btContactSolverInfo& info) const {
+  return {info.m_numIterations, info.m_leastSquaresResidualThreshold, warm_friction()};
+}
+
 btScalar PackedSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
                                                          btPersistentManifold** manifolds, int manifold_count,
                                                          btTypedConstraint** joints, int joint_count,
@@ -29,7 +53,7 @@ btScalar PackedSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bod
   }
   pack_bodies();
   pack_rows();
-  system_.solve({info.m_numIterations, info.m_leastSquaresResidualThreshold, warm_friction()});
+  system_.solve(settings(info));
   unpack();
   return 0;
 }

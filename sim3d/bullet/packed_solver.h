@@ -4,17 +4,24 @@
 #include <vector>
 
 #include "common/world/skips.h"
+#include "sim3d/bullet/row_setup.h"
 #include "sim3d/bullet/row_system.h"
 #include "sim3d/bullet/solver.h"
 
 namespace talus::bullet {
 
 /// Replaces btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations: Bullet's constraints of a group are
-/// packed (row_system.h), solved and put back. What the packed rows cannot hold (joints, rolling friction, softness)
-/// takes Bullet's own way.
+/// packed (row_system.h), solved and put back; with two friction directions solveGroup as a whole, the rows made
+/// straight from the points (row_setup.h). What packed rows cannot hold (joints, rolling friction, softness) takes
+/// Bullet's way.
 class PackedSolver final : public WarmFrictionSolver {
  public:
-  PackedSolver(bool warm_friction, const Skips& skips) : WarmFrictionSolver(warm_friction), skips_(skips) {}
+  PackedSolver(bool warm_friction, const Skips& skips)
+      : WarmFrictionSolver(warm_friction), skips_(skips), setup_(warm_friction) {}
+
+  btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
+                      btTypedConstraint** joints, int joint_count, const btContactSolverInfo& info,
+                      btIDebugDraw* drawer, btDispatcher* dispatcher) override;
 
  protected:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -23,6 +30,8 @@ class PackedSolver final : public WarmFrictionSolver {
                                              const btContactSolverInfo& info, btIDebugDraw* drawer) override;
 
  private:
+  RowSystem::Settings settings(const btContactSolverInfo& info) const;
+  bool can_set_up(const btContactSolverInfo& info, int joints) const;
   bool can_pack(const btContactSolverInfo& info) const;
   void pack_bodies();
   void pack_rows();
@@ -30,6 +39,7 @@ class PackedSolver final : public WarmFrictionSolver {
 
   Skips skips_;
   RowSystem system_;
+  RowSetup setup_;
   std::vector<RowBodies> bodies_of_contacts_;
 };
 

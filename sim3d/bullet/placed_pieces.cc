@@ -7,7 +7,7 @@ namespace talus::bullet {
 void PlacedBody::place(const btCompoundShape& shape, const btTransform& body) {
   pieces.resize(static_cast<std::size_t>(shape.getNumChildShapes()));
   for (int i = 0; i < shape.getNumChildShapes(); ++i) {
-    PlacedPiece& piece = pieces[static_cast<std::size_t>(i)];
+    WorldPiece& piece = pieces[static_cast<std::size_t>(i)];
     piece.shape = shape.getChildShape(i);
     piece.place = body * shape.getChildTransform(i);
     btVector3 low;
@@ -22,9 +22,9 @@ bool pieces_overlap(const PlacedBody& a, const PlacedBody& b) {
   if (!overlap(a.box, b.box)) {
     return false;
   }
-  return std::ranges::any_of(a.pieces, [&b](const PlacedPiece& piece) {
+  return std::ranges::any_of(a.pieces, [&b](const WorldPiece& piece) {
     return overlap(piece.box, b.box) &&
-           std::ranges::any_of(b.pieces, [&piece](const PlacedPiece& other) { return overlap(piece.box, other.box); });
+           std::ranges::any_of(b.pieces, [&piece](const WorldPiece& other) { return overlap(piece.box, other.box); });
   });
 }
 

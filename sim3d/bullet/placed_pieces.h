@@ -20,7 +20,7 @@ struct PieceBox {
 /// As TestAabbAgainstAabb2: also where a number is none.
 inline bool overlap(const PieceBox& a, const PieceBox& b) { return none_above(a.low, b.high, b.low, a.high); }
 
-struct PlacedPiece {
+struct WorldPiece {
   btTransform place;
   PieceBox box;
   const btCollisionShape* shape;
@@ -30,7 +30,7 @@ struct PlacedPiece {
 struct alignas(64) PlacedBody {
   PieceBox box = {splat(0), splat(0)};
   std::int64_t known_until = -1;  // step
-  std::vector<PlacedPiece> pieces;
+  std::vector<WorldPiece> pieces;
 
   void place(const btCompoundShape& shape, const btTransform& body);
 };

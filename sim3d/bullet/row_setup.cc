@@ -1,0 +1,252 @@
+#include "sim3d/bullet/row_setup.h"
+
+#include <LinearMath/btTransformUtil.h>
+
+#include <algorithm>
+
+#include "sim3d/bullet/three_rows.h"
+#include "sim3d/friction_impulse.h"
+
+namespace talus::bullet {
+namespace {
+
+/// What the right-hand side of a point's normal row is made of.
+struct NormalTarget {
+  float rhs;   // impulse wanted [N s]
+  float deep;  // impulse that moves deep bodies apart without giving them velocity [N s]; 0: not deep
+};
+
+/// As the end of setupContactConstraint. `approach`: of the normal row [m/s]; `gain`: [kg].
+NormalTarget normal_target(const btManifoldPoint& point, const btContactSolverInfo& info, btScalar restitution,
+                           btScalar approach, btScalar gain) {
+  const btScalar inv_time_step = btScalar(1) / info.m_timeStep;
+  const btScalar penetration = point.getDistance() + info.m_linearSlop;
+  btScalar position_error = 0;
+  btScalar velocity_error = restitution - approach;
+  if (penetration > 0) {
+    velocity_error -= penetration * inv_time_step;
+  } else {
+    position_error = -penetration * info.m_erp2 * inv_time_step;
+  }
+  const btScalar for_position = position_error * gain;
+  const btScalar for_velocity = velocity_error * gain;
+  if (penetration > info.m_splitImpulsePenetrationThreshold) {
+    return {for_position + for_velocity, 0};
+  }
+  return {for_velocity, for_position};
+}
+
+/// Directions of friction, as convertContact chooses them: along the sliding and across, or any two.
+void choose_friction(btManifoldPoint& point, const btVector3& velocity, btScalar approach) {
+  const btVector3& normal = point.m_normalWorldOnB;
+  btVector3& along = point.m_lateralFrictionDir1;
+  btVector3& across = point.m_lateralFrictionDir2;
+  along = velocity - normal * approach;
+  const btScalar sliding = along.length2();
+  if (sliding > SIMD_EPSILON) {
+    along *= 1.F / btSqrt(sliding);
+    across = along.cross(normal);
+    across.normalize();
+  } else {
+    btPlaneSpace1(normal, along, across);
+  }
+}
+
+void fetch(const btManifoldPoint& point) {
+  const auto* memory = reinterpret_cast<const char*>(&point);
+  for (std::size_t at = 0; at < sizeof(btManifoldPoint); at += 64) {
+    __builtin_prefetch(memory + at);
+  }
+}
+
+bool is_heavy(const btVector3& inv_mass) { return inv_mass.fuzzyZero(); }
+
+}  // namespace
+
+/// Three rows' parts on one of the two bodies.
+struct RowSetup::Side {
+  /// `axis`: the rows' directions on this body; `turn`: their torques.
+  Side(const Body& body, const btVector3& reach, const Vectors& axis, const Vectors& torque, bool second)
+      : turn(torque), effect(product(body.inv_inertia, torque, body.angular_factor)) {
+    if (body.rigid == nullptr) {
+      turn = {splat(0), splat(0), splat(0)};
+    }
+    const Vectors spin = three(body.pushed_spin, body.spin, body.spin);
+    approach = dot(second ? -axis : axis, same(body.velocity)) + dot(turn, spin);
+    response = splat(body.inv_mass) + dot(axis, cross(second ? -effect : effect, same(reach)));
+  }
+  Vectors turn;
+  Vectors effect;
+  Lanes approach;  // velocity along the direction [m/s]
+  Lanes response;  // velocity per impulse [1/kg]
+};
+
+void RowSetup::make(std::span<btCollisionObject*> bodies, std::span<btPersistentManifold*> manifolds,
+                    const btContactSolverInfo& info, bool by_level, RowSystem& system) {
+  const auto count = static_cast<std::int32_t>(bodies.size());
+  bodies_.clear();
+  system.clear(count + 1, count);
+  for (btCollisionObject* each : bodies) {
+    add_body(*each, info.m_timeStep, system);
+  }
+  bodies_.emplace_back();  // stands for all that never move
+  find_contacts(manifolds, system);
+  system.arrange(sides_, 2, by_level);
+  last_frictions_.resize(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (i + 4 < points_.size()) {
+      fetch(*points_[i + 4]);
+    }
+    make_contact(i, info, system);
+  }
+  if (warm_friction_) {
+    start_friction(system);
+  }
+}
+
+// As initSolverBody and convertBodies.
+void RowSetup::add_body(btCollisionObject& object, btScalar time_step, RowSystem& system) {
+  btRigidBody& rigid = *btRigidBody::upcast(&object);
+  const auto index = static_cast<std::int32_t>(bodies_.size());
+  object.setCompanionId(index);
+  Body& body = bodies_.emplace_back();
+  body.rigid = &rigid;
+  body.origin = rigid.getWorldTransform().getOrigin();
+  body.force_impulse = rigid.getTotalForce() * rigid.getInvMass() * time_step;
+  body.torque_impulse = rigid.getTotalTorque() * rigid.getInvInertiaTensorWorld() * time_step;
+  if ((rigid.getFlags() & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0) {
+    body.torque_impulse += rigid.computeGyroscopicImpulseImplicit_Body(time_step);
+  }
+  body.velocity = rigid.getLinearVelocity() + body.force_impulse;
+  body.spin = rigid.getAngularVelocity();
+  body.pushed_spin = body.spin + body.torque_impulse;
+  body.angular_factor = rigid.getAngularFactor();
+  for (int i = 0; i < 3; ++i) {
+    body.inv_inertia[i] = rigid.getInvInertiaTensorWorld().getRow(i);
+  }
+  body.inv_mass = rigid.getInvMass();
+  const btScalar inv_mass = rigid.getInvMass();
+  system.body(index).inv_mass = lanes(btVector3(inv_mass, inv_mass, inv_mass) * rigid.getLinearFactor());
+}
+
+void RowSetup::find_contacts(std::span<btPersistentManifold*> manifolds, RowSystem& system) {
+  sides_.clear();
+  points_.clear();
+  const auto fixed = static_cast<std::int32_t>(bodies_.size() - 1);
+  const auto index_of = [fixed](const btCollisionObject* object) {
+    return btRigidBody::upcast(object) != nullptr ? object->getCompanionId() : fixed;
+  };
+  for (btPersistentManifold* manifold : manifolds) {
+    const RowBodies sides = {index_of(manifold->getBody0()), index_of(manifold->getBody1())};
+    if (is_heavy(to_vector(system.body(sides.a).inv_mass)) && is_heavy(to_vector(system.body(sides.b).inv_mass))) {
+      continue;
+    }
+    for (int i = 0; i < manifold->getNumContacts(); ++i) {
+      btManifoldPoint& point = manifold->getContactPoint(i);
+      if (point.getDistance() <= manifold->getContactProcessingThreshold()) {
+        sides_.push_back(sides);
+        points_.push_back(&point);
+      }
+    }
+  }
+}
+
+void RowSetup::make_contact(std::size_t i, const btContactSolverInfo& info, RowSystem& system) {
+  btManifoldPoint& point = *points_[i];
+  const auto [index_a, index_b] = sides_[i];
+  const Body& a = body(index_a);
+  const Body& b = body(index_b);
+  const btVector3 reach_a = point.getPositionWorldOnA() - a.origin;
+  const btVector3 reach_b = point.getPositionWorldOnB() - b.origin;
+  const btVector3& normal = point.m_normalWorldOnB;
+  const btVector3 velocity = (a.velocity + a.pushed_spin.cross(reach_a)) - (b.velocity + b.pushed_spin.cross(reach_b));
+  if (warm_friction_) {
+    last_frictions_[i] = friction_impulse(point);
+  }
+  choose_friction(point, velocity, normal.dot(velocity));
+
+  const Vectors axis = three(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
+  const Side on_a(a, reach_a, axis, cross(same(reach_a), axis), false);
+  // Bullet turns round the torque of the normal and the direction of friction: the same but for the sign of a zero.
+  const Vectors torque = cross(same(reach_b), axis);
+  const Lanes zero = lanes(-0.F, 0, 0, 0);
+  const Side on_b(b, reach_b, axis, {zero - torque.x, zero - torque.y, zero - torque.z}, true);
+  const Lanes gain = splat(info.m_sor) / (on_a.response + on_b.response);
+  const Lanes approach = on_a.approach + on_b.approach;
+
+  btScalar restitution = 0;
+  if (point.m_combinedRestitution != 0) {
+    const btVector3 raw = (a.rigid != nullptr ? a.rigid->getVelocityInLocalPoint(reach_a) : btVector3(0, 0, 0)) -
+                          (b.rigid != nullptr ? b.rigid->getVelocityInLocalPoint(reach_b) : btVector3(0, 0, 0));
+    const btScalar speed = normal.dot(raw);
+    const bool bounces = !(btFabs(speed) < info.m_restitutionVelocityThreshold);
+    restitution = bounces ? std::max(btScalar(0), point.m_combinedRestitution * -speed) : btScalar(0);
+  }
+  const NormalTarget target = normal_target(point, info, restitution, first(approach), first(gain));
+  float rhs[4];
+  store(rhs, splat(0) + (splat(0) - approach) * gain);
+  rhs[0] = target.rhs;
+
+  const ThreeRows axes = by_rows(axis, load(rhs));
+  const ThreeRows turns_a = by_rows(on_a.turn, gain);
+  const ThreeRows turns_b = by_rows(on_b.turn, splat(point.m_combinedFriction));
+  const ThreeRows effects_a = by_rows(on_a.effect, splat(0));
+  const ThreeRows effects_b = by_rows(on_b.effect, splat(0));
+  const std::int32_t place = system.place_of_contact(i);
+  PackedRow* const rows[3] = {&system.contact(i), &system.friction(2 * i), &system.friction(2 * i + 1)};
+  for (int r = 0; r < 3; ++r) {
+    *rows[r] = {axes.row[r], turns_a.row[r], turns_b.row[r], effects_a.row[r], effects_b.row[r], 0,
+                index_a,     index_b,        place};
+  }
+  rows[0]->applied = point.m_appliedImpulse * info.m_warmstartingFactor;
+  apply(*rows[0], system.body(index_a), system.body(index_b), splat(rows[0]->applied));
+  if (target.deep != 0) {
+    system.add_deep(i, target.deep);
+  }
+}
+
+// After all normal impulses, in the order of the points.
+void RowSetup::start_friction(RowSystem& system) const {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const float push = system.contact(i).applied;
+    for (std::size_t direction = 0; direction < 2; ++direction) {
+      PackedRow& row = system.friction(2 * i + direction);
+      const float limit = row.friction() * push;
+      row.applied = std::clamp(last_frictions_[i].dot(to_vector(row.normal)), -limit, limit);
+      apply(row, system.body(row.a), system.body(row.b), splat(row.applied));
+    }
+  }
+}
+
+void RowSetup::write_back(const btContactSolverInfo& info, RowSystem& system) const {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    btManifoldPoint& point = *points_[i];
+    point.m_appliedImpulse = system.contact(i).applied;
+    point.m_appliedImpulseLateral1 = system.friction(2 * i).applied;
+    point.m_appliedImpulseLateral2 = system.friction(2 * i + 1).applied;
+    if (warm_friction_) {
+      set_friction_impulse(point, friction_impulse(point));
+    }
+  }
+  for (std::size_t i = 0; i + 1 < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    const auto index = static_cast<std::int32_t>(i);
+    const PackedBody& change = system.body(index);
+    btRigidBody& rigid = *body.rigid;
+    rigid.setLinearVelocity((rigid.getLinearVelocity() + to_vector(change.linear)) + body.force_impulse);
+    rigid.setAngularVelocity((body.spin + to_vector(change.angular)) + body.torque_impulse);
+    rigid.setCompanionId(-1);
+    if (const PackedBody* push = system.push(index)) {
+      const btVector3 linear = to_vector(push->linear);
+      const btVector3 angular = to_vector(push->angular);
+      if (!linear.isZero() || !angular.isZero()) {
+        btTransform moved;
+        btTransformUtil::integrateTransform(rigid.getWorldTransform(), linear, angular * info.m_splitImpulseTurnErp,
+                                            info.m_timeStep, moved);
+        rigid.setWorldTransform(moved);
+      }
+    }
+  }
+}
+
+}  // namespace talus::bullet
