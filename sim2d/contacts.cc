@@ -49,7 +49,7 @@ void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
   contact->GetWorldManifold(&world);
   const b2Body& a = *contact->GetFixtureA()->GetBody();
   const b2Body& b = *contact->GetFixtureB()->GetBody();
-  Record& record = records_[contact];
+  ContactRecord& record = records_[contact];
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact->GetManifold()->pointCount); ++i) {
     const b2Vec2 relative =
         a.GetLinearVelocityFromWorldPoint(world.points[i]) - b.GetLinearVelocityFromWorldPoint(world.points[i]);
@@ -65,7 +65,7 @@ void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impu
   if (!recording_) {
     return;
   }
-  Record& record = records_[contact];
+  ContactRecord& record = records_[contact];
   for (std::size_t i = 0; i < static_cast<std::size_t>(impulse->count); ++i) {
     record.normal[i] += impulse->normalImpulses[i];
     record.tangent[i] += impulse->tangentImpulses[i];
@@ -100,19 +100,18 @@ void ContactListener::append(b2Contact& contact, BodyIndex a, std::vector<Contac
   contact.GetWorldManifold(&world);
   const Vec2 normal = from_engine(world.normal);
   const Vec2 tangent = from_engine(b2Cross(world.normal, 1.0F));
-  const auto record = records_.find(&contact);
+  const ContactRecord* record = records_.find(&contact);
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.GetManifold()->pointCount); ++i) {
     const b2ManifoldPoint& point = contact.GetManifold()->points[i];
-    const bool known = record != records_.end();
+    const bool known = record != nullptr;
     Contact<2> c;
     c.a = a;
     c.b = owner_of(a_is_first ? second : first);
     c.point = from_engine(world.points[i]);
     c.normal = sign * normal;
-    c.normal_impulse = known ? record->second.normal[i] : static_cast<double>(point.normalImpulse);
-    c.friction_impulse =
-        sign * (known ? record->second.tangent[i] : static_cast<double>(point.tangentImpulse)) * tangent;
-    c.approach_speed = known ? record->second.approach[i] : 0.0;
+    c.normal_impulse = known ? record->normal[i] : static_cast<double>(point.normalImpulse);
+    c.friction_impulse = sign * (known ? record->tangent[i] : static_cast<double>(point.tangentImpulse)) * tangent;
+    c.approach_speed = known ? record->approach[i] : 0.0;
     c.depth = -static_cast<double>(world.separations[i] + skin(first) + skin(second));
     out.push_back(c);
   }

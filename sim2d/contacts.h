@@ -3,12 +3,11 @@
 
 #include <box2d/box2d.h>
 
-#include <array>
-#include <unordered_map>
 #include <vector>
 
 #include "common/world/body.h"
 #include "common/world/world_description.h"
+#include "sim2d/contact_records.h"
 #include "sim2d/continuous.h"
 #include "sim2d/warm_start.h"
 
@@ -33,11 +32,6 @@ class ContactListener final : public b2ContactListener {
   void gather(b2Body& body, BodyIndex index, std::vector<Contact<2>>& out);
 
  private:
-  struct Record {
-    std::array<double, b2_maxManifoldPoints> approach{};  // [m/s]
-    std::array<double, b2_maxManifoldPoints> normal{};    // [N s]
-    std::array<double, b2_maxManifoldPoints> tangent{};   // [N s]
-  };
   void append(b2Contact& contact, BodyIndex a, std::vector<Contact<2>>& out) const;
 
   const WarmStart* warm_start_;
@@ -45,8 +39,8 @@ class ContactListener final : public b2ContactListener {
   bool mix_restitutions_;
   bool sleepers_ = false;
   bool recording_ = false;
-  std::unordered_map<const b2Contact*, Record> records_;  // looked up, never walked
-  std::vector<b2Contact*> touching_;                      // scratch
+  ContactRecords records_;
+  std::vector<b2Contact*> touching_;  // scratch
 };
 
 }  // namespace talus::box2d
