@@ -37,7 +37,7 @@ template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
   emitter_.emit(*world_, time());
-  if (watched()) watchdog_.note_added(world_->states());
+  if (watched()) watchdog_.note_added(world_->states(), step_);
   phases_.emit = watch.lap();
   world_->step();
   ++step_;

@@ -9,6 +9,7 @@
 namespace talus {
 namespace {
 
+constexpr double patience = 2.0;      // [s]: so long a due body may wait for its place without being missed
 constexpr double contact_gap = 0.01;  // [m]: so far engines let bodies that rest sink in, however thin
 constexpr double near_limit = 0.999;  // share of a limit; engines compute in single precision
 
@@ -36,6 +37,14 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
       speed_squared_(at_limit(limits.speed)),
       spin_squared_(at_limit(limits.spin)) {
   for (const Source<Dim>& source : sources_) bodies_asked_ += source.count;
+}
+
+template <int Dim>
+void Watchdog<Dim>::note_added(const BodyStates<Dim>& states, std::int64_t step) {
+  ledger_.note_added(states);
+  if (states.size() == appeared_) return;
+  appeared_ = states.size();
+  last_appearance_ = step;
 }
 
 template <int Dim>
@@ -109,12 +118,22 @@ void Watchdog<Dim>::note(WarningKind kind, BodyIndex body, std::int64_t step, do
 }
 
 template <int Dim>
+int Watchdog<Dim>::due_by(double time) const {
+  const auto add = [time](int sum, const Source<Dim>& source) { return sum + source.due_by(time); };
+  return std::accumulate(sources_.begin(), sources_.end(), 0, add);
+}
+
+/// A pour that the end of the run cuts short is late, not blocked: bodies are missed only when the last one was due
+/// long ago, or when one was due long ago and none has appeared since.
+template <int Dim>
 void Watchdog<Dim>::finish(const World<Dim>& world, std::int64_t step) {
-  if (step == 0) return;
+  const int appeared = world.states().size();
   const double last_emission = static_cast<double>(step - 1) * dt_;
-  const auto add_due = [&](int sum, const Source<Dim>& source) { return sum + source.due_by(last_emission); };
-  const int missing = std::accumulate(sources_.begin(), sources_.end(), 0, add_due) - world.states().size();
-  if (missing <= 0) return;
+  const int due_long_ago = due_by(last_emission - patience);
+  const bool over = due_long_ago == bodies_asked_;
+  const bool stalled = due_long_ago > appeared && static_cast<double>(step - last_appearance_) * dt_ > patience;
+  const int missing = due_by(last_emission) - appeared;
+  if (missing <= 0 || !(over || stalled)) return;
   warnings_.push_back(
       {.kind = WarningKind::not_appeared, .step = step, .bodies = missing, .value = static_cast<double>(missing)});
 }

@@ -17,8 +17,8 @@ class Watchdog {
  public:
   Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits);
 
-  /// Bodies added since the last call, before the step that moves them.
-  void note_added(const BodyStates<Dim>& states) { ledger_.note_added(states); }
+  /// Bodies added since the last call, before the step that moves them; `step` counts the steps done.
+  void note_added(const BodyStates<Dim>& states, std::int64_t step);
 
   /// Before an awake body gets a new velocity from outside the engine.
   void note_velocity(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
@@ -37,6 +37,7 @@ class Watchdog {
   int bodies_asked() const { return bodies_asked_; }
 
  private:
+  int due_by(double time) const;
   void look_at_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
   void look_at_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
   void look_at_energy(const World<Dim>& world, std::int64_t step);
@@ -51,6 +52,8 @@ class Watchdog {
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
   int bodies_asked_ = 0;
+  BodyIndex appeared_ = 0;
+  std::int64_t last_appearance_ = 0;  // [steps]
   std::vector<Warning> warnings_;
   std::vector<std::uint8_t> seen_;  // by body: bit k for kind k; empty until the first warning
 };

@@ -59,8 +59,6 @@ void fetch(const btManifoldPoint& point) {
   }
 }
 
-bool is_heavy(const btVector3& inv_mass) { return inv_mass.fuzzyZero(); }
-
 }  // namespace
 
 /// Three rows' parts on one of the two bodies.
@@ -138,8 +136,8 @@ void RowSetup::find_contacts(std::span<btPersistentManifold*> manifolds, RowSyst
   };
   for (btPersistentManifold* manifold : manifolds) {
     const RowBodies sides = {index_of(manifold->getBody0()), index_of(manifold->getBody1())};
-    if (is_heavy(to_vector(system.body(sides.a).inv_mass)) && is_heavy(to_vector(system.body(sides.b).inv_mass))) {
-      continue;
+    if (to_vector(system.body(sides.a).inv_mass).fuzzyZero() && to_vector(system.body(sides.b).inv_mass).fuzzyZero()) {
+      continue;  // Bullet takes bodies as heavy as that for immovable
     }
     for (int i = 0; i < manifold->getNumContacts(); ++i) {
       btManifoldPoint& point = manifold->getContactPoint(i);

@@ -30,7 +30,7 @@ class Watch {
     body.pose.position = {x, height};
     body.velocity = velocity;
     const BodyIndex index = world.add(body);
-    dog_.note_added(world.states());
+    dog_.note_added(world.states(), step_);
     return index;
   }
   void step(int steps = 1) {
@@ -125,13 +125,14 @@ TEST(Watchdog, SeesABodyAtTheSpinLimit) {
   body.pose.position = {0.0, 5.0};
   body.spin[0] = -5.0;
   watch.world.add(body);
-  watch.dog().note_added(watch.world.states());
+  watch.dog().note_added(watch.world.states(), 0);
   watch.step(1);
   ASSERT_EQ(watch.warnings().size(), 1U);
   EXPECT_EQ(watch.warnings()[0].kind, WarningKind::spin_limit);
 }
 
-TEST(Watchdog, CountsBodiesThatWereDueAndNeverAppeared) {
+/// Ten bodies are asked for, two a second; one appears at once and one after `second` steps.
+std::vector<Warning> warnings_of_a_pour(std::int64_t second, std::int64_t end) {
   Scene<2> asked = scene<2>();
   asked.sources.resize(1);
   asked.sources[0].count = 10;
@@ -139,11 +140,27 @@ TEST(Watchdog, CountsBodiesThatWereDueAndNeverAppeared) {
   Watchdog<2> dog(asked, {});
   FallingWorld<2> world(asked.world);
   world.add({});
+  dog.note_added(world.states(), 0);
+  world.add({});
+  dog.note_added(world.states(), second);
+  dog.finish(world, end);
   EXPECT_EQ(dog.bodies_asked(), 10);
-  dog.finish(world, 121);  // the last emission is at 2 s: bodies 0 to 4 are due
-  ASSERT_EQ(dog.warnings().size(), 1U);
-  EXPECT_EQ(dog.warnings()[0].kind, WarningKind::not_appeared);
-  EXPECT_EQ(dog.warnings()[0].bodies, 4);
+  return {dog.warnings().begin(), dog.warnings().end()};
+}
+
+TEST(Watchdog, CountsBodiesThatAStalledSourceNeverAdded) {
+  const std::vector<Warning> warnings = warnings_of_a_pour(30, 181);  // the last emission is at 3 s: 7 bodies are due
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].kind, WarningKind::not_appeared);
+  EXPECT_EQ(warnings[0].bodies, 5);
+}
+
+TEST(Watchdog, IsSilentAboutALatePourThatTheEndOfTheRunCutsShort) { EXPECT_TRUE(warnings_of_a_pour(170, 181).empty()); }
+
+TEST(Watchdog, CountsBodiesThatWereAllDueLongBeforeTheEnd) {
+  const std::vector<Warning> warnings = warnings_of_a_pour(490, 500);  // the last one was due at 4.5 s
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].bodies, 8);
 }
 
 TEST(Watchdog, IsSilentAboutBodiesThatAreNotYetDue) {

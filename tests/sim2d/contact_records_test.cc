@@ -3,6 +3,7 @@
 #include "sim2d/contact_records.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
 #include <bit>
