@@ -63,7 +63,7 @@ std::string_view decode(std::span<const std::uint8_t> bytes, Message& message) {
   if (bytes.size() > max_message_bytes) return "too long";
   if constexpr (std::is_same_v<Message, talus_stats_v2>) {
     if (is_of_type<talus_stats_v1>(bytes)) {
-      talus_stats_v1 old;
+      talus_stats_v1 old{};
       const std::string_view fault = decode(bytes, old);
       if (fault.empty()) message = newest(old);
       return fault;

@@ -59,7 +59,7 @@ std::string effective_url(const std::string& url) {
 }
 
 std::string receiving_url(const std::string& url) {
-  const std::string address = effective_url(url);
+  std::string address = effective_url(url);
   const int bytes = largest_receive_buffer();
   if (!is_multicast(address) || address.find("recv_buf_size=") != std::string::npos || bytes == 0) return address;
   return fmt::format("{}{}recv_buf_size={}", address, address.find('?') == std::string::npos ? '?' : '&', bytes);

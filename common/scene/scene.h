@@ -25,7 +25,7 @@ struct Source {
   // Bodies that appear at once, in rows along each axis, the lowest at the height of `position`. A grid of n is dropped
   // as a whole, the next one n / rate later. [1, 1, 1]: one body at a time.
   Eigen::Matrix<int, Dim, 1> grid = Eigen::Matrix<int, Dim, 1>::Ones();
-  Vec<Dim> spacing = Vec<Dim>::Zero();            // [m] >= 0, between rows, from middle to middle
+  Vec<Dim> spacing = Vec<Dim>::Zero();  // [m] >= 0, between rows, from middle to middle
   // [m] >= 0, uniform to both sides of `position` on each axis. The scene reader's default is default_spread().
   Vec<Dim> spread = Vec<Dim>::Zero();
   Vec<Dim> velocity = Vec<Dim>::Zero();           // [m/s]
@@ -38,7 +38,10 @@ struct Source {
 
   int bodies_at_once() const { return grid.prod(); }
   /// When the body of this number is due, from 0 on [s].
-  double due_time(int number) const { return start + number / bodies_at_once() * bodies_at_once() / rate; }
+  double due_time(int number) const {
+    const int before_its_grid = number - number % bodies_at_once();
+    return start + before_its_grid / rate;
+  }
   /// Bodies that are due by `time` [s], up to `count`.
   int due_by(double time) const;
   /// From the middle of the grid's first row to that of its last, along each axis [m].

@@ -80,15 +80,15 @@ CasePlot convergence_plot(MeasureId y, Bars bars, const std::string& caption) {
 
 }  // namespace
 
-void bench_convergence(const BenchOptions& asked) {
-  BenchOptions options = asked;
-  options.errors = true;
-  options.reference = false;
-  if (options.backends.empty()) {
-    for (const int dimension : {2, 3}) std::ranges::copy(backends(dimension), std::back_inserter(options.backends));
+void bench_convergence(const BenchOptions& options) {
+  BenchOptions own = options;
+  own.errors = true;
+  own.reference = false;
+  if (own.backends.empty()) {
+    for (const int dimension : {2, 3}) std::ranges::copy(backends(dimension), std::back_inserter(own.backends));
   }
   // 15 s of pour, 15 s after it.
-  if (options.settings.empty()) options.settings = {"source[0].count=100", "run.frames=900"};
+  if (own.settings.empty()) own.settings = {"source[0].count=100", "run.frames=900"};
   run_report(
       {.title = "Convergence of the full simulation",
        .note = "Full runs at several steps, iterations and friction directions. The simulation counts as converged "
@@ -101,7 +101,7 @@ void bench_convergence(const BenchOptions& asked) {
                  convergence_plot("r50", Bars::deviation, "Radius of half of the bodies, bars of one deviation."),
                  convergence_plot("settling_per_minute", Bars::none,
                                   "Share of its height that the finished pile loses per minute.")}},
-      options);
+      own);
 }
 
 }  // namespace talus

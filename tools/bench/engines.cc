@@ -55,32 +55,32 @@ Table side_by_side(const BenchRunner& runner, const std::vector<EngineGroups>& s
 
 }  // namespace
 
-void bench_engines(const BenchOptions& asked) {
-  BenchOptions options = asked;
-  options.errors = true;
-  options.reference = false;
-  if (!options.quick) options.seeds = std::max(options.seeds, least_seeds);
-  if (options.backends.empty()) options.backends = backends(2);
+void bench_engines(const BenchOptions& options) {
+  BenchOptions own = options;
+  own.errors = true;
+  own.reference = false;
+  if (!own.quick) own.seeds = std::max(own.seeds, least_seeds);
+  if (own.backends.empty()) own.backends = backends(2);
   const std::vector<std::string> names = {"drop_in_a_pile_2d",    "varying_drops_2d",  "multiple_piles_2d",
                                           "bunny_matrices_45_2d", "drop_in_a_line_2d", "rings_in_a_box_2d"};
   std::vector<EngineGroups> scenes;
   std::vector<BenchGroup> groups;
-  for (const std::string& scene : scenes_of(options, names, 2)) {
+  for (const std::string& scene : scenes_of(own, names, 2)) {
     if (dimension_of(scene) != 2) continue;
     scenes.emplace_back();
-    for (const std::string& backend : backends_of(options, scene)) {
-      scenes.back().push_back(policies_group(options, scene, backend));
+    for (const std::string& backend : backends_of(own, scene)) {
+      scenes.back().push_back(policies_group(own, scene, backend));
       groups.push_back(scenes.back().back());
     }
   }
-  BenchRunner runner(options);
+  BenchRunner runner(own);
   runner.run(groups);
   BenchResults results{"The same scenes on every engine", {}, {}};
   results.notes.push_back(fmt::format(
       "2D scenes over {} independent seeds; mean ± standard deviation of one run. \"off / sd\" is the distance from "
       "the first engine's mean in standard deviations of one run. Engines differ in contact margins and friction "
       "models, so not all distances are chance.",
-      options.seeds));
+      own.seeds));
   results.sections.push_back({"Side by side", {side_by_side(runner, scenes)}});
   std::ranges::move(common_sections(runner, groups), std::back_inserter(results.sections));
   write_results(runner, groups, results);

@@ -51,10 +51,10 @@ std::vector<BenchGroup> pareto_groups(const BenchOptions& options, const std::st
 
 }  // namespace
 
-void bench_pareto(const BenchOptions& asked) {
-  BenchOptions options = asked;
-  options.errors = true;
-  const Pass pass = options.reference ? Pass::against_reference : Pass::against_full;
+void bench_pareto(const BenchOptions& options) {
+  BenchOptions own = options;
+  own.errors = true;
+  const Pass pass = own.reference ? Pass::against_reference : Pass::against_full;
   std::vector<CaseColumn> columns = name_columns();
   std::vector<CasePlot> plots;
   columns.push_back(plain("seconds"));
@@ -72,12 +72,12 @@ void bench_pareto(const BenchOptions& asked) {
       {.title = "Time against error",
        .note = fmt::format("Each curve is a policy over one parameter; down and to the left is better. Errors are "
                            "against the {}.",
-                           options.reference ? "converged reference" : "full run at the scene's settings"),
+                           own.reference ? "converged reference" : "full run at the scene's settings"),
        .scenes = {"drop_in_a_pile"},
        .groups = pareto_groups,
        .columns = columns,
        .plots = plots},
-      options);
+      own);
 }
 
 }  // namespace talus

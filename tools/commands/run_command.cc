@@ -5,48 +5,64 @@
 
 namespace talus {
 
-void add_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("run", "Simulate a scene and leave a run folder");
-  command->footer(
-      "Examples:\n"
-      "  talus run drop_in_a_pile_2d\n"
-      "  talus run scenes/drop_in_a_pile_3d.toml --policy full --out runs/reference\n"
-      "  talus run drop_in_a_pile_2d --backend bullet-planar --set policy.tau=0.3 --set pile[0].alpha_deg=25\n\n"
-      "Exit code: 0 done, 1 the run failed (with --strict: or gave a warning), 2 bad input, 130 interrupted "
-      "(everything up to then is saved).");
-  auto options = std::make_shared<RunOptions>();
-  command->add_option("scene", options->scene, "Scene file, or the name of a scene that `talus list` shows")
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  talus run drop_in_a_pile_2d\n"
+    "  talus run scenes/drop_in_a_pile_3d.toml --policy full --out runs/reference\n"
+    "  talus run drop_in_a_pile_2d --backend bullet-planar --set policy.tau=0.3 --set pile[0].alpha_deg=25\n\n"
+    "Exit code: 0 done, 1 the run failed (with --strict: or gave a warning), 2 bad input, 130 interrupted "
+    "(everything up to then is saved).";
+
+/// What is run.
+void add_scene_options(CLI::App& command, RunOptions& options) {
+  command.add_option("scene", options.scene, "Scene file, or the name of a scene that `talus list` shows")
       ->required()
       ->check(not_empty());
-  command->add_option("-b,--backend", options->backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D")
+  command.add_option("-b,--backend", options.backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D")
       ->check(not_empty());
   command
-      ->add_option("-p,--policy", options->policy,
-                   "Which bodies may sleep: full (none), engine (the engine's own rule), paper, adaptive")
+      .add_option("-p,--policy", options.policy,
+                  "Which bodies may sleep: full (none), engine (the engine's own rule), paper, adaptive")
       ->check(not_empty());
-  command->add_option("-s,--set", options->settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
+  command.add_option("-s,--set", options.settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--seed", options->seed, "Seed of all that is random in the scene, 0 or more");
-  command->add_option("-o,--out", options->out, "Run folder, new or empty; without it a new one under runs/")
+  command.add_option("--seed", options.seed, "Seed of all that is random in the scene, 0 or more");
+}
+
+/// What the run leaves, sends and prints.
+void add_output_options(CLI::App& command, RunOptions& options) {
+  command.add_option("-o,--out", options.out, "Run folder, new or empty; without it a new one under runs/")
       ->check(not_empty());
   auto* url = command
-                  ->add_option("--lcm-url", options->lcm_url,
-                               "Where to publish; default: LCM_DEFAULT_URL, else this machine only")
+                  .add_option("--lcm-url", options.lcm_url,
+                              "Where to publish; default: LCM_DEFAULT_URL, else this machine only")
                   ->check(not_empty());
-  command->add_option("--telemetry-hz", options->telemetry_hz, "Pile messages a second of wall time; 0: one a step")
+  command.add_option("--telemetry-hz", options.telemetry_hz, "Pile messages a second of wall time; 0: one a step")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
-  command->add_flag("!--no-telemetry", options->telemetry, "Publish nothing over LCM")->excludes(url);
+  command.add_flag("!--no-telemetry", options.telemetry, "Publish nothing over LCM")->excludes(url);
   auto* against =
       command
-          ->add_option("--against", options->against,
-                       "Afterwards time the scene under this policy and under --policy, several rounds in turn; print "
-                       "how many times faster the run is: median and range")
+          .add_option("--against", options.against,
+                      "Afterwards time the scene under this policy and under --policy, several rounds in turn; print "
+                      "how many times faster the run is: median and range")
           ->check(not_empty());
-  command->add_flag("--strict", options->strict, "Exit with 1 when a body was lost or the run gave any other warning");
-  command->add_flag("--hash", options->hash_only, "Print the end hash and nothing else; no folder unless --out")
+  command.add_flag("--strict", options.strict, "Exit with 1 when a body was lost or the run gave any other warning");
+  command.add_flag("--hash", options.hash_only, "Print the end hash and nothing else; no folder unless --out")
       ->excludes(against);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("run", "Simulate a scene and leave a run folder");
+  command->footer(footer);
+  auto options = std::make_shared<RunOptions>();
+  add_scene_options(*command, *options);
+  add_output_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

@@ -14,6 +14,36 @@ namespace {
 using Point = HACD::Vec3<HACD::Real>;
 using Indices = HACD::Vec3<long>;
 
+/// The parts that HACD found, as hulls of their corners.
+std::vector<Mesh> parts_of(HACD::HACD& decomposition) {
+  std::vector<Mesh> parts;
+  for (std::size_t k = 0; k < decomposition.GetNClusters(); ++k) {
+    std::vector<Point> corners(decomposition.GetNPointsCH(k));
+    std::vector<Indices> faces(decomposition.GetNTrianglesCH(k));
+    decomposition.GetCH(k, corners.data(), faces.data());
+    std::vector<Vec3> places;
+    for (const Point& corner : corners) {
+      places.emplace_back(corner.X(), corner.Y(), corner.Z());
+    }
+    const Mesh part = hull_mesh(places);  // HACD's own triangles are not needed
+    if (!part.triangles.empty()) {
+      parts.push_back(repaired(part));
+    }
+  }
+  return parts;
+}
+
+void set_params(HACD::HACD& decomposition, const ConvexPartsParams& params) {
+  decomposition.SetNClusters(static_cast<std::size_t>(params.parts));
+  decomposition.SetConcavity(std::numeric_limits<double>::max());  // the number of parts alone decides when to stop
+  decomposition.SetVolumeWeight(0.0);
+  // Without these further points it sees hollows at corners only, and joins what lies across them.
+  decomposition.SetAddExtraDistPoints(true);
+  decomposition.SetAddNeighboursDistPoints(true);
+  decomposition.SetAddFacesPoints(true);
+  decomposition.SetNVerticesPerCH(static_cast<std::size_t>(params.corners));
+}
+
 }  // namespace
 
 std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params) {
@@ -34,30 +64,9 @@ std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params
   decomposition.SetNPoints(points.size());
   decomposition.SetTriangles(triangles.data());
   decomposition.SetNTriangles(triangles.size());
-  decomposition.SetNClusters(static_cast<std::size_t>(params.parts));
-  decomposition.SetConcavity(std::numeric_limits<double>::max());  // the number of parts alone decides when to stop
-  decomposition.SetVolumeWeight(0.0);
-  // Without these further points it sees hollows at corners only, and joins what lies across them.
-  decomposition.SetAddExtraDistPoints(true);
-  decomposition.SetAddNeighboursDistPoints(true);
-  decomposition.SetAddFacesPoints(true);
-  decomposition.SetNVerticesPerCH(static_cast<std::size_t>(params.corners));
+  set_params(decomposition, params);
   decomposition.Compute();
-  std::vector<Mesh> parts;
-  for (std::size_t k = 0; k < decomposition.GetNClusters(); ++k) {
-    std::vector<Point> corners(decomposition.GetNPointsCH(k));
-    std::vector<Indices> faces(decomposition.GetNTrianglesCH(k));
-    decomposition.GetCH(k, corners.data(), faces.data());
-    std::vector<Vec3> places;
-    for (const Point& corner : corners) {
-      places.emplace_back(corner.X(), corner.Y(), corner.Z());
-    }
-    const Mesh part = hull_mesh(places);  // HACD's own triangles are not needed
-    if (!part.triangles.empty()) {
-      parts.push_back(repaired(part));
-    }
-  }
-  return parts;
+  return parts_of(decomposition);
 }
 
 }  // namespace talus

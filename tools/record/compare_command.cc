@@ -140,7 +140,9 @@ void print_head(const Json& run, char letter) {
   print_result("{}: {}: {}, policy {}, {} steps, {} bodies, {} sleep events\n", letter, printed(run["run"]),
                printed(run["backend"]), printed(run["policy"]), run["steps"].get<std::int64_t>(),
                run["bodies"].get<int>(), run["sleep_events"].get<int>());
-  if (run["damage"] != "") print_result("   the record is damaged: {}\n", run["damage"].get<std::string>());
+  if (const auto damage = run["damage"].get<std::string>(); !damage.empty()) {
+    print_result("   the record is damaged: {}\n", damage);
+  }
 }
 
 void print_settings(const Json& settings) {

@@ -56,45 +56,67 @@ BodyStates<Dim> states_at(const Trajectory<Dim>& run, int frame) {
   return states;
 }
 
+/// Which recorded frames a film shows.
+struct Cut {
+  int first = 0;
+  int last = 0;
+  /// Recorded frames from one shown frame to the next.
+  double step = 1.0;
+  /// For which a frame is shown.
+  int milliseconds = 0;
+};
+
 template <int Dim>
-void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
-  const Trajectory<Dim>& frames = run.frames;
+Cut cut_of(const FilmOptions& options, const Trajectory<Dim>& frames) {
   require(frames.frames() > 0, "run", options.run, "must have recorded a frame");
-  const auto input_at = [&](const BodyStates<Dim>& states, double time) {
-    return PictureInput<Dim>{run.scene.world.shapes,
-                             states,
-                             {},
-                             run.scene.world.obstacles,
-                             run.scene.world.ground,
-                             printable(run.scene.title),
-                             printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time))};
-  };
-  const auto last = std::min(
-      frames.frames() - 1, options.to < 0.0 ? frames.frames() - 1 : static_cast<int>(options.to / frames.frame_time()));
-  const auto first = static_cast<int>(options.from / frames.frame_time());
-  require(first <= last, "--from", options.from, "must lie within the run");
-  const BodyStates<Dim> end = states_at(frames, last);
+  const double frame_time = frames.frame_time();
+  const double end = frames.frames() - 1;
+  Cut cut;
+  cut.last = static_cast<int>(options.to < 0.0 ? end : std::min(end, options.to / frame_time));
+  require(options.from <= cut.last * frame_time, "--from", options.from, "must lie within the run");
+  cut.first = static_cast<int>(options.from / frame_time);
+  cut.step = std::max(1.0, options.speed / options.rate / frame_time);
+  cut.milliseconds = static_cast<int>(std::lround(1e3 * cut.step * frame_time / options.speed));
+  return cut;
+}
+
+PictureParams params_of(const FilmOptions& options) {
   PictureParams params;
   params.width = options.width;
   params.height = options.width;
   params.font_size = std::max(11.0, options.width / 50.0);
   params.margin = options.width / 30.0;
-  const FilmFrames<Dim> page(input_at(end, 0.0), params);
+  return params;
+}
+
+template <int Dim>
+PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame) {
+  const double time = static_cast<double>(run.frames.step(frame)) * run.frames.step_time();
+  return {run.scene.world.shapes,
+          states,
+          {},
+          run.scene.world.obstacles,
+          run.scene.world.ground,
+          printable(run.scene.title),
+          printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time))};
+}
+
+template <int Dim>
+void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
+  constexpr int pause = 1500;  // [ms] on the last frame
+  const Cut cut = cut_of(options, run.frames);
+  const BodyStates<Dim> end = states_at(run.frames, cut.last);
+  const FilmFrames<Dim> page(input_at(run, end, cut.last), params_of(options));
   const bool progress = isatty(STDERR_FILENO) != 0;
   std::unique_ptr<WebpFilm> webp;
-  const double step = std::max(1.0, options.speed / options.rate / frames.frame_time());
-  const int milliseconds = static_cast<int>(std::lround(1e3 * step * frames.frame_time() / options.speed));
-  for (double at = first; at <= last; at += step) {
+  for (double at = cut.first; at <= cut.last; at += cut.step) {
     int frame = static_cast<int>(at);
-    while (frame > 0 && frames.lost(frame)) --frame;  // the record is damaged
-    const BodyStates<Dim> states = states_at(frames, frame);
-    const double time = static_cast<double>(frames.step(frame)) * frames.step_time();
-    const Image image = page.draw(input_at(states, time));
+    while (frame > 0 && run.frames.lost(frame)) --frame;  // the record is damaged
+    const BodyStates<Dim> states = states_at(run.frames, frame);
+    const Image image = page.draw(input_at(run, states, frame));
     if (!webp) webp = std::make_unique<WebpFilm>(image.width, image.height);
-    const bool ends = at + step > last;
-    constexpr int pause = 1500;  // [ms] on the last frame
-    webp->add(image, ends ? pause : milliseconds);
-    if (progress) write_note(fmt::format("\r{:.0f} %", 100.0 * (at - first + 1.0) / (last - first + 1.0)));
+    webp->add(image, at + cut.step > cut.last ? pause : cut.milliseconds);
+    if (progress) write_note(fmt::format("\r{:.0f} %", 100.0 * (at - cut.first + 1.0) / (cut.last - cut.first + 1.0)));
   }
   webp->write(options.out);
   if (progress) write_note("\r     \r");

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/measure/trajectory.h"
-#include "common/scene/scene.h"
 #include "common/policy/sleep_event.h"
+#include "common/scene/scene.h"
 
 namespace talus {
 

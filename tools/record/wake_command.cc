@@ -121,7 +121,9 @@ void print_wake(const Json& json) {
   const auto text = [&](const char* key) { return printable(json[key].get<std::string>()); };
   print_result("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", text("run"), text("backend"),
                text("policy"), json["step"].get<std::int64_t>(), json["bodies"].get<int>(), json["asleep"].get<int>());
-  if (json["damage"] != "") print_result("the record is damaged: {}\n", json["damage"].get<std::string>());
+  if (const auto damage = json["damage"].get<std::string>(); !damage.empty()) {
+    print_result("the record is damaged: {}\n", damage);
+  }
   print_unfinished(json["unfinished"]);
   print_result("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
   print_result("sleepers below ground: {} (must be 0)\n", json["sunken_sleepers"].get<int>());

@@ -118,49 +118,58 @@ Json warnings_json(std::span<const Warning> warnings) {
   return list;
 }
 
+template <int Dim>
+Json piles_json(const PileSet<Dim>& piles) {
+  Json list = Json::array();
+  for (const Pile<Dim>& pile : piles.piles()) {
+    list.push_back({{"centre", std::vector<double>(pile.centre.begin(), pile.centre.end())},
+                    {"structure_size", pile.structure_size},
+                    {"layers", pile.layers.size()},
+                    {"occupation_ratio", pile.occupation_ratio()}});
+  }
+  return list;
+}
+
+template <int Dim>
+Json statistics_json(const RunStatistics<Dim>& statistics) {
+  return {{"steps", statistics.steps()},
+          {"ms_per_step", statistics.mean_step_ms()},
+          {"ms_per_step_last_100", statistics.last_step_ms()},
+          {"ms_per_phase", phases_json(statistics.sum(), static_cast<double>(statistics.steps()))},
+          {"mean_awake", statistics.mean_awake()},
+          {"slept_events", statistics.slept()},
+          {"woken_events", statistics.woken()},
+          {"work_skipped", statistics.work_skipped()}};
+}
+
 }  // namespace
 
 template <int Dim>
 void write_summary(const fs::path& file, const SummaryInput& input, const Scene<Dim>& scene,
                    const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics) {
   const World<Dim>& world = simulation.world();
-  const PileSet<Dim>& piles = simulation.piles();
   const auto bodies = world.states().shape.size();
-  Json piles_json = Json::array();
-  for (const Pile<Dim>& pile : piles.piles()) {
-    piles_json.push_back({{"centre", std::vector<double>(pile.centre.begin(), pile.centre.end())},
-                          {"structure_size", pile.structure_size},
-                          {"layers", pile.layers.size()},
-                          {"occupation_ratio", pile.occupation_ratio()}});
-  }
-  const Json summary = {{"talus", version_text()},
-                        {"build", build_text()},
-                        {"scene", input.scene_name},
-                        {"title", scene.title},
-                        {"backend", input.backend},
-                        {"policy", scene.policy.kind},
-                        {"seed", scene.seed},
-                        {"settings", settings_json(scene)},
-                        {"reason", input.reason},
-                        {"bodies", bodies},
-                        {"bodies_asked", simulation.emitter().total()},
-                        {"bodies_appeared", simulation.emitter().emitted()},
-                        {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
-                        {"warnings", warnings_json(simulation.warnings())},
-                        {"steps", statistics.steps()},
-                        {"wall_s", input.wall_seconds},
-                        {"ms_per_step", statistics.mean_step_ms()},
-                        {"ms_per_step_last_100", statistics.last_step_ms()},
-                        {"ms_per_phase", phases_json(statistics.sum(), static_cast<double>(statistics.steps()))},
-                        {"mean_awake", statistics.mean_awake()},
-                        {"asleep_at_end", bodies - world.awake().size()},
-                        {"slept_events", statistics.slept()},
-                        {"woken_events", statistics.woken()},
-                        {"emit_waits", input.emit_waits},
-                        {"work_skipped", statistics.work_skipped()},
-                        {"shape", shape_json(scene, world, piles.typical_body().extent)},
-                        {"piles", piles_json},
-                        {"end_hash", fmt::format("{:016x}", state_hash(world.states()))}};
+  Json summary = {{"talus", version_text()},
+                  {"build", build_text()},
+                  {"scene", input.scene_name},
+                  {"title", scene.title},
+                  {"backend", input.backend},
+                  {"policy", scene.policy.kind},
+                  {"seed", scene.seed},
+                  {"settings", settings_json(scene)},
+                  {"reason", input.reason},
+                  {"bodies", bodies},
+                  {"bodies_asked", simulation.emitter().total()},
+                  {"bodies_appeared", simulation.emitter().emitted()},
+                  {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
+                  {"asleep_at_end", bodies - world.awake().size()},
+                  {"warnings", warnings_json(simulation.warnings())},
+                  {"emit_waits", input.emit_waits},
+                  {"wall_s", input.wall_seconds}};
+  summary.update(statistics_json(statistics));
+  summary["shape"] = shape_json(scene, world, simulation.piles().typical_body().extent);
+  summary["piles"] = piles_json(simulation.piles());
+  summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
   std::ofstream out(file);
   out << summary.dump(2) << '\n';
   if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
