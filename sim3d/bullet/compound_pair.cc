@@ -53,9 +53,9 @@ struct CompoundPair::Visit {
   const Side& second;
   const btDispatcherInfo& info;
   btManifoldResult& result;
-  Lanes column[3];  // of the transform from the second body's axes to the first's
-  Lanes size[3];    // the same without signs
-  Lanes origin;
+  Lanes column[3] = {splat(0), splat(0), splat(0)};  // of the transform from the second body's axes to the first's
+  Lanes size[3] = {splat(0), splat(0), splat(0)};    // the same without signs
+  Lanes origin = splat(0);
 };
 
 btCollisionAlgorithm* CompoundPair::Maker::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
@@ -166,8 +166,7 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
 /// Whether two pieces that do not touch are too far apart for points. First where they were apart last.
 bool CompoundPair::still_apart(PiecePair& pair, const WorldPiece& a, const WorldPiece& b) {
   if (is_box(a) && is_box(b)) {
-    const auto axis = static_cast<BoxAxis>(pair.apart);
-    if (axis < 0 || !apart_along(axis, box(a), a.place, box(b), b.place)) {
+    if (pair.apart < 0 || !apart_along(pair.apart, box(a), a.place, box(b), b.place)) {
       pair.apart = separating_axis(box(a), a.place, box(b), b.place);
     }
     return pair.apart >= 0;

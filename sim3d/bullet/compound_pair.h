@@ -61,9 +61,9 @@ class CompoundPair final : public btCollisionAlgorithm {
  private:
   /// Two pieces whose bounding boxes overlap.
   struct PiecePair {
-    int first;
-    int second;
-    btCollisionAlgorithm* algorithm;
+    int first = 0;
+    int second = 0;
+    btCollisionAlgorithm* algorithm = nullptr;
     btPersistentManifold* manifold = nullptr;  // the algorithm's; null before its first point
     bool may_touch = true;                     // false: its manifold is known to be empty, and need not be looked at
     FaceAxis apart = -1;                       // where two boxes (BoxAxis) or two polyhedra were apart last

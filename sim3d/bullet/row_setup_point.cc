@@ -80,8 +80,8 @@ struct RowSetup::Side {
   }
   Vectors turn;
   Vectors effect;
-  Lanes approach;  // velocity along the direction [m/s]
-  Lanes response;  // velocity per impulse [1/kg]
+  Lanes approach = splat(0);  // velocity along the direction [m/s]
+  Lanes response = splat(0);  // velocity per impulse [1/kg]
 };
 
 struct RowSetup::Sides {

@@ -9,7 +9,7 @@
 namespace talus::bullet {
 
 /// Number of an edge direction: 0 to 2 of the first box, 3 to 5 of the second; -1: none.
-using BoxAxis = std::int8_t;
+using BoxAxis = std::int16_t;
 
 /// Whether the boxes' shadows on this axis (not -1) are apart by more than the rounding of any test of it.
 bool apart_along(BoxAxis axis, const btBoxShape& first, const btTransform& first_place, const btBoxShape& second,
