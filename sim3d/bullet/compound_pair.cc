@@ -20,6 +20,12 @@ const btDbvtNode& tree(const CompoundPair::Side& side) { return *compound(side.w
 bool is_box(const WorldPiece& piece) { return piece.shape->getShapeType() == BOX_SHAPE_PROXYTYPE; }
 const btBoxShape& box(const WorldPiece& piece) { return *static_cast<const btBoxShape*>(piece.shape); }
 
+/// Null: the piece has no corners.
+const btConvexPolyhedron* polyhedron(const WorldPiece& piece) {
+  return piece.shape->isPolyhedral() ? static_cast<const btPolyhedralConvexShape*>(piece.shape)->getConvexPolyhedron()
+                                     : nullptr;
+}
+
 }  // namespace
 
 struct CompoundPair::Visit {
@@ -47,9 +53,9 @@ struct CompoundPair::Visit {
   const Side& second;
   const btDispatcherInfo& info;
   btManifoldResult& result;
-  Lanes column[3];  // of the transform from the second body's axes to the first's
-  Lanes size[3];    // the same without signs
-  Lanes origin;
+  Lanes column[3] = {splat(0), splat(0), splat(0)};  // of the transform from the second body's axes to the first's
+  Lanes size[3] = {splat(0), splat(0), splat(0)};    // the same without signs
+  Lanes origin = splat(0);
 };
 
 btCollisionAlgorithm* CompoundPair::Maker::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
@@ -99,9 +105,8 @@ void CompoundPair::fetch_points() const {
   for (const PiecePair& pair : pieces_) {
     if (pair.may_touch && pair.manifold != nullptr) {
       const auto* memory = reinterpret_cast<const char*>(pair.manifold);
-      __builtin_prefetch(memory + sizeof(btPersistentManifold) - 64);
-      for (int line = 0; line < 4; ++line) {
-        __builtin_prefetch(memory + 64 * line);
+      for (std::size_t at = 0; at < sizeof(btPersistentManifold); at += 64) {
+        __builtin_prefetch(memory + at);
       }
     }
   }
@@ -147,8 +152,7 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
   const WorldPiece& a = visit.first.placed.pieces[static_cast<std::size_t>(first)];
   const WorldPiece& b = visit.second.placed.pieces[static_cast<std::size_t>(second)];
   const auto known = find(first, second);
-  if (known != pieces_.end() && !known->may_touch && known->apart >= 0 &&
-      apart_along(known->apart, box(a), a.place, box(b), b.place)) {
+  if (known != pieces_.end() && !known->may_touch && still_apart(*known, a, b)) {
     return;
   }
   const btCollisionObjectWrapper& whole_a = visit.first.whole;
@@ -157,8 +161,26 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
   const btCollisionObjectWrapper side_b(&whole_b, b.shape, whole_b.getCollisionObject(), b.place, -1, second);
   PiecePair& pair = known != pieces_.end() ? *known : add(first, second, side_a, side_b);
   work(pair, side_a, side_b, visit);
-  const bool boxes = is_box(a) && is_box(b);
-  pair.apart = boxes && !pair.may_touch ? separating_axis(box(a), a.place, box(b), b.place) : BoxAxis(-1);
+}
+
+/// Whether two pieces that do not touch are too far apart for points. First where they were apart last.
+bool CompoundPair::still_apart(PiecePair& pair, const WorldPiece& a, const WorldPiece& b) {
+  if (is_box(a) && is_box(b)) {
+    if (pair.apart < 0 || !apart_along(pair.apart, box(a), a.place, box(b), b.place)) {
+      pair.apart = separating_axis(box(a), a.place, box(b), b.place);
+    }
+    return pair.apart >= 0;
+  }
+  if (pair.manifold == nullptr || polyhedron(a) == nullptr || polyhedron(b) == nullptr) {
+    return false;
+  }
+  const PlacedPolyhedron first{polyhedron(a), a.place};
+  const PlacedPolyhedron second{polyhedron(b), b.place};
+  const btScalar gap = pair.manifold->getContactBreakingThreshold();
+  if (pair.apart < 0 || !apart_along(pair.apart, first, second, gap)) {
+    pair.apart = separating_face(first, second, gap);
+  }
+  return pair.apart >= 0;
 }
 
 void CompoundPair::work(PiecePair& pair, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,

@@ -13,10 +13,10 @@ namespace talus::bullet {
 
 /// Replaces btCompoundCompoundCollisionAlgorithm, to the bit. There each call places each pair of pieces again, builds
 /// and drops four contact manifolds on the stack, and each new pair asks for memory ten times. Here pieces are placed
-/// once a step (placed_pieces.h); where no boxes of pieces overlap, the trees of pieces are not walked; two boxes that
-/// do not touch and are apart along the same axis as in the last step are left alone, and with them the memory of
-/// their algorithm; the manifold of two pieces is kept beside them. The order in which pieces meet, come and go is
-/// Bullet's, since it decides the order in which the solver takes the contacts.
+/// once a step (placed_pieces.h); where no boxes of pieces overlap, the trees of pieces are not walked; two boxes or
+/// polyhedra that do not touch and are apart (separation.h) are left alone, and with them the memory of their algorithm
+/// and Bullet's search for their closest points; the manifold of two pieces is kept beside them. The order in which
+/// pieces meet, come and go is Bullet's, since it decides the order in which the solver takes the contacts.
 class CompoundPair final : public btCollisionAlgorithm {
  public:
   struct Maker;
@@ -61,18 +61,19 @@ class CompoundPair final : public btCollisionAlgorithm {
  private:
   /// Two pieces whose bounding boxes overlap.
   struct PiecePair {
-    int first;
-    int second;
-    btCollisionAlgorithm* algorithm;
+    int first = 0;
+    int second = 0;
+    btCollisionAlgorithm* algorithm = nullptr;
     btPersistentManifold* manifold = nullptr;  // the algorithm's; null before its first point
     bool may_touch = true;                     // false: its manifold is known to be empty, and need not be looked at
-    BoxAxis apart = -1;                        // of two boxes: where they were apart last
+    FaceAxis apart = -1;                       // where two boxes (BoxAxis) or two polyhedra were apart last
   };
   struct Visit;
 
   void refresh(btManifoldResult& result) const;
   void descend(const btDbvtNode& first, const btDbvtNode& second, const Visit& visit);
   void meet(int first, int second, const Visit& visit);
+  static bool still_apart(PiecePair& pair, const WorldPiece& a, const WorldPiece& b);
   void work(PiecePair& pair, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, const Visit& visit);
   PiecePair& add(int first, int second, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   std::vector<PiecePair>::iterator find(int first, int second);

@@ -16,11 +16,15 @@ struct IdleMark {
   std::int32_t first;
   std::int32_t second;
 
-  static bool is_set(const btBroadphasePair& pair) { return pair.m_internalInfo1 != nullptr; }
+  static bool is_set(const btBroadphasePair& pair) { return (bits_of(pair) & 1) != 0; }
   static void clear(btBroadphasePair& pair) { pair.m_internalInfo1 = nullptr; }
 
+  /// Not idle, and its algorithm is a CompoundPair.
+  static bool is_compound(const btBroadphasePair& pair) { return bits_of(pair) == compound; }
+  static void set_compound(btBroadphasePair& pair) { pair.m_internalInfo1 = reinterpret_cast<void*>(compound); }
+
   static IdleMark of(const btBroadphasePair& pair) {
-    const std::uint64_t bits = reinterpret_cast<std::uintptr_t>(pair.m_internalInfo1);
+    const std::uint64_t bits = bits_of(pair);
     return {static_cast<std::int32_t>(bits >> 32), static_cast<std::int32_t>((bits & 0xffffffff) >> 1)};
   }
 
@@ -30,6 +34,12 @@ struct IdleMark {
       const std::uint64_t bits = (static_cast<std::uint64_t>(first) << 32) | (static_cast<std::uint64_t>(second) << 1);
       pair.m_internalInfo1 = reinterpret_cast<void*>(static_cast<std::uintptr_t>(bits | 1));
     }
+  }
+
+ private:
+  static constexpr std::uintptr_t compound = 2;
+  static std::uintptr_t bits_of(const btBroadphasePair& pair) {
+    return reinterpret_cast<std::uintptr_t>(pair.m_internalInfo1);
   }
 };
 

@@ -25,14 +25,14 @@ void NearPairs::collide(const btDispatcherInfo& info) {
   }
 }
 
-// In three strides: the parts of a pair, then what only those lead to.
+// In four strides: the parts of a pair, then what only those lead to, down to the contact points.
 void NearPairs::fetch_ahead(int i) const {
   constexpr int stride = 4;
   const btBroadphasePairArray& pairs = const_cast<PairCache&>(pairs_).getOverlappingPairArray();
-  if (i + 3 * stride >= pairs.size()) {
+  if (i + 4 * stride >= pairs.size()) {
     return;
   }
-  const btBroadphasePair& far = pairs[i + 3 * stride];
+  const btBroadphasePair& far = pairs[i + 4 * stride];
   if (IdleMark::is_set(far)) {
     const IdleMark mark = IdleMark::of(far);
     const_cast<PairCache&>(pairs_).places().fetch(mark.first);
@@ -42,9 +42,16 @@ void NearPairs::fetch_ahead(int i) const {
     __builtin_prefetch(far.m_pProxy0);
     __builtin_prefetch(far.m_pProxy1);
   }
-  if (const btBroadphasePair& near = pairs[i + 2 * stride]; !IdleMark::is_set(near)) {
-    __builtin_prefetch(near.m_pProxy0->m_clientObject);
-    __builtin_prefetch(near.m_pProxy1->m_clientObject);
+  if (const btBroadphasePair& nearer = pairs[i + 3 * stride]; !IdleMark::is_set(nearer)) {
+    __builtin_prefetch(nearer.m_pProxy0->m_clientObject);
+    __builtin_prefetch(nearer.m_pProxy1->m_clientObject);
+  }
+  if (const btBroadphasePair& near = pairs[i + 2 * stride];
+      IdleMark::is_compound(near) && near.m_algorithm != nullptr) {
+    static_cast<const CompoundPair*>(near.m_algorithm)->fetch();
+  }
+  if (const btBroadphasePair& next = pairs[i + stride]; IdleMark::is_compound(next) && next.m_algorithm != nullptr) {
+    static_cast<const CompoundPair*>(next.m_algorithm)->fetch_points();
   }
 }
 
@@ -91,7 +98,7 @@ void NearPairs::meet(btBroadphasePair& pair, const btCollisionObject& first, con
   if (skip_idle_ && algorithm.is_empty() && slots.first >= 0 && slots.second >= 0) {
     slots.set(pair);
   } else {
-    IdleMark::clear(pair);
+    IdleMark::set_compound(pair);
   }
 }
 

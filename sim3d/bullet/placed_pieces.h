@@ -22,8 +22,8 @@ inline bool overlap(const PieceBox& a, const PieceBox& b) { return none_above(a.
 
 struct WorldPiece {
   btTransform place;
-  PieceBox box;
-  const btCollisionShape* shape;
+  PieceBox box = {splat(0), splat(0)};
+  const btCollisionShape* shape = nullptr;
 };
 
 /// The pieces of a compound shape where its body is, and a box around all of them.

@@ -4,53 +4,10 @@
 
 #include <algorithm>
 
-#include "sim3d/bullet/three_rows.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
 namespace {
-
-/// What the right-hand side of a point's normal row is made of.
-struct NormalTarget {
-  float rhs;   // impulse wanted [N s]
-  float deep;  // impulse that moves deep bodies apart without giving them velocity [N s]; 0: not deep
-};
-
-/// As the end of setupContactConstraint. `approach`: of the normal row [m/s]; `gain`: [kg].
-NormalTarget normal_target(const btManifoldPoint& point, const btContactSolverInfo& info, btScalar restitution,
-                           btScalar approach, btScalar gain) {
-  const btScalar inv_time_step = btScalar(1) / info.m_timeStep;
-  const btScalar penetration = point.getDistance() + info.m_linearSlop;
-  btScalar position_error = 0;
-  btScalar velocity_error = restitution - approach;
-  if (penetration > 0) {
-    velocity_error -= penetration * inv_time_step;
-  } else {
-    position_error = -penetration * info.m_erp2 * inv_time_step;
-  }
-  const btScalar for_position = position_error * gain;
-  const btScalar for_velocity = velocity_error * gain;
-  if (penetration > info.m_splitImpulsePenetrationThreshold) {
-    return {for_position + for_velocity, 0};
-  }
-  return {for_velocity, for_position};
-}
-
-/// Directions of friction, as convertContact chooses them: along the sliding and across, or any two.
-void choose_friction(btManifoldPoint& point, const btVector3& velocity, btScalar approach) {
-  const btVector3& normal = point.m_normalWorldOnB;
-  btVector3& along = point.m_lateralFrictionDir1;
-  btVector3& across = point.m_lateralFrictionDir2;
-  along = velocity - normal * approach;
-  const btScalar sliding = along.length2();
-  if (sliding > SIMD_EPSILON) {
-    along *= 1.F / btSqrt(sliding);
-    across = along.cross(normal);
-    across.normalize();
-  } else {
-    btPlaneSpace1(normal, along, across);
-  }
-}
 
 void fetch(const btManifoldPoint& point) {
   const auto* memory = reinterpret_cast<const char*>(&point);
@@ -60,24 +17,6 @@ void fetch(const btManifoldPoint& point) {
 }
 
 }  // namespace
-
-/// Three rows' parts on one of the two bodies.
-struct RowSetup::Side {
-  /// `axis`: the rows' directions on this body; `turn`: their torques.
-  Side(const Body& body, const btVector3& reach, const Vectors& axis, const Vectors& torque, bool second)
-      : turn(torque), effect(product(body.inv_inertia, torque, body.angular_factor)) {
-    if (body.rigid == nullptr) {
-      turn = {splat(0), splat(0), splat(0)};
-    }
-    const Vectors spin = three(body.pushed_spin, body.spin, body.spin);
-    approach = dot(second ? -axis : axis, same(body.velocity)) + dot(turn, spin);
-    response = splat(body.inv_mass) + dot(axis, cross(second ? -effect : effect, same(reach)));
-  }
-  Vectors turn;
-  Vectors effect;
-  Lanes approach;  // velocity along the direction [m/s]
-  Lanes response;  // velocity per impulse [1/kg]
-};
 
 void RowSetup::make(std::span<btCollisionObject*> bodies, std::span<btPersistentManifold*> manifolds,
                     const btContactSolverInfo& info, bool by_level, RowSystem& system) {
@@ -149,60 +88,6 @@ void RowSetup::find_contacts(std::span<btPersistentManifold*> manifolds, RowSyst
   }
 }
 
-void RowSetup::make_contact(std::size_t i, const btContactSolverInfo& info, RowSystem& system) {
-  btManifoldPoint& point = *points_[i];
-  const auto [index_a, index_b] = sides_[i];
-  const Body& a = body(index_a);
-  const Body& b = body(index_b);
-  const btVector3 reach_a = point.getPositionWorldOnA() - a.origin;
-  const btVector3 reach_b = point.getPositionWorldOnB() - b.origin;
-  const btVector3& normal = point.m_normalWorldOnB;
-  const btVector3 velocity = (a.velocity + a.pushed_spin.cross(reach_a)) - (b.velocity + b.pushed_spin.cross(reach_b));
-  if (warm_friction_) {
-    last_frictions_[i] = friction_impulse(point);
-  }
-  choose_friction(point, velocity, normal.dot(velocity));
-
-  const Vectors axis = three(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
-  const Side on_a(a, reach_a, axis, cross(same(reach_a), axis), false);
-  // Bullet turns round the torque of the normal and the direction of friction: the same but for the sign of a zero.
-  const Vectors torque = cross(same(reach_b), axis);
-  const Lanes zero = lanes(-0.F, 0, 0, 0);
-  const Side on_b(b, reach_b, axis, {zero - torque.x, zero - torque.y, zero - torque.z}, true);
-  const Lanes gain = splat(info.m_sor) / (on_a.response + on_b.response);
-  const Lanes approach = on_a.approach + on_b.approach;
-
-  btScalar restitution = 0;
-  if (point.m_combinedRestitution != 0) {
-    const btVector3 raw = (a.rigid != nullptr ? a.rigid->getVelocityInLocalPoint(reach_a) : btVector3(0, 0, 0)) -
-                          (b.rigid != nullptr ? b.rigid->getVelocityInLocalPoint(reach_b) : btVector3(0, 0, 0));
-    const btScalar speed = normal.dot(raw);
-    const bool bounces = !(btFabs(speed) < info.m_restitutionVelocityThreshold);
-    restitution = bounces ? std::max(btScalar(0), point.m_combinedRestitution * -speed) : btScalar(0);
-  }
-  const NormalTarget target = normal_target(point, info, restitution, first(approach), first(gain));
-  float rhs[4];
-  store(rhs, splat(0) + (splat(0) - approach) * gain);
-  rhs[0] = target.rhs;
-
-  const ThreeRows axes = by_rows(axis, load(rhs));
-  const ThreeRows turns_a = by_rows(on_a.turn, gain);
-  const ThreeRows turns_b = by_rows(on_b.turn, splat(point.m_combinedFriction));
-  const ThreeRows effects_a = by_rows(on_a.effect, splat(0));
-  const ThreeRows effects_b = by_rows(on_b.effect, splat(0));
-  const std::int32_t place = system.place_of_contact(i);
-  PackedRow* const rows[3] = {&system.contact(i), &system.friction(2 * i), &system.friction(2 * i + 1)};
-  for (int r = 0; r < 3; ++r) {
-    *rows[r] = {axes.row[r], turns_a.row[r], turns_b.row[r], effects_a.row[r], effects_b.row[r], 0,
-                index_a,     index_b,        place};
-  }
-  rows[0]->applied = point.m_appliedImpulse * info.m_warmstartingFactor;
-  apply(*rows[0], system.body(index_a), system.body(index_b), splat(rows[0]->applied));
-  if (target.deep != 0) {
-    system.add_deep(i, target.deep);
-  }
-}
-
 // After all normal impulses, in the order of the points.
 void RowSetup::start_friction(RowSystem& system) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -218,6 +103,9 @@ void RowSetup::start_friction(RowSystem& system) const {
 
 void RowSetup::write_back(const btContactSolverInfo& info, RowSystem& system) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (i + 4 < points_.size()) {
+      fetch(*points_[i + 4]);
+    }
     btManifoldPoint& point = *points_[i];
     point.m_appliedImpulse = system.contact(i).applied;
     point.m_appliedImpulseLateral1 = system.friction(2 * i).applied;

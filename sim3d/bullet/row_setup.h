@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim3d/bullet/row_system.h"
+#include "sim3d/bullet/three_rows.h"
 
 namespace talus::bullet {
 
@@ -42,9 +43,11 @@ class RowSetup {
     btScalar inv_mass = 0;
   };
   struct Side;
+  struct Sides;
   void add_body(btCollisionObject& object, btScalar time_step, RowSystem& system);
   void find_contacts(std::span<btPersistentManifold*> manifolds, RowSystem& system);
   void make_contact(std::size_t i, const btContactSolverInfo& info, RowSystem& system);
+  void write_rows(std::size_t i, const ThreeRows& axes, const Sides& sides, Lanes gain, RowSystem& system) const;
   void start_friction(RowSystem& system) const;
   const Body& body(std::int32_t i) const { return bodies_[static_cast<std::size_t>(i)]; }
 
