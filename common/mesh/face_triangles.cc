@@ -25,8 +25,8 @@ std::vector<Vec2> flattened(std::span<const int> face, std::span<const Vec3> cor
 }
 
 bool in_triangle(const Vec2& point, const Vec2& a, const Vec2& b, const Vec2& c) {
-  const bool at_corner = point == a || point == b || point == c;
-  return !at_corner && cross(a, b, point) >= 0.0 && cross(b, c, point) >= 0.0 && cross(c, a, point) >= 0.0;
+  const bool within = cross(a, b, point) >= 0.0 && cross(b, c, point) >= 0.0 && cross(c, a, point) >= 0.0;
+  return within && point != a && point != b && point != c;
 }
 
 // The corners that are left, as places in `flat`, and the one among them that is looked at.
@@ -48,18 +48,24 @@ std::vector<std::array<int, 3>> face_triangles(std::span<const int> face, std::s
     left.push_back(i);
   }
   std::vector<std::array<int, 3>> triangles;
+  // Of a face that does not cross itself, clipping an ear can make ears of its two neighbours only (O'Rourke 1998).
+  std::vector<bool> no_ear(face.size(), false);
   std::size_t at = 1;
   std::size_t tried = 0;
   while (left.size() >= 3) {
     at %= left.size();
     // What has no ear is flat or crosses itself; any corner will do then.
-    if (tried < left.size() && left.size() > 3 && !is_ear(left, at, flat)) {
+    if (tried < left.size() && left.size() > 3 && (no_ear[left[at]] || !is_ear(left, at, flat))) {
+      no_ear[left[at]] = true;
       ++at;
       ++tried;
       continue;
     }
     const std::size_t size = left.size();
-    triangles.push_back({face[left[(at + size - 1) % size]], face[left[at]], face[left[(at + 1) % size]]});
+    const std::size_t before = left[(at + size - 1) % size];
+    const std::size_t after = left[(at + 1) % size];
+    triangles.push_back({face[before], face[left[at]], face[after]});
+    no_ear[before] = no_ear[after] = false;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
     tried = tried < size ? 0 : tried;
   }

@@ -51,8 +51,10 @@ Shape<3> make_mesh_shape(std::string name, const std::filesystem::path& file, co
     pieces.push_back(hull_pieces<3>(scaled(part, factor, params.y_up).corners).front());
   }
   const Moments<3> integrals = moments(body);
-  return make_shape<3>(std::move(name), std::move(pieces), material,
-                       {integrals.volume, integrals.centre, integrals.inertia()});
+  Shape<3> shape = make_shape<3>(std::move(name), std::move(pieces), material,
+                                 {integrals.volume, integrals.centre, integrals.inertia()});
+  shape.filling = ratio;
+  return shape;
 }
 
 template <>

@@ -9,8 +9,8 @@ namespace talus {
 
 /// Largest share of the mesh's volume by which the volume of the parts that `talus decompose` makes may differ from it.
 constexpr double parts_tolerance = 0.05;
-/// The same for parts that a scene names: wider, since a pile still has its shape (the bunny's in scenes/shapes lack
-/// 0.106), but far below what a missing part makes.
+/// The same for parts that a scene names, which warns from parts_tolerance on: wider, since the bunny's parts in
+/// scenes/shapes lack 0.106, but far below what a missing part makes.
 constexpr double parts_refused = 0.15;
 
 /// Volume of the union of convex parts that repaired() has passed. The sum of their volumes would count overlaps twice,

@@ -77,7 +77,7 @@ std::string as_run(std::string_view text, const toml::table& table, std::span<co
 
 AnyScene parse_scene(std::string_view text, std::string_view file_name, std::span<const Override> overrides) {
   toml::table table = parse(text, file_name);
-  Findings findings{.file = std::string(file_name), .errors = {}, .keys = {}, .referred = {}, .renamed = {}};
+  Findings findings{.file = std::string(file_name), .errors = {}, .keys = {}, .referred = {}, .warnings = {}};
   apply_overrides(table, overrides, findings.errors);
   Reading reading = read_table(table, findings);
   if (!reading.findings.errors.empty()) {
@@ -88,7 +88,7 @@ AnyScene parse_scene(std::string_view text, std::string_view file_name, std::spa
         scene.toml = as_run(text, table, overrides);
         scene.folder = std::filesystem::path(file_name).parent_path();
         scene.referred = reading.findings.referred;
-        scene.renamed = reading.findings.renamed;
+        scene.reader_warnings = reading.findings.warnings;
       },
       reading.scene);
   return std::move(reading.scene);
@@ -99,7 +99,7 @@ AnyScene read_scene(const std::filesystem::path& file, std::span<const Override>
 }
 
 std::set<std::string> keys_looked_for(std::string_view text) {
-  return read_table(parse(text, "text"), {.file = "text", .errors = {}, .keys = {}, .referred = {}, .renamed = {}})
+  return read_table(parse(text, "text"), {.file = "text", .errors = {}, .keys = {}, .referred = {}, .warnings = {}})
       .findings.keys;
 }
 

@@ -1,11 +1,14 @@
 #include "common/scene/read_shape.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "common/mesh/mesh_file.h"
 #include "common/mesh/mesh_shape.h"
+#include "common/mesh/parts_volume.h"
 #include "common/scene/read_fields.h"
 #include "common/scene/read_pieces.h"
 
@@ -33,7 +36,14 @@ std::optional<Shape<Dim>> read_mesh_shape(TableReader& table, const std::string&
   if (!table.sound()) {
     return std::nullopt;
   }
-  return make_mesh_shape<Dim>(name, file, params, material);
+  Shape<Dim> shape = make_mesh_shape<Dim>(name, file, params, material);
+  if (!fills_mesh(shape.filling)) {
+    table.warn(
+        fmt::format("its parts have {:.3g} times the mesh's volume, which differs by more than {:.0f} %; "
+                    "`talus decompose` makes closer ones",
+                    shape.filling, 100.0 * parts_tolerance));
+  }
+  return shape;
 }
 
 template <int Dim>

@@ -73,7 +73,7 @@ struct Scene {
   std::string toml;  // the file it was read from, `--set` values put in; empty for a scene made by a program
   std::filesystem::path folder;                 // of that file
   std::vector<std::filesystem::path> referred;  // files in or below it that `toml` names, relative to it
-  std::vector<std::string> renamed;             // a warning for each key that `toml` gives under an old name
+  std::vector<std::string> reader_warnings;     // of keys under an old name and of parts that do not fill their mesh
 
   /// Steps of dt in one frame of output.
   std::int64_t steps_per_frame() const;

@@ -76,10 +76,15 @@ void TableReader::renamed(std::string_view old_key, std::string_view key) {
     return;
   }
   old_names_.emplace(key, old_key);
-  const Location at = locate(node->source());
+  warn_at(locate(node->source()),
+          fmt::format("{} is now named {}; only this version still reads the old name", field(old_key), key));
+}
+
+void TableReader::warn(std::string_view warning) { warn_at(location_, fmt::format("{}: {}", path_, warning)); }
+
+void TableReader::warn_at(const Location& at, const std::string& warning) {
   const std::string place = at.line > 0 ? fmt::format("{}:{}:{}", at.file, at.line, at.column) : at.file;
-  findings_.renamed.push_back(
-      fmt::format("{}: {} is now named {}; only this version still reads the old name", place, field(old_key), key));
+  findings_.warnings.push_back(fmt::format("{}: {}", place, warning));
 }
 
 TableReader::Location TableReader::locate(const toml::source_region& region) const {

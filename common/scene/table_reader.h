@@ -25,7 +25,7 @@ struct Findings {
   std::vector<SceneError> errors;
   std::set<std::string> keys;                   // every key that was asked for, as `source[].rate` or `shape.*.kind`
   std::vector<std::filesystem::path> referred;  // files that it names, as it names them
-  std::vector<std::string> renamed;             // a warning for each key that is given under an old name
+  std::vector<std::string> warnings;            // of what is allowed but seldom meant, each with its place
 };
 
 /// One table. Every read() leaves the variable, that is the struct's own default, alone where the key is absent, and
@@ -85,6 +85,8 @@ class TableReader {
   /// Notes what a check of ours threw, "NAME.KEY = VALUE: RULE", at `key`; without, at KEY if the table has it, else at
   /// the table.
   void reject_as(const std::invalid_argument& refusal, std::string_view key = {});
+  /// Adds a warning about the whole table, with its place in the file.
+  void warn(std::string_view warning);
   /// Keys that nobody asked for are no errors, since nobody can tell which belong here.
   void allow_unknown_keys() { unknown_keys_allowed_ = true; }
 
@@ -111,6 +113,7 @@ class TableReader {
   bool read_array(const toml::node& node, const std::string& name, std::span<double> values, const Range& range);
   void read_child(const toml::node& node, const std::string& name, const std::string& generic_name, const Body& body);
   void note_unknown_keys();
+  void warn_at(const Location& at, const std::string& warning);
   void note(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
   Location locate(const toml::source_region& region) const;
   std::string field(std::string_view key) const;

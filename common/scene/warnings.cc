@@ -99,7 +99,7 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
 
 template <int Dim>
 std::vector<std::string> warnings(const Scene<Dim>& scene) {
-  Lines lines = scene.renamed;
+  Lines lines = scene.reader_warnings;
   warn_of_sources(scene, lines);
   warn_of_sizes(scene.world.shapes, lines);
   warn_of_mixtures(scene, lines);

@@ -65,6 +65,7 @@ struct Shape {
   Box<Dim> bounds;               // in its own axes, unturned [m]
   double bounding_volume = 0.0;  // v_obj of section 3.1: volume of `bounds` [m^3], in 2D [m^2]
   double extent = 0.0;           // D of section 3.1: diagonal of `bounds` [m]
+  double filling = 1.0;          // volume of the pieces' union over `volume`; not 1 where pieces stand in for a mesh
 };
 
 /// Volume, centre of mass and inertia (about that centre) of unit density.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -124,6 +125,14 @@ TEST_F(ObjFile, MayHaveFacesOfTheMostCorners) {
     circle.emplace_back(std::cos(angle), std::sin(angle));
   }
   EXPECT_NEAR(moments(read(prism(circle))).volume, std::numbers::pi, 1e-3);
+}
+
+TEST_F(ObjFile, MayHaveAFaceOfManyTeeth) {
+  std::vector<Vec2> zigzag;
+  for (int i = 0; i < 127; ++i) zigzag.emplace_back(i, i % 2 == 0 ? 5 : 0);
+  for (int i = 126; i >= 0; --i) zigzag.emplace_back(i, i % 2 == 0 ? 6 : 1);
+  std::reverse(zigzag.begin(), zigzag.end());
+  EXPECT_NEAR(moments(read(prism(zigzag))).volume, 126.0, 1e-9);
 }
 
 TEST_F(ObjFile, UnionOfPartsCountsOverlapsOnce) {
