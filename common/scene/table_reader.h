@@ -26,6 +26,7 @@ struct Findings {
   std::set<std::string> keys;                   // every key that was asked for, as `source[].rate` or `shape.*.kind`
   std::vector<std::filesystem::path> referred;  // files that it names, as it names them
   std::vector<std::string> renamed;             // a warning for each key that is given under an old name
+  std::size_t suggestion_budget = 2'000'000;    // pairs of letters that may still be compared to suggest names
 };
 
 /// One table. Every read() leaves the variable, that is the struct's own default, alone where the key is absent, and
@@ -112,6 +113,10 @@ class TableReader {
   void read_child(const toml::node& node, const std::string& name, const std::string& generic_name, const Body& body);
   void note_unknown_keys();
   void note(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
+  /// The name of `known` that was most likely meant; empty if none is near or the budget is spent.
+  std::string suggestion(std::string_view name, std::span<const std::string> known);
+  /// Whether that many tables at `node` are beyond the limit, which is noted.
+  bool is_too_many(std::string_view key, const toml::node& node, std::size_t count);
   Location locate(const toml::source_region& region) const;
   std::string field(std::string_view key) const;
 
