@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "common/world/errors.h"
+#include "common/world/memory_reserve.h"
 #include "common/world/world.h"
 #include "sim2d/contacts.h"
 #include "sim2d/freezer.h"
-#include "sim2d/memory_reserve.h"
 #include "sim2d/shapes.h"
 #include "sim2d/states.h"
 #include "sim2d/warm_start.h"
