@@ -73,6 +73,7 @@ void EngineWorld::add_fixed_bodies() {
 
 BodyIndex EngineWorld::add(const BodyDef<2>& body) {
   check(body, description_);
+  check_memory();
   const BodyIndex index = states_.size();
   const Pose<2> pose{from_engine(to_engine(body.pose.position)), Rotation<2>(engine_angle(body.pose.rotation.angle()))};
   states_.shape.push_back(body.shape);
@@ -106,6 +107,10 @@ b2Body* EngineWorld::create(BodyIndex index, const Vec<2>& velocity, const Spin<
   }
   body->SetMassData(&blueprint.mass);
   return body;
+}
+
+void EngineWorld::check_memory() const {
+  reserve_.check(bodies_.size(), static_cast<std::size_t>(world_.GetContactCount()));
 }
 
 void EngineWorld::check_index(BodyIndex body) const {
@@ -157,6 +162,7 @@ void EngineWorld::step() {
   if (description_.skips.idle && awake_.empty()) {
     return;
   }
+  check_memory();
   world_.Step(static_cast<float>(description_.dt), description_.solver.velocity_iterations,
               description_.solver.position_iterations);
   warm_start_.end_step();

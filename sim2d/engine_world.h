@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/world/errors.h"
+#include "common/world/memory_reserve.h"
 #include "common/world/world.h"
 #include "sim2d/contacts.h"
 #include "sim2d/freezer.h"
@@ -49,6 +50,8 @@ class EngineWorld final : public World<2> {
   void add_fixed_bodies();
   b2Body* create(BodyIndex index, const Vec<2>& velocity, const Spin<2>& spin);
   void check_index(BodyIndex body) const;
+  /// Throws std::bad_alloc where Box2D could not get the memory for its next step.
+  void check_memory() const;
   void check_speed(const Vec<2>& velocity, const Spin<2>& spin) const;
   const Blueprint& blueprint_of(BodyIndex body) const;
   std::vector<BodyIndex> chosen(std::span<const BodyIndex> bodies, bool asleep) const;
@@ -60,6 +63,7 @@ class EngineWorld final : public World<2> {
   WorldDescription<2> description_;
   std::vector<Blueprint> blueprints_;
   b2World world_;
+  MemoryReserve reserve_;
   Freezer freezer_;
   WarmStart warm_start_;
   ContactListener listener_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <new>
 
 #include "sim3d/bullet/packed_solver.h"
 
@@ -9,11 +10,14 @@ namespace talus::bullet {
 namespace {
 
 // Bullet takes 23 bytes with each piece of memory to align it to 16, which the heap does by itself: a tenth of what a
-// sleeper takes. Before main(), since what was taken in one way cannot be given back in the other.
+// sleeper takes; and it uses what it gets without a look at it, so that lack of memory must be an exception. Before
+// main(), since what was taken in one way cannot be given back in the other.
 void* take(std::size_t size, int alignment) {
   const auto unit = static_cast<std::size_t>(alignment);
-  return unit <= alignof(std::max_align_t) ? std::malloc(size)
-                                           : std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
+  void* memory =
+      unit <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
+  if (memory == nullptr && size > 0) throw std::bad_alloc();
+  return memory;
 }
 void give_back(void* memory) { std::free(memory); }
 const bool takes_little = [] {

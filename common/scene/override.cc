@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include "common/scene/text_limits.h"
+#include "common/text/shortened.h"
+
 namespace talus {
 namespace {
 
@@ -93,7 +96,8 @@ std::string apply(toml::table& table, const Override& one, const std::string& or
 
 void apply_overrides(toml::table& table, std::span<const Override> overrides, std::vector<SceneError>& errors) {
   for (const Override& one : overrides) {
-    const std::string origin = one.origin.empty() ? "--set " + one.text : one.origin;
+    const std::string origin = one.origin.empty() ? "--set " + shortened(one.text, 200) : one.origin;
+    check_scene_text(one.text, origin);
     if (std::string rule = apply(table, one, origin); !rule.empty()) {
       errors.push_back({origin, 0, 0, "", "", std::move(rule), ""});
     }

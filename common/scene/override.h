@@ -15,7 +15,7 @@ namespace talus {
 /// as TOML; what is no TOML is taken for a text, so `policy.kind=full` needs no quotes.
 struct Override {
   std::string text;
-  std::string origin = {};  // named in errors as the value's place, such as `--seed -1`; empty: `--set TEXT`
+  std::string origin = {};  // named in errors as the value's place, such as `--seed -1`; empty: `--set TEXT`, shortened
 };
 
 /// Puts the overrides' values into the table, in their order. Notes an error for each that has no such form or whose

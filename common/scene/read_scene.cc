@@ -2,11 +2,11 @@
 
 #include <cctype>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "common/scene/read_root.h"
 #include "common/scene/table_reader.h"
+#include "common/scene/text_limits.h"
 #include "common/scene/toml_text.h"
 
 namespace talus {
@@ -37,10 +37,11 @@ Reading read_table(const toml::table& table, const Findings& before) {
   }
   Reading flat = read_as<2>(table, before);
   Reading full = read_as<3>(table, before);
-  return flat.findings.errors.size() < full.findings.errors.size() ? flat : full;
+  return std::move(flat.findings.errors.size() < full.findings.errors.size() ? flat : full);
 }
 
 toml::table parse(std::string_view text, std::string_view file_name) {
+  check_scene_text(text, std::string(file_name));
   try {
     return toml::parse(text, file_name);
   } catch (const toml::parse_error& error) {
@@ -50,13 +51,19 @@ toml::table parse(std::string_view text, std::string_view file_name) {
   }
 }
 
+// Of a file that is too large no more than shows it: it may be a device that never ends.
 std::string contents(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code unused;
   if (!stream || std::filesystem::is_directory(file, unused)) {
     throw SceneErrors({{file.string(), 0, 0, "", "", "no such file, or it cannot be read", ""}});
   }
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const auto size = std::filesystem::file_size(file, unused);
+  if (!unused) check_scene_text_size(size, file.string());
+  std::string text(max_scene_text + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
 }
 
 // Comments are kept where nothing had to be put in.
@@ -86,6 +93,7 @@ AnyScene parse_scene(std::string_view text, std::string_view file_name, std::spa
   std::visit(
       [&](auto& scene) {
         scene.toml = as_run(text, table, overrides);
+        check_scene_text(scene.toml, "the scene with the values of --set");
         scene.folder = std::filesystem::path(file_name).parent_path();
         scene.referred = reading.findings.referred;
         scene.reader_warnings = reading.findings.warnings;

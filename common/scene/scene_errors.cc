@@ -17,15 +17,11 @@ std::vector<SceneError> in_order(std::vector<SceneError> errors) {
 }
 
 std::string one_line_each(const std::vector<SceneError>& errors) {
-  std::string lines;
-  for (const SceneError& error : errors) {
-    lines += to_string(error);
-    lines += '\n';
-  }
-  if (!lines.empty()) {
-    lines.pop_back();
-  }
-  return lines;
+  const std::size_t shown = std::min(errors.size(), max_printed_errors);
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < shown; ++i) lines.push_back(to_string(errors[i]));
+  if (errors.size() > shown) lines.push_back(fmt::format("and {} more errors", errors.size() - shown));
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 }  // namespace
@@ -48,7 +44,9 @@ std::string to_string(const SceneError& error) {
   return text;
 }
 
-SceneErrors::SceneErrors(std::vector<SceneError> errors)
-    : std::runtime_error(one_line_each(in_order(errors))), errors_(in_order(std::move(errors))) {}
+SceneErrors::SceneErrors(std::vector<SceneError> errors) : SceneErrors(in_order(std::move(errors)), InOrder()) {}
+
+SceneErrors::SceneErrors(std::vector<SceneError> errors, InOrder /*order*/)
+    : std::runtime_error(one_line_each(errors)), errors_(std::move(errors)) {}
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 #pragma once
 // What is wrong with a scene file, all of it at once.
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,13 +24,20 @@ struct SceneError {
 /// `file:line:column: field = value: rule (did you mean "x"?)`
 std::string to_string(const SceneError& error);
 
-/// Thrown for a scene that cannot be run; what() has one line for each error, in the order of the file.
+/// Most errors that what() of SceneErrors has.
+inline constexpr std::size_t max_printed_errors = 50;
+
+/// Thrown for a scene that cannot be run; what() has one line for each of the first errors in the order of the file,
+/// then how many more there are.
 class SceneErrors : public std::runtime_error {
  public:
   explicit SceneErrors(std::vector<SceneError> errors);
   const std::vector<SceneError>& errors() const { return errors_; }
 
  private:
+  struct InOrder {};
+  SceneErrors(std::vector<SceneError> errors, InOrder order);
+
   std::vector<SceneError> errors_;
 };
 

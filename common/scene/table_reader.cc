@@ -7,6 +7,7 @@
 
 #include "common/scene/nearest_name.h"
 #include "common/scene/toml_text.h"
+#include "common/text/shortened.h"
 
 namespace talus {
 namespace {
@@ -16,16 +17,7 @@ std::string written(const toml::node& node) {
   if (node.is_table()) {
     return "{...}";
   }
-  std::string text = value_text(node);
-  constexpr std::size_t longest = 60;
-  if (text.size() > longest) {
-    std::size_t end = longest;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) {
-      --end;  // not in the middle of a UTF-8 letter
-    }
-    text = text.substr(0, end) + "...";
-  }
-  return text;
+  return shortened(value_text(node), 60);
 }
 
 bool is_header_array(const toml::node& node) {
@@ -112,9 +104,23 @@ void TableReader::note_unknown_keys() {
       const bool key_has_place = key.source().begin.line > 0;
       Location at = locate(key_has_place ? key.source() : node.source());
       findings_.errors.push_back({std::move(at.file), at.line, at.column, field(key.str()), written(node),
-                                  "no such key here", nearest_name(key.str(), known_)});
+                                  "no such key here", suggestion(key.str(), known_)});
     }
   }
+}
+
+std::string TableReader::suggestion(std::string_view name, std::span<const std::string> known) {
+  std::size_t cost = 0;
+  for (const std::string& candidate : known) cost += name.size() * candidate.size();
+  if (cost > findings_.suggestion_budget) return "";
+  findings_.suggestion_budget -= cost;
+  return nearest_name(name, known);
+}
+
+bool TableReader::is_too_many(std::string_view key, const toml::node& node, std::size_t count) {
+  constexpr std::size_t most_tables = 4096;  // bounds the time for shapes that each source chooses from
+  if (count > most_tables) note(node, field(key), fmt::format("must be at most {} tables", most_tables));
+  return count > most_tables;
 }
 
 bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
@@ -190,6 +196,7 @@ bool TableReader::tables(std::string_view key, const Body& body) {
     return false;
   }
   const toml::array& array = *node->as_array();
+  if (is_too_many(key, *node, array.size())) return false;
   for (std::size_t i = 0; i < array.size(); ++i) {
     read_child(array[i], fmt::format("{}[{}]", key, i), fmt::format("{}[]", key), body);
   }
@@ -201,15 +208,21 @@ bool TableReader::named_tables(std::string_view key, const NamedBody& body) {
   if (node == nullptr) {
     return true;
   }
+  constexpr std::size_t max_name = 200;  // it is in each error of its table
   const std::string rule = fmt::format("must be headed [{}.NAME], once for each name", key);
   if (!node->is_table()) {
     note(*node, field(key), rule);
     return false;
   }
+  if (is_too_many(key, *node, node->as_table()->size())) return false;
   bool well_formed = true;
   for (const auto& [key_below, child] : *node->as_table()) {
     const std::string name(key_below.str());
-    if (child.is_table()) {
+    if (name.size() > max_name) {
+      note(child, shortened(fmt::format("{}.{}", field(key), name), max_name),
+           fmt::format("NAME must be at most {} bytes", max_name));
+      well_formed = false;
+    } else if (child.is_table()) {
       read_child(child, fmt::format("{}.{}", key, name), fmt::format("{}.*", key),
                  [&](TableReader& reader) { body(name, reader); });
     } else {

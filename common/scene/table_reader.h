@@ -26,6 +26,7 @@ struct Findings {
   std::set<std::string> keys;                   // every key that was asked for, as `source[].rate` or `shape.*.kind`
   std::vector<std::filesystem::path> referred;  // files that it names, as it names them
   std::vector<std::string> warnings;            // of what is allowed but seldom meant, each with its place
+  std::size_t suggestion_budget = 2'000'000;    // pairs of letters that may still be compared to suggest names
 };
 
 /// One table. Every read() leaves the variable, that is the struct's own default, alone where the key is absent, and
@@ -115,6 +116,10 @@ class TableReader {
   void note_unknown_keys();
   void warn_at(const Location& at, const std::string& warning);
   void note(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
+  /// The name of `known` that was most likely meant; empty if none is near or the budget is spent.
+  std::string suggestion(std::string_view name, std::span<const std::string> known);
+  /// Whether that many tables at `node` are beyond the limit, which is noted.
+  bool is_too_many(std::string_view key, const toml::node& node, std::size_t count);
   Location locate(const toml::source_region& region) const;
   std::string field(std::string_view key) const;
 

@@ -6,10 +6,19 @@
 #include <numbers>
 #include <utility>
 
-#include "common/scene/nearest_name.h"
 #include "common/scene/table_reader.h"
 
 namespace talus {
+namespace {
+
+std::string rule_of(std::span<const std::string> choices) {
+  constexpr std::size_t most_named = 50;
+  return fmt::format("must be {}{}{}", choices.size() == 1 ? "" : "one of ",
+                     fmt::join(choices.first(std::min(choices.size(), most_named)), ", "),
+                     choices.size() > most_named ? ", ..." : "");
+}
+
+}  // namespace
 
 bool TableReader::read_number(const toml::node& node, const std::string& name, double& value, const Range& range) {
   if (!node.is_number()) {
@@ -105,10 +114,9 @@ void TableReader::read(std::string_view key, std::filesystem::path& value,
 
 bool TableReader::read_choice(const toml::node& node, const std::string& name, std::string& value,
                               std::span<const std::string> choices) {
-  const std::string rule = fmt::format("must be {}{}", choices.size() == 1 ? "" : "one of ", fmt::join(choices, ", "));
   const auto* text = node.as_string();
   if (text == nullptr || std::find(choices.begin(), choices.end(), **text) == choices.end()) {
-    note(node, name, rule, text == nullptr ? "" : nearest_name(**text, choices));
+    note(node, name, rule_of(choices), text == nullptr ? "" : suggestion(**text, choices));
     return false;
   }
   value = **text;

@@ -10,7 +10,8 @@
 namespace talus {
 
 /// At the start of the program. Reserves the descriptors 0 to 2 where they are closed, so that no file of a run gets
-/// the number of a standard stream; a write to such a descriptor fails. A pipe without a reader becomes a failed write.
+/// the number of a standard stream; a write to such a descriptor fails. A pipe without a reader and
+/// a file at the limit of its size become failed writes.
 void prepare_output();
 
 /// Text on standard output, buffered as by the C library. Throws std::system_error when it cannot be written.
