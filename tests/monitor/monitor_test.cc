@@ -108,7 +108,7 @@ void crash_once(const DatagramSender& sender, const std::string& mark) {
   talus_lcm::talus_stats_v2 stats{};
   const Packet packet = sealer.seal(stats, {});
   sender.send(packet.channel, packet.bytes.data(), packet.bytes.size());
-  if (first) std::raise(SIGSEGV);
+  if (first) std::raise(SIGKILL);
   receive_nothing(sender);
 }
 
@@ -119,7 +119,7 @@ TEST(Monitor, GoesOnAfterACrashOfItsReceiverAndShowsIt) {
                                     [&](const DatagramSender& sender) { crash_once(sender, folder / "mark"); });
     EXPECT_EQ(code, 1);
     EXPECT_NE(text.find("0000002a"), std::string::npos) << text;
-    EXPECT_NE(text.find("signal 11 (Segmentation fault)"), std::string::npos) << text;
+    EXPECT_NE(text.find("signal 9 (Killed)"), std::string::npos) << text;
     EXPECT_NE(text.find(json ? R"("receiver_crashes":1)" : "receiver crashed 1 times"), std::string::npos) << text;
   }
 }
