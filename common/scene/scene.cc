@@ -1,15 +1,21 @@
 #include "common/scene/scene.h"
 
 #include <cmath>
-#include <ranges>
 
 namespace talus {
 
 template <int Dim>
 int Source<Dim>::due_by(double time) const {
-  const auto numbers = std::views::iota(0, count);
-  const auto next = std::ranges::partition_point(numbers, [&](int number) { return due_time(number) <= time; });
-  return static_cast<int>(next - numbers.begin());
+  int due = 0;  // a bisection of its own: clang 14 cannot compile the views of libstdc++ 12
+  for (int not_due = count; due < not_due;) {
+    const int middle = due + (not_due - due) / 2;
+    if (due_time(middle) <= time) {
+      due = middle + 1;
+    } else {
+      not_due = middle;
+    }
+  }
+  return due;
 }
 
 template <int Dim>
