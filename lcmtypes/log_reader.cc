@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 
@@ -18,7 +19,7 @@ constexpr std::uint8_t sync_word[4] = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t header_size = 4 + 8 + 8 + 4 + 4;
 constexpr std::size_t max_channel_length = 63;         // LCM_MAX_CHANNEL_NAME_LENGTH
 constexpr std::size_t max_foreign_bytes = 16U << 20U;  // of a message that is not ours
-constexpr std::size_t chunk = 1U << 18U;
+constexpr std::size_t chunk = 1U << 16U;               // [bytes] that are read at once
 
 bool is_sync(std::span<const std::uint8_t> bytes) {
   return std::equal(std::begin(sync_word), std::end(sync_word), bytes.begin());
@@ -38,8 +39,8 @@ std::string_view text(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-LogReader::LogReader(const std::string& path) : file_(path, std::ios::binary) {
-  if (!file_) throw std::system_error(errno, std::generic_category(), path);
+LogReader::LogReader(const std::string& path) : log_(std::make_unique<std::ifstream>(path, std::ios::binary)) {
+  if (!*log_) throw std::system_error(errno, std::generic_category(), path);
 }
 
 bool LogReader::next(LogEvent& event) {
@@ -92,15 +93,15 @@ void LogReader::skip_to_candidate() {
 
 /// Whether so many bytes follow; reads them in.
 bool LogReader::have(std::size_t bytes) {
-  while (buffer_.size() - at_ < bytes && file_) {
+  while (buffer_.size() - at_ < bytes && *log_) {
     if (at_ >= chunk) {
       buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
       at_ = 0;
     }
     const std::size_t before = buffer_.size();
     buffer_.resize(before + chunk);
-    file_.read(reinterpret_cast<char*>(buffer_.data() + before), static_cast<std::streamsize>(chunk));
-    buffer_.resize(before + static_cast<std::size_t>(file_.gcount()));
+    log_->read(reinterpret_cast<char*>(buffer_.data() + before), static_cast<std::streamsize>(chunk));
+    buffer_.resize(before + static_cast<std::size_t>(log_->gcount()));
   }
   return buffer_.size() - at_ >= bytes;
 }

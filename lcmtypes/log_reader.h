@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -28,8 +30,10 @@ struct LogDamage {
 /// crashes on some lengths.
 class LogReader {
  public:
-  /// Throws std::system_error with the path.
+  /// Reads a file. Throws std::system_error with the path.
   explicit LogReader(const std::string& path);
+  /// Reads a log that lies elsewhere, as in memory.
+  explicit LogReader(std::unique_ptr<std::istream> log) : log_(std::move(log)) {}
 
   /// The next event, or false at the end of the file.
   bool next(LogEvent& event);
@@ -43,8 +47,8 @@ class LogReader {
   std::size_t event_size();
   void skip_to_candidate();
 
-  std::ifstream file_;
-  std::vector<std::uint8_t> buffer_;  // a stretch of the file; what lies before at_ is done with
+  std::unique_ptr<std::istream> log_;
+  std::vector<std::uint8_t> buffer_;  // a stretch of the log; what lies before at_ is done with
   std::size_t at_ = 0;
   LogDamage damage_;
   bool in_damage_ = false;

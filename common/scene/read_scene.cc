@@ -84,7 +84,8 @@ std::string as_run(std::string_view text, const toml::table& table, std::span<co
 
 AnyScene parse_scene(std::string_view text, std::string_view file_name, std::span<const Override> overrides) {
   toml::table table = parse(text, file_name);
-  Findings findings{.file = std::string(file_name), .errors = {}, .keys = {}, .referred = {}, .warnings = {}};
+  Findings findings;
+  findings.file = file_name;
   apply_overrides(table, overrides, findings.errors);
   Reading reading = read_table(table, findings);
   if (!reading.findings.errors.empty()) {
@@ -107,8 +108,10 @@ AnyScene read_scene(const std::filesystem::path& file, std::span<const Override>
 }
 
 std::set<std::string> keys_looked_for(std::string_view text) {
-  return read_table(parse(text, "text"), {.file = "text", .errors = {}, .keys = {}, .referred = {}, .warnings = {}})
-      .findings.keys;
+  Findings findings;
+  findings.file = "text";
+  findings.keys_wanted = true;
+  return read_table(parse(text, "text"), findings).findings.keys;
 }
 
 }  // namespace talus

@@ -20,6 +20,10 @@ std::string written(const toml::node& node) {
   return shortened(value_text(node), 60);
 }
 
+std::string joined(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : (path + '.').append(key);
+}
+
 bool is_header_array(const toml::node& node) {
   return node.is_array() && std::all_of(node.as_array()->begin(), node.as_array()->end(),
                                         [](const toml::node& element) { return element.is_table(); });
@@ -42,13 +46,11 @@ void TableReader::read_root(const toml::table& table, Findings& findings, const 
   reader.note_unknown_keys();
 }
 
-std::string TableReader::field(std::string_view key) const {
-  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
-}
+std::string TableReader::field(std::string_view key) const { return joined(path_, key); }
 
 const toml::node* TableReader::find(std::string_view key) {
   known_.emplace_back(key);
-  findings_.keys.insert(generic_path_.empty() ? std::string(key) : fmt::format("{}.{}", generic_path_, key));
+  if (findings_.keys_wanted) findings_.keys.insert(joined(generic_path_, key));
   return node_of(key);
 }
 
@@ -174,8 +176,7 @@ void TableReader::read_child(const toml::node& node, const std::string& name, co
     note(node, field(name), "must be a table");
     return;
   }
-  const std::string generic = generic_path_.empty() ? generic_name : fmt::format("{}.{}", generic_path_, generic_name);
-  TableReader reader(*table, field(name), generic, locate(node.source()), findings_);
+  TableReader reader(*table, field(name), joined(generic_path_, generic_name), locate(node.source()), findings_);
   body(reader);
   reader.note_unknown_keys();
 }

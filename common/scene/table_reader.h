@@ -23,7 +23,8 @@ namespace talus {
 struct Findings {
   std::string file;
   std::vector<SceneError> errors;
-  std::set<std::string> keys;                   // every key that was asked for, as `source[].rate` or `shape.*.kind`
+  bool keys_wanted = false;                     // whether `keys` is filled
+  std::set<std::string> keys;                   // every key that is looked for, as `source[].rate` or `shape.*.kind`
   std::vector<std::filesystem::path> referred;  // files that it names, as it names them
   std::vector<std::string> warnings;            // of what is allowed but seldom meant, each with its place
   std::size_t suggestion_budget = 2'000'000;    // pairs of letters that may still be compared to suggest names

@@ -77,16 +77,17 @@ void PairCache::remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* part
   }
   if (list_of(proxy) < 0) {
     if (free_.empty()) {
-      free_.push_back(static_cast<std::int32_t>(lists_.size()));
       lists_.emplace_back();
+      free_.reserve(lists_.capacity());  // for all of them, so that forget() takes no memory
+      free_.push_back(static_cast<std::int32_t>(lists_.size()) - 1);
     }
     const auto body = static_cast<std::size_t>(index);
     if (lists_of_bodies_.size() <= body) {
       lists_of_bodies_.resize(body + 1, -1);
     }
-    lists_of_bodies_[body] = free_.back();
     places_.grow(free_.back());
     places_.forget(free_.back());
+    lists_of_bodies_[body] = free_.back();
     free_.pop_back();
   }
   lists_[static_cast<std::size_t>(list_of(proxy))].push_back(partner);
@@ -115,10 +116,8 @@ void PairCache::forget_place(const btBroadphaseProxy* proxy) {
 }
 
 void PairCache::removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
-  const std::span<btBroadphaseProxy* const> all = partners(proxy);
-  leaving_.assign(all.begin(), all.end());
-  for (btBroadphaseProxy* partner : leaving_) {
-    removeOverlappingPair(proxy, partner, dispatcher);
+  while (!partners(proxy).empty()) {
+    removeOverlappingPair(proxy, partners(proxy).front(), dispatcher);  // takes it off the list
   }
 }
 

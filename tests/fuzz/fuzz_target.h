@@ -16,4 +16,8 @@ inline std::string_view text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Whether the costly part of a target is due for this input: always in a replay, for one input in eight in a search,
+/// chosen by the input's hash so that it is the same each time.
+bool costly_part_is_due(std::string_view input);
+
 }  // namespace talus::fuzz

@@ -37,13 +37,14 @@ frames = 30
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<talus::Override> overrides(1);
-  for (const char letter : talus::fuzz::text({data, size})) {
+  const std::string_view input = talus::fuzz::text({data, size});
+  for (const char letter : input) {
     if (letter == '\n') {
       overrides.emplace_back();
     } else {
       overrides.back().text += letter;
     }
   }
-  talus::fuzz::read_as_scene(scene, overrides);
+  talus::fuzz::read_as_scene(input, scene, overrides);
   return 0;
 }

@@ -1,10 +1,10 @@
 // Input: a byte that chooses the dimension, then messages of a record, each a byte for its type, two for its length and
-// as many between fingerprint and checksum. They are written as the run.lcm of a run folder, which is read back.
+// as many between fingerprint and checksum. They are written as a record, which is read back.
 #include <algorithm>
-#include <fstream>
+#include <array>
+#include <sstream>
 #include <stdexcept>
 
-#include "tests/common/temporary_folder.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/limits.h"
 #include "tests/fuzz/sealed_message.h"
@@ -62,21 +62,23 @@ void write_event(std::ostream& out, std::uint64_t number, Channel channel, std::
   out << name << fuzz::text(message);
 }
 
-void write_log(const std::filesystem::path& file, std::span<const std::uint8_t> input) {
-  std::ofstream out(file, std::ios::binary);
+std::unique_ptr<std::istream> log_of(std::span<const std::uint8_t> input) {
+  auto log = std::make_unique<std::stringstream>();
   for (std::uint64_t number = 0; input.size() >= 3; ++number) {
     const auto channel = static_cast<Channel>(input[0] % channel_names.size());
     const auto wanted = static_cast<std::size_t>(input[1] << 8 | input[2]);
     const auto content = input.subspan(3, std::min(wanted, input.size() - 3));
-    write_event(out, number, channel, fuzz::sealed_message(channel, content));
+    write_event(*log, number, channel, fuzz::sealed_message(channel, content));
     input = input.subspan(3 + content.size());
   }
+  return log;
 }
 
-void read_back(const std::filesystem::path& folder) {
+void read_back(const AnyScene& scene, std::unique_ptr<std::istream> log) {
   const fuzz::TimeLimit limit;
   try {
-    (void)read_run(folder);
+    LogReader reader(std::move(log));
+    (void)read_record(scene, reader, "run");
   } catch (const std::invalid_argument& error) {
     fuzz::require_that(*error.what() != '\0', "a refused record has a reason");
   }
@@ -86,9 +88,8 @@ void read_back(const std::filesystem::path& folder) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  static const TemporaryFolder folder;
-  std::ofstream(folder / "scene.toml") << (data[0] % 2 == 0 ? scene_2d : scene_3d);
-  write_log(folder / "run.lcm", std::span(data, size).subspan(1));
-  read_back(folder.path());
+  static const std::array scenes = {parse_scene(scene_2d, "scene.toml"), parse_scene(scene_3d, "scene.toml")};
+  const std::span input(data, size);
+  read_back(scenes[input[0] % scenes.size()], log_of(input.subspan(1)));
   return 0;
 }

@@ -3,6 +3,7 @@
 #include "tests/fuzz/read_as_scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  talus::fuzz::read_as_scene(talus::fuzz::text({data, size}));
+  const std::string_view text = talus::fuzz::text({data, size});
+  talus::fuzz::read_as_scene(text, text);
   return 0;
 }

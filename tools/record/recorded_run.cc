@@ -7,10 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/scene/read_scene.h"
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
-#include "lcmtypes/log_reader.h"
 #include "tools/monitor/sequence_tracker.h"
 #include "tools/record/state_reader.h"
 
@@ -147,10 +145,14 @@ AnyRecordedRun read_run(const std::filesystem::path& folder) {
         fmt::format("{}: must be a folder that `talus run` left, but it has no {}", folder.string(), name));
   }
   const AnyScene scene = read_scene(folder / "scene.toml");
+  LogReader log((folder / "run.lcm").string());
+  return read_record(scene, log, folder);
+}
+
+AnyRecordedRun read_record(const AnyScene& scene, LogReader& log, const std::filesystem::path& folder) {
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> AnyRecordedRun {
         RunReader<Dim> reader(of_dimension);
-        LogReader log((folder / "run.lcm").string());
         for (LogEvent event; log.next(event);) reader.take(event);
         RecordedRun<Dim> run = reader.finish();
         const fs::path base = folder.filename().empty() ? folder.parent_path() : folder;

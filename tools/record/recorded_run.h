@@ -8,7 +8,9 @@
 
 #include "common/measure/trajectory.h"
 #include "common/policy/sleep_event.h"
+#include "common/scene/read_scene.h"
 #include "common/scene/scene.h"
+#include "lcmtypes/log_reader.h"
 
 namespace talus {
 
@@ -53,5 +55,8 @@ std::int64_t bodies_of(const Scene<Dim>& scene);
 /// Reads the run folder; damage costs what it hit. Throws std::invalid_argument where the folder is not of a run, where
 /// run.lcm belongs to another scene or holds no frame; std::system_error where a file cannot be read.
 AnyRecordedRun read_run(const std::filesystem::path& folder);
+
+/// Reads the record of a run of this scene; `folder` is for messages. Throws as read_run() does.
+AnyRecordedRun read_record(const AnyScene& scene, LogReader& log, const std::filesystem::path& folder);
 
 }  // namespace talus
