@@ -148,21 +148,43 @@ TEST(DiskFault, AFileThatMayNotGrowEndsARunWithAMessage) {
   EXPECT_NE(outcome.err.find("File too large"), std::string::npos) << outcome.err;
 }
 
-/// Drops a grid of so many rows of a hundred bodies where there is memory for them, but not for the program too, which
-/// the check before a run leaves out.
-void run_out_of_memory(int rows, const std::string& backend) {
+class MemoryFault : public ::testing::TestWithParam<const char*> {};
+
+/// Drops a grid of 3000 bodies at once in address spaces from the least in which the program starts to 38 MB above.
+TEST_P(MemoryFault, EndsARunWithAMessageAtAnyLimit) {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      shell_in(folder, "ulimit -v 30000; rows=" + std::to_string(rows) + "; backend=" + backend + R"(
-"$TALUS" --version >/dev/null 2>&1 || exit 77
-"$TALUS" run drop_in_a_pile_2d --backend $backend --hash --policy full --set run.frames=3 --set source[0].rate=1e6 \
-  --set source[0].count=${rows}00 --set "source[0].grid=[100, $rows]" --set 'source[0].spacing=[3.0, 3.0]')");
-  if (outcome.exit_code == 77) GTEST_SKIP() << "this build does not start in so little memory";
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-  EXPECT_EQ(outcome.err, "talus: out of memory\n");
+  const bool in_space = GetParam() == std::string("bullet");
+  const std::string scene = in_space ? "scene=drop_in_a_pile_3d grid='[30, 10, 10]' spacing='[3.0, 3.0, 3.0]'"
+                                     : "scene=drop_in_a_pile_2d grid='[100, 30]' spacing='[3.0, 3.0]'";
+  const Outcome outcome = shell_in(folder, scene + " backend=" + GetParam() + R"(
+least=20000
+until (ulimit -v $least; "$TALUS" --version >/dev/null 2>&1) || [ $least -gt 100000 ]; do least=$((least + 1000)); done
+for limit in $(seq $least 1900 $((least + 38000))); do
+  message=$(ulimit -c 0; ulimit -v $limit
+    "$TALUS" run $scene --backend $backend --hash --policy adaptive --set run.frames=5 --set source[0].rate=1e6       --set source[0].count=3000 --set "source[0].grid=$grid" --set "source[0].spacing=$spacing" 2>&1 >/dev/null)
+  echo "$? $message"
+done | sort | uniq)");
+  std::istringstream lines(outcome.out);
+  int endings = 0;
+  for (std::string line; std::getline(lines, line); ++endings) {
+    EXPECT_TRUE(line == "0 " || line == "1 talus: out of memory" || line.starts_with("2 talus: source")) << line;
+  }
+  EXPECT_GE(endings, 2) << "no limit was too low, or all were: " << outcome.out << outcome.err;
 }
 
-TEST(MemoryFault, WithoutMemoryForBox2DARunEndsWithAMessage) { run_out_of_memory(160, "box2d"); }
+std::vector<const char*> backends() {
+#ifdef TALUS_BULLET
+  return {"box2d", "bullet-planar", "bullet"};
+#else
+  return {"box2d"};
+#endif
+}
+
+INSTANTIATE_TEST_SUITE_P(OnEachBackend, MemoryFault, ::testing::ValuesIn(backends()), [](const auto& test) {
+  std::string name = test.param;
+  std::erase(name, '-');
+  return name;
+});
 
 }  // namespace
 }  // namespace talus::process_fault_test

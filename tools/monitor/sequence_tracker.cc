@@ -1,8 +1,11 @@
 #include "tools/monitor/sequence_tracker.h"
 
+#include <algorithm>
+
 namespace talus {
 
 bool SequenceTracker::see(std::int64_t number) {
+  number = std::min(number, std::numeric_limits<std::int64_t>::max() - 1);  // so that next_ can be above it
   if (!started_) expect(number);
   if (number < next_) {
     const std::int64_t age = next_ - 1 - number;
@@ -11,7 +14,7 @@ bool SequenceTracker::see(std::int64_t number) {
     ++received_;
     return false;
   }
-  advance_to(sum_of_counts(number, 1));
+  advance_to(number + 1);
   seen_ |= 1U;
   ++received_;
   return true;
