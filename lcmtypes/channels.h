@@ -5,13 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "talus_lcm/talus_bodies_v1.hpp"
-#include "talus_lcm/talus_piles_v1.hpp"
-#include "talus_lcm/talus_run_v1.hpp"
-#include "talus_lcm/talus_shapes_v1.hpp"
-#include "talus_lcm/talus_sleep_v1.hpp"
-#include "talus_lcm/talus_stats_v1.hpp"
-#include "talus_lcm/talus_stats_v2.hpp"
+#include "talus_lcm/layouts.h"
 
 namespace talus {
 
@@ -42,8 +36,8 @@ inline constexpr Channel channel_of<talus_lcm::talus_shapes_v1> = Channel::shape
 /// when one of them is lost or late.
 inline constexpr std::size_t max_message_bytes = 60'000;
 
-/// Encoded size of what starts every message [bytes]: fingerprint, utime, run_id, step, sim_time, seq.
-inline constexpr std::size_t header_bytes = 6 * 8;
+/// Encoded size of what starts every message [bytes]: fingerprint, then utime, run_id, step, sim_time, seq.
+inline constexpr std::size_t header_bytes = fingerprint_bytes + 5 * 8;
 /// Encoded size of the checksum that ends it.
 inline constexpr std::size_t checksum_bytes = 4;
 

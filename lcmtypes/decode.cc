@@ -3,9 +3,8 @@
 #include <type_traits>
 
 #include "lcmtypes/big_endian.h"
-#include "lcmtypes/crc32.h"
+#include "lcmtypes/encode.h"
 #include "lcmtypes/ranges.h"
-#include "lcmtypes/scanner.h"
 
 namespace talus {
 
@@ -54,7 +53,7 @@ bool is_of_type(std::span<const std::uint8_t> bytes) {
 
 bool checksum_holds(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= header_bytes + checksum_bytes && bytes.size() <= max_message_bytes &&
-         big_endian(bytes.last(checksum_bytes)) == crc32(bytes.first(bytes.size() - checksum_bytes));
+         big_endian(bytes.last(checksum_bytes)) == checksum(bytes.first(bytes.size() - checksum_bytes));
 }
 
 template <class Message>
@@ -71,18 +70,13 @@ std::string_view decode(std::span<const std::uint8_t> bytes, Message& message) {
   }
   if (!is_of_type<Message>(bytes)) return "another type or version";
   if (!checksum_holds(bytes)) return "wrong checksum";
-  if (!counts_fit<Message>(bytes)) return "counts do not match the size";
+  if (const std::string_view fault = layout_fault(layout<Message>, bytes); !fault.empty()) return fault;
   const int size = static_cast<int>(bytes.size());
   if (message.decode(bytes.data(), 0, size) != size) return "not decodable";
   return range_fault(message);
 }
 
-template std::string_view decode(std::span<const std::uint8_t>, talus_lcm::talus_run_v1&);
-template std::string_view decode(std::span<const std::uint8_t>, talus_lcm::talus_piles_v1&);
-template std::string_view decode(std::span<const std::uint8_t>, talus_lcm::talus_sleep_v1&);
-template std::string_view decode(std::span<const std::uint8_t>, talus_stats_v1&);
-template std::string_view decode(std::span<const std::uint8_t>, talus_stats_v2&);
-template std::string_view decode(std::span<const std::uint8_t>, talus_lcm::talus_bodies_v1&);
-template std::string_view decode(std::span<const std::uint8_t>, talus_lcm::talus_shapes_v1&);
+#define TALUS_DECODE(Message) template std::string_view decode(std::span<const std::uint8_t>, Message&);
+TALUS_EACH_MESSAGE(TALUS_DECODE)
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 #pragma once
-// From bytes that anybody may have sent, or a damaged file held, to a message that is safe to use.
+// From bytes of unknown origin, of a forged packet or a damaged file, to a message that is safe to use.
 
 #include <cstdint>
 #include <span>
@@ -13,9 +13,9 @@ namespace talus {
 bool checksum_holds(std::span<const std::uint8_t> bytes);
 
 /// Decodes `bytes` and returns what is wrong with them, or nothing (then `message` is safe to use). Checks size,
-/// checksum, fingerprint and every count against the bytes left before the generated decoder runs (which would resize
-/// to a count of 2^31 at once), then that every value is finite and within its range. Throws nothing but bad_alloc.
-/// A talus_stats_v1 is taken for a talus_stats_v2 without what it does not have, so that old records still read.
+/// checksum, fingerprint and layout (layout.h) before the generated decoder runs, which would resize to a count of 2^31
+/// at once; then that every value is within its range. Throws nothing but bad_alloc. A talus_stats_v1 is decoded as a
+/// talus_stats_v2 without the fields that it does not have, so that old records can be read.
 template <class Message>
 std::string_view decode(std::span<const std::uint8_t> bytes, Message& message);
 

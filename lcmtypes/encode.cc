@@ -1,12 +1,10 @@
 #include "lcmtypes/encode.h"
 
 #include <fmt/core.h>
+#include <zlib.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <span>
-
-#include "lcmtypes/crc32.h"
 
 namespace talus {
 namespace {
@@ -20,7 +18,7 @@ void abort_with(const char* channel, std::size_t size) {
 /// Writes the checksum of all before it over the last four bytes, highest byte first as LCM does.
 void put_checksum(std::span<std::uint8_t> bytes) {
   const auto body = bytes.first(bytes.size() - checksum_bytes);
-  const std::uint32_t sum = crc32(body);
+  const std::uint32_t sum = checksum(body);
   const auto end = bytes.last(checksum_bytes);
   for (std::size_t i = 0; i < checksum_bytes; ++i) {
     end[i] = static_cast<std::uint8_t>(sum >> (8 * (checksum_bytes - 1 - i)));
@@ -29,16 +27,20 @@ void put_checksum(std::span<std::uint8_t> bytes) {
 
 }  // namespace
 
+std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
+  return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
+}
+
 template <class Message>
-Packet Sealer::seal(Message& message, const Moment& moment) {
+Packet MessageEncoder::encode(Message& message, const Stamp& stamp) {
   constexpr Channel channel = channel_of<Message>;
-  message.utime = moment.utime;
+  message.utime = stamp.utime;
   message.run_id = run_id_;
-  message.step = moment.step;
-  message.sim_time = moment.sim_time;
+  message.step = stamp.step;
+  message.sim_time = stamp.sim_time;
   message.seq = next_[static_cast<std::size_t>(channel)]++;
   message.crc32 = 0;
-  Packet packet{channel, moment.utime, {}};
+  Packet packet{channel, stamp.utime, {}};
   const int size = message.getEncodedSize();
   packet.bytes.resize(static_cast<std::size_t>(size));
   const int written = message.encode(packet.bytes.data(), 0, size);
@@ -49,12 +51,7 @@ Packet Sealer::seal(Message& message, const Moment& moment) {
   return packet;
 }
 
-template Packet Sealer::seal(talus_lcm::talus_run_v1&, const Moment&);
-template Packet Sealer::seal(talus_lcm::talus_piles_v1&, const Moment&);
-template Packet Sealer::seal(talus_lcm::talus_sleep_v1&, const Moment&);
-template Packet Sealer::seal(talus_lcm::talus_stats_v1&, const Moment&);
-template Packet Sealer::seal(talus_lcm::talus_stats_v2&, const Moment&);
-template Packet Sealer::seal(talus_lcm::talus_bodies_v1&, const Moment&);
-template Packet Sealer::seal(talus_lcm::talus_shapes_v1&, const Moment&);
+#define TALUS_ENCODE(Message) template Packet MessageEncoder::encode(Message&, const Stamp&);
+TALUS_EACH_MESSAGE(TALUS_ENCODE)
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lcmtypes/channels.h"
@@ -17,20 +18,23 @@ struct Packet {
 };
 
 /// When a message is from.
-struct Moment {
+struct Stamp {
   std::int64_t utime = 0;  // [us], see the .lcm files
   std::int64_t step = 0;
   double sim_time = 0.0;  // [s]
 };
 
+/// CRC-32 of zlib, at most 4 GB.
+std::uint32_t checksum(std::span<const std::uint8_t> bytes);
+
 /// Gives each message of a run its header, its number on its channel and its checksum.
-class Sealer {
+class MessageEncoder {
  public:
-  explicit Sealer(std::int64_t run_id) : run_id_(run_id) {}
+  explicit MessageEncoder(std::int64_t run_id) : run_id_(run_id) {}
 
   /// Fills in the header and the checksum and encodes. A message above max_message_bytes is our own mistake: aborts.
   template <class Message>
-  Packet seal(Message& message, const Moment& moment);
+  Packet encode(Message& message, const Stamp& stamp);
 
   /// Messages so far on a channel.
   std::int64_t sent(Channel channel) const { return next_[static_cast<std::size_t>(channel)]; }

@@ -68,7 +68,7 @@ Publisher<Dim>::Publisher(const RunInfo& info, const Scene<Dim>& scene, const Pu
     : info_(info),
       shapes_(scene.world.shapes),
       run_id_(live_id(info)),
-      sealer_(run_id_),
+      encoder_(run_id_),
       piles_pulse_(params.piles_rate) {
   check(params);
   queue_ = open_queue(params);
@@ -80,7 +80,7 @@ Publisher<Dim>::Publisher(const RunInfo& info, const Scene<Dim>& scene, const Pu
     : info_(info),
       shapes_(scene.world.shapes),
       run_id_(live_id(info)),
-      sealer_(run_id_),
+      encoder_(run_id_),
       piles_pulse_(params.piles_rate) {
   check(params);
   queue_ = std::make_unique<SendQueue>(lcm, params.queue_bytes);
@@ -117,7 +117,7 @@ void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
 
 template <int Dim>
 void Publisher<Dim>::send_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto message = to_run(info_, phase, reason, live_channels, sealer_);
+  auto message = to_run(info_, phase, reason, live_channels, encoder_);
   send(message, step, time);
 }
 
@@ -151,7 +151,7 @@ void Publisher<Dim>::send(Message& message, std::int64_t step, double time) {
   if (!queue_) return;
   const auto wall = std::chrono::system_clock::now().time_since_epoch();
   const auto utime = std::chrono::duration_cast<std::chrono::microseconds>(wall).count();
-  queue_->push(sealer_.seal(message, {.utime = utime, .step = step, .sim_time = time}));
+  queue_->push(encoder_.encode(message, {.utime = utime, .step = step, .sim_time = time}));
 }
 
 template class Publisher<2>;

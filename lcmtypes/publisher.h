@@ -73,7 +73,7 @@ class Publisher final : public Observer<Dim> {
   RunInfo info_;
   std::vector<Shape<Dim>> shapes_;
   std::int64_t run_id_;
-  Sealer sealer_;
+  MessageEncoder encoder_;
   std::unique_ptr<SendQueue> queue_;
   Pulse run_pulse_{1.0};
   Pulse stats_pulse_{10.0};

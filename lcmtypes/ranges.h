@@ -6,7 +6,7 @@
 
 namespace talus {
 
-/// What no message of ours says: the first value found that is not finite or out of its range, or nothing.
+/// The first value found that is out of its range, or nothing. Numbers are finite and booleans 0 or 1 (layout.h).
 std::string_view range_fault(const talus_lcm::talus_run_v1& message);
 std::string_view range_fault(const talus_lcm::talus_piles_v1& message);
 std::string_view range_fault(const talus_lcm::talus_sleep_v1& message);

@@ -42,7 +42,7 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
       steps_per_key_frame_(std::max<std::int64_t>(1, std::llround(checked(params).key_frame_interval / info.dt))),
       flush_interval_(params.flush_interval),
       log_(path),
-      sealer_(record_id(info)) {
+      encoder_(record_id(info)) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
   write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
@@ -104,7 +104,7 @@ std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
 
 template <int Dim>
 void RunRecorder<Dim>::write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto message = to_run(info_, phase, reason, recorded_channels, sealer_);
+  auto message = to_run(info_, phase, reason, recorded_channels, encoder_);
   write(message, step, time);
 }
 
@@ -117,12 +117,12 @@ void RunRecorder<Dim>::write(std::vector<Message> messages, std::int64_t step, d
 template <int Dim>
 template <class Message>
 void RunRecorder<Dim>::write(Message& message, std::int64_t step, double time) {
-  Packet packet = sealer_.seal(message, moment(step, time));
+  Packet packet = encoder_.encode(message, stamp(step, time));
   log_.write(packet);
 }
 
 template <int Dim>
-Moment RunRecorder<Dim>::moment(std::int64_t step, double time) {
+Stamp RunRecorder<Dim>::stamp(std::int64_t step, double time) {
   const auto simulated = static_cast<std::int64_t>(std::llround(time * 1e6));
   last_utime_ = std::max(simulated, last_utime_ + pace);
   return {.utime = last_utime_, .step = step, .sim_time = time};

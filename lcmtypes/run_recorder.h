@@ -33,7 +33,7 @@ class RunRecorder final : public Observer<Dim> {
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
 
  private:
-  Moment moment(std::int64_t step, double time);
+  Stamp stamp(std::int64_t step, double time);
   template <class Message>
   void write(Message& message, std::int64_t step, double time);
   template <class Message>
@@ -49,7 +49,7 @@ class RunRecorder final : public Observer<Dim> {
   std::int64_t poses_since_key_frame_ = 0;
   double flush_interval_;
   EventLog log_;
-  Sealer sealer_;
+  MessageEncoder encoder_;
   std::int64_t last_utime_ = -1;
   std::vector<BodyIndex> fell_asleep_;  // since the last frame of output
 };

@@ -17,13 +17,14 @@ using talus_lcm::talus_stats_v2;
 
 namespace {
 
-constexpr std::size_t layer_bytes = 5 * 4 + 2 * 4;
-constexpr std::size_t pile_bytes = 9 * 8 + 3 * 4;  // without its layers
-constexpr std::size_t event_bytes = 3 * 4 + 2 + 4;
-constexpr std::size_t fixed_bytes = header_bytes + 7 * 4 + checksum_bytes;  // of any message, rounded up
+constexpr std::size_t layer_bytes = fixed_bytes(layout<talus_layer_v1>);
+constexpr std::size_t pile_bytes = fixed_bytes(layout<talus_pile_v1>);  // without its layers
+constexpr std::size_t event_bytes = bytes_per_entry(layout<talus_sleep_v1>, "event_count");
 
-constexpr std::size_t room = max_message_bytes - fixed_bytes;
-static_assert(pile_bytes + max_layers * layer_bytes <= room);
+/// Bytes that a message of fixed and counted fields has for the counted ones.
+template <class Message>
+constexpr std::size_t room = max_message_bytes - fingerprint_bytes - fixed_bytes(layout<Message>);
+static_assert(pile_bytes + max_layers * layer_bytes <= room<talus_piles_v1>);
 
 template <int Dim>
 constexpr std::size_t pose_values = Dim == 2 ? 3 : 7;
@@ -91,7 +92,7 @@ void append(const Pose<Dim>& pose, std::vector<float>& values) {
 }  // namespace
 
 talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view reason, std::span<const Channel> channels,
-                    const Sealer& sealer) {
+                    const MessageEncoder& encoder) {
   talus_run_v1 message{};
   message.phase = phase;
   message.reason = clipped(reason);
@@ -110,7 +111,7 @@ talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view rea
   message.channel_count = static_cast<std::int32_t>(channels.size());
   for (const Channel channel : channels) {
     message.channels.emplace_back(name_of(channel));
-    message.sent.push_back(sealer.sent(channel));
+    message.sent.push_back(encoder.sent(channel));
   }
   return message;
 }
@@ -122,7 +123,7 @@ std::vector<talus_piles_v1> to_piles(std::span<const Pile<Dim>> piles) {
   for (std::size_t i = 0; i < piles.size(); ++i) {
     talus_pile_v1 pile = to_pile(piles[i]);
     const std::size_t bytes = pile_bytes + pile.layers.size() * layer_bytes;
-    if (used + bytes > room) {
+    if (used + bytes > room<talus_piles_v1>) {
       messages.emplace_back().first_pile = static_cast<std::int32_t>(i);
       used = 0;
     }
@@ -140,7 +141,7 @@ std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
   std::vector<talus_sleep_v1> messages;
   for (; !events.empty(); events = events.subspan(static_cast<std::size_t>(messages.back().event_count))) {
     talus_sleep_v1& message = messages.emplace_back();
-    for (const SleepEvent& event : events.first(std::min(events.size(), room / event_bytes))) {
+    for (const SleepEvent& event : events.first(std::min(events.size(), room<talus_sleep_v1> / event_bytes))) {
       message.body.push_back(event.body);
       message.pile.push_back(event.pile);
       message.layer.push_back(event.layer);
@@ -194,7 +195,9 @@ std::vector<Warning> warnings_of(const talus_stats_v2& message) {
 template <int Dim>
 std::vector<talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<const BodyIndex> bodies,
                                        bool key_frame) {
-  constexpr std::size_t at_most = room / (4 + 2 + 1 + 4 * pose_values<Dim>);
+  constexpr std::span fields = layout<talus_bodies_v1>;
+  constexpr std::size_t at_most = room<talus_bodies_v1> / (bytes_per_entry(fields, "body_count") +
+                                                           pose_values<Dim> * bytes_per_entry(fields, "value_count"));
   std::vector<talus_bodies_v1> messages;
   do {
     const auto here = bodies.first(std::min(bodies.size(), at_most));

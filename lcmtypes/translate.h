@@ -1,6 +1,7 @@
 #pragma once
 // The one translation from the core's terms to messages, for the live view and for the record. Headers, numbers and
-// checksums come later, from Sealer. What is too much for one message comes in several, none above max_message_bytes.
+// checksums come later, from MessageEncoder. What is too much for one message comes in several, none above
+// max_message_bytes.
 
 #include <span>
 #include <string_view>
@@ -12,9 +13,9 @@
 
 namespace talus {
 
-/// `phase` as in talus_run_v1; `channels` are those that the run sends on, with the numbers that `sealer` has reached.
+/// `phase` as in talus_run_v1; `channels` are those that the run sends on, with the numbers that `encoder` has reached.
 talus_lcm::talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view reason,
-                               std::span<const Channel> channels, const Sealer& sealer);
+                               std::span<const Channel> channels, const MessageEncoder& encoder);
 
 /// One message at least, also where there is no pile yet.
 template <int Dim>

@@ -73,13 +73,16 @@ talus_shapes_v1 to_message(const Shape<Dim>& shape, std::size_t index, std::size
   }
   message.piece_count = static_cast<std::int32_t>(message.kind.size());
   message.value_count = static_cast<std::int32_t>(message.values.size());
+  constexpr std::span fields = layout<talus_shapes_v1>;
   constexpr std::size_t fixed = 1200;  // all fields of one size, and the name
-  const std::size_t bytes = message.values.size() * 8 + message.kind.size() * 5;
+  constexpr std::size_t piece_bytes = bytes_per_entry(fields, "piece_count");
+  constexpr std::size_t value_bytes = bytes_per_entry(fields, "value_count");
+  const std::size_t bytes = message.values.size() * value_bytes + message.kind.size() * piece_bytes;
   if (bytes > max_message_bytes - fixed) {
-    throw std::invalid_argument(
-        fmt::format("shape \"{}\": its {} pieces have {} numbers; rule: at most {} bytes of "
-                    "these (8 a number, 5 a piece), what one telemetry message holds",
-                    message.name, message.kind.size(), message.values.size(), max_message_bytes - fixed));
+    throw std::invalid_argument(fmt::format(
+        "shape \"{}\": its {} pieces have {} numbers; rule: at most {} bytes of "
+        "these ({} a number, {} a piece), what one telemetry message holds",
+        message.name, message.kind.size(), message.values.size(), max_message_bytes - fixed, value_bytes, piece_bytes));
   }
   return message;
 }

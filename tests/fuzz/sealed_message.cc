@@ -1,6 +1,6 @@
 #include "tests/fuzz/sealed_message.h"
 
-#include "lcmtypes/crc32.h"
+#include "lcmtypes/encode.h"
 
 namespace talus::fuzz {
 namespace {
@@ -21,7 +21,7 @@ std::vector<std::uint8_t> sealed_message(Channel channel, std::span<const std::u
     append_big_endian(bytes, static_cast<std::uint64_t>(Message::getHash()), 8);
   });
   bytes.insert(bytes.end(), content.begin(), content.end());
-  append_big_endian(bytes, crc32(bytes), checksum_bytes);
+  append_big_endian(bytes, checksum(bytes), checksum_bytes);
   return bytes;
 }
 

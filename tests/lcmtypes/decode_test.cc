@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "lcmtypes/crc32.h"
+#include "lcmtypes/encode.h"
 #include "tests/lcmtypes/sample_packets.h"
 
 namespace talus::decode_test {
@@ -46,7 +46,7 @@ std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
 
 /// What somebody sends who gets the checksum right but not the rest.
 void seal_again(Bytes& bytes) {
-  const std::uint32_t sum = crc32(std::span(bytes).first(bytes.size() - checksum_bytes));
+  const std::uint32_t sum = checksum(std::span(bytes).first(bytes.size() - checksum_bytes));
   for (std::size_t i = 0; i < checksum_bytes; ++i) {
     bytes[bytes.size() - 1 - i] = static_cast<std::uint8_t>(sum >> (8 * i));
   }
@@ -119,13 +119,13 @@ TEST(Decoder, RefusesHugeAndNegativeCountsWithoutAllocating) {
 
 TEST(Decoder, RefusesWhatIsNotFinite) {
   talus_piles_v1 piles = to_piles<2>({}).front();
-  Sealer sealer(1);
-  EXPECT_EQ(fault_of<talus_piles_v1>(sealer.seal(piles, {0, 1, 0.5}).bytes), "");
-  EXPECT_NE(fault_of<talus_piles_v1>(sealer.seal(piles, {0, 1, std::nan("")}).bytes), "");
-  EXPECT_NE(fault_of<talus_piles_v1>(sealer.seal(piles, {0, -1, 0.5}).bytes), "");
+  MessageEncoder encoder(1);
+  EXPECT_EQ(fault_of<talus_piles_v1>(encoder.encode(piles, {0, 1, 0.5}).bytes), "");
+  EXPECT_NE(fault_of<talus_piles_v1>(encoder.encode(piles, {0, 1, std::nan("")}).bytes), "");
+  EXPECT_NE(fault_of<talus_piles_v1>(encoder.encode(piles, {0, -1, 0.5}).bytes), "");
   talus_stats_v2 stats{};
   stats.kinetic_energy = std::numeric_limits<double>::infinity();
-  EXPECT_NE(fault_of<talus_stats_v2>(sealer.seal(stats, {0, 1, 0.5}).bytes), "");
+  EXPECT_NE(fault_of<talus_stats_v2>(encoder.encode(stats, {0, 1, 0.5}).bytes), "");
 }
 
 TEST(Decoder, ReadsStatisticsOfTheVersionBefore) {
@@ -136,8 +136,8 @@ TEST(Decoder, ReadsStatisticsOfTheVersionBefore) {
   old.timed = 1;
   old.ms_observe = 0.5F;
   old.dropped = 9;
-  Sealer sealer(1);
-  Packet packet = sealer.seal(old, {0, 6, 0.5});
+  MessageEncoder encoder(1);
+  Packet packet = encoder.encode(old, {0, 6, 0.5});
   talus_stats_v2 read;
   ASSERT_EQ(decode(packet.bytes, read), "");
   EXPECT_EQ(read.step, 6);
@@ -153,7 +153,7 @@ TEST(Decoder, ReadsStatisticsOfTheVersionBefore) {
 }
 
 TEST(Decoder, RefusesWarningsThatNoRunGives) {
-  Sealer sealer(1);
+  MessageEncoder encoder(1);
   const auto fault = [&](std::int8_t kind, std::int64_t step, double value, std::size_t number) {
     talus_stats_v2 stats{};
     stats.warning_count = static_cast<std::int32_t>(number);
@@ -162,7 +162,7 @@ TEST(Decoder, RefusesWarningsThatNoRunGives) {
     stats.warning_body.assign(number, 0);
     stats.warning_bodies.assign(number, 1);
     stats.warning_value.assign(number, value);
-    return fault_of<talus_stats_v2>(sealer.seal(stats, {0, 1, 0.5}).bytes);
+    return fault_of<talus_stats_v2>(encoder.encode(stats, {0, 1, 0.5}).bytes);
   };
   EXPECT_EQ(fault(talus_stats_v2::NOT_APPEARED, 1, 1.0, 6), "");
   EXPECT_NE(fault(talus_stats_v2::NOT_APPEARED + 1, 1, 1.0, 1), "");

@@ -24,18 +24,18 @@ std::vector<Packet> sample_packets(int bodies) {
   std::vector<BodyIndex> all(states.shape.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<BodyIndex>(i);
 
-  Sealer sealer(42);
+  MessageEncoder encoder(42);
   std::vector<Packet> packets;
-  const auto seal = [&](auto messages) {
-    for (auto& message : messages) packets.push_back(sealer.seal(message, {1000, frame.step, frame.time}));
+  const auto encode = [&](auto messages) {
+    for (auto& message : messages) packets.push_back(encoder.encode(message, {1000, frame.step, frame.time}));
   };
   constexpr Channel channels[] = {Channel::run, Channel::piles};
-  seal(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run_v1::ALIVE, "", channels, sealer)});
-  seal(to_piles<Dim>(frame.piles.piles()));
-  seal(to_sleep(frame.events));
-  seal(std::vector{to_stats<Dim>(frame, scene.world.shapes)});
-  seal(to_bodies<Dim>(states, all, true));
-  seal(to_shapes<Dim>(scene.world));
+  encode(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run_v1::ALIVE, "", channels, encoder)});
+  encode(to_piles<Dim>(frame.piles.piles()));
+  encode(to_sleep(frame.events));
+  encode(std::vector{to_stats<Dim>(frame, scene.world.shapes)});
+  encode(to_bodies<Dim>(states, all, true));
+  encode(to_shapes<Dim>(scene.world));
   return packets;
 }
 

@@ -18,9 +18,9 @@ using talus_lcm::talus_stats_v2;
 
 template <class Message>
 void expect_sendable(std::vector<Message>& messages) {
-  Sealer sealer(1);
+  MessageEncoder encoder(1);
   for (std::size_t i = 0; i < messages.size(); ++i) {
-    const Packet packet = sealer.seal(messages[i], {});
+    const Packet packet = encoder.encode(messages[i], {});
     ASSERT_LE(packet.bytes.size(), max_message_bytes);
     Message decoded;
     ASSERT_EQ(decode(packet.bytes, decoded), "");
@@ -166,9 +166,9 @@ TEST(StatsMessage, CarriesEveryWarningThereAndBack) {
   auto stats = to_stats<2>(
       Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .warnings = warnings, .bodies_asked = 5},
       scene.world.shapes);
-  Sealer sealer(1);
+  MessageEncoder encoder(1);
   talus_stats_v2 decoded;
-  ASSERT_EQ(decode(sealer.seal(stats, {}).bytes, decoded), "");
+  ASSERT_EQ(decode(encoder.encode(stats, {}).bytes, decoded), "");
   EXPECT_EQ(decoded.asked, 5);
   EXPECT_EQ(decoded.appeared, 1);
   const std::vector<Warning> told = warnings_of(decoded);

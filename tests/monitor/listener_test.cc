@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "lcmtypes/crc32.h"
+#include "lcmtypes/encode.h"
 #include "lcmtypes/translate.h"
 #include "tools/monitor/text_view.h"
 
@@ -27,24 +27,24 @@ struct Wire {
 
 /// A run's messages: TALUS_RUN at both ends, piles, sleep events and statistics of each step between.
 std::vector<Packet> stream(int steps) {
-  Sealer sealer(42);
+  MessageEncoder encoder(42);
   std::vector<Packet> packets;
   const RunInfo info{.scene = "stream", .backend = "box2d", .policy = "paper", .version = "1"};
   constexpr Channel channels[] = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
   const auto say_run = [&](std::int8_t phase, int step) {
-    auto run = to_run(info, phase, "", channels, sealer);
-    packets.push_back(sealer.seal(run, {.utime = step, .step = step, .sim_time = 0.1 * step}));
+    auto run = to_run(info, phase, "", channels, encoder);
+    packets.push_back(encoder.encode(run, {.utime = step, .step = step, .sim_time = 0.1 * step}));
   };
   const Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
   const SleepEvent event{.body = 3, .cause = SleepCause::score};
   say_run(talus_run_v1::BEGIN, 0);
   for (int step = 1; step <= steps; ++step) {
-    const Moment moment{.utime = step, .step = step, .sim_time = 0.1 * step};
-    for (auto& message : to_piles<2>(std::span(&pile, 1))) packets.push_back(sealer.seal(message, moment));
-    for (auto& message : to_sleep(std::span(&event, 1))) packets.push_back(sealer.seal(message, moment));
+    const Stamp stamp{.utime = step, .step = step, .sim_time = 0.1 * step};
+    for (auto& message : to_piles<2>(std::span(&pile, 1))) packets.push_back(encoder.encode(message, stamp));
+    for (auto& message : to_sleep(std::span(&event, 1))) packets.push_back(encoder.encode(message, stamp));
     talus_stats_v2 stats{};
     stats.awake = step;
-    packets.push_back(sealer.seal(stats, moment));
+    packets.push_back(encoder.encode(stats, stamp));
   }
   say_run(talus_run_v1::END, steps);
   return packets;
@@ -83,9 +83,9 @@ TEST(Listener, ForgetsEndedRunsBeforeItIsFull) {
   Wire wire;
   Packet last;
   for (int id = 0; id < 200; ++id) {
-    Sealer sealer(id);
-    auto run = to_run({}, talus_run_v1::END, "finished", {}, sealer);
-    last = sealer.seal(run, {});
+    MessageEncoder encoder(id);
+    auto run = to_run({}, talus_run_v1::END, "finished", {}, encoder);
+    last = encoder.encode(run, {});
     wire.send(last);
   }
   EXPECT_LE(wire.listener.runs().entries().size(), 64U);
@@ -160,9 +160,9 @@ TEST(Listener, CountsTheLossThatForgedNumbersClaimWithoutOverflow) {
   for (std::int64_t id = 1; id < 200; ++id) {
     for (const std::int64_t number : {std::int64_t{0}, largest}) {
       talus_stats_v2 stats{};
-      Packet packet = Sealer(id).seal(stats, {});
+      Packet packet = MessageEncoder(id).encode(stats, {});
       for (std::size_t i = 0; i < 8; ++i) packet.bytes[40 + i] = static_cast<std::uint8_t>(number >> (56 - 8 * i));
-      const std::uint32_t sum = crc32(std::span(packet.bytes).first(packet.bytes.size() - checksum_bytes));
+      const std::uint32_t sum = checksum(std::span(packet.bytes).first(packet.bytes.size() - checksum_bytes));
       for (std::size_t i = 0; i < 4; ++i) {
         packet.bytes[packet.bytes.size() - 4 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
       }
@@ -175,7 +175,7 @@ TEST(Listener, CountsTheLossThatForgedNumbersClaimWithoutOverflow) {
 
 TEST(Listener, KeepsABoundedNumberOfLayers) {
   Wire wire;
-  Sealer sealer(42);
+  MessageEncoder encoder(42);
   for (int first = 0; first < 200; ++first) {
     talus_lcm::talus_piles_v1 message{};
     message.parts = 1;
@@ -186,7 +186,7 @@ TEST(Listener, KeepsABoundedNumberOfLayers) {
     message.piles[0].merged_into = -1;
     message.piles[0].layer_count = message.piles[0].layer_total = 1024;
     message.piles[0].layers.resize(1024);
-    wire.send(sealer.seal(message, {}));
+    wire.send(encoder.encode(message, {}));
   }
   EXPECT_EQ(wire.listener.undecodable(), 0) << wire.listener.last_fault();
   EXPECT_EQ(wire.run().piles().size(), 64U);

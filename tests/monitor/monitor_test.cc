@@ -104,9 +104,9 @@ TEST(Monitor, RefusesBadParameters) {
 void crash_once(const DatagramSender& sender, const std::string& mark) {
   const bool first = access(mark.c_str(), F_OK) != 0;
   std::ofstream(mark) << "was here";
-  Sealer sealer(42);
+  MessageEncoder encoder(42);
   talus_lcm::talus_stats_v2 stats{};
-  const Packet packet = sealer.seal(stats, {});
+  const Packet packet = encoder.encode(stats, {});
   sender.send(packet.channel, packet.bytes.data(), packet.bytes.size());
   if (first) std::raise(SIGKILL);
   receive_nothing(sender);

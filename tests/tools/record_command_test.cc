@@ -12,7 +12,7 @@
 #include <span>
 
 #include "lcmtypes/big_endian.h"
-#include "lcmtypes/crc32.h"
+#include "lcmtypes/encode.h"
 #include "tests/process/process.h"
 
 namespace talus::record_command_test {
@@ -212,7 +212,7 @@ TEST(CompareCommand, PrintsForgedTextsWithoutHarm) {
       std::string data = log.substr(place.at, place.size);
       data.replace(data.find("adaptive"), 8, "\xff\x1b[2J\xc3(\x9b");
       const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(data.data()), data.size() - 4);
-      const std::uint32_t sum = crc32(bytes);
+      const std::uint32_t sum = checksum(bytes);
       for (std::size_t i = 0; i < 4; ++i) data[data.size() - 4 + i] = static_cast<char>(sum >> (24 - 8 * i));
       log.replace(place.at, place.size, data);
     }
