@@ -76,6 +76,7 @@ std::string_view decode(std::span<const std::uint8_t> bytes, Message& message) {
   return range_fault(message);
 }
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a type takes none
 #define TALUS_DECODE(Message) template std::string_view decode(std::span<const std::uint8_t>, Message&);
 TALUS_EACH_MESSAGE(TALUS_DECODE)
 

@@ -51,6 +51,7 @@ Packet MessageEncoder::encode(Message& message, const Stamp& stamp) {
   return packet;
 }
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a type takes none
 #define TALUS_ENCODE(Message) template Packet MessageEncoder::encode(Message&, const Stamp&);
 TALUS_EACH_MESSAGE(TALUS_ENCODE)
 
