@@ -64,24 +64,16 @@ void put(talus_lcm::talus_stats_v2& message, const PhaseTimes& sum, std::int64_t
 }  // namespace
 
 template <int Dim>
-Publisher<Dim>::Publisher(const RunInfo& info, const Scene<Dim>& scene, const PublisherParams& params)
-    : info_(info),
-      shapes_(scene.world.shapes),
-      run_id_(live_id(info)),
-      encoder_(run_id_),
-      piles_pulse_(params.piles_rate) {
+Publisher<Dim>::Publisher(const RunInfo& info, const PublisherParams& params)
+    : info_(info), run_id_(live_id(info)), encoder_(run_id_), piles_pulse_(params.piles_rate) {
   check(params);
   queue_ = open_queue(params);
   begin();
 }
 
 template <int Dim>
-Publisher<Dim>::Publisher(const RunInfo& info, const Scene<Dim>& scene, const PublisherParams& params, lcm::LCM& lcm)
-    : info_(info),
-      shapes_(scene.world.shapes),
-      run_id_(live_id(info)),
-      encoder_(run_id_),
-      piles_pulse_(params.piles_rate) {
+Publisher<Dim>::Publisher(const RunInfo& info, const PublisherParams& params, lcm::LCM& lcm)
+    : info_(info), run_id_(live_id(info)), encoder_(run_id_), piles_pulse_(params.piles_rate) {
   check(params);
   queue_ = std::make_unique<SendQueue>(lcm, params.queue_bytes);
   begin();
@@ -123,7 +115,7 @@ void Publisher<Dim>::send_run(std::int8_t phase, std::string_view reason, std::i
 
 template <int Dim>
 void Publisher<Dim>::send_stats(const Frame<Dim>& frame, Clock::time_point now) {
-  auto message = to_stats<Dim>(frame, shapes_);
+  auto message = to_stats<Dim>(frame);
   message.timed = 1;
   if (summed_steps_ > 0) put(message, sum_, summed_steps_);
   const std::chrono::duration<double> passed = now - stats_wall_;

@@ -48,9 +48,9 @@ template <int Dim>
 class Publisher final : public Observer<Dim> {
  public:
   /// Throws std::invalid_argument on bad parameters, an address that leaves the machine among them.
-  Publisher(const RunInfo& info, const Scene<Dim>& scene, const PublisherParams& params = {});
+  explicit Publisher(const RunInfo& info, const PublisherParams& params = {});
   /// Sends through an `lcm` that lives longer than this object; the parameters' address means nothing.
-  Publisher(const RunInfo& info, const Scene<Dim>& scene, const PublisherParams& params, lcm::LCM& lcm);
+  Publisher(const RunInfo& info, const PublisherParams& params, lcm::LCM& lcm);
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
@@ -71,7 +71,6 @@ class Publisher final : public Observer<Dim> {
   void send_stats(const Frame<Dim>& frame, Clock::time_point now);
 
   RunInfo info_;
-  std::vector<Shape<Dim>> shapes_;
   std::int64_t run_id_;
   MessageEncoder encoder_;
   std::unique_ptr<SendQueue> queue_;

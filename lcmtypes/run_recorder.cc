@@ -37,7 +37,6 @@ template <int Dim>
 RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, const Scene<Dim>& scene,
                               const RecorderParams& params)
     : info_(info),
-      shapes_(scene.world.shapes),
       steps_per_frame_(scene.steps_per_frame()),
       steps_per_key_frame_(std::max<std::int64_t>(1, std::llround(checked(params).key_frame_interval / info.dt))),
       flush_interval_(params.flush_interval),
@@ -75,7 +74,7 @@ template <int Dim>
 void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   const BodyStates<Dim>& states = frame.world.states();
   write(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);
-  auto stats = to_stats<Dim>(frame, shapes_);
+  auto stats = to_stats<Dim>(frame);
   write(stats, frame.step, frame.time);
   std::vector<BodyIndex> bodies = moved(frame);
   poses_since_key_frame_ += static_cast<std::int64_t>(bodies.size());

@@ -43,7 +43,6 @@ class RunRecorder final : public Observer<Dim> {
   std::vector<BodyIndex> moved(const Frame<Dim>& frame);
 
   RunInfo info_;
-  std::vector<Shape<Dim>> shapes_;
   std::int64_t steps_per_frame_;
   std::int64_t steps_per_key_frame_;
   std::int64_t poses_since_key_frame_ = 0;

@@ -155,18 +155,14 @@ std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
 }
 
 template <int Dim>
-talus_stats_v2 to_stats(const Frame<Dim>& frame, std::span<const Shape<Dim>> shapes) {
+talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();
-  const std::span<const BodyIndex> awake = frame.world.awake();
   talus_stats_v2 message{};
   const auto removed = std::count(states.removed.begin(), states.removed.end(), 1);
-  message.awake = static_cast<std::int32_t>(awake.size());
+  message.awake = static_cast<std::int32_t>(frame.world.awake().size());
   message.asleep = states.size() - message.awake - static_cast<std::int32_t>(removed);
   message.contacts = -1;
-  for (const BodyIndex body : awake) {
-    const auto i = static_cast<std::size_t>(body);
-    message.kinetic_energy += kinetic_energy(shapes[static_cast<std::size_t>(states.shape[i])], states, i);
-  }
+  message.kinetic_energy = kinetic_energy(frame.world);
   message.asked = frame.bodies_asked;
   message.appeared = states.size();
   for (const Warning& warning : frame.warnings) {
@@ -220,8 +216,8 @@ std::vector<talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<
 
 template std::vector<talus_piles_v1> to_piles<2>(std::span<const Pile<2>>);
 template std::vector<talus_piles_v1> to_piles<3>(std::span<const Pile<3>>);
-template talus_stats_v2 to_stats<2>(const Frame<2>&, std::span<const Shape<2>>);
-template talus_stats_v2 to_stats<3>(const Frame<3>&, std::span<const Shape<3>>);
+template talus_stats_v2 to_stats<2>(const Frame<2>&);
+template talus_stats_v2 to_stats<3>(const Frame<3>&);
 template std::vector<talus_bodies_v1> to_bodies<2>(const BodyStates<2>&, std::span<const BodyIndex>, bool);
 template std::vector<talus_bodies_v1> to_bodies<3>(const BodyStates<3>&, std::span<const BodyIndex>, bool);
 

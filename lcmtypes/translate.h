@@ -24,10 +24,10 @@ std::vector<talus_lcm::talus_piles_v1> to_piles(std::span<const Pile<Dim>> piles
 /// No message where there are no events.
 std::vector<talus_lcm::talus_sleep_v1> to_sleep(std::span<const SleepEvent> events);
 
-/// Counts, kinetic energy and warnings; the rest stays at 0, `contacts` at -1. Costs O(awake), and a look at each
-/// `removed` flag.
+/// Counts, kinetic energy and warnings; the rest stays at 0, `contacts` at -1. Costs O(awake), and a pass
+/// over the `removed` flags.
 template <int Dim>
-talus_lcm::talus_stats_v2 to_stats(const Frame<Dim>& frame, std::span<const Shape<Dim>> shapes);
+talus_lcm::talus_stats_v2 to_stats(const Frame<Dim>& frame);
 
 /// The warnings of a message.
 std::vector<Warning> warnings_of(const talus_lcm::talus_stats_v2& message);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim2d/conversions.h"
 #include "sim2d/materials.h"
-#include "sim2d/shapes.h"
 
 namespace talus::box2d {
 namespace {

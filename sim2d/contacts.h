@@ -1,5 +1,5 @@
 #pragma once
-// Engine contacts as ours.
+// Box2D's contacts as ours.
 
 #include <box2d/box2d.h>
 
@@ -13,9 +13,9 @@
 
 namespace talus::box2d {
 
-/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made anew, spares
-/// slow bodies continuous collision against sleepers, and, once contacts are asked for, notes what only a listener
-/// sees: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
+/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made again, turns
+/// off continuous collision of slow bodies against frozen ones, and, in a step that records contacts, notes what only a
+/// listener sees: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
 class ContactListener final : public b2ContactListener {
  public:
   ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start);
@@ -24,11 +24,12 @@ class ContactListener final : public b2ContactListener {
   void PreSolve(b2Contact* contact, const b2Manifold* before) override;
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
-  /// Forgets the last step. `sleepers`: whether there are any in the coming one; `recording`: whether to note it.
+  /// Forgets the last step. `sleepers`: whether there are frozen bodies in the coming one; `recording`: whether to
+  /// record its contacts.
   void start_step(bool sleepers, bool recording);
 
-  /// Appends a body's touching contacts by their other side. Every contact comes once: that of two awake bodies with
-  /// the one of lower index. Without a record of the step, approach speeds are 0.
+  /// Appends a body's touching contacts, sorted by their other side. Each contact is listed once: that of two awake
+  /// bodies under the one with the lower index.
   void gather(b2Body& body, BodyIndex index, std::vector<Contact<2>>& out);
 
  private:

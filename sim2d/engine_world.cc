@@ -1,9 +1,9 @@
 #include "sim2d/engine_world.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 
-#include "common/math/require.h"
+#include "sim2d/conversions.h"
 #include "sim2d/materials.h"
 
 namespace talus::box2d {
@@ -12,7 +12,7 @@ namespace {
 constexpr float ground_reach = 2e4F;  // [m] to both sides; bodies are added within 1e4 m
 constexpr double milliseconds = 1e-3;
 
-/// Collects whom Box2D finds in a box.
+/// Collects the bodies that Box2D finds in a box.
 class Finder final : public b2QueryCallback {
  public:
   explicit Finder(std::vector<BodyIndex>& found) : found_(&found) {}
@@ -27,184 +27,230 @@ class Finder final : public b2QueryCallback {
   std::vector<BodyIndex>* found_;
 };
 
+bool is_finite(const b2Body& body) {
+  // One sum instead of six tests: it is finite only if every term is.
+  return std::isfinite(body.GetPosition().x + body.GetPosition().y + body.GetAngle() + body.GetLinearVelocity().x +
+                       body.GetLinearVelocity().y + body.GetAngularVelocity());
+}
+
+// Thawed bodies must be where they were, bit for bit: the engine's floats come back unchanged through our doubles, and
+// the angle is kept as an angle, not as sine and cosine.
+b2Transform stored_pose(const Pose<2>& pose) {
+  return {to_engine(pose.position), b2Rot(static_cast<float>(pose.rotation.angle()))};
+}
+
+void give_velocity(b2Body& body, const Vec<2>& velocity, const Spin<2>& spin) {
+  body.SetLinearVelocity(to_engine(velocity));
+  body.SetAngularVelocity(static_cast<float>(spin[0]));
+}
+
 }  // namespace
 
 EngineWorld::EngineWorld(const WorldDescription<2>& description)
-    : description_(description),
+    : World<2>(description, {fastest_speed<2>(description.dt), fastest_spin(description.dt)}),
       world_(b2Vec2(0.0F, -static_cast<float>(description.gravity))),
-      freezer_(world_, description.skips.sleepers),
+      hosts_(world_, description.skips.sleepers),
       listener_(description, warm_start_) {
-  for (const Shape<2>& shape : description_.shapes) {
-    blueprints_.push_back({engine_shapes(shape), fixture_of(shape.material, description_.solver), engine_mass(shape)});
+  for (const Shape<2>& shape : description.shapes) {
+    templates_.push_back(make_body_template(shape, description.solver));
   }
-  world_.SetAllowSleeping(description_.engine_sleep);
+  world_.SetAllowSleeping(description.engine_sleep);
   world_.SetAutoClearForces(false);  // there are none
   world_.SetContactListener(&listener_);
-  add_fixed_bodies();
+  if (description.ground.present) {
+    add_ground();
+  }
+  add_obstacles();
 }
 
-void EngineWorld::add_fixed_bodies() {
-  if (description_.ground.present) {
-    const auto z = static_cast<float>(description_.ground.height);
-    b2EdgeShape line;
-    line.SetTwoSided({-ground_reach, z}, {ground_reach, z});
-    b2FixtureDef fixture = fixture_of(description_.ground.material, description_.solver);
-    fixture.shape = &line;
-    fixture.userData = to_user_data(make_tag(ground_index, 0));
-    const b2BodyDef fixed;
-    world_.CreateBody(&fixed)->CreateFixture(&fixture);
-  }
+void EngineWorld::add_ground() {
+  const auto z = static_cast<float>(description().ground.height);
+  b2EdgeShape line;
+  line.SetTwoSided({-ground_reach, z}, {ground_reach, z});
+  b2FixtureDef fixture = fixture_of(description().ground.material, description().solver);
+  fixture.shape = &line;
+  fixture.userData = to_user_data(make_tag(ground_index, 0));
+  const b2BodyDef fixed;
+  world_.CreateBody(&fixed)->CreateFixture(&fixture);
+}
+
+void EngineWorld::add_obstacles() {
   BodyIndex index = first_obstacle;
-  for (const Obstacle<2>& obstacle : description_.obstacles) {
+  for (const Obstacle<2>& obstacle : description().obstacles) {
     b2BodyDef fixed;
     fixed.position = to_engine(obstacle.pose.position);
     fixed.angle = engine_angle(obstacle.pose.rotation.angle());
     b2Body& body = *world_.CreateBody(&fixed);
-    b2FixtureDef fixture = fixture_of(obstacle.shape.material, description_.solver);
-    int piece = 0;
-    for (const EngineShape& shape : engine_shapes(obstacle.shape)) {
-      fixture.shape = &base(shape);
-      fixture.userData = to_user_data(make_tag(index, piece++));
+    b2FixtureDef fixture = fixture_of(obstacle.shape.material, description().solver);
+    int number = 0;
+    for (const EnginePiece& piece : engine_pieces(obstacle.shape)) {
+      fixture.shape = &base(piece);
+      fixture.userData = to_user_data(make_tag(index, number++));
       body.CreateFixture(&fixture);
     }
     --index;
   }
 }
 
-BodyIndex EngineWorld::add(const BodyDef<2>& body) {
-  check(body, description_);
+Pose<2> EngineWorld::engine_add(BodyIndex body, const BodyDef<2>& def) {
   check_memory();
-  const BodyIndex index = states_.size();
-  const Pose<2> pose{from_engine(to_engine(body.pose.position)), Rotation<2>(engine_angle(body.pose.rotation.angle()))};
-  states_.shape.push_back(body.shape);
-  states_.pose.push_back(pose);
-  states_.velocity.push_back(body.velocity);
-  states_.spin.push_back(body.spin);
-  states_.asleep.push_back(0);
-  states_.removed.push_back(0);
-  bodies_.push_back({create(index, body.velocity, body.spin), nullptr});
+  const Pose<2> pose{from_engine(to_engine(def.pose.position)), Rotation<2>(engine_angle(def.pose.rotation.angle()))};
+  b2Body* made = create(body, template_of(def.shape), pose);
+  give_velocity(*made, def.velocity, def.spin);
+  bodies_.push_back({made, nullptr});
   proxies_moved_ = true;
-  awake_.push_back(index);
-  return index;
+  return pose;
 }
 
-b2Body* EngineWorld::create(BodyIndex index, const Vec<2>& velocity, const Spin<2>& spin) {
-  const Pose<2>& pose = states_.pose[static_cast<std::size_t>(index)];
+b2Body* EngineWorld::create(BodyIndex index, const BodyTemplate& from, const Pose<2>& pose) {
   b2BodyDef def;
   def.type = b2_dynamicBody;
   def.position = to_engine(pose.position);
   def.angle = static_cast<float>(pose.rotation.angle());
-  def.linearVelocity = to_engine(velocity);
-  def.angularVelocity = static_cast<float>(spin[0]);
   b2Body* body = world_.CreateBody(&def);
-  const Blueprint& blueprint = blueprint_of(index);
-  b2FixtureDef fixture = blueprint.material;
-  int piece = 0;
-  for (const EngineShape& shape : blueprint.shapes) {
-    fixture.shape = &base(shape);
-    fixture.userData = to_user_data(make_tag(index, piece++));
+  b2FixtureDef fixture = from.material;
+  int number = 0;
+  for (const EnginePiece& piece : from.pieces) {
+    fixture.shape = &base(piece);
+    fixture.userData = to_user_data(make_tag(index, number++));
     body->CreateFixture(&fixture);
   }
-  body->SetMassData(&blueprint.mass);
+  body->SetMassData(&from.mass);
   return body;
+}
+
+void EngineWorld::engine_remove(BodyIndex body) {
+  find_new_contacts();
+  if (at(body).frozen != nullptr) {
+    hosts_.remove(at(body).frozen, template_of_body(body));
+  } else {
+    world_.DestroyBody(at(body).body);
+  }
+  at(body) = {};
+  warm_start_.forget(body);
+}
+
+void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, const Spin<2>& spin) {
+  give_velocity(*at(body).body, velocity, spin);
+}
+
+EngineTimes EngineWorld::engine_step() {
+  warm_start_.start_step(states().asleep);
+  listener_.start_step(description().skips.continuous && hosts_.hosts() > 0, records_contacts());
+  if (description().skips.idle && awake().empty()) {
+    return {};
+  }
+  check_memory();
+  world_.Step(static_cast<float>(description().dt), description().solver.velocity_iterations,
+              description().solver.position_iterations);
+  warm_start_.end_step();
+  proxies_moved_ = false;
+  const b2Profile& profile = world_.GetProfile();
+  return {.collide = milliseconds * static_cast<double>(profile.collide + profile.broadphase),
+          .solve = milliseconds * static_cast<double>(profile.solve - profile.broadphase + profile.solveTOI)};
+}
+
+std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
+  const auto broken = std::ranges::find_if(awake(), [this](BodyIndex body) { return !is_finite(*at(body).body); });
+  if (broken != awake().end()) {
+    return *broken;
+  }
+  for (const BodyIndex index : awake()) {
+    const auto i = static_cast<std::size_t>(index);
+    const b2Body& body = *at(index).body;
+    states.pose[i].position = from_engine(body.GetPosition());
+    states.pose[i].rotation.angle() = body.GetAngle();
+    states.velocity[i] = from_engine(body.GetLinearVelocity());
+    states.spin[i][0] = body.GetAngularVelocity();
+  }
+  return std::nullopt;
+}
+
+void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
+  for (const BodyIndex body : awake()) {
+    listener_.gather(*at(body).body, body, contacts);
+  }
+}
+
+bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
+
+void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
+  for (const BodyIndex body : bodies) {
+    for (const b2ContactEdge* edge = at(body).body->GetContactList(); edge != nullptr; edge = edge->next) {
+      warm_start_.save(*edge->contact);
+    }
+  }
+  // All are destroyed before the first is made again, last first: so every fixture gets its old number in the broad
+  // phase again, which decides the side that Box2D measures a contact from.
+  find_new_contacts();
+  for (auto body = bodies.rbegin(); body != bodies.rend(); ++body) {
+    world_.DestroyBody(at(*body).body);
+  }
+  for (const BodyIndex body : bodies) {
+    const Pose<2>& pose = states().pose[static_cast<std::size_t>(body)];
+    at(body) = {nullptr, hosts_.add(body, template_of_body(body), stored_pose(pose))};
+  }
+  proxies_moved_ = true;
+}
+
+void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
+  for (const BodyIndex body : bodies) {
+    warm_start_.wake(body);
+    if (at(body).body != nullptr) {
+      at(body).body->SetAwake(true);  // asleep by the engine's own rule
+    }
+  }
+  std::vector<b2Fixture*> fixtures = fixtures_of(bodies);
+  hosts_.for_each_contact(fixtures, [this](b2Contact& contact, BodyIndex owner) {
+    if (states().asleep[static_cast<std::size_t>(owner)] == 0) {
+      warm_start_.save(contact);
+    }
+  });
+  find_new_contacts();
+  std::ranges::reverse(fixtures);  // see engine_freeze()
+  for (b2Fixture* fixture : fixtures) {
+    hosts_.remove(fixture, template_of_body(owner_of(*fixture)));
+  }
+  create_thawed(bodies);
+  proxies_moved_ = true;
+}
+
+/// The first fixture of each frozen body of `bodies`.
+std::vector<b2Fixture*> EngineWorld::fixtures_of(std::span<const BodyIndex> bodies) const {
+  std::vector<b2Fixture*> fixtures;
+  for (const BodyIndex body : bodies) {
+    if (at(body).frozen != nullptr) {
+      fixtures.push_back(at(body).frozen);
+    }
+  }
+  return fixtures;
+}
+
+/// Makes the bodies of `bodies` that have none.
+void EngineWorld::create_thawed(std::span<const BodyIndex> bodies) {
+  for (const BodyIndex body : bodies) {
+    if (at(body).body == nullptr) {
+      at(body) = {create(body, template_of_body(body), states().pose[static_cast<std::size_t>(body)]), nullptr};
+    }
+  }
 }
 
 void EngineWorld::check_memory() const {
   reserve_.check(bodies_.size(), static_cast<std::size_t>(world_.GetContactCount()));
 }
 
-void EngineWorld::check_index(BodyIndex body) const {
-  require(body >= 0 && body < states_.size(), "body", body, "must be the number of a body added before, from 0 on");
-  require(states_.removed[static_cast<std::size_t>(body)] == 0, "body", body, "must not have been removed");
-}
-
-const EngineWorld::Blueprint& EngineWorld::blueprint_of(BodyIndex body) const {
-  return blueprints_[static_cast<std::size_t>(states_.shape[static_cast<std::size_t>(body)])];
-}
-
-void EngineWorld::remove(BodyIndex body) {
-  check_index(body);
-  gather_contacts();
-  look_for_contacts();
-  const auto i = static_cast<std::size_t>(body);
-  if (bodies_[i].frozen != nullptr) {
-    freezer_.thaw(bodies_[i].frozen, blueprint_of(body).shapes.size());
-  } else {
-    world_.DestroyBody(bodies_[i].body);
-  }
-  bodies_[i] = {};
-  warm_start_.forget(body);
-  states_.removed[i] = 1;
-  std::erase(awake_, body);
-  note_engine_sleep();
-}
-
-void EngineWorld::set_velocity(BodyIndex body, const Vec<2>& velocity, const Spin<2>& spin) {
-  check_index(body);
-  const auto i = static_cast<std::size_t>(body);
-  require(states_.asleep[i] == 0, "body", body, "must be awake to be given a velocity");
-  check(BodyDef<2>{states_.shape[i], {}, velocity, spin}, description_);
-  bodies_[i].body->SetLinearVelocity(to_engine(velocity));
-  bodies_[i].body->SetAngularVelocity(static_cast<float>(spin[0]));
-  states_.velocity[i] = velocity;
-  states_.spin[i] = spin;
-}
-
-void EngineWorld::step() {
-  if (failure_) {
-    throw *failure_;
-  }
-  ++steps_;
-  warm_start_.start_step(states_.asleep);
-  listener_.start_step(description_.skips.continuous && freezer_.hosts() > 0, contacts_wanted_);
-  contacts_gathered_ = false;
-  times_ = {};
-  if (description_.skips.idle && awake_.empty()) {
-    return;
-  }
-  check_memory();
-  world_.Step(static_cast<float>(description_.dt), description_.solver.velocity_iterations,
-              description_.solver.position_iterations);
-  warm_start_.end_step();
-  proxies_moved_ = false;
-  const auto solved = std::chrono::steady_clock::now();
-  if (const auto broken = first_not_finite(bodies_, awake_)) {
-    failure_.emplace(steps_, *broken);
-    throw *failure_;
-  }
-  read_states(bodies_, awake_, states_);
-  note_engine_sleep();
-  const b2Profile& profile = world_.GetProfile();
-  times_.collide = milliseconds * static_cast<double>(profile.collide + profile.broadphase);
-  times_.solve = milliseconds * static_cast<double>(profile.solve - profile.broadphase + profile.solveTOI);
-  times_.read = std::chrono::duration<double>(std::chrono::steady_clock::now() - solved).count();
-}
-
-std::span<const Contact<2>> EngineWorld::contacts() {
-  contacts_wanted_ = true;
-  gather_contacts();
-  return contacts_;
-}
-
-void EngineWorld::gather_contacts() {
-  if (!contacts_wanted_ || contacts_gathered_) {
-    return;
-  }
-  contacts_gathered_ = true;
-  contacts_.clear();
-  for (const BodyIndex body : awake_) {
-    listener_.gather(*bodies_[static_cast<std::size_t>(body)].body, body, contacts_);
+void EngineWorld::find_new_contacts() {
+  if (proxies_moved_) {
+    // Step() would do just this first. Box2D gives access to its contact manager for reading only.
+    const_cast<b2ContactManager&>(world_.GetContactManager()).FindNewContacts();  // NOLINT(*-const-cast)
+    proxies_moved_ = false;
   }
 }
 
-void EngineWorld::near(const Box<2>& box, std::vector<BodyIndex>& found) const {
-  require(!box.min().hasNaN() && !box.max().hasNaN(), "box", "NaN", "must have corners that are numbers");
-  const auto known = static_cast<std::ptrdiff_t>(found.size());
+void EngineWorld::engine_query_box(const Box<2>& box, std::vector<BodyIndex>& found) const {
   Finder finder(found);
   const auto bounded = [](const Vec<2>& corner) { return to_engine(corner.cwiseMax(-1e30).cwiseMin(1e30)); };
   world_.QueryAABB(&finder, {bounded(box.min()), bounded(box.max())});
-  std::sort(found.begin() + known, found.end());
-  found.erase(std::unique(found.begin() + known, found.end()), found.end());
 }
 
 }  // namespace talus::box2d

@@ -29,9 +29,9 @@ EngineTraits box2d_traits() {
 }
 
 std::unique_ptr<World<2>> make_box2d_world(const WorldDescription<2>& description) {
-  check(description);
+  auto world = std::make_unique<box2d::EngineWorld>(description);  // checks what every engine demands
   check_for_box2d(description);
-  return std::make_unique<box2d::EngineWorld>(description);
+  return world;
 }
 
 }  // namespace talus

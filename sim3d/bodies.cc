@@ -17,7 +17,7 @@ RigidBodyMaker::~RigidBodyMaker() {
   }
 }
 
-std::unique_ptr<btRigidBody> RigidBodyMaker::make(const EngineShape& shape, const btTransform& place, BodyIndex index,
+std::unique_ptr<btRigidBody> RigidBodyMaker::make(const BodyTemplate& shape, const btTransform& place, BodyIndex index,
                                                   bool may_sleep) {
   // As the body's own operator new does, so that its operator delete can free it.
   if (spare_.empty()) {

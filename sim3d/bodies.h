@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/world/body.h"
-#include "sim3d/shapes.h"
+#include "sim3d/body_template.h"
 
 namespace talus::bullet {
 
@@ -21,7 +21,7 @@ class RigidBodyMaker {
   ~RigidBodyMaker();
 
   /// A rigid body at rest. `may_sleep`: whether Bullet's own sleeping applies to it.
-  std::unique_ptr<btRigidBody> make(const EngineShape& shape, const btTransform& place, BodyIndex index,
+  std::unique_ptr<btRigidBody> make(const BodyTemplate& shape, const btTransform& place, BodyIndex index,
                                     bool may_sleep);
 
   /// Ends a rigid body and keeps its memory; other objects just end.

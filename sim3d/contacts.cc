@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "sim3d/conversions.h"
 #include "sim3d/friction_impulse.h"
-#include "sim3d/plane.h"
 
 namespace talus::bullet {
 namespace {
@@ -14,30 +14,27 @@ std::int64_t place_of_pair(BodyIndex a, BodyIndex b) { return (std::int64_t{a} <
 }  // namespace
 
 template <int Dim>
-void Contacts<Dim>::before_step(std::span<btRigidBody* const> awake) {
-  if (!keep_motion_) {
-    return;
-  }
+void Contacts<Dim>::note_motion(std::span<btRigidBody* const> bodies) {
   moving_.clear();
   motion_.clear();
-  for (const btRigidBody* body : awake) {
+  for (const btRigidBody* body : bodies) {
     moving_.push_back(body->getUserIndex());
     motion_.push_back({body->getLinearVelocity(), body->getAngularVelocity()});
   }
 }
 
 template <int Dim>
-std::span<const Contact<Dim>> Contacts<Dim>::get(const Engine& engine) {
-  keep_motion_ = true;
-  if (!gathered_) {
-    gather(engine);
-    gathered_ = true;
+void Contacts<Dim>::gather(const Engine& engine, std::vector<Contact<Dim>>& contacts) {
+  find_touches(engine);
+  // The manifolds' order depends on the history of pairs; those of one pair keep theirs.
+  std::ranges::stable_sort(touches_, {}, &Touch::place);
+  for (const Touch& touch : touches_) {
+    append(touch, contacts);
   }
-  return contacts_;
 }
 
 template <int Dim>
-void Contacts<Dim>::gather(const Engine& engine) {
+void Contacts<Dim>::find_touches(const Engine& engine) {
   touches_.clear();
   for (int i = 0; i < engine.dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *const_cast<Engine&>(engine).dispatcher.getManifoldByIndexInternal(i);
@@ -52,16 +49,10 @@ void Contacts<Dim>::gather(const Engine& engine) {
     const btCollisionObject& b = swap ? first : second;
     touches_.push_back({place_of_pair(a.getUserIndex(), b.getUserIndex()), &manifold, &a, &b, swap});
   }
-  // The manifolds' order depends on the history of pairs; those of one pair keep theirs.
-  std::ranges::stable_sort(touches_, {}, &Touch::place);
-  contacts_.clear();
-  for (const Touch& touch : touches_) {
-    append(touch);
-  }
 }
 
 template <int Dim>
-void Contacts<Dim>::append(const Touch& touch) {
+void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contacts) const {
   const Motion motion_of_a = motion_before(*touch.a);
   const Motion motion_of_b = motion_before(*touch.b);
   for (int i = 0; i < touch.manifold->getNumContacts(); ++i) {
@@ -73,7 +64,7 @@ void Contacts<Dim>::append(const Touch& touch) {
     const btVector3 friction = friction_impulse(point);
     const btVector3& where = point.getPositionWorldOnB();
     const btVector3 approach = motion_of_b.at(*touch.b, where) - motion_of_a.at(*touch.a, where);
-    Contact<Dim>& contact = contacts_.emplace_back();
+    Contact<Dim>& contact = contacts.emplace_back();
     contact.a = touch.a->getUserIndex();
     contact.b = touch.b->getUserIndex();
     contact.point = from_bullet<Dim>(where);

@@ -1,5 +1,5 @@
 #pragma once
-// The contact points of the last step.
+// Bullet's contact points as ours.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -12,21 +12,19 @@
 
 namespace talus::bullet {
 
-/// Gathers the contacts that touch or carry an impulse, when asked. The velocities before a step, which the approach
-/// speed needs, are kept from the first call of get() on: a run that never asks pays nothing, and the approach speeds
-/// of its first answer are 0.
+/// Gathers the contacts that touch or carry an impulse.
 template <int Dim>
 class Contacts {
  public:
-  /// `mass_scale`: of the world, taken off the impulses again.
+  /// `mass_scale`: of the world; impulses are divided by it.
   explicit Contacts(double mass_scale) : impulse_unit_(1.0 / mass_scale) {}
 
-  /// To be called before each step with the awake bodies, ascending.
-  void before_step(std::span<btRigidBody* const> awake);
-  /// To be called after each step.
-  void after_step() { gathered_ = false; }
+  /// Before a step whose contacts will be gathered: notes the velocities, from which the approach speeds follow.
+  /// `bodies` are those in Bullet's lists, ascending.
+  void note_motion(std::span<btRigidBody* const> bodies);
 
-  std::span<const Contact<Dim>> get(const Engine& engine);
+  /// After a step: appends its contacts, see World::contacts().
+  void gather(const Engine& engine, std::vector<Contact<Dim>>& contacts);
 
  private:
   struct Motion {
@@ -36,7 +34,7 @@ class Contacts {
       return velocity + spin.cross(point - object.getWorldTransform().getOrigin());
     }
   };
-  /// The contact of a pair, or of two of its pieces, and its bodies in the order in which they are told.
+  /// The contact of a pair, or of two of its pieces, and its bodies in the order of the result.
   struct Touch {
     std::int64_t place = 0;  // in the order of pairs
     const btPersistentManifold* manifold = nullptr;
@@ -44,17 +42,14 @@ class Contacts {
     const btCollisionObject* b = nullptr;
     bool swap = false;  // b is Bullet's first
   };
-  void gather(const Engine& engine);
-  void append(const Touch& touch);
+  void find_touches(const Engine& engine);
+  void append(const Touch& touch, std::vector<Contact<Dim>>& contacts) const;
   Motion motion_before(const btCollisionObject& object) const;
 
-  std::vector<Contact<Dim>> contacts_;
   std::vector<Touch> touches_;     // scratch
-  std::vector<Motion> motion_;     // before the step, of the awake bodies
-  std::vector<BodyIndex> moving_;  // whose motion
+  std::vector<Motion> motion_;     // before the step
+  std::vector<BodyIndex> moving_;  // the bodies of motion_, ascending
   double impulse_unit_;            // [N s]
-  bool keep_motion_ = false;
-  bool gathered_ = false;
 };
 
 }  // namespace talus::bullet

@@ -2,45 +2,68 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
-#include <string>
+#include <cmath>
 
 #include "sim3d/bodies.h"
+#include "sim3d/conversions.h"
 #include "sim3d/mass_scale.h"
-#include "sim3d/plane.h"
-#include "sim3d/states.h"
 
 namespace talus::bullet {
 namespace {
 
-// What moves less in a step is never swept [m]: Bullet takes 0 for "nobody is swept".
+// What moves less in a step is never swept [m]: for Bullet, 0 turns continuous collision off.
 constexpr btScalar shortest_sweep = 1e-6F;
 
-using Clock = std::chrono::steady_clock;
+/// Collects the bodies that Bullet finds in a box.
+struct Finder final : btBroadphaseAabbCallback {
+  explicit Finder(std::vector<BodyIndex>& into) : found(into) {}
+  bool process(const btBroadphaseProxy* proxy) override {
+    const int index = static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
+    if (index >= 0) {
+      found.push_back(index);
+    }
+    return true;
+  }
+  std::vector<BodyIndex>& found;
+};
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+// Bullet stops simulating a body whose bounding box is not finite, without a message.
+bool is_finite(const btRigidBody& body) {
+  // A sum is finite only if all its parts are (or nearly overflow, which is no better).
+  const btVector3 sum = body.getWorldTransform().getOrigin() + body.getWorldTransform().getBasis().getRow(0) +
+                        body.getWorldTransform().getBasis().getRow(1) + body.getWorldTransform().getBasis().getRow(2) +
+                        body.getLinearVelocity() + body.getAngularVelocity();
+  return std::isfinite(sum.x() + sum.y() + sum.z()) && body.getActivationState() != DISABLE_SIMULATION;
+}
+
+template <int Dim>
+void give_velocity(btRigidBody& body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+  body.setLinearVelocity(to_bullet(velocity));
+  body.setAngularVelocity(spin_to_bullet<Dim>(spin));
+}
 
 }  // namespace
 
+// Planar as free: one engine, so the limits are those of 3D.
 template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
-    : description_(description),
+    : World<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
       engine_(description.gravity, description.solver, description.skips) {
   for (const Shape<Dim>& shape : description.shapes) {
-    shapes_.push_back(make_engine_shape(shape, mass_scale_));
+    templates_.push_back(make_body_template(shape, mass_scale_));
     if (!description.skips.continuous) {
-      shapes_.back().sweep_from = shortest_sweep;
+      templates_.back().sweep_from = shortest_sweep;
     }
   }
   if (description.ground.present) {
     add_ground();
   }
   add_obstacles();
-  engine_.world.set_after_collision([this] { freezer_.restore_contacts(); });
+  engine_.world.set_after_collision([this] { swap_.restore_contacts(); });
 }
 
-// Bullet knows the bodies by address: they leave it before they go.
+// Bullet holds the bodies by address: they leave it before they are destroyed.
 template <int Dim>
 EngineWorld<Dim>::~EngineWorld() {
   engine_.world.set_bodies({});
@@ -53,9 +76,9 @@ EngineWorld<Dim>::~EngineWorld() {
 
 template <int Dim>
 void EngineWorld<Dim>::add_ground() {
-  const Ground& ground = description_.ground;
-  ground_shape_ = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), static_cast<btScalar>(ground.height));
-  statics_.push_back(make_static_object(*ground_shape_, static_cast<btScalar>(std::sqrt(ground.material.friction)),
+  const Ground& ground = this->description().ground;
+  ground_ = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), static_cast<btScalar>(ground.height));
+  statics_.push_back(make_static_object(*ground_, static_cast<btScalar>(std::sqrt(ground.material.friction)),
                                         static_cast<btScalar>(std::sqrt(ground.material.restitution)),
                                         btTransform::getIdentity(), ground_index));
   engine_.world.add_static(*statics_.back());
@@ -63,122 +86,159 @@ void EngineWorld<Dim>::add_ground() {
 
 template <int Dim>
 void EngineWorld<Dim>::add_obstacles() {
-  for (const Obstacle<Dim>& obstacle : description_.obstacles) {
-    const BodyIndex index = first_obstacle - static_cast<BodyIndex>(obstacle_shapes_.size());
-    const EngineShape& shape = obstacle_shapes_.emplace_back(make_engine_shape(obstacle.shape));
-    statics_.push_back(make_static_object(*shape.whole, shape.friction, shape.restitution,
-                                          to_bullet(obstacle.pose, shape.frame), index));
+  BodyIndex index = first_obstacle;
+  for (const Obstacle<Dim>& obstacle : this->description().obstacles) {
+    const BodyTemplate& from = obstacles_.emplace_back(make_body_template(obstacle.shape));
+    statics_.push_back(make_static_object(*from.whole, from.friction, from.restitution,
+                                          to_bullet(obstacle.pose, from.frame), index--));
     engine_.world.add_static(*statics_.back());
   }
 }
 
 template <int Dim>
-BodyIndex EngineWorld<Dim>::add(const BodyDef<Dim>& body) {
-  check(body, description_);
-  const BodyIndex index = states_.size();
-  const EngineShape& shape = shapes_[static_cast<std::size_t>(body.shape)];
-  auto made = engine_.rigid_bodies.make(shape, to_bullet(body.pose, shape.frame), index, description_.engine_sleep);
-  made->setLinearVelocity(to_bullet(body.velocity));
-  made->setAngularVelocity(spin_to_bullet<Dim>(body.spin));
+Pose<Dim> EngineWorld<Dim>::engine_add(BodyIndex body, const BodyDef<Dim>& def) {
+  const BodyTemplate& from = template_of(def.shape);
+  auto made = engine_.rigid_bodies.make(from, to_bullet(def.pose, from.frame), body, this->description().engine_sleep);
+  give_velocity<Dim>(*made, def.velocity, def.spin);
   engine_.world.addRigidBody(made.get());
-  append_state(states_, body);
-  listed_.push_back(index);
+  listed_.push_back(body);
   rigid_.push_back(made.get());
-  awake_.push_back(index);
   objects_.push_back(std::move(made));
-  return index;
+  return def.pose;
 }
 
 template <int Dim>
-void EngineWorld<Dim>::remove(BodyIndex body) {
-  const std::size_t i = known(body);
-  freezer_.forget(body);
-  engine_.broadphase.destroyProxy(objects_[i]->getBroadphaseHandle(), &engine_.dispatcher);
-  states_.removed[i] = 1;
-  if (rigid_body(i) != nullptr) {
+void EngineWorld<Dim>::engine_remove(BodyIndex body) {
+  swap_.forget(body);
+  engine_.broadphase.destroyProxy(at(body)->getBroadphaseHandle(), &engine_.dispatcher);
+  if (rigid_body(body) != nullptr) {
     std::erase(listed_, body);
-    relist();
+    update_lists();
   }
-  objects_[i].reset();
+  at(body).reset();
 }
 
 template <int Dim>
-void EngineWorld<Dim>::step() {
-  if (failure_) {
-    throw NonFiniteState(*failure_);
+void EngineWorld<Dim>::engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+  give_velocity<Dim>(*rigid_body(body), velocity, spin);
+}
+
+template <int Dim>
+EngineTimes EngineWorld<Dim>::engine_step() {
+  if (this->records_contacts()) {
+    contacts_.note_motion(rigid_);
   }
-  ++step_;
-  contacts_.before_step(rigid_);
-  if (description_.skips.idle && rigid_.empty()) {
-    rest();
-    return;
+  if (this->description().skips.idle && rigid_.empty()) {
+    // Upkeep of the broadphase's trees: their form decides the order of pairs, and so how a run continues after a thaw.
+    engine_.broadphase.calculateOverlappingPairs(&engine_.dispatcher);
+    return {};
   }
-  const auto start = Clock::now();
-  engine_.world.stepSimulation(static_cast<btScalar>(description_.dt), 0);
-  const double total = seconds_since(start);
-  contacts_.after_step();
+  const auto start = std::chrono::steady_clock::now();
+  engine_.world.stepSimulation(static_cast<btScalar>(this->description().dt), 0);
   strayed_known_ = false;
-  const auto read = Clock::now();
-  read_states();
-  times_.collide = engine_.world.collide_seconds();
-  times_.solve = total - times_.collide;
-  times_.read = seconds_since(read);
-}
-
-// All that a step does with nobody in the lists is upkeep of the broadphase's trees. Their form decides the order of
-// pairs, and so how a run goes on once somebody wakes.
-template <int Dim>
-void EngineWorld<Dim>::rest() {
-  engine_.broadphase.calculateOverlappingPairs(&engine_.dispatcher);
-  contacts_.after_step();
-  times_ = {};
+  const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double collide = engine_.world.collide_seconds();
+  return {.collide = collide, .solve = total - collide};
 }
 
 template <int Dim>
-void EngineWorld<Dim>::read_states() {
-  for (const btRigidBody* body : rigid_) {
-    if (!is_sound(*body)) {
-      failure_.emplace(step_, body->getUserIndex());
-      throw NonFiniteState(*failure_);
-    }
-  }
-  if (description_.engine_sleep) {
-    awake_.clear();
+std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) {
+  const auto broken = std::ranges::find_if(rigid_, [](const btRigidBody* body) { return !is_finite(*body); });
+  if (broken != rigid_.end()) {
+    return (*broken)->getUserIndex();
   }
   for (const btRigidBody* body : rigid_) {
-    const BodyIndex index = body->getUserIndex();
-    read_state(*body, shape_of(static_cast<std::size_t>(index)), states_);
-    if (description_.engine_sleep) {
-      if (body->isActive()) {
-        states_.asleep[static_cast<std::size_t>(index)] = 0;
-        awake_.push_back(index);
-      } else {
-        put_to_sleep(states_, index);
-      }
+    const auto i = static_cast<std::size_t>(body->getUserIndex());
+    states.pose[i] = from_bullet<Dim>(body->getWorldTransform(), template_of_body(body->getUserIndex()).frame_inverse);
+    states.velocity[i] = from_bullet<Dim>(body->getLinearVelocity());
+    states.spin[i] = spin_from_bullet<Dim>(body->getAngularVelocity());
+  }
+  return std::nullopt;
+}
+
+template <int Dim>
+void EngineWorld<Dim>::engine_freeze(std::span<const BodyIndex> bodies) {
+  for (const BodyIndex body : bodies) {
+    swap_.freeze(at(body), template_of_body(body));
+  }
+  std::erase_if(listed_, [this](BodyIndex body) { return rigid_body(body) == nullptr; });
+  update_lists();
+}
+
+template <int Dim>
+void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
+  const auto before = static_cast<std::ptrdiff_t>(listed_.size());
+  for (const BodyIndex body : bodies) {
+    if (rigid_body(body) == nullptr) {
+      swap_.thaw(at(body), template_of_body(body), this->description().engine_sleep);
+      listed_.push_back(body);
+    }
+    at(body)->activate(true);
+  }
+  std::inplace_merge(listed_.begin(), listed_.begin() + before, listed_.end());
+  update_lists();
+}
+
+// Bullet's lists in the order of indices, whatever the order of freezing and thawing was.
+template <int Dim>
+void EngineWorld<Dim>::update_lists() {
+  rigid_.clear();
+  for (const BodyIndex body : listed_) {
+    rigid_.push_back(rigid_body(body));
+  }
+  engine_.world.set_bodies(rigid_);
+  if (!this->description().skips.sleepers) {
+    list_frozen();
+  }
+}
+
+template <int Dim>
+void EngineWorld<Dim>::list_frozen() {
+  for (const std::unique_ptr<btCollisionObject>& object : objects_) {
+    if (object != nullptr && btRigidBody::upcast(object.get()) == nullptr) {
+      engine_.world.list(*object);
     }
   }
 }
 
+// The broadphase has the place of a body before the last step and the place that it would have reached undisturbed.
+// Bodies elsewhere are searched for only on demand and kept in a list of their own, since an update of the broadphase
+// would change the order of pairs and so the run.
 template <int Dim>
-void EngineWorld<Dim>::set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
-  const std::size_t i = known(body);
-  if (states_.asleep[i] != 0) {
-    throw std::invalid_argument("body: " + std::to_string(body) + " sleeps; only an awake body can be pushed");
+void EngineWorld<Dim>::find_strayed() const {
+  strayed_.clear();
+  for (const btRigidBody* body : rigid_) {
+    btVector3 low;
+    btVector3 high;
+    body->getAabb(low, high);
+    const auto* proxy = static_cast<const btDbvtProxy*>(body->getBroadphaseProxy());
+    if (!proxy->leaf->volume.Contain(btDbvtVolume::FromMM(low, high))) {
+      strayed_.push_back(body->getUserIndex());
+    }
   }
-  check(BodyDef<Dim>{states_.shape[i], {}, velocity, spin}, description_);
-  btRigidBody& pushed = *rigid_body(i);
-  pushed.setLinearVelocity(to_bullet(velocity));
-  pushed.setAngularVelocity(spin_to_bullet<Dim>(spin));
-  states_.velocity[i] = velocity;
-  states_.spin[i] = spin;
+  strayed_known_ = true;
 }
 
 template <int Dim>
-std::size_t EngineWorld<Dim>::known(BodyIndex body) const {
-  if (body < 0 || body >= states_.size() || states_.removed[static_cast<std::size_t>(body)] != 0) {
-    throw std::invalid_argument("body: " + std::to_string(body) + " is not in the world");
+void EngineWorld<Dim>::engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const {
+  if (!strayed_known_) {
+    find_strayed();
   }
-  return static_cast<std::size_t>(body);
+  btVector3 low = to_bullet(Vec<Dim>(box.min()));
+  btVector3 high = to_bullet(Vec<Dim>(box.max()));
+  Finder finder(found);
+  const_cast<Engine&>(engine_).broadphase.aabbTest(low, high, finder);
+  for (const BodyIndex body : strayed_) {
+    if (at(body) == nullptr) {
+      continue;  // removed since
+    }
+    btVector3 body_low;
+    btVector3 body_high;
+    at(body)->getCollisionShape()->getAabb(at(body)->getWorldTransform(), body_low, body_high);
+    if (TestAabbAgainstAabb2(low, high, body_low, body_high)) {
+      found.push_back(body);
+    }
+  }
 }
 
 template class EngineWorld<2>;

@@ -44,13 +44,12 @@ EngineTraits bullet_traits() { return in_space; }
 EngineTraits bullet_planar_traits() { return in_the_plane; }
 
 std::unique_ptr<World<3>> make_bullet_world(const WorldDescription<3>& description) {
-  check(description);
+  auto world = std::make_unique<bullet::EngineWorld<3>>(description);  // checks what every engine demands
   check_for_bullet(description);
-  return std::make_unique<bullet::EngineWorld<3>>(description);
+  return world;
 }
 
 std::unique_ptr<World<2>> make_bullet_planar_world(const WorldDescription<2>& description) {
-  check(description);
   return std::make_unique<bullet::EngineWorld<2>>(description);
 }
 

@@ -1,7 +1,7 @@
 #include "sim3d/pieces.h"
 
-#include "sim3d/plane.h"
-#include "sim3d/shapes.h"
+#include "sim3d/body_template.h"
+#include "sim3d/conversions.h"
 
 namespace talus::bullet {
 namespace {

@@ -23,12 +23,13 @@ struct Work {
 /// Share of the contact points of a full run that `run` did not solve. Negative where it had more.
 double contacts_skipped(const Work& run, const Work& full);
 
-/// Counts while a simulation runs. With `contacts` each step's contacts are gathered, which costs time of its own: not
-/// in a run that is timed. Awake are the bodies that are awake after the step, sleep decisions included.
+/// Counts while a simulation runs. With `contacts` each step records its contacts, which takes time: not in a run
+/// that is timed. Awake are the bodies that are awake after the step, sleep decisions included.
 template <int Dim>
 class WorkCounter : public Observer<Dim> {
  public:
   explicit WorkCounter(bool contacts) : count_contacts_(contacts) {}
+  bool needs_contacts() const override { return count_contacts_; }
   void on_frame(const Frame<Dim>& frame) override;
   const Work& work() const { return work_; }
 

@@ -29,7 +29,7 @@ template <int Dim>
 struct Frame {
   std::int64_t step = 0;  // steps done, 1 after the first
   double time = 0.0;      // simulated [s]
-  World<Dim>& world;
+  const World<Dim>& world;
   const PileSet<Dim>& piles;
   std::span<const SleepEvent> events;  // of this step, by body; empty while a policy decides
   PhaseTimes phases;

@@ -25,7 +25,7 @@ int layers_open_to_sleep(const Pile<Dim>& pile) {
 
 template <int Dim>
 PaperPolicy<Dim>::PaperPolicy(const PaperParams& params, const WorldDescription<Dim>& world)
-    : params_(params), shapes_(world.shapes), dt_(world.dt) {}
+    : params_(params), dt_(world.dt) {}
 
 template <int Dim>
 void PaperPolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
@@ -56,13 +56,14 @@ template <int Dim>
 bool PaperPolicy<Dim>::hits(const Frame<Dim>& frame, BodyIndex body) {
   const BodyStates<Dim>& states = frame.world.states();
   const auto i = static_cast<std::size_t>(body);
-  const Shape<Dim>& shape = shapes_[static_cast<std::size_t>(states.shape[i])];
-  if (shape.mass * states.velocity[i].norm() < params_.wake_speed * frame.piles.typical_body().mass) return false;
-  Box<Dim> swept = bounds_at(shape, states.pose[i]);
+  if (frame.world.shape_of(body).mass * states.velocity[i].norm() <
+      params_.wake_speed * frame.piles.typical_body().mass)
+    return false;
+  Box<Dim> swept = frame.world.bounds_of(body);
   // Two steps ahead: what is decided now is in force for the next step, in which a body reached then must be awake.
   swept.extend(Box<Dim>(swept).translate(2.0 * dt_ * states.velocity[i]));
   near_.clear();
-  frame.world.near(swept, near_);
+  frame.world.query_box(swept, near_);
   std::erase_if(near_, [&](BodyIndex other) { return states.asleep[static_cast<std::size_t>(other)] == 0; });
   return !near_.empty();
 }

@@ -26,7 +26,6 @@ class PaperPolicy final : public SleepPolicy<Dim> {
   bool hits(const Frame<Dim>& frame, BodyIndex body);
 
   PaperParams params_;
-  std::vector<Shape<Dim>> shapes_;
   double dt_;
   std::vector<std::int64_t> body_rests_from_;  // [body] step before which it may not sleep again
   std::vector<std::int64_t> pile_calm_from_;   // [pile] step before which it starts no avalanche

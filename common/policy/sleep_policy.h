@@ -35,6 +35,10 @@ class SleepPolicy {
   /// Whether bodies that have touched nothing yet count in layers, for piles whose parameters leave it open.
   virtual bool counts_flying() const { return true; }
 
+  /// Whether decide() reads the contacts of the step. If neither a policy nor an observer nor a pile does, steps do not
+  /// record them.
+  virtual bool needs_contacts() const { return false; }
+
   /// Fills `decision` (empty on entry). Called once a step.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
 };

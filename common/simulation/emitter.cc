@@ -15,7 +15,7 @@ constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight 
 
 template <int Dim>
 Emitter<Dim>::Emitter(const Scene<Dim>& scene)
-    : shapes_(scene.world.shapes), slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0) {
+    : slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0) {
   if (scene.world.ground.present) ground_ = scene.world.ground.height;
   for (const Obstacle<Dim>& obstacle : scene.world.obstacles)
     fixed_.push_back(bounds_at(obstacle.shape, obstacle.pose));
@@ -98,14 +98,10 @@ Vec<Dim> Emitter<Dim>::place_in_grid(const Spout& spout) const {
 
 template <int Dim>
 bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
-  const Box<Dim> place = bounds_at(shapes_[static_cast<std::size_t>(body.shape)], body.pose);
+  const Box<Dim> place = bounds_at(world.shapes()[static_cast<std::size_t>(body.shape)], body.pose);
   near_.clear();
-  world.near(place, near_);
-  const BodyStates<Dim>& states = world.states();
-  return std::none_of(near_.begin(), near_.end(), [&](BodyIndex other) {
-    const auto i = static_cast<std::size_t>(other);
-    return place.intersects(bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]));
-  });
+  world.query_box(place, near_);
+  return std::ranges::none_of(near_, [&](BodyIndex other) { return place.intersects(world.bounds_of(other)); });
 }
 
 /// Lifts the spout so that it stays `ride_above` over whatever has settled in the column beneath it. Bodies appear in
@@ -113,24 +109,23 @@ bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
 template <int Dim>
 void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   const Vec<Dim> spout_at = place(spout, time);
-  const double half_width = shapes_[static_cast<std::size_t>(spout.next.shape)].extent;
+  const double half_width = world.shapes()[static_cast<std::size_t>(spout.next.shape)].extent;
   const Vec<Dim> reach = Vec<Dim>::Constant(half_width) + spout.source.spread + 0.5 * spout.source.grid_extent();
   Box<Dim> column(spout_at - reach, spout_at + reach);
   column.min()[Dim - 1] = height<Dim>(spout_at) - spout.source.ride_above;
   near_.clear();
-  world.near(column, near_);
+  world.query_box(column, near_);
   const BodyStates<Dim>& states = world.states();
   const BodyIndex newborn = births_.empty() ? states.size() : births_.front().body;
   for (const BodyIndex body : near_) {
-    const auto i = static_cast<std::size_t>(body);
-    if (body >= newborn || states.velocity[i].norm() > settled_speed) continue;
-    const Box<Dim> bounds = bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]);
+    if (body >= newborn || states.velocity[static_cast<std::size_t>(body)].norm() > settled_speed) continue;
+    const Box<Dim> bounds = world.bounds_of(body);
     const double lift = height<Dim>(bounds.max()) + spout.source.ride_above - height<Dim>(spout.source.position);
     if (lift > spout.lift && lies_on_something(world, body, bounds)) spout.lift = lift;
   }
 }
 
-/// What a blow has thrown up is slow for a moment too.
+/// A body that an impact has thrown up is slow for a moment too, so its support is checked.
 template <int Dim>
 bool Emitter<Dim>::lies_on_something(const World<Dim>& world, BodyIndex body, const Box<Dim>& bounds) {
   Box<Dim> beneath = bounds;
@@ -139,13 +134,9 @@ bool Emitter<Dim>::lies_on_something(const World<Dim>& world, BodyIndex body, co
   if (std::any_of(fixed_.begin(), fixed_.end(), [&](const Box<Dim>& box) { return box.intersects(beneath); }))
     return true;
   beneath_.clear();
-  world.near(beneath, beneath_);
-  const BodyStates<Dim>& states = world.states();
-  return std::any_of(beneath_.begin(), beneath_.end(), [&](BodyIndex other) {
-    const auto i = static_cast<std::size_t>(other);
-    return other != body &&
-           beneath.intersects(bounds_at(shapes_[static_cast<std::size_t>(states.shape[i])], states.pose[i]));
-  });
+  world.query_box(beneath, beneath_);
+  return std::ranges::any_of(
+      beneath_, [&](BodyIndex other) { return other != body && beneath.intersects(world.bounds_of(other)); });
 }
 
 template class Emitter<2>;

@@ -52,7 +52,6 @@ class Emitter {
   void ride(const World<Dim>& world, Spout& spout, double time);
   bool lies_on_something(const World<Dim>& world, BodyIndex body, const Box<Dim>& bounds);
 
-  std::vector<Shape<Dim>> shapes_;
   std::vector<Spout> spouts_;
   std::vector<Box<Dim>> fixed_;                               // around the obstacles
   double ground_ = -std::numeric_limits<double>::infinity();  // [m]

@@ -13,39 +13,36 @@ constexpr double rest_speed = 0.5;  // [m/s]; without gravity the only scale of 
 }  // namespace
 
 template <int Dim>
-EnergyLedger<Dim>::EnergyLedger(const WorldDescription<Dim>& world) : shapes_(world.shapes) {
-  for (const Shape<Dim>& shape : shapes_) {
+EnergyLedger<Dim>::EnergyLedger(const WorldDescription<Dim>& world) {
+  for (const Shape<Dim>& shape : world.shapes) {
     const double weight = shape.mass * world.gravity;
     constants_.push_back({weight, weight * shape.extent + 0.5 * shape.mass * rest_speed * rest_speed});
   }
 }
 
 template <int Dim>
-void EnergyLedger<Dim>::note_added(const BodyStates<Dim>& states) {
-  for (std::size_t i = last_.size(); i < states.shape.size(); ++i) {
-    const Shape<Dim>& shape = shapes_[static_cast<std::size_t>(states.shape[i])];
-    last_.push_back(energy(states, i, kinetic_energy(shape, states, i)));
+void EnergyLedger<Dim>::note_added(const World<Dim>& world) {
+  for (auto body = static_cast<BodyIndex>(last_.size()); body < world.states().size(); ++body) {
+    last_.push_back(energy(world, body, kinetic_energy(world, body)));
   }
 }
 
 template <int Dim>
-void EnergyLedger<Dim>::note_velocity(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity,
+void EnergyLedger<Dim>::note_velocity(const World<Dim>& world, BodyIndex body, const Vec<Dim>& velocity,
                                       const Spin<Dim>& spin) {
-  const auto i = static_cast<std::size_t>(body);
-  const Shape<Dim>& shape = shapes_[static_cast<std::size_t>(states.shape[i])];
-  change_ += kinetic_energy(shape, states, i) - kinetic_energy<Dim>(shape, states.pose[i].rotation, velocity, spin);
+  const Rotation<Dim>& rotation = world.states().pose[static_cast<std::size_t>(body)].rotation;
+  change_ += kinetic_energy(world, body) - kinetic_energy<Dim>(world.shape_of(body), rotation, velocity, spin);
 }
 
 template <int Dim>
-void EnergyLedger<Dim>::note_state(const BodyStates<Dim>& states, BodyIndex body) {
-  const auto i = static_cast<std::size_t>(body);
-  const auto shape = static_cast<std::size_t>(states.shape[i]);
-  const double kinetic = kinetic_energy(shapes_[shape], states, i);
-  const double now = energy(states, i, kinetic);
-  change_ += now - last_[i];
-  last_[i] = now;
+void EnergyLedger<Dim>::note_state(const World<Dim>& world, BodyIndex body) {
+  const double kinetic = kinetic_energy(world, body);
+  const double now = energy(world, body, kinetic);
+  double& last = last_[static_cast<std::size_t>(body)];
+  change_ += now - last;
+  last = now;
   kinetic_ += kinetic;
-  scale_ += constants_[shape].scale;
+  scale_ += constants_of(world, body).scale;
 }
 
 template <int Dim>
@@ -62,8 +59,9 @@ double EnergyLedger<Dim>::tolerance() const {
 }
 
 template <int Dim>
-double EnergyLedger<Dim>::energy(const BodyStates<Dim>& states, std::size_t i, double kinetic) const {
-  return kinetic + constants_[static_cast<std::size_t>(states.shape[i])].weight * height<Dim>(states.pose[i].position);
+double EnergyLedger<Dim>::energy(const World<Dim>& world, BodyIndex body, double kinetic) const {
+  const Vec<Dim>& position = world.states().pose[static_cast<std::size_t>(body)].position;
+  return kinetic + constants_of(world, body).weight * height<Dim>(position);
 }
 
 template class EnergyLedger<2>;

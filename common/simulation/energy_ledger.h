@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/world/world.h"
 
 namespace talus {
 
@@ -19,13 +19,13 @@ class EnergyLedger {
   explicit EnergyLedger(const WorldDescription<Dim>& world);
 
   /// Bodies that were added since the last call, at the energy that they have now.
-  void note_added(const BodyStates<Dim>& states);
+  void note_added(const World<Dim>& world);
 
   /// A body will get a new velocity from outside the engine.
-  void note_velocity(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
+  void note_velocity(const World<Dim>& world, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
 
   /// The state of a body after a step. To be called for each body that is awake or fell asleep in the step.
-  void note_state(const BodyStates<Dim>& states, BodyIndex body);
+  void note_state(const World<Dim>& world, BodyIndex body);
 
   /// After note_state() of all these bodies.
   void close_step();
@@ -38,14 +38,17 @@ class EnergyLedger {
   double tolerance() const;
 
  private:
-  double energy(const BodyStates<Dim>& states, std::size_t i, double kinetic) const;
+  double energy(const World<Dim>& world, BodyIndex body, double kinetic) const;
 
+  /// Of one shape.
   struct Constants {
     double weight = 0.0;  // [N]
     double scale = 0.0;   // work to lift it by its extent, and a motion that the eye takes for rest [J]
   };
+  const Constants& constants_of(const World<Dim>& world, BodyIndex body) const {
+    return constants_[static_cast<std::size_t>(world.states().shape[static_cast<std::size_t>(body)])];
+  }
 
-  std::vector<Shape<Dim>> shapes_;
   std::vector<Constants> constants_;  // by shape
   std::vector<double> last_;          // energy of each body when last noted [J]
   double change_ = 0.0;               // in this step [J], without what was put in

@@ -11,6 +11,10 @@ template <int Dim>
 class Observer {
  public:
   virtual ~Observer() = default;
+
+  /// Whether on_frame() reads the contacts of the step. Must not change.
+  virtual bool needs_contacts() const { return false; }
+
   virtual void on_frame(const Frame<Dim>& frame) = 0;
   /// Called once, also when the run was stopped or failed; `reason`: "finished", "interrupted", or the error.
   virtual void on_end(const Frame<Dim>& last, std::string_view reason) {

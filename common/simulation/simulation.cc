@@ -25,7 +25,6 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
                             std::unique_ptr<SleepPolicy<Dim>> policy)
     : world_(std::move(world)),
       policy_(std::move(policy)),
-      shapes_(scene.world.shapes),
       emitter_(scene),
       piles_(piles_as_counted(scene.piles, *policy_), typical_body(scene)),
       watchdog_(scene, world_->speed_limits()),
@@ -37,8 +36,9 @@ template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
   emitter_.emit(*world_, time());
-  if (watched()) watchdog_.note_added(world_->states(), step_);
+  if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
+  world_->record_contacts(needs_contacts());
   world_->step();
   ++step_;
   phases_.step = watch.lap();
@@ -53,13 +53,18 @@ void Simulation<Dim>::step() {
   phases_.observe = watch.lap();
 }
 
+template <int Dim>
+bool Simulation<Dim>::needs_contacts() const {
+  const bool for_piles = counts_piles() && (piles_.needs_contacts() || piles_.has_unplaced());
+  return for_piles || policy_->needs_contacts() || observers_need_contacts_ || !skips_.contacts;
+}
+
 /// Section 3.2. Without a policy and without observers piles are not counted.
 template <int Dim>
 void Simulation<Dim>::count_piles() {
   events_.swap(user_events_);
   user_events_.clear();
-  if (!skips_.contacts) world_->contacts();
-  if (!policy_->decides() && observers_.empty()) return;
+  if (!counts_piles()) return;
   if (engine_sleep_) note_engine_sleep();
   if (piles_.has_unplaced()) place_pile();
   if (piles_.needs_contacts() && !world_->awake().empty()) piles_.note_contacts(world_->contacts(), world_->states());
@@ -111,7 +116,7 @@ void Simulation<Dim>::apply() {
   };
   if (!decision_.thaw.empty()) take(decision_.thaw, true);
   for (const VelocityChange<Dim>& change : decision_.velocities) {
-    if (watched()) watchdog_.note_velocity(world_->states(), change.body, change.velocity, change.spin);
+    if (watched()) watchdog_.note_velocity(*world_, change.body, change.velocity, change.spin);
     world_->set_velocity(change.body, change.velocity, change.spin);
   }
   if (!decision_.freeze.empty()) take(decision_.freeze, false);
@@ -149,16 +154,14 @@ void Simulation<Dim>::note_engine_sleep() {
 
 template <int Dim>
 void Simulation<Dim>::remove(BodyIndex body) {
-  const auto i = static_cast<std::size_t>(body);
-  const BodyStates<Dim>& states = world_->states();
-  const Shape<Dim>& shape = shapes_[static_cast<std::size_t>(states.shape[i])];
-  Box<Dim> around = bounds_at(shape, states.pose[i]);
-  const Vec<Dim> reach = Vec<Dim>::Constant(0.05 * shape.extent);  // what rests on a body touches its box
-  around = Box<Dim>(around.min() - reach, around.max() + reach);
   world_->remove(body);
+  const Box<Dim> bounds = world_->bounds_of(body);
+  // A body that rests on another one touches its box.
+  const Vec<Dim> reach = Vec<Dim>::Constant(0.05 * world_->shape_of(body).extent);
+  const Box<Dim> around(bounds.min() - reach, bounds.max() + reach);
   piles_.recount_body(world_->states(), body);
   std::vector<BodyIndex> neighbours;
-  world_->near(around, neighbours);
+  world_->query_box(around, neighbours);
   thaw_now(neighbours, SleepCause::lost_support);
 }
 

@@ -21,7 +21,10 @@ class Simulation {
   Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>> world, std::unique_ptr<SleepPolicy<Dim>> policy);
 
   /// Observers are called in the order added and must outlive the simulation. With none, nothing is prepared for them.
-  void add_observer(Observer<Dim>& observer) { observers_.push_back(&observer); }
+  void add_observer(Observer<Dim>& observer) {
+    observers_.push_back(&observer);
+    observers_need_contacts_ = observers_need_contacts_ || observer.needs_contacts();
+  }
 
   /// One step: emit due bodies, step the world, recount the piles, let the policy decide, apply its three lists.
   void step();
@@ -29,14 +32,14 @@ class Simulation {
   /// Tells the observers that the run is over: "finished", "interrupted", or what went wrong.
   void end(std::string_view reason);
 
-  /// By hand between steps: events carry the cause `user`. Sleepers near a removed body wake, for it may have borne
-  /// them.
+  /// By hand between steps: events carry the cause `user`. Sleeping bodies near a removed one wake, since it may have
+  /// supported them.
   BodyIndex add(const BodyDef<Dim>& body) { return world_->add(body); }
   void remove(BodyIndex body);
   void thaw_all();
 
   /// The last finished step.
-  Frame<Dim> frame() {
+  Frame<Dim> frame() const {
     return {step_, time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_asked()};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
@@ -47,6 +50,8 @@ class Simulation {
   std::span<const Warning> warnings() const { return watchdog_.warnings(); }
 
  private:
+  bool needs_contacts() const;
+  bool counts_piles() const { return policy_->decides() || watched(); }
   void count_piles();
   void place_pile();
   void decide();
@@ -58,7 +63,6 @@ class Simulation {
 
   std::unique_ptr<World<Dim>> world_;
   std::unique_ptr<SleepPolicy<Dim>> policy_;
-  std::vector<Shape<Dim>> shapes_;
   Emitter<Dim> emitter_;
   PileSet<Dim> piles_;
   Watchdog<Dim> watchdog_;  // at work while there are observers
@@ -72,6 +76,7 @@ class Simulation {
   double dt_;
   std::int64_t step_ = 0;
   bool engine_sleep_;
+  bool observers_need_contacts_ = false;
   Skips skips_;
 };
 

@@ -28,8 +28,7 @@ double farthest(const Vec<Dim>& place) {
 
 template <int Dim>
 Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
-    : shapes_(scene.world.shapes),
-      sources_(scene.sources),
+    : sources_(scene.sources),
       ledger_(scene.world),
       lowest_(lowest_centre(scene.world.ground)),
       ground_(scene.world.ground.height),
@@ -40,10 +39,10 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
 }
 
 template <int Dim>
-void Watchdog<Dim>::note_added(const BodyStates<Dim>& states, std::int64_t step) {
-  ledger_.note_added(states);
-  if (states.size() == appeared_) return;
-  appeared_ = states.size();
+void Watchdog<Dim>::note_added(const World<Dim>& world, std::int64_t step) {
+  ledger_.note_added(world);
+  if (world.states().size() == appeared_) return;
+  appeared_ = world.states().size();
   last_appearance_ = step;
 }
 
@@ -51,13 +50,13 @@ template <int Dim>
 void Watchdog<Dim>::look(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step) {
   const BodyStates<Dim>& states = world.states();
   for (const BodyIndex body : world.awake()) {
-    ledger_.note_state(states, body);
+    ledger_.note_state(world, body);
     look_at_place(states, body, step);
     look_at_speed(states, body, step);
   }
   for (const SleepEvent& event : events) {
     if (states.asleep[static_cast<std::size_t>(event.body)] == 0) continue;
-    ledger_.note_state(states, event.body);
+    ledger_.note_state(world, event.body);
     look_at_place(states, event.body, step);
   }
   ledger_.close_step();
@@ -88,11 +87,7 @@ void Watchdog<Dim>::look_at_energy(const World<Dim>& world, std::int64_t step) {
     known->value = std::max(known->value, ledger_.rise());
     return;
   }
-  const BodyStates<Dim>& states = world.states();
-  const auto kinetic = [&](BodyIndex body) {
-    const auto i = static_cast<std::size_t>(body);
-    return kinetic_energy(shapes_[static_cast<std::size_t>(states.shape[i])], states, i);
-  };
+  const auto kinetic = [&](BodyIndex body) { return kinetic_energy(world, body); };
   const auto awake = world.awake();
   const auto fastest = std::ranges::max_element(awake, {}, kinetic);
   warnings_.push_back({.kind = WarningKind::energy,

@@ -11,18 +11,18 @@
 
 namespace talus {
 
-/// Looks after each step for states that a sound run does not reach. Costs O(awake) and changes nothing.
+/// Checks after each step for states that a correct run does not reach. Costs O(awake) and changes nothing.
 template <int Dim>
 class Watchdog {
  public:
   Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits);
 
   /// Bodies added since the last call, before the step that moves them; `step` counts the steps done.
-  void note_added(const BodyStates<Dim>& states, std::int64_t step);
+  void note_added(const World<Dim>& world, std::int64_t step);
 
   /// Before an awake body gets a new velocity from outside the engine.
-  void note_velocity(const BodyStates<Dim>& states, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
-    ledger_.note_velocity(states, body, velocity, spin);
+  void note_velocity(const World<Dim>& world, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+    ledger_.note_velocity(world, body, velocity, spin);
   }
 
   /// After a step and the policy's decision. `events` are those of the step.
@@ -43,7 +43,6 @@ class Watchdog {
   void look_at_energy(const World<Dim>& world, std::int64_t step);
   void note(WarningKind kind, BodyIndex body, std::int64_t step, double value);
 
-  std::vector<Shape<Dim>> shapes_;
   std::vector<Source<Dim>> sources_;
   EnergyLedger<Dim> ledger_;
   double lowest_;         // height that no centre may lie below [m]

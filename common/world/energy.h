@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/shape/shape.h"
-#include "common/world/body.h"
+#include "common/world/world.h"
 
 namespace talus {
 
@@ -22,6 +22,20 @@ double kinetic_energy(const Shape<Dim>& shape, const Rotation<Dim>& rotation, co
 template <int Dim>
 double kinetic_energy(const Shape<Dim>& shape, const BodyStates<Dim>& states, std::size_t i) {
   return kinetic_energy<Dim>(shape, states.pose[i].rotation, states.velocity[i], states.spin[i]);
+}
+
+/// Kinetic energy of a body [J].
+template <int Dim>
+double kinetic_energy(const World<Dim>& world, BodyIndex body) {
+  return kinetic_energy(world.shape_of(body), world.states(), static_cast<std::size_t>(body));
+}
+
+/// Kinetic energy of the awake bodies [J]; sleeping ones have none.
+template <int Dim>
+double kinetic_energy(const World<Dim>& world) {
+  double energy = 0.0;
+  for (const BodyIndex body : world.awake()) energy += kinetic_energy(world, body);
+  return energy;
 }
 
 }  // namespace talus

@@ -1,11 +1,14 @@
 #pragma once
 // The seam to a physics engine.
 
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/world/body.h"
+#include "common/world/errors.h"
 #include "common/world/world_description.h"
 
 namespace talus {
@@ -14,11 +17,11 @@ namespace talus {
 struct EngineTimes {
   double collide = 0.0;  // broad and narrow phase
   double solve = 0.0;    // islands, constraints, integration
-  double read = 0.0;     // copying the awake bodies' states out
+  double read = 0.0;     // copying the states of the awake bodies, and the contacts where they are recorded
 };
 
-/// What an engine can move a body at. At these Box2D cuts speed and spin and Bullet the spin; up to this speed Bullet's
-/// continuous collision was tried.
+/// Limits at which an engine cuts the motion of a body. Box2D cuts speed and spin and Bullet the spin; the speed of
+/// Bullet is the highest at which its continuous collision was tested.
 struct SpeedLimits {
   double speed = std::numeric_limits<double>::infinity();  // [m/s]
   double spin = std::numeric_limits<double>::infinity();   // [rad/s]
@@ -26,51 +29,129 @@ struct SpeedLimits {
 
 /// A world of rigid bodies in one engine. A new world with the same calls gives the same bits.
 ///
-/// A frozen body is solid and immovable: bodies rest on it, nothing wakes it but thaw(), and it costs nothing per step.
-/// freeze() and thaw() act at once and must not be called while step() runs. Bad input throws std::invalid_argument
-/// before the engine sees it; a state that is not finite after a step throws NonFiniteState.
+/// A frozen body is solid and immovable: bodies rest on it, only thaw() wakes it, and a step does no work for it.
+/// The checks and the bookkeeping of all engines are here; an engine derives from this class and supplies the
+/// functions `engine_*`, see docs/extending.md. Bad input throws std::invalid_argument before the engine gets it.
 template <int Dim>
 class World {
  public:
   virtual ~World() = default;
 
   /// Adds an awake body and returns its index, the number of bodies added before.
-  virtual BodyIndex add(const BodyDef<Dim>& body) = 0;
+  BodyIndex add(const BodyDef<Dim>& body);
 
-  /// Takes a body out for good. Sleepers that rested on it stay asleep: waking them is the caller's decision.
-  virtual void remove(BodyIndex body) = 0;
+  /// Removes a body. Sleeping bodies that rested on it stay asleep; the caller decides whether to wake them.
+  void remove(BodyIndex body);
 
-  /// Advances by dt.
-  virtual void step() = 0;
+  /// Advances by dt. Throws NonFiniteState if the state of a body is not finite afterwards; the states then stay as
+  /// they were before the step, and each later call throws the same.
+  void step();
 
-  /// Sets the velocity of an awake body (a throw, a kick).
-  virtual void set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
+  /// Sets the velocity of an awake body.
+  void set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
 
-  /// Everybody's state; changes with add, remove, step, freeze, thaw.
-  virtual const BodyStates<Dim>& states() const = 0;
+  /// Stops awake bodies and makes them immovable: the engine no longer simulates them. Bodies already asleep are left
+  /// alone. Acts at once; must not be called during step().
+  void freeze(std::span<const BodyIndex> bodies);
 
-  /// Bodies awake, ascending. Their number is what a step costs.
-  virtual std::span<const BodyIndex> awake() const = 0;
+  /// Makes sleeping bodies movable again, at rest. Bodies already awake are left alone. Acts at once; must not be
+  /// called during step().
+  void thaw(std::span<const BodyIndex> bodies);
 
-  /// Contact points of awake bodies in the last step, in the same order whenever the input is the same, the points of
-  /// one pair side by side. Each stands once: between two awake bodies under the one with the lower index. Approach
-  /// speeds are known from the step after the first call on; depths follow from the shapes and may be negative.
-  /// Gathered when first asked for after a step; costs nothing otherwise.
-  virtual std::span<const Contact<Dim>> contacts() = 0;
+  /// Whether the steps from now on record their contacts, which takes 5 to 15 % of a step. Off in a new world.
+  void record_contacts(bool record) { record_contacts_ = record; }
 
-  /// Takes awake bodies out of the engine's work, at rest. Bodies already asleep are left alone.
-  virtual void freeze(std::span<const BodyIndex> bodies) = 0;
+  /// Contact points of awake bodies in the last step, if the step recorded them: in the same order whenever the input
+  /// is the same, the points of one pair side by side. Each point is listed once: between two awake bodies under the
+  /// one with the lower index. Depths follow from the shapes and may be negative. Nothing but a step changes this list.
+  std::span<const Contact<Dim>> contacts() const { return contacts_; }
 
-  /// Makes sleeping bodies movable again, at rest. Bodies already awake are left alone.
-  virtual void thaw(std::span<const BodyIndex> bodies) = 0;
+  /// States of all bodies; changes with add, remove, step, set_velocity, freeze, thaw.
+  const BodyStates<Dim>& states() const { return states_; }
 
-  /// Appends every body, awake or asleep, whose bounding box may touch `box` (a superset), ascending.
-  virtual void near(const Box<Dim>& box, std::vector<BodyIndex>& found) const = 0;
+  /// The awake bodies, ascending. The cost of a step grows with their number.
+  std::span<const BodyIndex> awake() const { return awake_; }
 
-  virtual EngineTimes times() const = 0;
+  /// Appends all bodies, awake or asleep, whose bounding box may touch `box` (a superset), ascending. An empty box
+  /// (a lower corner above the upper one) touches nothing.
+  void query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const;
 
-  /// Infinite where the engine has none.
-  virtual SpeedLimits speed_limits() const { return {}; }
+  /// The shapes that BodyStates::shape counts.
+  std::span<const Shape<Dim>> shapes() const { return description_.shapes; }
+  const Shape<Dim>& shape_of(BodyIndex body) const {
+    return description_.shapes[static_cast<std::size_t>(states_.shape[static_cast<std::size_t>(body)])];
+  }
+  /// Smallest box, parallel to the axes, around a body.
+  Box<Dim> bounds_of(BodyIndex body) const {
+    return bounds_at(shape_of(body), states_.pose[static_cast<std::size_t>(body)]);
+  }
+
+  EngineTimes times() const { return times_; }
+  SpeedLimits speed_limits() const { return limits_; }
+
+ protected:
+  /// Throws std::invalid_argument on a bad description.
+  explicit World(const WorldDescription<Dim>& description, const SpeedLimits& limits = {});
+  World(const World&) = default;
+  World(World&&) noexcept = default;
+  World& operator=(const World&) = default;
+  World& operator=(World&&) noexcept = default;
+
+  const WorldDescription<Dim>& description() const { return description_; }
+  bool records_contacts() const { return record_contacts_; }
+
+  /// For an engine that moves bodies outside of step().
+  BodyStates<Dim>& writable_states() { return states_; }
+
+ private:
+  // What an engine supplies. Indices are checked. freeze, thaw and remove have already changed states() and awake().
+
+  /// Makes body number `body`, before it is in states(). Returns its pose as the engine stores it.
+  virtual Pose<Dim> engine_add(BodyIndex body, const BodyDef<Dim>& def) = 0;
+  virtual void engine_remove(BodyIndex body) = 0;
+
+  /// Advances by dt; with the skip `idle` and nothing awake, only does the upkeep that later steps need. Returns the
+  /// times, without `read`.
+  virtual EngineTimes engine_step() = 0;
+
+  /// After a step with awake bodies: copies pose and velocity of the bodies in awake() to `states`. If one of them is
+  /// not finite, copies nothing and returns that body.
+  virtual std::optional<BodyIndex> engine_read(BodyStates<Dim>& states) = 0;
+
+  virtual void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
+
+  /// Bodies that were awake; ascending, each once, at least one.
+  virtual void engine_freeze(std::span<const BodyIndex> bodies) = 0;
+  /// Bodies that were asleep; ascending, each once, at least one.
+  virtual void engine_thaw(std::span<const BodyIndex> bodies) = 0;
+
+  /// Appends the bodies near `box` in any order; a body may come several times.
+  virtual void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const = 0;
+
+  /// Appends the contacts of the last step, as contacts() describes them.
+  virtual void engine_contacts(std::vector<Contact<Dim>>& contacts) = 0;
+
+  /// Whether the engine's own sleeping rule leaves a body awake; false for a frozen one. Called only with
+  /// WorldDescription::engine_sleep.
+  virtual bool engine_awake(BodyIndex body) const = 0;
+
+  void require_present(BodyIndex body) const;
+  /// Those of `bodies` that are asleep, or those that are not: ascending, each once.
+  void choose(std::span<const BodyIndex> bodies, bool asleep);
+  void read_step();
+  void stop(BodyIndex body);
+  void follow_engine_sleep();
+
+  WorldDescription<Dim> description_;
+  SpeedLimits limits_;
+  BodyStates<Dim> states_;
+  std::vector<BodyIndex> awake_;
+  std::vector<Contact<Dim>> contacts_;
+  std::vector<BodyIndex> chosen_;  // scratch
+  EngineTimes times_;
+  std::int64_t steps_ = 0;
+  std::optional<NonFiniteState> failure_;
+  bool record_contacts_ = false;
 };
 
 }  // namespace talus

@@ -68,6 +68,7 @@ TYPED_TEST_SUITE(MeasureTest, Backends, BackendName);
 TYPED_TEST(MeasureTest, FindsTheContactsThatTheEngineHasAndTheirDepths) {
   constexpr int dim = TypeParam::dim;
   const auto world = TestFixture::heap();
+  world->record_contacts(true);
   const BodyStates<dim> before = world->states();  // an engine looks for contacts before it moves the bodies
   world->step();
   std::map<std::pair<BodyIndex, BodyIndex>, double> engine;

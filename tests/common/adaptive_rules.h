@@ -19,10 +19,9 @@ struct RuleParts {
   RuleSetup<3> setup() const { return {.params = params, .typical = typical, .world = world}; }
 };
 
-/// A still world after a step. The description of the cubes lives as long as the program.
+/// A still world after a step.
 inline RuleInput<3> input(const StillWorld<3>& world, std::int64_t step = 0, std::span<const Pile<3>> piles = {}) {
-  static const WorldDescription<3> description = cubes();
-  return {.world = world, .shapes = description.shapes, .contacts = world.touching, .piles = piles, .step = step};
+  return {.world = world, .contacts = world.touching, .piles = piles, .step = step};
 }
 
 /// The bodies in a list, ascending.

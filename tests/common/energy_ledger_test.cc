@@ -29,11 +29,11 @@ class Ledger : public ::testing::Test {
     body.pose.position = {0.0, 0.0, height};
     body.velocity = {0.0, 0.0, speed};
     const BodyIndex index = world.add(body);
-    ledger.note_added(world.states());
+    ledger.note_added(world);
     return index;
   }
   void look() {
-    for (const BodyIndex body : world.awake()) ledger.note_state(world.states(), body);
+    for (const BodyIndex body : world.awake()) ledger.note_state(world, body);
     ledger.close_step();
   }
   void set_speed(BodyIndex body, double speed) { world.set_velocity(body, {0.0, 0.0, speed}, Vec3::Zero()); }
@@ -81,7 +81,7 @@ TEST_F(Ledger, AnEarlyLossDoesNotHideALateGain) {
 TEST_F(Ledger, EnergyThatThePolicyGivesIsNoRise) {
   const BodyIndex body = add(50.0);
   look();
-  ledger.note_velocity(world.states(), body, {0.0, 0.0, 12.0}, Vec3::Zero());
+  ledger.note_velocity(world, body, {0.0, 0.0, 12.0}, Vec3::Zero());
   set_speed(body, 12.0);
   look();
   EXPECT_NEAR(ledger.rise(), 0.0, 1e-6);
@@ -91,7 +91,7 @@ TEST_F(Ledger, FreezingAndThawingIsNoRise) {
   const BodyIndex body = add(50.0, 2.0);
   look();
   world.freeze(std::vector<BodyIndex>{body});
-  ledger.note_state(world.states(), body);
+  ledger.note_state(world, body);
   ledger.close_step();
   world.thaw(std::vector<BodyIndex>{body});
   look();

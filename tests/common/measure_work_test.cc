@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/measure/work.h"
+#include "common/shape/catalogue.h"
 #include "tests/common/falling_world.h"
 #include "tests/common/made_up_run.h"
 
@@ -12,7 +13,9 @@ namespace {
 const std::vector<double> two_metres = {2.0};
 
 TEST(Work, CountsBodiesNotSimulated) {
-  FallingWorld<2> world(WorldDescription<2>{});
+  WorldDescription<2> description;
+  description.shapes = {make_shape<2>("cube", box_pieces<2>(Vec2::Ones()), {})};
+  FallingWorld<2> world(description);
   const PileSet<2> piles(std::vector<PileParams<2>>{}, TypicalBody{});
   for (int i = 0; i < 4; ++i) world.add({0, {Vec2(i, 5.0)}, Vec2::Zero(), Spin<2>::Zero()});
   WorkCounter<2> counter(true);

@@ -156,7 +156,9 @@ TEST_F(SlopeControllerTest, APileWithoutSlopeControlIsNotDamped) {
 TEST_F(SlopeControllerTest, ABodyFasterThanTheEnginesLimitIsSlowedToIt) {
   lay(5.0, 0.0);
   add_moving(Vec3(1.0, 0.0, 0.5));
-  world_.set_velocity(20, Vec3(900.0, 0.0, 0.0), Vec3(0.0, 500.0, 0.0));
+  world_.push(20, Vec3(900.0, 0.0, 0.0), Vec3(0.0, 500.0, 0.0));
+  world_.record_contacts(true);
+  world_.step();
   AdaptivePolicy<3> policy({}, cubes(), piles_.typical_body());
   Decision<3> decision;
   policy.decide(frame(), decision);

@@ -49,13 +49,13 @@ TEST(LiveLink, SaysWhatItCannotOpen) {
 
 TEST(Publisher, RefusesAnAddressThatLeavesTheMachine) {
   const Scene<2> scene = still_scene<2>();
-  EXPECT_THROW(Publisher<2>(run_info(scene, "still", "none"), scene, {.url = "udpm://239.255.76.67:7667?ttl=1"}),
+  EXPECT_THROW(Publisher<2>(run_info(scene, "still", "none"), {.url = "udpm://239.255.76.67:7667?ttl=1"}),
                std::invalid_argument);
 }
 
 TEST(Publisher, DoesNothingWithoutAWayIntoTheNetwork) {
   const Scene<2> scene = still_scene<2>();
-  Publisher<2> publisher(run_info(scene, "still", "none"), scene, {.url = "nosuch://"});
+  Publisher<2> publisher(run_info(scene, "still", "none"), {.url = "nosuch://"});
   EXPECT_FALSE(publisher.connected());
   const auto run = still_run<2>(scene, 3);
   run->add_observer(publisher);

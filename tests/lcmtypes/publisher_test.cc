@@ -51,7 +51,7 @@ class PublishedRun {
  public:
   explicit PublishedRun(int steps, const PublisherParams& params = {.piles_rate = 0.0}) : ear(lcm_) {
     const Scene<Dim> scene = still_scene<Dim>();
-    Publisher<Dim> publisher(run_info(scene, "still", "none"), scene, params, lcm_);
+    Publisher<Dim> publisher(run_info(scene, "still", "none"), params, lcm_);
     const auto run = still_run<Dim>(scene, 12);
     run->add_observer(publisher);
     for (int step = 0; step < steps; ++step) run->step();

@@ -33,7 +33,7 @@ std::vector<Packet> sample_packets(int bodies) {
   encode(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run_v1::ALIVE, "", channels, encoder)});
   encode(to_piles<Dim>(frame.piles.piles()));
   encode(to_sleep(frame.events));
-  encode(std::vector{to_stats<Dim>(frame, scene.world.shapes)});
+  encode(std::vector{to_stats<Dim>(frame)});
   encode(to_bodies<Dim>(states, all, true));
   encode(to_shapes<Dim>(scene.world));
   return packets;

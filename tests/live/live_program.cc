@@ -59,7 +59,7 @@ void run(const Options& options) {
   simulation.add_observer(recorder);
   std::unique_ptr<Publisher<2>> publisher;
   if (!options.silent) {
-    publisher = std::make_unique<Publisher<2>>(info, scene, PublisherParams{.url = options.url, .piles_rate = 0.0});
+    publisher = std::make_unique<Publisher<2>>(info, PublisherParams{.url = options.url, .piles_rate = 0.0});
     simulation.add_observer(*publisher);
   }
   const auto begin = std::chrono::steady_clock::now();

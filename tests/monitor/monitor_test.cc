@@ -29,7 +29,7 @@ void receive_run(const DatagramSender& sender, int steps) {
   const Scene<2> scene = still_scene<2>();
   std::thread simulation([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the receiver is there first
-    Publisher<2> publisher(run_info(scene, "still", "none"), scene, {.piles_rate = 0.0}, lcm);
+    Publisher<2> publisher(run_info(scene, "still", "none"), {.piles_rate = 0.0}, lcm);
     const auto run = still_run<2>(scene, 12);
     run->add_observer(publisher);
     for (int step = 0; step < steps; ++step) run->step();

@@ -44,7 +44,7 @@ TEST(Box2DWorld, RefusesVelocitiesAndNumbersOfBodiesThatAreNone) {
   EXPECT_THROW(world->remove(0), std::invalid_argument);
   EXPECT_THROW(world->thaw(std::vector<BodyIndex>{0}), std::invalid_argument);
   std::vector<BodyIndex> found;
-  EXPECT_THROW(world->near({Vec2(nan, 0.0), Vec2(1.0, 1.0)}, found), std::invalid_argument);
+  EXPECT_THROW(world->query_box({Vec2(nan, 0.0), Vec2(1.0, 1.0)}, found), std::invalid_argument);
 }
 
 TEST(Box2DWorld, TakesEveryShapeThatTheSeamAllows) {

@@ -108,6 +108,7 @@ TEST(ThawedHeap, FindsTheFrictionItFellAsleepWith) { EXPECT_LT(shock_of_waking(t
 TEST(ThawedBody, FindsItsContactsInTheFirstStep) {
   const auto world = make_bullet_world(l_world<3>());
   add_stack(*world, 40, 3);
+  world->record_contacts(true);
   run(*world, 600);
   const std::vector<Contact<3>> before(world->contacts().begin(), world->contacts().end());
   const std::vector<BodyIndex> all = awake_of(*world);

@@ -45,6 +45,9 @@ class Sequence {
       description_.skips.*field = !chance(0.15);
     }
     worlds_ = {make(description_), make(packaged)};
+    for (const auto& world : worlds_) {
+      world->record_contacts(true);
+    }
   }
 
   /// What differs after that many acts; empty: nothing.

@@ -9,25 +9,8 @@
 
 namespace talus {
 
-namespace {
-
-/// Kinetic energy of the awake bodies [J]; sleepers have none.
 template <int Dim>
-double kinetic_energy_of(const World<Dim>& world, std::span<const Shape<Dim>> shapes) {
-  const BodyStates<Dim>& states = world.states();
-  double energy = 0.0;
-  for (const BodyIndex body : world.awake()) {
-    const auto i = static_cast<std::size_t>(body);
-    energy += kinetic_energy(shapes[static_cast<std::size_t>(states.shape[i])], states, i);
-  }
-  return energy;
-}
-
-}  // namespace
-
-template <int Dim>
-FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file, const Scene<Dim>& scene)
-    : out_(file), shapes_(scene.world.shapes) {
+FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file) : out_(file) {
   if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
   out_ << "step,time_s,bodies,awake,slept,woken,piles,layers,occupation_ratio,kinetic_energy_J,"
           "emit_ms,step_ms,collide_ms,solve_ms,count_ms,decide_ms,apply_ms,observe_ms\n";
@@ -45,7 +28,7 @@ void FramesCsv<Dim>::on_frame(const Frame<Dim>& frame) {
   const PhaseTimes& t = frame.phases;
   out_ << fmt::format("{},{:.6f},{},{},{},{},{},{},{:.4f},{:.6g},", frame.step, frame.time, frame.world.states().size(),
                       frame.world.awake().size(), static_cast<std::ptrdiff_t>(frame.events.size()) - woken, woken,
-                      frame.piles.piles().size(), layers, ratio, kinetic_energy_of<Dim>(frame.world, shapes_));
+                      frame.piles.piles().size(), layers, ratio, kinetic_energy(frame.world));
   out_ << fmt::format("{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f}\n", 1e3 * t.emit, 1e3 * t.step,
                       1e3 * t.engine.collide, 1e3 * t.engine.solve, 1e3 * t.count, 1e3 * t.decide, 1e3 * t.apply,
                       1e3 * t.observe);

@@ -39,14 +39,14 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
   write_scene(scene, folder_ / scene_file_name);
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
-  add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv", scene), simulation);
+  add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
 #ifdef TALUS_LCM
   RunInfo info = run_info(scene, scene_name, backend);
   info.version = version_text();
   add(std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene), simulation);
   if (options.telemetry) {
     const PublisherParams params{.url = options.lcm_url, .piles_rate = options.telemetry_hz};
-    add(std::make_unique<Publisher<Dim>>(info, scene, params), simulation);
+    add(std::make_unique<Publisher<Dim>>(info, params), simulation);
   }
 #endif
   add(std::make_unique<WarningTeller<Dim>>(), simulation);

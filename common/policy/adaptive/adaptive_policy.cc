@@ -18,7 +18,6 @@ template <int Dim>
 AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world,
                                     const TypicalBody& typical)
     : params_(params),
-      shapes_(world.shapes),
       ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
       max_speed_(speed_margin * fastest_speed<Dim>(world.dt)),
       max_spin_(max_turn_per_step / world.dt),
@@ -33,7 +32,7 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
   if (frame.world.awake().empty() && !avalanches_.has_unchecked()) return;
-  const RuleInput<Dim> in{frame.world, shapes_, frame.world.contacts(), frame.piles.piles(), frame.step};
+  const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
   output_.clear();
   rest_.update(in);
   heavy_impacts_.update(in, output_);

@@ -27,6 +27,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world, const TypicalBody& typical);
 
   bool counts_flying() const override { return false; }
+  bool needs_contacts() const override { return true; }
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
 
  private:
@@ -44,7 +45,6 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
   AdaptiveParams params_;
-  std::vector<Shape<Dim>> shapes_;
   double ground_;     // its height [m]; without ground the lowest number
   double max_speed_;  // [m/s]
   double max_spin_;   // [rad/s]

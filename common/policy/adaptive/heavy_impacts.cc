@@ -25,14 +25,14 @@ void HeavyImpacts<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
 template <int Dim>
 void HeavyImpacts<Dim>::wake_ahead(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out) {
   const Vec<Dim>& velocity = in.states().velocity[static_cast<std::size_t>(body)];
-  Box<Dim> path = bounds_at(in.shape_of(body), in.pose_of(body));
+  Box<Dim> path = in.world.bounds_of(body);
   path.extend(Box<Dim>(path).translate(2.0 * dt_ * velocity));
   double mass = in.shape_of(body).mass;
   const double momentum = mass * velocity.norm();
   reached_.resize(in.states().asleep.size(), 0);
   woken_.clear();
   ring_.clear();
-  in.world.near(path, ring_);
+  in.world.query_box(path, ring_);
   while (!ring_.empty() && momentum > wake_speed_ * mass) {
     next_ring_.clear();
     for (const BodyIndex other : ring_) {
@@ -41,7 +41,7 @@ void HeavyImpacts<Dim>::wake_ahead(const RuleInput<Dim>& in, BodyIndex body, Rul
       reached_[o] = 1;
       woken_.push_back(other);
       mass += in.shape_of(other).mass;
-      in.world.near(bounds_at(in.shape_of(other), in.pose_of(other)), next_ring_);
+      in.world.query_box(in.world.bounds_of(other), next_ring_);
     }
     ring_.swap(next_ring_);
   }

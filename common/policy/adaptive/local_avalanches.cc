@@ -168,7 +168,7 @@ void LocalAvalanches<Dim>::collect_neighbourhood(const RuleInput<Dim>& in, const
   for (const Cell& beside : around(cell)) neighbourhood_[beside];
   near_.clear();
   awake_near_ = 0;
-  in.world.near(box, near_);
+  in.world.query_box(box, near_);
   for (const BodyIndex body : near_) {
     if (!in.asleep(body)) {
       ++awake_near_;

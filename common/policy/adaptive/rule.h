@@ -27,15 +27,12 @@ struct RuleSetup {
 template <int Dim>
 struct RuleInput {
   const World<Dim>& world;
-  std::span<const Shape<Dim>> shapes;      // the world's
-  std::span<const Contact<Dim>> contacts;  // as World::contacts() gives them
+  std::span<const Contact<Dim>> contacts;  // those of the world
   std::span<const Pile<Dim>> piles;
   std::int64_t step = 0;  // steps done, 1 after the first
 
   const BodyStates<Dim>& states() const { return world.states(); }
-  const Shape<Dim>& shape_of(BodyIndex body) const {
-    return shapes[static_cast<std::size_t>(states().shape[static_cast<std::size_t>(body)])];
-  }
+  const Shape<Dim>& shape_of(BodyIndex body) const { return world.shape_of(body); }
   const Pose<Dim>& pose_of(BodyIndex body) const { return states().pose[static_cast<std::size_t>(body)]; }
   bool asleep(BodyIndex body) const { return states().asleep[static_cast<std::size_t>(body)] != 0; }
 };

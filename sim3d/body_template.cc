@@ -1,12 +1,12 @@
-#include "sim3d/shapes.h"
+#include "sim3d/body_template.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/shape/piece_width.h"
+#include "sim3d/conversions.h"
 #include "sim3d/pieces.h"
-#include "sim3d/plane.h"
 
 namespace talus::bullet {
 namespace {
@@ -23,7 +23,7 @@ Eigen::Quaterniond principal_frame(const Eigen::Matrix3d& inertia) {
 }
 
 // A lone piece in the body's axes needs no compound around it.
-void assemble(EngineShape& made, std::vector<PlacedPiece> pieces) {
+void assemble(BodyTemplate& made, std::vector<PlacedPiece> pieces) {
   const PlacedPiece& first = pieces.front();
   if (pieces.size() == 1 && first.position.isZero(0.0) && first.rotation.isApprox(Eigen::Quaterniond::Identity())) {
     made.parts.push_back(std::move(pieces[0].shape));
@@ -44,7 +44,7 @@ Piece<3> spatial(const Shape<3>&, const Piece<3>& piece) { return piece; }
 
 // The pieces in the axes that Bullet keeps the body in. What lies at the origin but for rounding is put there.
 template <int Dim>
-std::vector<PlacedPiece> make_pieces(const Shape<Dim>& shape, const EngineShape& made) {
+std::vector<PlacedPiece> make_pieces(const Shape<Dim>& shape, const BodyTemplate& made) {
   std::vector<PlacedPiece> pieces;
   for (const Piece<Dim>& piece : shape.pieces) {
     pieces.push_back(make_piece(turned(spatial(shape, piece), made.frame_inverse)));
@@ -55,13 +55,13 @@ std::vector<PlacedPiece> make_pieces(const Shape<Dim>& shape, const EngineShape&
   return pieces;
 }
 
-void set_inertia(EngineShape& made, const Inertia<2>& inertia) {
+void set_inertia(BodyTemplate& made, const Inertia<2>& inertia) {
   made.inertia = btVector3(1, 1, 1) * static_cast<btScalar>(inertia(0, 0));
   made.linear_factor = btVector3(1, 0, 1);
   made.angular_factor = btVector3(0, 1, 0);
 }
 
-void set_inertia(EngineShape& made, const Inertia<3>& inertia) {
+void set_inertia(BodyTemplate& made, const Inertia<3>& inertia) {
   const Eigen::Matrix3d principal = made.frame_inverse * inertia * made.frame.toRotationMatrix();
   made.inertia = to_bullet(Vec3(principal.diagonal()));
 }
@@ -82,8 +82,8 @@ Eigen::Quaterniond choose_frame(const Shape<Dim>& shape) {
 }  // namespace
 
 template <int Dim>
-EngineShape make_engine_shape(const Shape<Dim>& shape, double mass_scale) {
-  EngineShape made;
+BodyTemplate make_body_template(const Shape<Dim>& shape, double mass_scale) {
+  BodyTemplate made;
   made.frame = choose_frame(shape);
   made.frame_inverse = made.frame.conjugate();
   assemble(made, make_pieces(shape, made));
@@ -100,7 +100,7 @@ EngineShape make_engine_shape(const Shape<Dim>& shape, double mass_scale) {
   return made;
 }
 
-template EngineShape make_engine_shape(const Shape<2>&, double);
-template EngineShape make_engine_shape(const Shape<3>&, double);
+template BodyTemplate make_body_template(const Shape<2>&, double);
+template BodyTemplate make_body_template(const Shape<3>&, double);
 
 }  // namespace talus::bullet

@@ -1,11 +1,11 @@
-#include "sim2d/freezer.h"
+#include "sim2d/static_hosts.h"
 
 namespace talus::box2d {
 
-std::size_t Freezer::open_host() {
+std::size_t StaticHosts::open_host() {
   while (!open_.empty()) {
     const Host& host = hosts_[open_.back()];
-    if (host.body != nullptr && host.sleepers < capacity_) {
+    if (host.body != nullptr && host.frozen < capacity_) {
       return open_.back();
     }
     open_.pop_back();
@@ -24,38 +24,39 @@ std::size_t Freezer::open_host() {
   return slot;
 }
 
-b2Fixture* Freezer::freeze(BodyIndex body, std::span<const EngineShape> shapes, b2FixtureDef material,
-                           const b2Transform& pose) {
+b2Fixture* StaticHosts::add(BodyIndex body, const BodyTemplate& from, const b2Transform& pose) {
   Host& host = hosts_[open_host()];
-  ++host.sleepers;
+  ++host.frozen;
+  b2FixtureDef fixture = from.material;
   b2Fixture* last = nullptr;
-  for (std::size_t piece = 0; piece < shapes.size(); ++piece) {
-    const EngineShape shape = moved(shapes[piece], pose);
-    material.shape = &base(shape);
-    material.userData = to_user_data(make_tag(body, static_cast<int>(piece)));
-    last = host.body->CreateFixture(&material);
+  int number = 0;
+  for (const EnginePiece& own : from.pieces) {
+    const EnginePiece piece = moved(own, pose);
+    fixture.shape = &base(piece);
+    fixture.userData = to_user_data(make_tag(body, number++));
+    last = host.body->CreateFixture(&fixture);
   }
   return last;
 }
 
-void Freezer::thaw(b2Fixture* first, std::size_t pieces) {
+void StaticHosts::remove(b2Fixture* first, const BodyTemplate& from) {
   const std::size_t slot = slot_of(*first->GetBody());
   Host& host = hosts_[slot];
-  if (host.sleepers == 1) {
+  if (host.frozen == 1) {
     world_->DestroyBody(host.body);
     host = {};
     vacant_.push_back(slot);
     return;
   }
-  for (std::size_t piece = 0; piece < pieces; ++piece) {
+  for (std::size_t i = 0; i < from.pieces.size(); ++i) {
     b2Fixture* next = first->GetNext();
     host.body->DestroyFixture(first);
     first = next;
   }
-  if (host.sleepers == capacity_) {
+  if (host.frozen == capacity_) {
     open_.push_back(slot);
   }
-  --host.sleepers;
+  --host.frozen;
 }
 
 }  // namespace talus::box2d

@@ -1,5 +1,5 @@
 #pragma once
-// Our shapes as Bullet's.
+// What all bodies of one shape have in common in Bullet.
 
 #include <btBulletCollisionCommon.h>
 
@@ -15,7 +15,7 @@ namespace talus::bullet {
 /// Bullet wants a diagonal inertia, so it keeps each body in its principal axes; `frame` turns those into the shape's
 /// own. Boxes, balls and capsules are exact. A convex hull keeps its corners and is `hull_margin` thicker against
 /// ground, balls and capsules; hulls and boxes meet at their true faces (polyhedral clipping).
-struct EngineShape {
+struct BodyTemplate {
   btCollisionShape* whole = nullptr;  // the last of `parts`
   std::vector<std::unique_ptr<btCollisionShape>> parts;
   Eigen::Quaterniond frame = Eigen::Quaterniond::Identity();
@@ -36,6 +36,6 @@ inline constexpr double hull_margin = 0.001;
 
 /// `mass_scale`: factor of mass and inertia, see mass_scale.h.
 template <int Dim>
-EngineShape make_engine_shape(const Shape<Dim>& shape, double mass_scale = 1.0);
+BodyTemplate make_body_template(const Shape<Dim>& shape, double mass_scale = 1.0);
 
 }  // namespace talus::bullet

@@ -1,8 +1,8 @@
-#include "sim3d/freezer.h"
+#include "sim3d/body_swap.h"
 
 namespace talus::bullet {
 
-void Freezer::freeze(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape) {
+void BodySwap::freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape) {
   prepare_broadphase();
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
   proxy->m_collisionFilterGroup = btBroadphaseProxy::StaticFilter;
@@ -15,7 +15,7 @@ void Freezer::freeze(std::unique_ptr<btCollisionObject>& object, const EngineSha
                                       object->getUserIndex()));
 }
 
-void Freezer::thaw(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape, bool may_sleep) {
+void BodySwap::thaw(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, bool may_sleep) {
   std::unique_ptr<btRigidBody> body =
       engine_.rigid_bodies.make(shape, object->getWorldTransform(), object->getUserIndex(), may_sleep);
   body->setGravity(engine_.world.getGravity());
@@ -33,7 +33,7 @@ void Freezer::thaw(std::unique_ptr<btCollisionObject>& object, const EngineShape
 }
 
 // The contacts that stay must know their new owner.
-void Freezer::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_ptr<btCollisionObject> successor) {
+void BodySwap::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_ptr<btCollisionObject> successor) {
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
   successor->setBroadphaseHandle(proxy);
   for (btBroadphaseProxy* partner : engine_.pairs.partners(proxy)) {
@@ -57,6 +57,6 @@ void Freezer::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_p
 
 // With sleepers around, Bullet would rebalance one in a hundred entries of its tree of resting bodies in each step.
 // One entry a step is enough. Not before the first freeze, so that a run without sleepers is plain Bullet's.
-void Freezer::prepare_broadphase() { engine_.broadphase.m_fupdates = 0; }
+void BodySwap::prepare_broadphase() { engine_.broadphase.m_fupdates = 0; }
 
 }  // namespace talus::bullet

@@ -1,7 +1,8 @@
-#include "sim2d/shapes.h"
+#include "sim2d/pieces.h"
 
 #include <algorithm>
-#include <numbers>
+
+#include "sim2d/conversions.h"
 
 namespace talus::box2d {
 namespace {
@@ -34,7 +35,7 @@ b2PolygonShape convex_polygon(const HullPiece<2>& hull) {
 }
 
 struct Converter {
-  std::vector<EngineShape>& out;
+  std::vector<EnginePiece>& out;
 
   void operator()(const BoxPiece<2>& box) const { out.emplace_back(rectangle(box.pose, box.half)); }
 
@@ -55,16 +56,16 @@ struct Converter {
 
 }  // namespace
 
-std::vector<EngineShape> engine_shapes(const Shape<2>& shape) {
-  std::vector<EngineShape> out;
+std::vector<EnginePiece> engine_pieces(const Shape<2>& shape) {
+  std::vector<EnginePiece> out;
   for (const Piece<2>& piece : shape.pieces) {
     std::visit(Converter{out}, piece);
   }
   return out;
 }
 
-EngineShape moved(const EngineShape& shape, const b2Transform& pose) {
-  EngineShape copy = shape;
+EnginePiece moved(const EnginePiece& piece, const b2Transform& pose) {
+  EnginePiece copy = piece;
   if (auto* circle = std::get_if<b2CircleShape>(&copy)) {
     circle->m_p = b2Mul(pose, circle->m_p);
   } else {
@@ -76,19 +77,6 @@ EngineShape moved(const EngineShape& shape, const b2Transform& pose) {
     polygon.m_centroid = b2Mul(pose, polygon.m_centroid);
   }
   return copy;
-}
-
-b2MassData engine_mass(const Shape<2>& shape) {
-  b2MassData mass;
-  mass.mass = static_cast<float>(shape.mass);
-  mass.center.SetZero();
-  mass.I = static_cast<float>(shape.inertia(0, 0));
-  return mass;
-}
-
-float engine_angle(double angle) {
-  return static_cast<float>(std::abs(angle) <= std::numbers::pi ? angle
-                                                                : std::remainder(angle, 2.0 * std::numbers::pi));
 }
 
 }  // namespace talus::box2d

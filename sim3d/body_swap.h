@@ -1,5 +1,5 @@
 #pragma once
-// Freezing and thawing.
+// A body's change between its awake and its frozen form.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -12,19 +12,19 @@
 
 namespace talus::bullet {
 
-/// Exchanges a body's awake form for its sleeping one and back, within its broadphase entry. Contacts with awake
-/// neighbours stay as they are. Contacts with static ones (ground, obstacles, sleepers) go when the body freezes, since
-/// pairs exist only where at least one side is awake, and come back in the first step after it thaws. Cost: the body's
-/// own neighbours.
-class Freezer {
+/// Exchanges a body's awake form for its frozen one and back, within its broadphase entry. Contacts with awake
+/// neighbours stay as they are. Contacts with static ones (ground, obstacles, frozen bodies) go when the body freezes,
+/// since pairs exist only where at least one side is awake, and come back in the first step after it thaws. Cost: the
+/// body's own neighbours.
+class BodySwap {
  public:
-  explicit Freezer(Engine& engine) : engine_(engine) {}
+  explicit BodySwap(Engine& engine) : engine_(engine) {}
 
   /// `object` holds a rigid body on entry and a static object after.
-  void freeze(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape);
+  void freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape);
 
   /// The other way round; the body is at rest.
-  void thaw(std::unique_ptr<btCollisionObject>& object, const EngineShape& shape, bool may_sleep);
+  void thaw(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, bool may_sleep);
 
   /// To be called before a body leaves the world.
   void forget(BodyIndex body) { warm_start_.forget(body); }

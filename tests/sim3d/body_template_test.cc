@@ -1,10 +1,11 @@
 // Mass, axes and size of bodies as Bullet has them.
 
+#include "sim3d/body_template.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "sim3d/shapes.h"
 #include "tests/sim3d/heap.h"
 
 namespace talus::engine_shape_test {
@@ -22,7 +23,7 @@ Shape<3> l_shape() { return make_shape<3>("L", l_pieces<3>({}), Material{}); }
 
 // The L's longest axis lies askew in its own axes, so this fails where a body is kept in other axes than its principal
 // ones: about those, and only those, a free body keeps its spin.
-TEST(EngineShape, SpinsFreelyAboutItsPrincipalAxes) {
+TEST(BodyTemplate, SpinsFreelyAboutItsPrincipalAxes) {
   const Shape<3> shape = l_shape();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(shape.inertia);
   std::mt19937 random(1);
@@ -38,9 +39,9 @@ TEST(EngineShape, SpinsFreelyAboutItsPrincipalAxes) {
   }
 }
 
-TEST(EngineShape, HasTheExactInertia) {
+TEST(BodyTemplate, HasTheExactInertia) {
   const Shape<3> shape = l_shape();
-  const bullet::EngineShape made = bullet::make_engine_shape(shape);
+  const bullet::BodyTemplate made = bullet::make_body_template(shape);
   const Eigen::Vector3d about_axes(made.inertia.x(), made.inertia.y(), made.inertia.z());
   const Eigen::Matrix3d axes = made.frame.toRotationMatrix();
   const Eigen::Matrix3d inertia = axes * about_axes.asDiagonal() * axes.transpose();
@@ -48,11 +49,11 @@ TEST(EngineShape, HasTheExactInertia) {
   EXPECT_FLOAT_EQ(made.mass, static_cast<float>(shape.mass));
 }
 
-TEST(EngineShape, OfOnePieceIsNoCompound) {
+TEST(BodyTemplate, OfOnePieceIsNoCompound) {
   const Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
   for (const std::vector<Piece<3>>& pieces :
        {box_pieces<3>({1, 2, 3}), ball_pieces<3>(0.5), capsule_pieces<3>(2.0, 0.3), hull_pieces<3>(corners)}) {
-    const bullet::EngineShape made = bullet::make_engine_shape(make_shape<3>("one", pieces, Material{}));
+    const bullet::BodyTemplate made = bullet::make_body_template(make_shape<3>("one", pieces, Material{}));
     EXPECT_FALSE(made.whole->isCompound());
   }
 }
@@ -71,7 +72,7 @@ double resting_height(const Shape<Dim>& shape, double centre, MakeWorld make_wor
 }
 
 // Two millimetres: a body rests where Bullet's split impulse stops pushing, and a hull on a skin of 1 mm.
-TEST(EngineShape, RestsAtItsHeight) {
+TEST(BodyTemplate, RestsAtItsHeight) {
   const std::vector<Vec3> cube = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
                                   {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
   const auto rests = [](const std::vector<Piece<3>>& pieces, double centre) {
@@ -84,7 +85,7 @@ TEST(EngineShape, RestsAtItsHeight) {
   rests(hull_pieces<3>(cube), 0.5);
 }
 
-TEST(EngineShape, RestsAtItsHeightInThePlane) {
+TEST(BodyTemplate, RestsAtItsHeightInThePlane) {
   const std::vector<Vec2> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const auto rests = [](const std::vector<Piece<2>>& pieces, double centre) {
     EXPECT_NEAR(resting_height<2>(make_shape<2>("s", pieces, Material{}), centre, make_bullet_planar_world), centre,
@@ -97,7 +98,7 @@ TEST(EngineShape, RestsAtItsHeightInThePlane) {
 }
 
 // Stacks show what single bodies hide: gaps and overlaps between two bodies of one kind add up.
-TEST(EngineShape, StacksToItsHeight) {
+TEST(BodyTemplate, StacksToItsHeight) {
   const std::vector<Vec3> cube = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
                                   {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
   for (const std::vector<Piece<3>>& pieces : {box_pieces<3>({1, 1, 1}), hull_pieces<3>(cube)}) {

@@ -1,0 +1,147 @@
+#include "common/world/world.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "common/math/require.h"
+
+namespace talus {
+
+template <int Dim>
+World<Dim>::World(const WorldDescription<Dim>& description, const SpeedLimits& limits)
+    : description_(description), limits_(limits) {
+  check(description_);
+}
+
+template <int Dim>
+BodyIndex World<Dim>::add(const BodyDef<Dim>& body) {
+  check(body, description_);
+  const BodyIndex index = states_.size();
+  const Pose<Dim> pose = engine_add(index, body);
+  states_.shape.push_back(body.shape);
+  states_.pose.push_back(pose);
+  states_.velocity.push_back(body.velocity);
+  states_.spin.push_back(body.spin);
+  states_.asleep.push_back(0);
+  states_.removed.push_back(0);
+  awake_.push_back(index);
+  return index;
+}
+
+template <int Dim>
+void World<Dim>::remove(BodyIndex body) {
+  require_present(body);
+  states_.removed[static_cast<std::size_t>(body)] = 1;
+  std::erase(awake_, body);
+  engine_remove(body);
+  if (description_.engine_sleep) follow_engine_sleep();
+}
+
+template <int Dim>
+void World<Dim>::step() {
+  if (failure_) throw NonFiniteState(*failure_);
+  ++steps_;
+  contacts_.clear();
+  times_ = engine_step();
+  if (!awake_.empty()) read_step();
+}
+
+template <int Dim>
+void World<Dim>::read_step() {
+  const auto start = std::chrono::steady_clock::now();
+  if (const std::optional<BodyIndex> broken = engine_read(states_)) {
+    failure_.emplace(steps_, *broken);
+    throw NonFiniteState(*failure_);
+  }
+  if (description_.engine_sleep) follow_engine_sleep();
+  if (record_contacts_) engine_contacts(contacts_);
+  times_.read = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <int Dim>
+void World<Dim>::set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+  require_present(body);
+  const auto i = static_cast<std::size_t>(body);
+  require(states_.asleep[i] == 0, "body", body, "must be awake to get a velocity");
+  check(BodyDef<Dim>{states_.shape[i], {}, velocity, spin}, description_);
+  engine_set_velocity(body, velocity, spin);
+  states_.velocity[i] = velocity;
+  states_.spin[i] = spin;
+}
+
+template <int Dim>
+void World<Dim>::freeze(std::span<const BodyIndex> bodies) {
+  choose(bodies, false);
+  if (chosen_.empty()) return;
+  for (const BodyIndex body : chosen_) stop(body);
+  std::erase_if(awake_, [this](BodyIndex body) { return states_.asleep[static_cast<std::size_t>(body)] != 0; });
+  engine_freeze(chosen_);
+  if (description_.engine_sleep) follow_engine_sleep();
+}
+
+template <int Dim>
+void World<Dim>::thaw(std::span<const BodyIndex> bodies) {
+  choose(bodies, true);
+  if (chosen_.empty()) return;
+  for (const BodyIndex body : chosen_) states_.asleep[static_cast<std::size_t>(body)] = 0;
+  const auto middle = static_cast<std::ptrdiff_t>(awake_.size());
+  awake_.insert(awake_.end(), chosen_.begin(), chosen_.end());
+  std::inplace_merge(awake_.begin(), awake_.begin() + middle, awake_.end());
+  engine_thaw(chosen_);
+  if (description_.engine_sleep) follow_engine_sleep();
+}
+
+template <int Dim>
+void World<Dim>::query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const {
+  require(!box.min().hasNaN() && !box.max().hasNaN(), "box", "NaN", "must have corners that are numbers");
+  if (box.isEmpty()) return;
+  const auto before = static_cast<std::ptrdiff_t>(found.size());
+  engine_query_box(box, found);
+  std::sort(found.begin() + before, found.end());
+  found.erase(std::unique(found.begin() + before, found.end()), found.end());
+}
+
+template <int Dim>
+void World<Dim>::require_present(BodyIndex body) const {
+  require(body >= 0 && body < states_.size(), "body", body, "must be the number of a body added before, from 0 on");
+  require(states_.removed[static_cast<std::size_t>(body)] == 0, "body", body, "must not have been removed");
+}
+
+template <int Dim>
+void World<Dim>::choose(std::span<const BodyIndex> bodies, bool asleep) {
+  for (const BodyIndex body : bodies) require_present(body);
+  chosen_.clear();
+  std::ranges::copy_if(bodies, std::back_inserter(chosen_),
+                       [&](BodyIndex body) { return (states_.asleep[static_cast<std::size_t>(body)] != 0) == asleep; });
+  std::ranges::sort(chosen_);
+  chosen_.erase(std::unique(chosen_.begin(), chosen_.end()), chosen_.end());
+}
+
+template <int Dim>
+void World<Dim>::stop(BodyIndex body) {
+  const auto i = static_cast<std::size_t>(body);
+  states_.asleep[i] = 1;
+  states_.velocity[i].setZero();
+  states_.spin[i].setZero();
+}
+
+/// Costs O(all bodies): the engine does not report which bodies its own rule put to sleep or woke.
+template <int Dim>
+void World<Dim>::follow_engine_sleep() {
+  awake_.clear();
+  for (BodyIndex body = 0; body < states_.size(); ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (states_.removed[i] != 0) continue;
+    if (engine_awake(body)) {
+      states_.asleep[i] = 0;
+      awake_.push_back(body);
+    } else {
+      stop(body);
+    }
+  }
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace talus

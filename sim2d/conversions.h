@@ -1,0 +1,22 @@
+#pragma once
+// Between our vectors and those of Box2D. Both are (x, z) with z up.
+
+#include <box2d/box2d.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/math/vector.h"
+
+namespace talus::box2d {
+
+inline b2Vec2 to_engine(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }
+inline Vec2 from_engine(const b2Vec2& v) { return {v.x, v.y}; }
+
+/// An angle of any size brought into [-pi, pi], where single precision resolves it.
+inline float engine_angle(double angle) {
+  const bool small = std::abs(angle) <= std::numbers::pi;
+  return static_cast<float>(small ? angle : std::remainder(angle, 2.0 * std::numbers::pi));
+}
+
+}  // namespace talus::box2d
