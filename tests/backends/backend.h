@@ -8,6 +8,7 @@
 
 #include "common/shape/catalogue.h"
 #include "common/world/world.h"
+#include "docs/examples/toy_engine.h"
 #ifdef TALUS_BOX2D
 #include "sim2d/make_world.h"
 #endif
@@ -44,6 +45,22 @@ using Backends = ::testing::Types<Box2d>;
 #else
 using Backends = ::testing::Types<Bullet, BulletPlanar>;
 #endif
+
+/// The example of docs/extending.md. Its bodies do not collide, so it runs in the suites on the seam alone.
+struct Toy {
+  static constexpr int dim = 3;
+  static constexpr const char* name = "toy";
+  static auto make(const WorldDescription<3>& description) { return make_toy_world(description); }
+};
+
+/// Adds a backend to a list of types.
+template <typename List, typename Backend>
+struct WithBackend;
+template <typename... Listed, typename Backend>
+struct WithBackend<::testing::Types<Listed...>, Backend> {
+  using type = ::testing::Types<Listed..., Backend>;
+};
+using BackendsAndToy = WithBackend<Backends, Toy>::type;
 
 struct BackendName {
   template <typename Backend>

@@ -1,4 +1,4 @@
-// Bad input is refused alike by every engine, before the engine sees it, and does no harm.
+// Bad input is refused on every engine, before the engine gets it, and does no harm.
 
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 template <typename Backend>
 class BadInput : public BackendTest<Backend> {};
-TYPED_TEST_SUITE(BadInput, Backends, BackendName);
+TYPED_TEST_SUITE(BadInput, BackendsAndToy, BackendName);
 
 TYPED_TEST(BadInput, InABodyIsRefusedAndTheWorldGoesOn) {
   constexpr int dim = TypeParam::dim;
