@@ -1,4 +1,4 @@
-# Finds LCM by its files: Debian's lcm.pc requires glib's development files, which nobody needs who links -llcm.
+# Finds LCM by its files: Debian's lcm.pc requires glib's development files, which linking with -llcm does not need.
 # Gives the target LCM::LCM and the program LCM_GEN.
 find_path(LCM_INCLUDE_DIR lcm/lcm-cpp.hpp)
 find_library(LCM_LIBRARY lcm)

@@ -28,7 +28,7 @@ inline constexpr std::size_t fingerprint_bytes = 8;
 struct Field {
   std::string_view name;
   FieldType type = FieldType::int8_t_field;
-  /// Number of entries, unless count_field says it.
+  /// Number of entries, unless count_field is set.
   std::size_t number = 1;
   /// Which field of the same message, an int32_t, has the number of entries; -1: none.
   int count_field = -1;
@@ -83,7 +83,7 @@ constexpr std::size_t bytes_per_entry(std::span<const Field> fields, std::string
 
 /// What keeps encoded bytes, fingerprint and checksum included, from being a message of this layout: a count or a text
 /// that does not match the bytes left, bytes that follow, a number that is not finite, a boolean other than 0 and 1.
-/// Empty where nothing does. Takes no memory, whatever the counts say.
+/// Empty where nothing does. Takes no memory, whatever the counts are.
 std::string_view layout_fault(std::span<const Field> fields, std::span<const std::uint8_t> bytes);
 
 }  // namespace talus

@@ -25,7 +25,7 @@ std::string group_of(std::string_view url) {
   return address.empty() ? "239.255.76.67" : std::string(address);
 }
 
-/// Whether the operating system knows where to send packets for an address. True for what is no address: LCM says more
+/// Whether the operating system has a route for an address. True for what is no address: LCM reports more
 /// about that than we could.
 bool has_route(const std::string& group) {
   sockaddr_in address{};
@@ -40,14 +40,14 @@ bool has_route(const std::string& group) {
 
 /// The largest receive buffer [bytes] that a socket gets here; 0: unknown.
 int largest_receive_buffer() {
-  constexpr int asked = 64 << 20;  // more is of no use: seconds of what a run sends
+  constexpr int wanted = 64 << 20;  // more is of no use: seconds of what a run sends
   const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
   int given = 0;
   socklen_t size = sizeof given;
-  const bool known = setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &asked, sizeof asked) == 0 &&
-                     getsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &given, &size) == 0;
+  const bool set = setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &wanted, sizeof wanted) == 0 &&
+                   getsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &given, &size) == 0;
   close(descriptor);
-  return known ? given / 2 : 0;  // Linux grants at most rmem_max, and tells twice what it granted
+  return set ? given / 2 : 0;  // Linux grants at most rmem_max, and reports twice what it granted
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void require_local(const std::string& url) {
     options.remove_prefix(std::min(option.size() + 1, options.size()));
     if (option.starts_with("ttl=") && option != "ttl=0") {
       throw std::invalid_argument(fmt::format(
-          "LCM address \"{}\": {} sends to the whole network; rule: ttl=0 unless that was asked for", url, option));
+          "LCM address \"{}\": {} sends to the whole network; rule: ttl=0 unless allow_network is set", url, option));
     }
   }
 }

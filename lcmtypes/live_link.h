@@ -12,7 +12,7 @@ namespace talus {
 /// A way into LCM's network, or why there is none.
 struct LiveLink {
   std::unique_ptr<lcm::LCM> lcm;
-  std::string problem;  // one line that says what to do; empty when `lcm` is there
+  std::string problem;  // one line with the remedy; empty when `lcm` is there
 };
 
 /// The address that counts: `url`, else the variable LCM_DEFAULT_URL, else multicast that stays on this machine.
@@ -25,7 +25,7 @@ std::string receiving_url(const std::string& url);
 /// Throws std::invalid_argument when packets to this address would leave the machine (ttl is not 0).
 void require_local(const std::string& effective_url);
 
-/// Opens effective_url(url). Looks for the multicast route first, since LCM would print a page and give up.
+/// Opens effective_url(url). Checks for the multicast route first, since LCM would print a page and give up.
 LiveLink open_live_link(const std::string& url);
 
 }  // namespace talus

@@ -16,7 +16,7 @@ namespace talus {
 
 struct PublisherParams {
   std::string url = {};        // LCM's address; empty: LCM_DEFAULT_URL, else multicast that stays on this machine
-  bool allow_network = false;  // let packets leave this machine (ttl above 0); anybody there may then listen
+  bool allow_network = false;  // let packets leave this machine (ttl above 0); any machine there may then listen
   double piles_rate = 60.0;    // [1/s] of wall time, >= 0; 0: every step, which costs a fast simulation a few per cent
   std::size_t queue_bytes = 8U << 20U;  // room for what waits to be sent, >= 1 MiB; small: an avalanche of 100,000
                                         // events is dropped in part
@@ -43,7 +43,7 @@ class Pulse {
 };
 
 /// Shows a run live over LCM. Only sends, never waits, and never changes the run. Without a way into the network it
-/// says so once and does nothing.
+/// warns once and does nothing.
 template <int Dim>
 class Publisher final : public Observer<Dim> {
  public:

@@ -7,7 +7,7 @@
 
 namespace talus {
 
-/// Who runs and what: what TALUS_RUN says.
+/// Identity of a run, as in TALUS_RUN.
 struct RunInfo {
   std::string scene;  // a short name, such as the scene file's without its ending
   std::string backend;
@@ -22,14 +22,14 @@ struct RunInfo {
   double ground_height = 0.0;  // [m]
 };
 
-/// What a scene says about its run.
+/// The part of it that a scene gives.
 template <int Dim>
 RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const std::string& backend);
 
 /// A number that the same run always gets, for its record.
 std::int64_t record_id(const RunInfo& info);
 
-/// A number that no other run gets, to tell apart what is live at one time.
+/// A number that no other run gets, so that runs at the same time differ.
 std::int64_t live_id(const RunInfo& info);
 
 /// How people see a run's number: eight hexadecimal digits.

@@ -88,7 +88,7 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   write(to_bodies<Dim>(states, bodies, key_frame), frame.step, frame.time);
 }
 
-/// Who is awake, and who came to rest since the last frame of output: its last pose is not yet told.
+/// Bodies awake, and those that came to rest since the last frame of output: their last pose is not recorded yet.
 template <int Dim>
 std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();

@@ -13,8 +13,8 @@ namespace talus {
 struct RecorderParams {
   double flush_interval = 1.0;      // [s] of wall time, >= 0: what kill -9 may cost. Small: a system call each time
   double key_frame_interval = 1.0;  // [s] of simulated time, > 0: at least so long between two key frames, which have
-                                    // everybody's pose. Long: a reader that starts in the middle waits long; short:
-                                    // the file of a lively run doubles
+                                    // the poses of all bodies. Long: a reader that starts in the middle waits long;
+                                    // short: the file of a lively run doubles
 };
 
 /// Writes the record of a run: shapes at the start, sleep events of each step, piles, statistics and poses of each

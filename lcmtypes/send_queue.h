@@ -14,13 +14,13 @@
 namespace talus {
 
 /// Sends messages from a thread of its own, in order, at least 0.1 ms apart (without this pause a burst overruns the
-/// receivers' buffers). Whoever pushes never waits for the network: what finds the queue full is dropped and counted.
+/// receivers' buffers). push() never waits for the network: a message that finds the queue full is dropped and counted.
 class SendQueue {
  public:
   /// Holds at most `capacity` bytes, and at most so many packets that they can be sent within a second. The last eighth
-  /// of both is kept for who runs and how it goes (Channel::run and Channel::stats), so that a full queue can be told.
+  /// of both is kept for Channel::run and Channel::stats, so that a full queue can be reported.
   SendQueue(std::unique_ptr<lcm::LCM> lcm, std::size_t capacity);
-  /// Sends through somebody else's `lcm`, which must live longer than this object.
+  /// Sends through the caller's `lcm`, which must live longer than this object.
   SendQueue(lcm::LCM& lcm, std::size_t capacity);
   SendQueue(const SendQueue&) = delete;
   SendQueue& operator=(const SendQueue&) = delete;
@@ -29,8 +29,8 @@ class SendQueue {
   /// Takes the packet, or drops it.
   void push(Packet packet);
 
-  /// Sends what is queued, for at most `patience`, then for at most 0.2 s what tells who ran and how it went, and
-  /// stops. Later packets are dropped.
+  /// Sends what is queued, for at most `patience`, then for at most 0.2 s the messages of Channel::run and
+  /// Channel::stats, and stops. Later packets are dropped.
   void close(std::chrono::milliseconds patience);
 
   std::size_t queued_bytes() const;

@@ -29,7 +29,7 @@ void send_log_to_standard_error() {
 
 /// Reads and executes the command line; returns the exit code.
 int execute(int argc, char** argv) {
-  CLI::App app("talus: piles of rigid bodies, simulated faster by freezing who need not move", "talus");
+  CLI::App app("talus: piles of rigid bodies, simulated faster by freezing bodies at rest", "talus");
   app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());
   app.require_subcommand(1);
   int exit_code = talus::exit_codes::success;

@@ -1,5 +1,5 @@
 #pragma once
-// All that two runs can be told apart by, in one plain struct for tools to print.
+// All measures that compare two runs, in one plain struct for tools to print.
 
 #include <optional>
 #include <span>
@@ -37,7 +37,7 @@ struct RunComparison {
   MotionError motion_mean;            // over all frames
   std::vector<double> position_mean;  // per frame, over D
   double position_p95 = 0.0;          // at the last frame, over D
-  double position_max = 0.0;          // likewise
+  double position_max = 0.0;          // of the farthest body
   ShapeStatistics<Dim> shape_a;
   ShapeStatistics<Dim> shape_b;
   double profile_rms = 0.0;  // difference of the height profiles over D

@@ -42,7 +42,7 @@ double widest_gap(const ConvexPiece<Dim>& a, const ConvexPiece<Dim>& b, double e
       for (const Vec3& along_b : b.directions) {
         const Vec3 axis = along_a.cross(along_b);
         const double sine = axis.norm();
-        // Of parallel edges the faces' normals say enough, and rounding would turn their product anywhere.
+        // Of parallel edges the faces' normals suffice: rounding would turn their product anywhere.
         if (sine > 1e-8) widest = std::max(widest, gap<3>(a, b, axis / sine));
       }
     }

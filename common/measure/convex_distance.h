@@ -14,7 +14,7 @@
 namespace talus {
 
 /// Distance between the two pieces [m]; where they overlap, minus the shortest way that parts them. Error below 1e-8 of
-/// their size. Of pieces at least `enough` [m] apart it need only say so: some value not below `enough`.
+/// their size. For pieces at least `enough` [m] apart the result is some value not below `enough`.
 template <int Dim>
 double signed_distance(const ConvexPiece<Dim>& a, const ConvexPiece<Dim>& b,
                        double enough = std::numeric_limits<double>::infinity());

@@ -25,7 +25,7 @@ std::vector<PooledSample> pool(const RunSamples& runs) {
   return pooled;
 }
 
-/// Walks up both distribution functions at once; `in_a` says per run which side it is on.
+/// Walks up both distribution functions at once; `in_a` gives for each run its side.
 DistributionDistance distance(std::span<const PooledSample> pooled, std::span<const std::uint8_t> in_a,
                               std::span<const std::size_t> sizes) {
   double size_a = 0.0;

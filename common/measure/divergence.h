@@ -18,7 +18,7 @@ std::vector<double> position_differences(const Trajectory<Dim>& a, const Traject
 
 /// First frame at which a floor pair (a full run and the same run moved by a micrometre) exceeds half its final value,
 /// the mean over the last tenth of the series. Made for position_differences(), which keeps its value when a pile comes
-/// to rest. Frames before it say little: there any two runs agree. The length of the series where it is 0 throughout.
+/// to rest. Frames before it mean little: there any two runs agree. The length of the series where it is 0 throughout.
 int divergence_frame(std::span<const double> floor_pair);
 
 /// Where a value of R or S lies between the floor (a full run against itself moved by a micrometre: 0) and the ceiling

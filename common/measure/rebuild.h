@@ -28,7 +28,7 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
 template <int Dim>
 WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
 
-/// The description at the settings that an engine has when nobody asks for others: its own sleeping, steps of 1/60 s;
+/// The description with the default settings of an engine: its own sleeping, steps of 1/60 s;
 /// Box2D 8 velocity and 3 position iterations (its manual), Bullet 10 iterations, one friction direction, friction from
 /// zero in each step (btContactSolverInfo.h).
 template <int Dim>

@@ -9,7 +9,7 @@
 namespace talus {
 namespace {
 
-/// Another policy up to a step, at which it wakes everybody; from then on nothing.
+/// Another policy up to a step, at which it wakes all bodies; from then on nothing.
 template <int Dim>
 class UntilStep final : public SleepPolicy<Dim> {
  public:

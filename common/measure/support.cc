@@ -87,7 +87,7 @@ std::vector<Touch> touching_pairs(const WorldDescription<Dim>& description, cons
       if (solid.index >= 0 && above < reach) touches.push_back({solid.index, ground_index, above});
     }
   }
-  // Sweep along x: only solids whose intervals overlap are looked at.
+  // Sweep along x: only solids whose intervals overlap are compared.
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.bounds.min().x() < b.bounds.min().x(); });
   for (std::size_t i = 0; i < all.size(); ++i) {

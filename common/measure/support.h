@@ -1,5 +1,5 @@
 #pragma once
-// Who touches whom, whether every sleeper is carried, and how deep bodies are in each other.
+// Pairs of touching bodies, sleepers without support, and overlaps.
 
 #include <span>
 #include <vector>
@@ -23,7 +23,7 @@ template <int Dim>
 std::vector<Touch> touching_pairs(const WorldDescription<Dim>& description, const BodyStates<Dim>& states,
                                   double reach);
 
-/// Sleepers from which no chain of touching bodies leads to the ground or an obstacle, ascending. Must be none. Says
+/// Sleepers from which no chain of touching bodies leads to the ground or an obstacle, ascending. Must be none. Reports
 /// nothing of forces: a body that leans on another counts as carried.
 template <int Dim>
 std::vector<BodyIndex> floating_sleepers(const BodyStates<Dim>& states, std::span<const Touch> touches);

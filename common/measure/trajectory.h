@@ -13,7 +13,7 @@ namespace talus {
 
 /// Poses of all bodies at each frame of output, in single precision, which is what the engines compute in: nothing of
 /// theirs is lost. 29 bytes per body and frame in 3D, 13 in 2D. A body is absent before its emission and after its
-/// removal. What a damaged record no longer says is unknown: a body whose pose is unknown counts as absent, and same()
+/// removal. What a damaged record lost is unknown: a body whose pose is unknown counts as absent, and same()
 /// leaves it out.
 template <int Dim>
 class Trajectory {

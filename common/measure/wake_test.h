@@ -9,11 +9,11 @@ namespace talus {
 
 struct WakeTestParams {
   double duration = 5.0;       // [s] > 0 simulated after waking; short: slow topples are not seen to the end
-  double energy_window = 0.5;  // [s] > 0 in which the wake energy is looked for
+  double energy_window = 0.5;  // [s] > 0 in which the wake energy is measured
   double far = 0.1;            // displacement, in D of the body, that counts as moved, > 0
 };
 
-/// What happened to a pile after everybody was woken.
+/// Motion of a pile after all of its bodies were woken.
 struct WakeTest {
   int bodies = 0;
   double mean = 0.0;                  // displacement over all bodies [m]
@@ -26,7 +26,7 @@ struct WakeTest {
   std::vector<double> displacements;  // of the bodies not removed, ascending by index [m]
 };
 
-/// Rebuilds `states` in a fresh world with everybody awake and simulates on. `description` holds the settings to judge
+/// Rebuilds `states` in a fresh world with all bodies awake and simulates on. `description` holds the settings to judge
 /// by, as reference_settings() gives them. The state should be a finished pile: what still falls counts as displaced.
 template <int Dim>
 WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,

@@ -29,7 +29,7 @@ bool in_triangle(const Vec2& point, const Vec2& a, const Vec2& b, const Vec2& c)
   return within && point != a && point != b && point != c;
 }
 
-// The corners that are left, as places in `flat`, and the one among them that is looked at.
+// The corners that are left, as places in `flat`, and the current one.
 bool is_ear(const std::vector<std::size_t>& left, std::size_t at, const std::vector<Vec2>& flat) {
   const Vec2& before = flat[left[(at + left.size() - 1) % left.size()]];
   const Vec2& here = flat[left[at]];

@@ -128,7 +128,7 @@ std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh
   const std::string command = "as `talus decompose` does";
   require(static_cast<bool>(std::getline(in, line)), "parts of mesh", file.string(), "must be made first, " + command);
   require(line == header(mesh), "parts of mesh", file.string(),
-          "must be made anew, " + command + ": the mesh has changed");
+          "must be made again, " + command + ": the mesh has changed");
   const ObjFile obj = read_obj(file);
   std::vector<Mesh> parts;
   for (const auto& object : obj.objects) {

@@ -1,5 +1,5 @@
 #pragma once
-// Makes a mesh fit to compute with, or says why it is not.
+// Makes a mesh fit to compute with, or reports why it is not.
 
 #include "common/mesh/mesh.h"
 

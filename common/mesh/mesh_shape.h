@@ -9,7 +9,7 @@
 namespace talus {
 
 struct MeshParams {
-  double size = 1.0;     // longest side of its bounding box [m], > 0: files seldom say what their unit is
+  double size = 1.0;     // longest side of its bounding box [m], > 0: files seldom state a unit
   bool y_up = true;      // the file's y axis points up, as most modelling tools write it; false: its z axis
   double detail = 0.02;  // of the silhouette, 2D only [m], > 0; finer: more pieces, and a step costs in proportion
 };

@@ -19,7 +19,7 @@ struct LParams {
 /// The paper's O: a ring standing in the x-z plane around the origin, in straight parts that meet on slanted cuts.
 struct RingParams {
   double outer_radius = 1.0;  // of the circle that the parts' outer corners lie on [m], > inner_radius
-  double inner_radius = 0.6;  // likewise of the hole [m], > 0
+  double inner_radius = 0.6;  // of the hole [m], > 0
   // Parts around, 3 to 64. Every part is a shape of its own to the engine: what a ring costs in contact grows with
   // them, in piles nearly in proportion. With few the ring is angular: the hole narrows to inner_radius cos(pi /
   // parts).

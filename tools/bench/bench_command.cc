@@ -12,7 +12,7 @@ void add_options(CLI::App& command, BenchOptions& options) {
   command.add_flag("-q,--quick", options.quick, "A few minutes: fewer scenes, half of their frames, two rounds");
   command.add_option("-p,--policy", options.policies, "Policy to measure, may be repeated; default: all there are")
       ->allow_extra_args(false);
-  command.add_option("--scene", options.scenes, "Scene, in both dimensions unless it says which; may be repeated")
+  command.add_option("--scene", options.scenes, "Scene, in both dimensions unless its name has one; may be repeated")
       ->allow_extra_args(false);
   command.add_option("-b,--backend", options.backends, "Engine, may be repeated; default: each dimension's first")
       ->allow_extra_args(false);

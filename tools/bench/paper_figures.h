@@ -1,5 +1,5 @@
 #pragma once
-// What the paper's own tables say (Hsu and Keyser 2010, section 4.2).
+// The paper's own tables (Hsu and Keyser 2010, section 4.2).
 
 #include <array>
 #include <string_view>

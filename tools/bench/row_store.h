@@ -27,7 +27,7 @@ struct RowKey {
   std::string scene;
   std::string backend;
   std::string policy;
-  /// Overrides of the scene file with spaces between; empty: as the scene says.
+  /// Overrides of the scene file with spaces between; empty: as in the scene file.
   std::string settings;
   /// Version of talus with its commit.
   std::string version;

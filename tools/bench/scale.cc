@@ -35,8 +35,8 @@ std::vector<Engine> measured(const BenchOptions& options) {
   std::vector<Engine> engines;
   for (const int dimension : {2, 3}) {
     for (const std::string& backend : backends(dimension)) {
-      const auto& asked = options.backends;
-      if (!asked.empty() && std::find(asked.begin(), asked.end(), backend) == asked.end()) continue;
+      const auto& wanted = options.backends;
+      if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), backend) == wanted.end()) continue;
       Engine engine{backend, dimension, {}};
       for (const int sleepers : sizes) engine.costs.push_back(cost_on(backend, dimension, sleepers));
       engines.push_back(engine);
@@ -119,7 +119,7 @@ void bench_scale(const BenchOptions& options) {
   results.notes.emplace_back(
       "A block of boxes asleep, 100 awake at rest on its top, on the bare engine: medians of 200 steps. Memory is all "
       "that the process took on, over the sleepers. Waking: a pour at rest, frozen for a second and woken, beside the "
-      "same pile never frozen; it should not be told apart.");
+      "same pile never frozen; the two should agree.");
   results.sections.push_back(
       {"Steps", {cost_table(engines), Figure{svg_of(cost_plot(engines)), "A step should cost what moves."}}});
   results.sections.push_back({"Waking", {waking}});

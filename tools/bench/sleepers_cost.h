@@ -9,7 +9,7 @@ namespace talus {
 struct SleepersCost {
   int sleepers = 0;
   double step_ms = 0.0;         // with the awake bodies resting on the sleepers, median
-  double idle_step_us = 0.0;    // with nobody awake, median
+  double idle_step_us = 0.0;    // with no body awake, median
   double freeze_thaw_us = 0.0;  // a body, both together
   double bytes = 0.0;           // of memory a sleeper, everything included
   double bytes_of_l = 0.0;      // the same of L shapes, which are of two pieces

@@ -15,7 +15,7 @@ namespace talus {
 
 namespace {
 
-/// Lets everybody sleep from one step on and wakes them a number of steps later.
+/// Freezes all bodies at one step and wakes them a number of steps later.
 template <int Dim>
 class PausePolicy final : public SleepPolicy<Dim> {
  public:

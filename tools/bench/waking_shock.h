@@ -10,11 +10,11 @@ namespace talus {
 struct WakingShock {
   double speed = 0.0;        // largest mean speed of the bodies in the two seconds after waking [m/s]
   double drift = 0.0;        // mean displacement in that time [m]
-  double speed_never = 0.0;  // the same in the same two seconds of a run in which nobody slept
+  double speed_never = 0.0;  // the same in the same two seconds of a run without sleeping
   double drift_never = 0.0;
 };
 
-/// Runs the scene in full, twice; in one run everybody is frozen at its end for a second.
+/// Runs the scene in full, twice; in one run all bodies are frozen at its end for a second.
 template <int Dim>
 WakingShock waking_shock(const Scene<Dim>& scene, const std::string& backend);
 

@@ -16,7 +16,7 @@ namespace talus {
 namespace {
 
 template <int Dim>
-void tell(const Scene<Dim>& scene) {
+void print_report(const Scene<Dim>& scene) {
   const TypicalBody body = typical_body(scene);
   print_result("{}\n", printable(scene.title));
   print_result("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second), policy {}\n", Dim, scene.steps(),
@@ -60,7 +60,7 @@ int check_scene(const std::string& name, const std::vector<std::string>& setting
   const AnyScene scene = read_scene(file, overrides);
   std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string()); }, scene);
   print_result("{}: sound\n", printable(file.string()));
-  std::visit([](const auto& of_dimension) { tell(of_dimension); }, scene);
+  std::visit([](const auto& of_dimension) { print_report(of_dimension); }, scene);
   return exit_codes::success;
 }
 

@@ -13,7 +13,7 @@ namespace talus {
 
 namespace {
 
-void tell(const Mesh& mesh, const Decomposition& decomposition, const std::filesystem::path& file) {
+void print_report(const Mesh& mesh, const Decomposition& decomposition, const std::filesystem::path& file) {
   const std::vector<Mesh>& parts = decomposition.parts;
   const double volume = moments(mesh).volume;
   double sum = 0.0;
@@ -37,7 +37,7 @@ void decompose(const std::filesystem::path& mesh_file, const ConvexPartsParams& 
   const Mesh mesh = repaired(read_mesh(mesh_file));
   const Decomposition decomposition = decomposed(mesh, params);
   write_parts(parts_file(mesh_file), mesh, decomposition.parts);
-  tell(mesh, decomposition, parts_file(mesh_file));
+  print_report(mesh, decomposition, parts_file(mesh_file));
 }
 
 }  // namespace

@@ -32,10 +32,10 @@ void RunView::take(const talus_run_v1& message) {
   if (!note(message)) return;
   run_ = message;
   for (const Channel channel : heard_channels) {
-    const auto told = std::find(message.channels.begin(), message.channels.end(), name_of(channel));
-    if (channel == Channel::run || told == message.channels.end()) continue;
+    const auto named = std::find(message.channels.begin(), message.channels.end(), name_of(channel));
+    if (channel == Channel::run || named == message.channels.end()) continue;
     trackers_[static_cast<std::size_t>(channel)].expect(
-        message.sent[static_cast<std::size_t>(told - message.channels.begin())]);
+        message.sent[static_cast<std::size_t>(named - message.channels.begin())]);
   }
 }
 

@@ -31,10 +31,10 @@ class RunView {
   /// By number, as last heard of; without those that became part of another.
   const std::map<std::int32_t, talus_lcm::talus_pile_v1>& piles() const { return piles_; }
 
-  /// Piles told that found no room here; each message counts.
+  /// Piles received for which there is no room here; each message counts.
   std::int64_t piles_left_out() const { return piles_left_out_; }
 
-  std::int64_t step() const { return step_; }    // the newest that any message told
+  std::int64_t step() const { return step_; }    // the newest of any message
   double sim_time() const { return sim_time_; }  // [s] at that step
   bool ended() const { return run_ && run_->phase == talus_lcm::talus_run_v1::END; }
 

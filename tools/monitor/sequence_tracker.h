@@ -11,8 +11,8 @@ inline std::int64_t sum_of_counts(std::int64_t a, std::int64_t b) {
   return a > largest - b ? largest : a + b;
 }
 
-/// Counts the messages that are missing on one channel, from their numbers. Knows duplicates and late ones apart within
-/// the last 64 numbers; what comes later than that counts as lost.
+/// Counts the messages that are missing on one channel, from their numbers. Distinguishes duplicates from late ones
+/// within the last 64 numbers; what comes later than that counts as lost.
 class SequenceTracker {
  public:
   /// A message with this number, >= 0, came. Whether it is the newest so far: not late, and no duplicate.

@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// How a line of text looks. `anchor`: the share of its width that lies left of the given point.
+/// Style of a line of text. `anchor`: the share of its width that lies left of the given point.
 struct TextStyle {
   double size = 23.0;  // [px]
   Colour colour;

@@ -1,5 +1,5 @@
 #pragma once
-// Who can be seen of very many bodies.
+// The bodies that can be seen of very many.
 
 #include <vector>
 

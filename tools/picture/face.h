@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// Whose a face is: a body's index, or one of these.
+/// Owner of a face: a body's index, or one of these.
 inline constexpr std::int32_t ground_owner = -1;
 inline constexpr std::int32_t obstacle_owner = -2;  // obstacle k as `obstacle_owner - k`
 

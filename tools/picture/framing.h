@@ -7,7 +7,7 @@
 
 namespace talus {
 
-/// The part of the world to show, and whom it holds.
+/// The part of the world to show, and the bodies in it.
 template <int Dim>
 struct Framing {
   Box<Dim> box;                    // around all that is to be seen [m]; never empty

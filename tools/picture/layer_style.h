@@ -1,5 +1,5 @@
 #pragma once
-// How layers look in 2D and 3D.
+// Style of layers in 2D and 3D.
 
 #include <vector>
 

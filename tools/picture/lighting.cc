@@ -69,7 +69,7 @@ Lighting::Lamp Lighting::lamp(const Vec3& direction, double strength, int resolu
 }
 
 double Lighting::Lamp::reaching(const Vec3& point, const Vec3& normal) const {
-  // Looked up a little above the surface: a z-buffer's pixels are coarser than the surface they show.
+  // Sampled a little above the surface: a z-buffer's pixels are coarser than the surface they show.
   const Vec3 seen = projection.project(point + 1.5 / projection.scale * normal);
   if (!(seen.x() >= 0.5 && seen.y() >= 0.5 && seen.x() < shadows.width() - 0.5 && seen.y() < shadows.height() - 0.5)) {
     return 1.0;

@@ -12,7 +12,7 @@ struct Colour {
   double alpha = 1.0;
 };
 
-/// What a picture looks like. Lengths are pixels of the PNG, which are the SVG's user units.
+/// Settings of a picture. Lengths are pixels of the PNG, which are the SVG's user units.
 struct PictureParams {
   int width = 1600;         // [px] 200..8000; time and the PNG's size grow with the area
   int height = 1200;        // [px] 200..8000, at most; a flat pile gets a lower picture

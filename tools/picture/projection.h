@@ -19,7 +19,7 @@ struct Projection {
   double pixels_per_metre() const { return scale; }
 };
 
-/// 3D: a camera, or with `distance` 0 a parallel projection. A third coordinate says how near a point is: larger is
+/// 3D: a camera, or with `distance` 0 a parallel projection. The third coordinate is the nearness of a point: larger is
 /// nearer, and on a plane of the world it is linear over the page.
 template <>
 struct Projection<3> {
@@ -44,7 +44,7 @@ struct Projection<3> {
   double near_limit() const { return 0.05 * distance; }
 };
 
-/// Sets scale and shift so that the points fill `area` [px] as far as they can, in its middle; tells the size that
+/// Sets scale and shift so that the points fill `area` [px] as far as they can, in its middle; returns the size that
 /// they take there. A span of points without extent gets a scale all the same.
 template <int Dim>
 Vec2 fit(Projection<Dim>& projection, std::span<const Vec<Dim>> points, const Box<2>& area) {

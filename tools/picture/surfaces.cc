@@ -45,7 +45,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
 }
 
 /// Cairo numbers surfaces and images by all that the process has made so far, so the same drawing would differ from one
-/// call to the next: counts them anew from 0.
+/// call to the next: counts them from 0 again.
 std::string renumbered(const std::string& svg, const std::string& prefix, std::map<std::string, std::size_t>& numbers) {
   std::string result;
   std::size_t copied = 0;

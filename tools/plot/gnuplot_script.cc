@@ -12,10 +12,10 @@ namespace talus {
 
 namespace {
 
-// Okabe and Ito's colours, told apart by people of any colour vision; yellow left out, too pale for lines on white.
+// Okabe and Ito's colours, distinct for all kinds of colour vision; yellow left out, too pale for lines on white.
 constexpr std::array<const char*, 7> palette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                 "#E69F00", "#56B4E9", "#000000"};
-// Round, square, triangles, diamond: told apart in grey print too.
+// Round, square, triangles, diamond: distinct in grey print too.
 constexpr std::array<int, 7> point_types = {7, 5, 9, 11, 13, 6, 4};
 
 void require(bool holds, const std::string& field, const std::string& value, const std::string& rule) {
@@ -99,16 +99,16 @@ std::string data_of(const Series& series, std::size_t number) {
 
 std::string curve_of(const Series& series, std::size_t number) {
   static constexpr std::array<const char*, 4> styles = {"lines", "points", "linespoints", "steps"};
-  const std::string look = fmt::format("linecolor '{0}' linewidth 2 pointtype {1} pointsize 0.7",
-                                       palette[number % palette.size()], point_types[number % point_types.size()]);
+  const std::string style = fmt::format("linecolor '{0}' linewidth 2 pointtype {1} pointsize 0.7",
+                                        palette[number % palette.size()], point_types[number % point_types.size()]);
   std::string curve =
       fmt::format("$series{} using 1:2 with {} {} title {}", number, styles[static_cast<std::size_t>(series.style)],
                   series.style == SeriesStyle::line || series.style == SeriesStyle::steps
                       ? fmt::format("linecolor '{}' linewidth 2", palette[number % palette.size()])
-                      : look,
+                      : style,
                   quoted(series.name));
   if (!series.low.empty()) {
-    curve += fmt::format(", $series{} using 1:2:3:4 with yerrorbars {} notitle", number, look);
+    curve += fmt::format(", $series{} using 1:2:3:4 with yerrorbars {} notitle", number, style);
   }
   return curve;
 }

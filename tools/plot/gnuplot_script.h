@@ -9,7 +9,7 @@ namespace talus {
 /// Throws std::invalid_argument if the plot's numbers do not fit together.
 void check(const Plot& plot);
 
-/// What gnuplot must be told to write the plot as SVG to its standard output, data included.
+/// The input with which gnuplot writes the plot as SVG to its standard output, data included.
 std::string gnuplot_script(const Plot& plot);
 
 }  // namespace talus

@@ -55,7 +55,7 @@ int run_gnuplot(std::string script, const std::string& output, const std::string
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   std::string program = "gnuplot";
-  std::string defaults_off = "-d";  // a user's own ~/.gnuplot would change the look
+  std::string defaults_off = "-d";  // a user's own ~/.gnuplot would change the style
   const std::array<char*, 4> arguments = {program.data(), defaults_off.data(), script.data(), nullptr};
   pid_t child = 0;
   const int failure = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);

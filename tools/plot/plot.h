@@ -25,8 +25,8 @@ struct Plot {
   bool log_x = false;
   bool log_y = false;
   bool from_zero =
-      true;  // whether a linear y axis begins at zero where no value is below; cut off, changes look larger
-  std::vector<Series> series;  // at most 7, the colours that people of any colour vision tell apart
+      true;  // whether a linear y axis begins at zero where no value is below; cut off, changes seem larger
+  std::vector<Series> series;  // at most 7, the number of colours distinct for all kinds of colour vision
   int width = 760;             // [px] 200..4000
   int height = 440;            // [px] 200..4000
 };

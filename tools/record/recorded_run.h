@@ -34,7 +34,7 @@ struct RecordedRun {
   explicit RecordedRun(const Scene<Dim>& as_run) : scene(as_run), frames(as_run.world.dt, as_run.steps_per_frame()) {}
 
   std::string name;     // of the folder, printable
-  std::string backend;  // that the run was on; empty: no message says so
+  std::string backend;  // that the run was on; empty: no message has it
   std::string policy;
   std::string reason;      // why it ended; empty: it was killed
   Scene<Dim> scene;        // as it was run

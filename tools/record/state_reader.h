@@ -20,9 +20,9 @@ class StateReader {
   /// where the message names a body or shape that the scene does not have.
   bool take(const talus_lcm::talus_bodies_v1& message);
 
-  /// Tells that `body` fell asleep or woke since the last frame. Throws std::invalid_argument like take().
+  /// Notes that `body` fell asleep or woke since the last frame. Throws std::invalid_argument like take().
   void note_event(BodyIndex body);
-  /// Tells that not all of these events are known.
+  /// Notes that not all of these events are known.
   void note_lost_events() { events_lost_ = true; }
 
   /// All velocities zero.

@@ -160,7 +160,7 @@ int wake_command(const WakeOptions& options) {
 void add_wake_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("wake", "Were a recorded run's sleepers right to sleep? Wake all and see");
   command->footer(
-      "Rebuilds the last recorded state with everybody awake and simulates on at the reference settings.\n"
+      "Rebuilds the last recorded state with all bodies awake and simulates on at the reference settings.\n"
       "Take a finished pile: what still falls counts as displaced.\n"
       "Example: talus wake runs/pile-paper --full runs/pile-full");
   auto options = std::make_shared<WakeOptions>();

@@ -1,5 +1,5 @@
 #pragma once
-// How a report looks on a screen and on paper.
+// Style of a report on a screen and on paper.
 
 namespace talus {
 

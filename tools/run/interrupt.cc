@@ -7,17 +7,17 @@ namespace talus {
 namespace {
 
 /// A signal handler can reach nothing but static storage.
-volatile std::sig_atomic_t interrupt_asked = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t interrupt_requested = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 void on_signal(int signal) {
-  interrupt_asked = 1;
+  interrupt_requested = 1;
   std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
 Interrupt::Interrupt() {
-  interrupt_asked = 0;
+  interrupt_requested = 0;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
@@ -29,7 +29,7 @@ Interrupt::~Interrupt() {
   if (std::signal(SIGHUP, SIG_DFL) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
-// NOLINTNEXTLINE(readability-convert-member-functions-to-static): to be asked of a live object only
-bool Interrupt::asked() const { return interrupt_asked != 0; }
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static): for a live object only
+bool Interrupt::requested() const { return interrupt_requested != 0; }
 
 }  // namespace talus

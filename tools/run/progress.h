@@ -5,8 +5,8 @@
 
 namespace talus {
 
-/// Tells on standard error how far a run is: one line that is written over on a terminal, a plain line now and then
-/// elsewhere.
+/// Prints the progress of a run on standard error: one line that is written over on a terminal, a plain line now and
+/// then elsewhere.
 template <int Dim>
 class Progress final : public Observer<Dim> {
  public:

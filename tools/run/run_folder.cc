@@ -42,16 +42,16 @@ fs::path claim_numbered(const std::string& name) {
 
 }  // namespace
 
-fs::path make_run_folder(const fs::path& asked, const std::string& name) {
+fs::path make_run_folder(const fs::path& wanted, const std::string& name) {
   try {
-    if (asked.empty()) return claim_numbered(name);
-    if ((!fs::exists(asked) || fs::is_directory(asked)) && claim(asked)) return asked;
+    if (wanted.empty()) return claim_numbered(name);
+    if ((!fs::exists(wanted) || fs::is_directory(wanted)) && claim(wanted)) return wanted;
   } catch (const fs::filesystem_error& error) {
-    throw std::invalid_argument(fmt::format("{} = {}: {}", asked.empty() ? "run folder" : "--out",
+    throw std::invalid_argument(fmt::format("{} = {}: {}", wanted.empty() ? "run folder" : "--out",
                                             error.path1().string(), error.code().message()));
   }
   throw std::invalid_argument(
-      fmt::format("--out = {}: must be a new or empty folder; nothing is overwritten", asked.string()));
+      fmt::format("--out = {}: must be a new or empty folder; nothing is overwritten", wanted.string()));
 }
 
 namespace {

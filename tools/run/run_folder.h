@@ -13,12 +13,12 @@ namespace talus {
 /// File of a run folder: the scene as it was run. The first to be made.
 inline constexpr const char* scene_file_name = "scene.toml";
 
-/// A folder for one run, with an empty scene file: `asked`, or where that is empty the first free one of runs/NAME,
-/// runs/NAME-2, ... Runs that start at the same time get different folders. Throws std::invalid_argument where `asked`
+/// A folder for one run, with an empty scene file: `wanted`, or where that is empty the first free one of runs/NAME,
+/// runs/NAME-2, ... Runs that start at the same time get different folders. Throws std::invalid_argument where `wanted`
 /// exists and is not empty (nothing is ever overwritten), and where the folder cannot be made.
-std::filesystem::path make_run_folder(const std::filesystem::path& asked, const std::string& name);
+std::filesystem::path make_run_folder(const std::filesystem::path& wanted, const std::string& name);
 
-/// What summary.json says beyond the statistics.
+/// What summary.json holds beyond the statistics.
 struct SummaryInput {
   std::string scene_name;
   std::string backend;

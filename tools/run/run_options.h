@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// What `talus run` was asked for.
+/// Options of `talus run`.
 struct RunOptions {
   std::string scene;                  // file, or the name of a scene in scenes/
   std::string backend;                // empty: the dimension's first

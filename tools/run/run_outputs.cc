@@ -8,7 +8,7 @@
 #include "tools/run/frames_csv.h"
 #include "tools/run/progress.h"
 #include "tools/run/version.h"
-#include "tools/run/warning_teller.h"
+#include "tools/run/warning_printer.h"
 #ifdef TALUS_LCM
 #include "lcmtypes/publisher.h"
 #include "lcmtypes/run_recorder.h"
@@ -49,7 +49,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
     add(std::make_unique<Publisher<Dim>>(info, params), simulation);
   }
 #endif
-  add(std::make_unique<WarningTeller<Dim>>(), simulation);
+  add(std::make_unique<WarningPrinter<Dim>>(), simulation);
   if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
 }
 

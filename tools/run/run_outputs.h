@@ -15,7 +15,7 @@
 
 namespace talus {
 
-/// Makes the run folder, adds the observers that `options` ask for, and writes what is written at the end.
+/// Makes the run folder, adds the observers that `options` need, and writes what is written at the end.
 template <int Dim>
 class RunOutputs {
  public:

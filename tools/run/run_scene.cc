@@ -18,10 +18,10 @@
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
+#include "tools/run/print_run.h"
 #include "tools/run/run_outputs.h"
 #include "tools/run/speed_up.h"
-#include "tools/run/tell_run.h"
-#include "tools/run/warning_teller.h"
+#include "tools/run/warning_printer.h"
 
 namespace talus {
 
@@ -39,12 +39,12 @@ std::vector<Override> overrides(const RunOptions& options, const char* option, c
   return list;
 }
 
-/// Steps to the end of the scene, to Ctrl-C or to a failure, and says which.
+/// Steps to the end of the scene, to Ctrl-C or to a failure; returns which.
 template <int Dim>
 std::string advance(Simulation<Dim>& simulation, std::int64_t steps, const Interrupt& interrupt) {
   try {
     for (std::int64_t i = 0; i < steps; ++i) {
-      if (interrupt.asked()) return "interrupted";
+      if (interrupt.requested()) return "interrupted";
       simulation.step();
     }
   } catch (const NonFiniteState& error) {
@@ -83,14 +83,14 @@ template <int Dim>
 int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict) {
   const Interrupt interrupt;
   Simulation<Dim> simulation = make_simulation(scene, backend);
-  WarningTeller<Dim> teller;
-  if (strict) simulation.add_observer(teller);
+  WarningPrinter<Dim> printer;
+  if (strict) simulation.add_observer(printer);
   const std::string reason = advance(simulation, scene.steps(), interrupt);
   simulation.end(reason);
   return print_hash(simulation, reason, strict);
 }
 
-/// Runs and records; tells what came of it.
+/// Runs, records and prints the result.
 template <int Dim>
 int record_run(const RunOptions& options, const std::string& name, const std::string& backend,
                const Scene<Dim>& scene) {
@@ -103,7 +103,7 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
   simulation.end(reason);
   outputs.finish(summary, scene, simulation);
   if (options.hash_only) return print_hash(simulation, reason, options.strict);
-  tell_run(summary, scene, simulation, outputs);
+  print_run(summary, scene, simulation, outputs);
   return exit_code_of(reason, options.strict, simulation);
 }
 

@@ -4,7 +4,7 @@
 
 namespace talus {
 
-/// Does what `talus run` was asked for; returns the exit code. Throws SceneErrors and std::invalid_argument on bad
+/// Executes `talus run`; returns the exit code. Throws SceneErrors and std::invalid_argument on bad
 /// input before anything is written.
 int run_scene(const RunOptions& options);
 

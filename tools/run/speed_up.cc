@@ -5,6 +5,7 @@
 
 #include "common/measure/ensemble.h"
 #include "common/policy/sleep_policy.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/stopwatch.h"
 #include "tools/commands/commands.h"

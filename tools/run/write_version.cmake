@@ -1,4 +1,4 @@
-# Run at each build: writes version.cc anew when the commit has changed.
+# Run at each build: writes version.cc again when the commit has changed.
 execute_process(COMMAND git -C ${SOURCE} describe --always --abbrev=8 --dirty=+ --exclude=*
                 OUTPUT_VARIABLE TALUS_COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT TALUS_COMMIT)

@@ -8,13 +8,13 @@
 
 namespace talus {
 
-/// Holds each pile for which the scene asks it at its slope alpha (section 3.1: "set by the user"). Friction cannot do
+/// Keeps each pile with `control_slope` at its slope alpha (section 3.1: "set by the user"). Friction cannot do
 /// that: bodies that fall on a steep pile knock it down, and what they knock off rolls away. So bodies in contact are
 /// damped, by a proportional-integral controller of the pile's measured slope:
 ///
 ///     damping = clamp(k_p e + I, 0, max),  dI/dt = k_i e,  0 <= I <= max
 ///
-/// with e the slope that is missing. A pile steeper than asked for by more than I / k_p is not damped.
+/// with e the slope that is missing. A pile steeper than alpha by more than I / k_p is not damped.
 template <int Dim>
 class SlopeController {
  public:

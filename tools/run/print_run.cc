@@ -1,4 +1,4 @@
-#include "tools/run/tell_run.h"
+#include "tools/run/print_run.h"
 
 #include <unistd.h>
 
@@ -14,8 +14,8 @@
 namespace talus {
 
 template <int Dim>
-void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
-              const RunOutputs<Dim>& outputs) {
+void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
+               const RunOutputs<Dim>& outputs) {
   const RunStatistics<Dim>& statistics = outputs.statistics();
   const World<Dim>& world = simulation.world();
   const auto bodies = world.states().shape.size();
@@ -33,7 +33,7 @@ void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<D
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
   }
   if (summary.emit_waits > 0) {
-    print_result("  the sources waited {} times for a free place; `talus check` tells what rate they can reach\n",
+    print_result("  the sources waited {} times for a free place; `talus check` gives the rate that they can reach\n",
                  summary.emit_waits);
   }
   print_result("  end hash {:016x}\n  {}/pile.png shows the pile, summary.json has the numbers\n",
@@ -47,7 +47,7 @@ void tell_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<D
   print_text(terminal_picture(picture_input(summary, scene, simulation), params));
 }
 
-template void tell_run(const SummaryInput&, const Scene<2>&, Simulation<2>&, const RunOutputs<2>&);
-template void tell_run(const SummaryInput&, const Scene<3>&, Simulation<3>&, const RunOutputs<3>&);
+template void print_run(const SummaryInput&, const Scene<2>&, Simulation<2>&, const RunOutputs<2>&);
+template void print_run(const SummaryInput&, const Scene<3>&, Simulation<3>&, const RunOutputs<3>&);
 
 }  // namespace talus
