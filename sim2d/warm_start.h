@@ -25,7 +25,7 @@
 namespace talus::box2d {
 
 /// One point of a contact that was. Its feature id says which corner and side it came from, and is found again after
-/// fixtures were made anew: see EngineWorld::freeze().
+/// fixtures were made again: see EngineWorld::freeze().
 struct SavedPoint {
   static constexpr std::uint32_t no_point = 0xffffffff;
   std::uint32_t feature = no_point;

@@ -169,7 +169,7 @@ TEST_F(MeshFile, GivesTheShapeThatItDescribesInSpaceOnceItsPartsAreMade) {
 TEST_F(MeshFile, RefusesPartsThatAreMissingOrMadeOfAnotherMesh) {
   expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "l.parts.obj");
   write_parts(parts_file(file_), repaired(soup(box)), arms());
-  expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "must be made anew");
+  expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "must be made again");
 }
 
 TEST_F(MeshFile, RefusesPartsThatDoNotFillTheMesh) {
