@@ -94,7 +94,7 @@ void EngineWorld::add_obstacles() {
 
 Pose<2> EngineWorld::engine_add(BodyIndex body, const BodyDef<2>& def) {
   check_memory();
-  const Pose<2> pose{from_engine(to_engine(def.pose.position)), Rotation<2>(engine_angle(def.pose.rotation.angle()))};
+  Pose<2> pose{from_engine(to_engine(def.pose.position)), Rotation<2>(engine_angle(def.pose.rotation.angle()))};
   b2Body* made = create(body, template_of(def.shape), pose);
   give_velocity(*made, def.velocity, def.spin);
   bodies_.push_back({made, nullptr});
@@ -183,8 +183,8 @@ void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
   // All are destroyed before the first is made again, last first: so every fixture gets its old number in the broad
   // phase again, which decides the side that Box2D measures a contact from.
   find_new_contacts();
-  for (auto body = bodies.rbegin(); body != bodies.rend(); ++body) {
-    world_.DestroyBody(at(*body).body);
+  for (std::size_t i = bodies.size(); i-- > 0;) {
+    world_.DestroyBody(at(bodies[i]).body);
   }
   for (const BodyIndex body : bodies) {
     const Pose<2>& pose = states().pose[static_cast<std::size_t>(body)];
