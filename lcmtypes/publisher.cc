@@ -36,25 +36,13 @@ std::unique_ptr<SendQueue> open_queue(const PublisherParams& params) {
   return std::make_unique<SendQueue>(std::move(link.lcm), params.queue_bytes);
 }
 
-void add(PhaseTimes& sum, const PhaseTimes& step) {
-  sum.emit += step.emit;
-  sum.step += step.step;
-  sum.count += step.count;
-  sum.decide += step.decide;
-  sum.apply += step.apply;
-  sum.observe += step.observe;
-  sum.engine.collide += step.engine.collide;
-  sum.engine.solve += step.engine.solve;
-  sum.engine.read += step.engine.read;
-}
-
 void put(talus_lcm::talus_stats_v2& message, const PhaseTimes& sum, std::int64_t steps) {
   const auto mean = [&](double seconds) { return static_cast<float>(1e3 * seconds / static_cast<double>(steps)); };
   message.ms_emit = mean(sum.emit);
   message.ms_step = mean(sum.step);
-  message.ms_collide = mean(sum.engine.collide);
-  message.ms_solve = mean(sum.engine.solve);
-  message.ms_read = mean(sum.engine.read);
+  message.ms_collide = mean(sum.collide);
+  message.ms_solve = mean(sum.solve);
+  message.ms_read = mean(sum.read);
   message.ms_count = mean(sum.count);
   message.ms_decide = mean(sum.decide);
   message.ms_apply = mean(sum.apply);
@@ -89,7 +77,7 @@ template <int Dim>
 void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
   if (!queue_) return;
   const auto now = Clock::now();
-  add(sum_, frame.phases);
+  sum_ += frame.phases;
   ++summed_steps_;
   send(to_sleep(frame.events), frame.step, frame.time);
   if (piles_pulse_.due(now)) send(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);

@@ -5,24 +5,12 @@
 #include <span>
 
 #include "common/pile/pile_set.h"
+#include "common/policy/phase_times.h"
 #include "common/policy/sleep_event.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
 
 namespace talus {
-
-/// Where the time of one step went [s].
-struct PhaseTimes {
-  double emit = 0.0;
-  double step = 0.0;     // in the engine; `engine` splits it
-  double count = 0.0;    // piles
-  double decide = 0.0;   // policy
-  double apply = 0.0;    // freezing and thawing
-  double observe = 0.0;  // observers of the step before
-  EngineTimes engine;
-
-  double total() const { return emit + step + count + decide + apply + observe; }
-};
 
 /// References are valid during the call that hands the frame over.
 template <int Dim>

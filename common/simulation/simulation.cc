@@ -42,7 +42,10 @@ void Simulation<Dim>::step() {
   world_->step();
   ++step_;
   phases_.step = watch.lap();
-  phases_.engine = world_->times();
+  const EngineTimes engine = world_->times();
+  phases_.collide = engine.collide;
+  phases_.solve = engine.solve;
+  phases_.read = engine.read;
   count_piles();
   phases_.count = watch.lap();
   decide();

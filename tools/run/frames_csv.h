@@ -7,7 +7,7 @@
 
 namespace talus {
 
-/// Writes frames.csv: one row a step.
+/// Writes frames.csv: one row a step. docs/files.md explains the columns.
 template <int Dim>
 class FramesCsv final : public Observer<Dim> {
  public:

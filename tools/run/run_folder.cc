@@ -59,16 +59,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json phases_json(const PhaseTimes& sum, double steps) {
-  const auto per_step = [&](double seconds) { return steps > 0.0 ? 1e3 * seconds / steps : 0.0; };
-  return {{"emit", per_step(sum.emit)},
-          {"step", per_step(sum.step)},
-          {"step_collide", per_step(sum.engine.collide)},
-          {"step_solve", per_step(sum.engine.solve)},
-          {"step_read", per_step(sum.engine.read)},
-          {"count", per_step(sum.count)},
-          {"decide", per_step(sum.decide)},
-          {"apply", per_step(sum.apply)},
-          {"observe", per_step(sum.observe)}};
+  Json phases;
+  for (const Phase& phase : all_phases)
+    phases[std::string(phase.name)] = steps > 0.0 ? 1e3 * sum.*phase.time / steps : 0.0;
+  return phases;
 }
 
 template <int Dim>

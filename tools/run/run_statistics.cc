@@ -19,15 +19,7 @@ void RunStatistics<Dim>::on_frame(const Frame<Dim>& frame) {
   body_steps_ += frame.world.states().size();
   for (const SleepEvent& event : frame.events) ++(event.woke ? woken_ : slept_);
   const PhaseTimes& now = frame.phases;
-  sum_.emit += now.emit;
-  sum_.step += now.step;
-  sum_.count += now.count;
-  sum_.decide += now.decide;
-  sum_.apply += now.apply;
-  sum_.observe += now.observe;
-  sum_.engine.collide += now.engine.collide;
-  sum_.engine.solve += now.engine.solve;
-  sum_.engine.read += now.engine.read;
+  sum_ += now;
   last_.push_back(simulation_time(now));
   if (last_.size() > last_steps) last_.pop_front();
 }
