@@ -22,10 +22,10 @@ class LayoutCheck {
 
   bool at_end() const { return rest_.empty(); }
 
-  std::string_view fields(std::span<const Field> all) {
+  std::string_view fields(std::span<const MessageField> all) {
     counts_.resize(std::max(counts_.size(), first_ + all.size()));
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const Field& field = all[i];
+      const MessageField& field = all[i];
       const std::size_t number =
           field.count_field < 0 ? field.number : counts_[first_ + static_cast<std::size_t>(field.count_field)];
       if (number > rest_.size()) return bad_counts;  // of negative ones too; each entry takes a byte or more
@@ -38,8 +38,8 @@ class LayoutCheck {
   }
 
  private:
-  std::string_view entry(std::span<const Field> all, std::size_t i) {
-    const Field& field = all[i];
+  std::string_view entry(std::span<const MessageField> all, std::size_t i) {
+    const MessageField& field = all[i];
     if (field.type == FieldType::message_field) {
       first_ += all.size();
       const std::string_view fault = fields(field.fields);
@@ -79,7 +79,7 @@ class LayoutCheck {
 
 }  // namespace
 
-std::string_view layout_fault(std::span<const Field> fields, std::span<const std::uint8_t> bytes) {
+std::string_view layout_fault(std::span<const MessageField> fields, std::span<const std::uint8_t> bytes) {
   if (bytes.size() < fingerprint_bytes) return bad_counts;
   LayoutCheck check(bytes.subspan(fingerprint_bytes));
   const std::string_view fault = check.fields(fields);

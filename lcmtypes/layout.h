@@ -25,7 +25,7 @@ enum class FieldType : std::uint8_t {
 inline constexpr std::size_t fingerprint_bytes = 8;
 
 /// One field of a message.
-struct Field {
+struct MessageField {
   std::string_view name;
   FieldType type = FieldType::int8_t_field;
   /// Number of entries, unless count_field is set.
@@ -33,12 +33,12 @@ struct Field {
   /// Which field of the same message, an int32_t, has the number of entries; -1: none.
   int count_field = -1;
   /// Of a message_field: its own fields.
-  std::span<const Field> fields = {};
+  std::span<const MessageField> fields = {};
 };
 
 /// The fields of a message type in their order, made from its .lcm file (talus_lcm/layouts.h).
 template <class Message>
-inline constexpr std::span<const Field> layout = {};
+inline constexpr std::span<const MessageField> layout = {};
 
 /// Bytes of one entry of a field; 0 for a string and for a message, whose sizes vary.
 constexpr std::size_t entry_bytes(FieldType type) {
@@ -62,18 +62,18 @@ constexpr std::size_t entry_bytes(FieldType type) {
 }
 
 /// Bytes of the fields that every message of a type has, without fingerprint, strings and counted entries.
-constexpr std::size_t fixed_bytes(std::span<const Field> fields) {
+constexpr std::size_t fixed_bytes(std::span<const MessageField> fields) {
   std::size_t bytes = 0;
-  for (const Field& field : fields) {
+  for (const MessageField& field : fields) {
     if (field.count_field < 0) bytes += field.number * entry_bytes(field.type);
   }
   return bytes;
 }
 
 /// Bytes that one more entry takes in the fields whose number is the field `count`.
-constexpr std::size_t bytes_per_entry(std::span<const Field> fields, std::string_view count) {
+constexpr std::size_t bytes_per_entry(std::span<const MessageField> fields, std::string_view count) {
   std::size_t bytes = 0;
-  for (const Field& field : fields) {
+  for (const MessageField& field : fields) {
     if (field.count_field >= 0 && fields[static_cast<std::size_t>(field.count_field)].name == count) {
       bytes += field.fields.empty() ? entry_bytes(field.type) : fixed_bytes(field.fields);
     }
@@ -84,6 +84,6 @@ constexpr std::size_t bytes_per_entry(std::span<const Field> fields, std::string
 /// What keeps encoded bytes, fingerprint and checksum included, from being a message of this layout: a count or a text
 /// that does not match the bytes left, bytes that follow, a number that is not finite, a boolean other than 0 and 1.
 /// Empty where nothing does. Takes no memory, whatever the counts are.
-std::string_view layout_fault(std::span<const Field> fields, std::span<const std::uint8_t> bytes);
+std::string_view layout_fault(std::span<const MessageField> fields, std::span<const std::uint8_t> bytes);
 
 }  // namespace talus

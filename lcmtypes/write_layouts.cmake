@@ -52,8 +52,8 @@ foreach(file IN LISTS TYPES)
     list(APPEND names ${name})
     string(APPEND entries "${entry}")
   endforeach()
-  string(APPEND layout "inline constexpr Field layout_of_${struct}[] = {\n${entries}};\n"
-         "template <>\ninline constexpr std::span<const Field> layout<talus_lcm::${struct}> = layout_of_${struct};\n\n")
+  string(APPEND layout "inline constexpr MessageField layout_of_${struct}[] = {\n${entries}};\n"
+         "template <>\ninline constexpr std::span<const MessageField> layout<talus_lcm::${struct}> = layout_of_${struct};\n\n")
   string(APPEND includes "#include \"talus_lcm/${struct}.hpp\"\n")
   if("crc32" IN_LIST names)
     string(APPEND channel_layouts "${layout}")

@@ -49,7 +49,7 @@ void give_velocity(b2Body& body, const Vec<2>& velocity, const Spin<2>& spin) {
 EngineWorld::EngineWorld(const WorldDescription<2>& description)
     : World<2>(description, {fastest_speed<2>(description.dt), fastest_spin(description.dt)}),
       world_(b2Vec2(0.0F, -static_cast<float>(description.gravity))),
-      hosts_(world_, description.skips.sleepers),
+      hosts_(world_, !description.debug.keep_sleepers),
       listener_(description, warm_start_) {
   for (const Shape<2>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, description.solver));
@@ -136,8 +136,8 @@ void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, co
 
 EngineTimes EngineWorld::engine_step() {
   warm_start_.start_step(states().asleep);
-  listener_.start_step(description().skips.continuous && hosts_.hosts() > 0, records_contacts());
-  if (description().skips.idle && awake().empty()) {
+  listener_.start_step(!description().debug.sweep_slow_bodies && hosts_.hosts() > 0, records_contacts());
+  if (!description().debug.step_when_idle && awake().empty()) {
     return {};
   }
   check_memory();

@@ -25,24 +25,25 @@ const bool takes_little = [] {
   return true;
 }();
 
-std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params, const Skips& skips) {
-  if (skips.rows) {
-    return std::make_unique<PackedSolver>(params.warm_friction, skips);
+std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params,
+                                                                 const DebugOptions& debug) {
+  if (!debug.bullet_solver) {
+    return std::make_unique<PackedSolver>(params.warm_friction, debug);
   }
   return std::make_unique<WarmFrictionSolver>(params.warm_friction);
 }
 
 }  // namespace
 
-Engine::Engine(double gravity, const SolverParams& params, const Skips& skips)
+Engine::Engine(double gravity, const SolverParams& params, const DebugOptions& debug)
     : dispatcher(&configuration),
       broadphase(&pairs),
-      solver(make_solver(params, skips)),
-      world(dispatcher, broadphase, pairs, *solver, configuration, skips) {
-  if (skips.places) {
+      solver(make_solver(params, debug)),
+      world(dispatcher, broadphase, pairs, *solver, configuration, debug) {
+  if (!debug.bullet_compounds) {
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
   }
-  if (skips.flight) {
+  if (!debug.collide_in_flight) {
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE, &ground_pairs);
     dispatcher.registerCollisionCreateFunc(STATIC_PLANE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &swapped_ground_pairs);
   }

@@ -17,7 +17,7 @@ namespace talus::bullet {
 
 /// Members are destroyed in reverse order: the world lets go of its proxies and pairs before these go.
 struct Engine {
-  Engine(double gravity, const SolverParams& params, const Skips& skips);
+  Engine(double gravity, const SolverParams& params, const DebugOptions& debug);
 
   btDefaultCollisionConfiguration configuration;
   CompoundPair::Maker compound_pairs;

@@ -49,10 +49,10 @@ template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     : World<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
-      engine_(description.gravity, description.solver, description.skips) {
+      engine_(description.gravity, description.solver, description.debug) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
-    if (!description.skips.continuous) {
+    if (description.debug.sweep_slow_bodies) {
       templates_.back().sweep_from = shortest_sweep;
     }
   }
@@ -128,7 +128,7 @@ EngineTimes EngineWorld<Dim>::engine_step() {
   if (this->records_contacts()) {
     contacts_.note_motion(rigid_);
   }
-  if (this->description().skips.idle && rigid_.empty()) {
+  if (!this->description().debug.step_when_idle && rigid_.empty()) {
     // Upkeep of the broadphase's trees: their form decides the order of pairs, and so how a run continues after a thaw.
     engine_.broadphase.calculateOverlappingPairs(&engine_.dispatcher);
     return {};
@@ -187,7 +187,7 @@ void EngineWorld<Dim>::update_lists() {
     rigid_.push_back(rigid_body(body));
   }
   engine_.world.set_bodies(rigid_);
-  if (!this->description().skips.sleepers) {
+  if (this->description().debug.keep_sleepers) {
     list_frozen();
   }
 }

@@ -5,7 +5,7 @@
 
 #include <new>
 
-#include "common/scene/scene_errors.h"
+#include "common/scene/diagnostics.h"
 #include "common/text/printable.h"
 #include "tools/bench/bench_command.h"
 #include "tools/commands/commands.h"
@@ -38,6 +38,7 @@ int execute(int argc, char** argv) {
   talus::add_check_command(app, exit_code);
   talus::add_bench_command(app, exit_code);
   talus::add_sheet_command(app, exit_code);
+  talus::add_reference_command(app, exit_code);
 #ifdef TALUS_BULLET
   talus::add_decompose_command(app);
 #endif

@@ -1,12 +1,28 @@
 #pragma once
-// How a bad value is refused at the door.
+// How a bad value is refused.
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace talus {
 
-/// Throws std::invalid_argument "FIELD = VALUE: RULE" unless `holds`. A rule is written as "must be ...".
+/// A value that breaks a rule. what() is "FIELD = VALUE: RULE".
+class InvalidValue : public std::invalid_argument {
+ public:
+  InvalidValue(std::string field, std::string value, std::string rule);
+
+  const std::string& field() const { return field_; }
+  const std::string& value() const { return value_; }
+  const std::string& rule() const { return rule_; }
+
+ private:
+  std::string field_;
+  std::string value_;
+  std::string rule_;
+};
+
+/// Throws InvalidValue unless `holds`. A rule is written as "must be ...".
 void require(bool holds, std::string_view field, double value, std::string_view rule);
 void require(bool holds, std::string_view field, const std::string& value, std::string_view rule);
 

@@ -31,7 +31,7 @@ Mesh scaled(Mesh mesh, double factor, bool y_up) {
 
 Mesh fitted(const Mesh& mesh, const MeshParams& params) {
   require(std::isfinite(params.size) && params.size > 0.0, "mesh.size", params.size, "must be finite and above 0 m");
-  return scaled(mesh, params.size / longest_side(mesh), params.y_up);
+  return scaled(mesh, params.size / longest_side(mesh), params.up == "y");
 }
 
 template <>
@@ -48,7 +48,7 @@ Shape<3> make_mesh_shape(std::string name, const std::filesystem::path& file, co
                       100.0 * parts_refused, ratio));
   std::vector<Piece<3>> pieces;
   for (const Mesh& part : parts) {
-    pieces.push_back(hull_pieces<3>(scaled(part, factor, params.y_up).corners).front());
+    pieces.push_back(hull_pieces<3>(scaled(part, factor, params.up == "y").corners).front());
   }
   const Moments<3> integrals = moments(body);
   Shape<3> shape = make_shape<3>(std::move(name), std::move(pieces), material,

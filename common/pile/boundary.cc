@@ -5,6 +5,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "common/math/require.h"
+#include "common/shape/polygon.h"
+
 namespace talus {
 
 namespace {
@@ -84,6 +87,18 @@ Boundary<Dim> box_boundary(const Horizontal<Dim>& size, double rim) {
     const Horizontal<Dim> outwards = Horizontal<Dim>::Unit(axis);
     boundary.walls.push_back({outwards, 0.5 * size[axis]});
     boundary.walls.push_back({-outwards, 0.5 * size[axis]});
+  }
+  return boundary;
+}
+
+Boundary<3> convex_boundary(std::span<const Vec2> outline, double rim) {
+  Boundary<3> boundary{.rim = rim};
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 normal = outward_normal(outline, i);
+    const double distance = normal.dot(outline[i]);
+    require(distance > 0.0, "boundary.corners", distance,
+            "must lie around at: each side's distance from it must be above 0 m");
+    boundary.walls.push_back({normal, distance});
   }
   return boundary;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Walls that a pile cannot pass (section 3.5).
 
+#include <span>
 #include <vector>
 
 #include "common/math/vector.h"
@@ -36,5 +37,9 @@ struct Boundary {
 /// Rectangle (in 2D interval) of full `size` around the centre.
 template <int Dim>
 Boundary<Dim> box_boundary(const Horizontal<Dim>& size, double rim);
+
+/// The sides of a convex polygon, counter-clockwise, around the centre, its origin. Throws InvalidValue if the origin
+/// is not inside.
+Boundary<3> convex_boundary(std::span<const Vec2> outline, double rim);
 
 }  // namespace talus

@@ -1,43 +1,81 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "common/params/field.h"
 #include "common/pile/boundary.h"
 
 namespace talus {
 
-/// A pile to be built. Defaults are the paper's where it gives them.
+/// A pile to be built. Defaults are the paper's where it gives them. pile_fields has the unit, range and effect of each
+/// field but `boundary`.
 template <int Dim>
 struct PileParams {
-  /// Slope [rad] in (0, pi/2). Not given: the slope that the bodies take by themselves, measured as the pile grows. Far
-  /// above that slope the policy `paper` lets few bodies sleep.
   std::optional<double> alpha;
-
-  /// Whether the policy `adaptive` holds the pile at `alpha`, which must then be given, where that is steeper than the
-  /// bodies' own slope. It damps bodies for that; the pile sinks once it is woken as a whole.
   bool control_slope = false;
-
-  /// Middle of the base [m]. Not given: where the first body lands (section 3.1).
   std::optional<Vec<Dim>> at;
-
-  /// N at the start, >= 1. Larger: the first bodies wait longer for a dense layer.
   double initial_size = 8.0;
-
-  /// Occupation ratio in (0, 1] above which N doubles (section 3.2).
   double growth_ratio = 0.5;
-
-  /// Piles of one kind merge when their centres stay nearer than this [D], >= 0. 0: never.
   double merge_distance = 1.0;
-
   /// Walls around `at`, which must then be given; such a pile does not drift.
   std::optional<Boundary<Dim>> boundary = {};
-
-  /// Whether bodies that have touched nothing yet count. Not given: no with `adaptive`, yes otherwise (section 3.2
-  /// counts all). If they count, a stream of bodies fills the top layer.
   std::optional<bool> count_flying = {};
-
-  /// Part of the way to the bodies' mean that the centre goes per second [1/s], >= 0.
   double drift_rate = 0.5;
 };
+
+template <int Dim>
+inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
+    {&PileParams<Dim>::alpha,
+     {.name = "alpha_deg",
+      .unit = "degrees",
+      .stored = Stored::in_radians,
+      .range = between(1.0, 89.0),  // at 0 and 90 a pile has no height or no base
+      .default_text = "[angle of repose](glossary.md) of the bodies",
+      .meaning = "slope of the cone, in 2D of the wedge; within walls it must be given. Far above the angle of repose "
+                 "`paper` lets few bodies sleep"}},
+    {&PileParams<Dim>::control_slope,
+     {.name = "control_slope",
+      .old_name = "hold_slope",
+      .meaning =
+          "whether `adaptive` holds the pile at `alpha_deg`, which must then be given, where that is steeper than "
+          "the angle of repose ([how](method.md#slope-control)). It damps the bodies, which no real force does, "
+          "and the pile sinks once it is woken as a whole. Not within walls"}},
+    {&PileParams<Dim>::at,
+     {.name = "at",
+      .type = "point",
+      .unit = "m",
+      .range = coordinate_range,
+      .default_text = "where the first body lands",
+      .meaning = "middle of the base"}},
+    {&PileParams<Dim>::initial_size,
+     {.name = "initial_size",
+      .range = between(1.0, 1e7),
+      .meaning = "number of bodies, [`N`](glossary.md), for which the layers have room at the start. Larger: the first "
+                 "bodies wait longer for a dense layer"}},
+    {&PileParams<Dim>::growth_ratio,
+     {.name = "growth_ratio",
+      .range = between(0.01, 1.0),
+      .meaning = "[occupation ratio](glossary.md) above which `N` doubles"}},
+    {&PileParams<Dim>::merge_distance,
+     {.name = "merge_distance",
+      .unit = "D",
+      .range = between(0.0, 1e6),
+      .meaning = "piles of one slope whose centres stay nearer than this become one; 0: never"}},
+    {&PileParams<Dim>::drift_rate,
+     {.name = "drift_rate",
+      .unit = "1/s",
+      .range = between(0.0, 1e3),
+      .meaning = "share of the way to its bodies' mean position that the centre goes per second. High: layers change "
+                 "while bodies sleep by them"}},
+    {&PileParams<Dim>::count_flying,
+     {.name = "count_flying",
+      .default_text = "false with `adaptive`, else true",
+      .meaning =
+          "whether bodies that have touched nothing yet count in a layer. true: a stream of bodies fills the top "
+          "layer and may start an avalanche"}},
+    {{},
+     {.name = "boundary", .type = "table", .default_text = "none", .meaning = "walls around `at`: `[pile.boundary]`"}},
+});
 
 }  // namespace talus

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/scene_errors.h"
+#include "common/scene/diagnostics.h"
 
 namespace talus {
 

@@ -1,10 +1,18 @@
 #include "common/scene/read_scene.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <utility>
 
-#include "common/scene/read_root.h"
+#include "common/pile/angle_of_repose.h"
+#include "common/scene/read_obstacle.h"
+#include "common/scene/read_shape.h"
+#include "common/scene/read_source.h"
 #include "common/scene/table_reader.h"
 #include "common/scene/text_limits.h"
 #include "common/scene/toml_text.h"
@@ -12,32 +20,184 @@
 namespace talus {
 namespace {
 
+template <int Dim>
+void read_world(TableReader& table, WorldDescription<Dim>& world) {
+  table.forbid("dt", "must be given as its inverse, as in steps_per_second = 60");
+  table.read_fields(world, world_fields<Dim>);
+  table.table("solver", [&](TableReader& solver) { solver.read_fields(world.solver, solver_fields); });
+}
+
+void read_ground(TableReader& table, Ground& ground) {
+  table.read_fields(ground, ground_fields);
+  table.read_fields(ground.material, surface_fields);
+}
+
+template <int Dim>
+void read_shapes(TableReader& root, std::vector<std::string>& names, std::vector<Shape<Dim>>& shapes) {
+  const bool well_formed = root.named_tables("shape", [&](const std::string& name, TableReader& table) {
+    names.push_back(name);
+    if (auto shape = read_body_shape<Dim>(table, name)) shapes.push_back(std::move(*shape));
+  });
+  if (well_formed && names.empty()) {
+    root.error("shape", "must be given: at least one [shape.NAME] to drop");
+  }
+}
+
+template <int Dim>
+void read_sources(TableReader& root, std::span<const std::string> shape_names, Scene<Dim>& scene) {
+  std::int64_t bodies = 0;
+  const bool well_formed = root.tables("source", [&](TableReader& table) {
+    scene.sources.push_back(read_source<Dim>(table, shape_names, scene.world));
+    bodies += scene.sources.back().count;
+  });
+  if (well_formed && scene.sources.empty()) {
+    root.error("source", "must be given: at least one [[source]], which drops the bodies");
+  }
+  if (bodies > most_bodies) {
+    root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
+  }
+}
+
+template <int Dim>
+void read_pile_boundary(TableReader& table, PileParams<Dim>& pile, std::vector<Obstacle<Dim>>& obstacles) {
+  table.table("boundary", [&](TableReader& within) {
+    pile.boundary = read_boundary<Dim>(within, pile.at.value_or(Vec<Dim>::Zero()), obstacles);
+  });
+  if (!pile.at) table.error("boundary", "must be given together with at, the middle of its floor");
+  if (pile.control_slope) {
+    table.error("control_slope", "must be false within walls, which support their bodies at any slope");
+  }
+  table.require("alpha_deg");  // walls hide the slope that bodies take by themselves
+}
+
+/// One `[[pile]]`; walls around it that are to be built are appended to the obstacles.
+template <int Dim>
+PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
+  PileParams<Dim> pile;
+  table.read_fields(pile, pile_fields<Dim>);
+  if (pile.control_slope) {
+    table.require("alpha_deg");
+    if (pile.alpha.value_or(0.0) > max_angle_of_repose) {
+      table.error("alpha_deg", "must be at most 75 with control_slope: no steeper slope is measured");
+    }
+  }
+  if (table.has("boundary")) read_pile_boundary(table, pile, obstacles);
+  return pile;
+}
+
+void read_policy(TableReader& table, PolicyParams& policy) {
+  table.read_fields(policy, policy_fields);
+  table.read_fields(policy.paper, paper_fields);
+  table.table("adaptive", [&](TableReader& own) { own.read_fields(policy.adaptive, adaptive_fields); });
+}
+
+void read_run(TableReader& table, double dt, RunParams& run) {
+  table.read_fields(run, run_fields);
+  const double steps = 1.0 / (run.frame_rate * dt);
+  if (table.ok() && (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6)) {
+    table.error("frame_rate", fmt::format("must divide world.steps_per_second, here {:.6g}: a frame is one or more "
+                                          "whole steps",
+                                          1.0 / dt));
+    return;
+  }
+  if (table.ok() && steps * static_cast<double>(run.frames) > most_steps) {
+    table.error("frames", fmt::format("must make at most {} steps, here {:.3g} steps a frame", most_steps, steps));
+  }
+}
+
+/// The keys of `[skip]`, as `[debug]` was named before, in which true meant that the work is left out. Read for one
+/// version more.
+constexpr std::array<std::pair<std::string_view, bool DebugOptions::*>, 12> old_skips = {{
+    {"idle", &DebugOptions::step_when_idle},
+    {"sleepers", &DebugOptions::keep_sleepers},
+    {"counts", &DebugOptions::recount_sleepers},
+    {"contacts", &DebugOptions::gather_contacts},
+    {"flight", &DebugOptions::collide_in_flight},
+    {"continuous", &DebugOptions::sweep_slow_bodies},
+    {"islands", &DebugOptions::bullet_islands},
+    {"rows", &DebugOptions::bullet_solver},
+    {"levels", &DebugOptions::bullet_row_order},
+    {"row_setup", &DebugOptions::bullet_row_setup},
+    {"places", &DebugOptions::bullet_compounds},
+    {"idle_pairs", &DebugOptions::visit_separate_pairs},
+}};
+
+void read_old_skips(TableReader& table, DebugOptions& options) {
+  for (const auto& [old_name, option] : old_skips) {
+    if (!table.has(old_name)) continue;
+    bool skipped = true;
+    table.read({.name = old_name}, skipped);
+    options.*option = !skipped;
+    const auto* field = std::ranges::find(debug_fields, Member<DebugOptions>(option), &Field<DebugOptions>::member);
+    table.warn_of_old_name(old_name, fmt::format("debug.{}, which is true where this is false", field->key.name));
+  }
+}
+
+void read_debug(TableReader& root, DebugOptions& options) {
+  const bool old_given = root.has_old("skip");
+  if (old_given && root.has("debug")) {
+    root.error("skip", "must not be given beside [debug], its new name");
+  } else if (old_given) {
+    root.table("skip", [&](TableReader& table) { read_old_skips(table, options); });
+  }
+  root.table("debug", [&](TableReader& table) { table.read_fields(options, debug_fields); });
+}
+
+/// Rules that concern the world as a whole, as masses that are too different.
+template <int Dim>
+void check_world(TableReader& root, const WorldDescription<Dim>& world) {
+  if (!root.ok()) return;
+  try {
+    check(world);
+  } catch (const std::invalid_argument& refusal) {
+    root.error("shape", refusal.what());
+  }
+}
+
+template <int Dim>
+Scene<Dim> read_root(TableReader& root) {
+  Scene<Dim> scene;
+  root.read_fields(scene, scene_fields<Dim>);
+  std::int64_t dimension = Dim;
+  root.read(dimension_key, dimension);
+  root.table("world", [&](TableReader& table) { read_world(table, scene.world); });
+  root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
+  root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene.world.obstacles); });
+  std::vector<std::string> shape_names;
+  read_shapes(root, shape_names, scene.world.shapes);
+  read_sources(root, shape_names, scene);
+  root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
+  root.table("policy", [&](TableReader& table) { read_policy(table, scene.policy); });
+  scene.world.engine_sleep = scene.policy.kind == "engine";
+  root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });
+  read_debug(root, scene.world.debug);
+  check_world(root, scene.world);
+  return scene;
+}
+
 struct Reading {
   AnyScene scene;
-  Findings findings;
+  Diagnostics diagnostics;
 };
 
 template <int Dim>
-Reading read_as(const toml::table& table, const Findings& before) {
+Reading read_as(const toml::table& table, const Diagnostics& before) {
   Reading reading{Scene<Dim>(), before};
-  TableReader::read_root(table, reading.findings, [&](TableReader& root) { reading.scene = read_root<Dim>(root); });
+  TableReader::read_root(table, Dim, reading.diagnostics,
+                         [&](TableReader& root) { reading.scene = read_root<Dim>(root); });
   return reading;
 }
 
-// As what the file says it is. If it does not say so, as the one in which it makes more sense, so that its other
-// errors can be told as well.
-Reading read_table(const toml::table& table, const Findings& before) {
+/// As the dimension that the file gives. If it gives none, as the one with fewer errors, so that the other errors can
+/// be reported as well.
+Reading read_table(const toml::table& table, const Diagnostics& before) {
   const auto* written = table["dimension"].as_integer();
   const std::int64_t dimension = written == nullptr ? 0 : **written;
-  if (dimension == 2) {
-    return read_as<2>(table, before);
-  }
-  if (dimension == 3) {
-    return read_as<3>(table, before);
-  }
+  if (dimension == 2) return read_as<2>(table, before);
+  if (dimension == 3) return read_as<3>(table, before);
   Reading flat = read_as<2>(table, before);
   Reading full = read_as<3>(table, before);
-  return std::move(flat.findings.errors.size() < full.findings.errors.size() ? flat : full);
+  return std::move(flat.diagnostics.errors.size() < full.diagnostics.errors.size() ? flat : full);
 }
 
 toml::table parse(std::string_view text, std::string_view file_name) {
@@ -51,7 +211,7 @@ toml::table parse(std::string_view text, std::string_view file_name) {
   }
 }
 
-// Of a file that is too large no more than shows it: it may be a device that never ends.
+/// Of a file that is too large no more than shows it: it may be a device without end.
 std::string contents(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code unused;
@@ -66,7 +226,7 @@ std::string contents(const std::filesystem::path& file) {
   return text;
 }
 
-// Comments are kept where nothing had to be put in.
+/// Comments are kept where no value was put in.
 std::string as_run(std::string_view text, const toml::table& table, std::span<const Override> overrides) {
   if (overrides.empty()) {
     return std::string(text);
@@ -84,20 +244,17 @@ std::string as_run(std::string_view text, const toml::table& table, std::span<co
 
 AnyScene parse_scene(std::string_view text, std::string_view file_name, std::span<const Override> overrides) {
   toml::table table = parse(text, file_name);
-  Findings findings;
-  findings.file = file_name;
-  apply_overrides(table, overrides, findings.errors);
-  Reading reading = read_table(table, findings);
-  if (!reading.findings.errors.empty()) {
-    throw SceneErrors(std::move(reading.findings.errors));
-  }
+  Diagnostics diagnostics{.file = std::string(file_name)};
+  apply_overrides(table, overrides, diagnostics.errors);
+  Reading reading = read_table(table, diagnostics);
+  if (!reading.diagnostics.errors.empty()) throw SceneErrors(std::move(reading.diagnostics.errors));
   std::visit(
       [&](auto& scene) {
         scene.toml = as_run(text, table, overrides);
         check_scene_text(scene.toml, "the scene with the values of --set");
         scene.folder = std::filesystem::path(file_name).parent_path();
-        scene.referred = reading.findings.referred;
-        scene.reader_warnings = reading.findings.warnings;
+        scene.referred = reading.diagnostics.referred;
+        scene.reader_warnings = reading.diagnostics.warnings;
       },
       reading.scene);
   return std::move(reading.scene);
@@ -108,10 +265,19 @@ AnyScene read_scene(const std::filesystem::path& file, std::span<const Override>
 }
 
 std::set<std::string> keys_looked_for(std::string_view text) {
-  Findings findings;
-  findings.file = "text";
-  findings.keys_wanted = true;
-  return read_table(parse(text, "text"), findings).findings.keys;
+  return read_table(parse(text, "text"), {.file = "text", .fills = true}).diagnostics.keys;
+}
+
+std::string with_every_default(std::string_view text, std::string_view file_name) {
+  Reading reading = read_table(parse(text, file_name), {.file = std::string(file_name), .fills = true});
+  if (!reading.diagnostics.errors.empty()) throw SceneErrors(std::move(reading.diagnostics.errors));
+  std::string filled;
+  for (const FilledTable& table : reading.diagnostics.filled) {
+    if (table.values.empty() || table.head == "[skip]") continue;  // it is written as [debug]
+    if (!table.head.empty()) filled += fmt::format("\n{}\n", table.head);
+    for (const auto& [key, value] : table.values) filled += fmt::format("{} = {}\n", key, value);
+  }
+  return filled;
 }
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 #pragma once
-// Scene files. docs/scenes.md tells what may stand in one.
+// Scene files. docs/scenes.md describes them.
 
 #include <filesystem>
 #include <set>
@@ -8,9 +8,9 @@
 #include <string_view>
 #include <variant>
 
+#include "common/scene/diagnostics.h"
 #include "common/scene/override.h"
 #include "common/scene/scene.h"
-#include "common/scene/scene_errors.h"
 
 namespace talus {
 
@@ -25,5 +25,8 @@ AnyScene parse_scene(std::string_view text, std::string_view file_name, std::spa
 /// Every key that is looked for while this text is read, right or wrong, as `source[].rate` or `shape.*.kind`; which
 /// these are depends on the dimension and the kinds in it. For checking the manual against the reader.
 std::set<std::string> keys_looked_for(std::string_view text);
+
+/// The same scene with the default of each key that the text does not give; comments are left out. Throws SceneErrors.
+std::string with_every_default(std::string_view text, std::string_view file_name);
 
 }  // namespace talus

@@ -2,40 +2,58 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "common/mesh/mesh_file.h"
 #include "common/mesh/mesh_shape.h"
 #include "common/mesh/parts_volume.h"
-#include "common/scene/read_fields.h"
-#include "common/scene/read_pieces.h"
+#include "common/shape/catalogue.h"
 
 namespace talus {
 namespace {
 
 constexpr std::string_view mesh_kind = "mesh";
 
+/// A kind whose parameters are a struct with declared fields.
+template <int Dim, typename Params>
+ShapeKind<Dim> kind_of(std::string_view name, Fields<Params> fields,
+                       std::vector<Piece<Dim>> (*make_pieces)(const Params&)) {
+  return {name, [fields, make_pieces](TableReader& table) {
+            Params params;
+            table.read_fields(params, fields);
+            return table.ok() ? make_pieces(params) : std::vector<Piece<Dim>>();
+          }};
+}
+
+std::optional<Rotation<2>> read_angle(TableReader& table) {
+  if (!table.has("angle_deg")) return std::nullopt;
+  double angle = 0.0;
+  table.read(angle_key, angle);
+  return Rotation<2>(angle);
+}
+
+std::optional<Rotation<3>> read_angle_about_axis(TableReader& table) {
+  if (!table.has("angle_deg") && !table.has("axis")) return std::nullopt;
+  double angle = 0.0;
+  Vec3 axis = Vec3::UnitZ();
+  table.require("angle_deg");
+  table.require("axis");
+  table.read(angle_key, angle);
+  table.read(axis_key, axis);
+  if (axis.norm() < 1e-6) {
+    table.error("axis", "must have a length, of any size");
+    return std::nullopt;
+  }
+  return Rotation<3>(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
 template <int Dim>
 std::optional<Shape<Dim>> read_mesh_shape(TableReader& table, const std::string& name, const Material& material) {
   std::filesystem::path file;
   MeshParams params;
-  table.require("file");
   table.read("file", file, parts_file);
-  table.read("longest_side", params.size, length());
-  const std::vector<std::string> axes = {"y", "z"};
-  std::string up = params.y_up ? "y" : "z";
-  table.read("up", up, axes);
-  params.y_up = up == "y";
-  if constexpr (Dim == 2) {
-    table.read("detail", params.detail, between(1e-3, 1e4));
-  } else {
-    table.refuse("detail", "means nothing where dimension = 3: `talus decompose` has made the parts");
-  }
-  if (!table.sound()) {
-    return std::nullopt;
-  }
+  table.read_fields(params, mesh_fields);
+  if (!table.ok()) return std::nullopt;
   Shape<Dim> shape = make_mesh_shape<Dim>(name, file, params, material);
   if (!fills_mesh(shape.filling)) {
     table.warn(
@@ -49,19 +67,17 @@ std::optional<Shape<Dim>> read_mesh_shape(TableReader& table, const std::string&
 template <int Dim>
 std::optional<Shape<Dim>> read_any(TableReader& table, const std::string& kind, const std::string& name,
                                    const Material& material) {
-  if (kind == mesh_kind) {
-    return read_mesh_shape<Dim>(table, name, material);
-  }
-  for (const PiecesKind<Dim>& one : pieces_kinds<Dim>()) {
+  if (kind == mesh_kind) return read_mesh_shape<Dim>(table, name, material);
+  for (const ShapeKind<Dim>& one : shape_kinds<Dim>()) {
     if (one.name == kind) {
       std::vector<Piece<Dim>> pieces = one.read(table);
-      return table.sound() ? std::optional(make_shape<Dim>(name, std::move(pieces), material)) : std::nullopt;
+      return table.ok() ? std::optional(make_shape<Dim>(name, std::move(pieces), material)) : std::nullopt;
     }
   }
   return std::nullopt;
 }
 
-// Whether the engines can hold the shape, asked here so that the answer has its place in the file.
+/// Whether the engines can simulate the shape: checked here, so that the error has its place in the file.
 template <int Dim>
 void check_alone(const Shape<Dim>& shape) {
   WorldDescription<Dim> world;
@@ -72,40 +88,80 @@ void check_alone(const Shape<Dim>& shape) {
 }  // namespace
 
 template <int Dim>
-std::vector<std::string> shape_kinds() {
+std::vector<ShapeKind<Dim>> shape_kinds() {
+  using Pieces = std::vector<Piece<Dim>>;
+  return {
+      kind_of<Dim, BoxParams<Dim>>("box", box_fields<Dim>,
+                                   [](const BoxParams<Dim>& box) -> Pieces { return box_pieces<Dim>(box.size); }),
+      kind_of<Dim, LParams>("L", l_fields, l_pieces<Dim>),
+      kind_of<Dim, BallParams>("ball", ball_fields,
+                               [](const BallParams& ball) -> Pieces { return ball_pieces<Dim>(ball.radius); }),
+      kind_of<Dim, CapsuleParams>(
+          "capsule", capsule_fields,
+          [](const CapsuleParams& capsule) -> Pieces { return capsule_pieces<Dim>(capsule.length, capsule.radius); }),
+      kind_of<Dim, HullParams<Dim>>(
+          "hull", hull_fields<Dim>,
+          [](const HullParams<Dim>& hull) -> Pieces { return hull_pieces<Dim>(hull.corners); }),
+      kind_of<Dim, PolygonParams>(
+          "polygon", polygon_fields,
+          [](const PolygonParams& polygon) -> Pieces { return polygon_pieces<Dim>(polygon.corners, polygon.depth); }),
+      kind_of<Dim, RingParams>("ring", ring_fields, ring_pieces<Dim>),
+  };
+}
+
+template <int Dim>
+std::vector<std::string> names_of_shape_kinds() {
   std::vector<std::string> names;
-  for (const PiecesKind<Dim>& kind : pieces_kinds<Dim>()) {
-    names.emplace_back(kind.name);
-  }
+  for (const ShapeKind<Dim>& kind : shape_kinds<Dim>()) names.emplace_back(kind.name);
   names.emplace_back(mesh_kind);
   return names;
+}
+
+std::string read_kind(TableReader& table, const std::vector<std::string>& kinds) {
+  std::string kind;
+  table.require("kind");
+  table.read("kind", kind, kinds);
+  if (kind.empty()) table.allow_unknown_keys();  // which keys belong here depends on the kind
+  return kind;
+}
+
+template <int Dim>
+std::optional<Rotation<Dim>> read_rotation(TableReader& table) {
+  if constexpr (Dim == 2) {
+    table.forbid("axis", "means nothing where dimension = 2");
+    return read_angle(table);
+  } else {
+    return read_angle_about_axis(table);
+  }
 }
 
 template <int Dim>
 std::optional<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
                                      const Material& material) {
-  try {
-    std::optional<Shape<Dim>> shape = read_any<Dim>(table, kind, name, material);
-    if (shape) {
-      check_alone(*shape);
-    }
-    return shape;
-  } catch (const std::invalid_argument& refusal) {
-    table.reject_as(refusal);
-    return std::nullopt;
-  }
+  std::optional<Shape<Dim>> shape;
+  table.check([&] {
+    std::optional<Shape<Dim>> described = read_any<Dim>(table, kind, name, material);
+    if (described) check_alone(*described);
+    shape = std::move(described);
+  });
+  return shape;
 }
 
 template <int Dim>
 std::optional<Shape<Dim>> read_body_shape(TableReader& table, const std::string& name) {
   Material material;
-  table.read("density", material.density, {.low = 0.0, .high = 1e6, .low_excluded = true});
-  read_surface(table, material);
-  return read_shape<Dim>(table, read_kind(table, shape_kinds<Dim>()), name, material);
+  const std::string kind = read_kind(table, names_of_shape_kinds<Dim>());
+  table.read_fields(material, density_field);
+  table.read_fields(material, surface_fields);
+  return read_shape<Dim>(table, kind, name, material);
 }
 
-template std::vector<std::string> shape_kinds<2>();
-template std::vector<std::string> shape_kinds<3>();
+template std::vector<ShapeKind<2>> shape_kinds<2>();
+template std::vector<ShapeKind<3>> shape_kinds<3>();
+template std::vector<std::string> names_of_shape_kinds<2>();
+template std::vector<std::string> names_of_shape_kinds<3>();
+template std::optional<Rotation<2>> read_rotation<2>(TableReader&);
+template std::optional<Rotation<3>> read_rotation<3>(TableReader&);
 template std::optional<Shape<2>> read_shape(TableReader&, const std::string&, const std::string&, const Material&);
 template std::optional<Shape<3>> read_shape(TableReader&, const std::string&, const std::string&, const Material&);
 template std::optional<Shape<2>> read_body_shape(TableReader&, const std::string&);

@@ -1,21 +1,44 @@
 #pragma once
-// Shapes by kind. A new kind of convex pieces is one function in read_pieces.cc and its line in the list there.
+// Shapes in scene files: the kinds, and the keys that obstacles and sources share with them.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/scene/scene.h"
 #include "common/scene/table_reader.h"
 #include "common/world/world_description.h"
 
 namespace talus {
 
-/// The names that `kind` may have.
+/// A kind of shape that is made of convex pieces.
 template <int Dim>
-std::vector<std::string> shape_kinds();
+struct ShapeKind {
+  std::string_view name;
+  /// Reads the keys of the kind. No pieces where one of them is wrong; throws InvalidValue where they make no shape
+  /// together.
+  std::function<std::vector<Piece<Dim>>(TableReader&)> read;
+};
 
-/// The shape that the keys of `kind` describe; nothing if one of them is wrong or the engines cannot hold such a shape,
-/// which is noted at the key or at the table.
+/// All such kinds. A new one is a struct of parameters with its fields and a function in common/shape/catalogue.h, and
+/// a line in read_shape.cc.
+template <int Dim>
+std::vector<ShapeKind<Dim>> shape_kinds();
+
+/// The names that `kind` may have: of the kinds above and "mesh".
+template <int Dim>
+std::vector<std::string> names_of_shape_kinds();
+
+/// The table's `kind`, one of `kinds`; empty, with an error, if it is none.
+std::string read_kind(TableReader& table, const std::vector<std::string>& kinds);
+
+/// `angle_deg`, in 3D about `axis`; nothing if neither is given.
+template <int Dim>
+std::optional<Rotation<Dim>> read_rotation(TableReader& table);
+
+/// The shape that the keys of `kind` describe; nothing, with an error at the key or at the table, if one of them is
+/// wrong or the engines cannot simulate such a shape.
 template <int Dim>
 std::optional<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
                                      const Material& material);

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
-#include "common/scene/bounding_radius.h"
-#include "common/scene/read_fields.h"
+#include "common/scene/read_shape.h"
 #include "common/scene/spout_rate.h"
 
 namespace talus {
@@ -22,10 +20,11 @@ void read_shapes(TableReader& table, std::span<const std::string> shape_names, S
     table.has("shape");  // without any shape every name would be wrong
     return;
   }
+  std::vector<std::string> all;
+  for (const std::string& name : shape_names) all.push_back(toml_text(name));
+  table.fill("shape", toml_array(all));
   table.read("shape", names, shape_names);
-  if (!names.empty()) {
-    source.shapes.clear();
-  }
+  if (!names.empty()) source.shapes.clear();
   for (const std::string& name : names) {
     const auto found = std::find(shape_names.begin(), shape_names.end(), name);
     source.shapes.push_back(static_cast<int>(found - shape_names.begin()));
@@ -34,24 +33,21 @@ void read_shapes(TableReader& table, std::span<const std::string> shape_names, S
 
 template <int Dim>
 void read_orientation(TableReader& table, Source<Dim>& source) {
-  const std::vector<std::string> choices = {"random"};
   std::string choice;
-  table.read("orientation", choice, choices);
+  if (table.has("orientation")) table.read(orientation_key, choice);
   source.orientation = read_rotation<Dim>(table);
   if (!choice.empty() && source.orientation) {
-    table.reject("orientation", "must not be given beside angle_deg");
+    table.error("orientation", "must not be given beside angle_deg");
+  } else if (choice.empty() && !source.orientation) {
+    table.fill("orientation", toml_text(random_orientation));
   }
 }
 
-// A body at the limit of what the source may drop; noted at `key` if the engines cannot hold it.
+/// A body at the limit of what the source may drop: an error at `key` if the engines cannot simulate it.
 template <int Dim>
 void check_body(TableReader& table, std::string_view key, const BodyDef<Dim>& body,
                 const WorldDescription<Dim>& world) {
-  try {
-    check(body, world);
-  } catch (const std::invalid_argument& refusal) {
-    table.reject_as(refusal, key);
-  }
+  table.check([&] { check(body, world); }, key);
 }
 
 template <int Dim>
@@ -67,7 +63,7 @@ void check_bodies(TableReader& table, const Source<Dim>& source, const WorldDesc
   check_body(table, "spin_spread", spinning, world);
 }
 
-// Nothing may be born in the ground, which would throw it out again.
+/// No body may appear in the ground, which would push it out.
 template <int Dim>
 void check_height(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
   if (!world.ground.present) {
@@ -76,51 +72,31 @@ void check_height(TableReader& table, const Source<Dim>& source, const WorldDesc
   const double radius = largest_radius(source, world);
   const double least = world.ground.height + radius + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep));
   if (height<Dim>(source.position) < least) {
-    table.reject("position",
-                 fmt::format("must be at least {:.4g} m high, so that no body reaches into the ground", least));
+    table.error("position",
+                fmt::format("must be at least {:.4g} m high, so that no body reaches into the ground", least));
   }
 }
 
-// Bodies of one grid may not overlap, however they are turned: the later one would wait for ever.
+/// Bodies of one grid may not overlap at any rotation: the later one would wait without end.
 template <int Dim>
 void check_spacing(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
   for (int axis = 0; axis < Dim; ++axis) {
     const double least = 2.0 * (largest_radius(source, world) + source.spread[axis]);
     if (source.grid[axis] > 1 && source.spacing[axis] < least) {
-      table.reject("spacing", fmt::format("must be at least {:.4g} m, so that no two bodies of a grid touch", least));
+      table.error("spacing", fmt::format("must be at least {:.4g} m, so that no two bodies of a grid touch", least));
       return;
     }
   }
 }
 
 template <int Dim>
-void read_grid(TableReader& table, Source<Dim>& source) {
-  Vec<Dim> grid = Vec<Dim>::Ones();
-  table.read("grid", grid, between(1.0, 1000.0));
-  table.read("spacing", source.spacing, spread());
-  if (grid != grid.array().round().matrix()) {
-    table.reject("grid", "must be whole numbers");
-    return;
-  }
-  source.grid = grid.template cast<int>();
-}
-
-template <int Dim>
-void read_motion(TableReader& table, Source<Dim>& source) {
-  table.read("position", source.position, coordinate());
-  table.read("spread", source.spread, spread());
-  table.read("velocity", source.velocity, speed());
-  table.read("velocity_spread", source.velocity_spread, between(0.0, 1e3));
-  table.read("spin_spread", source.spin_spread, between(0.0, 1e4));
-  table.read("sweep", source.sweep, coordinate());
-  table.read("sweep_period", source.sweep_period, between(0.0, 1e6));
+void check_sweep(TableReader& table, const Source<Dim>& source) {
   constexpr double shortest_period = 0.01;  // [s]
-  if (table.sound() && source.sweep_period != 0.0 && source.sweep_period < shortest_period) {
-    table.reject("sweep_period", fmt::format("must be 0 or at least {}", shortest_period));
+  if (table.ok() && source.sweep_period != 0.0 && source.sweep_period < shortest_period) {
+    table.error("sweep_period", fmt::format("must be 0 or at least {}", shortest_period));
   }
-  table.read("ride_above", source.ride_above, between(0.0, 1e4));
   if (source.sweep.norm() > 0.0 && source.sweep_period == 0.0) {
-    table.reject("sweep", "must be given together with a sweep_period above 0");
+    table.error("sweep", "must be given together with a sweep_period above 0");
   }
 }
 
@@ -131,15 +107,13 @@ Source<Dim> read_source(TableReader& table, std::span<const std::string> shape_n
                         const WorldDescription<Dim>& world) {
   Source<Dim> source;
   read_shapes(table, shape_names, source);
-  table.read("count", source.count, between(1, most_bodies));
-  table.read("start", source.start, between(0.0, 1e6));
-  table.read("rate", source.rate, {.low = 0.0, .high = 1e6, .low_excluded = true});
-  read_grid(table, source);
-  read_motion(table, source);
+  table.read_fields(source, source_fields<Dim>);
+  check_sweep(table, source);
   read_orientation(table, source);
-  if (table.sound() && !source.shapes.empty() && world.shapes.size() == shape_names.size()) {
+  if (table.ok() && !source.shapes.empty() && world.shapes.size() == shape_names.size()) {
     if (!table.has("spread")) {
       source.spread = default_spread(source, world);
+      table.fill("spread", field_text({.name = "spread"}, source.spread));
     }
     check_bodies(table, source, world);
     check_height(table, source, world);

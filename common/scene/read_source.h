@@ -8,11 +8,8 @@
 
 namespace talus {
 
-/// All sources together drop no more: states and records of ten million bodies fill a machine of today.
-inline constexpr int most_bodies = 10'000'000;
-
-/// One `[[source]]`. `shape_names` in the order of world.shapes; without them, if shapes were wrong, what needs them is
-/// not looked at.
+/// One `[[source]]`. `shape_names` in the order of world.shapes; where shapes were wrong, rules that depend on them are
+/// not checked.
 template <int Dim>
 Source<Dim> read_source(TableReader& table, std::span<const std::string> shape_names,
                         const WorldDescription<Dim>& world);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/scene/bounding_radius.h"
+#include "common/shape/bounding_radius.h"
 
 namespace talus {
 namespace {

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "common/scene/nearest_name.h"
-#include "common/scene/toml_text.h"
+#include "common/text/nearest_name.h"
 #include "common/text/shortened.h"
 
 namespace talus {
 namespace {
 
-// A value short enough for a message; a table says no more than that it is one.
+/// A value short enough for a message; a table is shown as {...}.
 std::string written(const toml::node& node) {
   if (node.is_table()) {
     return "{...}";
@@ -20,38 +20,50 @@ std::string written(const toml::node& node) {
   return shortened(value_text(node), 60);
 }
 
-std::string joined(const std::string& path, std::string_view key) {
-  return path.empty() ? std::string(key) : (path + '.').append(key);
-}
-
 bool is_header_array(const toml::node& node) {
   return node.is_array() && std::all_of(node.as_array()->begin(), node.as_array()->end(),
                                         [](const toml::node& element) { return element.is_table(); });
 }
 
-}  // namespace
-
-TableReader::TableReader(const toml::table& table, std::string path, std::string generic_path, Location location,
-                         Findings& findings)
-    : table_(table),
-      path_(std::move(path)),
-      generic_path_(std::move(generic_path)),
-      location_(std::move(location)),
-      findings_(findings),
-      errors_before_(findings.errors.size()) {}
-
-void TableReader::read_root(const toml::table& table, Findings& findings, const Body& body) {
-  TableReader reader(table, "", "", {findings.file, 1, 1}, findings);
-  body(reader);
-  reader.note_unknown_keys();
+std::string rule_of(std::span<const std::string> choices) {
+  constexpr std::size_t most_named = 50;
+  return fmt::format("must be {}{}{}", choices.size() == 1 ? "" : "one of ",
+                     fmt::join(choices.first(std::min(choices.size(), most_named)), ", "),
+                     choices.size() > most_named ? ", ..." : "");
 }
 
-std::string TableReader::field(std::string_view key) const { return joined(path_, key); }
+std::string below(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : (path + '.').append(key);
+}
+
+}  // namespace
+
+TableReader::TableReader(const toml::table& table, int dimension, Location location, Diagnostics& diagnostics)
+    : table_(table),
+      dimension_(dimension),
+      location_(std::move(location)),
+      diagnostics_(diagnostics),
+      errors_before_(diagnostics.errors.size()) {}
+
+void TableReader::read_root(const toml::table& table, int dimension, Diagnostics& diagnostics, const Body& body) {
+  TableReader reader(table, dimension, {diagnostics.file, 1, 1}, diagnostics);
+  diagnostics.filled = {{}};
+  body(reader);
+  reader.add_unknown_keys();
+}
+
+std::string TableReader::field(std::string_view key) const { return below(path_, key); }
 
 const toml::node* TableReader::find(std::string_view key) {
   known_.emplace_back(key);
-  if (findings_.keys_wanted) findings_.keys.insert(joined(generic_path_, key));
+  if (diagnostics_.fills) diagnostics_.keys.insert(below(generic_path_, key));
   return node_of(key);
+}
+
+const toml::node* TableReader::find(const Key& key) {
+  if (!key.old_name.empty()) use_old_name(key.old_name, key.name);
+  if (key.required) require(key.name);
+  return find(key.name);
 }
 
 const toml::node* TableReader::node_of(std::string_view key) const {
@@ -59,54 +71,80 @@ const toml::node* TableReader::node_of(std::string_view key) const {
   return table_.get(old == old_names_.end() ? key : std::string_view(old->second));
 }
 
-void TableReader::renamed(std::string_view old_key, std::string_view key) {
+bool TableReader::has_meaning(const Key& key) {
+  if (key.dimension == 0 || key.dimension == dimension_) return true;
+  forbid(key.name, fmt::format("means nothing where dimension = {}{}{}", dimension_, key.elsewhere.empty() ? "" : ": ",
+                               key.elsewhere));
+  return false;
+}
+
+bool TableReader::in_range(const Key& key, std::span<const double> numbers) {
+  return std::ranges::all_of(numbers, [&](double kept) { return key.range.holds(as_written(key, kept)); });
+}
+
+void TableReader::use_old_name(std::string_view old_key, std::string_view key) {
   const toml::node* node = table_.get(old_key);
-  if (node == nullptr) {
-    return;
-  }
+  if (node == nullptr) return;
   known_.emplace_back(old_key);
   if (table_.contains(key)) {
-    note(*node, field(old_key), fmt::format("must not be given beside {}, its new name", key));
+    error_at(*node, field(old_key), fmt::format("must not be given beside {}, its new name", key));
     return;
   }
   old_names_.emplace(key, old_key);
-  warn_at(locate(node->source()),
-          fmt::format("{} is now named {}; only this version still reads the old name", field(old_key), key));
+  warn_of_old_name(old_key, key);
+}
+
+void TableReader::warn_of_old_name(std::string_view old_key, std::string_view now) {
+  const toml::node* node = table_.get(old_key);
+  warn_at(node == nullptr ? location_ : locate(node->source()),
+          fmt::format("{} is now named {}; only this version still reads the old name", field(old_key), now));
 }
 
 void TableReader::warn(std::string_view warning) { warn_at(location_, fmt::format("{}: {}", path_, warning)); }
 
 void TableReader::warn_at(const Location& at, const std::string& warning) {
   const std::string place = at.line > 0 ? fmt::format("{}:{}:{}", at.file, at.line, at.column) : at.file;
-  findings_.warnings.push_back(fmt::format("{}: {}", place, warning));
+  diagnostics_.warnings.push_back(fmt::format("{}: {}", place, warning));
+}
+
+void TableReader::fill(std::string_view key, std::string_view toml) {
+  if (!diagnostics_.fills || toml.empty()) return;
+  auto& values = diagnostics_.filled[filled_].values;
+  const auto before = std::ranges::find(values, key, [](const auto& value) { return value.first; });
+  if (before == values.end()) {
+    values.emplace_back(key, toml);
+  } else {
+    before->second = toml;
+  }
 }
 
 TableReader::Location TableReader::locate(const toml::source_region& region) const {
-  if (region.begin.line == 0) {
-    return location_;
-  }
-  if (region.path && *region.path != findings_.file) {
+  if (region.begin.line == 0) return location_;
+  if (region.path && *region.path != diagnostics_.file) {
     return {*region.path, 0, 0};  // a `--set`: line and column within its value would only confuse
   }
-  return {findings_.file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+  return {diagnostics_.file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-void TableReader::note(const toml::node& node, std::string name, std::string rule, std::string suggestion) {
+void TableReader::error_at(const toml::node& node, std::string name, std::string rule, std::string suggestion) {
   Location at = locate(node.source());
-  findings_.errors.push_back(
+  diagnostics_.errors.push_back(
       {std::move(at.file), at.line, at.column, std::move(name), written(node), std::move(rule), std::move(suggestion)});
 }
 
-void TableReader::note_unknown_keys() {
-  if (unknown_keys_allowed_) {
-    return;
-  }
+void TableReader::error_at_table(std::string name, std::string rule) {
+  diagnostics_.errors.push_back(
+      {location_.file, location_.line, location_.column, std::move(name), "", std::move(rule), ""});
+}
+
+void TableReader::add_unknown_keys() {
+  if (unknown_keys_allowed_) return;
   for (const auto& [key, node] : table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
       const bool key_has_place = key.source().begin.line > 0;
       Location at = locate(key_has_place ? key.source() : node.source());
-      findings_.errors.push_back({std::move(at.file), at.line, at.column, field(key.str()), written(node),
-                                  "no such key here", suggestion(key.str(), known_)});
+      diagnostics_.errors.push_back({std::move(at.file), at.line, at.column, field(key.str()), written(node),
+                                     "no such key here", suggestion(key.str(), known_)});
     }
   }
 }
@@ -114,105 +152,99 @@ void TableReader::note_unknown_keys() {
 std::string TableReader::suggestion(std::string_view name, std::span<const std::string> known) {
   std::size_t cost = 0;
   for (const std::string& candidate : known) cost += name.size() * candidate.size();
-  if (cost > findings_.suggestion_budget) return "";
-  findings_.suggestion_budget -= cost;
+  if (cost > diagnostics_.suggestion_budget) return "";
+  diagnostics_.suggestion_budget -= cost;
   return nearest_name(name, known);
 }
 
 bool TableReader::is_too_many(std::string_view key, const toml::node& node, std::size_t count) {
   constexpr std::size_t most_tables = 4096;  // bounds the time for shapes that each source chooses from
-  if (count > most_tables) note(node, field(key), fmt::format("must be at most {} tables", most_tables));
+  if (count > most_tables) error_at(node, field(key), fmt::format("must be at most {} tables", most_tables));
   return count > most_tables;
 }
 
 bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
 
+bool TableReader::has_old(std::string_view key) { return table_.contains(key) && has(key); }
+
 void TableReader::require(std::string_view key) {
-  if (!has(key)) {
-    findings_.errors.push_back({location_.file, location_.line, location_.column, field(key), "", "must be given", ""});
-  }
+  if (!has(key)) error_at_table(field(key), "must be given");
 }
 
-void TableReader::refuse(std::string_view key, std::string rule) {
+void TableReader::forbid(std::string_view key, std::string rule) {
   if (const toml::node* node = table_.get(key)) {
     known_.emplace_back(key);
-    note(*node, field(key), std::move(rule));
+    error_at(*node, field(key), std::move(rule));
   }
 }
 
-void TableReader::reject(std::string_view key, std::string rule, std::string suggestion) {
+void TableReader::error(std::string_view key, std::string rule) {
   const toml::node* node = key.empty() ? nullptr : node_of(key);
   if (node != nullptr) {
-    note(*node, field(key), std::move(rule), std::move(suggestion));
+    error_at(*node, field(key), std::move(rule));
   } else {
-    findings_.errors.push_back({location_.file, location_.line, location_.column, key.empty() ? path_ : field(key), "",
-                                std::move(rule), std::move(suggestion)});
+    error_at_table(key.empty() ? path_ : field(key), std::move(rule));
   }
 }
 
-void TableReader::reject_as(const std::invalid_argument& refusal, std::string_view key) {
-  const std::string_view text = refusal.what();
-  const std::size_t equals = text.find(" = ");
-  const std::size_t colon = text.find(": ", equals);
-  if (colon == std::string_view::npos) {
-    reject(key, std::string(text));
-    return;
-  }
-  if (key.empty()) {
-    const std::string_view name = text.substr(0, equals);
-    key = name.substr(name.find_last_of('.') + 1);
-  }
-  if (node_of(key) != nullptr) {
-    reject(key, std::string(text.substr(colon + 2)));
-  } else {
-    reject("", std::string(text));
+void TableReader::check(const std::function<void()>& body, std::string_view key) {
+  try {
+    body();
+  } catch (const InvalidValue& invalid) {
+    const std::string_view name = invalid.field();
+    if (key.empty()) key = name.substr(name.find_last_of('.') + 1);
+    const bool given = node_of(key) != nullptr;
+    error(given ? key : "", given ? invalid.rule() : invalid.what());
+  } catch (const std::invalid_argument& refusal) {
+    error(key, refusal.what());
   }
 }
 
-void TableReader::read_child(const toml::node& node, const std::string& name, const std::string& generic_name,
-                             const Body& body) {
+void TableReader::read_child(const toml::node& node, const Child& child, const Body& body) {
   const toml::table* table = node.as_table();
   if (table == nullptr) {
-    note(node, field(name), "must be a table");
+    error_at(node, field(child.name), "must be a table");
     return;
   }
-  TableReader reader(*table, field(name), joined(generic_path_, generic_name), locate(node.source()), findings_);
+  TableReader reader(*table, dimension_, locate(node.source()), diagnostics_);
+  reader.path_ = field(child.name);
+  reader.generic_path_ = below(generic_path_, child.generic_name);
+  reader.head_ = below(head_, child.head_name);
+  reader.filled_ = diagnostics_.filled.size();
+  diagnostics_.filled.push_back({fmt::format(fmt::runtime(child.in_array ? "[[{}]]" : "[{}]"), reader.head_), {}});
   body(reader);
-  reader.note_unknown_keys();
+  reader.add_unknown_keys();
 }
 
 void TableReader::table(std::string_view key, const Body& body) {
   const toml::table absent;
   const toml::node* node = find(key);
-  read_child(node == nullptr ? absent : *node, std::string(key), std::string(key), body);
+  const std::string name(key);
+  read_child(node == nullptr ? absent : *node, {name, name, name}, body);
 }
 
 bool TableReader::tables(std::string_view key, const Body& body) {
   const toml::node* node = find(key);
-  if (node == nullptr) {
-    return true;
-  }
+  if (node == nullptr) return true;
   if (!is_header_array(*node)) {
-    note(*node, field(key), fmt::format("must be headed [[{}]], which may come many times", key));
+    error_at(*node, field(key), fmt::format("must be headed [[{}]], which may come many times", key));
     return false;
   }
   const toml::array& array = *node->as_array();
   if (is_too_many(key, *node, array.size())) return false;
   for (std::size_t i = 0; i < array.size(); ++i) {
-    read_child(array[i], fmt::format("{}[{}]", key, i), fmt::format("{}[]", key), body);
+    read_child(array[i], {fmt::format("{}[{}]", key, i), fmt::format("{}[]", key), std::string(key), true}, body);
   }
   return true;
 }
 
 bool TableReader::named_tables(std::string_view key, const NamedBody& body) {
   const toml::node* node = find(key);
-  if (node == nullptr) {
-    return true;
-  }
+  if (node == nullptr) return true;
   constexpr std::size_t max_name = 200;  // it is in each error of its table
   const std::string rule = fmt::format("must be headed [{}.NAME], once for each name", key);
   if (!node->is_table()) {
-    note(*node, field(key), rule);
+    error_at(*node, field(key), rule);
     return false;
   }
   if (is_too_many(key, *node, node->as_table()->size())) return false;
@@ -220,18 +252,185 @@ bool TableReader::named_tables(std::string_view key, const NamedBody& body) {
   for (const auto& [key_below, child] : *node->as_table()) {
     const std::string name(key_below.str());
     if (name.size() > max_name) {
-      note(child, shortened(fmt::format("{}.{}", field(key), name), max_name),
-           fmt::format("NAME must be at most {} bytes", max_name));
+      error_at(child, shortened(fmt::format("{}.{}", field(key), name), max_name),
+               fmt::format("NAME must be at most {} bytes", max_name));
       well_formed = false;
     } else if (child.is_table()) {
-      read_child(child, fmt::format("{}.{}", key, name), fmt::format("{}.*", key),
+      const std::string head = fmt::format("{}.{}", key, key_text(name));
+      read_child(child, {fmt::format("{}.{}", key, name), fmt::format("{}.*", key), head},
                  [&](TableReader& reader) { body(name, reader); });
     } else {
-      note(child, fmt::format("{}.{}", field(key), name), rule);
+      error_at(child, fmt::format("{}.{}", field(key), name), rule);
       well_formed = false;
     }
   }
   return well_formed;
+}
+
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                             double& value) {
+  if (!node.is_number()) {
+    error_at(node, name, "must be a number");
+    return false;
+  }
+  // Not node.value<double>(), which is empty for an integer that a double must round.
+  const double number = node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point();
+  if (!range.holds(number)) {
+    error_at(node, name, range.rule());
+    return false;
+  }
+  value = as_kept(key, number);
+  return true;
+}
+
+template <typename Number>
+bool TableReader::read_whole(const toml::node& node, const std::string& name, const Range& range, Number& value) {
+  if (!node.is_integer()) {
+    error_at(node, name, "must be a whole number");
+    return false;
+  }
+  const std::int64_t number = **node.as_integer();
+  if (!range.holds(static_cast<double>(number)) || !std::in_range<Number>(number)) {
+    error_at(node, name, range.rule());
+    return false;
+  }
+  value = static_cast<Number>(number);
+  return true;
+}
+
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& /*key*/, const Range& range,
+                             int& value) {
+  return read_whole(node, name, range, value);
+}
+
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& /*key*/, const Range& range,
+                             std::int64_t& value) {
+  return read_whole(node, name, range, value);
+}
+
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& /*key*/, const Range& range,
+                             std::uint64_t& value) {
+  return read_whole(node, name, range, value);
+}
+
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& /*key*/,
+                             const Range& /*range*/, bool& value) {
+  const auto* flag = node.as_boolean();
+  if (flag == nullptr) {
+    error_at(node, name, "must be true or false");
+    return false;
+  }
+  value = **flag;
+  return true;
+}
+
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& /*range*/,
+                             std::string& value) {
+  if (!key.choices.empty()) {
+    return read_choice(node, name, value, std::vector<std::string>(key.choices.begin(), key.choices.end()));
+  }
+  const auto* text = node.as_string();
+  if (text == nullptr || (*text)->empty() || (*text)->find_first_of("\n\r") != std::string::npos) {
+    error_at(node, name, "must be a text on one line, in quotes, not empty");
+    return false;
+  }
+  value = **text;
+  return true;
+}
+
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                             std::vector<double>& values) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) {
+    values.assign(1, 0.0);
+    return read_value(node, name, key, range, values.front());
+  }
+  if (array->empty()) {
+    error_at(node, name, "must be at least one number");
+    return false;
+  }
+  values.assign(array->size(), 0.0);
+  return read_array(node, name, key, range, values);
+}
+
+bool TableReader::read_array(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                             std::span<double> values) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != values.size()) {
+    error_at(node, name,
+             fmt::format("must be {} in brackets", values.size() == 1   ? "one number"
+                                                   : values.size() == 2 ? "two numbers"
+                                                                        : "three numbers"));
+    return false;
+  }
+  bool good = true;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    good = read_value((*array)[i], fmt::format("{}[{}]", name, i), key, range, values[i]) && good;
+  }
+  return good;
+}
+
+bool TableReader::all_whole(const toml::node& node, const std::string& name, std::span<const double> numbers) {
+  const bool whole = std::ranges::all_of(numbers, [](double number) { return number == std::round(number); });
+  if (!whole) error_at(node, name, "must be whole numbers");
+  return whole;
+}
+
+std::size_t TableReader::count_of_points(const toml::node& node, const std::string& name) {
+  if (node.is_array()) return node.as_array()->size();
+  error_at(node, name, "must be an array of points");
+  return 0;
+}
+
+bool TableReader::read_choice(const toml::node& node, const std::string& name, std::string& value,
+                              std::span<const std::string> choices) {
+  const auto* text = node.as_string();
+  if (text == nullptr || std::find(choices.begin(), choices.end(), **text) == choices.end()) {
+    error_at(node, name, rule_of(choices), text == nullptr ? "" : suggestion(**text, choices));
+    return false;
+  }
+  value = **text;
+  return true;
+}
+
+void TableReader::read(std::string_view key, std::string& value, std::span<const std::string> choices) {
+  if (const toml::node* node = find(key)) {
+    read_choice(*node, field(key), value, choices);
+    fill(key, value_text(*node));
+  }
+}
+
+void TableReader::read(std::string_view key, std::vector<std::string>& values, std::span<const std::string> choices) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  if (array != nullptr && array->empty()) {
+    error_at(*node, field(key), "must name at least one");
+    return;
+  }
+  values.assign(array == nullptr ? 1 : array->size(), "");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string name = array == nullptr ? field(key) : fmt::format("{}[{}]", field(key), i);
+    read_choice(array == nullptr ? *node : (*array)[i], name, values[i], choices);
+  }
+  fill(key, value_text(*node));
+}
+
+void TableReader::read(std::string_view key, std::filesystem::path& value,
+                       const std::function<std::filesystem::path(const std::filesystem::path&)>& beside) {
+  std::string name;
+  read({.name = key, .required = true}, name);
+  const std::filesystem::path file(name);
+  if (name.empty()) return;
+  if (std::find(file.begin(), file.end(), "..") != file.end()) {
+    error(key, "must be in or below the scene's folder, or absolute: a run keeps a copy of it");
+    return;
+  }
+  value = std::filesystem::path(diagnostics_.file).parent_path() / file;
+  if (file.is_relative()) {
+    diagnostics_.referred.push_back(file);
+    diagnostics_.referred.push_back(beside(file));
+  }
 }
 
 }  // namespace talus

@@ -7,64 +7,50 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <set>
+#include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "common/scene/range.h"
-#include "common/scene/scene_errors.h"
+#include "common/math/require.h"
+#include "common/params/field.h"
+#include "common/scene/diagnostics.h"
+#include "common/scene/toml_text.h"
 
 namespace talus {
 
-/// What comes to light while a file is read, shared by the readers of all its tables.
-struct Findings {
-  std::string file;
-  std::vector<SceneError> errors;
-  bool keys_wanted = false;                     // whether `keys` is filled
-  std::set<std::string> keys;                   // every key that is looked for, as `source[].rate` or `shape.*.kind`
-  std::vector<std::filesystem::path> referred;  // files that it names, as it names them
-  std::vector<std::string> warnings;            // of what is allowed but seldom meant, each with its place
-  std::size_t suggestion_budget = 2'000'000;    // pairs of letters that may still be compared to suggest names
-};
-
-/// One table. Every read() leaves the variable, that is the struct's own default, alone where the key is absent, and
-/// notes an error where the value has the wrong type or lies outside the range. A key that nobody asked for is an error
+/// One table. Every read() leaves the variable, that is the struct's own default, unchanged where the key is absent,
+/// and adds an error where the value has the wrong type or is outside of the range. A key that is not read is an error
 /// too.
 class TableReader {
  public:
   using Body = std::function<void(TableReader&)>;
   using NamedBody = std::function<void(const std::string& name, TableReader&)>;
 
-  /// The root table of a file: calls `body`, then notes the keys that it did not ask for.
-  static void read_root(const toml::table& table, Findings& findings, const Body& body);
+  /// The root table of a file: calls `body`, then adds an error for each key that was not read. `dimension` of the
+  /// scene.
+  static void read_root(const toml::table& table, int dimension, Diagnostics& diagnostics, const Body& body);
 
-  void read(std::string_view key, double& value, const Range& range);
-  void read(std::string_view key, int& value, const Range& range);
-  void read(std::string_view key, std::int64_t& value, const Range& range);
-  void read(std::string_view key, bool& value);
-  /// Any text on one line.
-  void read(std::string_view key, std::string& value);
-  /// One of `choices`.
-  void read(std::string_view key, std::string& value, std::span<const std::string> choices);
-  /// One number or an array of numbers.
-  void read(std::string_view key, std::vector<double>& values, const Range& range);
-  /// An array of as many numbers as there are axes.
-  template <int Size>
-  void read(std::string_view key, Eigen::Matrix<double, Size, 1>& value, const Range& range);
-  /// An array of such arrays.
-  template <int Size>
-  void read(std::string_view key, std::vector<Eigen::Matrix<double, Size, 1>>& values, const Range& range);
+  /// All fields of a struct, as they are declared.
+  template <typename S>
+  void read_fields(S& params, std::type_identity_t<Fields<S>> fields) {
+    for_each_field(params, fields,
+                   [&](const Key& key, auto& value) { read_field(key, value, range_of(key, params, fields)); });
+  }
+  /// One key, as it is declared.
+  template <typename T>
+  void read(const Key& key, T& value) {
+    read_field(key, value, key.range);
+  }
   /// One text or an array of texts, each one of `choices`.
   void read(std::string_view key, std::vector<std::string>& values, std::span<const std::string> choices);
+  /// One of `choices`.
+  void read(std::string_view key, std::string& value, std::span<const std::string> choices);
   /// The name of another file, in or below the folder of the one that is read, or absolute: here with that folder.
   /// Remembered together with the name that `beside` makes of it, of a file that belongs to it.
   void read(std::string_view key, std::filesystem::path& value,
             const std::function<std::filesystem::path(const std::filesystem::path&)>& beside);
-  /// An angle, in the file in degrees, here in radians; `range` in degrees.
-  void read_degrees(std::string_view key, double& radians, const Range& range);
 
   /// The table `[key]`; one that is absent reads as empty.
   void table(std::string_view key, const Body& body);
@@ -73,27 +59,29 @@ class TableReader {
   /// The tables `[key.NAME]`, ordered by name. Whether it is such tables, or absent.
   bool named_tables(std::string_view key, const NamedBody& body);
 
-  /// `key` had the name `old_key` before, under which it can still be given in this version, with a warning. To be
-  /// called before `key` is read.
-  void renamed(std::string_view old_key, std::string_view key);
-
   bool has(std::string_view key);
-  /// Notes an error if the key is absent.
+  /// Whether a key of earlier versions is given; only then it is known.
+  bool has_old(std::string_view key);
+  /// Adds an error if the key is absent.
   void require(std::string_view key);
-  /// Notes an error if the key is there, for keys that many will try.
-  void refuse(std::string_view key, std::string rule);
-  /// Notes an error about a key's value, or about the whole table if the key is absent or empty.
-  void reject(std::string_view key, std::string rule, std::string suggestion = {});
-  /// Notes what a check of ours threw, "NAME.KEY = VALUE: RULE", at `key`; without, at KEY if the table has it, else at
-  /// the table.
-  void reject_as(const std::invalid_argument& refusal, std::string_view key = {});
+  /// Adds an error if the key is given, for keys that many will try.
+  void forbid(std::string_view key, std::string rule);
+  /// Adds an error about a key's value, or about the whole table if the key is absent or empty.
+  void error(std::string_view key, std::string rule);
+  /// Runs `body` and adds an error if it throws std::invalid_argument: at `key` if it is given, else at the key that
+  /// the field of an InvalidValue ends with if the table has it, else at the table.
+  void check(const std::function<void()>& body, std::string_view key = {});
   /// Adds a warning about the whole table, with its place in the file.
   void warn(std::string_view warning);
-  /// Keys that nobody asked for are no errors, since nobody can tell which belong here.
+  /// Adds a warning that `old_key`, which is given here, has the new name `now`.
+  void warn_of_old_name(std::string_view old_key, std::string_view now);
+  /// The value of a key in the text with all defaults, where read() has not the right one.
+  void fill(std::string_view key, std::string_view toml);
+  /// Keys that were not read are no errors, since it cannot be decided which belong here.
   void allow_unknown_keys() { unknown_keys_allowed_ = true; }
 
-  /// Whether no error was noted in this table so far.
-  bool sound() const { return findings_.errors.size() == errors_before_; }
+  /// Whether this table has no error so far.
+  bool ok() const { return diagnostics_.errors.size() == errors_before_; }
   const std::string& path() const { return path_; }
 
  private:
@@ -102,34 +90,105 @@ class TableReader {
     int line = 0;
     int column = 0;
   };
-  TableReader(const toml::table& table, std::string path, std::string generic_path, Location location,
-              Findings& findings);
+  TableReader(const toml::table& table, int dimension, Location location, Diagnostics& diagnostics);
 
-  const toml::node* find(std::string_view key);
-  const toml::node* node_of(std::string_view key) const;
+  template <typename T>
+  void read_field(const Key& key, T& value, const Range& range) {
+    if (!has_meaning(key)) return;
+    const toml::node* node = find(key);
+    if (node != nullptr) read_value(*node, field(key.name), key, range, value);
+    if (!diagnostics_.fills) return;
+    if (node != nullptr) {
+      fill(key.name, value_text(*node));
+    } else if (in_range(key, numbers_of(value))) {
+      fill(key.name, field_text(key, value));
+    }
+  }
+
+  // The value of a node, whose name is for messages; whether it has the right type and range.
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range, double& value);
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range, int& value);
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  std::int64_t& value);
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  std::uint64_t& value);
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range, bool& value);
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  std::string& value);
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  std::vector<double>& values);
+  template <int Size>
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  Eigen::Vector<double, Size>& value) {
+    return read_array(node, name, key, range, {value.data(), static_cast<std::size_t>(Size)});
+  }
+  template <int Size>
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  Eigen::Vector<int, Size>& value) {
+    Eigen::Vector<double, Size> numbers = value.template cast<double>();
+    if (!read_value(node, name, key, range, numbers) || !all_whole(node, name, {numbers.data(), Size})) return false;
+    value = numbers.template cast<int>();
+    return true;
+  }
+  template <int Size>
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  std::vector<Eigen::Vector<double, Size>>& values) {
+    values.assign(count_of_points(node, name), Eigen::Vector<double, Size>::Zero());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      read_value((*node.as_array())[i], fmt::format("{}[{}]", name, i), key, range, values[i]);
+    }
+    return !values.empty();
+  }
+  template <typename T>
+  bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  std::optional<T>& value) {
+    return read_value(node, name, key, range, value.emplace());
+  }
+
   template <typename Number>
-  void read_whole(std::string_view key, Number& value, const Range& range);
-  bool read_number(const toml::node& node, const std::string& name, double& value, const Range& range);
+  bool read_whole(const toml::node& node, const std::string& name, const Range& range, Number& value);
+  bool read_array(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                  std::span<double> values);
   bool read_choice(const toml::node& node, const std::string& name, std::string& value,
                    std::span<const std::string> choices);
-  bool read_array(const toml::node& node, const std::string& name, std::span<double> values, const Range& range);
-  void read_child(const toml::node& node, const std::string& name, const std::string& generic_name, const Body& body);
-  void note_unknown_keys();
+  bool all_whole(const toml::node& node, const std::string& name, std::span<const double> numbers);
+  std::size_t count_of_points(const toml::node& node, const std::string& name);
+  bool has_meaning(const Key& key);
+  /// A default outside of its range stands for a value that follows from other keys.
+  static bool in_range(const Key& key, std::span<const double> numbers);
+
+  const toml::node* find(const Key& key);
+  const toml::node* find(std::string_view key);
+  const toml::node* node_of(std::string_view key) const;
+  void use_old_name(std::string_view old_key, std::string_view key);
+  /// A table below this one as messages, the manual and TOML name it: source[2], source[], [[source]].
+  struct Child {
+    std::string name;
+    std::string generic_name;
+    std::string head_name;
+    bool in_array = false;
+  };
+  void read_child(const toml::node& node, const Child& child, const Body& body);
+  void add_unknown_keys();
   void warn_at(const Location& at, const std::string& warning);
-  void note(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
+  void error_at(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
+  void error_at_table(std::string name, std::string rule);
   /// The name of `known` that was most likely meant; empty if none is near or the budget is spent.
   std::string suggestion(std::string_view name, std::span<const std::string> known);
-  /// Whether that many tables at `node` are beyond the limit, which is noted.
+  /// Whether that many tables at `node` are beyond the limit, which is an error.
   bool is_too_many(std::string_view key, const toml::node& node, std::size_t count);
   Location locate(const toml::source_region& region) const;
   std::string field(std::string_view key) const;
 
   const toml::table& table_;
-  std::string path_;
-  std::string generic_path_;
+  int dimension_;
+  std::string path_ = {};
+  std::string generic_path_ = {};
+  std::string head_ = {};
   Location location_;
-  Findings& findings_;
+  Diagnostics& diagnostics_;
   std::size_t errors_before_;
+  std::size_t filled_ = 0;  // index of this table in Diagnostics::filled
   std::vector<std::string> known_;
   std::map<std::string, std::string, std::less<>> old_names_;  // of keys that are given under one
   bool unknown_keys_allowed_ = false;

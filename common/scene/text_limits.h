@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/scene/scene_errors.h"
+#include "common/scene/diagnostics.h"
 
 namespace talus {
 

@@ -30,20 +30,6 @@ std::string in_quotes(std::string_view text) {
   return result + '"';
 }
 
-std::string key_text(std::string_view key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char letter) {
-    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
-           letter == '_' || letter == '-';
-  });
-  return bare ? std::string(key) : in_quotes(key);
-}
-
-std::string number_text(double number) {
-  std::string text = fmt::format("{}", number);
-  // Without a point it would be read as an integer.
-  return text.find_first_of(".ein") == std::string::npos ? text + ".0" : text;
-}
-
 bool is_section(const toml::node& node) {
   return node.is_table() || (node.is_array() && node.as_array()->is_homogeneous<toml::table>());
 }
@@ -86,13 +72,32 @@ void write_table(const std::string& path, const toml::table& table, std::string&
 
 }  // namespace
 
+std::string key_text(std::string_view key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
+           letter == '_' || letter == '-';
+  });
+  return bare ? std::string(key) : in_quotes(key);
+}
+
+std::string toml_text(double number) {
+  std::string text = fmt::format("{}", number);
+  // Without a point it would be read as an integer.
+  return text.find_first_of(".ein") == std::string::npos ? text + ".0" : text;
+}
+
+std::string toml_text(std::int64_t number) { return fmt::format("{}", number); }
+std::string toml_text(bool flag) { return flag ? "true" : "false"; }
+std::string toml_text(std::string_view text) { return in_quotes(text); }
+std::string toml_array(const std::vector<std::string>& values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
+
 std::string value_text(const toml::node& node) {
   std::vector<std::string> parts;
   if (const toml::array* array = node.as_array()) {
     for (const toml::node& element : *array) {
       parts.push_back(value_text(element));
     }
-    return fmt::format("[{}]", fmt::join(parts, ", "));
+    return toml_array(parts);
   }
   if (const toml::table* table = node.as_table()) {
     for (const auto& [key, child] : in_order(*table)) {
@@ -101,7 +106,7 @@ std::string value_text(const toml::node& node) {
     return fmt::format("{{{}}}", fmt::join(parts, ", "));
   }
   if (const auto* number = node.as_floating_point()) {
-    return number_text(**number);
+    return toml_text(**number);
   }
   if (const auto* text = node.as_string()) {
     return in_quotes(**text);

@@ -1,33 +1,171 @@
 #pragma once
 // The shapes that scene files name. Each function returns the pieces for make_shape(); lengths in metres.
 
+#include <array>
 #include <span>
 #include <vector>
 
+#include "common/params/field.h"
 #include "common/shape/shape.h"
 
 namespace talus {
 
+template <int Dim>
+struct BoxParams {
+  Vec<Dim> size = Vec<Dim>::Ones();
+};
+
+template <int Dim>
+inline constexpr auto box_fields = std::to_array<Field<BoxParams<Dim>>>({
+    {&BoxParams<Dim>::size,
+     {.name = "size",
+      .required = true,
+      .type = "lengths",
+      .unit = "m",
+      .range = length_range,
+      .meaning = "full width along each axis"}},
+});
+
 /// Two arms of one thickness that meet in a corner, as in the paper's examples 1, 3 and 5.
 struct LParams {
-  double arm_x = 1.0;      // outer length of the lying arm [m], > thickness
-  double arm_z = 1.0;      // outer length of the standing arm [m], > thickness
-  double thickness = 0.4;  // of both arms [m], > 0; a thin L interlocks more and needs a smaller time step
-  double depth = 0.4;      // along y, 3D only [m], > 0
+  double arm_x = 1.0;
+  double arm_z = 1.0;
+  double thickness = 0.4;
+  double depth = 0.4;
 };
+
+inline constexpr auto l_fields = std::to_array<Field<LParams>>({
+    {&LParams::arm_x,
+     {.name = "arm_x",
+      .unit = "m",
+      .range = length_range,
+      .further_rule = "above `thickness`",
+      .meaning = "outer length of the horizontal arm"}},
+    {&LParams::arm_z,
+     {.name = "arm_z",
+      .unit = "m",
+      .range = length_range,
+      .further_rule = "above `thickness`",
+      .meaning = "outer length of the vertical arm"}},
+    {&LParams::thickness,
+     {.name = "thickness",
+      .unit = "m",
+      .range = length_range,
+      .meaning = "of both arms. A thin L interlocks more and needs smaller time steps"}},
+    {&LParams::depth,
+     {.name = "depth",
+      .dimension = 3,
+      .unit = "m",
+      .range = length_range,
+      .meaning = "along y, half of it to each side"}},
+});
+
+struct BallParams {
+  double radius = 0.5;
+};
+
+inline constexpr auto ball_fields = std::to_array<Field<BallParams>>({
+    {&BallParams::radius,
+     {.name = "radius", .required = true, .unit = "m", .range = length_range, .meaning = "in 2D of a disc"}},
+});
+
+struct CapsuleParams {
+  double length = 1.0;
+  double radius = 0.25;
+};
+
+inline constexpr auto capsule_fields = std::to_array<Field<CapsuleParams>>({
+    {&CapsuleParams::length,
+     {.name = "length",
+      .required = true,
+      .unit = "m",
+      .range = length_range,
+      .further_rule = "above 2 `radius`",
+      .meaning = "from tip to tip, along x"}},
+    {&CapsuleParams::radius,
+     {.name = "radius", .required = true, .unit = "m", .range = length_range, .meaning = "of the two ends"}},
+});
+
+template <int Dim>
+struct HullParams {
+  std::vector<Vec<Dim>> corners;
+};
+
+template <int Dim>
+inline constexpr auto hull_fields = std::to_array<Field<HullParams<Dim>>>({
+    {&HullParams<Dim>::corners,
+     {.name = "corners",
+      .required = true,
+      .unit = "m",
+      .range = coordinate_range,
+      .meaning =
+          "2D: 3 to 8 corners of a convex polygon in order, clockwise or counter-clockwise; one that is not convex "
+          "is refused. 3D: four points or more, not in one plane; the shape is their convex hull"}},
+});
+
+struct PolygonParams {
+  std::vector<Vec2> corners;
+  double depth = 0.4;
+};
+
+inline constexpr auto polygon_fields = std::to_array<Field<PolygonParams>>({
+    {&PolygonParams::corners,
+     {.name = "corners",
+      .required = true,
+      .unit = "m",
+      .range = coordinate_range,
+      .meaning = "three or more points `[x, z]` in order, convex or not, no edge touching another; cut into convex "
+                 "pieces of at most 8 corners"}},
+    {&PolygonParams::depth,
+     {.name = "depth",
+      .dimension = 3,
+      .unit = "m",
+      .range = length_range,
+      .meaning = "along y, half of it to each side"}},
+});
 
 /// The paper's O: a ring standing in the x-z plane around the origin, in straight parts that meet on slanted cuts.
 struct RingParams {
-  double outer_radius = 1.0;  // of the circle that the parts' outer corners lie on [m], > inner_radius
-  double inner_radius = 0.6;  // of the hole [m], > 0
-  // Parts around, 3 to 64. Every part is a shape of its own to the engine: what a ring costs in contact grows with
-  // them, in piles nearly in proportion. With few the ring is angular: the hole narrows to inner_radius cos(pi /
-  // parts).
+  double outer_radius = 1.0;
+  double inner_radius = 0.6;
   int parts = 8;
-  // Corners of the tube's section, 3D only: 4 (a rectangle), 6 or 8. Each is another pair of corners in every part.
   int section_corners = 4;
-  double depth = 0.0;  // along y, 3D only [m], >= 0; 0: the section is a regular polygon, as deep as the tube is wide
+  double depth = 0.0;  // [m]; 0: the section is a regular polygon, as deep as the tube is wide
 };
+
+inline constexpr auto ring_fields = std::to_array<Field<RingParams>>({
+    {&RingParams::outer_radius,
+     {.name = "outer_radius",
+      .required = true,
+      .unit = "m",
+      .range = length_range,
+      .meaning = "of the circle, in the x-z plane, on which the outer corners of the parts lie"}},
+    {&RingParams::inner_radius,
+     {.name = "inner_radius",
+      .required = true,
+      .unit = "m",
+      .range = length_range,
+      .further_rule = "below `outer_radius`",
+      .meaning = "of the circle on which the inner corners lie"}},
+    {&RingParams::parts,
+     {.name = "parts",
+      .range = between(3.0, 64.0),
+      .meaning = "convex parts around. In a pile a ring's cost grows nearly in proportion; few parts make it angular, "
+                 "and the hole narrower by cos(180 degrees / `parts`)"}},
+    {&RingParams::depth,
+     {.name = "depth",
+      .dimension = 3,
+      .unit = "m",
+      .range = length_range,
+      .default_text = "width of the tube",
+      .meaning = "along y, half of it to each side"}},
+    {&RingParams::section_corners,
+     {.name = "section_corners",
+      .dimension = 3,
+      .range = between(4.0, 8.0),
+      .further_rule = "4, 6 or 8",
+      .meaning = "corners of the tube's section; more are rounder and cost more"}},
+});
 
 template <int Dim>
 std::vector<Piece<Dim>> box_pieces(const Vec<Dim>& size);

@@ -91,12 +91,8 @@ void check_rotation(const Rotation<Dim>& rotation, const std::string& field) {
 }
 
 void check_material(const Material& material, const std::string& field) {
-  require(material.density > 0.0 && material.density <= 1e6, field + ".density", material.density,
-          "must be above 0 and at most 1e6 kg/m^3 (kg/m^2 in 2D)");
-  require(material.friction >= 0.0 && material.friction <= 1e3, field + ".friction", material.friction,
-          "must be in [0, 1000]");
-  require(material.restitution >= 0.0 && material.restitution <= 1.0, field + ".restitution", material.restitution,
-          "must be in [0, 1]");
+  check_fields(material, density_field, field);
+  check_fields(material, surface_fields, field);
 }
 
 template void check_piece(const Piece<2>&, const std::string&);

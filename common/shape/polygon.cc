@@ -42,4 +42,9 @@ std::optional<std::size_t> non_convex_corner(std::span<const Vec2> corners) {
 
 std::string text(const Vec2& corner) { return fmt::format("({}, {})", corner.x(), corner.y()); }
 
+Vec2 outward_normal(std::span<const Vec2> corners, std::size_t from) {
+  const Vec2 along = corners[(from + 1) % corners.size()] - corners[from];
+  return Vec2(along.y(), -along.x()).normalized();
+}
+
 }  // namespace talus

@@ -32,4 +32,7 @@ std::optional<std::size_t> non_convex_corner(std::span<const Vec2> corners);
 /// "(x, z)", for messages.
 std::string text(const Vec2& corner);
 
+/// Unit normal, pointing outwards, of the side that begins at a corner of a counter-clockwise polygon.
+Vec2 outward_normal(std::span<const Vec2> corners, std::size_t from);
+
 }  // namespace talus

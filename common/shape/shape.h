@@ -1,11 +1,13 @@
 #pragma once
 // A body's shape: convex pieces that do not overlap, in axes whose origin is the centre of mass.
 
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "common/math/vector.h"
+#include "common/params/field.h"
 
 namespace talus {
 
@@ -40,13 +42,36 @@ struct HullPiece {
 template <int Dim>
 using Piece = std::variant<BoxPiece<Dim>, BallPiece<Dim>, CapsulePiece<Dim>, HullPiece<Dim>>;
 
-/// What a surface and the stuff behind it do. Friction and restitution are combined values: two bodies of this material
-/// meet with just these. Two materials meet with the geometric mean of theirs, in every engine.
+/// What a surface and the matter behind it do. Friction and restitution are combined values: two bodies of this
+/// material meet with just these. Two materials meet with the geometric mean of theirs, in every engine. surface_fields
+/// and density_field have the unit, range and effect of each.
 struct Material {
-  double density = 1000.0;   // [kg/m^3], in 2D [kg/m^2]; > 0
-  double friction = 0.5;     // Coulomb's coefficient, >= 0; above 1 few real things
-  double restitution = 0.0;  // share of the approach speed given back, in [0, 1]
+  double density = 1000.0;
+  double friction = 0.5;
+  double restitution = 0.0;
 };
+
+inline constexpr auto surface_fields = std::to_array<Field<Material>>({
+    {&Material::friction,
+     {.name = "friction",
+      .range = between(0.0, 1e3),
+      .meaning = "Coulomb's coefficient; see [conventions](#conventions) on pairs. Few real materials are above 1"}},
+    {&Material::restitution,
+     {.name = "restitution",
+      .range = between(0.0, 1.0),
+      .meaning = "share of the approach speed given back. Above 0.99 impacts add energy, see "
+                 "[limits](#limits-of-the-engines)"}},
+});
+
+inline constexpr auto density_field = std::to_array<Field<Material>>({
+    {&Material::density,
+     {.name = "density",
+      .unit = "kg/m^3, in 2D kg/m^2",
+      .range = above(0.0, 1e6),
+      .meaning =
+          "only ratios matter to a pile: masses of a scene's shapes must be within a factor of 100, better 10, or "
+          "heavy bodies sink through light ones. Mass and inertia must be at least 1e-20 kg and kg m^2"}},
+});
 
 /// Inertia about the centre of mass [kg m^2]: one number in 2D (about y), a symmetric matrix in 3D.
 template <int Dim>

@@ -1,7 +1,5 @@
 #include "common/simulation/make_policy.h"
 
-#include <stdexcept>
-
 #include "common/policy/adaptive/adaptive_policy.h"
 #include "common/policy/paper_policy.h"
 #include "common/scene/typical_body.h"
@@ -11,12 +9,16 @@ namespace talus {
 template <int Dim>
 std::unique_ptr<SleepPolicy<Dim>> make_policy(const Scene<Dim>& scene) {
   const PolicyParams& params = scene.policy;
-  if (params.kind == "full" || params.kind == "engine") return std::make_unique<NoPolicy<Dim>>();
-  if (params.kind == "paper") return std::make_unique<PaperPolicy<Dim>>(params.paper, scene.world);
+  check_fields(params, policy_fields, "policy");
+  if (params.kind == "paper") {
+    check_fields(params.paper, paper_fields, "policy");
+    return std::make_unique<PaperPolicy<Dim>>(params.paper, scene.world);
+  }
   if (params.kind == "adaptive") {
+    check_fields(params.adaptive, adaptive_fields, "policy.adaptive");
     return std::make_unique<AdaptivePolicy<Dim>>(params.adaptive, scene.world, typical_body(scene));
   }
-  throw std::invalid_argument("policy.kind = \"" + params.kind + "\": must be full, engine, paper or adaptive");
+  return std::make_unique<NoPolicy<Dim>>();  // full and engine
 }
 
 template std::unique_ptr<SleepPolicy<2>> make_policy(const Scene<2>&);

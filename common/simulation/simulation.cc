@@ -1,5 +1,7 @@
 #include "common/simulation/simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -18,6 +20,18 @@ std::vector<PileParams<Dim>> piles_as_counted(std::vector<PileParams<Dim>> piles
   return piles;
 }
 
+/// The scene. Throws InvalidValue where a source or a pile has a value outside of its range.
+template <int Dim>
+const Scene<Dim>& checked(const Scene<Dim>& scene) {
+  for (std::size_t i = 0; i < scene.sources.size(); ++i) {
+    check_fields(scene.sources[i], source_fields<Dim>, fmt::format("source[{}]", i));
+  }
+  for (std::size_t i = 0; i < scene.piles.size(); ++i) {
+    check_fields(scene.piles[i], pile_fields<Dim>, fmt::format("pile[{}]", i));
+  }
+  return scene;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -25,12 +39,12 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
                             std::unique_ptr<SleepPolicy<Dim>> policy)
     : world_(std::move(world)),
       policy_(std::move(policy)),
-      emitter_(scene),
+      emitter_(checked(scene)),
       piles_(piles_as_counted(scene.piles, *policy_), typical_body(scene)),
       watchdog_(scene, world_->speed_limits()),
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep),
-      skips_(scene.world.skips) {}
+      debug_(scene.world.debug) {}
 
 template <int Dim>
 void Simulation<Dim>::step() {
@@ -59,7 +73,7 @@ void Simulation<Dim>::step() {
 template <int Dim>
 bool Simulation<Dim>::needs_contacts() const {
   const bool for_piles = counts_piles() && (piles_.needs_contacts() || piles_.has_unplaced());
-  return for_piles || policy_->needs_contacts() || observers_need_contacts_ || !skips_.contacts;
+  return for_piles || policy_->needs_contacts() || observers_need_contacts_ || debug_.gather_contacts;
 }
 
 /// Section 3.2. Without a policy and without observers piles are not counted.
@@ -71,7 +85,7 @@ void Simulation<Dim>::count_piles() {
   if (engine_sleep_) note_engine_sleep();
   if (piles_.has_unplaced()) place_pile();
   if (piles_.needs_contacts() && !world_->awake().empty()) piles_.note_contacts(world_->contacts(), world_->states());
-  if (!skips_.counts) piles_.recount_all(world_->states());
+  if (debug_.recount_sleepers) piles_.recount_all(world_->states());
   piles_.update(world_->states(), world_->awake(), dt_);
   assert(piles_.counts_match(world_->states()));
 }

@@ -77,7 +77,7 @@ class Simulation {
   std::int64_t step_ = 0;
   bool engine_sleep_;
   bool observers_need_contacts_ = false;
-  Skips skips_;
+  DebugOptions debug_;
 };
 
 }  // namespace talus

@@ -110,8 +110,8 @@ class World {
   virtual Pose<Dim> engine_add(BodyIndex body, const BodyDef<Dim>& def) = 0;
   virtual void engine_remove(BodyIndex body) = 0;
 
-  /// Advances by dt; with the skip `idle` and nothing awake, only does the upkeep that later steps need. Returns the
-  /// times, without `read`.
+  /// Advances by dt; without the debug option `step_when_idle` and nothing awake, only does the upkeep that later steps
+  /// need. Returns the times, without `read`.
   virtual EngineTimes engine_step() = 0;
 
   /// After a step with awake bodies: copies pose and velocity of the bodies in awake() to `states`. If one of them is

@@ -58,14 +58,6 @@ void check_shape(const Shape<Dim>& shape, const std::string& field) {
   require(shape.extent <= 2.0 * farthest_place, field + ".extent", shape.extent, "must be at most 20,000 m");
 }
 
-void check_solver(const SolverParams& solver) {
-  require_within(solver.velocity_iterations, 1, 1000, "world.solver.velocity_iterations", "must be in 1..1000");
-  require_within(solver.position_iterations, 1, 1000, "world.solver.position_iterations", "must be in 1..1000");
-  require_within(solver.friction_directions, 1, 2, "world.solver.friction_directions", "must be 1 or 2");
-  require(std::isfinite(solver.restitution_threshold) && solver.restitution_threshold >= 0.0,
-          "world.solver.restitution_threshold", solver.restitution_threshold, "must be finite and at least 0 m/s");
-}
-
 template <int Dim>
 void check_masses(const std::vector<Shape<Dim>>& shapes) {
   const auto lighter = [](const auto& a, const auto& b) { return a.mass < b.mass; };
@@ -81,14 +73,10 @@ void check_masses(const std::vector<Shape<Dim>>& shapes) {
 
 template <int Dim>
 void check(const WorldDescription<Dim>& description) {
-  require(std::isfinite(description.gravity) && description.gravity >= 0.0, "world.gravity", description.gravity,
-          "must be finite and at least 0 m/s^2");
-  require(description.dt > 0.0 && description.dt <= 1.0 / 30.0, "world.dt", description.dt,
-          "must be above 0 and at most 1/30 s, better 1/60 s: above, bodies sink into each other");
-  check_solver(description.solver);
+  check_fields(description, world_fields<Dim>, "world");
+  check_fields(description.solver, solver_fields, "world.solver");
   if (description.ground.present) {
-    require_within(description.ground.height, -farthest_place, farthest_place, "world.ground.height",
-                   "must be within 10,000 m of the origin");
+    check_fields(description.ground, ground_fields, "world.ground");
     check_material(description.ground.material, "world.ground.material");
   }
   for (std::size_t i = 0; i < description.obstacles.size(); ++i) {

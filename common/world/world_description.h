@@ -1,30 +1,65 @@
 #pragma once
-// All that an engine must know before the first body exists.
+// All that an engine needs before the first body exists.
 
+#include <array>
 #include <numbers>
 #include <vector>
 
+#include "common/params/field.h"
 #include "common/shape/shape.h"
 #include "common/world/body.h"
-#include "common/world/skips.h"
+#include "common/world/debug_options.h"
 
 namespace talus {
 
-/// Settings of the engine's solver. An engine ignores what it does not have, and says so here.
+/// Settings of the engine's solver. An engine ignores what it does not have. solver_fields has the unit, range and
+/// effect of each.
 struct SolverParams {
-  int velocity_iterations = 10;        // 1..1000; too few: piles melt and tall stacks sink. Cost grows in proportion
-  int position_iterations = 4;         // 1..1000, Box2D only; too few: bodies stay inside each other
-  int friction_directions = 2;         // 1 or 2, Bullet in 3D only; 1: piles creep for ever and end 20 % too low
-  bool warm_friction = false;          // Bullet only: friction starts at the last step's; heaps creep less, towers sway
-  double restitution_threshold = 0.5;  // [m/s] >= 0; slower approaches do not bounce. Too low: piles never rest
+  int velocity_iterations = 10;
+  int position_iterations = 4;
+  int friction_directions = 2;
+  bool warm_friction = false;
+  double restitution_threshold = 0.5;
 };
 
-/// The plane z = height, infinite for all practical purposes.
+inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
+    {&SolverParams::velocity_iterations,
+     {.name = "velocity_iterations",
+      .range = between(1.0, 1000.0),
+      .meaning = "too few: piles melt and tall stacks sink. Cost grows in proportion"}},
+    {&SolverParams::position_iterations,
+     {.name = "position_iterations",
+      .range = between(1.0, 1000.0),
+      .meaning = "Box2D only. Too few: bodies stay inside each other"}},
+    {&SolverParams::friction_directions,
+     {.name = "friction_directions",
+      .range = between(1.0, 2.0),
+      .meaning = "Bullet in 3D only. 1: piles creep without end and become 20 % too low"}},
+    {&SolverParams::warm_friction,
+     {.name = "warm_friction",
+      .meaning = "Bullet only. true: friction starts each step at the last step's impulse. 10 iterations then hold a "
+                 "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time; the 3D scenes of this "
+                 "project but `million_3d` have it. Towers one body wide sway more than without "
+                 "([convergence](research/convergence.md))"}},
+    {&SolverParams::restitution_threshold,
+     {.name = "restitution_threshold",
+      .unit = "m/s",
+      .range = between(0.0, 1e3),
+      .meaning = "slower approaches do not bounce. Too low: piles never come to rest"}},
+});
+
+/// The plane z = height, infinite for all practical purposes. ground_fields and surface_fields have the unit, range and
+/// effect of each field.
 struct Ground {
   bool present = true;
-  double height = 0.0;  // [m]
-  Material material;    // its density means nothing
+  double height = 0.0;
+  Material material;  // its density means nothing
 };
+
+inline constexpr auto ground_fields = std::to_array<Field<Ground>>({
+    {&Ground::present, {.name = "present", .meaning = "false: bodies that miss the obstacles fall without end"}},
+    {&Ground::height, {.name = "height", .unit = "m", .range = coordinate_range, .meaning = "height of the plane"}},
+});
 
 /// A shape that never moves.
 template <int Dim>
@@ -33,19 +68,38 @@ struct Obstacle {
   Pose<Dim> pose;
 };
 
+/// All that an engine is made from. world_fields has the unit, range and effect of gravity and time step.
 template <int Dim>
 struct WorldDescription {
-  double gravity = 9.81;   // [m/s^2] downwards, finite, >= 0
-  double dt = 1.0 / 60.0;  // [s] in (0, 1/30]; above, bodies sink into each other by a third of a metre
+  double gravity = 9.81;
+  double dt = 1.0 / 60.0;  // [s]
   SolverParams solver;
-  Skips skips;
+  DebugOptions debug;
   bool engine_sleep = false;  // the engine's own sleeping, whole islands at a time
   Ground ground;
   std::vector<Obstacle<Dim>> obstacles;
   std::vector<Shape<Dim>> shapes;  // BodyDef::shape indexes these
 };
 
-/// Throws std::invalid_argument with field, value and rule; backends call it first, since Bullet would swallow a bad
+template <int Dim>
+inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>({
+    {&WorldDescription<Dim>::gravity,
+     {.name = "gravity",
+      .unit = "m/s^2",
+      .range = between(0.0, 1e3),
+      .meaning = "downwards. Large: bodies sink into the ground, see [limits](#limits-of-the-engines)"}},
+    {&WorldDescription<Dim>::dt,
+     {.name = "steps_per_second",
+      .unit = "1/s",
+      .stored = Stored::as_inverse,
+      .range = between(30.0, 1e5),
+      .meaning =
+          "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m, below by a third of a "
+          "metre; cost grows in proportion"}},
+    {{}, {.name = "solver", .type = "table", .default_text = "see below", .meaning = "`[world.solver]`"}},
+});
+
+/// Throws InvalidValue; backends call it first, since Bullet would swallow a bad
 /// value and Box2D abort the process.
 template <int Dim>
 void check(const WorldDescription<Dim>& description);

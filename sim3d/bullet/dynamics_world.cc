@@ -5,10 +5,11 @@
 namespace talus::bullet {
 
 DynamicsWorld::DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, PairCache& pairs,
-                             btConstraintSolver& solver, btCollisionConfiguration& configuration, const Skips& skips)
+                             btConstraintSolver& solver, btCollisionConfiguration& configuration,
+                             const DebugOptions& debug)
     : btDiscreteDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration),
-      skips_(skips),
-      near_pairs_(dispatcher, pairs, skips.idle_pairs) {}
+      debug_(debug),
+      near_pairs_(dispatcher, pairs, !debug.visit_separate_pairs) {}
 
 void DynamicsWorld::set_bodies(std::span<btRigidBody* const> bodies) {
   m_collisionObjects.resize(statics_);
@@ -28,7 +29,7 @@ void DynamicsWorld::add_static(btCollisionObject& object) {
 
 void DynamicsWorld::performDiscreteCollisionDetection() {
   const auto start = std::chrono::steady_clock::now();
-  if (skips_.places) {
+  if (!debug_.bullet_compounds) {
     updateAabbs();
     computeOverlappingPairs();
     near_pairs_.collide(getDispatchInfo());
@@ -40,7 +41,7 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
 }
 
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
-  if (skips_.islands) {
+  if (!debug_.bullet_islands) {
     islands_.solve(*this, getSimulationIslandManager()->getUnionFind(), *getConstraintSolver(), info);
   } else {
     btDiscreteDynamicsWorld::solveConstraints(info);

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "common/world/skips.h"
+#include "common/world/debug_options.h"
 #include "sim3d/bullet/islands.h"
 #include "sim3d/bullet/near_pairs.h"
 
@@ -19,7 +19,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
   /// `pairs`: what the broadphase keeps its pairs in.
   DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, PairCache& pairs,
-                btConstraintSolver& solver, btCollisionConfiguration& configuration, const Skips& skips);
+                btConstraintSolver& solver, btCollisionConfiguration& configuration, const DebugOptions& debug);
 
   /// Puts just these bodies into the lists, after the static objects; their broadphase entries exist already.
   void set_bodies(std::span<btRigidBody* const> bodies);
@@ -42,7 +42,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void solveConstraints(btContactSolverInfo& info) override;
 
  private:
-  Skips skips_;
+  DebugOptions debug_;
   NearPairs near_pairs_;
   Islands islands_;
   int statics_ = 0;

@@ -27,7 +27,7 @@ btScalar PackedSolver::solveGroup(btCollisionObject** bodies, int body_count, bt
                                           drawer, dispatcher);
   }
   setup_.make({bodies, static_cast<std::size_t>(body_count)}, {manifolds, static_cast<std::size_t>(manifold_count)},
-              info, skips_.levels, system_);
+              info, !debug_.bullet_row_order, system_);
   system_.solve(settings(info));
   setup_.write_back(info, system_);
   return 0;
@@ -35,7 +35,7 @@ btScalar PackedSolver::solveGroup(btCollisionObject** bodies, int body_count, bt
 
 bool PackedSolver::can_set_up(const btContactSolverInfo& info, int joints) const {
   constexpr int mode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS;
-  return skips_.row_setup && joints == 0 && info.m_solverMode == mode && info.m_splitImpulse != 0 &&
+  return !debug_.bullet_row_setup && joints == 0 && info.m_solverMode == mode && info.m_splitImpulse != 0 &&
          info.m_globalCfm == 0;
 }
 
@@ -80,7 +80,7 @@ void PackedSolver::pack_rows() {
     const btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
     bodies_of_contacts_.push_back({row.m_solverBodyIdA, row.m_solverBodyIdB});
   }
-  system_.arrange(bodies_of_contacts_, directions, skips_.levels);
+  system_.arrange(bodies_of_contacts_, directions, !debug_.bullet_row_order);
   for (int i = 0; i < contacts; ++i) {
     const btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
     const auto c = static_cast<std::size_t>(i);

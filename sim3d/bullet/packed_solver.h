@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/world/skips.h"
+#include "common/world/debug_options.h"
 #include "sim3d/bullet/row_setup.h"
 #include "sim3d/bullet/row_system.h"
 #include "sim3d/bullet/solver.h"
@@ -16,8 +16,8 @@ namespace talus::bullet {
 /// Bullet's way.
 class PackedSolver final : public WarmFrictionSolver {
  public:
-  PackedSolver(bool warm_friction, const Skips& skips)
-      : WarmFrictionSolver(warm_friction), skips_(skips), setup_(warm_friction) {}
+  PackedSolver(bool warm_friction, const DebugOptions& debug)
+      : WarmFrictionSolver(warm_friction), debug_(debug), setup_(warm_friction) {}
 
   btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
                       btTypedConstraint** joints, int joint_count, const btContactSolverInfo& info,
@@ -37,7 +37,7 @@ class PackedSolver final : public WarmFrictionSolver {
   void pack_rows();
   void unpack();
 
-  Skips skips_;
+  DebugOptions debug_;
   RowSystem system_;
   RowSetup setup_;
   std::vector<RowBodies> bodies_of_contacts_;

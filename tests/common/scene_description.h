@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/scene/scene.h"
+#include "common/scene/toml_text.h"
 
 namespace talus {
 
@@ -32,16 +33,22 @@ std::string description(const Shape<Dim>& shape) {
   return text;
 }
 
+/// All fields of a struct by name.
+template <typename S>
+std::string description(const S& params, std::type_identity_t<Fields<S>> fields) {
+  std::string text;
+  for_each_field(params, fields, [&](const Key& key, const auto& value) {
+    text += fmt::format("{} = {}\n", key.name, field_text(key, value));
+  });
+  return text;
+}
+
 template <int Dim>
 std::string description(const WorldDescription<Dim>& world) {
-  std::string text = fmt::format(
-      "gravity {} dt {} solver {} {} {} {} {} engine_sleep {}\nground {} {} {} {}\n", world.gravity, world.dt,
-      world.solver.velocity_iterations, world.solver.position_iterations, world.solver.friction_directions,
-      world.solver.warm_friction, world.solver.restitution_threshold, world.engine_sleep, world.ground.present,
-      world.ground.height, world.ground.material.friction, world.ground.material.restitution);
-  for (const Skip& skip : all_skips) {
-    text += fmt::format("skip {} {}\n", skip.name, world.skips.*skip.field);
-  }
+  std::string text = description(world, world_fields<Dim>) + description(world.solver, solver_fields) +
+                     description(world.debug, debug_fields) + description(world.ground, ground_fields) +
+                     description(world.ground.material, surface_fields) +
+                     fmt::format("engine_sleep {} dt {}\n", world.engine_sleep, world.dt);
   for (const Obstacle<Dim>& obstacle : world.obstacles) {
     text += "obstacle at" + numbers(obstacle.pose) + " " + description(obstacle.shape);
   }
@@ -53,27 +60,13 @@ std::string description(const WorldDescription<Dim>& world) {
 
 template <int Dim>
 std::string description(const Source<Dim>& source) {
-  std::string text = "source of";
-  for (const int shape : source.shapes) {
-    text += fmt::format(" {}", shape);
-  }
-  text += fmt::format(" count {} start {} rate {} spin_spread {} sweep_period {} ride_above {}", source.count,
-                      source.start, source.rate, source.spin_spread, source.sweep_period, source.ride_above);
-  text += " grid" + numbers(source.grid) + " spacing" + numbers(source.spacing);
-  for (const Vec<Dim>& vector :
-       {source.position, source.spread, source.velocity, source.velocity_spread, source.sweep}) {
-    text += " /" + numbers(vector);
-  }
-  return text + (source.orientation ? " turned" + numbers(source.orientation->toRotationMatrix()) : " random") + "\n";
+  return fmt::format("source of {}\n", fmt::join(source.shapes, " ")) + description(source, source_fields<Dim>) +
+         (source.orientation ? "turned" + numbers(source.orientation->toRotationMatrix()) : "random") + "\n";
 }
 
 template <int Dim>
 std::string description(const PileParams<Dim>& pile) {
-  std::string text = fmt::format("pile {} {} {} {} {}", pile.alpha.value_or(0.0), pile.initial_size, pile.growth_ratio,
-                                 pile.merge_distance, pile.drift_rate);
-  if (pile.control_slope) text += " controls its slope";
-  if (pile.count_flying) text += *pile.count_flying ? " counts flying" : " does not count flying";
-  text += pile.at ? " at" + numbers(*pile.at) : " where the first lands";
+  std::string text = "pile\n" + description(pile, pile_fields<Dim>);
   if (pile.boundary) {
     text += fmt::format(" rim {} radius {}", pile.boundary->rim, pile.boundary->cylinder_radius);
     for (const Wall<Dim>& wall : pile.boundary->walls) {
@@ -93,16 +86,8 @@ std::string description(const Scene<Dim>& scene) {
   for (const PileParams<Dim>& pile : scene.piles) {
     text += description(pile);
   }
-  const AdaptiveParams& own = scene.policy.adaptive;
-  text += fmt::format("adaptive {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", own.rest_distance,
-                      own.rest_time_deep, own.rest_time_surface, own.rest_distance_woken, own.rest_time_woken,
-                      own.wake_height, own.heavy_impact, own.support_slack, own.awake_share, own.avalanche_width,
-                      own.avalanche_growth, own.avalanche_growth_quiet, own.avalanche_angle,
-                      own.slope_proportional_gain, own.slope_integral_gain, own.slope_max_damping);
-  const PaperParams& paper = scene.policy.paper;
-  return text + fmt::format("policy {} {} {} {} {}\nrun {} at {}\n", scene.policy.kind, paper.tau,
-                            fmt::join(paper.avalanche_density, " "), paper.awake_steps, paper.wake_speed,
-                            scene.run.frames, scene.run.frame_rate);
+  return text + description(scene.policy, policy_fields) + description(scene.policy.paper, paper_fields) +
+         description(scene.policy.adaptive, adaptive_fields) + description(scene.run, run_fields);
 }
 
 }  // namespace talus

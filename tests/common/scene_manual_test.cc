@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -6,6 +7,7 @@
 
 #include "common/scene/read_scene.h"
 #include "common/scene/read_shape.h"
+#include "common/scene/reference.h"
 #include "tests/common/scene_description.h"
 
 namespace talus::scene_manual_test {
@@ -74,7 +76,7 @@ std::set<std::string> keys_of_the_reader() {
   std::string text = "dimension = " + std::to_string(Dim) + "\nsource = [{angle_deg = 0}]\n";
   std::string shapes;
   std::string obstacles = "{kind = \"container\"}";
-  for (const std::string& kind : shape_kinds<Dim>()) {
+  for (const std::string& kind : names_of_shape_kinds<Dim>()) {
     shapes += "[shape." + kind + "]\nkind = \"" + kind + "\"\n";
     obstacles += ", {kind = \"" + kind + "\", angle_deg = 0}";
   }
@@ -128,6 +130,19 @@ std::vector<std::string> examples() {
     }
   }
   return blocks;
+}
+
+TEST(Manual, HasTheTablesAndTheExampleThatTheDeclarationsGive) {
+  const std::string document = fmt::format("{}\n", fmt::join(manual(), "\n"));
+  EXPECT_EQ(document, with_reference(document))
+      << "docs/scenes.md is not up to date; this command writes it: talus reference --update docs/scenes.md";
+}
+
+TEST(Manual, RefusesAMarkWithoutItsEndOrItsTable) {
+  EXPECT_EQ(with_reference("a\n<!-- keys: [run] -->\nold\n<!-- end -->\nb\n").find("old"), std::string::npos);
+  EXPECT_THROW(with_reference("<!-- keys: [run] -->\n"), std::invalid_argument);
+  EXPECT_THROW(with_reference("<!-- end -->\n"), std::invalid_argument);
+  EXPECT_THROW(with_reference("<!-- keys: [runs] -->\n<!-- end -->\n"), std::invalid_argument);
 }
 
 TEST(Manual, GivesTheDefaultsThatTheReaderHas) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "common/scene/nearest_name.h"
+#include "common/text/nearest_name.h"
 
 namespace talus::scene_nearest_name_test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "common/scene/bounding_radius.h"
 #include "common/scene/spout_rate.h"
+#include "common/shape/bounding_radius.h"
 #include "common/shape/catalogue.h"
 
 namespace talus::scene_spout_test {

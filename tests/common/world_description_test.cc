@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "common/scene/scene.h"
 #include "common/shape/catalogue.h"
 
 namespace talus::world_description_test {
@@ -64,7 +65,7 @@ TYPED_TEST(WorldDescriptionTest, ASoundWorldAndBodyAreAccepted) {
 
 TYPED_TEST(WorldDescriptionTest, ATimeStepOutsideItsRangeIsRefused) {
   for (const double dt : {0.0, -0.01, nan, infinity, 1.0 / 15.0}) {
-    this->refuse_world("world.dt", [&](auto& world) { world.dt = dt; });
+    this->refuse_world("world.steps_per_second", [&](auto& world) { world.dt = dt; });
   }
 }
 
@@ -208,6 +209,37 @@ TEST(LParameters, ThatMakeNoLAreRefused) {
   expect_refused([] { l_pieces<3>({.thickness = 0.0}); }, "l.thickness");
   expect_refused([] { l_pieces<3>({.depth = -1.0}); }, "l.depth");
   expect_refused([] { capsule_pieces<2>(1.0, 0.5); }, "capsule.length");
+}
+
+TEST(DeclaredFields, AreRefusedWithFieldValueAndRule) {
+  AdaptiveParams params;
+  params.rest_time_surface = 0.01;
+  try {
+    check_fields(params, adaptive_fields, "policy.adaptive");
+    FAIL() << "was accepted";
+  } catch (const InvalidValue& invalid) {
+    EXPECT_EQ(invalid.field(), "policy.adaptive.rest_time_surface");
+    EXPECT_EQ(invalid.value(), "0.01");
+    EXPECT_EQ(invalid.rule(), "must be at least 0.06 and at most 1000") << "the lower end is rest_time_deep";
+  }
+  PolicyParams policy;
+  policy.kind = "papper";
+  expect_refused([&] { check_fields(policy, policy_fields, "policy"); },
+                 "policy.kind = \"papper\": must be one of full, engine");
+  policy.paper.avalanche_density = {0.8, -1.0};
+  expect_refused([&] { check_fields(policy.paper, paper_fields, "policy"); }, "policy.avalanche_density[1] = -1");
+  PileParams<2> pile;
+  pile.alpha = 2.0;
+  expect_refused([&] { check_fields(pile, pile_fields<2>, "pile[0]"); }, "pile[0].alpha_deg = 114.591559026165");
+}
+
+TEST(DeclaredFields, HaveDefaultsWithinTheirRanges) {
+  EXPECT_NO_THROW(check_fields(AdaptiveParams{}, adaptive_fields, ""));
+  EXPECT_NO_THROW(check_fields(PaperParams{}, paper_fields, ""));
+  EXPECT_NO_THROW(check_fields(PileParams<3>{}, pile_fields<3>, ""));
+  EXPECT_NO_THROW(check_fields(Source<3>{}, source_fields<3>, ""));
+  EXPECT_NO_THROW(check_fields(RunParams{}, run_fields, ""));
+  EXPECT_NO_THROW(check_fields(SolverParams{}, solver_fields, ""));
 }
 
 }  // namespace

@@ -6,18 +6,19 @@
 #include <optional>
 #include <random>
 
-#include "common/scene/container.h"
 #include "common/shape/catalogue.h"
 #include "common/simulation/state_hash.h"
+#include "common/world/container.h"
 #include "common/world/errors.h"
 #include "sim3d/make_world.h"
 
 namespace talus::replacements_test {
 namespace {
 
-/// Switches of the replacements. What they replace is Bullet's.
-constexpr std::array<bool Skips::*, 6> replacements = {&Skips::islands,   &Skips::rows,   &Skips::levels,
-                                                       &Skips::row_setup, &Skips::places, &Skips::idle_pairs};
+/// Options that put Bullet's own classes in the place of the replacements.
+constexpr std::array<bool DebugOptions::*, 6> replacements = {
+    &DebugOptions::bullet_islands,   &DebugOptions::bullet_solver,    &DebugOptions::bullet_row_order,
+    &DebugOptions::bullet_row_setup, &DebugOptions::bullet_compounds, &DebugOptions::visit_separate_pairs};
 
 std::unique_ptr<World<3>> make(const WorldDescription<3>& description) { return make_bullet_world(description); }
 std::unique_ptr<World<2>> make(const WorldDescription<2>& description) { return make_bullet_planar_world(description); }
@@ -33,7 +34,7 @@ class Sequence {
     description_.solver.friction_directions = Dim == 3 && chance(0.15) ? 1 : 2;
     description_.solver.velocity_iterations = 1 + below(12);
     description_.engine_sleep = chance(0.2);
-    description_.skips.sleepers = !chance(0.1);
+    description_.debug.keep_sleepers = chance(0.1);
     if (chance(0.4)) {
       Vec<Dim> size = Vec<Dim>::Constant(3.0);
       size[Dim - 1] = 1.5;
@@ -41,8 +42,8 @@ class Sequence {
     }
     WorldDescription<Dim> packaged = description_;
     for (const auto field : replacements) {
-      packaged.skips.*field = false;
-      description_.skips.*field = !chance(0.15);
+      packaged.debug.*field = true;
+      description_.debug.*field = chance(0.15);
     }
     worlds_ = {make(description_), make(packaged)};
     for (const auto& world : worlds_) {

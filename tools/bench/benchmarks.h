@@ -22,7 +22,7 @@ void bench_engines(const BenchOptions& options);
 /// Time step, iterations and friction directions of the full simulation: at which settings a pile stays the same.
 void bench_convergence(const BenchOptions& options);
 
-/// What each skip of a step saves, each switched off in turn.
+/// What a step leaves out: each debug option in turn, which puts the work back.
 void bench_skips(const BenchOptions& options);
 
 /// How soon all sleep after the last body has stopped, and what steps cost from then on.

@@ -14,12 +14,12 @@ namespace talus {
 
 namespace {
 
-/// All skips on, then each off in turn.
-BenchGroup skips_group(const BenchCase& all_on) {
-  BenchGroup group{{all_on}};
-  for (const Skip& skip : all_skips) {
-    group.cases.push_back(all_on);
-    group.cases.back().settings.push_back(fmt::format("skip.{}=false", skip.name));
+/// Without debug options, then with each in turn.
+BenchGroup skips_group(const BenchCase& plain) {
+  BenchGroup group{{plain}};
+  for (const Field<DebugOptions>& field : debug_fields) {
+    group.cases.push_back(plain);
+    group.cases.back().settings.push_back(fmt::format("debug.{}=true", field.key.name));
   }
   return group;
 }
@@ -43,7 +43,7 @@ bool same_bits(const BenchRunner& runner, const BenchGroup& group, const BenchCa
   return runner.hashes(each) == runner.hashes(group.cases.front());
 }
 
-/// Times everything; then, where a skip changed the bits, by how much.
+/// Times everything; then, where an option changed the bits, by how much.
 void measure(const std::vector<BenchGroup>& groups, const BenchOptions& options) {
   BenchOptions times_only = options;
   times_only.errors = false;
@@ -61,9 +61,9 @@ void measure(const std::vector<BenchGroup>& groups, const BenchOptions& options)
   if (options.errors) BenchRunner(options).run(changed);
 }
 
-/// Fastest round with the skip off over the fastest with all on.
-std::string ratio_of(const Values& off, const Values& all_on) {
-  return shown(off["seconds_min"] / all_on["seconds_min"]);
+/// Fastest round with the option over the fastest without.
+std::string ratio_of(const Values& with, const Values& without) {
+  return shown(with["seconds_min"] / without["seconds_min"]);
 }
 
 std::vector<std::string> row_of(const BenchRunner& runner, const BenchGroup& group, const BenchCase& each) {
@@ -74,7 +74,7 @@ std::vector<std::string> row_of(const BenchRunner& runner, const BenchGroup& gro
   return {key_of(each).scene,
           each.backend,
           each.policy,
-          key_of(each) == key_of(first) ? "all on" : each.settings.back(),
+          key_of(each) == key_of(first) ? "none" : each.settings.back(),
           shown_with_range(values, "seconds"),
           ratio_of(values, runner.summary(first, first)),
           shown(values, "mean_awake"),
@@ -85,8 +85,8 @@ std::vector<std::string> row_of(const BenchRunner& runner, const BenchGroup& gro
 }
 
 Table skips_table(const BenchRunner& runner, const std::vector<BenchGroup>& groups) {
-  Table table{"", {{"scene"}, {"engine"}, {"policy"}, {"skips"}}, {}};
-  for (const char* name : {"time [s]", "over all on", "mean awake", "same bits", "R after 30 frames / floor",
+  Table table{"", {{"scene"}, {"engine"}, {"policy"}, {"option"}}, {}};
+  for (const char* name : {"time [s]", "over none", "mean awake", "same bits", "R after 30 frames / floor",
                            "profile rms / D, floor", "KS(r) / floor"}) {
     table.columns.push_back({name, true});
   }
@@ -104,11 +104,12 @@ void bench_skips(const BenchOptions& options) {
   const BenchRunner runner(options);
   BenchResults results{"What a step leaves out", {}, {}};
   results.notes.push_back(
-      "Each run again with one skip switched off (`[skip]` in a scene, `--set skip.idle=false`). Over all on: the "
-      "fastest round over the fastest with all skips on, since skips save little and another process only ever adds "
-      "time. In 2D `flight` leaves out nothing, so its row shows what is noise. Where switching a skip off changes the "
-      "bits, the two runs are compared; the floor is what a micrometre does to the run with all skips on.");
-  results.sections.push_back({"What each skip saves", {skips_table(runner, groups)}});
+      "Each run again with one debug option (`[debug]` in a scene, `--set debug.step_when_idle=true`), which puts back "
+      "work that a step leaves out. Over none: the fastest round with the option over the fastest without, since the "
+      "differences are small and another process only ever adds time. In 2D `collide_in_flight` has no effect, so its "
+      "row shows the noise. Where an option changes the bits, the two runs are compared; the floor is what a "
+      "micrometre does to the run without options.");
+  results.sections.push_back({"What each option costs", {skips_table(runner, groups)}});
   write_results(runner, groups, results);
   print_text(text_of(skips_table(runner, groups)));
 }

@@ -21,5 +21,6 @@ void add_run_command(CLI::App& app, int& exit_code);
 void add_list_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
 void add_sheet_command(CLI::App& app, int& exit_code);
+void add_reference_command(CLI::App& app, int& exit_code);
 
 }  // namespace talus

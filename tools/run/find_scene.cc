@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/scene/nearest_name.h"
+#include "common/text/nearest_name.h"
 
 namespace talus {
 

@@ -1,4 +1,4 @@
-#include "common/scene/convex_container.h"
+#include "common/world/container.h"
 
 #include <fmt/format.h>
 
@@ -8,23 +8,18 @@
 
 #include "common/math/require.h"
 #include "common/shape/catalogue.h"
+#include "common/shape/polygon.h"
 
 namespace talus {
 namespace {
 
-// Unit normal of the side that begins at a corner, outwards.
-Vec2 outwards(std::span<const Vec2> outline, std::size_t from) {
-  const Vec2 along = outline[(from + 1) % outline.size()] - outline[from];
-  return Vec2(along.y(), -along.x()).normalized();
-}
-
-// The outline of the walls' outer faces, corner by corner. Throws std::invalid_argument for a sharp corner.
+/// The outline of the walls' outer faces, corner by corner. Throws InvalidValue for a sharp corner.
 std::vector<Vec2> widened(std::span<const Vec2> outline, double by) {
   constexpr double sharpest = 5.0;  // [degrees]; the outer corner then lies 23 times the walls' thickness away
   std::vector<Vec2> wide;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 before = outwards(outline, (i + outline.size() - 1) % outline.size());
-    const Vec2 after = outwards(outline, i);
+    const Vec2 before = outward_normal(outline, (i + outline.size() - 1) % outline.size());
+    const Vec2 after = outward_normal(outline, i);
     const double angle = std::acos(std::clamp(-before.dot(after), -1.0, 1.0)) * 180.0 / std::numbers::pi;
     require(angle >= sharpest, "corners", angle,
             fmt::format("must meet at {} degrees or more, here {:.3g}: walls around a sharper corner have no end",
@@ -45,6 +40,35 @@ Obstacle<3> prism(std::span<const Vec2> base, double from, double to, const Pose
 }
 
 }  // namespace
+
+template <int Dim>
+std::vector<Obstacle<Dim>> container_walls(const ContainerParams<Dim>& params, const Pose<Dim>& pose,
+                                           const Material& material) {
+  std::vector<Obstacle<Dim>> walls;
+  const auto add = [&](const Vec<Dim>& size, const Vec<Dim>& middle) {
+    walls.push_back({make_shape<Dim>("wall", box_pieces<Dim>(size), material), {pose * middle, pose.rotation}});
+  };
+  constexpr int up = Dim - 1;
+  const Vec<Dim>& inner = params.inner_size;
+  for (int axis = 0; axis < up; ++axis) {
+    Vec<Dim> size = inner;
+    size[axis] = params.wall;
+    if (axis > 0) {
+      size[0] += 2.0 * params.wall;  // the later walls reach over the corners
+    }
+    Vec<Dim> middle = Vec<Dim>::Unit(axis) * (inner[axis] + params.wall) / 2.0;
+    middle[up] = inner[up] / 2.0;
+    add(size, middle);
+    middle[axis] = -middle[axis];
+    add(size, middle);
+  }
+  if (params.floor) {
+    Vec<Dim> size = inner + Vec<Dim>::Constant(2.0 * params.wall);
+    size[up] = params.wall;
+    add(size, Vec<Dim>::Unit(up) * (-params.wall / 2.0));
+  }
+  return walls;
+}
 
 std::vector<Obstacle<3>> convex_container_walls(const ConvexContainerParams& params, const Pose<3>& pose,
                                                 const Material& material) {
@@ -71,16 +95,7 @@ std::vector<Vec2> round_outline(double radius) {
   return outline;
 }
 
-Boundary<3> convex_boundary(std::span<const Vec2> outline, double rim) {
-  Boundary<3> boundary{.rim = rim};
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 normal = outwards(outline, i);
-    const double distance = normal.dot(outline[i]);
-    require(distance > 0.0, "boundary.corners", distance,
-            "must lie around at: each side's distance from it must be above 0 m");
-    boundary.walls.push_back({normal, distance});
-  }
-  return boundary;
-}
+template std::vector<Obstacle<2>> container_walls(const ContainerParams<2>&, const Pose<2>&, const Material&);
+template std::vector<Obstacle<3>> container_walls(const ContainerParams<3>&, const Pose<3>&, const Material&);
 
 }  // namespace talus

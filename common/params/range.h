@@ -7,14 +7,14 @@
 
 namespace talus {
 
-/// Values that a number in a scene file may have. Never NaN, never infinite.
+/// Values that a number of a scene may have. Never NaN, never infinite.
 struct Range {
   double low = std::numeric_limits<double>::lowest();
   double high = std::numeric_limits<double>::max();
   bool low_excluded = false;
   bool high_excluded = false;
 
-  bool holds(double value) const {
+  constexpr bool holds(double value) const {
     return (low_excluded ? value > low : value >= low) && (high_excluded ? value < high : value <= high);
   }
 
@@ -37,16 +37,19 @@ struct Range {
   }
 };
 
-inline Range at_least(double low) { return {.low = low}; }
-inline Range above(double low) { return {.low = low, .low_excluded = true}; }
-inline Range between(double low, double high) { return {.low = low, .high = high}; }
+constexpr Range at_least(double low) { return {.low = low}; }
+constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
+/// Without `low` itself.
+constexpr Range above(double low, double high) { return {.low = low, .high = high, .low_excluded = true}; }
+/// From 0 on, without `high` itself.
+constexpr Range below(double high) { return {.low = 0.0, .high = high, .high_excluded = true}; }
 
 /// Beyond 10 km from the origin a single-precision engine places bodies a millimetre off.
-inline Range coordinate() { return between(-1e4, 1e4); }
-/// Sizes that both engines can hold at all; `talus check` warns of those that they hold badly.
-inline Range length() { return between(0.01, 1e4); }
-inline Range spread() { return between(0.0, 1e4); }
+inline constexpr Range coordinate_range = between(-1e4, 1e4);
+/// Sizes that both engines can simulate; `talus check` warns of those for which contacts are inaccurate.
+inline constexpr Range length_range = between(0.01, 1e4);
+inline constexpr Range spread_range = between(0.0, 1e4);
 /// Faster, and a step of 1/60 s is longer than any pile.
-inline Range speed() { return between(-1e3, 1e3); }
+inline constexpr Range speed_range = between(-1e3, 1e3);
 
 }  // namespace talus

@@ -1,4 +1,4 @@
-#include "common/scene/bounding_radius.h"
+#include "common/shape/bounding_radius.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "common/scene/scene_errors.h"
+#include "common/scene/diagnostics.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// What a step leaves out must not be missed: put back, it changes nothing.
+// Work that a step leaves out changes nothing when a debug option puts it back.
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"
 
-namespace talus::skip_test {
+namespace talus::debug_options_test {
 namespace {
 
 /// What a run of a scene was like.
 struct Outcome {
   std::uint64_t hash = 0;
-  int idle_steps = 0;  // with bodies, but nobody awake
+  int idle_steps = 0;  // with bodies, none of them awake
   int woken = 0;
   std::int64_t frames_seen = 0;
 
@@ -21,7 +21,7 @@ struct Outcome {
 };
 
 template <typename Backend>
-class SkipTest : public BackendTest<Backend> {
+class DebugOptionsTest : public BackendTest<Backend> {
  protected:
   static constexpr int dimension = Backend::dim;
 
@@ -57,43 +57,43 @@ class SkipTest : public BackendTest<Backend> {
     return watch.outcome;
   }
 };
-TYPED_TEST_SUITE(SkipTest, Backends, BackendName);
+TYPED_TEST_SUITE(DebugOptionsTest, Backends, BackendName);
 
-TYPED_TEST(SkipTest, ASkipSwitchedOffGivesTheSameBits) {
+TYPED_TEST(DebugOptionsTest, PutBackWorkWithoutAChangeOfTheBits) {
   for (const char* policy : {"full", "engine", "paper", "adaptive"}) {
     Scene<TypeParam::dim> scene = this->two_strings(policy);
-    const Outcome all_on = this->run(scene);
-    for (const Skip& skip : all_skips) {
-      if (!skip.exact) continue;
-      scene.world.skips = {};
-      scene.world.skips.*skip.field = false;
-      EXPECT_EQ(this->run(scene), all_on) << policy << " without " << skip.name;
+    const Outcome without = this->run(scene);
+    for (const Field<DebugOptions>& field : debug_fields) {
+      if (field.key.name == "sweep_slow_bodies") continue;
+      scene.world.debug = {};
+      scene.world.debug.*std::get<bool DebugOptions::*>(field.member) = true;
+      EXPECT_EQ(this->run(scene), without) << policy << " with " << field.key.name;
     }
   }
 }
 
-TYPED_TEST(SkipTest, WhatBouncesMeetsTheGroundAsIfItHadBeenWatchedInFlight) {
+TYPED_TEST(DebugOptionsTest, ABouncingBodyHitsTheGroundAsIfItCollidedInFlight) {
   Scene<TypeParam::dim> scene = this->two_strings("full");
   for (Shape<TypeParam::dim>& shape : scene.world.shapes) shape.material.restitution = 0.8;
   scene.world.ground.material.restitution = 0.8;
   scene.sources[0].count = 4;
   scene.sources[0].spin_spread = 5.0;
-  const Outcome spared = this->run(scene);
-  scene.world.skips.flight = false;
-  EXPECT_EQ(this->run(scene), spared);
+  const Outcome without = this->run(scene);
+  scene.world.debug.collide_in_flight = true;
+  EXPECT_EQ(this->run(scene), without);
 }
 
-TYPED_TEST(SkipTest, TheTestSceneRestsInBetweenAndWakes) {
+TYPED_TEST(DebugOptionsTest, TheTestSceneRestsInBetweenAndWakes) {
   const Outcome outcome = this->run(this->two_strings("adaptive"));
   EXPECT_GT(outcome.idle_steps, 20);
   EXPECT_GT(outcome.woken, 0);
   EXPECT_EQ(outcome.frames_seen, 720) << "observers see each step of a world at rest";
 }
 
-TYPED_TEST(SkipTest, SlowBodiesSparedContinuousCollisionDoNotSinkIn) {
+TYPED_TEST(DebugOptionsTest, SlowBodiesWithoutContinuousCollisionDoNotSinkIn) {
   Scene<TypeParam::dim> scene = this->two_strings("adaptive");
-  for (const bool spared : {true, false}) {
-    scene.world.skips.continuous = spared;
+  for (const bool swept : {false, true}) {
+    scene.world.debug.sweep_slow_bodies = swept;
     Simulation<TypeParam::dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
     for (int step = 0; step < 720; ++step) simulation.step();
     for (const Pose<TypeParam::dim>& pose : simulation.world().states().pose) {
@@ -104,4 +104,4 @@ TYPED_TEST(SkipTest, SlowBodiesSparedContinuousCollisionDoNotSinkIn) {
 }
 
 }  // namespace
-}  // namespace talus::skip_test
+}  // namespace talus::debug_options_test

@@ -2,8 +2,11 @@
 // What is wrong with a scene file, all of it at once.
 
 #include <cstddef>
+#include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -39,6 +42,24 @@ class SceneErrors : public std::runtime_error {
   SceneErrors(std::vector<SceneError> errors, InOrder order);
 
   std::vector<SceneError> errors_;
+};
+
+/// A table of a scene file with all keys that it may have.
+struct FilledTable {
+  std::string head;                                         // as `[world]`; empty: the root
+  std::vector<std::pair<std::string, std::string>> values;  // keys with their values as TOML
+};
+
+/// What a read of a scene file collects, shared by the readers of all its tables.
+struct Diagnostics {
+  std::string file = {};
+  std::vector<SceneError> errors = {};
+  std::set<std::string> keys = {};       // every key that the reader looked for, as `source[].rate` or `shape.*.kind`
+  bool fills = false;                    // whether keys, filled are wanted
+  std::vector<FilledTable> filled = {};  // the file with the defaults of the keys that it does not give
+  std::vector<std::filesystem::path> referred = {};  // files that it names, as it names them
+  std::vector<std::string> warnings = {};            // of what is allowed but seldom meant, each with its place
+  std::size_t suggestion_budget = 2'000'000;         // pairs of letters that may still be compared to suggest names
 };
 
 }  // namespace talus

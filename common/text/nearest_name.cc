@@ -1,4 +1,4 @@
-#include "common/scene/nearest_name.h"
+#include "common/text/nearest_name.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,0 +1,88 @@
+#pragma once
+// What does not move in scene files: obstacles, containers, and the walls around a pile.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "common/pile/boundary.h"
+#include "common/scene/read_shape.h"
+#include "common/scene/table_reader.h"
+#include "common/world/container.h"
+#include "common/world/world_description.h"
+
+namespace talus {
+
+template <int Dim>
+inline constexpr auto obstacle_fields = std::to_array<Field<Pose<Dim>>>({
+    {{},
+     {.name = "kind",
+      .required = true,
+      .type = "text",
+      .further_rule = "a kind of shape, or `\"container\"`",
+      .meaning = "decides which keys of a shape or of a container belong here"}},
+    {&Pose<Dim>::position,
+     {.name = "position",
+      .type = "point",
+      .unit = "m",
+      .range = coordinate_range,
+      .default_text = "origin",
+      .meaning =
+          "where the origin of the shape's own axes goes: the middle of a box, ball or capsule, the outer corner "
+          "of an L, `[0, 0]` of a hull's corners (so a hull may be given in the world's coordinates), the middle "
+          "of a container's floor, or the origin of its `corners`"}},
+    {{}, angle_key},
+    {{}, axis_key},
+});
+
+/// Keys of `[pile.boundary]`.
+struct BoundaryParams {
+  double rim = 1.0;
+  std::optional<double> wall = {};  // not given: no walls are built
+  std::optional<bool> floor = {};
+};
+
+inline constexpr Key boundary_size_key = {.name = "size",
+                                          .required = true,
+                                          .type = "lengths",
+                                          .unit = "m",
+                                          .range = length_range,
+                                          .meaning = "box: full width, `[x]` in 2D, `[x, y]` in 3D"};
+
+inline constexpr auto boundary_fields = std::to_array<Field<BoundaryParams>>({
+    {{},
+     {.name = "kind",
+      .required = true,
+      .type = "text",
+      .further_rule = R"(`"box"`, in 3D also `"cylinder"`, `"convex"`)",
+      .meaning = "box: `size`; cylinder: `radius`; convex: `corners`, seen from `at`, which lies inside"}},
+    {&BoundaryParams::rim,
+     {.name = "rim",
+      .required = true,
+      .unit = "m",
+      .range = length_range,
+      .meaning = "height of the walls above `at`"}},
+    {{}, boundary_size_key},
+    {{}, outline_radius_key},
+    {{}, outline_corners_key},
+    {&BoundaryParams::wall,
+     {.name = "wall",
+      .unit = "m",
+      .range = length_range,
+      .default_text = "none are built",
+      .meaning = "thickness. Thin: fast bodies go through it within one step"}},
+    {&BoundaryParams::floor,
+     {.name = "floor",
+      .default_text = "false",
+      .meaning = "a slab beneath as thick as the walls; without, the ground is the floor. Not without `wall`"}},
+});
+
+/// One `[[obstacle]]`, appended; a container is as many as it has walls.
+template <int Dim>
+void read_obstacle(TableReader& table, std::vector<Obstacle<Dim>>& obstacles);
+
+/// `[pile.boundary]`, the walls around a pile's middle. With `wall`, they are appended to the obstacles too.
+template <int Dim>
+Boundary<Dim> read_boundary(TableReader& table, const Vec<Dim>& at, std::vector<Obstacle<Dim>>& obstacles);
+
+}  // namespace talus

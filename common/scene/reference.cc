@@ -1,0 +1,193 @@
+#include "common/scene/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "common/mesh/mesh_shape.h"
+#include "common/scene/read_obstacle.h"
+#include "common/scene/read_scene.h"
+#include "common/shape/catalogue.h"
+
+namespace talus {
+namespace {
+
+constexpr std::string_view head =
+    "| key | type, unit | default | range | meaning; what goes wrong with a bad value |\n"
+    "| --- | --- | --- | --- | --- |\n";
+
+template <typename T>
+std::string_view type_of() {
+  if constexpr (requires { typename T::value_type; } && !std::is_same_v<T, std::string>) {
+    using Part = typename T::value_type;
+    if constexpr (std::is_same_v<T, std::optional<Part>>) return type_of<Part>();
+    if constexpr (std::is_same_v<T, std::vector<double>>) return "number or numbers";
+    if constexpr (std::is_same_v<Part, int>) return "whole numbers";
+    return std::is_same_v<Part, double> ? "vector" : "points";
+  } else {
+    if constexpr (std::is_same_v<T, std::string>) return "text";
+    if constexpr (std::is_same_v<T, bool>) return "true or false";
+    return std::is_integral_v<T> ? "whole number" : "number";
+  }
+}
+
+/// A number as people write it: 1e6, not 1e+06.
+std::string number_text(double number) {
+  std::string text = fmt::format("{:.10g}", number);
+  if (std::abs(number) >= 1e6 && text.ends_with("00000")) text = fmt::format("{:g}", number);
+  const std::size_t exponent = text.find("e+");
+  if (exponent == std::string::npos) return text;
+  return text.substr(0, exponent + 1) + text.substr(text.find_first_not_of("+0", exponent + 1));
+}
+
+template <typename T>
+std::string default_of(const Key& key, const T& value) {
+  std::vector<std::string> parts;
+  for (const double number : numbers_of(value)) parts.push_back(number_text(as_written(key, number)));
+  const bool all_same = !parts.empty() && std::ranges::count(parts, parts.front()) == std::ssize(parts);
+  if (all_same) return parts.front();
+  return parts.empty() ? fmt::format("`{}`", field_text(key, value)) : fmt::format("[{}]", fmt::join(parts, ", "));
+}
+
+template <>
+std::string default_of(const Key& /*key*/, const bool& value) {
+  return value ? "true" : "false";
+}
+
+std::string limits_of(const Key& key) {
+  const Range any;
+  const Range& range = key.range;
+  if (range.low == any.low && range.high == any.high) return "";
+  if (range.high == any.high) return fmt::format("at least {}", number_text(range.low));
+  const std::string low = key.not_below.empty() ? number_text(range.low) : fmt::format("`{}`", key.not_below);
+  return fmt::format("{}{}, {}{}", range.low_excluded ? "(" : "[", low, number_text(range.high),
+                     range.high_excluded ? ")" : "]");
+}
+
+std::string rules_of(const Key& key) {
+  std::vector<std::string> rules;
+  for (const std::string_view choice : key.choices) rules.push_back(fmt::format("`\"{}\"`", choice));
+  if (const std::string limits = limits_of(key); !limits.empty()) rules.push_back(limits);
+  if (!key.further_rule.empty()) rules.emplace_back(key.further_rule);
+  return fmt::format("{}", fmt::join(rules, ", "));
+}
+
+std::string row_of(const Key& key, std::string_view type, const std::string& standard) {
+  std::string meaning = key.dimension == 0 ? "" : fmt::format("{}D only: ", key.dimension);
+  meaning += key.meaning;
+  if (!key.old_name.empty()) meaning += fmt::format(". Before: `{}`", key.old_name);
+  const std::string unit = key.unit.empty() ? "" : fmt::format(", {}", key.unit);
+  return fmt::format("| `{}` | {}{} | {} | {} | {} |\n", key.name, key.type.empty() ? type : key.type, unit,
+                     key.required ? "required" : standard, rules_of(key), meaning);
+}
+
+template <typename S>
+std::string rows_of(std::type_identity_t<Fields<S>> fields) {
+  const S defaults{};
+  std::string rows;
+  for (const Field<S>& field : fields) {
+    const auto add = [&](auto member) {
+      if constexpr (std::is_same_v<decltype(member), std::monostate>) {
+        const std::string_view type = field.key.choices.empty() ? "number" : "text";
+        rows += row_of(field.key, type, std::string(field.key.default_text));
+      } else {
+        const auto& value = defaults.*member;
+        const bool constant = field.key.default_text.empty() && !field.key.required;
+        rows += row_of(field.key, type_of<std::remove_cvref_t<decltype(value)>>(),
+                       constant ? default_of(field.key, value) : std::string(field.key.default_text));
+      }
+    };
+    std::visit(add, field.member);
+  }
+  return rows;
+}
+
+std::string rows_of_shape() {
+  const std::vector<std::string> kinds = names_of_shape_kinds<3>();
+  const Key kind = {.name = "kind", .required = true, .meaning = "decides which of the keys below belong here"};
+  std::string row = row_of(kind, "text", "");
+  row.replace(row.find("|  |"), 4, fmt::format("| `\"{}\"` |", fmt::join(kinds, "\"`, `\"")));
+  return row + rows_of<Material>(density_field) + rows_of<Material>(surface_fields);
+}
+
+/// The first TOML block, each key with its default.
+std::string example_of(std::string_view document) {
+  constexpr std::string_view begin = "```toml\n";
+  const std::size_t from = document.find(begin) + begin.size();
+  const std::size_t to = document.find("```", from);
+  std::string text = with_every_default(document.substr(from, to - from), "the first example");
+  return fmt::format("```toml\n{}```\n", text.insert(text.find("\"\n"), ", every default written out"));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> key_tables() {
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"root", rows_of<Scene<3>>(scene_fields<3>)},
+      {"[world]", rows_of<WorldDescription<3>>(world_fields<3>)},
+      {"[world.solver]", rows_of<SolverParams>(solver_fields)},
+      {"[ground]", rows_of<Ground>(ground_fields) + rows_of<Material>(surface_fields)},
+      {"[[obstacle]]", rows_of<Pose<3>>(obstacle_fields<3>) + rows_of<Material>(surface_fields)},
+      {"[[obstacle]] container", rows_of<ContainerParams<3>>(container_fields<3>)},
+      {"[[obstacle]] round container", rows_of<ConvexContainerParams>(convex_container_fields)},
+      {"[shape.NAME]", rows_of_shape()},
+      {"[shape.NAME] box", rows_of<BoxParams<3>>(box_fields<3>)},
+      {"[shape.NAME] L", rows_of<LParams>(l_fields)},
+      {"[shape.NAME] ball", rows_of<BallParams>(ball_fields)},
+      {"[shape.NAME] capsule", rows_of<CapsuleParams>(capsule_fields)},
+      {"[shape.NAME] hull", rows_of<HullParams<3>>(hull_fields<3>)},
+      {"[shape.NAME] polygon", rows_of<PolygonParams>(polygon_fields)},
+      {"[shape.NAME] ring", rows_of<RingParams>(ring_fields)},
+      {"[shape.NAME] mesh", rows_of<MeshParams>(mesh_fields)},
+      {"[[source]]", rows_of<Source<3>>(source_fields<3>)},
+      {"[[pile]]", rows_of<PileParams<3>>(pile_fields<3>)},
+      {"[pile.boundary]", rows_of<BoundaryParams>(boundary_fields) + rows_of<Material>(surface_fields)},
+      {"[policy]", rows_of<PolicyParams>(policy_fields)},
+      {"[policy] paper", rows_of<PaperParams>(paper_fields)},
+      {"[policy.adaptive]", rows_of<AdaptiveParams>(adaptive_fields)},
+      {"[run]", rows_of<RunParams>(run_fields)},
+      {"[debug]", rows_of<DebugOptions>(debug_fields)},
+  };
+  for (auto& [name, text] : rows) text.insert(0, head);
+  return rows;
+}
+
+std::string with_reference(std::string_view document) {
+  constexpr std::string_view keys_mark = "<!-- keys: ";
+  constexpr std::string_view example_mark = "<!-- every default -->";
+  constexpr std::string_view end_mark = "<!-- end -->";
+  const auto tables = key_tables();
+  std::istringstream lines{std::string(document)};
+  std::string result;
+  bool inside = false;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const bool begins = line.starts_with(keys_mark) || line == example_mark;
+    if (begins == inside && (begins || line == end_mark)) {
+      throw std::invalid_argument(fmt::format("line {}: {} must be one of a pair of marks", number, line));
+    }
+    if (line == end_mark) inside = false;
+    if (!inside) result += line + "\n";
+    if (!begins) continue;
+    inside = true;
+    if (line == example_mark) {
+      result += "\n" + example_of(document) + "\n";
+      continue;
+    }
+    const std::string name = line.substr(keys_mark.size(), line.rfind(" -->") - keys_mark.size());
+    const auto found = std::ranges::find(tables, name, [](const auto& table) { return table.first; });
+    if (found == tables.end()) {
+      throw std::invalid_argument(fmt::format("line {}: {} names no table of keys", number, line));
+    }
+    result += "\n" + found->second + "\n";
+  }
+  if (inside) throw std::invalid_argument("the last mark has no <!-- end -->");
+  return result;
+}
+
+}  // namespace talus

@@ -1,0 +1,47 @@
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+
+#include "common/scene/reference.h"
+#include "tools/commands/commands.h"
+#include "tools/output/output.h"
+
+namespace talus {
+namespace {
+
+void print_reference() {
+  for (const auto& [name, table] : key_tables()) print_result("## {}\n\n{}\n", name, table);
+}
+
+void update(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string before(std::istreambuf_iterator<char>(in), {});
+  if (!in && before.empty()) throw std::invalid_argument(file.string() + ": must be a file that can be read");
+  const std::string after = with_reference(before);
+  if (after == before) return;
+  std::ofstream out(file, std::ios::binary);
+  out << after;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+}  // namespace
+
+void add_reference_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("reference", "All keys of a scene file with unit, default, range and meaning");
+  auto file = std::make_shared<std::string>();
+  command->add_option("--update", *file, "Put the tables into this Markdown file, between its marks, as docs/scenes.md")
+      ->check(not_empty());
+  command->callback([=, &exit_code] {
+    if (file->empty()) {
+      print_reference();
+    } else {
+      update(*file);
+    }
+    exit_code = exit_codes::success;
+  });
+}
+
+}  // namespace talus
