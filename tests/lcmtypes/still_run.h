@@ -35,7 +35,7 @@ Scene<Dim> still_scene() {
       {make_shape<Dim>("wall", box_pieces<Dim>(Vec<Dim>::Constant(2.0)), {}), {.position = Vec<Dim>::Constant(7.0)}}};
   scene.sources.resize(1);
   scene.sources[0].shapes = {0, 1};
-  scene.sources[0].start = 1e9;
+  scene.sources[0].start = 1e6;
   scene.piles.emplace_back().at = Vec<Dim>::Zero();
   scene.run.frames = 60;
   return scene;
