@@ -256,8 +256,8 @@ bool TableReader::named_tables(std::string_view key, const NamedBody& body) {
                fmt::format("NAME must be at most {} bytes", max_name));
       well_formed = false;
     } else if (child.is_table()) {
-      const std::string head = fmt::format("{}.{}", key, key_text(name));
-      read_child(child, {fmt::format("{}.{}", key, name), fmt::format("{}.*", key), head},
+      const std::string quoted = fmt::format("{}.{}", key, key_text(name));
+      read_child(child, {fmt::format("{}.{}", key, name), fmt::format("{}.*", key), quoted},
                  [&](TableReader& reader) { body(name, reader); });
     } else {
       error_at(child, fmt::format("{}.{}", field(key), name), rule);

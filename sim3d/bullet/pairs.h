@@ -24,8 +24,8 @@ class PairCache final : public btHashedOverlappingPairCache {
   void processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) override;
   using btHashedOverlappingPairCache::processAllOverlappingPairs;
 
-  /// Called by the broadphase for a proxy that is about to go. Takes no memory: it is part of the end of a world that ran
-  /// out of it.
+  /// Called by the broadphase for a proxy that is about to go. Takes no memory: it is part of the end of a world that
+  /// ran out of it.
   void removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
   void cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
 
