@@ -17,6 +17,7 @@
 #include "tools/record/record_commands.h"
 #endif
 #include "tools/output/output.h"
+#include "tools/run/huge_pages.h"
 #include "tools/run/version.h"
 
 namespace {
@@ -74,6 +75,7 @@ int execute(int argc, char** argv) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only a failure to make an error's text gets out
 int main(int argc, char** argv) {
+  talus::prefer_huge_pages();
   talus::prepare_output();
   send_log_to_standard_error();
   const int exit_code = execute(argc, argv);

@@ -36,7 +36,11 @@ class CompoundPair final : public btCollisionAlgorithm {
   bool is_empty() const { return pieces_.empty(); }
 
   /// Fetches what collide() will read first.
-  void fetch() const { __builtin_prefetch(pieces_.data()); }
+  void fetch() const {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      __builtin_prefetch(pieces_.data() + i);
+    }
+  }
   void fetch_points() const;
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,

@@ -11,6 +11,14 @@ const btCollisionObject& body_of(const btBroadphaseProxy* proxy) {
   return *static_cast<const btCollisionObject*>(proxy->m_clientObject);
 }
 
+/// The first lines of memory of a body: its place, its shape, and whether it is active.
+void fetch_body(const btBroadphaseProxy& proxy) {
+  const auto* memory = static_cast<const char*>(proxy.m_clientObject);
+  for (std::size_t at = 0; at < sizeof(btCollisionObject); at += 64) {
+    __builtin_prefetch(memory + at);
+  }
+}
+
 }  // namespace
 
 void NearPairs::collide(const btDispatcherInfo& info) {
@@ -43,8 +51,8 @@ void NearPairs::fetch_ahead(int i) const {
     __builtin_prefetch(far.m_pProxy1);
   }
   if (const btBroadphasePair& nearer = pairs[i + 3 * stride]; !IdleMark::is_set(nearer)) {
-    __builtin_prefetch(nearer.m_pProxy0->m_clientObject);
-    __builtin_prefetch(nearer.m_pProxy1->m_clientObject);
+    fetch_body(*nearer.m_pProxy0);
+    fetch_body(*nearer.m_pProxy1);
   }
   if (const btBroadphasePair& near = pairs[i + 2 * stride];
       IdleMark::is_compound(near) && near.m_algorithm != nullptr) {
@@ -72,7 +80,8 @@ bool NearPairs::is_idle(const btBroadphasePair& pair) {
 void NearPairs::visit(btBroadphasePair& pair, const btDispatcherInfo& info) {
   const btCollisionObject& first = body_of(pair.m_pProxy0);
   const btCollisionObject& second = body_of(pair.m_pProxy1);
-  if (!first.getCollisionShape()->isCompound() || !second.getCollisionShape()->isCompound()) {
+  if (!IdleMark::is_compound(pair) && !IdleMark::is_set(pair) &&
+      (!first.getCollisionShape()->isCompound() || !second.getCollisionShape()->isCompound())) {
     dispatcher_.getNearCallback()(pair, dispatcher_, info);
   } else if ((first.isActive() || second.isActive()) && first.checkCollideWith(&second) &&
              second.checkCollideWith(&first)) {

@@ -83,6 +83,23 @@ TEST(RunCommand, IsContentWithASoundRunEvenWhenStrict) {
   EXPECT_EQ(outcome.err.find("warning: step"), std::string::npos) << outcome.err;
 }
 
+#ifndef __SANITIZE_ADDRESS__  // its allocator takes no memory from the heap
+TEST(RunCommand, HasItsHeapInHugePagesWhereTheSystemHasThem) {
+  if (!fs::exists("/sys/kernel/mm/transparent_hugepage")) return;
+  const Outcome outcome = shell(R"(
+"$TALUS" run drop_in_a_pile_2d --no-telemetry --policy full --set run.frames=100000 --hash >/dev/null &
+process=$!
+for attempt in $(seq 500); do
+  flags=$(awk '/^[0-9a-f]+-/ {heap = /\[heap\]/} heap && /^VmFlags/ {print}' /proc/$process/smaps)
+  grep -q ' hg' <<<"$flags" && break
+  sleep 0.01
+done
+kill -KILL $process
+echo "$flags")");
+  EXPECT_NE(outcome.out.find(" hg"), std::string::npos) << outcome.out << outcome.err;
+}
+#endif
+
 TEST(RunCommand, WritesOneRowAStep) {
   const TemporaryFolder folder;
   talus_command("run " + short_scene + "--out " + (folder / "run"));
