@@ -50,6 +50,7 @@ std::string curve_of_case(const CaseView& view);
 std::string sleeping_policy_of(const CaseView& view);
 
 /// The figures of the plot; without any point, none. At most seven curves in each.
-std::vector<Figure> figures_of(const BenchRunner& runner, const std::vector<BenchGroup>& groups, const CasePlot& wanted);
+std::vector<Figure> figures_of(const BenchRunner& runner, const std::vector<BenchGroup>& groups,
+                               const CasePlot& wanted);
 
 }  // namespace talus
