@@ -99,6 +99,7 @@ std::vector<ShapeKind<Dim>> shape_kinds() {
       kind_of<Dim, CapsuleParams>(
           "capsule", capsule_fields,
           [](const CapsuleParams& capsule) -> Pieces { return capsule_pieces<Dim>(capsule.length, capsule.radius); }),
+      kind_of<Dim, CylinderParams>("cylinder", cylinder_fields, cylinder_pieces<Dim>),
       kind_of<Dim, HullParams<Dim>>(
           "hull", hull_fields<Dim>,
           [](const HullParams<Dim>& hull) -> Pieces { return hull_pieces<Dim>(hull.corners); }),

@@ -139,6 +139,7 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[shape.NAME] L", rows_of<LParams>(l_fields)},
       {"[shape.NAME] ball", rows_of<BallParams>(ball_fields)},
       {"[shape.NAME] capsule", rows_of<CapsuleParams>(capsule_fields)},
+      {"[shape.NAME] cylinder", rows_of<CylinderParams>(cylinder_fields)},
       {"[shape.NAME] hull", rows_of<HullParams<3>>(hull_fields<3>)},
       {"[shape.NAME] polygon", rows_of<PolygonParams>(polygon_fields)},
       {"[shape.NAME] ring", rows_of<RingParams>(ring_fields)},

@@ -1,6 +1,7 @@
 #include "common/shape/catalogue.h"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 #include "common/math/require.h"
@@ -90,6 +91,23 @@ std::vector<Piece<Dim>> capsule_pieces(double length, double radius) {
 }
 
 template <int Dim>
+std::vector<Piece<Dim>> cylinder_pieces(const CylinderParams& params) {
+  check_fields<CylinderParams>(params, cylinder_fields, "cylinder");
+  if constexpr (Dim == 2) {
+    return box_pieces<2>({2.0 * params.radius, params.length});
+  } else {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < params.sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / params.sides;
+      for (const double z : {-params.length / 2.0, params.length / 2.0}) {
+        corners.emplace_back(params.radius * std::cos(angle), params.radius * std::sin(angle), z);
+      }
+    }
+    return hull_pieces<3>(corners);
+  }
+}
+
+template <int Dim>
 std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners) {
   if constexpr (Dim == 3) {
     check_piece<3>(HullPiece<3>{{corners.begin(), corners.end()}}, "hull");
@@ -126,6 +144,8 @@ template std::vector<Piece<2>> ball_pieces(double);
 template std::vector<Piece<3>> ball_pieces(double);
 template std::vector<Piece<2>> capsule_pieces(double, double);
 template std::vector<Piece<3>> capsule_pieces(double, double);
+template std::vector<Piece<2>> cylinder_pieces(const CylinderParams&);
+template std::vector<Piece<3>> cylinder_pieces(const CylinderParams&);
 template std::vector<Piece<2>> hull_pieces(std::span<const Vec<2>>);
 template std::vector<Piece<3>> hull_pieces(std::span<const Vec<3>>);
 template std::vector<Piece<2>> polygon_pieces(std::span<const Vec2>, double);

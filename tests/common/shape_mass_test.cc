@@ -72,6 +72,34 @@ TEST(CapsuleShape, IsACylinderBetweenHalfBallsInSpace) {
   expect_diagonal(capsule.inertia, along, across, across);
 }
 
+// The base is a regular polygon of n sides in a circle of radius r: area n r^2 / 2 sin(2 pi / n), and about the axis
+// the mean of the squared distance is r^2 (2 + cos(2 pi / n)) / 6.
+TEST(CylinderShape, IsAPrismOverARegularPolygonInSpace) {
+  const double r = 0.5;
+  const double length = 2.0;
+  const int sides = 16;
+  const Shape<3> cylinder = make_shape("c", cylinder_pieces<3>({length, r, sides}), unit_density);
+  const double turn = 2.0 * pi / sides;
+  const double volume = length * sides * r * r / 2.0 * std::sin(turn);
+  const double along = volume * r * r * (2.0 + std::cos(turn)) / 6.0;
+  const double across = along / 2.0 + volume * length * length / 12.0;
+  EXPECT_NEAR(cylinder.volume, volume, rounding * 10.0);
+  expect_diagonal(cylinder.inertia, across, across, along);
+  EXPECT_NEAR(1.0 - volume / (length * pi * r * r), 0.026, 5e-4) << "as docs/scenes.md states";
+}
+
+TEST(CylinderShape, IsARectangleInThePlane) {
+  const Shape<2> cylinder = make_shape("c", cylinder_pieces<2>({2.0, 0.5, 16}), unit_density);
+  EXPECT_NEAR(cylinder.volume, 2.0, rounding);
+  EXPECT_NEAR(cylinder.bounds.sizes().x(), 1.0, rounding);
+}
+
+TEST(CylinderShape, IsRefusedOutsideOfItsRanges) {
+  EXPECT_THROW(cylinder_pieces<3>({2.0, 0.5, 2}), std::invalid_argument);
+  EXPECT_THROW(cylinder_pieces<3>({-2.0, 0.5, 16}), std::invalid_argument);
+  EXPECT_THROW(cylinder_pieces<2>({2.0, 0.0, 16}), std::invalid_argument);
+}
+
 // A triangle's inertia about its centre is m (a^2 + b^2 + c^2) / 36.
 TEST(PolygonShape, OfThreeCornersIsATriangle) {
   const std::vector<Vec2> corners = {{1.0, 1.0}, {4.0, 1.0}, {1.0, 5.0}};
