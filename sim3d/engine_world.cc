@@ -111,11 +111,14 @@ template <int Dim>
 void EngineWorld<Dim>::engine_remove(BodyIndex body) {
   swap_.forget(body);
   engine_.broadphase.destroyProxy(at(body)->getBroadphaseHandle(), &engine_.dispatcher);
-  if (rigid_body(body) != nullptr) {
+  const bool frozen = rigid_body(body) == nullptr;
+  const auto leaving = std::move(at(body));  // outlives Bullet's lists of it
+  if (!frozen) {
     std::erase(listed_, body);
+  }
+  if (!frozen || this->description().debug.keep_sleepers) {
     update_lists();
   }
-  at(body).reset();
 }
 
 template <int Dim>

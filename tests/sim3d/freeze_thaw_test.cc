@@ -163,5 +163,17 @@ TEST(RemovedBody, TakesItsPairsAlongAsleepOrAwake) {
   EXPECT_EQ(world->awake().size(), 37U);
 }
 
+TEST(RemovedBody, LeavesBulletsListsWhereSleepersAreInThem) {
+  WorldDescription<3> description = l_world<3>();
+  description.debug.keep_sleepers = true;
+  const auto world = make_bullet_world(description);
+  add_stack(*world, 4, 2);
+  world->freeze(std::vector<BodyIndex>{0, 1});
+  EXPECT_EQ(engine_of(*world).world.listed_objects(), 5);  // with the ground
+  world->remove(0);
+  EXPECT_EQ(engine_of(*world).world.listed_objects(), 4);
+  run(*world, 5);
+}
+
 }  // namespace
 }  // namespace talus::freeze_thaw_test
