@@ -1,15 +1,20 @@
 #include "lcmtypes/live_link.h"
 
 #include <arpa/inet.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <iterator>
 #include <lcm/lcm-cpp.hpp>
 #include <stdexcept>
 #include <string_view>
+
+#include "common/math/require.h"
 
 namespace talus {
 namespace {
@@ -23,6 +28,23 @@ std::string group_of(std::string_view url) {
   url.remove_prefix(url.find("://") + 3);
   const std::string_view address = url.substr(0, url.find_first_of(":?"));
   return address.empty() ? "239.255.76.67" : std::string(address);
+}
+
+bool is_multicast_group(const std::string& group) {
+  in_addr address{};
+  return inet_pton(AF_INET, group.c_str(), &address) == 1 && IN_MULTICAST(ntohl(address.s_addr));
+}
+
+/// Whether the port of a multicast url is one, or left out.
+bool port_holds(std::string_view url) {
+  url.remove_prefix(url.find("://") + 3);
+  url = url.substr(0, url.find('?'));
+  const std::size_t colon = url.find(':');
+  if (colon == std::string_view::npos) return true;
+  const std::string_view text = url.substr(colon + 1);
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  return error == std::errc() && end == text.data() + text.size() && port >= 1 && port <= 65535;
 }
 
 /// Whether the operating system has a route for an address. True for what is no address: LCM reports more
@@ -65,6 +87,21 @@ std::string receiving_url(const std::string& url) {
   return fmt::format("{}{}recv_buf_size={}", address, address.find('?') == std::string::npos ? '?' : '&', bytes);
 }
 
+void check_url(const std::string& url) {
+  const std::string address = effective_url(url);
+  const std::string_view option = url.empty() ? "LCM_DEFAULT_URL" : "--lcm-url";
+  constexpr std::string_view transports[] = {"udpm", "mpudpm", "tcpq", "memq", "file"};
+  const std::size_t colon = std::min(address.find("://"), address.size());
+  const bool known =
+      std::find(std::begin(transports), std::end(transports), address.substr(0, colon)) != std::end(transports);
+  require(known && colon < address.size(), option, address,
+          fmt::format("must begin with {}://", fmt::join(transports, "://, ")));
+  if (!is_multicast(address)) return;
+  require(is_multicast_group(group_of(address)), option, address,
+          "must name a group from 224.0.0.0 to 239.255.255.255");
+  require(port_holds(address), option, address, "must name a port from 1 to 65535");
+}
+
 void require_local(const std::string& url) {
   if (!is_multicast(url)) return;
   std::string_view options = url;
@@ -73,8 +110,8 @@ void require_local(const std::string& url) {
     const std::string_view option = options.substr(0, options.find('&'));
     options.remove_prefix(std::min(option.size() + 1, options.size()));
     if (option.starts_with("ttl=") && option != "ttl=0") {
-      throw std::invalid_argument(fmt::format(
-          "LCM address \"{}\": {} sends to the whole network; rule: ttl=0 unless allow_network is set", url, option));
+      throw std::invalid_argument(
+          fmt::format("LCM address = {}: must have ttl=0: {} sends to the whole network", url, option));
     }
   }
 }

@@ -22,6 +22,11 @@ std::string effective_url(const std::string& url);
 /// the kernel allows (sysctl net.core.rmem_max), so that bursts are not lost.
 std::string receiving_url(const std::string& url);
 
+/// Throws std::invalid_argument unless effective_url(url) is an address that LCM reads: the name of one of its
+/// transports, and for multicast a group from 224.0.0.0 to 239.255.255.255 and a port. Whether it can be reached is not
+/// tried.
+void check_url(const std::string& url);
+
 /// Throws std::invalid_argument when packets to this address would leave the machine (ttl is not 0).
 void require_local(const std::string& effective_url);
 

@@ -4,6 +4,8 @@
 #include <spdlog/spdlog.h>
 
 #include <new>
+#include <string>
+#include <vector>
 
 #include "common/scene/diagnostics.h"
 #include "common/text/printable.h"
@@ -53,6 +55,13 @@ int execute(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();
+  } catch (const CLI::RequiredError& error) {
+    if (const std::vector<std::string> unknown = app.remaining(true); !unknown.empty()) {
+      talus::print_message("talus: {}: must be a sub-command or an option; see --help", unknown.front());
+      return talus::exit_codes::bad_input;
+    }
+    app.exit(error);
+    return talus::exit_codes::bad_input;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? talus::exit_codes::success : talus::exit_codes::bad_input;
   } catch (const talus::SceneErrors& errors) {

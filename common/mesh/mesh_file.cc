@@ -123,11 +123,13 @@ void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std:
 }
 
 std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh) {
-  std::string line;
-  std::ifstream in(file);
+  const std::string expected = header(mesh) + '\n';
+  std::string found(expected.size(), '\0');  // no more than that: the file may be a device that never ends
+  std::ifstream in(file, std::ios::binary);
+  const bool readable = static_cast<bool>(in) && in.read(found.data(), static_cast<std::streamsize>(found.size()));
   const std::string command = "as `talus decompose` does";
-  require(static_cast<bool>(std::getline(in, line)), "parts of mesh", file.string(), "must be made first, " + command);
-  require(line == header(mesh), "parts of mesh", file.string(),
+  require(readable || in.gcount() > 0, "parts of mesh", file.string(), "must be made first, " + command);
+  require(found == expected, "parts of mesh", file.string(),
           "must be made again, " + command + ": the mesh has changed");
   const ObjFile obj = read_obj(file);
   std::vector<Mesh> parts;

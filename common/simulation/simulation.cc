@@ -143,7 +143,7 @@ void Simulation<Dim>::apply() {
 template <int Dim>
 void Simulation<Dim>::show() {
   if (!watched()) return;
-  watchdog_.look(*world_, events_, step_);
+  watchdog_.check(*world_, events_, step_);
   const Frame<Dim> finished = frame();
   for (Observer<Dim>* observer : observers_) observer->on_frame(finished);
 }

@@ -47,31 +47,31 @@ void Watchdog<Dim>::note_added(const World<Dim>& world, std::int64_t step) {
 }
 
 template <int Dim>
-void Watchdog<Dim>::look(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step) {
+void Watchdog<Dim>::check(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step) {
   const BodyStates<Dim>& states = world.states();
   for (const BodyIndex body : world.awake()) {
     ledger_.note_state(world, body);
-    look_at_place(states, body, step);
-    look_at_speed(states, body, step);
+    check_place(states, body, step);
+    check_speed(states, body, step);
   }
   for (const SleepEvent& event : events) {
     if (states.asleep[static_cast<std::size_t>(event.body)] == 0) continue;
     ledger_.note_state(world, event.body);
-    look_at_place(states, event.body, step);
+    check_place(states, event.body, step);
   }
   ledger_.close_step();
-  look_at_energy(world, step);
+  check_energy(world, step);
 }
 
 template <int Dim>
-void Watchdog<Dim>::look_at_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
+void Watchdog<Dim>::check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
   const Vec<Dim>& place = states.pose[static_cast<std::size_t>(body)].position;
   if (height<Dim>(place) < lowest_) note(WarningKind::below_ground, body, step, ground_ - height<Dim>(place));
   if (farthest<Dim>(place) > farthest_place) note(WarningKind::outside_world, body, step, farthest<Dim>(place));
 }
 
 template <int Dim>
-void Watchdog<Dim>::look_at_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
+void Watchdog<Dim>::check_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
   const auto i = static_cast<std::size_t>(body);
   const double speed = states.velocity[i].squaredNorm();
   const double spin = states.spin[i].squaredNorm();
@@ -80,7 +80,7 @@ void Watchdog<Dim>::look_at_speed(const BodyStates<Dim>& states, BodyIndex body,
 }
 
 template <int Dim>
-void Watchdog<Dim>::look_at_energy(const World<Dim>& world, std::int64_t step) {
+void Watchdog<Dim>::check_energy(const World<Dim>& world, std::int64_t step) {
   if (ledger_.rise() <= ledger_.tolerance()) return;
   const auto known = std::ranges::find(warnings_, WarningKind::energy, &Warning::kind);
   if (known != warnings_.end()) {

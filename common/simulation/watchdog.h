@@ -26,7 +26,7 @@ class Watchdog {
   }
 
   /// After a step and the policy's decision. `events` are those of the step.
-  void look(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step);
+  void check(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step);
 
   /// After the last step.
   void finish(const World<Dim>& world, std::int64_t step);
@@ -38,9 +38,9 @@ class Watchdog {
 
  private:
   int due_by(double time) const;
-  void look_at_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
-  void look_at_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
-  void look_at_energy(const World<Dim>& world, std::int64_t step);
+  void check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
+  void check_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
+  void check_energy(const World<Dim>& world, std::int64_t step);
   void note(WarningKind kind, BodyIndex body, std::int64_t step, double value);
 
   std::vector<Source<Dim>> sources_;

@@ -28,15 +28,15 @@ void check_pose(const Pose<Dim>& pose, const std::string& field) {
   check_rotation<Dim>(pose.rotation, field + ".rotation");
 }
 
-// Both limits come from the engines' contact skins: Bullet 3.24 lets cubes of 0.04 m sink through the ground (margin
-// 0.04 m), Box2D 2.4.1 keeps bodies 0.005 m apart (b2_linearSlop) and welds corners that lie closer.
+// Both limits come from the engines' contact skins; Box2D 2.4.1 keeps bodies 0.005 m apart (b2_linearSlop) and welds
+// corners that lie closer.
 template <int Dim>
 void check_width(const Piece<Dim>& piece, const std::string& field) {
   if constexpr (Dim == 2) {
     require(smallest_width(piece) >= 0.005, field + " width", smallest_width(piece),
             "must be at least 0.005 m, better 0.5 m: Box2D's contacts keep a gap of that size");
   } else {
-    require(smallest_width(piece) >= 0.05, field + " width", smallest_width(piece),
+    require(smallest_width(piece) >= thinnest_piece_in_space, field + " width", smallest_width(piece),
             "must be at least 0.05 m, better 0.2 m: Bullet's contacts miss what is thinner");
   }
 }

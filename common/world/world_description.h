@@ -110,6 +110,9 @@ void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description);
 /// best and contacts jitter.
 inline constexpr double farthest_place = 1e4;
 
+/// Least width of a piece in 3D [m]: Bullet 3.24 lets cubes of 0.04 m sink through the ground (margin 0.04 m).
+inline constexpr double thinnest_piece_in_space = 0.05;
+
 /// Fastest that a body may be given [m/s] with steps of `dt` [s]. Box2D moves a body by at most 2 m a step
 /// (b2_maxTranslation); Bullet's continuous collision was tried up to 500 m/s.
 template <int Dim>

@@ -36,11 +36,11 @@ class Watch {
   void step(int steps = 1) {
     for (int i = 0; i < steps; ++i) {
       world.step();
-      look();
+      check();
     }
   }
-  void look() {
-    dog_.look(world, events_, ++step_);
+  void check() {
+    dog_.check(world, events_, ++step_);
     events_.clear();
   }
   void freeze(BodyIndex body) {
@@ -73,8 +73,8 @@ TEST(Watchdog, CountsEachBodyBelowTheGroundOnceWithItsFirstStep) {
   Watch watch;
   watch.add(0.0, 5.0);
   watch.add(2.0, -0.2);  // the world lifts it to 0.5 in its first step
-  watch.dog().look(watch.world, {}, 1);
-  watch.dog().look(watch.world, {}, 2);
+  watch.dog().check(watch.world, {}, 1);
+  watch.dog().check(watch.world, {}, 2);
   ASSERT_EQ(watch.warnings().size(), 1U);
   EXPECT_EQ(watch.warnings()[0].kind, WarningKind::below_ground);
   EXPECT_EQ(watch.warnings()[0].step, 1);
@@ -86,7 +86,7 @@ TEST(Watchdog, CountsEachBodyBelowTheGroundOnceWithItsFirstStep) {
 TEST(Watchdog, AllowsTheGapThatEnginesKeepInContact) {
   Watch watch;
   watch.add(0.0, -0.009);
-  watch.dog().look(watch.world, {}, 1);
+  watch.dog().check(watch.world, {}, 1);
   EXPECT_TRUE(watch.warnings().empty());
 }
 
@@ -94,7 +94,7 @@ TEST(Watchdog, SeesABodyThatIsFrozenBelowTheGround) {
   Watch watch;
   const BodyIndex body = watch.add(0.0, -0.3);
   watch.freeze(body);
-  watch.look();
+  watch.check();
   ASSERT_EQ(watch.warnings().size(), 1U);
   EXPECT_EQ(watch.warnings()[0].kind, WarningKind::below_ground);
 }

@@ -148,6 +148,18 @@ TEST(DiskFault, AFileThatMayNotGrowEndsARunWithAMessage) {
   EXPECT_NE(outcome.err.find("File too large"), std::string::npos) << outcome.err;
 }
 
+/// One body leaves frames.csv the largest file.
+TEST(DiskFault, FramesThatCannotBeWrittenEndARunWithAMessage) {
+  const TemporaryFolder folder;
+  for (const int kilobytes : {16, 40}) {
+    const Outcome outcome = shell_in(folder, "ulimit -f " + std::to_string(kilobytes) + R"(; "$TALUS" run \
+      drop_in_a_pile_2d --no-telemetry --set source[0].count=1 --set run.frames=300 --out run)" +
+                                                 std::to_string(kilobytes));
+    EXPECT_EQ(outcome.exit_code, 1) << kilobytes << outcome.err;
+    EXPECT_NE(outcome.err.find("frames.csv: File too large"), std::string::npos) << outcome.err;
+  }
+}
+
 class MemoryFault : public ::testing::TestWithParam<const char*> {};
 
 /// Drops a grid of 3000 bodies at once in address spaces from the least in which the program starts to 38 MB above.

@@ -42,6 +42,18 @@ TEST(LiveLink, ReceivesWithTheLargestBufferThatTheKernelAllowsUnlessTheAddressSa
   EXPECT_EQ(receiving_url("memq://"), "memq://");
 }
 
+TEST(LiveLink, RefusesWhatIsNoAddress) {
+  for (const char* good : {"udpm://", "udpm://239.255.76.67:7667?ttl=0", "udpm://224.0.0.1", "mpudpm://?ttl=0",
+                           "memq://", "udpm://?recv_buf_size=5", "file:///tmp/x?mode=w", "tcpq://localhost:7700"}) {
+    EXPECT_NO_THROW(check_url(good)) << good;
+  }
+  for (const char* bad : {"nonsense", "udpm:/", "UDPM://", "http://example.org", "udpm://nowhere",
+                          "udpm://10.0.0.1:7667", "udpm://239.255.76.67:0", "udpm://239.255.76.67:7667x",
+                          "udpm://239.255.76.67:99999", "udpm://239.255.76.67:"}) {
+    EXPECT_THROW(check_url(bad), std::invalid_argument) << bad;
+  }
+}
+
 TEST(LiveLink, SaysWhatItCannotOpen) {
   EXPECT_NE(open_live_link("nosuch://").problem, "");
   EXPECT_EQ(open_live_link("memq://").problem, "");

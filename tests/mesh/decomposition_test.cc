@@ -88,6 +88,16 @@ TEST(Decomposition, OfTheBunnyFillsIt) {
   EXPECT_LT(result.parts.size(), 24u);
 }
 
+TEST(Decomposition, TellsTheLeastLongestSideAtWhichASceneAcceptsItsParts) {
+  BoxPiece<3> plate;
+  plate.half = {1.5, 1.5, 0.01};
+  const Mesh mesh = surface_of({plate});
+  const Decomposition result = decomposed(mesh, {});
+  const double least = 0.05 * 3.0 / 0.02;
+  EXPECT_GE(least_longest_side(mesh, result.parts), least);
+  EXPECT_LE(least_longest_side(mesh, result.parts), 1.01 * least);
+}
+
 // Where shells overlap the mesh counts its volume twice, its parts do not.
 TEST(Decomposition, ThatCannotHaveTheMeshsVolumeFails) {
   const BoxPiece<3> box;

@@ -28,7 +28,7 @@ std::size_t lines(const fs::path& file) {
 Json results_of(const TemporaryFolder& folder, const std::string& name, const std::string& options) {
   const Outcome outcome = talus_command("bench " + name + tiny + options + " --out " + (folder / name));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("Quick: "), std::string::npos) << "what quick leaves out must be said";
+  EXPECT_NE(outcome.err.find("Quick: "), std::string::npos) << "what quick leaves out must be said";
   EXPECT_NE(outcome.err.find(" left\n"), std::string::npos) << "progress with the time left";
   const fs::path out = folder.path() / name;
   const std::string html = contents(out / "report.html");
@@ -186,10 +186,10 @@ TEST(Bench, RefusesBadInput) {
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
   };
   refused("table1 --scene drop_in_a_pil", "drop_in_a_pile");
-  refused("table1 --scene drop_in_a_pile_2d --policy pape --quick", "policy.kind");
+  refused("table1 --scene drop_in_a_pile_2d --policy pape --quick", "--policy");
   refused("table1 --rounds -1", "--rounds");
   refused("table1 --share 1.5", "--share");
-  refused("table7", "subcommand");
+  refused("table7", "table7");
 }
 
 TEST(Bench, RefusesRowsOfAnotherKindAndKeepsThem) {

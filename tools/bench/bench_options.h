@@ -30,7 +30,7 @@ struct BenchOptions {
   bool errors = true;
 };
 
-/// Fills in the defaults. Throws std::invalid_argument on values out of range.
+/// Fills in the defaults.
 BenchOptions completed(BenchOptions options, const std::string& name);
 
 }  // namespace talus

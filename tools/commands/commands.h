@@ -2,6 +2,9 @@
 // The sub-commands of `talus`. Each adds itself to the command line and sets `exit_code` when it has run.
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
 namespace talus {
 
@@ -15,6 +18,17 @@ inline constexpr int interrupted = 130;  // Ctrl-C; all is saved
 /// For options with a text: `--out ''` is not the same as no --out.
 inline CLI::Validator not_empty() {
   return {[](const std::string& text) { return std::string(text.empty() ? "must not be empty" : ""); }, ""};
+}
+
+/// For options with a file to write: its folder must be there.
+inline CLI::Validator in_a_folder() {
+  return {[](const std::string& text) {
+            const std::filesystem::path folder = std::filesystem::path(text).parent_path();
+            std::error_code unused;
+            const bool there = !text.empty() && (folder.empty() || std::filesystem::is_directory(folder, unused));
+            return there ? std::string() : text + ": must be a file in a folder that exists";
+          },
+          ""};
 }
 
 void add_run_command(CLI::App& app, int& exit_code);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 namespace talus {
@@ -21,6 +24,17 @@ inline CLI::Validator number_between(double low, double high, Bound lower = Boun
                        low, high);
   };
   return CLI::Validator(check, fmt::format("NUMBER in {}{:g}, {:g}]", lower == Bound::kept ? '[' : '(', low, high));
+}
+
+/// For an option: a whole number from 0 to the largest of 64 bits. CLI11 takes a larger one for the largest.
+inline CLI::Validator whole_number() {
+  const auto check = [](const std::string& text) -> std::string {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc() && end == text.data() + text.size() && value >= 0) return {};
+    return fmt::format("{}: must be a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max());
+  };
+  return CLI::Validator(check, "WHOLE NUMBER");
 }
 
 }  // namespace talus

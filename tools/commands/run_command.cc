@@ -29,7 +29,8 @@ void add_scene_options(CLI::App& command, RunOptions& options) {
   command.add_option("-s,--set", options.settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--seed", options.seed, "Seed of all that is random in the scene, 0 or more");
+  command.add_option("--seed", options.seed, "Seed of all that is random in the scene, 0 or more")
+      ->check(whole_number());
 }
 
 /// What the run leaves, sends and prints.

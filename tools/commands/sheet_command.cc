@@ -5,6 +5,7 @@
 
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/number_between.h"
 #include "tools/output/output.h"
 #include "tools/picture/contact_sheet.h"
 
@@ -40,11 +41,17 @@ void add_sheet_command(CLI::App& app, int& exit_code) {
   auto runs = std::make_shared<std::vector<std::string>>();
   auto out = std::make_shared<std::string>();
   auto params = std::make_shared<ContactSheetParams>();
-  command->add_option("runs", *runs, "Run folders, as `talus run` leaves them")->required();
-  command->add_option("-o,--out", *out, "PNG to write; overwritten if there")->required();
-  command->add_option("--columns", params->columns, "Pictures in a row, 1 to 20")->capture_default_str();
-  command->add_option("--width", params->tile_width, "Width of each, 100 to 4000 pixels")->capture_default_str();
-  command->add_option("--font", params->font_size, "Size of the captions, pixels")->capture_default_str();
+  command->add_option("runs", *runs, "Run folders, as `talus run` leaves them")->required()->check(not_empty());
+  command->add_option("-o,--out", *out, "PNG to write; overwritten if there")->required()->check(in_a_folder());
+  command->add_option("--columns", params->columns, "Pictures in a row")
+      ->check(number_between(1, 20))
+      ->capture_default_str();
+  command->add_option("--width", params->tile_width, "Width of each [pixels]")
+      ->check(number_between(100, 4000))
+      ->capture_default_str();
+  command->add_option("--font", params->font_size, "Size of the captions [pixels]")
+      ->check(number_between(0, 500, Bound::left_out))
+      ->capture_default_str();
   command->callback([=, &exit_code] {
     write_sheet(*out, *runs, *params);
     exit_code = exit_codes::success;

@@ -30,6 +30,8 @@ void print_report(const Mesh& mesh, const Decomposition& decomposition, const st
     print_result("  part {}: {} corners, volume {:.3g} times the mesh's\n", i, parts[i].corners.size(),
                  moments(parts[i]).volume / volume);
   }
+  print_result("usable from longest_side = {:.3g} m on: the thinnest part must be {} m wide\n",
+               least_longest_side(mesh, parts), thinnest_piece_in_space);
   print_result("{}\n", file.string());
 }
 

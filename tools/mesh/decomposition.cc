@@ -62,9 +62,17 @@ Decomposition best_number_of_parts(const Mesh& mesh, ConvexPartsParams params) {
 
 }  // namespace
 
+double least_longest_side(const Mesh& mesh, std::span<const Mesh> parts) {
+  double thinnest = longest_side(mesh);
+  for (const Mesh& part : parts) thinnest = std::min(thinnest, smallest_width<3>(HullPiece<3>{part.corners}));
+  const double side = thinnest_piece_in_space * longest_side(mesh) / thinnest;
+  const double digit = std::pow(10.0, std::floor(std::log10(side)) - 2.0);
+  return std::ceil(side / digit) * digit;
+}
+
 Decomposition decomposed(const Mesh& mesh, const ConvexPartsParams& params) {
   require(mesh.triangles.size() <= most_triangles, "mesh triangles", static_cast<double>(mesh.triangles.size()),
-          "must be at most 5000 to be decomposed; simplify the mesh first");
+          "must be at most 2500 to be decomposed; simplify the mesh first");
   const Mesh hull = hull_mesh(mesh.corners);
   if (fills_mesh(moments(hull).volume / moments(mesh).volume, convexity_tolerance)) {
     const bool few = hull.corners.size() <= static_cast<std::size_t>(params.corners);

@@ -1,17 +1,22 @@
 #pragma once
 // Convex parts whose volume is that of the mesh.
 
+#include <span>
 #include <vector>
 
+#include "common/world/world_description.h"
 #include "tools/mesh/convex_parts.h"
 
 namespace talus {
 
 /// The thinnest part that a scene accepts at the default longest side of 1 m, as a share of the mesh's longest side.
-constexpr double thinnest_part = 0.05;
+constexpr double thinnest_part = thinnest_piece_in_space;
 
 /// Largest mesh that is decomposed: HACD's time grows with the square of the number of triangles.
-constexpr std::size_t most_triangles = 5000;
+constexpr std::size_t most_triangles = 2500;
+
+/// The least `longest_side` [m] at which a scene accepts the parts, rounded up to three digits.
+double least_longest_side(const Mesh& mesh, std::span<const Mesh> parts);
 
 struct Decomposition {
   std::vector<Mesh> parts;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lcmtypes/live_link.h"
+#include "tools/commands/commands.h"
 #include "tools/commands/number_between.h"
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
@@ -26,6 +27,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 std::string problem_with(const std::string& url) { return open_live_link(url).problem; }
 
 int run_monitor(const MonitorParams& params, const std::string& url) {
+  check_url(url);
   const std::string address = receiving_url(url);
   if (const std::string problem = problem_with(address); !problem.empty()) {
     print_message("talus monitor: {}", problem);
@@ -48,7 +50,8 @@ void add_monitor_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("monitor", "Watch running simulations over LCM, a line per second and run");
   const auto params = std::make_shared<MonitorParams>();
   const auto url = std::make_shared<std::string>();
-  command->add_option("--lcm-url", *url, "Where to listen; else LCM_DEFAULT_URL, else this machine's runs");
+  command->add_option("--lcm-url", *url, "Where to listen; else LCM_DEFAULT_URL, else this machine's runs")
+      ->check(not_empty());
   command->add_option("--seconds", params->seconds, "Stop after so many seconds; else Ctrl-C stops")
       ->check(number_between(0.0, 1e9, Bound::left_out));
   command->add_option("--interval", params->interval, "Seconds between two lines of one run")

@@ -225,8 +225,8 @@ void add_compare_command(CLI::App& app, int& exit_code) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  command->add_option("run_a", options->a, "Run folder, in the role of the full run")->required();
-  command->add_option("run_b", options->b, "Run folder")->required();
+  command->add_option("run_a", options->a, "Run folder, in the role of the full run")->required()->check(not_empty());
+  command->add_option("run_b", options->b, "Run folder")->required()->check(not_empty());
   command->add_flag("--json", options->json, "As JSON");
   command->callback([options, &exit_code] { exit_code = compare(options->a, options->b, options->json); });
 }

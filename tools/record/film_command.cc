@@ -8,6 +8,7 @@
 #include "common/math/require.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/number_between.h"
 #include "tools/output/output.h"
 #include "tools/picture/webp.h"
 #include "tools/record/record_commands.h"
@@ -129,13 +130,17 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
 void add_film_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("film", "Make a moving picture of a recorded run");
   auto options = std::make_shared<FilmOptions>();
-  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required();
-  command->add_option("-o,--out", options->out, "Animated WebP to write, overwritten if there")->required();
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
+  command->add_option("-o,--out", options->out, "Animated WebP to write, overwritten if there")
+      ->required()
+      ->check(in_a_folder());
   command->add_option("--from", options->from, "Simulated time at which the film begins [s]")->capture_default_str();
   command->add_option("--to", options->to, "Simulated time at which it ends [s]; default: the run's end");
   command->add_option("--speed", options->speed, "Simulated seconds per second of film")->capture_default_str();
   command->add_option("--rate", options->rate, "Frames per second of film, 1 to 50")->capture_default_str();
-  command->add_option("--width", options->width, "Width, 200 to 8000 pixels")->capture_default_str();
+  command->add_option("--width", options->width, "Width [pixels]")
+      ->check(number_between(200, 8000))
+      ->capture_default_str();
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
   command->callback([options, &exit_code] {
     check(*options);

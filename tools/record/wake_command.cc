@@ -97,7 +97,9 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
   if (options.full.empty()) return json;
   const AnyRecordedRun other = read_run(options.full);
   const auto* full = std::get_if<RecordedRun<Dim>>(&other);
-  if (full == nullptr) throw std::invalid_argument("--full: must be of the run's dimension");
+  if (full == nullptr)
+    throw std::invalid_argument(
+        fmt::format("--full = {}: must be a run of the same dimension, {}D", options.full, Dim));
   const WakeTest of_full = wake(*full, options.seconds);
   json["full_run"] = wake_json(of_full, extent);
   json["beyond_full_run"] = wake_json(excess(test, of_full), extent);
@@ -164,8 +166,9 @@ void add_wake_command(CLI::App& app, int& exit_code) {
       "Take a finished pile: what still falls counts as displaced.\n"
       "Example: talus wake runs/pile-paper --full runs/pile-full");
   auto options = std::make_shared<WakeOptions>();
-  command->add_option("run", options->run, "Run folder")->required();
-  command->add_option("--full", options->full, "Run folder of the full run, whose own drift is taken off");
+  command->add_option("run", options->run, "Run folder")->required()->check(not_empty());
+  command->add_option("--full", options->full, "Run folder of the full run, whose own drift is taken off")
+      ->check(not_empty());
   command->add_option("--seconds", options->seconds, "Simulated after waking")
       ->check(number_between(0.0, longest_wake, Bound::left_out))
       ->capture_default_str();

@@ -53,8 +53,8 @@ Backend<Dim> find_backend(std::string_view name) {
     if (known.traits.name == name) return known;
   }
   throw std::invalid_argument(fmt::format(
-      "backend = \"{}\": a scene in {}D runs here on {}", name, Dim,
-      names<Dim>().empty() ? "no engine: none was built in" : fmt::format("{}", fmt::join(names<Dim>(), ", "))));
+      "--backend = {}: must be {} for a scene in {}D", name,
+      names<Dim>().empty() ? "built in, as no engine is," : fmt::format("{}", fmt::join(names<Dim>(), " or ")), Dim));
 }
 
 }  // namespace

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <cerrno>
+#include <system_error>
 
 #include "common/world/energy.h"
 
 namespace talus {
 
 template <int Dim>
-FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file) : out_(file) {
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file) : file_(file), out_(file) {
+  require_written();
   out_ << "step,time_s,bodies,awake,slept,woken,piles,layers,occupation_ratio,kinetic_energy_J";
   for (const Phase& phase : all_phases) out_ << ',' << phase.name << "_ms";
   out_ << '\n';
@@ -31,11 +32,19 @@ void FramesCsv<Dim>::on_frame(const Frame<Dim>& frame) {
                       frame.piles.piles().size(), layers, ratio, kinetic_energy(frame.world));
   for (const Phase& phase : all_phases) out_ << fmt::format(",{:.5f}", 1e3 * frame.phases.*phase.time);
   out_ << '\n';
+  require_written();
 }
 
 template <int Dim>
 void FramesCsv<Dim>::on_end(const Frame<Dim>&, std::string_view) {
   out_.flush();
+  require_written();
+}
+
+/// Throws where the file cannot take what was written, as on a full disk.
+template <int Dim>
+void FramesCsv<Dim>::require_written() const {
+  if (!out_) throw std::system_error(errno, std::generic_category(), file_.string());
 }
 
 template class FramesCsv<2>;

@@ -12,6 +12,9 @@
 #include "common/simulation/stopwatch.h"
 #include "common/text/printable.h"
 #include "common/world/errors.h"
+#ifdef TALUS_LCM
+#include "lcmtypes/live_link.h"
+#endif
 #include "tools/commands/commands.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
@@ -107,6 +110,13 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
   return exit_code_of(reason, options.strict, simulation);
 }
 
+#ifdef TALUS_LCM
+void check_live_url(const std::string& url) {
+  check_url(url);
+  require_local(effective_url(url));
+}
+#endif
+
 std::string backend_for(const RunOptions& options, int dimension) {
   const std::vector<std::string> engines = backends(dimension);
   return options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
@@ -115,6 +125,9 @@ std::string backend_for(const RunOptions& options, int dimension) {
 }  // namespace
 
 int run_scene(const RunOptions& options) {
+#ifdef TALUS_LCM
+  if (options.telemetry) check_live_url(options.lcm_url);
+#endif
   const std::filesystem::path file = find_scene(options.scene);
   const AnyScene scene = read_scene(file, overrides(options, "--policy", options.policy));
   // Read before the run, so that a policy that does not exist is refused before it.

@@ -1,0 +1,292 @@
+// Command lines that cannot be obeyed: each ends with exit code 2 and a message with option, value and rule, prints no
+// result and leaves no file.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "tests/process/process.h"
+
+namespace talus::bad_command_lines_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BadLine {
+  std::string arguments;
+  std::vector<std::string> told;  // in the message
+};
+
+/// A folder with what good command lines need: `flat` and `solid`, recorded runs; files that are nothing of the kind.
+class BadCommandLine : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    const std::string run = R"("$TALUS" run drop_in_a_pile_$dimension --no-telemetry --set run.frames=5 --out $name)";
+    const std::string script = "dimension=2d name=flat; " + run +
+#ifdef TALUS_BULLET
+                               "; dimension=3d name=solid; " + run +
+#endif
+                               R"(
+mkdir full empty; echo text >full/file; echo text >text; : >nothing.toml; echo 'title = 3' >wrong.toml
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >open.obj; printf 'v 0 0 nan\n' >nan.obj
+)";
+    ASSERT_EQ(shell(in_folder(script)).exit_code, 0);
+    before_ = entries();
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::string in_folder(const std::string& script) { return "cd " + folder_->path().string() + "\n" + script; }
+
+  static std::set<std::string> entries() {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_->path())) names.insert(entry.path().string());
+    return names;
+  }
+
+  static void refuse(const std::vector<BadLine>& lines) {
+    for (const BadLine& line : lines) {
+      const Outcome outcome = shell(in_folder("timeout 20 \"$TALUS\" " + line.arguments));
+      EXPECT_EQ(outcome.exit_code, 2) << line.arguments << "\n" << outcome.err;
+      EXPECT_EQ(outcome.out, "") << line.arguments;
+      for (const std::string& word : line.told) {
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << line.arguments << ": no " << word << " in\n"
+                                                             << outcome.err;
+      }
+      for (const std::string& entry : entries()) {
+        if (before_.contains(entry)) continue;
+        ADD_FAILURE() << line.arguments << ": leaves " << entry;
+        fs::remove_all(entry);
+      }
+    }
+  }
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::set<std::string> before_;
+};
+
+TEST_F(BadCommandLine, OfTheCommandItselfIsRefused) {
+  refuse({{"", {"subcommand"}},
+          {"walk", {"walk"}},
+          {"--nonsense", {"--nonsense"}},
+          {"run list", {"list"}},
+          {"list everything", {"everything"}},
+          {"list --json", {"--json"}},
+          {"'run '", {"run "}}});
+}
+
+TEST_F(BadCommandLine, OfRunWithoutASceneIsRefused) {
+  refuse({{"run", {"scene"}},
+          {"run ''", {"scene"}},
+          {"run no_such_scene", {"no_such_scene", "must be"}},
+          {"run no/such.toml", {"no/such.toml"}},
+          {"run full", {"full"}},
+          {"run nothing.toml", {"nothing.toml"}},
+          {"run wrong.toml", {"wrong.toml:1", "title"}},
+          {"run text", {"text:1"}},
+          {"run drop_in_a_pile_2d another", {"another"}},
+          {"run drop_in_a_pile_2d --sed 3", {"--sed"}}});
+}
+
+TEST_F(BadCommandLine, OfRunWithABadBackendOrPolicyIsRefused) {
+  refuse({{"run drop_in_a_pile_2d --backend", {"--backend"}},
+          {"run drop_in_a_pile_2d --backend ''", {"--backend"}},
+          {"run drop_in_a_pile_2d --backend havok", {"--backend", "havok", "box2d"}},
+          {"run drop_in_a_pile_2d --backend bullet", {"--backend", "bullet", "box2d"}},
+          {"run drop_in_a_pile_2d --backend BOX2D", {"--backend", "BOX2D", "box2d"}},
+          {"run drop_in_a_pile_2d --policy", {"--policy"}},
+          {"run drop_in_a_pile_2d --policy ''", {"--policy"}},
+          {"run drop_in_a_pile_2d --policy lazy", {"--policy", "lazy", "adaptive"}},
+          {"run drop_in_a_pile_2d -p full -p paper", {"--policy"}},
+          {"run drop_in_a_pile_2d --against lazy", {"--against", "lazy", "adaptive"}},
+          {"run drop_in_a_pile_2d --against ''", {"--against"}},
+          {"run drop_in_a_pile_2d --against full --hash", {"--against", "--hash"}}});
+}
+
+TEST_F(BadCommandLine, OfRunWithABadSettingOrSeedIsRefused) {
+  refuse({{"run drop_in_a_pile_2d --set", {"--set"}},
+          {"run drop_in_a_pile_2d --set ''", {"--set", "path=value"}},
+          {"run drop_in_a_pile_2d --set run.frames", {"--set run.frames", "path=value"}},
+          {"run drop_in_a_pile_2d --set =3", {"--set =3", "path=value"}},
+          {"run drop_in_a_pile_2d --set run.frames=-1", {"--set run.frames=-1", "must be"}},
+          {"run drop_in_a_pile_2d --set run.frames=many", {"--set run.frames=many", "must be"}},
+          {"run drop_in_a_pile_2d --set run.frame_rate=nan", {"--set run.frame_rate=nan", "must be"}},
+          {"run drop_in_a_pile_2d --set run.frame_rate=1e-45", {"--set run.frame_rate=1e-45", "must"}},
+          {"run drop_in_a_pile_2d --set walk.speed=3", {"--set walk.speed=3", "no such key"}},
+          {"run drop_in_a_pile_2d --set 'source[9].rate=3'", {"--set source[9].rate=3", "only"}},
+          {"run drop_in_a_pile_2d --set 'source[0.count=7'", {"--set source[0.count=7", "path=value"}},
+          {"run drop_in_a_pile_2d --set source.rate=3", {"--set source.rate=3", "source[0].rate"}},
+          {"run drop_in_a_pile_2d --set pile[0].growth_ratio=1e-45", {"growth_ratio=1e-45", "must be"}},
+          {"run drop_in_a_pile_2d --seed", {"--seed"}},
+          {"run drop_in_a_pile_2d --seed -1", {"--seed", "-1"}},
+          {"run drop_in_a_pile_2d --seed 1.5", {"--seed", "1.5"}},
+          {"run drop_in_a_pile_2d --seed 99999999999999999999", {"--seed", "99999999999999999999"}}});
+}
+
+TEST_F(BadCommandLine, OfRunWithABadFolderOrAddressIsRefused) {
+  refuse({{"run drop_in_a_pile_2d --out", {"--out"}},
+          {"run drop_in_a_pile_2d --out ''", {"--out"}},
+          {"run drop_in_a_pile_2d --out full", {"--out = full", "must be a new or empty folder"}},
+          {"run drop_in_a_pile_2d --out text", {"--out = text", "must be a new or empty folder"}},
+          {"run drop_in_a_pile_2d --out text/below", {"--out = text/below", "Not a directory"}},
+          {"run drop_in_a_pile_2d --out /proc/below", {"--out = /proc/below"}},
+          {"run drop_in_a_pile_2d --telemetry-hz -1", {"--telemetry-hz", "-1", "must be"}},
+          {"run drop_in_a_pile_2d --telemetry-hz nan", {"--telemetry-hz", "nan", "must be"}},
+          {"run drop_in_a_pile_2d --telemetry-hz often", {"--telemetry-hz", "often", "must be"}},
+#ifdef TALUS_LCM
+          {"run drop_in_a_pile_2d --lcm-url ''", {"--lcm-url"}},
+          {"run drop_in_a_pile_2d --lcm-url nonsense --out new", {"--lcm-url", "nonsense", "must begin with"}},
+          {"run drop_in_a_pile_2d --lcm-url udpm://nowhere --out new",
+           {"--lcm-url", "udpm://nowhere", "must name a group"}},
+          {"run drop_in_a_pile_2d --lcm-url 'udpm://239.255.76.67:7667?ttl=1' --out new", {"ttl=1", "must have ttl=0"}},
+          {"run drop_in_a_pile_2d --lcm-url udpm://10.0.0.1 --out new", {"--lcm-url", "10.0.0.1", "must name a group"}},
+          {"run drop_in_a_pile_2d --lcm-url udpm://239.255.76.67:99999 --out new", {"--lcm-url", "must name a port"}},
+          {"run drop_in_a_pile_2d --lcm-url 'udpm://239.255.76.67:7667?ttl=0' --no-telemetry",
+           {"--lcm-url", "--no-telemetry"}},
+#endif
+          {"run drop_in_a_pile_2d --strict=maybe", {"--strict", "maybe"}}});
+}
+
+TEST_F(BadCommandLine, OfCheckIsRefused) {
+  refuse({{"check", {"scene"}},
+          {"check ''", {"scene"}},
+          {"check no_such_scene", {"no_such_scene", "must be"}},
+          {"check full", {"full"}},
+          {"check wrong.toml", {"wrong.toml:1", "title"}},
+          {"check nothing.toml", {"nothing.toml"}},
+          {"check drop_in_a_pile_2d --set run.frames=-1", {"--set run.frames=-1", "must be"}},
+          {"check drop_in_a_pile_2d --set", {"--set"}},
+          {"check drop_in_a_pile_2d --backend box2d", {"--backend"}}});
+}
+
+TEST_F(BadCommandLine, OfSheetIsRefused) {
+  refuse({{"sheet", {"runs"}},
+          {"sheet flat", {"--out"}},
+          {"sheet no_run --out new.png", {"no_run", "must be a run folder"}},
+          {"sheet empty --out new.png", {"empty", "must be a run folder"}},
+          {"sheet flat --out ''", {"--out"}},
+          {"sheet flat --out no/folder/new.png", {"--out", "no/folder/new.png"}},
+          {"sheet flat --out new.png --columns 0", {"--columns", "0", "must be"}},
+          {"sheet flat --out new.png --columns 21", {"--columns", "21", "must be"}},
+          {"sheet flat --out new.png --columns two", {"--columns", "two"}},
+          {"sheet flat --out new.png --width 99", {"--width", "99", "must be"}},
+          {"sheet flat --out new.png --width 1e9", {"--width", "1e9"}},
+          {"sheet flat --out new.png --font nan", {"--font", "nan", "must be"}},
+          {"sheet flat --out new.png --font 0", {"--font", "0", "must be"}}});
+}
+
+TEST_F(BadCommandLine, OfBenchIsRefused) {
+  refuse({{"bench", {"subcommand"}},
+          {"bench table9", {"table9"}},
+          {"bench table1 --rounds -1", {"--rounds", "-1", "1 to"}},
+          {"bench table1 --rounds 0", {"--rounds", "0", "1 to"}},
+          {"bench table1 --rounds 1001", {"--rounds", "1001", "1 to"}},
+          {"bench table1 --rounds some", {"--rounds", "some"}},
+          {"bench table1 --seeds 101", {"--seeds", "101", "1 to"}},
+          {"bench table1 --seeds 0", {"--seeds", "0", "1 to"}},
+          {"bench table1 --share 0", {"--share", "0", "must be"}},
+          {"bench table1 --share 1.5", {"--share", "1.5", "must be"}},
+          {"bench table1 --share nan", {"--share", "nan", "must be"}},
+          {"bench table1 --quick --policy lazy --out new", {"--policy", "lazy"}},
+          {"bench table1 --quick --policy '' --out new", {"--policy"}},
+          {"bench table1 --quick --backend havok --out new", {"--backend", "havok"}},
+          {"bench table1 --quick --scene no_such_scene --out new", {"no_such_scene"}},
+          {"bench table1 --quick --set run.frames=-1 --out new", {"run.frames=-1", "must be"}},
+          {"bench table1 --quick --out ''", {"--out"}},
+          {"bench table1 --quick --out text", {"--out", "text"}}});
+}
+
+#ifdef TALUS_LCM
+
+TEST_F(BadCommandLine, OfCompareIsRefused) {
+  refuse({{"compare", {"run_a"}},
+          {"compare flat", {"run_b"}},
+          {"compare flat ''", {"run_b"}},
+          {"compare flat no_run", {"no_run", "must be a folder that `talus run` left"}},
+          {"compare flat empty", {"empty", "must be a folder that `talus run` left"}},
+          {"compare flat text", {"text", "must be a folder that `talus run` left"}},
+          {"compare flat flat flat", {"flat"}},
+#ifdef TALUS_BULLET
+          {"compare flat solid", {"2D", "3D"}},
+#endif
+          {"compare flat flat --json=maybe", {"--json", "maybe"}}});
+}
+
+TEST_F(BadCommandLine, OfWakeIsRefused) {
+  refuse({{"wake", {"run"}},
+          {"wake ''", {"run"}},
+          {"wake no_run", {"no_run", "must be a folder that `talus run` left"}},
+          {"wake flat --seconds inf", {"--seconds", "inf", "must be"}},
+          {"wake flat --seconds nan", {"--seconds", "nan", "must be"}},
+          {"wake flat --seconds 0", {"--seconds", "0", "must be"}},
+          {"wake flat --seconds -3", {"--seconds", "-3", "must be"}},
+          {"wake flat --seconds 1e99", {"--seconds", "1e99", "must be"}},
+          {"wake flat --seconds long", {"--seconds", "long", "must be"}},
+          {"wake flat --full ''", {"--full"}},
+#ifdef TALUS_BULLET
+          {"wake flat --full solid --seconds 0.1", {"--full", "solid", "dimension"}},
+#endif
+          {"wake flat --full no_run --seconds 0.1", {"no_run", "must be a folder that `talus run` left"}}});
+}
+
+TEST_F(BadCommandLine, OfFilmIsRefused) {
+  refuse({{"film", {"run"}},
+          {"film flat", {"--out"}},
+          {"film flat --out ''", {"--out"}},
+          {"film no_run --out new.webp", {"no_run", "must be a folder that `talus run` left"}},
+          {"film flat --out no/folder/new.webp", {"--out", "no/folder/new.webp"}},
+          {"film flat --out new.webp --from -1", {"--from", "-1", "must"}},
+          {"film flat --out new.webp --from 1e9", {"--from", "1000000000", "must"}},
+          {"film flat --out new.webp --from nan", {"--from", "nan", "must"}},
+          {"film flat --out new.webp --from 0.1 --to 0.05", {"--from", "must"}},
+          {"film flat --out new.webp --to nan", {"--to", "nan", "must"}},
+          {"film flat --out new.webp --speed 0", {"--speed", "0", "must be"}},
+          {"film flat --out new.webp --speed nan", {"--speed", "nan", "must be"}},
+          {"film flat --out new.webp --rate 51", {"--rate", "51", "must be"}},
+          {"film flat --out new.webp --rate 0", {"--rate", "0", "must be"}},
+          {"film flat --out new.webp --width 100", {"--width", "100", "must be"}},
+          {"film flat --out new.webp --width 100000", {"--width", "100000", "must be"}}});
+}
+
+TEST_F(BadCommandLine, OfMonitorIsRefused) {
+  refuse({{"monitor now", {"now"}},
+          {"monitor --seconds 0", {"--seconds", "0", "must be"}},
+          {"monitor --seconds -1", {"--seconds", "-1", "must be"}},
+          {"monitor --seconds nan", {"--seconds", "nan", "must be"}},
+          {"monitor --seconds inf", {"--seconds", "inf", "must be"}},
+          {"monitor --seconds soon", {"--seconds", "soon", "must be"}},
+          {"monitor --seconds 1 --interval 0", {"--interval", "0", "must be"}},
+          {"monitor --seconds 1 --interval 1e9", {"--interval", "1e9", "must be"}},
+          {"monitor --seconds 1 --interval nan", {"--interval", "nan", "must be"}},
+          {"monitor --seconds 1 --lcm-url ''", {"--lcm-url"}},
+          {"monitor --seconds 1 --lcm-url nonsense", {"--lcm-url", "nonsense", "must begin with"}},
+          {"monitor --seconds 1 --lcm-url udpm://nowhere", {"--lcm-url", "udpm://nowhere", "must name a group"}}});
+}
+
+#endif
+
+#ifdef TALUS_BULLET
+
+TEST_F(BadCommandLine, OfDecomposeIsRefused) {
+  refuse({{"decompose", {"mesh"}},
+          {"decompose ''", {"mesh"}},
+          {"decompose no_such.obj", {"no_such.obj", "must be"}},
+          {"decompose full", {"full", "must be"}},
+          {"decompose text", {"text", "must"}},
+          {"decompose nan.obj", {"nan.obj:1", "nan", "must be"}},
+          {"decompose open.obj", {"edges", "must be 0"}},
+          {"decompose open.obj --parts 0", {"--parts", "0"}},
+          {"decompose open.obj --parts 65", {"--parts", "65"}},
+          {"decompose open.obj --parts few", {"--parts", "few"}},
+          {"decompose open.obj --corners 3", {"--corners", "3"}},
+          {"decompose open.obj --corners 129", {"--corners", "129"}},
+          {"decompose open.obj open.obj", {"open.obj"}}});
+}
+
+#endif
+
+}  // namespace
+}  // namespace talus::bad_command_lines_test
