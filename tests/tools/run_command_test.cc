@@ -190,7 +190,7 @@ TEST(RunCommand, RefusesBadInputWithExitCodeTwoAndWritesNothing) {
   refused("drop_in_a_pile_2d --no-such-option", "no-such-option");
   refused("drop_in_a_pile_2d --against nonsense", "--against nonsense: policy.kind");
   refused("drop_in_a_pile_2d --against full --hash", "--against excludes --hash");
-  refused("drop_in_a_pile_2d --seed -1", "--seed -1: seed = -1: must be at least 0");
+  refused("drop_in_a_pile_2d --seed -1", "--seed: -1: must be a whole number from 0");
   refused("drop_in_a_pile_2d --policy ''", "--policy: must not be empty");
   refused("drop_in_a_pile_2d --backend ''", "--backend: must not be empty");
 }
