@@ -22,9 +22,8 @@ std::string effective_url(const std::string& url);
 /// the kernel allows (sysctl net.core.rmem_max), so that bursts are not lost.
 std::string receiving_url(const std::string& url);
 
-/// Throws std::invalid_argument unless effective_url(url) is an address that LCM reads: the name of one of its
-/// transports, and for multicast a group from 224.0.0.0 to 239.255.255.255 and a port. Whether it can be reached is not
-/// tried.
+/// Throws std::invalid_argument unless LCM can parse effective_url(url): a transport of LCM and, for multicast, a group
+/// from 224.0.0.0 to 239.255.255.255 and a port. Opens no connection.
 void check_url(const std::string& url);
 
 /// Throws std::invalid_argument when packets to this address would leave the machine (ttl is not 0).

@@ -226,7 +226,7 @@ std::vector<b2Fixture*> EngineWorld::fixtures_of(std::span<const BodyIndex> bodi
   return fixtures;
 }
 
-/// Makes the bodies of `bodies` that have none.
+/// Creates a Box2D body for each of `bodies` that has none yet.
 void EngineWorld::create_thawed(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies) {
     if (at(body).body == nullptr) {

@@ -25,8 +25,8 @@ class StaticHosts {
   /// Removes the fixtures that add() returned.
   void remove(b2Fixture* first, const BodyTemplate& from);
 
-  /// Calls visit(contact, frozen body) for every touching contact of the hosts that hold these fixtures, each host
-  /// once.
+  /// Calls visit(contact, frozen body) for every touching contact of the static bodies (hosts) to which these fixtures
+  /// are attached; each host is visited once.
   template <typename Visit>
   void for_each_contact(std::span<b2Fixture* const> fixtures, Visit visit);
 

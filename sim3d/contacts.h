@@ -1,5 +1,5 @@
 #pragma once
-// Bullet's contact points as ours.
+// The contact points of Bullet as talus::Contact.
 
 #include <btBulletDynamicsCommon.h>
 

@@ -30,12 +30,7 @@ void send_log_to_standard_error() {
   spdlog::set_pattern("%l: %v");
 }
 
-/// Reads and executes the command line; returns the exit code.
-int execute(int argc, char** argv) {
-  CLI::App app("talus: piles of rigid bodies, simulated faster by freezing bodies at rest", "talus");
-  app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());
-  app.require_subcommand(1);
-  int exit_code = talus::exit_codes::success;
+void add_commands(CLI::App& app, int& exit_code) {
   talus::add_run_command(app, exit_code);
   talus::add_list_command(app, exit_code);
   talus::add_check_command(app, exit_code);
@@ -51,6 +46,15 @@ int execute(int argc, char** argv) {
   talus::add_wake_command(app, exit_code);
   talus::add_film_command(app, exit_code);
 #endif
+}
+
+/// Reads and executes the command line; returns the exit code.
+int execute(int argc, char** argv) {
+  CLI::App app("talus: piles of rigid bodies, simulated faster by freezing bodies at rest", "talus");
+  app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());
+  app.require_subcommand(1);
+  int exit_code = talus::exit_codes::success;
+  add_commands(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {

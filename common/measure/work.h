@@ -23,8 +23,9 @@ struct Work {
 /// Share of the contact points of a full run that `run` did not solve. Negative where it had more.
 double contacts_skipped(const Work& run, const Work& full);
 
-/// Counts while a simulation runs. With `contacts` each step records its contacts, which takes time: not in a run
-/// that is timed. Awake are the bodies that are awake after the step, sleep decisions included.
+/// Counts awake bodies and contacts during a simulation. With `contacts` each step records its contacts, which takes
+/// time: leave it off in a run that is timed. A body counts as awake if it is awake at the end of the step, after the
+/// policy has put bodies to sleep.
 template <int Dim>
 class WorkCounter : public Observer<Dim> {
  public:

@@ -20,7 +20,7 @@ namespace talus {
 /// How a struct keeps a number of a scene file.
 enum class Stored { as_written, in_radians, as_inverse };
 
-/// A key of a scene file. What is empty says nothing.
+/// A key of a scene file. An empty member does not apply to the key.
 struct Key {
   std::string_view name;
   /// Earlier name, which is still read, with a warning.

@@ -8,8 +8,8 @@
 
 namespace talus {
 
-/// A pile to be built. Defaults are the paper's where it gives them. pile_fields has the unit, range and effect of each
-/// field but `boundary`.
+/// A pile to be built. Defaults are the paper's where it gives them. pile_fields has the unit, range and effect of all
+/// fields except `boundary`.
 template <int Dim>
 struct PileParams {
   std::optional<double> alpha;

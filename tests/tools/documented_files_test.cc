@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/policy/phase_times.h"
 #include "tests/process/process.h"
 
 namespace talus::documented_files_test {
@@ -77,6 +78,14 @@ TEST(DocumentedFiles, HaveAllColumnsOfFramesCsv) {
   Names columns;
   for (std::string cell; std::getline(cells, cell, ',');) columns.insert(cell);
   expect_documented(columns, "frames.csv");
+}
+
+TEST(DocumentedFiles, GiveEachPhaseOfAStepTheMeaningOfItsDeclaration) {
+  const std::string page = contents(std::string(TALUS_SOURCE_DIR) + "/docs/files.md");
+  for (const Phase& phase : all_phases) {
+    const std::string row = "| `" + std::string(phase.name) + "_ms` | " + std::string(phase.meaning) + " |\n";
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
 }
 
 TEST(DocumentedFiles, HaveAllKeysOfSummaryJson) {
