@@ -26,9 +26,9 @@ std::vector<std::array<int, 3>> triangles_of(const tinyobj::mesh_t& mesh, std::s
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> face;
   auto index = mesh.indices.begin();
-  for (const unsigned char count : mesh.num_face_vertices) {
+  for (const unsigned count : mesh.num_face_vertices) {
     face.clear();
-    for (int i = 0; i < count; ++i, ++index) {
+    for (unsigned i = 0; i < count; ++i, ++index) {
       face.push_back(index->vertex_index);
     }
     const auto cut = face_triangles(face, corners);
