@@ -9,6 +9,14 @@
 #include <cstdlib>
 
 namespace talus {
+
+#ifdef __SANITIZE_ADDRESS__
+
+// The sanitizer's allocator has no such heap, and would mark all of the block.
+void prefer_huge_pages() {}
+
+#else
+
 namespace {
 
 bool is_unlimited(int resource) {
@@ -21,7 +29,6 @@ bool is_unlimited(int resource) {
 // The heap grows by addresses without memory, which are marked and given back to it. What it later uses of them gets
 // huge pages.
 void prefer_huge_pages() {
-#ifndef __SANITIZE_ADDRESS__  // its allocator has no such heap, and would mark all of the block
   constexpr std::size_t addresses = std::size_t{1} << 30;  // [bytes]
   constexpr std::size_t huge_page = std::size_t{1} << 21;  // [bytes]
   if (!is_unlimited(RLIMIT_AS) || !is_unlimited(RLIMIT_DATA)) return;
@@ -32,7 +39,8 @@ void prefer_huge_pages() {
   const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(block) + huge_page - 1) & ~(huge_page - 1);
   madvise(reinterpret_cast<void*>(first), addresses - huge_page, MADV_HUGEPAGE);
   std::free(block);
-#endif
 }
+
+#endif
 
 }  // namespace talus
