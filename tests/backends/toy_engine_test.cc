@@ -15,7 +15,7 @@ Scene<3> rain(const std::string& policy, const WorldDescription<3>& world) {
   scene.world = world;
   scene.policy.kind = policy;
   Source<3> source;
-  source.shapes = {1};
+  source.shapes.push_back(1);
   source.count = 20;
   source.position = up<3>(10.0);
   source.spread = {3.0, 3.0, 0.0};
