@@ -210,5 +210,48 @@ TEST(Bench, WritesMarkdownWithItsFiguresForManuals) {
   EXPECT_NE(contents(folder.path() / "docs" / "table2-1.svg").find("<svg"), std::string::npos);
 }
 
+TEST(BenchTruth, MeasuresACellAndGoesOnWhereItStopped) {
+  const TemporaryFolder folder;
+  const std::string command = "bench truth --quick --bodies 10 --seeds 2 --cells 2d-f0.6-L-at_once-flat-g9.81 --out " +
+                              (folder / "truth") + " --set policy.adaptive.";
+  const Outcome outcome = talus_command(command + "wake_height=0.02");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const fs::path out = folder.path() / "truth";
+  EXPECT_EQ(lines(out / "rows.jsonl"), 2U * 3U) << "two seeds of full, reference and adaptive";
+  EXPECT_NE(outcome.out.find("2d-f0.6-L-at_once-flat-g9.81"), std::string::npos);
+  EXPECT_TRUE(fs::exists(out / "pictures" / "2d-f0.6-L-at_once-flat-g9.81-box2d-adaptive.png"));
+  const Json json = Json::parse(contents(out / "results.json"));
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0]["seeds"], 2);
+  EXPECT_GT(json[0]["speed_up"], 0.0);
+  EXPECT_NE(contents(out / "report.html").find("wake_height=0.02"), std::string::npos);
+  EXPECT_EQ(talus_command(command + "wake_height=0.02").err, "") << "nothing is measured twice";
+  EXPECT_EQ(talus_command(command + "wake_height=0.04").exit_code, 0);
+  EXPECT_EQ(lines(out / "rows.jsonl"), 2U * 4U) << "full and the reference are kept";
+  const Outcome ran = talus_command("check " + (out / "scenes" / "2d-f0.6-L-at_once-flat-g9.81.toml").string());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+}
+
+TEST(BenchTruth, TheNumberOfJobsDoesNotChangeTheResults) {
+  const TemporaryFolder folder;
+  std::vector<Json> results;
+  for (const std::string jobs : {"1", "3"}) {
+    const std::string out = folder / jobs;
+    ASSERT_EQ(talus_command("bench truth --quick --bodies 10 --seeds 3 --cells 2d-f0.6-L-at_once-flat-g9.81 --jobs " +
+                            jobs + " --out " + out)
+                  .exit_code,
+              0);
+    results.push_back(Json::parse(contents(out + "/results.json"))[0]);
+    for (const char* time : {"speed_up", "speed_up_reference"}) results.back().erase(time);
+  }
+  EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(BenchTruth, ACellThatDoesNotExistIsRefused) {
+  const Outcome outcome = talus_command("bench truth --cells 5d");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("--cells 5d"), std::string::npos) << outcome.err;
+}
+
 }  // namespace
 }  // namespace talus::bench_command_test

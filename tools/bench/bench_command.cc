@@ -2,6 +2,7 @@
 
 #include "common/scene/scene.h"
 #include "tools/bench/benchmarks.h"
+#include "tools/bench/truth_command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/number_between.h"
 #include "tools/output/output.h"
@@ -73,6 +74,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       exit_code = exit_codes::success;
     });
   }
+  add_truth_command(*command, exit_code);
 }
 
 }  // namespace talus

@@ -133,11 +133,15 @@ void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& gro
   const std::filesystem::path& folder = runner.options().out;
   write(folder / "results.csv", csv_of(results_table(runner, groups)));
   write(folder / "results.json", results_json(runner, groups, results).dump(2) + "\n");
-  write_markdown(folder, "results", "figure", results);
+  write_pages(folder, results);
   const std::string name = folder.filename().string();
   if (!runner.options().docs.empty()) write_markdown(runner.options().docs, name, name, results);
-  write(folder / "report.html", html_of(report_of(results)));
   print_result("{}/report.html, results.md, results.csv and results.json\n", folder.string());
+}
+
+void write_pages(const std::filesystem::path& folder, const BenchResults& results) {
+  write_markdown(folder, "results", "figure", results);
+  write(folder / "report.html", html_of(report_of(results)));
 }
 
 }  // namespace talus

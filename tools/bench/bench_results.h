@@ -1,6 +1,7 @@
 #pragma once
 // What a benchmark leaves in its folder: results.csv, results.json, results.md, report.html and its figures.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,8 @@ struct BenchResults {
 /// Writes the files, and with options.docs NAME.md with its figures there. CSV and JSON hold the summary of every case
 /// of `groups`.
 void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& groups, const BenchResults& results);
+
+/// The pages alone, report.html and results.md with its figures, in `folder`.
+void write_pages(const std::filesystem::path& folder, const BenchResults& results);
 
 }  // namespace talus

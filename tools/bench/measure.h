@@ -124,6 +124,15 @@ inline constexpr auto measures = std::to_array<Measure>({
     {"hindsight_005_after_pour", "hindsight after the pour", 3, "hindsight from then on"},
     {"stops_at", "last body stops [s]", 3, "from then on no body moves by 0.01 D within half a second"},
     {"asleep_at", "all asleep from [s]", 3, "from then on every body sleeps"},
+    // Of one run of `talus bench truth` (tools/bench/truth_run.h).
+    {"centre_poured", "centre at the end of the pour [m]", 3,
+     "height of the centre of mass when the last body appears"},
+    {"spill", "spilled", 3, "bodies outside the container"},
+    {"all_asleep", "all asleep", 1, "1 where every body sleeps at the end"},
+    {"awake_sampled", "awake at moments", 3, "awake bodies, mean over moments of the run"},
+    {"moving_sampled", "moving at moments", 3,
+     "bodies of which a point moves by more than 0.05 D within half a second with all awake, mean over the same "
+     "moments"},
 });
 
 /// A measure of the table. `MeasureId id = "centre"` with a name that the table does not have does not compile.

@@ -15,6 +15,25 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array passes = {Pass::timing, Pass::against_full, Pass::against_reference};
 
+std::vector<Row> read(const std::filesystem::path& file) {
+  std::vector<Row> rows;
+  std::ifstream in(file, std::ios::binary);
+  int number = 0;
+  for (std::string line; std::getline(in, line) && !in.eof();) {
+    ++number;
+    try {
+      rows.push_back(row_of(line));
+    } catch (const std::exception& error) {
+      throw std::invalid_argument(
+          fmt::format("{}:{}: must be a row that this version measured ({}); move the file away", file.string(), number,
+                      error.what()));
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
 std::string line_of(const Row& row) {
   const RowKey& key = row.key;
   Json json = {{"scene", key.scene},       {"backend", key.backend},   {"policy", key.policy},
@@ -24,7 +43,8 @@ std::string line_of(const Row& row) {
   return json.dump() + "\n";
 }
 
-Row row_of(const Json& json) {
+Row row_of(const std::string& line) {
+  const Json json = Json::parse(line);
   Row row{{json.at("scene"), json.at("backend"), json.at("policy"), json.at("settings"), json.at("version"),
            Pass::timing, json.at("round")},
           json.at("end_hash"),
@@ -36,25 +56,6 @@ Row row_of(const Json& json) {
   for (const auto& [name, value] : json.at("values").items()) row.values[MeasureId::named(name)] = value;
   return row;
 }
-
-std::vector<Row> read(const std::filesystem::path& file) {
-  std::vector<Row> rows;
-  std::ifstream in(file, std::ios::binary);
-  int number = 0;
-  for (std::string line; std::getline(in, line) && !in.eof();) {
-    ++number;
-    try {
-      rows.push_back(row_of(Json::parse(line)));
-    } catch (const std::exception& error) {
-      throw std::invalid_argument(
-          fmt::format("{}:{}: must be a row that this version measured ({}); move the file away", file.string(), number,
-                      error.what()));
-    }
-  }
-  return rows;
-}
-
-}  // namespace
 
 std::string name_of(Pass pass) {
   switch (pass) {

@@ -45,6 +45,10 @@ struct Row {
   Values values;
 };
 
+/// A row as a line of JSON with its end of line, and back. Throws std::exception on a text that is no such row.
+std::string line_of(const Row& row);
+Row row_of(const std::string& line);
+
 /// Rows in a file of JSON lines, one appended as soon as it is measured, so that a benchmark that was stopped goes on
 /// where it was.
 class RowStore {

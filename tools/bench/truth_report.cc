@@ -1,0 +1,263 @@
+#include "tools/bench/truth_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "common/measure/ensemble.h"
+#include "tools/bench/bench_results.h"
+#include "tools/output/output.h"
+#include "tools/picture/contact_sheet.h"
+#include "tools/report/json_text.h"
+
+namespace talus {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// "+4.1 (2.3)": per cent, and standard errors in brackets.
+std::string shown_bias(const Bias& bias) {
+  if (std::isnan(bias.percent)) return "-";
+  return fmt::format("{:+.1f} ({:.1f})", bias.percent, std::abs(bias.errors));
+}
+
+/// A number of a cell: key of the files, heading of the tables, how it is shown, and its value.
+struct TruthColumn {
+  std::string key;
+  std::string heading;
+  std::function<std::string(const TruthRow&)> cell;
+  std::function<double(const TruthRow&)> number;
+};
+
+TruthColumn number_column(std::string key, std::string heading, std::function<double(const TruthResult&)> number,
+                          int digits = 3) {
+  return {std::move(key), std::move(heading), [=](const TruthRow& row) { return shown(number(row.result), digits); },
+          [=](const TruthRow& row) { return number(row.result); }};
+}
+
+TruthColumn bias_column(const std::string& key, const std::string& heading, Bias TruthResult::*bias) {
+  return {key, heading + " % (σ)", [=](const TruthRow& row) { return shown_bias(row.result.*bias); },
+          [=](const TruthRow& row) { return (row.result.*bias).percent; }};
+}
+
+std::vector<TruthColumn> truth_columns() {
+  using R = TruthResult;
+  return {bias_column("centre_percent", "centre", &R::centre),
+          bias_column("centre_from_full_percent", "from full", &R::centre_from_full),
+          bias_column("poured_percent", "poured", &R::poured),
+          bias_column("r50_percent", "r50", &R::r50),
+          bias_column("r95_percent", "r95", &R::r95),
+          bias_column("spill_percent", "spill", &R::spill),
+          number_column(
+              "drift_D", "drift/D", [](const R& r) { return r.drift; }, 2),
+          number_column(
+              "drift_95_D", "95 %", [](const R& r) { return r.drift_95; }, 2),
+          number_column(
+              "drift_full_D", "full's", [](const R& r) { return r.drift_full; }, 2),
+          number_column("floating", "floating", [](const R& r) { return r.floating; }),
+          number_column("asleep_percent", "asleep %", [](const R& r) { return 100.0 * r.asleep; }),
+          number_column("awake", "awake", [](const R& r) { return r.awake; }),
+          number_column(
+              "awake_over_moving", "/moving", [](const R& r) { return r.awake_ratio; }, 2),
+          number_column("speed_up", "speed-up", [](const R& r) { return r.speed_up; }),
+          number_column("speed_up_reference", "/ref", [](const R& r) { return r.speed_up_reference; })};
+}
+
+std::string beyond_text(const TruthRow& row) { return fmt::format("{}", fmt::join(row.result.beyond, ", ")); }
+
+/// The table as shown; red cells are marked by what is beyond its limit.
+Table shown_table(const std::vector<TruthRow>& rows) {
+  Table table{"", {{"cell"}, {"engine"}, {"n", true}}, {}};
+  const std::vector<TruthColumn> columns = truth_columns();
+  for (const TruthColumn& column : columns) table.columns.push_back({column.heading, true});
+  table.columns.push_back({"red"});
+  for (const TruthRow& row : rows) {
+    std::vector<std::string> cells = {row.runs.cell, row.runs.backend, std::to_string(row.runs.adaptive.size())};
+    for (const TruthColumn& column : columns) cells.push_back(column.cell(row));
+    cells.push_back(beyond_text(row));
+    table.rows.push_back(cells);
+  }
+  return table;
+}
+
+Json truth_json(const std::vector<TruthRow>& rows) {
+  Json json = Json::array();
+  for (const TruthRow& row : rows) {
+    Json each = {{"cell", row.runs.cell}, {"backend", row.runs.backend}, {"seeds", row.runs.adaptive.size()}};
+    for (const TruthColumn& column : truth_columns()) {
+      const double number = column.number(row);
+      each[column.key] = std::isfinite(number) ? Json(number) : Json();
+    }
+    const TruthResult& result = row.result;
+    const std::pair<const char*, const Bias*> biases[] = {
+        {"centre_errors", &result.centre}, {"centre_from_full_errors", &result.centre_from_full},
+        {"poured_errors", &result.poured}, {"r50_errors", &result.r50},
+        {"r95_errors", &result.r95},       {"spill_errors", &result.spill}};
+    for (const auto& [key, bias] : biases) each[key] = std::isfinite(bias->errors) ? Json(bias->errors) : Json();
+    each["severity"] = std::isfinite(result.severity) ? Json(result.severity) : Json();
+    each["red"] = result.beyond;
+    json.push_back(each);
+  }
+  return json;
+}
+
+Table truth_csv(const Json& json) {
+  Table table;
+  if (json.empty()) return table;
+  for (const auto& [key, value] : json.front().items()) table.columns.push_back({key});
+  for (const Json& each : json) {
+    std::vector<std::string> cells;
+    for (const auto& [key, value] : each.items()) {
+      if (value.is_array()) {
+        cells.push_back(fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), " + ")));
+      } else {
+        cells.push_back(value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump());
+      }
+    }
+    table.rows.push_back(cells);
+  }
+  return table;
+}
+
+/// Means over all cells, and how many are red because of what.
+std::string in_short(const std::vector<TruthRow>& rows) {
+  const auto mean_over_cells = [&](const std::function<double(const TruthRow&)>& number) {
+    std::vector<double> numbers;
+    for (const TruthRow& row : rows) {
+      if (std::isfinite(number(row))) numbers.push_back(number(row));
+    }
+    return mean(numbers);
+  };
+  std::vector<std::pair<std::string, int>> reasons;
+  int red = 0;
+  for (const TruthRow& row : rows) {
+    red += !row.result.beyond.empty();
+    for (const std::string& name : row.result.beyond) {
+      const auto found = std::ranges::find(reasons, name, &std::pair<std::string, int>::first);
+      if (found == reasons.end()) {
+        reasons.emplace_back(name, 1);
+      } else {
+        ++found->second;
+      }
+    }
+  }
+  std::ranges::stable_sort(reasons, [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text = fmt::format("{} of {} cells are red", red, rows.size());
+  for (const auto& [name, count] : reasons) {
+    text += fmt::format("{}{} {}", name == reasons.front().first ? ": " : ", ", name, count);
+  }
+  return text +
+         fmt::format(
+             ". Means over the cells: centre {:+.1f} % of the reference's and {:+.1f} % of full's, at the end of "
+             "the pour {:+.1f} %; drift beyond full's {:.2g} D; awake {:.3g}; speed-up {:.3g}.",
+             mean_over_cells([](const TruthRow& row) { return row.result.centre.percent; }),
+             mean_over_cells([](const TruthRow& row) { return row.result.centre_from_full.percent; }),
+             mean_over_cells([](const TruthRow& row) { return row.result.poured.percent; }),
+             mean_over_cells([](const TruthRow& row) { return row.result.drift; }),
+             mean_over_cells([](const TruthRow& row) { return row.result.awake; }),
+             mean_over_cells([](const TruthRow& row) { return row.result.speed_up; }));
+}
+
+std::string file_bytes(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      three = three << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k < bytes.size() + 1 ? digits[three >> (18U - 6U * k) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+/// A PNG as a drawing; the size stands in the bytes 16 to 23 of the file.
+Figure figure_of(const fs::path& png, const std::string& caption) {
+  const std::string bytes = file_bytes(png);
+  const auto number_at = [&](std::size_t place) {
+    std::uint32_t number = 0;
+    for (std::size_t k = 0; k < 4; ++k) number = number << 8U | static_cast<unsigned char>(bytes.at(place + k));
+    return number;
+  };
+  return {fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\"><image width=\"{0}\" "
+                      "height=\"{1}\" href=\"data:image/png;base64,{2}\"/></svg>\n",
+                      number_at(16), number_at(20), base64(bytes)),
+          caption};
+}
+
+/// Full beside adaptive, of each red cell.
+Section red_pictures(const fs::path& folder, const std::vector<TruthRow>& rows) {
+  Section section{"Red cells: full beside adaptive, first seed", {}};
+  for (const TruthRow& row : rows) {
+    if (row.result.beyond.empty()) continue;
+    std::vector<Tile> tiles;
+    for (const std::string policy : {"full", "adaptive"}) {
+      const fs::path png = picture_file(folder, row.runs.cell, row.runs.backend, policy);
+      if (fs::exists(png)) tiles.push_back({png, policy});
+    }
+    if (tiles.size() < 2) continue;
+    const fs::path sheet = picture_file(folder, row.runs.cell, row.runs.backend, "both");
+    write_contact_sheet(sheet, tiles, "", {.columns = 2});
+    section.blocks.emplace_back(
+        figure_of(sheet, fmt::format("{} on {}: {}", row.runs.cell, row.runs.backend, beyond_text(row))));
+  }
+  return section;
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+}
+
+constexpr const char* how_to_read =
+    "Centre, r50, r95 and spill: adaptive less the converged reference in per cent of it, in brackets the same in "
+    "standard errors of both ensembles. Poured: centre when the last body appears. Drift: mean distance in D that "
+    "bodies move when all are woken at the end, less full's; 95 %: the runs' quantile. Asleep: runs in which all sleep "
+    "at the end. Awake: mean over the run; /moving: over the bodies of which a point moves by more than 0.05 D within "
+    "half a second with all awake, at the same moments. Speed-ups are medians of ratios of processor time, seed by "
+    "seed.";
+
+}  // namespace
+
+std::filesystem::path picture_file(const std::filesystem::path& folder, const std::string& cell,
+                                   const std::string& backend, const std::string& policy) {
+  return folder / "pictures" / fmt::format("{}-{}-{}.png", cell, backend, policy);
+}
+
+void report_truth(const std::filesystem::path& folder, std::vector<TruthRow> rows,
+                  const std::vector<std::string>& notes) {
+  std::ranges::stable_sort(rows,
+                           [](const TruthRow& a, const TruthRow& b) { return a.result.severity > b.result.severity; });
+  const Table table = shown_table(rows);
+  BenchResults results{"Truth: errors of adaptive over scenes", notes, {}};
+  results.notes.emplace_back(how_to_read);
+  results.sections.push_back({"Cells, worst first", {Paragraph{in_short(rows)}, table}});
+  Section pictures = red_pictures(folder, rows);
+  if (!pictures.blocks.empty()) results.sections.push_back(std::move(pictures));
+  write_pages(folder, results);
+  const Json json = truth_json(rows);
+  write_text(folder / "results.json", json_text(json, 2) + "\n");
+  write_text(folder / "results.csv", csv_of(truth_csv(json)));
+  print_text(text_of(table));
+  print_result("\n{}\n{}/report.html, results.md, results.csv and results.json\n", in_short(rows), folder.string());
+}
+
+}  // namespace talus

@@ -1,0 +1,72 @@
+#pragma once
+// What the runs of a cell of `talus bench truth` show, and what of it is beyond the limits.
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/bench/measure.h"
+
+namespace talus {
+
+/// How far the mean of independent runs is from that of other independent runs.
+struct Bias {
+  double difference = std::numeric_limits<double>::quiet_NaN();
+  /// Over the baseline's mean [%].
+  double percent = std::numeric_limits<double>::quiet_NaN();
+  /// Over its standard error, to which the scatter of both sides adds. Infinite where neither side scatters.
+  double errors = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Numbers that are not finite are left out; all NaN where one side has fewer than two others.
+Bias bias_of(std::span<const double> runs, std::span<const double> baseline);
+
+/// Runs of a cell on one engine.
+struct TruthRuns {
+  std::string cell;
+  std::string backend;
+  int dimension = 2;
+  double friction = 0.6;
+  /// By seed; each three of one length.
+  std::vector<Values> full;
+  std::vector<Values> reference;
+  std::vector<Values> adaptive;
+};
+
+/// What a cell is held against.
+struct TruthLimits {
+  double drift = 0.05;          // beyond full's, mean [D]; 95 % of the runs: twice that
+  double centre_percent = 3.0;  // of the reference's centre; beyond the limit only with `errors`
+  double poured_percent = 5.0;  // the same at the end of the pour, in 3D and from friction 0.35 on
+  double errors = 2.0;          // standard errors
+};
+
+/// Numbers of a cell; NaN for what was not measured.
+struct TruthResult {
+  Bias centre;            // of adaptive against the reference
+  Bias centre_from_full;  // against full
+  Bias poured;            // centre at the end of the pour
+  Bias r50;
+  Bias r95;
+  Bias spill;
+  double spill_reference = 0.0;  // mean [bodies]
+  double drift = 0.0;            // beyond full's, mean [D]
+  double drift_95 = 0.0;         // 95 % of the runs have no more [D]
+  double drift_full = 0.0;       // [D]
+  double floating = 0.0;         // mean
+  double asleep = 0.0;           // share of runs
+  double awake = 0.0;            // mean over the run
+  double awake_ratio = 0.0;      // awake over moving bodies, at the same moments
+  double awake_errors = 0.0;     // their difference, in standard errors
+  double speed_up = 0.0;         // over full, median of the seeds
+  double speed_up_reference = 0.0;
+  /// The largest of the measures over their limits: above 1 the cell is red.
+  double severity = 0.0;
+  /// Names of the measures beyond their limits, largest first.
+  std::vector<std::string> beyond;
+};
+
+TruthResult truth_result(const TruthRuns& runs, const TruthLimits& limits = {});
+
+}  // namespace talus
