@@ -189,6 +189,9 @@ std::string scene_text(const CellPlan& plan, const std::string& name) {
 TruthGeometry geometry_of(const CellPlan& plan) {
   TruthGeometry geometry;
   geometry.slope = plan.slope();
+  if (plan.ground == CellGround::slope) {
+    geometry.inside_half_width = 0.49 * CellPlan::slope_length * plan.shape.extent * std::cos(plan.slope());
+  }
   if (plan.ground == CellGround::bin) geometry.inside_half_width = 0.5 * plan.bin_width();
   if (plan.ground == CellGround::hopper) geometry.inside_above = plan.outlet_height();
   return geometry;

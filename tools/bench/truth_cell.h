@@ -15,11 +15,12 @@ namespace talus {
 struct TruthGeometry {
   /// Inclination of the plane through the origin that is the ground, downwards along x [rad]; 0: the scene's ground.
   double slope = 0.0;
-  /// A body is spilled whose centre lies farther from the origin along a horizontal axis [m], or lower [m].
+  /// A body is spilled whose centre lies farther from the origin along a horizontal axis [m], or lower [m]: over the
+  /// walls of a bin, out of a hopper, off the end of a slope.
   double inside_half_width = std::numeric_limits<double>::infinity();
   double inside_above = -std::numeric_limits<double>::infinity();
 
-  /// Whether the cell has a container that bodies can leave.
+  /// Whether there is anything that bodies can leave.
   bool has_spill() const;
 };
 

@@ -35,13 +35,32 @@ Vec<Dim> along_slope(const Vec<Dim>& position, double slope) {
   return turned;
 }
 
-/// Bodies of the pile, in the axes of the ground.
 template <int Dim>
-std::vector<PlacedBody<Dim>> pile_of(const Scene<Dim>& scene, const BodyStates<Dim>& states, double slope) {
+bool is_spilled(const Vec<Dim>& position, const TruthGeometry& geometry) {
+  const double aside = position.template head<Dim - 1>().cwiseAbs().maxCoeff();
+  return aside > geometry.inside_half_width || position[Dim - 1] < geometry.inside_above;
+}
+
+template <int Dim>
+int spilled(const BodyStates<Dim>& states, const TruthGeometry& geometry) {
+  int count = 0;
+  for (std::size_t i = 0; i < states.shape.size(); ++i) {
+    count += !states.removed[i] && is_spilled<Dim>(states.pose[i].position, geometry);
+  }
+  return count;
+}
+
+/// Bodies of the pile, in the axes of the ground; what has left a slope is left out.
+template <int Dim>
+std::vector<PlacedBody<Dim>> pile_of(const Scene<Dim>& scene, const BodyStates<Dim>& states,
+                                     const TruthGeometry& geometry) {
   auto bodies = placed_bodies<Dim>(scene.world.shapes, states, fastest_of_pile);
+  if (geometry.slope > 0.0) {
+    std::erase_if(bodies, [&](const auto& body) { return is_spilled<Dim>(body.centre, geometry); });
+  }
   for (PlacedBody<Dim>& body : bodies) {
-    if (slope == 0.0) body.centre[Dim - 1] -= scene.world.ground.height;
-    body.centre = along_slope<Dim>(body.centre, slope);
+    if (geometry.slope == 0.0) body.centre[Dim - 1] -= scene.world.ground.height;
+    body.centre = along_slope<Dim>(body.centre, geometry.slope);
   }
   return bodies;
 }
@@ -59,19 +78,8 @@ double centre_of(std::span<const PlacedBody<Dim>> bodies) {
 }
 
 template <int Dim>
-int spilled(const BodyStates<Dim>& states, const TruthGeometry& geometry) {
-  int count = 0;
-  for (std::size_t i = 0; i < states.shape.size(); ++i) {
-    const Vec<Dim>& position = states.pose[i].position;
-    const double aside = position.template head<Dim - 1>().cwiseAbs().maxCoeff();
-    count += !states.removed[i] && (aside > geometry.inside_half_width || position[Dim - 1] < geometry.inside_above);
-  }
-  return count;
-}
-
-template <int Dim>
 void add_shape(const Scene<Dim>& scene, const BodyStates<Dim>& last, const TruthGeometry& geometry, Values& values) {
-  const auto bodies = pile_of(scene, last, geometry.slope);
+  const auto bodies = pile_of(scene, last, geometry);
   values["bodies"] = static_cast<double>(last.shape.size());
   if (geometry.has_spill()) values["spill"] = spilled(last, geometry);
   if (bodies.empty()) return;
@@ -191,7 +199,7 @@ TruthRun<Dim> truth_run(const Scene<Dim>& scene, const std::string& backend, con
   const double latest = 3.0 * length_of_pour(scene) + 60.0;
   while (!simulation.emitter().finished() && simulation.time() < latest) stepper.step();
   run.values["poured_at"] = simulation.time();
-  const auto poured = pile_of(scene, simulation.world().states(), geometry.slope);
+  const auto poured = pile_of(scene, simulation.world().states(), geometry);
   if (!poured.empty()) run.values["centre_poured"] = centre_of<Dim>(poured);
   const auto steps = std::llround(calm_time(scene.world.gravity) / scene.world.dt);
   for (std::int64_t step = 0; step < steps; ++step) stepper.step();
