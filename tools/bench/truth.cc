@@ -4,10 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "common/simulation/stopwatch.h"
 #include "tools/bench/bench_case.h"
@@ -98,7 +102,7 @@ std::vector<TruthCell> cells_of(const TruthOptions& options) {
 /// The file that the cell's scene is read from, written if it is made here.
 fs::path scene_file_of(const TruthCell& cell, const fs::path& folder) {
   if (cell.text.empty()) return find_scene(cell.name);
-  const fs::path file = folder / "scenes" / (cell.name + ".toml");
+  fs::path file = folder / "scenes" / (cell.name + ".toml");
   fs::create_directories(file.parent_path());
   std::ofstream out(file, std::ios::binary);
   out << cell.text;
@@ -239,14 +243,14 @@ std::vector<std::string> notes_of(const TruthOptions& options) {
 
 }  // namespace
 
-void bench_truth(const TruthOptions& given) {
-  const TruthOptions options = completed_truth(given);
-  const std::vector<TruthTask> tasks = tasks_of(options);
-  RowStore store(options.out / "rows.jsonl");
-  measure_missing(tasks, store, options);
+void bench_truth(const TruthOptions& options) {
+  const TruthOptions all = completed_truth(options);
+  const std::vector<TruthTask> tasks = tasks_of(all);
+  RowStore store(all.out / "rows.jsonl");
+  measure_missing(tasks, store, all);
   std::vector<TruthRow> rows;
-  for (const TruthTask& task : tasks) rows.push_back(row_of_task(task, store, options));
-  report_truth(options.out, std::move(rows), notes_of(options));
+  for (const TruthTask& task : tasks) rows.push_back(row_of_task(task, store, all));
+  report_truth(all.out, std::move(rows), notes_of(all));
 }
 
 }  // namespace talus

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "common/measure/ensemble.h"
 #include "tools/bench/bench_results.h"
@@ -39,9 +40,9 @@ struct TruthColumn {
   std::function<double(const TruthRow&)> number;
 };
 
-TruthColumn number_column(std::string key, std::string heading, std::function<double(const TruthResult&)> number,
-                          int digits = 3) {
-  return {std::move(key), std::move(heading), [=](const TruthRow& row) { return shown(number(row.result), digits); },
+TruthColumn number_column(const std::string& key, const std::string& heading,
+                          const std::function<double(const TruthResult&)>& number, int digits = 3) {
+  return {key, heading, [=](const TruthRow& row) { return shown(number(row.result), digits); },
           [=](const TruthRow& row) { return number(row.result); }};
 }
 
