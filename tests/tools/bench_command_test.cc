@@ -34,7 +34,10 @@ Json results_of(const TemporaryFolder& folder, const std::string& name, const st
   const std::string html = contents(out / "report.html");
   EXPECT_NE(html.find("</html>"), std::string::npos);
   EXPECT_NE(html.find("<svg"), std::string::npos) << "plots are part of the page";
-  EXPECT_NE(contents(out / "results.md").find("processor"), std::string::npos);
+  const std::string page = contents(out / "results.md");
+  EXPECT_NE(page.find("processor"), std::string::npos);
+  EXPECT_NE(page.find("- command: `talus bench " + name + " --quick "), std::string::npos) << page.substr(0, 200);
+  EXPECT_NE(page.find("--set 'source[0].count=10' --set run.frames=120"), std::string::npos) << page.substr(0, 200);
   EXPECT_GT(lines(out / "results.csv"), 1U);
   const Json json = Json::parse(contents(out / "results.json"));
   for (const Json& each : json["cases"]) {

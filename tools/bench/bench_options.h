@@ -8,6 +8,8 @@ namespace talus {
 
 /// Options of `talus bench`. Empty lists: the benchmark's own choice.
 struct BenchOptions {
+  /// Of the benchmark, as in `talus bench NAME`.
+  std::string name;
   std::vector<std::string> scenes;
   std::vector<std::string> backends;
   std::vector<std::string> policies;
@@ -32,5 +34,9 @@ struct BenchOptions {
 
 /// Fills in the defaults.
 BenchOptions completed(BenchOptions options, const std::string& name);
+
+/// The command that measures the same again, with all that differs from a plain `talus bench NAME`, rounds and seeds;
+/// folders are left out.
+std::string command_of(const BenchOptions& options);
 
 }  // namespace talus

@@ -72,11 +72,18 @@ Table results_table(const BenchRunner& runner, const std::vector<BenchGroup>& gr
   return table;
 }
 
-/// The results as Markdown; figures are linked as NAME-1.svg, NAME-2.svg, ... where `name` is not empty.
-std::string markdown_of(const BenchResults& results, const std::string& name) {
+/// What was run, when and on what: the head of a page of results.
+std::string head_of(const BenchResults& results) {
   std::string text = fmt::format("# {}\n\n", results.title);
-  for (const std::string& note : results.notes) text += note + "\n\n";
+  if (!results.command.empty()) text += fmt::format("- command: `{}`\n", results.command);
   for (const auto& [fact, value] : machine_facts()) text += fmt::format("- {}: {}\n", fact, value);
+  for (const std::string& note : results.notes) text += "\n" + note + "\n";
+  return text;
+}
+
+/// The results as Markdown; figures are linked as NAME-1.svg, NAME-2.svg, ...
+std::string markdown_of(const BenchResults& results, const std::string& name) {
+  std::string text = head_of(results);
   int number = 0;
   for (const Section& section : results.sections) {
     text += fmt::format("\n## {}\n", section.heading);
@@ -105,6 +112,7 @@ void write_figures(const std::filesystem::path& folder, const std::string& name,
   }
 }
 
+/// NAME.md and its figures.
 void write_markdown(const std::filesystem::path& folder, const std::string& name, const std::string& figures,
                     const BenchResults& results) {
   std::filesystem::create_directories(folder);
@@ -115,6 +123,7 @@ void write_markdown(const std::filesystem::path& folder, const std::string& name
 Report report_of(const BenchResults& results) {
   Report report{results.title, "", {}};
   Section conditions{"How it was measured", {}};
+  if (!results.command.empty()) conditions.blocks.emplace_back(Paragraph{"Command: " + results.command});
   for (const std::string& note : results.notes) conditions.blocks.emplace_back(Paragraph{note});
   Table machine{"", {{"what"}, {"value"}}, {}};
   for (const auto& [name, value] : machine_facts()) {
@@ -130,12 +139,14 @@ Report report_of(const BenchResults& results) {
 }  // namespace
 
 void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& groups, const BenchResults& results) {
+  BenchResults with_command = results;
+  with_command.command = command_of(runner.options());
   const std::filesystem::path& folder = runner.options().out;
   write(folder / "results.csv", csv_of(results_table(runner, groups)));
   write(folder / "results.json", results_json(runner, groups, results).dump(2) + "\n");
-  write_pages(folder, results);
+  write_pages(folder, with_command);
   const std::string name = folder.filename().string();
-  if (!runner.options().docs.empty()) write_markdown(runner.options().docs, name, name, results);
+  if (!runner.options().docs.empty()) write_markdown(runner.options().docs, name, name, with_command);
   print_result("{}/report.html, results.md, results.csv and results.json\n", folder.string());
 }
 

@@ -16,6 +16,8 @@ struct BenchResults {
   std::vector<std::string> notes;
   /// Tables and figures.
   std::vector<Section> sections;
+  /// Measures the same again, for the head of the page; write_results() fills it in. Empty: not printed.
+  std::string command = {};
 };
 
 /// Writes the files, and with options.docs NAME.md with its figures there. CSV and JSON hold the summary of every case
