@@ -25,7 +25,7 @@ talus_stats_v2 newest(const talus_stats_v1& old) {
   stats.asleep = old.asleep;
   stats.contacts = old.contacts;
   stats.kinetic_energy = old.kinetic_energy;
-  stats.asked = -1;
+  stats.planned = -1;
   stats.appeared = -1;
   stats.timed = old.timed;
   stats.ms_emit = old.ms_emit;

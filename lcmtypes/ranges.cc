@@ -108,7 +108,7 @@ std::string_view range_fault(const talus_sleep_v1& m) {
 std::string_view range_fault(const talus_stats_v1& m) { return stats_fault(m); }
 
 std::string_view range_fault(const talus_stats_v2& m) {
-  if (m.asked < -1 || m.appeared < -1) return "negative count";
+  if (m.planned < -1 || m.appeared < -1) return "negative count";
   if (m.warning_count > talus_stats_v2::NOT_APPEARED + 1) return "more warnings than kinds";
   const auto known = [](auto kind) {
     return kind >= talus_stats_v2::BELOW_GROUND && kind <= talus_stats_v2::NOT_APPEARED;

@@ -14,7 +14,7 @@ float skin(const b2Fixture& fixture) {
   return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
 }
 
-/// Whether the contact is told with the body on the other side of `edge`.
+/// Whether the contact is reported under the body on the other side of `edge`.
 bool belongs_to_other(const b2ContactEdge& edge, BodyIndex index) {
   return edge.other->GetType() == b2_dynamicBody && edge.other->IsAwake() &&
          owner_of(*edge.other->GetFixtureList()) < index;

@@ -1,5 +1,5 @@
 #pragma once
-// Who needs continuous collision against sleepers.
+// Which bodies need continuous collision against sleepers.
 
 #include <box2d/box2d.h>
 

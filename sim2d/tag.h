@@ -1,5 +1,5 @@
 #pragma once
-// Whose a fixture is, written into the user data that Box2D keeps for us.
+// To which body or obstacle a fixture belongs, kept in its user data.
 
 #include <box2d/box2d.h>
 
@@ -26,7 +26,7 @@ inline b2FixtureUserData to_user_data(Tag tag) {
   return data;
 }
 
-// Box2D hands its user data out only to those who may change it, hence no const here.
+// Box2D has no const access to user data, hence no const here.
 inline Tag tag_of(b2Fixture& fixture) { return Tag{fixture.GetUserData().pointer}; }
 inline BodyIndex owner_of(b2Fixture& fixture) { return owner_of(tag_of(fixture)); }
 

@@ -62,7 +62,7 @@ void SleepingContacts::keep(const SavedContact& contact) {
   nodes_[static_cast<std::size_t>(node)].contact = contact;
   for (const BodyIndex body : {owner_of(contact.low), owner_of(contact.high)}) {
     if (body < 0) {
-      continue;  // ground and obstacles never wake, so nobody asks for theirs
+      continue;  // ground and obstacles never wake, so theirs are not needed
     }
     if (static_cast<std::size_t>(body) >= first_.size()) {
       first_.resize(static_cast<std::size_t>(body) + 1, -1);

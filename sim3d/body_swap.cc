@@ -23,7 +23,7 @@ void BodySwap::thaw(std::unique_ptr<btCollisionObject>& object, const BodyTempla
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
   proxy->m_collisionFilterGroup = btBroadphaseProxy::DefaultFilter;
   proxy->m_collisionFilterMask = btBroadphaseProxy::AllFilter;
-  // Makes the pairs with static neighbours. The box is the one that the next step will ask for.
+  // Makes the pairs with static neighbours. The box is the one that the next step will use.
   btVector3 low;
   btVector3 high;
   shape.whole->getAabb(object->getWorldTransform(), low, high);

@@ -10,7 +10,7 @@ namespace talus::bullet {
 namespace {
 
 // Bullet takes 23 bytes with each piece of memory to align it to 16, which the heap does by itself: a tenth of what a
-// sleeper takes; and it uses what it gets without a look at it, so that lack of memory must be an exception. Before
+// sleeper takes; and it uses the pointer unchecked, so that lack of memory must be an exception. Before
 // main(), since what was taken in one way cannot be given back in the other.
 void* take(std::size_t size, int alignment) {
   const auto unit = static_cast<std::size_t>(alignment);

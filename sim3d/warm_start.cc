@@ -14,7 +14,7 @@ btCollisionObject& object_of(const btBroadphaseProxy* proxy) {
   return *static_cast<btCollisionObject*>(proxy->m_clientObject);
 }
 
-/// Learns which manifold lies between which two pieces: Bullet tells it only while it works on a pair.
+/// Learns which manifold lies between which two pieces: Bullet gives this only while it works on a pair.
 class PieceRecorder final : public btManifoldResult {
  public:
   using btManifoldResult::btManifoldResult;
@@ -190,7 +190,7 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   open_manifolds(*pair.m_algorithm);
 }
 
-// A pair that has given its manifolds away looks at all of them anew (CompoundPair).
+// A pair that has given its manifolds away checks all of its pieces again (CompoundPair).
 void WarmStart::open_manifolds(btCollisionAlgorithm& algorithm) {
   manifolds_.resize(0);
   algorithm.getAllContactManifolds(manifolds_);

@@ -14,7 +14,7 @@ constexpr double parts_tolerance = 0.05;
 constexpr double parts_refused = 0.15;
 
 /// Volume of the union of convex parts that repaired() has passed. The sum of their volumes would count overlaps twice,
-/// and the parts of a sound decomposition overlap by a tenth. Measured along 16384 parallel
+/// and the parts of a correct decomposition overlap by a tenth. Measured along 16384 parallel
 /// lines, exactly along each: within about 0.2 %, and the same for the same parts.
 double union_volume(std::span<const Mesh> parts);
 

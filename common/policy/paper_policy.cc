@@ -37,7 +37,7 @@ void PaperPolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) 
   choose_sleepers(frame, decision);
 }
 
-/// Section 3.4, momentum: the blow may go through the whole pile in one step, so the whole pile wakes, before the
+/// Section 3.4, momentum: the impact may go through the whole pile in one step, so the whole pile wakes, before the
 /// contact exists, so that the impact itself is simulated.
 template <int Dim>
 void PaperPolicy<Dim>::wake_hit_piles(const Frame<Dim>& frame, Decision<Dim>& decision) {

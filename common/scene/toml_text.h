@@ -1,5 +1,5 @@
 #pragma once
-// TOML back to text, numbers as short as they can be told apart and keys in the order of the file.
+// TOML back to text, numbers in the shortest form that reads back the same, keys in the order of the file.
 
 #include <toml++/toml.h>
 

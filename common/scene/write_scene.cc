@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The parts of a mesh may be missing where a scene in 2D asks for none.
+// A scene in 2D may lack the parts of a mesh, since it does not use them.
 void copy_referred(const fs::path& from, const fs::path& to) {
   std::error_code same_or_missing;
   if (fs::exists(from) && !fs::equivalent(from, to, same_or_missing)) {

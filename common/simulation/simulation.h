@@ -29,7 +29,7 @@ class Simulation {
   /// One step: emit due bodies, step the world, recount the piles, let the policy decide, apply its three lists.
   void step();
 
-  /// Tells the observers that the run is over: "finished", "interrupted", or what went wrong.
+  /// Calls on_end() of the observers: "finished", "interrupted", or what went wrong.
   void end(std::string_view reason);
 
   /// By hand between steps: events carry the cause `user`. Sleeping bodies near a removed one wake, since it may have
@@ -40,7 +40,7 @@ class Simulation {
 
   /// The last finished step.
   Frame<Dim> frame() const {
-    return {step_, time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_asked()};
+    return {step_, time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_planned()};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }

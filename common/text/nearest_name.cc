@@ -43,7 +43,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
   std::string nearest;
   int least = std::max(1, static_cast<int>(name.size()) / 3) + 1;
   for (const std::string& candidate : known) {
-    // Cost is the product of both lengths; a name of a megabyte is nobody's slip of the pen.
+    // Cost is the product of both lengths; a name of a megabyte is no typing error.
     const int distance = name.size() > 100 ? least : edit_distance(name, candidate);
     if (distance < least) {
       least = distance;

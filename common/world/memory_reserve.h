@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// An engine may use memory without a look at whether it got any, with an allocator that cannot be replaced. Where the
+/// An engine may use memory without a check that it got any, with an allocator that cannot be replaced. Where the
 /// address space is limited (`ulimit -v`), this makes sure beforehand that there is enough for what comes next.
 class MemoryReserve {
  public:

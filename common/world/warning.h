@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// A kind of state that a sound run does not reach.
+/// A kind of state that a correct run does not reach.
 enum class WarningKind : std::uint8_t {
   below_ground,   // a centre of mass below the ground plane
   outside_world,  // a centre of mass beyond the coordinates that positions are resolved at

@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// Where the engine's time of the last step went [s]; zero where an engine cannot tell.
+/// Where the engine's time of the last step went [s]; zero where an engine does not measure it.
 struct EngineTimes {
   double collide = 0.0;  // broad and narrow phase
   double solve = 0.0;    // islands, constraints, integration

@@ -12,7 +12,7 @@
 namespace talus::bullet {
 
 /// Replaces btCompoundCompoundCollisionAlgorithm, to the bit. There each call places each pair of pieces again, builds
-/// and drops four contact manifolds on the stack, and each new pair asks for memory ten times. Here pieces are placed
+/// and drops four contact manifolds on the stack, and each new pair allocates ten times. Here pieces are placed
 /// once a step (placed_pieces.h); where no boxes of pieces overlap, the trees of pieces are not walked; two boxes or
 /// polyhedra that do not touch and are apart (separation.h) are left alone, and with them the memory of their algorithm
 /// and Bullet's search for their closest points; the manifold of two pieces is kept beside them. The order in which
@@ -69,7 +69,7 @@ class CompoundPair final : public btCollisionAlgorithm {
     int second = 0;
     btCollisionAlgorithm* algorithm = nullptr;
     btPersistentManifold* manifold = nullptr;  // the algorithm's; null before its first point
-    bool may_touch = true;                     // false: its manifold is known to be empty, and need not be looked at
+    bool may_touch = true;                     // false: its manifold is known to be empty, and need not be checked
     FaceAxis apart = -1;                       // where two boxes (BoxAxis) or two polyhedra were apart last
   };
   struct Visit;

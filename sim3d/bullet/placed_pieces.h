@@ -40,7 +40,7 @@ bool pieces_overlap(const PlacedBody& a, const PlacedBody& b);
 
 /// Replaces what btCompoundCompoundCollisionAlgorithm computes in each call for each pair of pieces: transform and
 /// bounding box of both. Here a moving body's pieces are placed once a step, those of one that does not move once in
-/// its life. Bodies that have pairs are told apart by a slot (PairCache), obstacles by their index.
+/// its life. Bodies with pairs are identified by a slot (PairCache), obstacles by their index.
 class PlacedPieces {
  public:
   /// To be called at the start of each collision detection.

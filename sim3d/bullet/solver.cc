@@ -34,7 +34,7 @@ void WarmFrictionSolver::convertContacts(btPersistentManifold** manifolds, int c
 
 void WarmFrictionSolver::start(btSolverConstraint& friction, const btSolverConstraint& contact,
                                const btVector3& impulse) {
-  // The direction is that on the first body; where that one is static, the second body's tells it.
+  // The direction is that on the first body; where that one is static, that on the second body.
   const btVector3 direction =
       friction.m_contactNormal1.isZero() ? -friction.m_contactNormal2 : friction.m_contactNormal1;
   const btScalar limit = friction.m_friction * btScalar(contact.m_appliedImpulse);

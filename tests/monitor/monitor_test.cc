@@ -12,8 +12,10 @@
 #include <thread>
 
 #include "lcmtypes/publisher.h"
+#include "tests/common/documented_names.h"
 #include "tests/common/temporary_folder.h"
 #include "tests/lcmtypes/still_run.h"
+#include "tools/monitor/json_view.h"
 #include "tools/monitor/receive.h"
 
 namespace talus::monitor_test {
@@ -78,6 +80,17 @@ TEST(Monitor, GivesJsonForPrograms) {
   EXPECT_EQ(run["lost"]["TALUS_PILES"], 0);
   EXPECT_EQ(run["piles"].size(), 1U);
   EXPECT_EQ(run["piles"][0]["density"].size(), run["piles"][0]["layers"].get<std::size_t>());
+}
+
+TEST(Monitor, WritesTheKeysThatAreDocumented) {
+  const auto [text, code] = watch({.seconds = 1.0, .interval = 0.7, .json = true}, 30);
+  Names keys;
+  collect(Json::parse(text.substr(0, text.find('\n'))), "", keys);
+  collect(Json::parse(json_line(Faults{})), "", keys);
+  Names expected = documented("talus monitor --json");
+  std::erase_if(expected, [](const std::string& key) { return key.starts_with("warnings[]."); });  // of a bad run only
+  EXPECT_EQ(missing(keys, expected), "") << "written, but not documented";
+  EXPECT_EQ(missing(expected, keys), "") << "documented, but not written";
 }
 
 TEST(Monitor, FailsOnRequestWhenItHeardNothing) {

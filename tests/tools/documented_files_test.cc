@@ -1,45 +1,21 @@
-// docs/files.md against the files that a run writes.
+// docs/files.md against what the commands write.
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 #include "common/policy/phase_times.h"
+#include "tests/common/documented_names.h"
 #include "tests/process/process.h"
+#include "tools/bench/measure.h"
 
 namespace talus::documented_files_test {
 namespace {
 
 using Json = nlohmann::json;
-using Names = std::set<std::string>;
-
-/// The first cells of the table under a heading of docs/files.md.
-Names documented(const std::string& heading) {
-  std::istringstream lines(contents(std::string(TALUS_SOURCE_DIR) + "/docs/files.md"));
-  Names names;
-  bool within = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("## ")) within = line == "## " + heading;
-    if (within && line.starts_with("| `")) names.insert(line.substr(3, line.find('`', 3) - 3));
-  }
-  return names;
-}
-
-/// The paths of all plain values: "shape.r50_m", "piles[].layers".
-void collect(const Json& value, const std::string& path, Names& names) {
-  if (value.is_object()) {
-    for (const auto& [key, child] : value.items()) collect(child, path.empty() ? key : path + "." + key, names);
-  } else if (value.is_array()) {
-    for (const Json& child : value) collect(child, path + "[]", names);
-  } else {
-    names.insert(path);
-  }
-}
-
 /// Three discs fall, one is thrown beyond the world's edge, which gives a warning. The folder that the run leaves.
 std::filesystem::path run_in(const TemporaryFolder& folder) {
   std::ofstream(folder.path() / "scene.toml")
@@ -55,29 +31,32 @@ std::filesystem::path run_in(const TemporaryFolder& folder) {
   return folder.path() / "run";
 }
 
-/// Those of `names` that `others` lacks.
-std::string missing(const Names& names, const Names& others) {
-  std::string list;
-  for (const std::string& name : names) {
-    if (!others.contains(name)) list += name + " ";
-  }
-  return list;
+/// First line of a file.
+std::string header_of(const std::filesystem::path& file) {
+  const std::string text = contents(file);
+  return text.substr(0, text.find('\n'));
 }
 
-void expect_documented(const Names& written, const std::string& heading) {
-  EXPECT_EQ(missing(written, documented(heading)), "") << "written, but not in docs/files.md under " << heading;
-  EXPECT_EQ(missing(documented(heading), written), "") << "in docs/files.md under " << heading << ", but not written";
+Names split(const std::string& header) {
+  std::istringstream cells(header);
+  Names columns;
+  for (std::string cell; std::getline(cells, cell, ',');) columns.insert(cell);
+  return columns;
 }
 
 TEST(DocumentedFiles, HaveAllColumnsOfFramesCsv) {
   const TemporaryFolder folder;
-  std::istringstream csv(contents(run_in(folder) / "frames.csv"));
-  std::string header;
-  std::getline(csv, header);
-  std::istringstream cells(header);
-  Names columns;
-  for (std::string cell; std::getline(cells, cell, ',');) columns.insert(cell);
-  expect_documented(columns, "frames.csv");
+  expect_documented(split(header_of(run_in(folder) / "frames.csv")), "frames.csv");
+}
+
+TEST(DocumentedFiles, HaveAllColumnsOfAvalanchesCsv) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command(
+      "run drop_in_a_pile_2d --no-telemetry --policy paper --set run.frames=300 --set policy.tau=0.2 "
+      "--set policy.avalanche_density=0.3 --out " +
+      (folder / "run"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_documented(split(header_of(folder.path() / "run" / "avalanches.csv")), "avalanches.csv");
 }
 
 TEST(DocumentedFiles, GiveEachPhaseOfAStepTheMeaningOfItsDeclaration) {
@@ -93,6 +72,79 @@ TEST(DocumentedFiles, HaveAllKeysOfSummaryJson) {
   Names keys;
   collect(Json::parse(contents(run_in(folder) / "summary.json")), "", keys);
   expect_documented(keys, "summary.json");
+}
+
+#ifdef TALUS_LCM
+
+/// The keys that a command prints with --json.
+Names keys_printed(const std::string& arguments) {
+  const Outcome outcome = talus_command(arguments + " --json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  Names keys;
+  collect(Json::parse(outcome.out), "", keys);
+  return keys;
+}
+
+/// Records ten seconds of a pour.
+void record(const std::string& folder, const std::string& policy) {
+  const Outcome outcome = talus_command(
+      "run drop_in_a_pile_2d --no-telemetry --set run.frames=150 --set policy.tau=0.2 "
+      "--policy " +
+      policy + " --out " + folder);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST(DocumentedFiles, HaveAllKeysOfCompareAndWake) {
+  const TemporaryFolder folder;
+  record(folder / "full", "full");
+  record(folder / "paper", "paper");
+  expect_documented(keys_printed("compare " + (folder / "full") + " " + (folder / "paper")), "talus compare --json");
+  expect_documented(keys_printed("wake " + (folder / "paper") + " --seconds 0.1 --full " + (folder / "full")),
+                    "talus wake --json");
+}
+
+#endif
+
+/// The names of all measures, which stand in tables of their own.
+Names all_measures() {
+  Names names;
+  for (const Measure& measure : measures) names.insert(std::string(measure.name));
+  return names;
+}
+
+Names without(Names names, const Names& others) {
+  for (const std::string& name : others) names.erase(name);
+  return names;
+}
+
+TEST(DocumentedFiles, HaveAllColumnsAndKeysOfBenchmarks) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command(
+      "bench figures --quick --policy paper --scene drop_in_a_pile_2d --rounds 1 "
+      "--set source[0].count=10 --set run.frames=60 --out " +
+      (folder / "b"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  Names keys;
+  collect(Json::parse(header_of(folder.path() / "b" / "rows.jsonl")), "", keys);
+  Names row;
+  for (const std::string& key : keys) row.insert(key.starts_with("values.") ? "values" : key);
+  expect_documented(row, "rows.jsonl");
+  expect_documented(without(split(header_of(folder.path() / "b" / "results.csv")), all_measures()), "results.csv");
+  Names columns = split(header_of(folder.path() / "b" / "frames-drop_in_a_pile_2d-box2d-paper.csv"));
+  std::erase_if(columns, [](const std::string& name) { return name.find('(') != name.npos; });  // the version
+  expect_documented(columns, "frames-SCENE-BACKEND-POLICY.csv");
+}
+
+TEST(DocumentedFiles, HaveATableOfTheMeasuresAsTheyAreDeclared) {
+  std::string table;
+  for (const Measure& measure : measures) {
+    if (measure.meaning.empty()) continue;
+    std::string meaning;
+    for (const char c : measure.meaning) meaning += c == '|' ? "\\|" : std::string(1, c);
+    table += "| `" + std::string(measure.name) + "` | " + std::string(measure.heading) + " | " + meaning + " |\n";
+  }
+  const std::string page = contents(std::string(TALUS_SOURCE_DIR) + "/docs/files.md");
+  EXPECT_NE(page.find(table), std::string::npos) << "the rows must be:\n" << table;
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(CompareCommand, CallsARunPlayedTwiceEqualAndAllDistancesZero) {
   EXPECT_TRUE(json["first_difference"].is_null());
   EXPECT_TRUE(json["first_other_sleep_decision"].is_null());
   EXPECT_EQ(json["frames_compared"], 150);
-  EXPECT_EQ(json["motion"]["ratio_R"], 0.0);
+  EXPECT_EQ(json["motion"]["R"], 0.0);
   EXPECT_EQ(json["distance_D"]["max_at_end"], 0.0);
   EXPECT_EQ(json["profile_rms_D"], 0.0);
   EXPECT_EQ(json["z"]["ks"], 0.0);
@@ -57,8 +57,8 @@ TEST(CompareCommand, NamesTheStepOfTheFirstSleepDecisionAndTheDifferenceSoonAfte
   EXPECT_FALSE(json["first_other_sleep_decision"]["woke"].get<bool>());
   EXPECT_LE(json["first_difference"]["after_step"], decision) << "nothing differs before somebody is put to sleep";
   EXPECT_LE(decision, json["first_difference"]["by_step"].get<int>());
-  EXPECT_GT(json["motion"]["ratio_R"], 0.0);
-  EXPECT_LT(json["motion"]["symmetric_S"], 1.0);
+  EXPECT_GT(json["motion"]["R"], 0.0);
+  EXPECT_LT(json["motion"]["S"], 1.0);
 }
 
 TEST(CompareCommand, RefusesAFolderThatIsNoRun) {
@@ -195,7 +195,7 @@ TEST(CompareCommand, LeavesOutADamagedFrameAndNothingElse) {
     EXPECT_EQ(json["b"]["lost_steps"], Json({2 * frame + 2}));
     EXPECT_EQ(json["frames_compared"], 149);
     EXPECT_TRUE(json["first_difference"].is_null()) << "all that is known is equal: " << json["first_difference"];
-    EXPECT_EQ(json["motion"]["ratio_R"], 0.0);
+    EXPECT_EQ(json["motion"]["R"], 0.0);
     EXPECT_EQ(json["distance_D"]["max_at_end"], 0.0);
     EXPECT_NE(talus_command(both).out.find(fmt::format("1 frame left out (step {})", 2 * frame + 2)),
               std::string::npos);

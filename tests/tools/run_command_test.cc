@@ -64,7 +64,7 @@ TEST(RunCommand, WarnsAtOnceAndAtTheEndAndInTheSummaryOfBodiesThatWereLost) {
   EXPECT_NE(outcome.err.find("warning: step 7, body 0: a coordinate is 100"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("warning: 1 body since step 7"), std::string::npos) << outcome.out;
   const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
-  EXPECT_EQ(summary["bodies_asked"], 1);
+  EXPECT_EQ(summary["bodies_planned"], 1);
   EXPECT_EQ(summary["bodies_appeared"], 1);
   EXPECT_EQ(summary["bodies_lost"], 1);
   ASSERT_EQ(summary["warnings"].size(), 1U);

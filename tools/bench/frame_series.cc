@@ -27,7 +27,7 @@ double number(const std::string& text) {
 bool read(const std::filesystem::path& file, FrameSeries& series) {
   std::ifstream in(file);
   std::string line;
-  if (!std::getline(in, line) || line != "frame,seconds,relative,absolute,ratio," + version_text()) return false;
+  if (!std::getline(in, line) || line != "frame,seconds,relative,absolute,R," + version_text()) return false;
   while (std::getline(in, line)) {
     std::vector<std::string> cells;
     std::istringstream row(line);
@@ -43,7 +43,7 @@ bool read(const std::filesystem::path& file, FrameSeries& series) {
 
 void write(const std::filesystem::path& file, const FrameSeries& series) {
   std::ofstream out(file);
-  out << "frame,seconds,relative,absolute,ratio," << version_text() << '\n';
+  out << "frame,seconds,relative,absolute,R," << version_text() << '\n';
   for (std::size_t i = 0; i < series.relative.size(); ++i) {
     out << fmt::format("{},{},{},{},{}\n", i, series.seconds[i], series.relative[i], series.absolute[i],
                        series.ratio[i]);

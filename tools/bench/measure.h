@@ -20,7 +20,7 @@ struct Measure {
   std::string_view heading;
   /// Significant digits in tables.
   int digits = 3;
-  /// One sentence for docs/results/columns.md; empty for the companions named above.
+  /// One sentence for docs/files.md; empty for the companions named above.
   std::string_view meaning;
 };
 
@@ -69,8 +69,8 @@ inline constexpr auto measures = std::to_array<Measure>({
     {"horizon_mean_30_D", "distance after 30 frames / D", 3,
      "mean distance of a body's two places after thirty frames"},
     {"horizon_mean_30_D_floor", "floor", 3, ""},
-    // Shape over an ensemble of perturbed runs (common/measure/shape_statistics.h), distances from the baseline.
-    {"runs", "runs", 3, "perturbed runs of the ensemble"},
+    // Shape over an ensemble of seeds (common/measure/shape_statistics.h), distances from the baseline.
+    {"runs", "runs", 3, "runs of the ensemble, one per seed"},
     {"centre", "centre [m]", 3, "height of the centre of mass"},
     {"centre_sd", "deviation", 2, ""},
     {"centre_off_D", "centre off / D", 3, "its mean less the baseline's"},

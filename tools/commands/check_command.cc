@@ -59,7 +59,7 @@ int check_scene(const std::string& name, const std::vector<std::string>& setting
   const std::filesystem::path file = find_scene(name);
   const AnyScene scene = read_scene(file, overrides);
   std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string()); }, scene);
-  print_result("{}: sound\n", printable(file.string()));
+  print_result("{}: OK\n", printable(file.string()));
   std::visit([](const auto& of_dimension) { print_report(of_dimension); }, scene);
   return exit_codes::success;
 }

@@ -53,8 +53,8 @@ Json of(const Warning& warning) {
 }
 
 Json of(const talus_stats_v2& stats) {
-  Json object = {{"awake", stats.awake}, {"asleep", stats.asleep}, {"kinetic_energy", stats.kinetic_energy}};
-  if (stats.asked >= 0) object.update({{"asked", stats.asked}, {"appeared", stats.appeared}});
+  Json object = {{"awake", stats.awake}, {"asleep", stats.asleep}, {"kinetic_energy_J", stats.kinetic_energy}};
+  if (stats.planned >= 0) object.update({{"bodies_planned", stats.planned}, {"bodies_appeared", stats.appeared}});
   object["warnings"] = Json::array();
   for (const Warning& warning : warnings_of(stats)) object["warnings"].push_back(of(warning));
   if (stats.timed == 0) return object;
@@ -69,7 +69,7 @@ Json of(const talus_stats_v2& stats) {
 }  // namespace
 
 std::string json_line(std::int64_t run_id, const RunView& view, const Faults& faults) {
-  Json object = {{"run", short_id(run_id)}, {"step", view.step()}, {"sim_time", view.sim_time()}};
+  Json object = {{"run", short_id(run_id)}, {"step", view.step()}, {"time_s", view.sim_time()}};
   if (view.run()) object.update(of(*view.run()));
   if (view.stats()) object.update(of(*view.stats()));
   object["piles"] = Json::array();

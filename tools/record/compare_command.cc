@@ -59,14 +59,14 @@ Json shape_json(const ShapeStatistics<Dim>& shape) {
   return {{"centre_height_m", shape.centre_height},
           {"r50_m", shape.r50},
           {"r95_m", shape.r95},
-          {"peak_m", shape.peak},
+          {"height_m", shape.peak},
           {"angle_of_repose_deg", shape.repose.angle * degrees},
           {"packing", shape.packing.all}};
 }
 
 Json motion_json(const MotionError& error) {
-  return {{"relative", error.relative}, {"left_out", error.left_out}, {"absolute_m0", error.absolute},
-          {"floored", error.floored},   {"ratio_R", error.ratio},     {"symmetric_S", error.symmetric},
+  return {{"relative", error.relative}, {"left_out", error.left_out}, {"absolute", error.absolute},
+          {"floored", error.floored},   {"R", error.ratio},           {"S", error.symmetric},
           {"turning", error.turning}};
 }
 

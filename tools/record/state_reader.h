@@ -15,7 +15,7 @@ class StateReader {
   /// `bodies`: how many there may be, `shapes`: how many of these there are.
   StateReader(int bodies, int shapes) : bodies_(bodies), shapes_(shapes) {}
 
-  /// Whether `message`, sound as decode() leaves it, was the last part of a whole frame, so that states() is the state
+  /// Whether `message`, checked by decode(), was the last part of a whole frame, so that states() is the state
   /// at step(). A frame without all its parts, or of a step that is over, changes nothing. Throws std::invalid_argument
   /// where the message names a body or shape that the scene does not have.
   bool take(const talus_lcm::talus_bodies_v1& message);

@@ -160,7 +160,7 @@ int wake_command(const WakeOptions& options) {
 }  // namespace
 
 void add_wake_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("wake", "Were a recorded run's sleepers right to sleep? Wake all and see");
+  CLI::App* command = app.add_subcommand("wake", "Wake all bodies of a recorded run and measure how far they drift");
   command->footer(
       "Rebuilds the last recorded state with all bodies awake and simulates on at the reference settings.\n"
       "Take a finished pile: what still falls counts as displaced.\n"

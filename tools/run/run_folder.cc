@@ -153,7 +153,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"settings", settings_json(scene)},
                   {"reason", input.reason},
                   {"bodies", bodies},
-                  {"bodies_asked", simulation.emitter().total()},
+                  {"bodies_planned", simulation.emitter().total()},
                   {"bodies_appeared", simulation.emitter().emitted()},
                   {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
                   {"asleep_at_end", bodies - world.awake().size()},
