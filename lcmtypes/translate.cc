@@ -163,7 +163,7 @@ talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   message.asleep = states.size() - message.awake - static_cast<std::int32_t>(removed);
   message.contacts = -1;
   message.kinetic_energy = kinetic_energy(frame.world);
-  message.planned = frame.bodies_planned;
+  message.planned = frame.bodies_asked;
   message.appeared = states.size();
   for (const Warning& warning : frame.warnings) {
     message.warning_kind.push_back(static_cast<std::int8_t>(warning.kind));

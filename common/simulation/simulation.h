@@ -40,7 +40,7 @@ class Simulation {
 
   /// The last finished step.
   Frame<Dim> frame() const {
-    return {step_, time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_planned()};
+    return {step_, time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_asked()};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }

@@ -35,7 +35,7 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
       dt_(scene.world.dt),
       speed_squared_(at_limit(limits.speed)),
       spin_squared_(at_limit(limits.spin)) {
-  for (const Source<Dim>& source : sources_) bodies_planned_ += source.count;
+  for (const Source<Dim>& source : sources_) bodies_asked_ += source.count;
 }
 
 template <int Dim>
@@ -125,7 +125,7 @@ void Watchdog<Dim>::finish(const World<Dim>& world, std::int64_t step) {
   const int appeared = world.states().size();
   const double last_emission = static_cast<double>(step - 1) * dt_;
   const int due_long_ago = due_by(last_emission - patience);
-  const bool over = due_long_ago == bodies_planned_;
+  const bool over = due_long_ago == bodies_asked_;
   const bool stalled = due_long_ago > appeared && static_cast<double>(step - last_appearance_) * dt_ > patience;
   const int missing = due_by(last_emission) - appeared;
   if (missing <= 0 || !(over || stalled)) return;

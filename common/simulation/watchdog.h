@@ -34,7 +34,7 @@ class Watchdog {
   /// One of each kind that was seen, in the order of first sight.
   std::span<const Warning> warnings() const { return warnings_; }
   /// Bodies that the scene's sources add in all.
-  int bodies_planned() const { return bodies_planned_; }
+  int bodies_asked() const { return bodies_asked_; }
 
  private:
   int due_by(double time) const;
@@ -50,7 +50,7 @@ class Watchdog {
   double dt_;             // [s]
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
-  int bodies_planned_ = 0;
+  int bodies_asked_ = 0;
   BodyIndex appeared_ = 0;
   std::int64_t last_appearance_ = 0;  // [steps]
   std::vector<Warning> warnings_;
