@@ -250,6 +250,13 @@ TEST(BenchTruth, TheNumberOfJobsDoesNotChangeTheResults) {
   EXPECT_EQ(results[0], results[1]);
 }
 
+TEST(BenchTruth, ABadSettingIsRefusedBeforeAnyRun) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command("bench truth --quick --set policy.adaptive.no=1 --out " + (folder / "truth"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("policy.adaptive.no = 1: no such key"), std::string::npos) << outcome.err;
+}
+
 TEST(BenchTruth, ACellThatDoesNotExistIsRefused) {
   const Outcome outcome = talus_command("bench truth --cells 5d");
   EXPECT_EQ(outcome.exit_code, 2);

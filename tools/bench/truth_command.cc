@@ -48,7 +48,8 @@ void add_truth_options(CLI::App& command, TruthOptions& options) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command.add_option("-o,--out", options.out, "Folder of rows and report (bench/truth, quick: bench/truth-quick)")
-      ->check(not_empty());
+      ->check(not_empty())
+      ->check(CLI::ExistingDirectory | CLI::NonexistentPath);
 }
 
 }  // namespace

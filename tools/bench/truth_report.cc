@@ -130,25 +130,18 @@ Table truth_csv(const Json& json) {
   return table;
 }
 
-/// Means over all cells, and how many are red because of what.
-std::string in_short(const std::vector<TruthRow>& rows) {
-  const auto mean_over_cells = [&](const std::function<double(const TruthRow&)>& number) {
-    std::vector<double> numbers;
-    for (const TruthRow& row : rows) {
-      if (std::isfinite(number(row))) numbers.push_back(number(row));
-    }
-    return mean(numbers);
-  };
+/// "12 of 60 cells are red: drift 7, centre 6".
+std::string red_cells(const std::vector<TruthRow>& rows) {
   std::vector<std::pair<std::string, int>> reasons;
   int red = 0;
   for (const TruthRow& row : rows) {
     red += !row.result.beyond.empty();
     for (const std::string& name : row.result.beyond) {
       const auto found = std::ranges::find(reasons, name, &std::pair<std::string, int>::first);
-      if (found == reasons.end()) {
-        reasons.emplace_back(name, 1);
-      } else {
+      if (found != reasons.end()) {
         ++found->second;
+      } else {
+        reasons.emplace_back(name, 1);
       }
     }
   }
@@ -157,16 +150,34 @@ std::string in_short(const std::vector<TruthRow>& rows) {
   for (const auto& [name, count] : reasons) {
     text += fmt::format("{}{} {}", name == reasons.front().first ? ": " : ", ", name, count);
   }
-  return text +
-         fmt::format(
-             ". Means over the cells: centre {:+.1f} % of the reference's and {:+.1f} % of full's, at the end of "
-             "the pour {:+.1f} %; drift beyond full's {:.2g} D; awake {:.3g}; speed-up {:.3g}.",
-             mean_over_cells([](const TruthRow& row) { return row.result.centre.percent; }),
-             mean_over_cells([](const TruthRow& row) { return row.result.centre_from_full.percent; }),
-             mean_over_cells([](const TruthRow& row) { return row.result.poured.percent; }),
-             mean_over_cells([](const TruthRow& row) { return row.result.drift; }),
-             mean_over_cells([](const TruthRow& row) { return row.result.awake; }),
-             mean_over_cells([](const TruthRow& row) { return row.result.speed_up; }));
+  return text + ".";
+}
+
+/// Of a number over the cells that have it.
+EnsembleSummary over_cells(const std::vector<TruthRow>& rows, const std::function<double(const TruthResult&)>& number) {
+  std::vector<double> numbers;
+  for (const TruthRow& row : rows) {
+    if (std::isfinite(number(row.result))) numbers.push_back(number(row.result));
+  }
+  return numbers.empty() ? EnsembleSummary{} : summarize(numbers);
+}
+
+/// "+5.5 ± 1.4 %": mean over the cells and its standard error.
+std::string mean_bias(const std::vector<TruthRow>& rows, Bias TruthResult::*bias) {
+  const EnsembleSummary cells = over_cells(rows, [=](const TruthResult& result) { return (result.*bias).percent; });
+  return fmt::format("{:+.1f} ± {:.1f} %", cells.mean, cells.deviation / std::sqrt(std::max(1, cells.runs)));
+}
+
+std::string in_short(const std::vector<TruthRow>& rows) {
+  using R = TruthResult;
+  return fmt::format(
+      "{} Means over the cells with their standard errors: centre {} of the reference's and {} of full's, at the end "
+      "of "
+      "the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}.",
+      red_cells(rows), mean_bias(rows, &R::centre), mean_bias(rows, &R::centre_from_full), mean_bias(rows, &R::poured),
+      over_cells(rows, [](const R& r) { return r.drift; }).mean,
+      over_cells(rows, [](const R& r) { return r.awake; }).mean,
+      over_cells(rows, [](const R& r) { return r.speed_up; }).mean);
 }
 
 std::string file_bytes(const fs::path& file) {
