@@ -1,5 +1,5 @@
 #pragma once
-// Channels, what travels on them, and how large it may be.
+// The channels, their message types, and the largest size of a message.
 
 #include <array>
 #include <cstddef>

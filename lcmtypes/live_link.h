@@ -29,7 +29,7 @@ void check_url(const std::string& url);
 /// Throws std::invalid_argument when packets to this address would leave the machine (ttl is not 0).
 void require_local(const std::string& effective_url);
 
-/// Opens effective_url(url). Checks for the multicast route first, since LCM would print a page and give up.
+/// Opens effective_url(url). Checks for the multicast route first, since LCM would print a page of text and fail.
 LiveLink open_live_link(const std::string& url);
 
 }  // namespace talus

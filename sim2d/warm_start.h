@@ -24,8 +24,8 @@
 
 namespace talus::box2d {
 
-/// One point of a contact that was. Its feature id says which corner and side it came from, and is found again after
-/// fixtures were made again: see EngineWorld::freeze().
+/// A point of a former contact. Its feature id names the corner and side it came from, so it is found again on new
+/// fixtures: see EngineWorld::freeze().
 struct SavedPoint {
   static constexpr std::uint32_t no_point = 0xffffffff;
   std::uint32_t feature = no_point;
@@ -39,11 +39,11 @@ struct SavedContact {
   std::array<SavedPoint, b2_maxManifoldPoints> points;
 };
 
-/// Contacts between sleepers: the engine has none of these. Every contact hangs in the lists of both its bodies.
+/// Contacts between sleepers: the engine has none of these. Every contact is in the lists of both its bodies.
 class SleepingContacts {
  public:
   void keep(const SavedContact& contact);
-  /// Takes out all contacts of a body and appends them to `out`.
+  /// Removes all contacts of a body and appends them to `out`.
   void release(BodyIndex body, std::vector<SavedContact>& out);
 
  private:
@@ -59,7 +59,7 @@ class SleepingContacts {
   std::vector<std::int32_t> first_;  // by body; -1: none
 };
 
-/// What was saved since the last step, on its way to contacts that the coming step makes.
+/// Impulses saved since the last step, for contacts that the coming step makes.
 class WarmStart {
  public:
   void save(b2Contact& contact);

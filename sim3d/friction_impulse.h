@@ -1,5 +1,5 @@
 #pragma once
-// The friction impulse that a contact point of Bullet's remembers.
+// The friction impulse that is stored in a contact point of Bullet.
 
 #include <btBulletDynamicsCommon.h>
 

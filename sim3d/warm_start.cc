@@ -160,7 +160,7 @@ void WarmStart::restore(PairCache& pairs, const btDispatcherInfo& info) {
   announced_.clear();
 }
 
-// Runs the pair's collision detection once more, at the same poses and so with the same points, to learn which manifold
+// Runs the pair's collision detection once more, at the same poses and so with the same points, to find which manifold
 // belongs to which pieces.
 void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   const Sides sides(pair);

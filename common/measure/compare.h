@@ -14,7 +14,7 @@ namespace talus {
 /// The first frame at which two runs are not the same bit for bit.
 struct FirstDifference {
   int frame = 0;
-  std::int64_t step = 0;  // of the frame in the first run: the runs part between the frame before and this one
+  std::int64_t step = 0;  // of the frame in the first run: the runs diverge between the frame before and this one
   BodyIndex body = 0;     // the lowest that differs
 };
 
@@ -22,7 +22,7 @@ struct FirstDifference {
 template <int Dim>
 std::optional<FirstDifference> first_difference(const Trajectory<Dim>& a, const Trajectory<Dim>& b);
 
-/// The last frame that both runs have and know, or -1.
+/// The last frame that is known in both runs, or -1.
 template <int Dim>
 int last_common_frame(const Trajectory<Dim>& a, const Trajectory<Dim>& b);
 

@@ -7,7 +7,7 @@
 
 namespace talus {
 
-/// Mean, spread, and how well the mean is known.
+/// Mean, standard deviation and confidence interval of the mean.
 struct EnsembleSummary {
   int runs = 0;
   double mean = 0.0;

@@ -48,12 +48,12 @@ using Continuation =
     std::function<Trajectory<Dim>(const Fork<Dim>& fork, std::span<const Arrival<Dim>> arrivals, int frames)>;
 
 /// All bodies awake in a fresh world of `description`, whose dt divides `frame_time` [s]. `nudge` [m] moves the first
-/// body along x beforehand: two continuations that differ by 1e-6 m show what chaos does in this time.
+/// body along x beforehand: two continuations that differ by 1e-6 m show the effect of chaos.
 template <int Dim>
 Continuation<Dim> full_continuation(WorldMaker<Dim> make_world, WorldDescription<Dim> description, double frame_time,
                                     double nudge = 0.0);
 
-/// The run itself, not forked at all: it goes on under its own policy, with all its engine remembers. `run` must
+/// The run itself, not forked at all: it goes on under its own policy, with all that its engine stores. `run` must
 /// outlive the continuation and have a frame at each fork; beyond its end the result is shorter.
 template <int Dim>
 Continuation<Dim> recorded_continuation(const Trajectory<Dim>& run);

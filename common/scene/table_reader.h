@@ -1,5 +1,5 @@
 #pragma once
-// Reads the values of one TOML table into plain variables and remembers what was wrong.
+// Reads the values of one TOML table into plain variables and collects the errors.
 
 #include <toml++/toml.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The sources at work.
+// Adds the bodies of a scene's sources to a world.
 
 #include <cstdint>
 #include <deque>

@@ -43,7 +43,7 @@ class EnergyLedger {
   /// Of one shape.
   struct Constants {
     double weight = 0.0;  // [N]
-    double scale = 0.0;   // work to lift it by its extent, and a motion that the eye takes for rest [J]
+    double scale = 0.0;   // work to lift it by its extent, and a motion too slow to be seen [J]
   };
   const Constants& constants_of(const World<Dim>& world, BodyIndex body) const {
     return constants_[static_cast<std::size_t>(world.states().shape[static_cast<std::size_t>(body)])];

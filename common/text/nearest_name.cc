@@ -19,7 +19,7 @@ bool contains(std::string_view longer, std::string_view shorter) {
 }  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
-  // Rows of the usual table of distances between beginnings of a and b: this one, the last, the one before.
+  // Rows of the table of edit distances between prefixes of a and b: this one, the last, the one before.
   std::vector<int> row(b.size() + 1), last(b.size() + 1), before_last(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) {
     row[j] = static_cast<int>(j);

@@ -13,8 +13,8 @@
 
 namespace talus::bullet {
 
-/// btDiscreteDynamicsWorld works each step through all bodies in its two lists. A sleeper needs neither: what makes it
-/// solid is its entry in the broadphase alone.
+/// btDiscreteDynamicsWorld visits all bodies of its two lists in each step. A sleeping body is in neither: its entry in
+/// the broad phase alone makes it solid.
 class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
   /// `pairs`: what the broadphase keeps its pairs in.

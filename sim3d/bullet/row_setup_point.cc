@@ -11,7 +11,7 @@ namespace {
 
 /// What the right-hand side of a point's normal row is made of.
 struct NormalTarget {
-  float rhs;   // impulse wanted [N s]
+  float rhs;   // target impulse [N s]
   float deep;  // impulse that moves deep bodies apart without giving them velocity [N s]; 0: not deep
 };
 

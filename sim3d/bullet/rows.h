@@ -17,7 +17,7 @@ struct alignas(64) PackedBody {
 /// One direction of one contact point: 96 bytes, in place of btSolverConstraint's 168. The fourth lanes of the first
 /// three hold numbers of the row; they are multiplied by a body's fourth lanes, which are 0.
 struct alignas(32) PackedRow {
-  Lanes normal;    // on body a, on b its opposite; fourth: impulse wanted at rest [N s]
+  Lanes normal;    // on body a, on b its opposite; fourth: target impulse at rest [N s]
   Lanes turn_a;    // normal torque of a unit impulse on a; fourth: impulse per change of velocity [kg]
   Lanes turn_b;    // fourth: coefficient of friction
   Lanes effect_a;  // change of a's angular velocity by a unit impulse

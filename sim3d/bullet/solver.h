@@ -1,5 +1,5 @@
 #pragma once
-// Bullet's solver with friction that remembers.
+// Bullet's solver with warm starting of friction.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -8,7 +8,7 @@
 namespace talus::bullet {
 
 /// btSequentialImpulseConstraintSolver starts the normal impulse of each contact at 85 % of the last step's, but
-/// friction at zero: ten iterations never find the friction that holds a pile, and it creeps on for ever. This solver
+/// friction at zero: ten iterations never find the friction that holds a pile, and it creeps without end. This solver
 /// starts friction at the last step's, turned into the step's directions, as far as Coulomb's law and the normal
 /// impulse started with allow. Ten iterations then creep like fifty without, at the cost of ten.
 class WarmFrictionSolver : public btSequentialImpulseConstraintSolver {

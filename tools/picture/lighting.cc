@@ -74,7 +74,7 @@ double Lighting::Lamp::reaching(const Vec3& point, const Vec3& normal) const {
   if (!(seen.x() >= 0.5 && seen.y() >= 0.5 && seen.x() < shadows.width() - 0.5 && seen.y() < shadows.height() - 0.5)) {
     return 1.0;
   }
-  // Between the four nearest pixels, so that a shadow's edge is as wide as a pixel.
+  // Interpolates between the four nearest pixels, so that a shadow's edge is as wide as a pixel.
   const int x = static_cast<int>(seen.x() - 0.5);
   const int y = static_cast<int>(seen.y() - 0.5);
   const double right = seen.x() - 0.5 - x;

@@ -62,7 +62,7 @@ void ShadedImage::enter(std::vector<Face> faces) {
 }
 
 bool ShadedImage::hidden(const Vec3& point) const {
-  // A little leeway: a line upon a face shall be seen.
+  // A little leeway: a line on a face must be visible.
   const Vec3 seen = projection_.project(point + 0.004 * projection_.distance * projection_.towards_eye(point));
   const int x = static_cast<int>(std::floor(seen.x()));
   const int y = static_cast<int>(std::floor(seen.y()));

@@ -1,5 +1,5 @@
 #pragma once
-// Impacts on sleeping bodies: which bodies they wake, and the momentum they hand over.
+// Impacts on sleeping bodies: which bodies they wake, and the momentum they transfer.
 
 #include <vector>
 
