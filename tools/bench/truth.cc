@@ -226,7 +226,7 @@ TruthRow row_of_task(const TruthTask& task, const RowStore& store, const TruthOp
 }
 
 std::vector<std::string> notes_of(const TruthOptions& options) {
-  std::vector<std::string> notes = {
+  return {
       fmt::format("{} bodies a cell, at 0.5 a second three tenths of them; {} independent seeds; each run ends ten "
                   "seconds after the pour (in other gravity as long as takes the same motion there).",
                   options.bodies, options.seeds),
@@ -235,10 +235,17 @@ std::vector<std::string> notes_of(const TruthOptions& options) {
                   options.count, options.design),
       "In 3D triangles are tetrahedra, discs balls, and a slope, bin or hopper has the same section along both axes "
       "(a slope along one). Discs and balls have no rolling friction. Scenes of the paper have their own bodies."};
-  if (!options.settings.empty()) {
-    notes.push_back(fmt::format("Settings of adaptive: {}.", fmt::join(options.settings, " ")));
-  }
-  return notes;
+}
+
+/// Measures the same again; folder and number of jobs are left out.
+std::string truth_command_line(const TruthOptions& options) {
+  std::string command =
+      fmt::format("talus bench truth{} --design {} --count {} --seeds {} --bodies {}", options.quick ? " --quick" : "",
+                  options.design, options.count, options.seeds, options.bodies);
+  if (!options.cells.empty()) command += fmt::format(" --cells {}", fmt::join(options.cells, ","));
+  for (const std::string& engine : options.backends) command += " --backend " + engine;
+  for (const std::string& setting : options.settings) command += fmt::format(" --set '{}'", setting);
+  return command;
 }
 
 }  // namespace
@@ -251,7 +258,9 @@ void bench_truth(const TruthOptions& options) {
   measure_missing(tasks, store, all);
   std::vector<TruthRow> rows;
   for (const TruthTask& task : tasks) rows.push_back(row_of_task(task, store, all));
-  report_truth(all.out, std::move(rows), notes_of(all));
+  BenchResults results{"Truth: errors of adaptive over scenes", notes_of(all), {}};
+  results.command = truth_command_line(all);
+  report_truth(all.out, std::move(rows), std::move(results));
 }
 
 }  // namespace talus

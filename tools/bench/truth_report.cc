@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "common/measure/ensemble.h"
-#include "tools/bench/bench_results.h"
 #include "tools/output/output.h"
 #include "tools/picture/contact_sheet.h"
 #include "tools/report/json_text.h"
@@ -254,12 +253,10 @@ std::filesystem::path picture_file(const std::filesystem::path& folder, const st
   return folder / "pictures" / fmt::format("{}-{}-{}.png", cell, backend, policy);
 }
 
-void report_truth(const std::filesystem::path& folder, std::vector<TruthRow> rows,
-                  const std::vector<std::string>& notes) {
+void report_truth(const std::filesystem::path& folder, std::vector<TruthRow> rows, BenchResults results) {
   std::ranges::stable_sort(rows,
                            [](const TruthRow& a, const TruthRow& b) { return a.result.severity > b.result.severity; });
   const Table table = shown_table(rows);
-  BenchResults results{"Truth: errors of adaptive over scenes", notes, {}};
   results.notes.emplace_back(how_to_read);
   results.sections.push_back({"Cells, worst first", {Paragraph{in_short(rows)}, table}});
   Section pictures = red_pictures(folder, rows);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/bench_results.h"
 #include "tools/bench/truth_result.h"
 
 namespace talus {
@@ -14,10 +15,9 @@ struct TruthRow {
   TruthResult result;
 };
 
-/// Writes the pages, results.csv and results.json into `folder`, and prints the table. Pictures of red cells are those
-/// of picture_file() that exist.
-void report_truth(const std::filesystem::path& folder, std::vector<TruthRow> rows,
-                  const std::vector<std::string>& notes);
+/// Writes the pages, results.csv and results.json into `folder`, and prints the table. `results` holds what the head of
+/// the pages shows; tables and pictures are added. Pictures of red cells are those of picture_file() that exist.
+void report_truth(const std::filesystem::path& folder, std::vector<TruthRow> rows, BenchResults results);
 
 /// PNG of the first seed's last state.
 std::filesystem::path picture_file(const std::filesystem::path& folder, const std::string& cell,
