@@ -42,7 +42,7 @@ Packet MessageEncoder::encode(Message& message, const Stamp& stamp) {
   message.crc32 = 0;
   Packet packet{channel, stamp.utime, {}};
   const int size = message.getEncodedSize();
-  packet.bytes.resize(static_cast<std::size_t>(size));
+  packet.bytes.resize(size);
   const int written = message.encode(packet.bytes.data(), 0, size);
   if (written != size || packet.bytes.size() > max_message_bytes) {
     abort_with(name_of(channel), packet.bytes.size());

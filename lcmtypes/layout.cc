@@ -26,8 +26,7 @@ class LayoutCheck {
     counts_.resize(std::max(counts_.size(), first_ + all.size()));
     for (std::size_t i = 0; i < all.size(); ++i) {
       const MessageField& field = all[i];
-      const std::size_t number =
-          field.count_field < 0 ? field.number : counts_[first_ + static_cast<std::size_t>(field.count_field)];
+      const std::size_t number = field.count_field < 0 ? field.number : counts_[first_ + field.count_field];
       if (number > rest_.size()) return bad_counts;  // of negative ones too; each entry takes a byte or more
       for (std::size_t k = 0; k < number; ++k) {
         const std::string_view fault = entry(all, i);

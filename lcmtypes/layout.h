@@ -74,7 +74,7 @@ constexpr std::size_t fixed_bytes(std::span<const MessageField> fields) {
 constexpr std::size_t bytes_per_entry(std::span<const MessageField> fields, std::string_view count) {
   std::size_t bytes = 0;
   for (const MessageField& field : fields) {
-    if (field.count_field >= 0 && fields[static_cast<std::size_t>(field.count_field)].name == count) {
+    if (field.count_field >= 0 && fields[field.count_field].name == count) {
       bytes += field.fields.empty() ? entry_bytes(field.type) : fixed_bytes(field.fields);
     }
   }

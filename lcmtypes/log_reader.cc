@@ -86,7 +86,7 @@ void LogReader::skip_to_candidate() {
   in_damage_ = true;
   const auto after = rest().subspan(1);
   const auto found = std::find(after.begin(), after.end(), sync_word[0]);
-  const auto skipped = static_cast<std::size_t>(found - after.begin()) + 1;
+  const auto skipped = found - after.begin() + 1;
   damage_.bytes += skipped;
   at_ += skipped;
 }
@@ -101,7 +101,7 @@ bool LogReader::have(std::size_t bytes) {
     const std::size_t before = buffer_.size();
     buffer_.resize(before + chunk);
     log_->read(reinterpret_cast<char*>(buffer_.data() + before), static_cast<std::streamsize>(chunk));
-    buffer_.resize(before + static_cast<std::size_t>(log_->gcount()));
+    buffer_.resize(before + log_->gcount());
   }
   return buffer_.size() - at_ >= bytes;
 }

@@ -82,7 +82,7 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
     poses_since_key_frame_ = 0;
     bodies.clear();
     for (BodyIndex body = 0; body < states.size(); ++body) {
-      if (states.removed[static_cast<std::size_t>(body)] == 0) bodies.push_back(body);
+      if (states.removed[body] == 0) bodies.push_back(body);
     }
   }
   write(to_bodies<Dim>(states, bodies, key_frame), frame.step, frame.time);
@@ -94,7 +94,7 @@ std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();
   std::vector<BodyIndex> bodies(frame.world.awake().begin(), frame.world.awake().end());
   std::copy_if(fell_asleep_.begin(), fell_asleep_.end(), std::back_inserter(bodies),
-               [&](BodyIndex body) { return states.removed[static_cast<std::size_t>(body)] == 0; });
+               [&](BodyIndex body) { return states.removed[body] == 0; });
   fell_asleep_.clear();
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());

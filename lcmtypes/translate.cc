@@ -139,7 +139,7 @@ std::vector<talus_piles_v1> to_piles(std::span<const Pile<Dim>> piles) {
 
 std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
   std::vector<talus_sleep_v1> messages;
-  for (; !events.empty(); events = events.subspan(static_cast<std::size_t>(messages.back().event_count))) {
+  for (; !events.empty(); events = events.subspan(messages.back().event_count)) {
     talus_sleep_v1& message = messages.emplace_back();
     for (const SleepEvent& event : events.first(std::min(events.size(), room<talus_sleep_v1> / event_bytes))) {
       message.body.push_back(event.body);
@@ -204,10 +204,9 @@ std::vector<talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<
     message.body_count = static_cast<std::int32_t>(here.size());
     message.body.assign(here.begin(), here.end());
     for (const BodyIndex body : here) {
-      const auto i = static_cast<std::size_t>(body);
-      message.shape.push_back(static_cast<std::int16_t>(states.shape[i]));
-      message.asleep.push_back(static_cast<std::int8_t>(states.asleep[i]));
-      append<Dim>(states.pose[i], message.poses);
+      message.shape.push_back(static_cast<std::int16_t>(states.shape[body]));
+      message.asleep.push_back(static_cast<std::int8_t>(states.asleep[body]));
+      append<Dim>(states.pose[body], message.poses);
     }
     message.value_count = static_cast<std::int32_t>(message.poses.size());
   } while (!bodies.empty());

@@ -56,7 +56,7 @@ class ContactRecords {
   std::size_t find_place(const b2Contact* contact) const {
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // spreads addresses that differ in a few bits (Knuth)
     const auto key = static_cast<std::uint64_t>(std::bit_cast<std::uintptr_t>(contact));
-    std::size_t at = static_cast<std::size_t>((key * golden) >> 32) & (places_.size() - 1);
+    std::size_t at = ((key * golden) >> 32) & (places_.size() - 1);
     while (places_[at] != 0 && entries_[places_[at] - 1].contact != contact) {
       at = (at + 1) & (places_.size() - 1);
     }

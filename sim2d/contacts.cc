@@ -50,7 +50,7 @@ void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
   const b2Body& a = *contact->GetFixtureA()->GetBody();
   const b2Body& b = *contact->GetFixtureB()->GetBody();
   ContactRecord& record = records_[contact];
-  for (std::size_t i = 0; i < static_cast<std::size_t>(contact->GetManifold()->pointCount); ++i) {
+  for (int i = 0; i < contact->GetManifold()->pointCount; ++i) {
     const b2Vec2 relative =
         a.GetLinearVelocityFromWorldPoint(world.points[i]) - b.GetLinearVelocityFromWorldPoint(world.points[i]);
     // Continuous collision updates a contact a second time within a step; the faster approach is the impact.
@@ -66,7 +66,7 @@ void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impu
     return;
   }
   ContactRecord& record = records_[contact];
-  for (std::size_t i = 0; i < static_cast<std::size_t>(impulse->count); ++i) {
+  for (int i = 0; i < impulse->count; ++i) {
     record.normal[i] += impulse->normalImpulses[i];
     record.tangent[i] += impulse->tangentImpulses[i];
   }
@@ -101,7 +101,7 @@ void ContactListener::append(b2Contact& contact, BodyIndex a, std::vector<Contac
   const Vec2 normal = from_engine(world.normal);
   const Vec2 tangent = from_engine(b2Cross(world.normal, 1.0F));
   const ContactRecord* record = records_.find(&contact);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.GetManifold()->pointCount); ++i) {
+  for (int i = 0; i < contact.GetManifold()->pointCount; ++i) {
     const b2ManifoldPoint& point = contact.GetManifold()->points[i];
     const bool known = record != nullptr;
     Contact<2> c;

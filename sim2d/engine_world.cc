@@ -156,12 +156,11 @@ std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
     return *broken;
   }
   for (const BodyIndex index : awake()) {
-    const auto i = static_cast<std::size_t>(index);
     const b2Body& body = *at(index).body;
-    states.pose[i].position = from_engine(body.GetPosition());
-    states.pose[i].rotation.angle() = body.GetAngle();
-    states.velocity[i] = from_engine(body.GetLinearVelocity());
-    states.spin[i][0] = body.GetAngularVelocity();
+    states.pose[index].position = from_engine(body.GetPosition());
+    states.pose[index].rotation.angle() = body.GetAngle();
+    states.velocity[index] = from_engine(body.GetLinearVelocity());
+    states.spin[index][0] = body.GetAngularVelocity();
   }
   return std::nullopt;
 }
@@ -187,7 +186,7 @@ void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
     world_.DestroyBody(at(bodies[i]).body);
   }
   for (const BodyIndex body : bodies) {
-    const Pose<2>& pose = states().pose[static_cast<std::size_t>(body)];
+    const Pose<2>& pose = states().pose[body];
     at(body) = {nullptr, hosts_.add(body, template_of_body(body), stored_pose(pose))};
   }
   proxies_moved_ = true;
@@ -202,7 +201,7 @@ void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
   }
   std::vector<b2Fixture*> fixtures = fixtures_of(bodies);
   hosts_.for_each_contact(fixtures, [this](b2Contact& contact, BodyIndex owner) {
-    if (states().asleep[static_cast<std::size_t>(owner)] == 0) {
+    if (states().asleep[owner] == 0) {
       warm_start_.save(contact);
     }
   });
@@ -230,14 +229,12 @@ std::vector<b2Fixture*> EngineWorld::fixtures_of(std::span<const BodyIndex> bodi
 void EngineWorld::create_thawed(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies) {
     if (at(body).body == nullptr) {
-      at(body) = {create(body, template_of_body(body), states().pose[static_cast<std::size_t>(body)]), nullptr};
+      at(body) = {create(body, template_of_body(body), states().pose[body]), nullptr};
     }
   }
 }
 
-void EngineWorld::check_memory() const {
-  reserve_.check(bodies_.size(), static_cast<std::size_t>(world_.GetContactCount()));
-}
+void EngineWorld::check_memory() const { reserve_.check(bodies_.size(), world_.GetContactCount()); }
 
 void EngineWorld::find_new_contacts() {
   if (proxies_moved_) {

@@ -51,12 +51,10 @@ class EngineWorld final : public World<2> {
   /// Empties Box2D's list of moved fixtures, which it searches from end to end whenever a fixture is removed.
   void find_new_contacts();
 
-  EngineBody& at(BodyIndex body) { return bodies_[static_cast<std::size_t>(body)]; }
-  const EngineBody& at(BodyIndex body) const { return bodies_[static_cast<std::size_t>(body)]; }
-  const BodyTemplate& template_of(int shape) const { return templates_[static_cast<std::size_t>(shape)]; }
-  const BodyTemplate& template_of_body(BodyIndex body) const {
-    return template_of(states().shape[static_cast<std::size_t>(body)]);
-  }
+  EngineBody& at(BodyIndex body) { return bodies_[body]; }
+  const EngineBody& at(BodyIndex body) const { return bodies_[body]; }
+  const BodyTemplate& template_of(int shape) const { return templates_[shape]; }
+  const BodyTemplate& template_of_body(BodyIndex body) const { return template_of(states().shape[body]); }
 
   std::vector<BodyTemplate> templates_;  // by shape
   b2World world_;

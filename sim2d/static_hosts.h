@@ -38,7 +38,7 @@ class StaticHosts {
     int frozen = 0;
   };
   std::size_t open_host();
-  static std::size_t slot_of(b2Body& host) { return static_cast<std::size_t>(host.GetUserData().pointer); }
+  static std::size_t slot_of(b2Body& host) { return host.GetUserData().pointer; }
 
   b2World* world_;
   // Frozen bodies in one host. Removing a fixture walks the host's list, so a thaw costs more with more of them; a step

@@ -23,7 +23,7 @@ void WarmStart::save(b2Contact& contact) {
   const auto [low, high] = sorted_tags(contact);
   SavedContact saved{low, high, {}};
   const b2Manifold& manifold = *contact.GetManifold();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.pointCount); ++i) {
+  for (int i = 0; i < manifold.pointCount; ++i) {
     const b2ManifoldPoint& point = manifold.points[i];
     saved.points[i] = {point.id.key, point.normalImpulse, point.tangentImpulse};
   }
@@ -37,7 +37,7 @@ void WarmStart::apply(b2Contact& contact) const {
     return;
   }
   b2Manifold& manifold = *contact.GetManifold();
-  for (b2ManifoldPoint& point : std::span(manifold.points, static_cast<std::size_t>(manifold.pointCount))) {
+  for (b2ManifoldPoint& point : std::span(manifold.points, manifold.pointCount)) {
     for (const SavedPoint& saved : found->points) {
       if (saved.feature == point.id.key) {
         point.normalImpulse = saved.normal;
@@ -48,7 +48,7 @@ void WarmStart::apply(b2Contact& contact) const {
 }
 
 std::int32_t& SleepingContacts::next_of(std::int32_t node, BodyIndex body) {
-  Node& n = nodes_[static_cast<std::size_t>(node)];
+  Node& n = nodes_[node];
   return n.next[owner_of(n.contact.low) == body ? 0 : 1];
 }
 
@@ -59,22 +59,22 @@ void SleepingContacts::keep(const SavedContact& contact) {
   }
   const std::int32_t node = free_.back();
   free_.pop_back();
-  nodes_[static_cast<std::size_t>(node)].contact = contact;
+  nodes_[node].contact = contact;
   for (const BodyIndex body : {owner_of(contact.low), owner_of(contact.high)}) {
     if (body < 0) {
       continue;  // ground and obstacles never wake, so theirs are not needed
     }
-    if (static_cast<std::size_t>(body) >= first_.size()) {
-      first_.resize(static_cast<std::size_t>(body) + 1, -1);
+    if (body >= std::ssize(first_)) {
+      first_.resize(body + 1, -1);
     }
-    std::int32_t& first = first_[static_cast<std::size_t>(body)];
+    std::int32_t& first = first_[body];
     next_of(node, body) = first;
     first = node;
   }
 }
 
 void SleepingContacts::unlink(std::int32_t node, BodyIndex body) {
-  std::int32_t* link = &first_[static_cast<std::size_t>(body)];
+  std::int32_t* link = &first_[body];
   while (*link != node) {
     link = &next_of(*link, body);
   }
@@ -82,13 +82,13 @@ void SleepingContacts::unlink(std::int32_t node, BodyIndex body) {
 }
 
 void SleepingContacts::release(BodyIndex body, std::vector<SavedContact>& out) {
-  if (static_cast<std::size_t>(body) >= first_.size()) {
+  if (body >= std::ssize(first_)) {
     return;
   }
-  std::int32_t& first = first_[static_cast<std::size_t>(body)];
+  std::int32_t& first = first_[body];
   while (first >= 0) {
     const std::int32_t node = first;
-    const SavedContact& contact = nodes_[static_cast<std::size_t>(node)].contact;
+    const SavedContact& contact = nodes_[node].contact;
     out.push_back(contact);
     const BodyIndex low = owner_of(contact.low);
     const BodyIndex other = low == body ? owner_of(contact.high) : low;
@@ -109,7 +109,7 @@ void WarmStart::forget(BodyIndex body) {
 void WarmStart::start_step(std::span<const std::uint8_t> asleep) {
   const auto sleeps = [asleep](Tag tag) {
     const BodyIndex owner = owner_of(tag);
-    return owner < 0 || asleep[static_cast<std::size_t>(owner)] != 0;
+    return owner < 0 || asleep[owner] != 0;
   };
   // A contact of two bodies that fell asleep together was saved from both sides.
   std::ranges::stable_sort(waiting_, before);

@@ -86,7 +86,7 @@ typename Contacts<Dim>::Motion Contacts<Dim>::motion_before(const btCollisionObj
   if (found == moving_.end() || *found != index) {
     return {};
   }
-  return motion_[static_cast<std::size_t>(found - moving_.begin())];
+  return motion_[found - moving_.begin()];
 }
 
 template class Contacts<2>;

@@ -13,7 +13,7 @@ namespace {
 // sleeper takes; and it uses the pointer unchecked, so that lack of memory must be an exception. Before
 // main(), since what was taken in one way cannot be given back in the other.
 void* take(std::size_t size, int alignment) {
-  const auto unit = static_cast<std::size_t>(alignment);
+  const std::size_t unit = alignment;
   void* memory =
       unit <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
   if (memory == nullptr && size > 0) throw std::bad_alloc();

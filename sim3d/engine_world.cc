@@ -151,7 +151,7 @@ std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) 
     return (*broken)->getUserIndex();
   }
   for (const btRigidBody* body : rigid_) {
-    const auto i = static_cast<std::size_t>(body->getUserIndex());
+    const BodyIndex i = body->getUserIndex();
     states.pose[i] = from_bullet<Dim>(body->getWorldTransform(), template_of_body(body->getUserIndex()).frame_inverse);
     states.velocity[i] = from_bullet<Dim>(body->getLinearVelocity());
     states.spin[i] = spin_from_bullet<Dim>(body->getAngularVelocity());

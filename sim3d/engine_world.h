@@ -42,16 +42,12 @@ class EngineWorld final : public World<Dim> {
   void list_frozen();
   void find_strayed() const;
 
-  const std::unique_ptr<btCollisionObject>& at(BodyIndex body) const {
-    return objects_[static_cast<std::size_t>(body)];
-  }
-  std::unique_ptr<btCollisionObject>& at(BodyIndex body) { return objects_[static_cast<std::size_t>(body)]; }
+  const std::unique_ptr<btCollisionObject>& at(BodyIndex body) const { return objects_[body]; }
+  std::unique_ptr<btCollisionObject>& at(BodyIndex body) { return objects_[body]; }
   /// Null if the body is frozen.
   btRigidBody* rigid_body(BodyIndex body) const { return btRigidBody::upcast(at(body).get()); }
-  const BodyTemplate& template_of(int shape) const { return templates_[static_cast<std::size_t>(shape)]; }
-  const BodyTemplate& template_of_body(BodyIndex body) const {
-    return template_of(this->states().shape[static_cast<std::size_t>(body)]);
-  }
+  const BodyTemplate& template_of(int shape) const { return templates_[shape]; }
+  const BodyTemplate& template_of_body(BodyIndex body) const { return template_of(this->states().shape[body]); }
 
   double mass_scale_;
   std::vector<BodyTemplate> templates_;  // by shape

@@ -70,32 +70,32 @@ void WarmStart::keep(const Sides& sides, const SavedPoint& point) {
   }
   const std::int32_t node = free_.back();
   free_.pop_back();
-  nodes_[static_cast<std::size_t>(node)] = {point, -1};
-  const auto owner = static_cast<std::size_t>(sides.owner->getUserIndex());
-  if (first_.size() <= owner) {
+  nodes_[node] = {point, -1};
+  const BodyIndex owner = sides.owner->getUserIndex();
+  if (std::ssize(first_) <= owner) {
     first_.resize(owner + 1, -1);
   }
   std::int32_t* link = &first_[owner];
   while (*link >= 0) {
-    link = &nodes_[static_cast<std::size_t>(*link)].next;
+    link = &nodes_[*link].next;
   }
   *link = node;
 }
 
 void WarmStart::release(const Sides& sides, std::vector<SavedPoint>& out) {
-  const auto owner = static_cast<std::size_t>(sides.owner->getUserIndex());
-  if (first_.size() <= owner) {
+  const BodyIndex owner = sides.owner->getUserIndex();
+  if (std::ssize(first_) <= owner) {
     return;
   }
   for (std::int32_t* link = &first_[owner]; *link >= 0;) {
     const std::int32_t node = *link;
-    const Node& here = nodes_[static_cast<std::size_t>(node)];
+    const Node& here = nodes_[node];
     if (here.point.partner == sides.partner->getUserIndex()) {
       out.push_back(here.point);
       *link = here.next;
       free_.push_back(node);
     } else {
-      link = &nodes_[static_cast<std::size_t>(node)].next;
+      link = &nodes_[node].next;
     }
   }
 }
@@ -138,11 +138,11 @@ void WarmStart::announce(btBroadphaseProxy& woken, const PairCache& pairs) {
 }
 
 void WarmStart::forget(BodyIndex body) {
-  if (static_cast<std::size_t>(body) < first_.size()) {
-    std::int32_t& first = first_[static_cast<std::size_t>(body)];
+  if (body < std::ssize(first_)) {
+    std::int32_t& first = first_[body];
     while (first >= 0) {
       free_.push_back(first);
-      first = nodes_[static_cast<std::size_t>(first)].next;
+      first = nodes_[first].next;
     }
   }
   std::erase_if(announced_, [body](const auto& pair) {

@@ -24,7 +24,7 @@ void AvalancheWatch<Dim>::begin(const Frame<Dim>& frame) {
     for (const SleepEvent& event : frame.events) {
       if (!event.woke || event.cause != SleepCause::avalanche || event.pile != static_cast<int>(p)) continue;
       fresh.bodies.push_back(event.body);
-      fresh.from.push_back(frame.world.states().pose[static_cast<std::size_t>(event.body)].position);
+      fresh.from.push_back(frame.world.states().pose[event.body].position);
     }
     if (fresh.bodies.empty()) continue;
     const auto densest = std::max_element(piles[p].layers.begin(), piles[p].layers.end(),
@@ -41,17 +41,15 @@ void AvalancheWatch<Dim>::begin(const Frame<Dim>& frame) {
 /// Bodies move from the step after their waking on.
 template <int Dim>
 bool AvalancheWatch<Dim>::quiet(const Lasting& lasting, const BodyStates<Dim>& states) const {
-  return std::all_of(lasting.bodies.begin(), lasting.bodies.end(), [&](BodyIndex body) {
-    return states.velocity[static_cast<std::size_t>(body)].norm() <= quiet_speed_;
-  });
+  return std::all_of(lasting.bodies.begin(), lasting.bodies.end(),
+                     [&](BodyIndex body) { return states.velocity[body].norm() <= quiet_speed_; });
 }
 
 template <int Dim>
 void AvalancheWatch<Dim>::end(Lasting& lasting, const BodyStates<Dim>& states) {
   double sum = 0.0;
   for (std::size_t i = 0; i < lasting.bodies.size(); ++i) {
-    const auto body = static_cast<std::size_t>(lasting.bodies[i]);
-    const double way = (states.pose[body].position - lasting.from[i]).norm();
+    const double way = (states.pose[lasting.bodies[i]].position - lasting.from[i]).norm();
     sum += way;
     lasting.record.longest_way = std::max(lasting.record.longest_way, way);
   }

@@ -13,8 +13,8 @@ namespace {
 template <int Dim>
 double mean_extent(const Trajectory<Dim>& run, int frame, std::span<const double> extents) {
   std::vector<double> all;
-  all.reserve(static_cast<std::size_t>(run.bodies(frame)));
-  for (BodyIndex i = 0; i < run.bodies(frame); ++i) all.push_back(extents[static_cast<std::size_t>(run.shape(i))]);
+  all.reserve(run.bodies(frame));
+  for (BodyIndex i = 0; i < run.bodies(frame); ++i) all.push_back(extents[run.shape(i)]);
   return all.empty() ? 1.0 : mean(all);
 }
 

@@ -55,10 +55,7 @@ double edges_distance(const ConvexPiece<Dim>& a, const ConvexPiece<Dim>& b) {
   double nearest = infinity;
   for (const auto& [a0, a1] : a.edges) {
     for (const auto& [b0, b1] : b.edges) {
-      nearest = std::min(
-          nearest,
-          segment_distance<Dim>(a.corners[static_cast<std::size_t>(a0)], a.corners[static_cast<std::size_t>(a1)],
-                                b.corners[static_cast<std::size_t>(b0)], b.corners[static_cast<std::size_t>(b1)]));
+      nearest = std::min(nearest, segment_distance<Dim>(a.corners[a0], a.corners[a1], b.corners[b0], b.corners[b1]));
     }
   }
   return nearest;
@@ -68,9 +65,7 @@ double corners_distance(const ConvexPiece<3>& corners, const ConvexPiece<3>& fac
   double nearest = infinity;
   for (const Vec3& corner : corners.corners) {
     for (const auto& [i, j, k] : faces.triangles) {
-      nearest = std::min(nearest, triangle_distance(corner, faces.corners[static_cast<std::size_t>(i)],
-                                                    faces.corners[static_cast<std::size_t>(j)],
-                                                    faces.corners[static_cast<std::size_t>(k)]));
+      nearest = std::min(nearest, triangle_distance(corner, faces.corners[i], faces.corners[j], faces.corners[k]));
     }
   }
   return nearest;

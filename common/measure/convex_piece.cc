@@ -21,13 +21,13 @@ void add_faces(ConvexPiece<2>& piece) {
   for (int i = 0; i < count; ++i) {
     const int next = (i + 1) % count;
     if (count > 2 || i == 0) piece.edges.push_back({i, next});
-    const Vec2 side = piece.corners[static_cast<std::size_t>(next)] - piece.corners[static_cast<std::size_t>(i)];
+    const Vec2 side = piece.corners[next] - piece.corners[i];
     if (count > 1) add_line<2>(piece.normals, Vec2(side.y(), -side.x()));
   }
 }
 
 void add_faces(ConvexPiece<3>& piece) {
-  const auto corner = [&](int i) -> const Vec3& { return piece.corners[static_cast<std::size_t>(i)]; };
+  const auto corner = [&](int i) -> const Vec3& { return piece.corners[i]; };
   if (piece.corners.size() <= 2) {
     piece.edges.push_back({0, static_cast<int>(piece.corners.size()) - 1});
   } else {

@@ -42,7 +42,7 @@ EnsembleSummary summarize(std::span<const double> values, int resamples, std::ui
 
   std::mt19937_64 random(seed);
   std::vector<double> means;
-  means.reserve(static_cast<std::size_t>(resamples));
+  means.reserve(resamples);
   for (int k = 0; k < resamples; ++k) {
     double sum = 0.0;
     for (std::size_t draw = 0; draw < values.size(); ++draw) {

@@ -25,7 +25,7 @@ Trajectory<Dim> continue_full(const WorldMaker<Dim>& make_world, const WorldDesc
   BodyStates<Dim> states = fork.states;
   const auto first = std::find(states.removed.begin(), states.removed.end(), std::uint8_t{0});
   if (first != states.removed.end()) {
-    states.pose[static_cast<std::size_t>(first - states.removed.begin())].position.x() += nudge;
+    states.pose[first - states.removed.begin()].position.x() += nudge;
   }
   const std::unique_ptr<World<Dim>> world = rebuild(make_world, description, states, Sleepers::awake);
   Trajectory<Dim> trajectory(description.dt, steps_per_frame);

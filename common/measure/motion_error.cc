@@ -69,7 +69,7 @@ std::vector<MotionError> motion_errors(const Trajectory<Dim>& full, const Trajec
   require(gravity > 0.0, "gravity", gravity, "must be > 0");
   const int frames = std::min(full.frames(), other.frames());
   std::vector<MotionError> errors;
-  errors.reserve(static_cast<std::size_t>(std::max(frames - 1, 0)));
+  errors.reserve(std::max(frames - 1, 0));
   for (int j = 0; j + 1 < frames; ++j) {
     FrameSums<Dim> sums;
     sums.unit = gravity * full.frame_time() * full.frame_time();
@@ -77,7 +77,7 @@ std::vector<MotionError> motion_errors(const Trajectory<Dim>& full, const Trajec
     for (BodyIndex i = 0; i < bodies; ++i) {
       if (!full.present(j, i) || !full.present(j + 1, i) || !other.present(j, i) || !other.present(j + 1, i)) continue;
       sums.add_motion(full.position(j + 1, i) - full.position(j, i), other.position(j + 1, i) - other.position(j, i));
-      const double extent = extents[static_cast<std::size_t>(full.shape(i))];
+      const double extent = extents[full.shape(i)];
       const Spin<Dim> turn_full = turn(full, j, i);
       sums.turn_difference += extent * (turn_full - turn(other, j, i)).norm();
       sums.turned += extent * turn_full.norm();
@@ -92,7 +92,7 @@ MotionError average(std::span<const MotionError> errors, int first_frame) {
   int frames = 0;
   int with_motion = 0;
   double left_out = 0.0;
-  for (std::size_t j = static_cast<std::size_t>(std::max(first_frame, 0)); j < errors.size(); ++j) {
+  for (std::size_t j = std::max(first_frame, 0); j < errors.size(); ++j) {
     const MotionError& error = errors[j];
     if (error.bodies == 0) continue;
     ++frames;

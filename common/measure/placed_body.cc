@@ -16,7 +16,7 @@ std::vector<PlacedBody<Dim>> placed_bodies(std::span<const Shape<Dim>> shapes, c
   std::vector<PlacedBody<Dim>> bodies;
   for (std::size_t i = 0; i < states.shape.size(); ++i) {
     if (states.removed[i] || states.velocity[i].norm() > fastest) continue;
-    bodies.push_back(place(shapes[static_cast<std::size_t>(states.shape[i])], states.pose[i]));
+    bodies.push_back(place(shapes[states.shape[i]], states.pose[i]));
   }
   return bodies;
 }
@@ -27,7 +27,7 @@ std::vector<PlacedBody<Dim>> placed_bodies(std::span<const Shape<Dim>> shapes, c
   for (BodyIndex i = 0; i < run.bodies(frame); ++i) {
     if (!run.present(frame, i)) continue;
     const Pose<Dim> pose{run.position(frame, i), run.rotation(frame, i)};
-    bodies.push_back(place(shapes[static_cast<std::size_t>(run.shape(i))], pose));
+    bodies.push_back(place(shapes[run.shape(i)], pose));
   }
   return bodies;
 }

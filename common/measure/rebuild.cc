@@ -11,11 +11,10 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
   std::unique_ptr<World<Dim>> world = make_world(description);
   std::vector<BodyIndex> asleep;
   for (BodyIndex body = 0; body < states.size(); ++body) {
-    const auto i = static_cast<std::size_t>(body);
-    world->add({states.shape[i], states.pose[i], states.velocity[i], states.spin[i]});
-    if (states.removed[i]) {
+    world->add({states.shape[body], states.pose[body], states.velocity[body], states.spin[body]});
+    if (states.removed[body]) {
       world->remove(body);
-    } else if (states.asleep[i]) {
+    } else if (states.asleep[body]) {
       asleep.push_back(body);
     }
   }

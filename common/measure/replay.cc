@@ -20,8 +20,8 @@ class UntilStep final : public SleepPolicy<Dim> {
     if (frame.step != step_) return;
     const BodyStates<Dim>& states = frame.world.states();
     for (BodyIndex body = 0; body < states.size(); ++body) {
-      const auto i = static_cast<std::size_t>(body);
-      if (states.asleep[i] && !states.removed[i]) decision.thaw.push_back({.body = body, .cause = SleepCause::user});
+      if (states.asleep[body] && !states.removed[body])
+        decision.thaw.push_back({.body = body, .cause = SleepCause::user});
     }
   }
 

@@ -18,19 +18,18 @@ Packing packing(std::span<const PlacedBody<Dim>> bodies, const Vec<Dim>& base_ce
   const double rise = apex / layers;
   const auto radius_at = [&](double above) { return foot * (1.0 - above / apex); };
   Packing result;
-  result.layers.assign(static_cast<std::size_t>(layers), 0.0);
+  result.layers.assign(layers, 0.0);
   double solid = 0.0;
   for (const PlacedBody<Dim>& body : bodies) {
     const double above = height<Dim>(body.centre) - height<Dim>(base_centre);
     const double radius = (horizontal<Dim>(body.centre) - horizontal<Dim>(base_centre)).norm();
     if (above < 0.0 || above >= apex || radius > radius_at(above)) continue;
     const int layer = std::min(static_cast<int>(above / rise), layers - 1);
-    result.layers[static_cast<std::size_t>(layer)] += body.volume;
+    result.layers[layer] += body.volume;
     solid += body.volume;
   }
   for (int layer = 0; layer < layers; ++layer) {
-    result.layers[static_cast<std::size_t>(layer)] /=
-        Profile<Dim>::slice_volume(radius_at(layer * rise), radius_at((layer + 1) * rise), rise);
+    result.layers[layer] /= Profile<Dim>::slice_volume(radius_at(layer * rise), radius_at((layer + 1) * rise), rise);
   }
   result.all = solid / Profile<Dim>::slice_volume(foot, 0.0, apex);
   return result;

@@ -17,14 +17,14 @@ struct Horizon {
   void add(const Trajectory<Dim>& full, const Trajectory<Dim>& other, std::span<const MotionError> motion,
            std::span<const double> extents) {
     if (std::min(full.frames(), other.frames()) <= error.frames) return;
-    const MotionError so_far = average(motion.first(static_cast<std::size_t>(error.frames)));
+    const MotionError so_far = average(motion.first(error.frames));
     ++error.forks;
     error.ratio += so_far.ratio;
     error.symmetric += so_far.symmetric;
     for (BodyIndex i = 0; i < full.bodies(0); ++i) {
       if (!full.present(0, i) || !full.present(error.frames, i) || !other.present(error.frames, i)) continue;
       const double distance = (full.position(error.frames, i) - other.position(error.frames, i)).norm();
-      distances.push_back(distance / extents[static_cast<std::size_t>(full.shape(i))]);
+      distances.push_back(distance / extents[full.shape(i)]);
     }
   }
 

@@ -67,9 +67,8 @@ std::vector<Solid<Dim>> solids(const WorldDescription<Dim>& description, const B
   shapes.reserve(description.shapes.size());
   for (const Shape<Dim>& shape : description.shapes) shapes.push_back(convex_pieces(shape));
   for (BodyIndex i = 0; i < states.size(); ++i) {
-    const auto body = static_cast<std::size_t>(i);
-    if (states.removed[body]) continue;
-    all.push_back(make_solid(i, shapes[static_cast<std::size_t>(states.shape[body])], states.pose[body]));
+    if (states.removed[i]) continue;
+    all.push_back(make_solid(i, shapes[states.shape[i]], states.pose[i]));
   }
   return all;
 }
@@ -107,32 +106,30 @@ std::vector<Touch> touching_pairs(const WorldDescription<Dim>& description, cons
 
 template <int Dim>
 std::vector<BodyIndex> floating_sleepers(const BodyStates<Dim>& states, std::span<const Touch> touches) {
-  const auto count = static_cast<std::size_t>(states.size());
-  std::vector<std::vector<BodyIndex>> neighbours(count);
-  std::vector<std::uint8_t> carried(count, 0);
+  std::vector<std::vector<BodyIndex>> neighbours(states.size());
+  std::vector<std::uint8_t> carried(states.size(), 0);
   std::vector<BodyIndex> open;
   const auto carry = [&](BodyIndex body) {
-    if (carried[static_cast<std::size_t>(body)]) return;
-    carried[static_cast<std::size_t>(body)] = 1;
+    if (carried[body]) return;
+    carried[body] = 1;
     open.push_back(body);
   };
   for (const Touch& touch : touches) {
     if (touch.b < 0) {
       carry(touch.a);
     } else {
-      neighbours[static_cast<std::size_t>(touch.a)].push_back(touch.b);
-      neighbours[static_cast<std::size_t>(touch.b)].push_back(touch.a);
+      neighbours[touch.a].push_back(touch.b);
+      neighbours[touch.b].push_back(touch.a);
     }
   }
   while (!open.empty()) {
     const BodyIndex body = open.back();
     open.pop_back();
-    for (const BodyIndex neighbour : neighbours[static_cast<std::size_t>(body)]) carry(neighbour);
+    for (const BodyIndex neighbour : neighbours[body]) carry(neighbour);
   }
   std::vector<BodyIndex> floating;
   for (BodyIndex i = 0; i < states.size(); ++i) {
-    const auto body = static_cast<std::size_t>(i);
-    if (states.asleep[body] && !states.removed[body] && !carried[body]) floating.push_back(i);
+    if (states.asleep[i] && !states.removed[i] && !carried[i]) floating.push_back(i);
   }
   return floating;
 }
@@ -141,9 +138,8 @@ template <int Dim>
 std::vector<BodyIndex> sunken_sleepers(const WorldDescription<Dim>& description, const BodyStates<Dim>& states) {
   std::vector<BodyIndex> sunken;
   for (BodyIndex i = 0; description.ground.present && i < states.size(); ++i) {
-    const auto body = static_cast<std::size_t>(i);
-    const bool sleeps = states.asleep[body] != 0 && states.removed[body] == 0;
-    if (sleeps && height<Dim>(states.pose[body].position) < description.ground.height) sunken.push_back(i);
+    const bool sleeps = states.asleep[i] != 0 && states.removed[i] == 0;
+    if (sleeps && height<Dim>(states.pose[i].position) < description.ground.height) sunken.push_back(i);
   }
   return sunken;
 }

@@ -20,7 +20,7 @@ class Columns {
   explicit Columns(const ProfileGrid<Dim>& grid)
       : grid_(grid), width_(grid.bin_width / columns_per_bin), side_(2 * grid.bins * columns_per_bin) {
     std::size_t count = 1;
-    for (int axis = 0; axis + 1 < Dim; ++axis) count *= static_cast<std::size_t>(side_);
+    for (int axis = 0; axis + 1 < Dim; ++axis) count *= side_;
     tops_.assign(count, 0.0);
   }
 
@@ -54,7 +54,7 @@ class Columns {
  private:
   double middle(int index) const { return (index - 0.5 * side_ + 0.5) * width_; }
   void lift(int column, double top) {
-    double& present = tops_[static_cast<std::size_t>(column)];
+    double& present = tops_[column];
     present = std::max(present, top);
   }
   /// First and last column whose middle lies within the box along an axis.
@@ -79,7 +79,7 @@ std::vector<ProfileBin> height_profile(std::span<const PlacedBody<Dim>> bodies, 
   require(grid.bins >= 1, "bins", grid.bins, "must be >= 1");
   Columns<Dim> columns(grid);
   for (const PlacedBody<Dim>& body : bodies) columns.raise(body.bounds);
-  std::vector<ProfileBin> profile(static_cast<std::size_t>(Dim == 2 ? 2 * grid.bins : grid.bins));
+  std::vector<ProfileBin> profile(Dim == 2 ? 2 * grid.bins : grid.bins);
   const double start = Dim == 2 ? -grid.bins * grid.bin_width : 0.0;
   for (std::size_t column = 0; column < columns.size(); ++column) {
     const auto bin = static_cast<std::size_t>((columns.at(column) - start) / grid.bin_width);

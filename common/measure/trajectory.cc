@@ -59,9 +59,8 @@ void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_nu
 
 template <int Dim>
 BodyIndex Trajectory<Dim>::bodies(int frame) const {
-  const auto index = static_cast<std::size_t>(frame);
-  const std::size_t end = index + 1 < first_.size() ? first_[index + 1] : flags_.size();
-  return static_cast<BodyIndex>(end - first_[index]);
+  const std::size_t end = frame + 1 < std::ssize(first_) ? first_[frame + 1] : flags_.size();
+  return static_cast<BodyIndex>(end - first_[frame]);
 }
 
 template <int Dim>
@@ -93,7 +92,7 @@ Trajectory<Dim> Trajectory<Dim>::part(int first, int count) const {
   BodyIndex most = 0;
   for (int frame = first; frame < end; ++frame) {
     copy.first_.push_back(entry(frame, 0) - from);
-    copy.lost_.push_back(lost_[static_cast<std::size_t>(frame)]);
+    copy.lost_.push_back(lost_[frame]);
     most = std::max(most, bodies(frame));
   }
   copy.shape_.assign(shape_.begin(), shape_.begin() + most);

@@ -37,13 +37,13 @@ class Trajectory {
   std::int64_t step(int frame) const { return first_step_ + frame * steps_per_frame_; }
 
   /// Whether nothing is known of a frame.
-  bool lost(int frame) const { return lost_[static_cast<std::size_t>(frame)] != 0; }
+  bool lost(int frame) const { return lost_[frame] != 0; }
   int lost_frames() const { return static_cast<int>(std::count(lost_.begin(), lost_.end(), 1)); }
 
   /// Bodies added by the last frame, by a given frame; 0 for a lost frame.
   BodyIndex bodies() const { return static_cast<BodyIndex>(shape_.size()); }
   BodyIndex bodies(int frame) const;
-  int shape(BodyIndex body) const { return shape_[static_cast<std::size_t>(body)]; }
+  int shape(BodyIndex body) const { return shape_[body]; }
 
   bool present(int frame, BodyIndex body) const {
     return body < bodies(frame) && (flags_[entry(frame, body)] & present_flag) != 0;
@@ -65,9 +65,7 @@ class Trajectory {
   static constexpr std::uint8_t asleep_flag = 2;
   static constexpr std::uint8_t unknown_flag = 4;
   static constexpr std::size_t floats_per_body = Dim == 2 ? 3 : 7;  // position, then angle or quaternion (x, y, z, w)
-  std::size_t entry(int frame, BodyIndex body) const {
-    return first_[static_cast<std::size_t>(frame)] + static_cast<std::size_t>(body);
-  }
+  std::size_t entry(int frame, BodyIndex body) const { return first_[frame] + body; }
 
   bool unknown(int frame, BodyIndex body) const {
     return lost(frame) || (body < bodies(frame) && (flags_[entry(frame, body)] & unknown_flag) != 0);

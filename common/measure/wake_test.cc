@@ -22,7 +22,7 @@ class Observation {
 
   void note_energy(const BodyStates<Dim>& states) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < start_.shape.size(); ++i) {
+    for (BodyIndex i = 0; i < start_.size(); ++i) {
       if (start_.removed[i]) continue;
       const double energy = kinetic_energy(shape(i), states, i);
       result_.energy = std::max(result_.energy, energy / weight(i));
@@ -56,9 +56,7 @@ class Observation {
   }
 
  private:
-  const Shape<Dim>& shape(std::size_t i) const {
-    return description_.shapes[static_cast<std::size_t>(start_.shape[i])];
-  }
+  const Shape<Dim>& shape(std::size_t i) const { return description_.shapes[start_.shape[i]]; }
   /// m g D: the energy of a fall by the body's own extent.
   double weight(std::size_t i) const { return shape(i).mass * description_.gravity * shape(i).extent; }
 

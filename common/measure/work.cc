@@ -31,7 +31,7 @@ Hindsight hindsight(const Trajectory<Dim>& full, std::span<const double> extents
   std::int64_t moving = 0;
   const auto moves = [&](int frame, BodyIndex body) {
     const Vec<Dim> here = full.position(frame, body);
-    const double far = x * extents[static_cast<std::size_t>(full.shape(body))];
+    const double far = x * extents[full.shape(body)];
     for (int later = frame + 1; later <= frame + ahead && full.present(later, body); ++later) {
       if ((full.position(later, body) - here).norm() > far) return true;
     }

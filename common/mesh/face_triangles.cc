@@ -9,7 +9,7 @@ namespace {
 
 // The face seen against its normal, so that it runs counter-clockwise.
 std::vector<Vec2> flattened(std::span<const int> face, std::span<const Vec3> corners) {
-  const auto corner = [&](std::size_t i) { return corners[static_cast<std::size_t>(face[i % face.size()])]; };
+  const auto corner = [&](std::size_t i) { return corners[face[i % face.size()]]; };
   Vec3 normal = Vec3::Zero();
   for (std::size_t i = 0; i < face.size(); ++i) {
     normal += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));

@@ -66,7 +66,7 @@ Mesh mesh_of(const std::vector<Vec3>& corners, std::vector<std::array<int, 3>> t
     for (int& corner : triangle) {
       const auto [entry, is_new] = number_of.try_emplace(corner, static_cast<int>(mesh.corners.size()));
       if (is_new) {
-        mesh.corners.push_back(corners[static_cast<std::size_t>(corner)]);
+        mesh.corners.push_back(corners[corner]);
       }
       corner = entry->second;
     }

@@ -43,7 +43,7 @@ Mesh merged(const Mesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       require(triangle[k] >= 0 && triangle[k] < count, "mesh triangle's corner", triangle[k],
               "must be the number of a corner");
-      const Vec3& corner = mesh.corners[static_cast<std::size_t>(triangle[k])];
+      const Vec3& corner = mesh.corners[triangle[k]];
       const std::array<double, 3> place = {std::round(corner.x() / grid), std::round(corner.y() / grid),
                                            std::round(corner.z() / grid)};
       const auto [entry, is_new] = number_at.try_emplace(place, static_cast<int>(result.corners.size()));
@@ -82,9 +82,7 @@ void require_closed(const Mesh& mesh, const std::map<Edge, std::vector<std::size
     open += triangles.size() == 1 ? 1 : 0;
     crowded += triangles.size() > 2 ? 1 : 0;
     if (triangles.size() != 2 && place.empty()) {
-      const Vec3 middle =
-          (mesh.corners[static_cast<std::size_t>(edge.first)] + mesh.corners[static_cast<std::size_t>(edge.second)]) /
-          2;
+      const Vec3 middle = (mesh.corners[edge.first] + mesh.corners[edge.second]) / 2;
       place = fmt::format("must be 0: every edge must have two triangles; the first that has not lies at ({}, {}, {})",
                           middle.x(), middle.y(), middle.z());
     }

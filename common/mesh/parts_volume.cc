@@ -30,7 +30,7 @@ Part half_spaces_of(const Mesh& mesh) {
     part.bounds.extend(corner);
   }
   for (const auto& triangle : mesh.triangles) {
-    const auto corner = [&](std::size_t k) { return mesh.corners[static_cast<std::size_t>(triangle[k])]; };
+    const auto corner = [&](std::size_t k) { return mesh.corners[triangle[k]]; };
     const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
     part.half_spaces.push_back({normal, normal.dot(corner(0))});
   }

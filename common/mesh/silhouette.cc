@@ -14,7 +14,7 @@ constexpr double ticks_per_length = 1 << 24;  // Clipper computes in whole numbe
 ClipperLib::Path projected(const Mesh& mesh, const std::array<int, 3>& triangle, double ticks) {
   ClipperLib::Path path;
   for (const int index : triangle) {
-    const Vec3& corner = mesh.corners[static_cast<std::size_t>(index)];
+    const Vec3& corner = mesh.corners[index];
     path.emplace_back(std::llround(corner.x() * ticks), std::llround(corner.z() * ticks));
   }
   if (!ClipperLib::Orientation(path)) {

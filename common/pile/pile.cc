@@ -81,7 +81,7 @@ int Pile<Dim>::layer_of(const Vec<Dim>& point) const {
   if (above < 0.0 || layers.empty()) return -1;
   const int last = static_cast<int>(layers.size()) - 1;
   const int layer = above >= height ? last : std::min(last, static_cast<int>(above / layers.front().top));
-  return closeness(point, layers[static_cast<std::size_t>(layer)]) > 0.0 ? layer : -1;
+  return closeness(point, layers[layer]) > 0.0 ? layer : -1;
 }
 
 template <int Dim>

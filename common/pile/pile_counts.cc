@@ -6,11 +6,10 @@ namespace talus {
 
 template <int Dim>
 CountedAs<Dim> counted_as(const Pile<Dim>& pile, const BodyStates<Dim>& states, BodyIndex body) {
-  const auto i = static_cast<std::size_t>(body);
   CountedAs<Dim> now;
-  const Vec<Dim>& position = states.pose[i].position;
+  const Vec<Dim>& position = states.pose[body].position;
   now.layer = static_cast<std::int16_t>(pile.layer_of(position));
-  now.asleep = states.asleep[i] != 0;
+  now.asleep = states.asleep[body] != 0;
   if (now.layer < 0) return now;
   for (std::size_t axis = 0; axis < now.at.size(); ++axis) {
     const double steps = position[static_cast<Eigen::Index>(axis)] * CountedAs<Dim>::steps_per_metre;
@@ -29,7 +28,7 @@ void PileCounts<Dim>::clear(Pile<Dim>& pile, std::size_t bodies) {
 
 template <int Dim>
 void PileCounts<Dim>::count(Pile<Dim>& pile, BodyIndex body, const CountedAs<Dim>& now) {
-  CountedAs<Dim>& kept = counted_[static_cast<std::size_t>(body)];
+  CountedAs<Dim>& kept = counted_[body];
   add(pile, kept, -1);
   add(pile, now, +1);
   kept = now;
@@ -38,7 +37,7 @@ void PileCounts<Dim>::count(Pile<Dim>& pile, BodyIndex body, const CountedAs<Dim
 template <int Dim>
 void PileCounts<Dim>::add(Pile<Dim>& pile, const CountedAs<Dim>& counted, int sign) {
   if (counted.layer < 0) return;
-  Layer& layer = pile.layers[static_cast<std::size_t>(counted.layer)];
+  Layer& layer = pile.layers[counted.layer];
   layer.count += sign;
   layer.sleeping += counted.asleep ? sign : 0;
   bodies_ += sign;

@@ -44,10 +44,7 @@ class PileCounts {
     return static_cast<double>(sum_[axis]) / (CountedAs<Dim>::steps_per_metre * bodies_);
   }
   /// Layer of a body, or -1.
-  int layer_of(BodyIndex body) const {
-    const auto i = static_cast<std::size_t>(body);
-    return i < counted_.size() ? counted_[i].layer : -1;
-  }
+  int layer_of(BodyIndex body) const { return body < std::ssize(counted_) ? counted_[body].layer : -1; }
   bool same_totals(const PileCounts& other) const { return bodies_ == other.bodies_ && sum_ == other.sum_; }
 
  private:

@@ -55,8 +55,8 @@ template <int Dim>
 void PileSet<Dim>::note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states) {
   has_touched_.resize(states.shape.size(), 0);
   for (const Contact<Dim>& contact : contacts) {
-    has_touched_[static_cast<std::size_t>(contact.a)] = 1;
-    if (contact.b >= 0) has_touched_[static_cast<std::size_t>(contact.b)] = 1;
+    has_touched_[contact.a] = 1;
+    if (contact.b >= 0) has_touched_[contact.b] = 1;
   }
 }
 
@@ -95,9 +95,8 @@ void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
 
 template <int Dim>
 CountedAs<Dim> PileSet<Dim>::counted_now(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const {
-  const auto i = static_cast<std::size_t>(body);
-  if (states.removed[i] != 0) return {};
-  const bool has_touched = i < has_touched_.size() && has_touched_[i] != 0;
+  if (states.removed[body] != 0) return {};
+  const bool has_touched = body < std::ssize(has_touched_) && has_touched_[body] != 0;
   if (!has_touched && !records_[pile].params.count_flying.value_or(true)) return {};
   return counted_as(piles_[pile], states, body);
 }
@@ -156,7 +155,7 @@ void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double
   if (record.counts.bodies() == 0 || record.params.boundary) return;
   Vec<Dim> step = Vec<Dim>::Zero();
   for (Eigen::Index axis = 0; axis < Dim - 1; ++axis) {
-    step[axis] = record.counts.mean(static_cast<std::size_t>(axis)) - piles_[pile].centre[axis];
+    step[axis] = record.counts.mean(axis) - piles_[pile].centre[axis];
   }
   const auto steps = static_cast<double>(steps_between_slow_updates(dt));
   step *= 1.0 - std::exp(-record.params.drift_rate * steps * dt);

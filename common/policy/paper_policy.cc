@@ -55,16 +55,15 @@ void PaperPolicy<Dim>::wake_hit_piles(const Frame<Dim>& frame, Decision<Dim>& de
 template <int Dim>
 bool PaperPolicy<Dim>::hits(const Frame<Dim>& frame, BodyIndex body) {
   const BodyStates<Dim>& states = frame.world.states();
-  const auto i = static_cast<std::size_t>(body);
-  if (frame.world.shape_of(body).mass * states.velocity[i].norm() <
+  if (frame.world.shape_of(body).mass * states.velocity[body].norm() <
       params_.wake_speed * frame.piles.typical_body().mass)
     return false;
   Box<Dim> swept = frame.world.bounds_of(body);
   // Two steps ahead: what is decided now is in force for the next step, in which a body reached then must be awake.
-  swept.extend(Box<Dim>(swept).translate(2.0 * dt_ * states.velocity[i]));
+  swept.extend(Box<Dim>(swept).translate(2.0 * dt_ * states.velocity[body]));
   near_.clear();
   frame.world.query_box(swept, near_);
-  std::erase_if(near_, [&](BodyIndex other) { return states.asleep[static_cast<std::size_t>(other)] == 0; });
+  std::erase_if(near_, [&](BodyIndex other) { return states.asleep[other] == 0; });
   return !near_.empty();
 }
 
@@ -89,11 +88,10 @@ void PaperPolicy<Dim>::wake(std::size_t pile, SleepCause cause, const Frame<Dim>
   pile_calm_from_[pile] = frame.step + params_.awake_steps;
   const BodyStates<Dim>& states = frame.world.states();
   for (BodyIndex body = 0; body < states.size(); ++body) {
-    const auto i = static_cast<std::size_t>(body);
     const int layer = frame.piles.layer_of(pile, body);
     if (layer < 0) continue;
-    body_rests_from_[i] = frame.step + params_.awake_steps;
-    if (states.asleep[i] == 0) continue;
+    body_rests_from_[body] = frame.step + params_.awake_steps;
+    if (states.asleep[body] == 0) continue;
     decision.thaw.push_back({.body = body, .pile = static_cast<int>(pile), .layer = layer, .cause = cause});
   }
 }
@@ -106,15 +104,14 @@ void PaperPolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, Decision<Dim>& d
   std::vector<int> open(piles.size());
   std::transform(piles.begin(), piles.end(), open.begin(), layers_open_to_sleep<Dim>);
   for (const BodyIndex body : frame.world.awake()) {
-    const auto i = static_cast<std::size_t>(body);
-    if (frame.step < body_rests_from_[i]) continue;
+    if (frame.step < body_rests_from_[body]) continue;
     SleepEvent best{.body = body, .cause = SleepCause::score, .score = params_.tau};
     for (std::size_t p = 0; p < piles.size(); ++p) {
       const int layer = frame.piles.layer_of(p, body);
       if (layer < 0 || layer >= open[p]) continue;
-      const Layer& slice = piles[p].layers[static_cast<std::size_t>(layer)];
-      const double closeness = piles[p].closeness(states.pose[i].position, slice);
-      const double score = sleep_score(slice.density(), closeness, states.velocity[i].norm());
+      const Layer& slice = piles[p].layers[layer];
+      const double closeness = piles[p].closeness(states.pose[body].position, slice);
+      const double score = sleep_score(slice.density(), closeness, states.velocity[body].norm());
       if (score > best.score) best.pile = static_cast<int>(p), best.layer = layer, best.score = score;
     }
     if (best.pile >= 0) decision.freeze.push_back(best);

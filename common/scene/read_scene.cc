@@ -222,7 +222,7 @@ std::string contents(const std::filesystem::path& file) {
   if (!unused) check_scene_text_size(size, file.string());
   std::string text(max_scene_text + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  text.resize(stream.gcount());
   return text;
 }
 

@@ -28,7 +28,7 @@ template <int Dim>
 double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world) {
   double radius = 0.0;
   for (const int shape : source.shapes) {
-    radius = std::max(radius, bounding_radius(world.shapes[static_cast<std::size_t>(shape)]));
+    radius = std::max(radius, bounding_radius(world.shapes[shape]));
   }
   return radius;
 }

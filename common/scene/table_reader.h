@@ -120,7 +120,7 @@ class TableReader {
   template <int Size>
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
                   Eigen::Vector<double, Size>& value) {
-    return read_array(node, name, key, range, {value.data(), static_cast<std::size_t>(Size)});
+    return read_array(node, name, key, range, {value.data(), Size});
   }
   template <int Size>
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,

@@ -15,7 +15,7 @@ std::vector<double> bodies_of_piles(const Scene<Dim>& scene) {
   std::vector<double> dropped(scene.world.shapes.size(), scene.sources.empty() ? 1.0 : 0.0);
   for (const Source<Dim>& source : scene.sources) {
     const double each = static_cast<double>(source.count) / static_cast<double>(source.shapes.size());
-    for (const int shape : source.shapes) dropped[static_cast<std::size_t>(shape)] += each;
+    for (const int shape : source.shapes) dropped[shape] += each;
   }
   const double most = dropped.empty() ? 0.0 : *std::max_element(dropped.begin(), dropped.end());
   for (double& count : dropped) {

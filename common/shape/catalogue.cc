@@ -45,7 +45,7 @@ std::vector<Vec3> arranged(std::span<const Vec3> points) {
   }
   std::vector<Vec3> result;
   for (const int index : used) {
-    result.push_back(points[static_cast<std::size_t>(index)]);
+    result.push_back(points[index]);
   }
   return result;
 }

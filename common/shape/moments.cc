@@ -85,7 +85,7 @@ Moments<Dim> moments_within(std::span<const Vec<Dim>> corners, std::span<const s
   for (const std::array<int, Dim>& simplex : boundary) {
     Matrix<Dim> edges;
     for (int k = 0; k < Dim; ++k) {
-      edges.col(k) = corners[static_cast<std::size_t>(simplex[static_cast<std::size_t>(k)])] - tip;
+      edges.col(k) = corners[simplex[k]] - tip;
     }
     const double part = edges.determinant() / (Dim == 2 ? 2.0 : 6.0);
     const Vec<Dim> sum = edges.rowwise().sum();

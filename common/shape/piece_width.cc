@@ -28,11 +28,10 @@ double width(const std::vector<Vec3>& corners) {
   const std::vector<std::vector<int>> faces = convex_hull_faces(corners);
   double least = faces.empty() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const std::vector<int>& face : faces) {
-    const Vec3& origin = corners[static_cast<std::size_t>(face[0])];
+    const Vec3& origin = corners[face[0]];
     Vec3 normal = Vec3::Zero();
     for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-      normal += (corners[static_cast<std::size_t>(face[i])] - origin)
-                    .cross(corners[static_cast<std::size_t>(face[i + 1])] - origin);
+      normal += (corners[face[i]] - origin).cross(corners[face[i + 1]] - origin);
     }
     normal.normalize();
     double largest = 0.0;

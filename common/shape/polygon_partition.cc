@@ -120,7 +120,7 @@ std::vector<Diagonal> diagonals(const std::vector<Vec2>& corners, const std::vec
 std::vector<Indices>::iterator piece_with_edge(std::vector<Indices>& pieces, std::size_t from, std::size_t to) {
   for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
     const auto at = std::find(piece->begin(), piece->end(), to);
-    const std::size_t position = static_cast<std::size_t>(at - piece->begin());
+    const std::size_t position = at - piece->begin();
     if (at != piece->end() && (*piece)[(position + piece->size() - 1) % piece->size()] == from) {
       std::rotate(piece->begin(), at, piece->end());
       return piece;

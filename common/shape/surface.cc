@@ -50,7 +50,7 @@ void add_faces(std::vector<Loop<3>>& faces, const HullPiece<3>& hull, int) {
   for (const std::vector<int>& face : convex_hull_faces(hull.corners)) {
     Loop<3>& loop = faces.emplace_back();
     for (const int index : face) {
-      loop.push_back(hull.corners[static_cast<std::size_t>(index)]);
+      loop.push_back(hull.corners[index]);
     }
   }
 }

@@ -61,7 +61,7 @@ template <int Dim>
 void Emitter<Dim>::draw(Spout& spout) const {
   const Source<Dim>& source = spout.source;
   BodyDef<Dim>& body = spout.next;
-  body.shape = source.shapes[static_cast<std::size_t>(spout.emitted) % source.shapes.size()];
+  body.shape = source.shapes[spout.emitted % source.shapes.size()];
   body.pose.position = uniform_within<Dim>(source.spread, spout.random);
   body.pose.rotation = source.orientation ? *source.orientation : uniform_rotation<Dim>(spout.random);
   body.velocity = source.velocity + uniform_within<Dim>(source.velocity_spread, spout.random);
@@ -98,7 +98,7 @@ Vec<Dim> Emitter<Dim>::place_in_grid(const Spout& spout) const {
 
 template <int Dim>
 bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
-  const Box<Dim> place = bounds_at(world.shapes()[static_cast<std::size_t>(body.shape)], body.pose);
+  const Box<Dim> place = bounds_at(world.shapes()[body.shape], body.pose);
   near_.clear();
   world.query_box(place, near_);
   return std::ranges::none_of(near_, [&](BodyIndex other) { return place.intersects(world.bounds_of(other)); });
@@ -109,7 +109,7 @@ bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
 template <int Dim>
 void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   const Vec<Dim> spout_at = place(spout, time);
-  const double half_width = world.shapes()[static_cast<std::size_t>(spout.next.shape)].extent;
+  const double half_width = world.shapes()[spout.next.shape].extent;
   const Vec<Dim> reach = Vec<Dim>::Constant(half_width) + spout.source.spread + 0.5 * spout.source.grid_extent();
   Box<Dim> column(spout_at - reach, spout_at + reach);
   column.min()[Dim - 1] = height<Dim>(spout_at) - spout.source.ride_above;
@@ -118,7 +118,7 @@ void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   const BodyStates<Dim>& states = world.states();
   const BodyIndex newborn = births_.empty() ? states.size() : births_.front().body;
   for (const BodyIndex body : near_) {
-    if (body >= newborn || states.velocity[static_cast<std::size_t>(body)].norm() > settled_speed) continue;
+    if (body >= newborn || states.velocity[body].norm() > settled_speed) continue;
     const Box<Dim> bounds = world.bounds_of(body);
     const double lift = height<Dim>(bounds.max()) + spout.source.ride_above - height<Dim>(spout.source.position);
     if (lift > spout.lift && lies_on_something(world, body, bounds)) spout.lift = lift;

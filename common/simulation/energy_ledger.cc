@@ -30,7 +30,7 @@ void EnergyLedger<Dim>::note_added(const World<Dim>& world) {
 template <int Dim>
 void EnergyLedger<Dim>::note_velocity(const World<Dim>& world, BodyIndex body, const Vec<Dim>& velocity,
                                       const Spin<Dim>& spin) {
-  const Rotation<Dim>& rotation = world.states().pose[static_cast<std::size_t>(body)].rotation;
+  const Rotation<Dim>& rotation = world.states().pose[body].rotation;
   change_ += kinetic_energy(world, body) - kinetic_energy<Dim>(world.shape_of(body), rotation, velocity, spin);
 }
 
@@ -38,7 +38,7 @@ template <int Dim>
 void EnergyLedger<Dim>::note_state(const World<Dim>& world, BodyIndex body) {
   const double kinetic = kinetic_energy(world, body);
   const double now = energy(world, body, kinetic);
-  double& last = last_[static_cast<std::size_t>(body)];
+  double& last = last_[body];
   change_ += now - last;
   last = now;
   kinetic_ += kinetic;
@@ -60,7 +60,7 @@ double EnergyLedger<Dim>::tolerance() const {
 
 template <int Dim>
 double EnergyLedger<Dim>::energy(const World<Dim>& world, BodyIndex body, double kinetic) const {
-  const Vec<Dim>& position = world.states().pose[static_cast<std::size_t>(body)].position;
+  const Vec<Dim>& position = world.states().pose[body].position;
   return kinetic + constants_of(world, body).weight * height<Dim>(position);
 }
 

@@ -46,7 +46,7 @@ class EnergyLedger {
     double scale = 0.0;   // work to lift it by its extent, and a motion too slow to be seen [J]
   };
   const Constants& constants_of(const World<Dim>& world, BodyIndex body) const {
-    return constants_[static_cast<std::size_t>(world.states().shape[static_cast<std::size_t>(body)])];
+    return constants_[world.states().shape[body]];
   }
 
   std::vector<Constants> constants_;  // by shape

@@ -161,10 +161,9 @@ void Simulation<Dim>::note_engine_sleep() {
   const BodyStates<Dim>& states = world_->states();
   asleep_before_.resize(states.asleep.size(), 0);
   for (BodyIndex body = 0; body < states.size(); ++body) {
-    const auto i = static_cast<std::size_t>(body);
-    if (states.asleep[i] == asleep_before_[i]) continue;
-    asleep_before_[i] = states.asleep[i];
-    events_.push_back({.step = step_, .body = body, .woke = states.asleep[i] == 0, .cause = SleepCause::engine});
+    if (states.asleep[body] == asleep_before_[body]) continue;
+    asleep_before_[body] = states.asleep[body];
+    events_.push_back({.step = step_, .body = body, .woke = states.asleep[body] == 0, .cause = SleepCause::engine});
     piles_.recount_body(states, body);
   }
 }
@@ -193,10 +192,8 @@ template <int Dim>
 void Simulation<Dim>::thaw_now(std::span<const BodyIndex> bodies, SleepCause cause) {
   bodies_.clear();
   const BodyStates<Dim>& states = world_->states();
-  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(bodies_), [&](BodyIndex body) {
-    const auto i = static_cast<std::size_t>(body);
-    return states.asleep[i] != 0 && states.removed[i] == 0;
-  });
+  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(bodies_),
+               [&](BodyIndex body) { return states.asleep[body] != 0 && states.removed[body] == 0; });
   world_->thaw(bodies_);
   for (const BodyIndex body : bodies_) {
     piles_.recount_body(states, body);

@@ -55,7 +55,7 @@ void Watchdog<Dim>::check(const World<Dim>& world, std::span<const SleepEvent> e
     check_speed(states, body, step);
   }
   for (const SleepEvent& event : events) {
-    if (states.asleep[static_cast<std::size_t>(event.body)] == 0) continue;
+    if (states.asleep[event.body] == 0) continue;
     ledger_.note_state(world, event.body);
     check_place(states, event.body, step);
   }
@@ -65,16 +65,15 @@ void Watchdog<Dim>::check(const World<Dim>& world, std::span<const SleepEvent> e
 
 template <int Dim>
 void Watchdog<Dim>::check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
-  const Vec<Dim>& place = states.pose[static_cast<std::size_t>(body)].position;
+  const Vec<Dim>& place = states.pose[body].position;
   if (height<Dim>(place) < lowest_) note(WarningKind::below_ground, body, step, ground_ - height<Dim>(place));
   if (farthest<Dim>(place) > farthest_place) note(WarningKind::outside_world, body, step, farthest<Dim>(place));
 }
 
 template <int Dim>
 void Watchdog<Dim>::check_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
-  const auto i = static_cast<std::size_t>(body);
-  const double speed = states.velocity[i].squaredNorm();
-  const double spin = states.spin[i].squaredNorm();
+  const double speed = states.velocity[body].squaredNorm();
+  const double spin = states.spin[body].squaredNorm();
   if (speed >= speed_squared_) note(WarningKind::speed_limit, body, step, std::sqrt(speed));
   if (spin >= spin_squared_) note(WarningKind::spin_limit, body, step, std::sqrt(spin));
 }
@@ -104,11 +103,10 @@ void Watchdog<Dim>::note(WarningKind kind, BodyIndex body, std::int64_t step, do
     warnings_.push_back({.kind = kind, .step = step, .body = body});
     known = warnings_.end() - 1;
   }
-  const auto i = static_cast<std::size_t>(body);
-  if (seen_.size() <= i) seen_.resize(i + 1, 0);
+  if (std::ssize(seen_) <= body) seen_.resize(body + 1, 0);
   const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(kind));
-  if ((seen_[i] & bit) == 0) ++known->bodies;
-  seen_[i] |= bit;
+  if ((seen_[body] & bit) == 0) ++known->bodies;
+  seen_[body] |= bit;
   known->value = std::max(known->value, value);
 }
 

@@ -20,14 +20,14 @@ double kinetic_energy(const Shape<Dim>& shape, const Rotation<Dim>& rotation, co
 
 /// Kinetic energy of body `i` of `states` [J].
 template <int Dim>
-double kinetic_energy(const Shape<Dim>& shape, const BodyStates<Dim>& states, std::size_t i) {
+double kinetic_energy(const Shape<Dim>& shape, const BodyStates<Dim>& states, BodyIndex i) {
   return kinetic_energy<Dim>(shape, states.pose[i].rotation, states.velocity[i], states.spin[i]);
 }
 
 /// Kinetic energy of a body [J].
 template <int Dim>
 double kinetic_energy(const World<Dim>& world, BodyIndex body) {
-  return kinetic_energy(world.shape_of(body), world.states(), static_cast<std::size_t>(body));
+  return kinetic_energy(world.shape_of(body), world.states(), body);
 }
 
 /// Kinetic energy of the awake bodies [J]; sleeping ones have none.

@@ -31,7 +31,7 @@ BodyIndex World<Dim>::add(const BodyDef<Dim>& body) {
 template <int Dim>
 void World<Dim>::remove(BodyIndex body) {
   require_present(body);
-  states_.removed[static_cast<std::size_t>(body)] = 1;
+  states_.removed[body] = 1;
   std::erase(awake_, body);
   engine_remove(body);
   if (description_.engine_sleep) follow_engine_sleep();
@@ -61,12 +61,11 @@ void World<Dim>::read_step() {
 template <int Dim>
 void World<Dim>::set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
   require_present(body);
-  const auto i = static_cast<std::size_t>(body);
-  require(states_.asleep[i] == 0, "body", body, "must be awake to get a velocity");
-  check(BodyDef<Dim>{states_.shape[i], {}, velocity, spin}, description_);
+  require(states_.asleep[body] == 0, "body", body, "must be awake to get a velocity");
+  check(BodyDef<Dim>{states_.shape[body], {}, velocity, spin}, description_);
   engine_set_velocity(body, velocity, spin);
-  states_.velocity[i] = velocity;
-  states_.spin[i] = spin;
+  states_.velocity[body] = velocity;
+  states_.spin[body] = spin;
 }
 
 template <int Dim>
@@ -74,7 +73,7 @@ void World<Dim>::freeze(std::span<const BodyIndex> bodies) {
   choose(bodies, false);
   if (chosen_.empty()) return;
   for (const BodyIndex body : chosen_) stop(body);
-  std::erase_if(awake_, [this](BodyIndex body) { return states_.asleep[static_cast<std::size_t>(body)] != 0; });
+  std::erase_if(awake_, [this](BodyIndex body) { return states_.asleep[body] != 0; });
   engine_freeze(chosen_);
   if (description_.engine_sleep) follow_engine_sleep();
 }
@@ -83,7 +82,7 @@ template <int Dim>
 void World<Dim>::thaw(std::span<const BodyIndex> bodies) {
   choose(bodies, true);
   if (chosen_.empty()) return;
-  for (const BodyIndex body : chosen_) states_.asleep[static_cast<std::size_t>(body)] = 0;
+  for (const BodyIndex body : chosen_) states_.asleep[body] = 0;
   const auto middle = static_cast<std::ptrdiff_t>(awake_.size());
   awake_.insert(awake_.end(), chosen_.begin(), chosen_.end());
   std::inplace_merge(awake_.begin(), awake_.begin() + middle, awake_.end());
@@ -104,7 +103,7 @@ void World<Dim>::query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) c
 template <int Dim>
 void World<Dim>::require_present(BodyIndex body) const {
   require(body >= 0 && body < states_.size(), "body", body, "must be the number of a body added before, from 0 on");
-  require(states_.removed[static_cast<std::size_t>(body)] == 0, "body", body, "must not have been removed");
+  require(states_.removed[body] == 0, "body", body, "must not have been removed");
 }
 
 template <int Dim>
@@ -112,17 +111,16 @@ void World<Dim>::choose(std::span<const BodyIndex> bodies, bool asleep) {
   for (const BodyIndex body : bodies) require_present(body);
   chosen_.clear();
   std::ranges::copy_if(bodies, std::back_inserter(chosen_),
-                       [&](BodyIndex body) { return (states_.asleep[static_cast<std::size_t>(body)] != 0) == asleep; });
+                       [&](BodyIndex body) { return (states_.asleep[body] != 0) == asleep; });
   std::ranges::sort(chosen_);
   chosen_.erase(std::unique(chosen_.begin(), chosen_.end()), chosen_.end());
 }
 
 template <int Dim>
 void World<Dim>::stop(BodyIndex body) {
-  const auto i = static_cast<std::size_t>(body);
-  states_.asleep[i] = 1;
-  states_.velocity[i].setZero();
-  states_.spin[i].setZero();
+  states_.asleep[body] = 1;
+  states_.velocity[body].setZero();
+  states_.spin[body].setZero();
 }
 
 /// Costs O(all bodies): the engine does not report which bodies its own rule put to sleep or woke.
@@ -130,10 +128,9 @@ template <int Dim>
 void World<Dim>::follow_engine_sleep() {
   awake_.clear();
   for (BodyIndex body = 0; body < states_.size(); ++body) {
-    const auto i = static_cast<std::size_t>(body);
-    if (states_.removed[i] != 0) continue;
+    if (states_.removed[body] != 0) continue;
     if (engine_awake(body)) {
-      states_.asleep[i] = 0;
+      states_.asleep[body] = 0;
       awake_.push_back(body);
     } else {
       stop(body);

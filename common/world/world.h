@@ -78,13 +78,9 @@ class World {
 
   /// The shapes that BodyStates::shape counts.
   std::span<const Shape<Dim>> shapes() const { return description_.shapes; }
-  const Shape<Dim>& shape_of(BodyIndex body) const {
-    return description_.shapes[static_cast<std::size_t>(states_.shape[static_cast<std::size_t>(body)])];
-  }
+  const Shape<Dim>& shape_of(BodyIndex body) const { return description_.shapes[states_.shape[body]]; }
   /// Smallest box, parallel to the axes, around a body.
-  Box<Dim> bounds_of(BodyIndex body) const {
-    return bounds_at(shape_of(body), states_.pose[static_cast<std::size_t>(body)]);
-  }
+  Box<Dim> bounds_of(BodyIndex body) const { return bounds_at(shape_of(body), states_.pose[body]); }
 
   EngineTimes times() const { return times_; }
   SpeedLimits speed_limits() const { return limits_; }

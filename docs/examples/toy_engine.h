@@ -33,7 +33,7 @@ class ToyWorld final : public World<3> {
                         .velocity = def.velocity,
                         .spin = def.spin,
                         .rotation = def.pose.rotation,
-                        .radius = radius_[static_cast<std::size_t>(def.shape)]});
+                        .radius = radius_[def.shape]});
     return def.pose;
   }
   void engine_remove(BodyIndex) override {}  // it is in awake() no longer, so no step moves it
@@ -68,10 +68,9 @@ class ToyWorld final : public World<3> {
       if (!at(body).centre.allFinite() || !at(body).velocity.allFinite()) return body;
     }
     for (const BodyIndex body : awake()) {
-      const auto i = static_cast<std::size_t>(body);
-      states.pose[i] = {at(body).centre, at(body).rotation};
-      states.velocity[i] = at(body).velocity;
-      states.spin[i] = at(body).spin;
+      states.pose[body] = {at(body).centre, at(body).rotation};
+      states.velocity[body] = at(body).velocity;
+      states.spin[body] = at(body).spin;
     }
     return std::nullopt;
   }
@@ -89,8 +88,7 @@ class ToyWorld final : public World<3> {
   }
   void engine_query_box(const Box<3>& box, std::vector<BodyIndex>& found) const override {
     for (BodyIndex body = 0; body < states().size(); ++body) {
-      if (states().removed[static_cast<std::size_t>(body)] == 0 && box.intersects(bounds_of(body)))
-        found.push_back(body);
+      if (states().removed[body] == 0 && box.intersects(bounds_of(body))) found.push_back(body);
     }
   }
 
@@ -101,8 +99,8 @@ class ToyWorld final : public World<3> {
       at(body).frozen = frozen;
     }
   }
-  Sphere& at(BodyIndex body) { return spheres_[static_cast<std::size_t>(body)]; }
-  const Sphere& at(BodyIndex body) const { return spheres_[static_cast<std::size_t>(body)]; }
+  Sphere& at(BodyIndex body) { return spheres_[body]; }
+  const Sphere& at(BodyIndex body) const { return spheres_[body]; }
 
   std::vector<double> radius_;   // by shape [m]
   std::vector<Sphere> spheres_;  // by body

@@ -125,8 +125,8 @@ void CompoundPair::refresh(btManifoldResult& result) const {
 
 void CompoundPair::descend(const btDbvtNode& first, const btDbvtNode& second, const Visit& visit) {
   const bool leaves = first.isleaf() && second.isleaf();
-  if (leaves && !overlap(visit.first.placed.pieces[static_cast<std::size_t>(first.dataAsInt)].box,
-                         visit.second.placed.pieces[static_cast<std::size_t>(second.dataAsInt)].box)) {
+  if (leaves &&
+      !overlap(visit.first.placed.pieces[first.dataAsInt].box, visit.second.placed.pieces[second.dataAsInt].box)) {
     return;
   }
   if (!visit.overlap(first.volume, second.volume)) {
@@ -149,8 +149,8 @@ void CompoundPair::descend(const btDbvtNode& first, const btDbvtNode& second, co
 }
 
 void CompoundPair::meet(int first, int second, const Visit& visit) {
-  const WorldPiece& a = visit.first.placed.pieces[static_cast<std::size_t>(first)];
-  const WorldPiece& b = visit.second.placed.pieces[static_cast<std::size_t>(second)];
+  const WorldPiece& a = visit.first.placed.pieces[first];
+  const WorldPiece& b = visit.second.placed.pieces[second];
   const auto known = find(first, second);
   if (known != pieces_.end() && !known->may_touch && still_apart(*known, a, b)) {
     return;
@@ -229,8 +229,7 @@ void CompoundPair::part(const Side& first, const Side& second) {
   std::vector<std::pair<int, int>>& parted = maker_.parted;
   parted.clear();
   for (const PiecePair& pair : pieces_) {
-    if (!overlap(first.placed.pieces[static_cast<std::size_t>(pair.first)].box,
-                 second.placed.pieces[static_cast<std::size_t>(pair.second)].box)) {
+    if (!overlap(first.placed.pieces[pair.first].box, second.placed.pieces[pair.second].box)) {
       destroy(pair.algorithm);
       parted.emplace_back(pair.first, pair.second);
     }

@@ -26,8 +26,8 @@ btScalar PackedSolver::solveGroup(btCollisionObject** bodies, int body_count, bt
     return WarmFrictionSolver::solveGroup(bodies, body_count, manifolds, manifold_count, joints, joint_count, info,
                                           drawer, dispatcher);
   }
-  setup_.make({bodies, static_cast<std::size_t>(body_count)}, {manifolds, static_cast<std::size_t>(manifold_count)},
-              info, !debug_.bullet_row_order, system_);
+  setup_.make(std::span(bodies, body_count), std::span(manifolds, manifold_count), info, !debug_.bullet_row_order,
+              system_);
   system_.solve(settings(info));
   setup_.write_back(info, system_);
   return 0;
@@ -83,27 +83,25 @@ void PackedSolver::pack_rows() {
   system_.arrange(bodies_of_contacts_, directions, !debug_.bullet_row_order);
   for (int i = 0; i < contacts; ++i) {
     const btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
-    const auto c = static_cast<std::size_t>(i);
-    system_.contact(c) = packed(row);
+    system_.contact(i) = packed(row);
     if (row.m_rhsPenetration != 0) {
-      system_.add_deep(c, row.m_rhsPenetration);
+      system_.add_deep(i, row.m_rhsPenetration);
     }
   }
   for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
     const btSolverConstraint& row = m_tmpSolverContactFrictionConstraintPool[i];
-    PackedRow& made = system_.friction(static_cast<std::size_t>(i));
+    PackedRow& made = system_.friction(i);
     made = packed(row);
-    made.contact = system_.place_of_contact(static_cast<std::size_t>(row.m_frictionIndex));
+    made.contact = system_.place_of_contact(row.m_frictionIndex);
   }
 }
 
 void PackedSolver::unpack() {
   for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
-    m_tmpSolverContactConstraintPool[i].m_appliedImpulse = system_.contact(static_cast<std::size_t>(i)).applied;
+    m_tmpSolverContactConstraintPool[i].m_appliedImpulse = system_.contact(i).applied;
   }
   for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
-    m_tmpSolverContactFrictionConstraintPool[i].m_appliedImpulse =
-        system_.friction(static_cast<std::size_t>(i)).applied;
+    m_tmpSolverContactFrictionConstraintPool[i].m_appliedImpulse = system_.friction(i).applied;
   }
   for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
     btSolverBody& body = m_tmpSolverBodyPool[i];

@@ -66,8 +66,8 @@ std::int32_t PairCache::list_of(const btBroadphaseProxy* proxy) const {
 
 std::int32_t PairCache::list_of(const btCollisionObject& object) const {
   const int index = object.getUserIndex();
-  const bool known = index >= 0 && static_cast<std::size_t>(index) < lists_of_bodies_.size();
-  return known ? lists_of_bodies_[static_cast<std::size_t>(index)] : -1;
+  const bool known = index >= 0 && index < std::ssize(lists_of_bodies_);
+  return known ? lists_of_bodies_[index] : -1;
 }
 
 void PairCache::remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* partner) {
@@ -81,16 +81,15 @@ void PairCache::remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* part
       free_.reserve(lists_.capacity());  // for all of them, so that forget() takes no memory
       free_.push_back(static_cast<std::int32_t>(lists_.size()) - 1);
     }
-    const auto body = static_cast<std::size_t>(index);
-    if (lists_of_bodies_.size() <= body) {
-      lists_of_bodies_.resize(body + 1, -1);
+    if (std::ssize(lists_of_bodies_) <= index) {
+      lists_of_bodies_.resize(index + 1, -1);
     }
     places_.grow(free_.back());
     places_.forget(free_.back());
-    lists_of_bodies_[body] = free_.back();
+    lists_of_bodies_[index] = free_.back();
     free_.pop_back();
   }
-  lists_[static_cast<std::size_t>(list_of(proxy))].push_back(partner);
+  lists_[list_of(proxy)].push_back(partner);
 }
 
 void PairCache::forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* partner) {
@@ -98,13 +97,13 @@ void PairCache::forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* 
   if (number < 0) {
     return;
   }
-  std::vector<btBroadphaseProxy*>& list = lists_[static_cast<std::size_t>(number)];
+  std::vector<btBroadphaseProxy*>& list = lists_[number];
   const auto found = std::find(list.begin(), list.end(), partner);
   if (found != list.end()) {
     list.erase(found);
   }
   if (list.empty()) {
-    lists_of_bodies_[static_cast<std::size_t>(index_of(proxy))] = -1;
+    lists_of_bodies_[index_of(proxy)] = -1;
     free_.push_back(number);
   }
 }
@@ -139,7 +138,7 @@ std::span<btBroadphaseProxy* const> PairCache::partners(const btBroadphaseProxy*
   if (number < 0) {
     return {};
   }
-  return lists_[static_cast<std::size_t>(number)];
+  return lists_[number];
 }
 
 }  // namespace talus::bullet

@@ -5,9 +5,9 @@
 namespace talus::bullet {
 
 void PlacedBody::place(const btCompoundShape& shape, const btTransform& body) {
-  pieces.resize(static_cast<std::size_t>(shape.getNumChildShapes()));
+  pieces.resize(shape.getNumChildShapes());
   for (int i = 0; i < shape.getNumChildShapes(); ++i) {
-    WorldPiece& piece = pieces[static_cast<std::size_t>(i)];
+    WorldPiece& piece = pieces[i];
     piece.shape = shape.getChildShape(i);
     piece.place = body * shape.getChildTransform(i);
     btVector3 low;
@@ -29,14 +29,14 @@ bool pieces_overlap(const PlacedBody& a, const PlacedBody& b) {
 }
 
 void PlacedPieces::grow(std::int32_t slot) {
-  if (slots_.size() <= static_cast<std::size_t>(slot)) {
-    slots_.resize(static_cast<std::size_t>(slot) + 1);
+  if (std::ssize(slots_) <= slot) {
+    slots_.resize(slot + 1);
   }
 }
 
 PlacedBody& PlacedPieces::obstacle(int index) {
-  const auto number = static_cast<std::size_t>(-index);
-  if (obstacles_.size() <= number) {
+  const int number = -index;
+  if (std::ssize(obstacles_) <= number) {
     obstacles_.resize(number + 1);
   }
   return obstacles_[number];

@@ -50,11 +50,11 @@ class PlacedPieces {
   void grow(std::int32_t slot);
 
   /// The slot's body has changed, begins or ceases to move.
-  void forget(std::int32_t slot) { slots_[static_cast<std::size_t>(slot)].known_until = -1; }
+  void forget(std::int32_t slot) { slots_[slot].known_until = -1; }
 
   /// The pieces of a body with a compound shape. `slot` -1: an obstacle.
   const PlacedBody& of(std::int32_t slot, const btCollisionObject& body) {
-    PlacedBody& placed = slot >= 0 ? slots_[static_cast<std::size_t>(slot)] : obstacle(body.getUserIndex());
+    PlacedBody& placed = slot >= 0 ? slots_[slot] : obstacle(body.getUserIndex());
     if (placed.known_until < step_) {
       update(placed, body);
     }
@@ -63,11 +63,11 @@ class PlacedPieces {
 
   /// What is known of the slot's body now; null if it must be placed first.
   const PlacedBody* known(std::int32_t slot) const {
-    const PlacedBody& placed = slots_[static_cast<std::size_t>(slot)];
+    const PlacedBody& placed = slots_[slot];
     return placed.known_until < step_ ? nullptr : &placed;
   }
 
-  void fetch(std::int32_t slot) const { __builtin_prefetch(&slots_[static_cast<std::size_t>(slot)]); }
+  void fetch(std::int32_t slot) const { __builtin_prefetch(&slots_[slot]); }
 
  private:
   PlacedBody& obstacle(int index);

@@ -6,24 +6,24 @@
 namespace talus::bullet {
 
 void RowOrder::sort(std::span<const RowBodies> rows, int bodies, std::int32_t fixed, std::vector<std::int32_t>& place) {
-  reached_.assign(static_cast<std::size_t>(bodies), 0);
+  reached_.assign(bodies, 0);
   starts_.assign(1, 0);
   place.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::int32_t& a = reached_[static_cast<std::size_t>(rows[i].a)];
-    std::int32_t& b = reached_[static_cast<std::size_t>(rows[i].b)];
+    std::int32_t& a = reached_[rows[i].a];
+    std::int32_t& b = reached_[rows[i].b];
     const std::int32_t level = std::max(a, b);
     place[i] = level;
     a = rows[i].a == fixed ? 0 : level + 1;
     b = rows[i].b == fixed ? 0 : level + 1;
-    if (starts_.size() < static_cast<std::size_t>(level) + 2) {
+    if (std::ssize(starts_) < level + 2) {
       starts_.push_back(0);
     }
-    ++starts_[static_cast<std::size_t>(level) + 1];
+    ++starts_[level + 1];
   }
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   for (std::int32_t& each : place) {
-    each = starts_[static_cast<std::size_t>(each)]++;
+    each = starts_[each]++;
   }
 }
 

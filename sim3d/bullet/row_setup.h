@@ -49,7 +49,7 @@ class RowSetup {
   void make_contact(std::size_t i, const btContactSolverInfo& info, RowSystem& system);
   void write_rows(std::size_t i, const ThreeRows& axes, const Sides& sides, Lanes gain, RowSystem& system) const;
   void start_friction(RowSystem& system) const;
-  const Body& body(std::int32_t i) const { return bodies_[static_cast<std::size_t>(i)]; }
+  const Body& body(std::int32_t i) const { return bodies_[i]; }
 
   bool warm_friction_;
   std::vector<Body> bodies_;

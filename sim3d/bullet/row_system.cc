@@ -18,7 +18,7 @@ bool rows_at_rest(std::span<const PackedRow> rows, std::span<const float> change
   return true;
 }
 
-PackedBody& at(std::vector<PackedBody>& bodies, std::int32_t i) { return bodies[static_cast<std::size_t>(i)]; }
+PackedBody& at(std::vector<PackedBody>& bodies, std::int32_t i) { return bodies[i]; }
 
 void solve_normals(std::vector<PackedRow>& rows, std::vector<PackedBody>& bodies, std::vector<float>& changes) {
   const Lanes lowest = splat(0);
@@ -32,14 +32,14 @@ void solve_normals(std::vector<PackedRow>& rows, std::vector<PackedBody>& bodies
 
 void RowSystem::clear(int bodies, std::int32_t fixed) {
   fixed_ = fixed;
-  bodies_.assign(static_cast<std::size_t>(bodies), {splat(0), splat(0), splat(0)});
+  bodies_.assign(bodies, {splat(0), splat(0), splat(0)});
   pushes_.clear();
   deep_contacts_.clear();
   deep_rhs_.clear();
 }
 
 void RowSystem::arrange(std::span<const RowBodies> contacts, int directions, bool by_level) {
-  const std::size_t rows = contacts.size() * static_cast<std::size_t>(directions);
+  const std::size_t rows = contacts.size() * directions;
   contacts_.resize(contacts.size());
   frictions_.resize(rows);
   contact_changes_.resize(contacts.size());
@@ -51,7 +51,7 @@ void RowSystem::arrange(std::span<const RowBodies> contacts, int directions, boo
   }
   friction_bodies_.clear();
   for (const RowBodies& contact : contacts) {
-    friction_bodies_.insert(friction_bodies_.end(), static_cast<std::size_t>(directions), contact);
+    friction_bodies_.insert(friction_bodies_.end(), directions, contact);
   }
   order_.sort(contacts, static_cast<int>(bodies_.size()), fixed_, contact_place_);
   order_.sort(friction_bodies_, static_cast<int>(bodies_.size()), fixed_, friction_place_);
@@ -84,7 +84,7 @@ void RowSystem::solve_deep(const Settings& settings) {
   }
   deep_.clear();
   for (std::size_t i = 0; i < deep_contacts_.size(); ++i) {
-    PackedRow& row = deep_.emplace_back(contacts_[static_cast<std::size_t>(deep_contacts_[i])]);
+    PackedRow& row = deep_.emplace_back(contacts_[deep_contacts_[i]]);
     float normal[4];
     store(normal, row.normal);
     row.normal = lanes(normal[0], normal[1], normal[2], deep_rhs_[i]);
@@ -106,7 +106,7 @@ void RowSystem::solve_frictions(bool release_unpressed) {
   unpressed_.clear();
   for (std::size_t i = 0; i < frictions_.size(); ++i) {
     PackedRow& row = frictions_[i];
-    const float push = contacts_[static_cast<std::size_t>(row.contact)].applied;
+    const float push = contacts_[row.contact].applied;
     if (push > 0) {
       const Lanes limit = splat(row.friction() * push);
       friction_changes_[i] = talus::bullet::solve(row, at(bodies_, row.a), at(bodies_, row.b), -limit, limit);

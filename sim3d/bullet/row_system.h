@@ -24,9 +24,9 @@ class RowSystem {
   /// of them (1 or 2).
   void arrange(std::span<const RowBodies> contacts, int directions, bool by_level);
 
-  PackedBody& body(std::int32_t i) { return bodies_[static_cast<std::size_t>(i)]; }
-  PackedRow& contact(std::size_t i) { return contacts_[static_cast<std::size_t>(contact_place_[i])]; }
-  PackedRow& friction(std::size_t i) { return frictions_[static_cast<std::size_t>(friction_place_[i])]; }
+  PackedBody& body(std::int32_t i) { return bodies_[i]; }
+  PackedRow& contact(std::size_t i) { return contacts_[contact_place_[i]]; }
+  PackedRow& friction(std::size_t i) { return frictions_[friction_place_[i]]; }
   std::int32_t place_of_contact(std::size_t i) const { return contact_place_[i]; }
 
   /// Contact i is so deep that the bodies are moved apart by `rhs` [N s], without giving them velocity.
@@ -40,9 +40,7 @@ class RowSystem {
   void solve(const Settings& settings);
 
   /// Velocity that moves a body out of others but is not kept; null where nothing is deep.
-  const PackedBody* push(std::int32_t i) const {
-    return pushes_.empty() ? nullptr : &pushes_[static_cast<std::size_t>(i)];
-  }
+  const PackedBody* push(std::int32_t i) const { return pushes_.empty() ? nullptr : &pushes_[i]; }
 
  private:
   void solve_deep(const Settings& settings);

@@ -26,8 +26,7 @@ void WarmFrictionSolver::convertContacts(btPersistentManifold** manifolds, int c
   for (int c = 0; c < m_tmpSolverContactConstraintPool.size(); ++c) {
     const btSolverConstraint& contact = m_tmpSolverContactConstraintPool[c];
     for (int row = 0; row < rows; ++row) {
-      start(m_tmpSolverContactFrictionConstraintPool[contact.m_frictionIndex + row], contact,
-            last_[static_cast<std::size_t>(c)]);
+      start(m_tmpSolverContactFrictionConstraintPool[contact.m_frictionIndex + row], contact, last_[c]);
     }
   }
 }

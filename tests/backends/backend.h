@@ -117,17 +117,13 @@ class BackendTest : public ::testing::Test {
   }
 
   static const Pose<dimension>& pose(const World<dimension>& world, BodyIndex body) {
-    return world.states().pose[static_cast<std::size_t>(body)];
+    return world.states().pose[body];
   }
   static double height_of(const World<dimension>& world, BodyIndex body) {
     return height<dimension>(pose(world, body).position);
   }
-  static double speed(const World<dimension>& world, BodyIndex body) {
-    return world.states().velocity[static_cast<std::size_t>(body)].norm();
-  }
-  static bool asleep(const World<dimension>& world, BodyIndex body) {
-    return world.states().asleep[static_cast<std::size_t>(body)] != 0;
-  }
+  static double speed(const World<dimension>& world, BodyIndex body) { return world.states().velocity[body].norm(); }
+  static bool asleep(const World<dimension>& world, BodyIndex body) { return world.states().asleep[body] != 0; }
   static void freeze(World<dimension>& world, BodyIndex body) { world.freeze(std::vector<BodyIndex>{body}); }
   static void thaw(World<dimension>& world, BodyIndex body) { world.thaw(std::vector<BodyIndex>{body}); }
 };

@@ -65,7 +65,7 @@ TYPED_TEST(FrozenBody, DoesNotWakeOthersWhenItIsThawed) {
   world->freeze(tower);
   this->thaw(*world, tower[4]);
   this->run(*world, 1.0);
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(this->asleep(*world, tower[static_cast<std::size_t>(i)]));
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(this->asleep(*world, tower[i]));
   EXPECT_EQ(world->awake().size(), 1U);
 }
 
@@ -116,7 +116,7 @@ TYPED_TEST(FrozenBody, CanBeRemoved) {
   const BodyIndex falling = world->add(this->at(up<dim>(6.0)));
   this->run(*world, 3.0);
   EXPECT_NEAR(this->height_of(*world, falling), 0.5, 0.02) << "through where the removed body was";
-  EXPECT_EQ(world->states().removed[static_cast<std::size_t>(support)], 1);
+  EXPECT_EQ(world->states().removed[support], 1);
 }
 
 TYPED_TEST(FrozenBody, SupportsAPileThatIsFrozenAndThawedAtRandomWithoutHarm) {

@@ -158,9 +158,8 @@ TYPED_TEST(MeasureTest, WakesTheSleepersWhenAPiledRunIsReplayed) {
   for (const Fork<dim>& fork : forks.forks()) {
     const Trajectory<dim> run = replay(fork, forks.arrivals(), 2);
     for (BodyIndex body = 0; body < run.bodies(0); ++body) {
-      const auto i = static_cast<std::size_t>(body);
-      asleep += fork.states.asleep[i];
-      EXPECT_EQ(run.position(0, body), fork.states.pose[i].position) << "the replay is the run up to the fork";
+      asleep += fork.states.asleep[body];
+      EXPECT_EQ(run.position(0, body), fork.states.pose[body].position) << "the replay is the run up to the fork";
       EXPECT_FALSE(run.asleep(0, body));
       EXPECT_FALSE(run.asleep(2, body));
     }

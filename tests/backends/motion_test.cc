@@ -66,7 +66,7 @@ double slide(double degrees, double seconds) {
   box.pose = {.position = tilt * up<dim>(1.0), .rotation = tilt};
   const BodyIndex index = world->add(box);
   for (int i = 0; i < static_cast<int>(seconds * 60.0); ++i) world->step();
-  const Vec<dim> moved = world->states().pose[static_cast<std::size_t>(index)].position - box.pose.position;
+  const Vec<dim> moved = world->states().pose[index].position - box.pose.position;
   return -moved.dot(tilt * Vec<dim>::Unit(0));
 }
 
@@ -94,7 +94,7 @@ TYPED_TEST(Motion, OfABouncingBallGivesBackItsShareOfSpeed) {
   double fastest_up = 0.0;
   for (int i = 0; i < 30; ++i) {
     world->step();
-    const double v = world->states().velocity[static_cast<std::size_t>(ball)][dim - 1];
+    const double v = world->states().velocity[ball][dim - 1];
     fastest_down = std::min(fastest_down, v);
     fastest_up = std::max(fastest_up, v);
   }
@@ -111,7 +111,7 @@ TYPED_TEST(Motion, OfUnlikeMaterialsGoesByTheGeometricMean) {
   double fastest_up = 0.0;
   for (int i = 0; i < 30; ++i) {
     world->step();
-    fastest_up = std::max(fastest_up, world->states().velocity[static_cast<std::size_t>(ball)][dim - 1]);
+    fastest_up = std::max(fastest_up, world->states().velocity[ball][dim - 1]);
   }
   EXPECT_NEAR(fastest_up, 5.0, 0.2);
 }

@@ -22,8 +22,7 @@ struct Bodies {
   std::vector<BodyIndex> awake() const {
     std::vector<BodyIndex> list;
     for (BodyIndex i = 0; i < states.size(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (states.asleep[at] == 0 && states.removed[at] == 0) list.push_back(i);
+      if (states.asleep[i] == 0 && states.removed[i] == 0) list.push_back(i);
     }
     return list;
   }

@@ -15,7 +15,7 @@ class FallingWorld final : public World<Dim> {
   explicit FallingWorld(const WorldDescription<Dim>& description) : World<Dim>(description) {}
 
   /// Without the checks of add().
-  void move(BodyIndex body, const Pose<Dim>& to) { this->writable_states().pose[static_cast<std::size_t>(body)] = to; }
+  void move(BodyIndex body, const Pose<Dim>& to) { this->writable_states().pose[body] = to; }
 
  private:
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
@@ -23,13 +23,12 @@ class FallingWorld final : public World<Dim> {
   EngineTimes engine_step() override { return {}; }
   std::optional<BodyIndex> engine_read(BodyStates<Dim>& states) override {
     for (const BodyIndex body : this->awake()) {
-      const auto i = static_cast<std::size_t>(body);
-      Vec<Dim>& position = states.pose[i].position;
-      states.velocity[i][Dim - 1] -= this->description().gravity * this->description().dt;
-      position += this->description().dt * states.velocity[i];
+      Vec<Dim>& position = states.pose[body].position;
+      states.velocity[body][Dim - 1] -= this->description().gravity * this->description().dt;
+      position += this->description().dt * states.velocity[body];
       if (position[Dim - 1] > 0.5) continue;
       position[Dim - 1] = 0.5;
-      states.velocity[i].setZero();
+      states.velocity[body].setZero();
     }
     return std::nullopt;
   }

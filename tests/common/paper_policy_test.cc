@@ -41,7 +41,7 @@ struct StillRun {
   void add_many(int count, const Vec3& at) {
     for (int i = 0; i < count; ++i) add(at);
   }
-  bool asleep(BodyIndex body) const { return simulation.world().states().asleep[static_cast<std::size_t>(body)] != 0; }
+  bool asleep(BodyIndex body) const { return simulation.world().states().asleep[body] != 0; }
   const Layer& layer(std::size_t i) const { return simulation.piles().piles().front().layers[i]; }
 
   Simulation<3> simulation;

@@ -168,10 +168,10 @@ std::pair<PileSet<3>, Bodies<3>> two_piles(double distance, double merge_distanc
   std::vector<PileParams<3>> params(2);
   for (int side = 0; side < 2; ++side) {
     const Vec3 centre(side * distance, 0.0, 0.0);
-    params[static_cast<std::size_t>(side)].at = centre;
-    params[static_cast<std::size_t>(side)].merge_distance = merge_distance;
-    params[static_cast<std::size_t>(side)].alpha = 0.5;
-    params[static_cast<std::size_t>(side)].control_slope = held[static_cast<std::size_t>(side)];
+    params[side].at = centre;
+    params[side].merge_distance = merge_distance;
+    params[side].alpha = 0.5;
+    params[side].control_slope = held[side];
     for (int i = 0; i < 3; ++i) bodies.add(centre + Vec3(0.0, 0.0, 0.1));
   }
   return {PileSet<3>(params, body), bodies};

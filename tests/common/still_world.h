@@ -11,10 +11,10 @@ class StillWorld final : public World<Dim> {
   explicit StillWorld(const WorldDescription<Dim>& description) : World<Dim>(description) {}
 
   /// Without the checks of add() and set_velocity().
-  void move(BodyIndex body, const Pose<Dim>& to) { this->writable_states().pose[static_cast<std::size_t>(body)] = to; }
+  void move(BodyIndex body, const Pose<Dim>& to) { this->writable_states().pose[body] = to; }
   void push(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
-    this->writable_states().velocity[static_cast<std::size_t>(body)] = velocity;
-    this->writable_states().spin[static_cast<std::size_t>(body)] = spin;
+    this->writable_states().velocity[body] = velocity;
+    this->writable_states().spin[body] = spin;
   }
 
   std::vector<Contact<Dim>> touching;  // the contacts of each step
@@ -29,7 +29,7 @@ class StillWorld final : public World<Dim> {
   void engine_thaw(std::span<const BodyIndex>) override {}
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override {
     for (BodyIndex body = 0; body < this->states().size(); ++body) {
-      if (this->states().removed[static_cast<std::size_t>(body)] != 0) continue;
+      if (this->states().removed[body] != 0) continue;
       if (box.intersects(this->bounds_of(body))) found.push_back(body);
     }
   }

@@ -60,7 +60,7 @@ TEST(ConvexParts, OfAConvexMeshIsOneThatFillsIt) {
 bool inside_one(const std::vector<Mesh>& parts, const Vec3& point) {
   return std::any_of(parts.begin(), parts.end(), [&](const Mesh& part) {
     return std::all_of(part.triangles.begin(), part.triangles.end(), [&](const std::array<int, 3>& triangle) {
-      const auto corner = [&](std::size_t k) { return part.corners[static_cast<std::size_t>(triangle[k])]; };
+      const auto corner = [&](std::size_t k) { return part.corners[triangle[k]]; };
       return (corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(point - corner(0)) <= 0.0;
     });
   });

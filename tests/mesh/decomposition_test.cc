@@ -33,7 +33,7 @@ Mesh prism(const std::vector<Vec2>& outline, const std::vector<std::array<int, 3
   Mesh mesh;
   const int count = static_cast<int>(outline.size());
   for (int i = 0; i < 2 * count; ++i) {
-    const Vec2& corner = outline[static_cast<std::size_t>(i % count)];
+    const Vec2& corner = outline[i % count];
     mesh.corners.emplace_back(corner.x(), corner.y(), i / count);
   }
   for (const auto& [a, b, c] : cut) {

@@ -19,7 +19,7 @@ Sample<Dim> sample_at(const std::vector<Place>& places) {
   for (const Place& place : places) {
     Vec<Dim> position;
     for (int axis = 0; axis < Dim; ++axis) {
-      position[axis] = 0.01 * place[static_cast<std::size_t>(axis)];
+      position[axis] = 0.01 * place[axis];
     }
     sample.add(position, false);
   }
@@ -42,8 +42,7 @@ void check_all_inside(const std::vector<Place>& places) {
   scene.min() -= Vec2::Constant(1.0);
   scene.max() += Vec2::Constant(1.0);
   for (const BodyIndex body : framing.drawn) {
-    const auto i = static_cast<std::size_t>(body);
-    const Box<Dim> bounds = bounds_at(sample.shapes[0], sample.states.pose[i]);
+    const Box<Dim> bounds = bounds_at(sample.shapes[0], sample.states.pose[body]);
     for (int corner = 0; corner < (1 << Dim); ++corner) {
       const auto which = static_cast<typename Box<Dim>::CornerType>(corner);
       RC_ASSERT(scene.contains(layout.projection.on_page(bounds.corner(which))));

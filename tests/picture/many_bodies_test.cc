@@ -49,7 +49,7 @@ TEST(ExposedBodies, AreTheSkinOfAThickBlock) {
   std::iota(all.begin(), all.end(), 0);
   const std::vector<BodyIndex> seen = exposed(sample.input(), all);
   std::vector<int> layers(tall, 0);
-  for (const BodyIndex body : seen) ++layers[static_cast<std::size_t>(body / (side * side))];
+  for (const BodyIndex body : seen) ++layers[body / (side * side)];
   EXPECT_EQ(layers[tall - 1], side * side);
   EXPECT_EQ(layers[tall / 2], side * side - (side - 2) * (side - 2)) << "only the four sides";
   EXPECT_EQ(layers[0], side * side - (side - 2) * (side - 2));

@@ -62,7 +62,7 @@ TEST(ZBuffer, SharesNoPixelBetweenFacesOfACommonEdge) {
   for (const std::vector<Vec3>& half : {left, right}) {
     scan_convex(half, width, width, [&](int x, int y, double) {
       const int at = y * width + x;
-      ++hits[static_cast<std::size_t>(at)];
+      ++hits[at];
     });
   }
   EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), 400);

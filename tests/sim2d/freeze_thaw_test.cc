@@ -118,8 +118,7 @@ TEST(ThawedBody, NeitherWakesNorMovesSleepersBesideIt) {
   run(*world, 60);
   EXPECT_EQ(awake_of(*world), one);
   for (const BodyIndex body : all) {
-    const auto i = static_cast<std::size_t>(body);
-    const double way = (world->states().pose[i].position - before[i].position).norm();
+    const double way = (world->states().pose[body].position - before[body].position).norm();
     EXPECT_LE(way, body == 60 ? 1e-3 : 0.0) << body;
   }
 }

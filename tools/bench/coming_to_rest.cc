@@ -25,14 +25,14 @@ class Trail {
   void add(const World<Dim>& world) {
     std::vector<Place>& places = steps_.emplace_back();
     for (const BodyIndex body : world.awake()) {
-      places.emplace_back(body, world.states().pose[static_cast<std::size_t>(body)].position);
+      places.emplace_back(body, world.states().pose[body].position);
     }
   }
 
   /// Number of steps until no body is farther from where it ends.
   std::size_t steps_until_within(double distance, const BodyStates<Dim>& end) const {
     const auto strays = [&](const Place& place) {
-      return (end.pose[static_cast<std::size_t>(place.first)].position - place.second).norm() > distance;
+      return (end.pose[place.first].position - place.second).norm() > distance;
     };
     std::size_t step = steps_.size();
     while (step > 0 && std::none_of(steps_[step - 1].begin(), steps_[step - 1].end(), strays)) --step;

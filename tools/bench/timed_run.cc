@@ -33,7 +33,7 @@ struct Sums {
 template <int Dim>
 Sums run_steps(Simulation<Dim>& simulation, std::int64_t steps) {
   Sums sums;
-  sums.step_seconds.reserve(static_cast<std::size_t>(steps));
+  sums.step_seconds.reserve(steps);
   ProcessorWatch processor;
   for (std::int64_t step = 1; step < steps; ++step) {
     simulation.step();
@@ -52,9 +52,8 @@ Sums run_steps(Simulation<Dim>& simulation, std::int64_t steps) {
 
 std::vector<double> by_frame(const std::vector<double>& step_seconds, std::int64_t steps_per_frame,
                              std::int64_t frames) {
-  std::vector<double> seconds(static_cast<std::size_t>(frames), 0.0);
-  const auto per_frame = static_cast<std::size_t>(steps_per_frame);
-  for (std::size_t i = 0; i < step_seconds.size(); ++i) seconds[(i + 1) / per_frame] += step_seconds[i];
+  std::vector<double> seconds(frames, 0.0);
+  for (std::size_t i = 0; i < step_seconds.size(); ++i) seconds[(i + 1) / steps_per_frame] += step_seconds[i];
   return seconds;
 }
 

@@ -23,7 +23,7 @@ class PausePolicy final : public SleepPolicy<Dim> {
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override {
     const BodyStates<Dim>& states = frame.world.states();
     for (BodyIndex body = 0; body < states.size(); ++body) {
-      const bool asleep = states.asleep[static_cast<std::size_t>(body)] != 0;
+      const bool asleep = states.asleep[body] != 0;
       if (frame.step == from_ && !asleep) decision.freeze.push_back({.body = body, .cause = SleepCause::user});
       if (frame.step == to_ && asleep) decision.thaw.push_back({.body = body, .cause = SleepCause::user});
     }

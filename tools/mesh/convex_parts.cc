@@ -34,14 +34,14 @@ std::vector<Mesh> parts_of(HACD::HACD& decomposition) {
 }
 
 void set_params(HACD::HACD& decomposition, const ConvexPartsParams& params) {
-  decomposition.SetNClusters(static_cast<std::size_t>(params.parts));
+  decomposition.SetNClusters(params.parts);
   decomposition.SetConcavity(std::numeric_limits<double>::max());  // the number of parts alone decides when to stop
   decomposition.SetVolumeWeight(0.0);
   // Without these further points it sees hollows at corners only, and joins what lies across them.
   decomposition.SetAddExtraDistPoints(true);
   decomposition.SetAddNeighboursDistPoints(true);
   decomposition.SetAddFacesPoints(true);
-  decomposition.SetNVerticesPerCH(static_cast<std::size_t>(params.corners));
+  decomposition.SetNVerticesPerCH(params.corners);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ Decomposition decomposed(const Mesh& mesh, const ConvexPartsParams& params) {
           "must be at most 2500 to be decomposed; simplify the mesh first");
   const Mesh hull = hull_mesh(mesh.corners);
   if (fills_mesh(moments(hull).volume / moments(mesh).volume, convexity_tolerance)) {
-    const bool few = hull.corners.size() <= static_cast<std::size_t>(params.corners);
+    const bool few = std::ssize(hull.corners) <= params.corners;
     Decomposition one{{few ? hull : coarser_hull(hull, params.corners)}, 0.0, params};
     one.ratio = moments(one.parts[0]).volume / moments(mesh).volume;
     return one;

@@ -15,7 +15,7 @@ std::vector<Vec3> corners_of_hull(std::span<const Vec3> points) {
   std::vector<int> faces_at(points.size(), 0);
   for (const std::vector<int>& face : convex_hull_faces(points)) {
     for (const int corner : face) {
-      ++faces_at[static_cast<std::size_t>(corner)];
+      ++faces_at[corner];
     }
   }
   std::vector<Vec3> corners;
@@ -34,7 +34,7 @@ double distance_outside(const Mesh& hull, const Vec3& point) {
   }
   double distance = 0.0;
   for (const auto& triangle : hull.triangles) {
-    const auto corner = [&](std::size_t k) { return hull.corners[static_cast<std::size_t>(triangle[k])]; };
+    const auto corner = [&](std::size_t k) { return hull.corners[triangle[k]]; };
     const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
     distance = std::max(distance, normal.dot(point - corner(0)));
   }
@@ -72,8 +72,8 @@ Mesh coarser_hull(const Mesh& hull, int corners) {
   const double volume = moments(hull).volume;
   std::vector<Vec3> chosen = extreme_corners(hull);
   Mesh coarser = hull_mesh(chosen);
-  while (chosen.size() < static_cast<std::size_t>(most_part_corners)) {
-    const bool enough = chosen.size() >= static_cast<std::size_t>(corners) && !coarser.triangles.empty();
+  while (std::ssize(chosen) < most_part_corners) {
+    const bool enough = std::ssize(chosen) >= corners && !coarser.triangles.empty();
     if (enough && fills_mesh(moments(coarser).volume / volume)) {
       break;
     }

@@ -93,7 +93,7 @@ std::optional<Datagram> ReceiverProcess::read() {
   heard_ = Clock::now();
   if (kind >= channel_names.size()) return std::nullopt;
   datagram.channel = static_cast<Channel>(kind);
-  datagram.bytes.resize(static_cast<std::size_t>(size) - 1);
+  datagram.bytes.resize(size - 1);
   return datagram;
 }
 

@@ -34,8 +34,7 @@ void RunView::take(const talus_run_v1& message) {
   for (const Channel channel : heard_channels) {
     const auto named = std::find(message.channels.begin(), message.channels.end(), name_of(channel));
     if (channel == Channel::run || named == message.channels.end()) continue;
-    trackers_[static_cast<std::size_t>(channel)].expect(
-        message.sent[static_cast<std::size_t>(named - message.channels.begin())]);
+    trackers_[static_cast<std::size_t>(channel)].expect(message.sent[named - message.channels.begin()]);
   }
 }
 
@@ -44,7 +43,7 @@ void RunView::take(const talus_piles_v1& message) {
   if (message.step < piles_step_) return;
   piles_step_ = message.step;
   for (std::int32_t i = 0; i < message.pile_count; ++i) {
-    const talus_pile_v1& pile = message.piles[static_cast<std::size_t>(i)];
+    const talus_pile_v1& pile = message.piles[i];
     const std::int32_t number = message.first_pile + i;
     if (pile.merged_into >= 0) {
       forget(number);

@@ -4,8 +4,7 @@ namespace talus {
 
 template <int Dim>
 Pile<Dim> with_coarse_layers(Pile<Dim> pile, int most) {
-  const std::size_t together =
-      (pile.layers.size() + static_cast<std::size_t>(most) - 1) / static_cast<std::size_t>(most);
+  const std::size_t together = (pile.layers.size() + most - 1) / most;
   std::vector<Layer> coarse;
   for (std::size_t i = 0; i < pile.layers.size(); ++i) {
     const Layer& fine = pile.layers[i];

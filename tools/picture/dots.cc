@@ -30,9 +30,8 @@ void fill_pieces(Dots& dots, const Shape<2>& shape, const Pose<2>& pose, const P
 
 void fill(Dots& dots, const PictureInput<2>& input, const Framing<2>& framing, const Projection<2>& projection) {
   for (const BodyIndex body : framing.drawn) {
-    const auto i = static_cast<std::size_t>(body);
-    const Shape<2>& shape = input.shapes[static_cast<std::size_t>(input.states.shape[i])];
-    fill_pieces(dots, shape, input.states.pose[i], projection, dot_of(input.states, i));
+    const Shape<2>& shape = input.shapes[input.states.shape[body]];
+    fill_pieces(dots, shape, input.states.pose[body], projection, dot_of(input.states, body));
   }
   for (const Obstacle<2>& obstacle : input.obstacles) {
     fill_pieces(dots, obstacle.shape, obstacle.pose, projection, Dot::obstacle);
@@ -52,8 +51,8 @@ void fill(Dots& dots, const PictureInput<3>& input, const Framing<3>& framing, c
       for (int x = 0; x < dots.width; ++x) {
         const std::int32_t face = buffer.face(x, y);
         if (face != ZBuffer::nothing && dots.at(x, y) == Dot::empty) {
-          const std::int32_t owner = faces[static_cast<std::size_t>(face)].owner;
-          dots.at(x, y) = bodies ? dot_of(input.states, static_cast<std::size_t>(owner)) : Dot::obstacle;
+          const std::int32_t owner = faces[face].owner;
+          dots.at(x, y) = bodies ? dot_of(input.states, owner) : Dot::obstacle;
         }
       }
     }
@@ -76,15 +75,14 @@ template <int Dim>
 Dots dots_of(const PictureInput<Dim>& input, const Framing<Dim>& framing, const Projection<Dim>& projection, int width,
              int height) {
   Dots dots{width, height, {}};
-  dots.dots.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Dot::empty);
+  dots.dots.resize(static_cast<std::size_t>(width) * height, Dot::empty);
   fill(dots, input, framing, projection);
   for (const BodyIndex body : framing.drawn) {
-    const auto i = static_cast<std::size_t>(body);
-    const Vec2 seen = projection.on_page(input.states.pose[i].position);
+    const Vec2 seen = projection.on_page(input.states.pose[body].position);
     const int x = std::clamp(static_cast<int>(seen.x()), 0, width - 1);
     const int y = std::clamp(static_cast<int>(seen.y()), 0, height - 1);
     if (dots.at(x, y) == Dot::empty) {
-      dots.at(x, y) = dot_of(input.states, i);
+      dots.at(x, y) = dot_of(input.states, body);
     }
   }
   return dots;

@@ -18,9 +18,7 @@ struct Dots {
 
   Dot& at(int x, int y) { return dots[index(x, y)]; }
   Dot at(int x, int y) const { return dots[index(x, y)]; }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
 /// From the world seen from the side to dots: 2D as it is, 3D along the y axis.

@@ -20,7 +20,7 @@ class HighestBodies {
         width_(std::max(width, box.sizes().head<2>().maxCoeff() / most_columns)),
         columns_(place(box.max().x(), 0) + 1),
         rows_(place(box.max().y(), 1) + 1),
-        top_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), empty) {}
+        top_(static_cast<std::size_t>(columns_) * rows_, empty) {}
 
   void raise(const Vec3& at) {
     double& top = top_[index(place(at.x(), 0), place(at.y(), 1))];
@@ -42,9 +42,7 @@ class HighestBodies {
  private:
   static constexpr double empty = -std::numeric_limits<double>::infinity();
   int place(double at, int axis) const { return static_cast<int>(std::floor((at - low_[axis]) / width_)); }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * columns_ + x; }
 
   Vec3 low_;
   double width_;
@@ -59,7 +57,7 @@ std::vector<BodyIndex> exposed(const PictureInput<3>& input, const std::vector<B
   if (bodies.size() <= few) {
     return bodies;
   }
-  const auto at = [&](BodyIndex body) { return input.states.pose[static_cast<std::size_t>(body)].position; };
+  const auto at = [&](BodyIndex body) { return input.states.pose[body].position; };
   double extent = 0.0;
   for (const Shape<3>& shape : input.shapes) {
     extent = std::max(extent, shape.extent);

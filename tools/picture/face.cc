@@ -80,8 +80,7 @@ std::vector<Face> faces_of(const PictureInput<3>& input, const Framing<3>& frami
   }
   std::vector<Face> all;
   for (const BodyIndex body : exposed(input, framing.drawn)) {
-    const auto i = static_cast<std::size_t>(body);
-    add_faces(all, shapes[static_cast<std::size_t>(input.states.shape[i])], input.states.pose[i], body);
+    add_faces(all, shapes[input.states.shape[body]], input.states.pose[body], body);
   }
   for (std::size_t k = 0; k < input.obstacles.size(); ++k) {
     const Obstacle<3>& obstacle = input.obstacles[k];

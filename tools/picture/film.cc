@@ -27,7 +27,7 @@ template <int Dim>
 std::vector<BodyIndex> present_in(const BodyStates<Dim>& states) {
   std::vector<BodyIndex> present;
   for (BodyIndex body = 0; body < states.size(); ++body) {
-    if (states.removed[static_cast<std::size_t>(body)] == 0) present.push_back(body);
+    if (states.removed[body] == 0) present.push_back(body);
   }
   return present;
 }

@@ -114,10 +114,9 @@ struct FlatScene {
     const double size = extent * projection.scale;
     const double line = many_bodies != nullptr && size < 2.0 ? 0.0 : std::clamp(0.03 * size, 0.15, 1.2);
     for (const BodyIndex body : framing.drawn) {
-      const auto i = static_cast<std::size_t>(body);
-      const auto shape = static_cast<std::size_t>(input.states.shape[i]);
-      const bool asleep = input.states.asleep[i] != 0;
-      paint_pieces(canvas, shapes[shape], input.states.pose[i],
+      const int shape = input.states.shape[body];
+      const bool asleep = input.states.asleep[body] != 0;
+      paint_pieces(canvas, shapes[shape], input.states.pose[body],
                    asleep ? params.asleep : params.awake[shape % params.awake.size()],
                    asleep ? params.asleep_outline : params.awake_outline, line);
     }

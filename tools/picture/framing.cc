@@ -15,8 +15,7 @@ template <int Dim>
 std::vector<BodyIndex> present_bodies(const BodyStates<Dim>& states) {
   std::vector<BodyIndex> present;
   for (BodyIndex body = 0; body < states.size(); ++body) {
-    const auto i = static_cast<std::size_t>(body);
-    if (states.removed[i] == 0) {
+    if (states.removed[body] == 0) {
       present.push_back(body);
     }
   }
@@ -30,7 +29,7 @@ Box<Dim> fence_of(const BodyStates<Dim>& states, const std::vector<BodyIndex>& p
   std::vector<double> values(present.size());
   for (int axis = 0; axis < Dim; ++axis) {
     for (std::size_t i = 0; i < present.size(); ++i) {
-      values[i] = states.pose[static_cast<std::size_t>(present[i])].position[axis];
+      values[i] = states.pose[present[i]].position[axis];
     }
     std::sort(values.begin(), values.end());
     const double lower = values[(values.size() - 1) / 4];
@@ -75,7 +74,7 @@ void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input, const
   }
   const Box<Dim> fence = fence_of(input.states, present, 2.0 * largest);
   for (const BodyIndex body : present) {
-    const Vec<Dim>& position = input.states.pose[static_cast<std::size_t>(body)].position;
+    const Vec<Dim>& position = input.states.pose[body].position;
     const bool near = fence.contains(position) ||
                       std::ranges::any_of(piles, [&](const Box<Dim>& box) { return box.contains(position); });
     (near ? framing.drawn : framing.outside).push_back(body);
@@ -85,8 +84,7 @@ void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input, const
     std::swap(framing.drawn, framing.outside);
   }
   for (const BodyIndex body : framing.drawn) {
-    const auto i = static_cast<std::size_t>(body);
-    include(framing, bounds_at(input.shapes[static_cast<std::size_t>(input.states.shape[i])], input.states.pose[i]));
+    include(framing, bounds_at(input.shapes[input.states.shape[body]], input.states.pose[body]));
   }
 }
 

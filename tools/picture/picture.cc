@@ -16,7 +16,7 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
   PageContent content = {.title = input.title, .caption = input.caption};
   for (const auto* bodies : {&framing.drawn, &framing.outside}) {
     for (const BodyIndex body : *bodies) {
-      (input.states.asleep[static_cast<std::size_t>(body)] != 0 ? content.asleep : content.awake) += 1;
+      (input.states.asleep[body] != 0 ? content.asleep : content.awake) += 1;
     }
   }
   content.outside = static_cast<int>(framing.outside.size());

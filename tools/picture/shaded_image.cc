@@ -31,7 +31,7 @@ ShadedImage::ShadedImage(const PictureInput<3>& input, const Framing<3>& framing
       projection_(finer(projection, params.samples)),
       outline_limit_(outline_limit(input, projection)),
       buffer_(width * params.samples, height * params.samples),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+      pixels_(static_cast<std::size_t>(width) * height) {
   std::vector<Face> all = faces_of(input, framing);
   std::vector<Face> casting;
   std::ranges::copy_if(all, std::back_inserter(casting), is_body);

@@ -37,9 +37,7 @@ class ShadedImage {
     std::int32_t face = ZBuffer::nothing;
     double light = 0.0;
   };
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
   Pixel& pixel(int x, int y) { return pixels_[index(x, y)]; }
   Paint paint_of(const Face& face, const PictureInput<3>& input) const;
   void enter(std::vector<Face> faces);

@@ -19,17 +19,15 @@ ShadedImage::Paint ShadedImage::paint_of(const Face& face, const PictureInput<3>
   if (is_obstacle(face)) {
     return {params_.obstacle, params_.obstacle_outline};
   }
-  const auto body = static_cast<std::size_t>(face.owner);
-  if (input.states.asleep[body] != 0) {
+  if (input.states.asleep[face.owner] != 0) {
     return {params_.asleep, params_.asleep_outline};
   }
-  return {params_.awake[static_cast<std::size_t>(input.states.shape[body]) % params_.awake.size()],
-          params_.awake_outline};
+  return {params_.awake[input.states.shape[face.owner] % params_.awake.size()], params_.awake_outline};
 }
 
 double ShadedImage::outline_strength(int x, int y) const {
   const std::int32_t here = buffer_.face(x, y);
-  const Face& face = faces_[static_cast<std::size_t>(here)];
+  const Face& face = faces_[here];
   const std::array<std::array<int, 2>, 4> neighbours = {{{x + 1, y}, {x, y + 1}, {x - 1, y}, {x, y - 1}}};
   double strength = 0.0;
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
@@ -38,11 +36,11 @@ double ShadedImage::outline_strength(int x, int y) const {
       continue;
     }
     const std::int32_t there = buffer_.face(nx, ny);
-    const bool same_body = there >= 0 && faces_[static_cast<std::size_t>(there)].owner == face.owner;
+    const bool same_body = there >= 0 && faces_[there].owner == face.owner;
     if (!same_body) {
       // The line belongs to the nearer of two bodies.
       strength = buffer_.nearness(nx, ny) <= buffer_.nearness(x, y) ? 1.0 : strength;
-    } else if (i < 2 && faces_[static_cast<std::size_t>(there)].normal.dot(face.normal) < crease) {
+    } else if (i < 2 && faces_[there].normal.dot(face.normal) < crease) {
       strength = std::max(strength, 0.7);
     }
   }
@@ -51,8 +49,8 @@ double ShadedImage::outline_strength(int x, int y) const {
 
 ShadedImage::Pixel ShadedImage::shaded(int x, int y, double light) const {
   const std::int32_t number = buffer_.face(x, y);
-  const Paint& paint = paints_[static_cast<std::size_t>(number)];
-  const bool ground = faces_[static_cast<std::size_t>(number)].owner == ground_owner;
+  const Paint& paint = paints_[number];
+  const bool ground = faces_[number].owner == ground_owner;
   const double line = ground ? 0.0 : outline_strength(x, y);
   const Colour colour = mix(paint.fill, paint.outline, line);
   // Lines keep some of their colour in the dark, or black bodies would melt into one another.
@@ -62,14 +60,14 @@ ShadedImage::Pixel ShadedImage::shaded(int x, int y, double light) const {
 }
 
 void ShadedImage::shade(const Lighting& lighting) {
-  std::vector<LitFace> skies(static_cast<std::size_t>(width_));
+  std::vector<LitFace> skies(width_);
   for (int y = 0; y < height_; ++y) {
     if (y % 2 == 0) {
       skies.assign(skies.size(), {});
     }
     for (int x = 0; x < width_; ++x) {
       // Squares of two by two pixels share the sky's light where they show one face.
-      pixel(x, y) = mean_of_samples(x, y, lighting, skies[static_cast<std::size_t>(x / 2)]);
+      pixel(x, y) = mean_of_samples(x, y, lighting, skies[x / 2]);
     }
   }
 }
@@ -86,7 +84,7 @@ ShadedImage::Pixel ShadedImage::mean_of_samples(int x, int y, const Lighting& li
     Pixel seen = {params_.paper.red, params_.paper.green, params_.paper.blue};
     if (number != ZBuffer::nothing) {
       const Vec3 point = projection_.unproject({sx + 0.5, sy + 0.5, static_cast<double>(buffer_.nearness(sx, sy))});
-      const Vec3 normal = faces_[static_cast<std::size_t>(number)].normal_at(point);
+      const Vec3 normal = faces_[number].normal_at(point);
       if (number != sun.face) {
         sun = {number, lighting.sun(point, normal)};
       }

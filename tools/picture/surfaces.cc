@@ -76,7 +76,7 @@ std::vector<std::uint32_t> pixels_of(int width, int height, const Painter& paint
   cairo_surface_flush(surface.get());
   const unsigned char* data = cairo_image_surface_get_data(surface.get());
   const int stride = cairo_image_surface_get_stride(surface.get());
-  std::vector<std::uint32_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::vector<std::uint32_t> pixels(static_cast<std::size_t>(width) * height);
   for (int row = 0; row < height; ++row) {
     std::memcpy(pixels.data() + static_cast<std::ptrdiff_t>(row) * width,
                 data + static_cast<std::ptrdiff_t>(row) * stride, static_cast<std::size_t>(width) * 4);

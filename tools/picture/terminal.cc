@@ -32,7 +32,7 @@ Cell cell_at(const Dots& dots, int column, int row) {
       const Dot dot = dots.at(column * cell_width + x, row * cell_height + y);
       if (dot != Dot::empty) {
         counts[static_cast<std::size_t>(dot)] += 1;
-        cell.braille |= bits[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+        cell.braille |= bits[y][x];
       }
     }
   }
@@ -91,14 +91,14 @@ std::string line_of(const Dots& dots, int row, bool colours) {
 
 template <int Dim>
 std::vector<std::string> densities(const PictureInput<Dim>& input, const Projection<Dim>& projection, int rows) {
-  std::vector<std::string> labels(static_cast<std::size_t>(rows));
+  std::vector<std::string> labels(rows);
   if (input.piles.size() == 1) {
     const Pile<Dim>& pile = input.piles[0];
     for (const Layer& layer : pile.layers) {
       const Vec<Dim> middle = pile.centre + 0.5 * (layer.bottom + layer.top) * Vec<Dim>::Unit(Dim - 1);
       const int row = static_cast<int>(std::floor(projection.on_page(middle).y() / cell_height));
-      if (layer.count > 0 && row >= 0 && row < rows && labels[static_cast<std::size_t>(row)].empty()) {
-        labels[static_cast<std::size_t>(row)] = fmt::format("  {:.2f}", layer.density());
+      if (layer.count > 0 && row >= 0 && row < rows && labels[row].empty()) {
+        labels[row] = fmt::format("  {:.2f}", layer.density());
       }
     }
   }
@@ -110,7 +110,7 @@ std::string legend(const PictureInput<Dim>& input, const Framing<Dim>& framing, 
   std::array<std::size_t, 4> counts = {};
   for (const auto* bodies : {&framing.drawn, &framing.outside}) {
     for (const BodyIndex body : *bodies) {
-      const bool asleep = input.states.asleep[static_cast<std::size_t>(body)] != 0;
+      const bool asleep = input.states.asleep[body] != 0;
       counts[static_cast<std::size_t>(asleep ? Dot::asleep : Dot::awake)] += 1;
     }
   }
@@ -155,7 +155,7 @@ std::string terminal_picture(const PictureInput<Dim>& input, const TerminalParam
   const std::vector<std::string> labels = densities(input, projection, rows);
   std::string text;
   for (int row = 0; row < rows; ++row) {
-    const std::string line = line_of(dots, row, params.colours) + labels[static_cast<std::size_t>(row)];
+    const std::string line = line_of(dots, row, params.colours) + labels[row];
     const std::size_t end = line.find_last_not_of(' ') + 1;
     // Room for a cone that rises above all bodies is of no use here.
     if (end > 0 || !text.empty()) {

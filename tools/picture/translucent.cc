@@ -11,7 +11,7 @@ bool ShadedImage::hides_bodies(const Face& face) const {
   std::int64_t bodies = 0;
   scan_convex(projected(face, projection_), buffer_.width(), buffer_.height(), [&](int x, int y, double nearness) {
     ++covered;
-    bodies += buffer_.face(x, y) >= 0 && is_body(faces_[static_cast<std::size_t>(buffer_.face(x, y))]) &&
+    bodies += buffer_.face(x, y) >= 0 && is_body(faces_[buffer_.face(x, y)]) &&
                       nearness > static_cast<double>(buffer_.nearness(x, y))
                   ? 1
                   : 0;

@@ -52,8 +52,7 @@ std::vector<Vec3> projected(const Face& face, const Projection<3>& projection) {
 ZBuffer::ZBuffer(int width, int height)
     : width_(width),
       height_(height),
-      nearness_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                -std::numeric_limits<float>::infinity()),
+      nearness_(static_cast<std::size_t>(width) * height, -std::numeric_limits<float>::infinity()),
       face_(nearness_.size(), nothing) {}
 
 void ZBuffer::add(const Face& face, std::int32_t number, const Projection<3>& projection) {

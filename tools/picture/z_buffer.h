@@ -31,9 +31,7 @@ class ZBuffer {
   std::int32_t face(int x, int y) const { return face_[index(x, y)]; }
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
 
   int width_;
   int height_;

@@ -118,7 +118,7 @@ Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
                                           {"cause", std::string(to_string(event->cause))}};
   }
   json["motion"] = motion_json(result.motion_mean);
-  json["distance_D"] = {{"mean_at_end", result.position_mean[static_cast<std::size_t>(result.last)]},
+  json["distance_D"] = {{"mean_at_end", result.position_mean[result.last]},
                         {"p95_at_end", result.position_p95},
                         {"max_at_end", result.position_max}};
   json["shape_a"] = shape_json(result.shape_a);

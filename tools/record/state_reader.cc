@@ -99,8 +99,8 @@ void StateReader<Dim>::doubt() {
     if (events_lost_ || (states_.asleep[i] == 0 && states_.removed[i] == 0)) unknown_[i] = 1;
   }
   for (const BodyIndex body : events_) {
-    grow(static_cast<std::size_t>(body) + 1);
-    unknown_[static_cast<std::size_t>(body)] = 1;
+    grow(body + 1);
+    unknown_[body] = 1;
   }
 }
 
@@ -119,7 +119,7 @@ void StateReader<Dim>::grow(std::size_t bodies) {
 
 template <int Dim>
 void StateReader<Dim>::set(const Message& message, std::size_t entry) {
-  const auto body = static_cast<std::size_t>(message.body[entry]);
+  const BodyIndex body = message.body[entry];
   constexpr std::size_t values = Dim == 2 ? 3 : 7;
   grow(body + 1);
   states_.shape[body] = message.shape[entry];

@@ -53,7 +53,7 @@ template <int Dim>
 double mean_extent(const RecordedRun<Dim>& run) {
   const std::vector<double> extents = extents_of<Dim>(run.scene.world.shapes);
   std::vector<double> all;
-  for (const int shape : run.last.shape) all.push_back(extents[static_cast<std::size_t>(shape)]);
+  for (const int shape : run.last.shape) all.push_back(extents[shape]);
   return mean(all);
 }
 

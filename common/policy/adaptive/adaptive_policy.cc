@@ -93,12 +93,12 @@ bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body)
 template <int Dim>
 typename AdaptivePolicy<Dim>::Placement AdaptivePolicy<Dim>::placement(const Frame<Dim>& frame, BodyIndex body) const {
   Placement best;
-  const Vec<Dim>& position = frame.world.states().pose[static_cast<std::size_t>(body)].position;
+  const Vec<Dim>& position = frame.world.states().pose[body].position;
   const auto piles = frame.piles.piles();
   for (std::size_t p = 0; p < piles.size(); ++p) {
     const int layer = frame.piles.layer_of(p, body);
     if (layer < 0) continue;
-    const Layer& slice = piles[p].layers[static_cast<std::size_t>(layer)];
+    const Layer& slice = piles[p].layers[layer];
     const double score = std::min(1.0, sleep_score(slice.density(), piles[p].closeness(position, slice), 0.0));
     if (best.pile < 0 || score > best.score) best = {static_cast<int>(p), layer, score};
   }

@@ -14,7 +14,7 @@ template <int Dim>
 void HeavyImpacts<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   for (const BodyIndex body : in.world.awake()) {
     const double mass = in.shape_of(body).mass;
-    const double momentum = mass * in.states().velocity[static_cast<std::size_t>(body)].norm();
+    const double momentum = mass * in.states().velocity[body].norm();
     if (momentum > wake_speed_ * (mass + heavy_mass_)) wake_ahead(in, body, out);
   }
 }
@@ -24,7 +24,7 @@ void HeavyImpacts<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
 /// must be awake when it begins.
 template <int Dim>
 void HeavyImpacts<Dim>::wake_ahead(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out) {
-  const Vec<Dim>& velocity = in.states().velocity[static_cast<std::size_t>(body)];
+  const Vec<Dim>& velocity = in.states().velocity[body];
   Box<Dim> path = in.world.bounds_of(body);
   path.extend(Box<Dim>(path).translate(2.0 * dt_ * velocity));
   double mass = in.shape_of(body).mass;
@@ -36,9 +36,8 @@ void HeavyImpacts<Dim>::wake_ahead(const RuleInput<Dim>& in, BodyIndex body, Rul
   while (!ring_.empty() && momentum > wake_speed_ * mass) {
     next_ring_.clear();
     for (const BodyIndex other : ring_) {
-      const auto o = static_cast<std::size_t>(other);
-      if (!in.asleep(other) || reached_[o] != 0) continue;
-      reached_[o] = 1;
+      if (!in.asleep(other) || reached_[other] != 0) continue;
+      reached_[other] = 1;
       woken_.push_back(other);
       mass += in.shape_of(other).mass;
       in.world.query_box(in.world.bounds_of(other), next_ring_);
@@ -46,7 +45,7 @@ void HeavyImpacts<Dim>::wake_ahead(const RuleInput<Dim>& in, BodyIndex body, Rul
     ring_.swap(next_ring_);
   }
   for (const BodyIndex other : woken_) {
-    reached_[static_cast<std::size_t>(other)] = 0;
+    reached_[other] = 0;
     out.wakes.add(other, {.cause = SleepCause::momentum, .before_impact = true});
   }
 }

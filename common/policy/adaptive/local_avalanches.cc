@@ -50,8 +50,8 @@ std::optional<double> wall_between(std::span<const Pile<Dim>> piles, const Vec<D
 template <int Dim>
 double controlled_slope(std::span<const Pile<Dim>> piles, const Vec<Dim>& point) {
   const int pile = nearest_pile(piles, point);
-  if (pile < 0 || !piles[static_cast<std::size_t>(pile)].slope_controlled) return 0.0;
-  return piles[static_cast<std::size_t>(pile)].alpha;
+  if (pile < 0 || !piles[pile].slope_controlled) return 0.0;
+  return piles[pile].alpha;
 }
 
 }  // namespace
@@ -87,9 +87,7 @@ Vec<Dim> LocalAvalanches<Dim>::middle_of(const Cell& cell) const {
 template <int Dim>
 void LocalAvalanches<Dim>::count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
                                  std::span<const SleepEvent> waking) {
-  const auto cell = [&](const SleepEvent& event) {
-    return cell_of(states.pose[static_cast<std::size_t>(event.body)].position);
-  };
+  const auto cell = [&](const SleepEvent& event) { return cell_of(states.pose[event.body].position); };
   for (const SleepEvent& event : waking) --columns_[cell(event)].sleepers;
   for (const SleepEvent& event : falling_asleep) {
     grown_.push_back(cell(event));

@@ -35,7 +35,7 @@ void RestCriterion<Dim>::update(const RuleInput<Dim>& in) {
   auto last = last_references_.begin();
   for (const BodyIndex body : in.world.awake()) {
     const Pose<Dim>& pose = in.pose_of(body);
-    const double reach = reach_[static_cast<std::size_t>(in.states().shape[static_cast<std::size_t>(body)])];
+    const double reach = reach_[in.states().shape[body]];
     while (last != last_references_.end() && last->body < body) ++last;
     const bool was_awake = last != last_references_.end() && last->body == body;
     const double moved = was_awake ? max_displacement(last->pose, pose, reach) : 0.0;

@@ -8,8 +8,7 @@ template <int Dim>
 VelocityChange<Dim>& RuleOutput<Dim>::velocity_of(BodyIndex body, const BodyStates<Dim>& states) {
   const auto entry = std::ranges::lower_bound(velocities, body, {}, &VelocityChange<Dim>::body);
   if (entry != velocities.end() && entry->body == body) return *entry;
-  const auto i = static_cast<std::size_t>(body);
-  return *velocities.insert(entry, {.body = body, .velocity = states.velocity[i], .spin = states.spin[i]});
+  return *velocities.insert(entry, {.body = body, .velocity = states.velocity[body], .spin = states.spin[body]});
 }
 
 template <int Dim>

@@ -33,8 +33,8 @@ struct RuleInput {
 
   const BodyStates<Dim>& states() const { return world.states(); }
   const Shape<Dim>& shape_of(BodyIndex body) const { return world.shape_of(body); }
-  const Pose<Dim>& pose_of(BodyIndex body) const { return states().pose[static_cast<std::size_t>(body)]; }
-  bool asleep(BodyIndex body) const { return states().asleep[static_cast<std::size_t>(body)] != 0; }
+  const Pose<Dim>& pose_of(BodyIndex body) const { return states().pose[body]; }
+  bool asleep(BodyIndex body) const { return states().asleep[body] != 0; }
 };
 
 /// Why one sleeping body wakes.

@@ -58,7 +58,7 @@ void SlopeController<Dim>::find_touching(const RuleInput<Dim>& in) {
     const Vec<Dim>& position = in.pose_of(body).position;
     const int nearest = nearest_pile(in.piles, position);
     if (nearest < 0) continue;
-    const auto pile = static_cast<std::size_t>(nearest);
+    const std::size_t pile = nearest;
     if (in.piles[pile].slope_controlled && within_pile(in.piles[pile], position)) touching_.push_back({body, pile});
   }
 }
@@ -91,9 +91,8 @@ void SlopeController<Dim>::collect_positions(const RuleInput<Dim>& in, std::size
     }
   }
   for (const Touching& touching : touching_) {
-    const auto i = static_cast<std::size_t>(touching.body);
-    if (touching.pile != pile || states.velocity[i].norm() >= resting_speed_) continue;
-    positions_.push_back(states.pose[i].position - in.piles[pile].centre);
+    if (touching.pile != pile || states.velocity[touching.body].norm() >= resting_speed_) continue;
+    positions_.push_back(states.pose[touching.body].position - in.piles[pile].centre);
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// measured.
 constexpr double least_rest_share = 0.5;
 
-constexpr std::size_t not_a_candidate = static_cast<std::size_t>(-1);
+constexpr std::size_t not_a_candidate = -1;
 
 /// Which candidate carries which, and how much of each one's weight bodies at rest and awake bodies carry.
 template <int Dim>
@@ -58,7 +58,7 @@ class SupportGraph {
   std::size_t candidate_of(BodyIndex body) const {
     const auto found = std::lower_bound(candidates_.begin(), candidates_.end(), body);
     if (found == candidates_.end() || *found != body) return not_a_candidate;
-    return static_cast<std::size_t>(found - candidates_.begin());
+    return found - candidates_.begin();
   }
 
   const RuleInput<Dim>& in_;
@@ -85,7 +85,7 @@ void SupportCriterion<Dim>::keep_supported(const RuleInput<Dim>& in, std::vector
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const auto shape = static_cast<std::size_t>(in.states().shape[static_cast<std::size_t>(candidates[i])]);
+      const int shape = in.states().shape[candidates[i]];
       if (kept[i] == 0 || graph.supported(i, weights_[shape], awake_share_)) continue;
       kept[i] = 0;
       graph.keep_awake(i);

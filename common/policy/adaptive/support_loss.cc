@@ -38,8 +38,7 @@ void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
 template <int Dim>
 void SupportLoss<Dim>::forget_ended(const RuleInput<Dim>& in) {
   std::erase_if(contacts_, [&](const SupportContact& contact) {
-    return in.asleep(contact.supporter) || !in.asleep(contact.supported) ||
-           in.states().removed[static_cast<std::size_t>(contact.supporter)] != 0;
+    return in.asleep(contact.supporter) || !in.asleep(contact.supported) || in.states().removed[contact.supporter] != 0;
   });
 }
 
