@@ -34,26 +34,13 @@ std::int8_t append(const BoxPiece<Dim>& box, std::vector<double>& values) {
 }
 
 template <int Dim>
-std::int8_t append(const BallPiece<Dim>& ball, std::vector<double>& values) {
-  append<Dim>(ball.centre, values);
-  values.push_back(ball.radius);
-  return talus_shapes_v1::BALL;
-}
-
-template <int Dim>
-std::int8_t append(const CapsulePiece<Dim>& capsule, std::vector<double>& values) {
-  append<Dim>(capsule.a, values);
-  append<Dim>(capsule.b, values);
-  values.push_back(capsule.radius);
-  return talus_shapes_v1::CAPSULE;
-}
-
-template <int Dim>
 std::int8_t append(const HullPiece<Dim>& hull, std::vector<double>& values) {
   for (const Vec<Dim>& corner : hull.corners) {
     append<Dim>(corner, values);
   }
-  return talus_shapes_v1::HULL;
+  if (!hull.round()) return talus_shapes_v1::HULL;
+  values.push_back(hull.radius);
+  return hull.corners.size() == 1 ? talus_shapes_v1::BALL : talus_shapes_v1::CAPSULE;
 }
 
 template <int Dim>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/shape/piece_width.h"
+#include "common/shape/piece.h"
 #include "sim2d/tag.h"
 
 namespace talus::box2d {

@@ -34,32 +34,34 @@ b2PolygonShape convex_polygon(const HullPiece<2>& hull) {
   return polygon;
 }
 
-struct Converter {
-  std::vector<EnginePiece>& out;
+void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b, double radius) {
+  out.emplace_back(disc(a, radius));
+  out.emplace_back(disc(b, radius));
+  const Vec2 along = b - a;
+  const Pose<2> middle{(a + b) / 2.0, Rotation<2>(std::atan2(along.y(), along.x()))};
+  // Box2D gives polygons a skin and discs none; less the skin, the straight sides lie flush with the round ends.
+  const double half_width = std::max(radius - b2_polygonRadius, radius / 4.0);
+  out.emplace_back(rectangle(middle, {along.norm() / 2.0, half_width}));
+}
 
-  void operator()(const BoxPiece<2>& box) const { out.emplace_back(rectangle(box.pose, box.half)); }
+void append(std::vector<EnginePiece>& out, const BoxPiece<2>& box) { out.emplace_back(rectangle(box.pose, box.half)); }
 
-  void operator()(const BallPiece<2>& ball) const { out.emplace_back(disc(ball.centre, ball.radius)); }
-
-  void operator()(const CapsulePiece<2>& capsule) const {
-    out.emplace_back(disc(capsule.a, capsule.radius));
-    out.emplace_back(disc(capsule.b, capsule.radius));
-    const Vec2 along = capsule.b - capsule.a;
-    const Pose<2> middle{(capsule.a + capsule.b) / 2.0, Rotation<2>(std::atan2(along.y(), along.x()))};
-    // Box2D gives polygons a skin and discs none; less the skin, the straight sides lie flush with the round ends.
-    const double half_width = std::max(capsule.radius - b2_polygonRadius, capsule.radius / 4.0);
-    out.emplace_back(rectangle(middle, {along.norm() / 2.0, half_width}));
+void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull) {
+  if (hull.corners.size() == 1) {
+    out.emplace_back(disc(hull.corners[0], hull.radius));
+  } else if (hull.corners.size() == 2) {
+    append_capsule(out, hull.corners[0], hull.corners[1], hull.radius);
+  } else {
+    out.emplace_back(convex_polygon(hull));
   }
-
-  void operator()(const HullPiece<2>& hull) const { out.emplace_back(convex_polygon(hull)); }
-};
+}
 
 }  // namespace
 
 std::vector<EnginePiece> engine_pieces(const Shape<2>& shape) {
   std::vector<EnginePiece> out;
   for (const Piece<2>& piece : shape.pieces) {
-    std::visit(Converter{out}, piece);
+    std::visit([&out](const auto& kind) { append(out, kind); }, piece);
   }
   return out;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/shape/piece_width.h"
+#include "common/shape/piece.h"
 #include "sim3d/conversions.h"
 #include "sim3d/pieces.h"
 
@@ -66,10 +66,16 @@ void set_inertia(BodyTemplate& made, const Inertia<3>& inertia) {
   made.inertia = to_bullet(Vec3(principal.diagonal()));
 }
 
+template <int Dim>
+bool is_polyhedron(const Piece<Dim>& piece) {
+  const auto* hull = std::get_if<HullPiece<Dim>>(&piece);
+  return hull != nullptr && !hull->round();
+}
+
 // The own axes of a lone box, ball or capsule are principal axes.
 template <int Dim>
 Eigen::Quaterniond choose_frame(const Shape<Dim>& shape) {
-  if (shape.pieces.size() == 1 && !std::holds_alternative<HullPiece<Dim>>(shape.pieces[0])) {
+  if (shape.pieces.size() == 1 && !is_polyhedron<Dim>(shape.pieces[0])) {
     return make_piece(spatial(shape, shape.pieces[0])).rotation;
   }
   if constexpr (Dim == 3) {

@@ -19,18 +19,19 @@ PlacedPiece make(const BoxPiece<3>& box) {
           box.pose.rotation.normalized()};
 }
 
-PlacedPiece make(const BallPiece<3>& ball) {
-  return {std::make_unique<btSphereShape>(static_cast<btScalar>(ball.radius)), ball.centre,
-          Eigen::Quaterniond::Identity()};
+PlacedPiece make_ball(const Vec3& centre, double radius) {
+  return {std::make_unique<btSphereShape>(static_cast<btScalar>(radius)), centre, Eigen::Quaterniond::Identity()};
 }
 
-PlacedPiece make(const CapsulePiece<3>& capsule) {
-  const Vec3 axis = capsule.b - capsule.a;
-  return {std::make_unique<btCapsuleShapeX>(static_cast<btScalar>(capsule.radius), static_cast<btScalar>(axis.norm())),
-          0.5 * (capsule.a + capsule.b), Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), axis)};
+PlacedPiece make_capsule(const Vec3& a, const Vec3& b, double radius) {
+  const Vec3 axis = b - a;
+  return {std::make_unique<btCapsuleShapeX>(static_cast<btScalar>(radius), static_cast<btScalar>(axis.norm())),
+          0.5 * (a + b), Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), axis)};
 }
 
 PlacedPiece make(const HullPiece<3>& hull) {
+  if (hull.corners.size() == 1) return make_ball(hull.corners[0], hull.radius);
+  if (hull.corners.size() == 2) return make_capsule(hull.corners[0], hull.corners[1], hull.radius);
   auto shape = std::make_unique<btConvexHullShape>();
   for (const Vec3& corner : hull.corners) {
     shape->addPoint(to_bullet(corner), false);
@@ -42,14 +43,6 @@ PlacedPiece make(const HullPiece<3>& hull) {
 
 Piece<3> turn(const BoxPiece<3>& box, const Eigen::Quaterniond& by) {
   return BoxPiece<3>{{by * box.pose.position, by * box.pose.rotation}, box.half};
-}
-
-Piece<3> turn(const BallPiece<3>& ball, const Eigen::Quaterniond& by) {
-  return BallPiece<3>{by * ball.centre, ball.radius};
-}
-
-Piece<3> turn(const CapsulePiece<3>& capsule, const Eigen::Quaterniond& by) {
-  return CapsulePiece<3>{by * capsule.a, by * capsule.b, capsule.radius};
 }
 
 Piece<3> turn(HullPiece<3> hull, const Eigen::Quaterniond& by) {
@@ -64,15 +57,13 @@ Piece<3> lift(const BoxPiece<2>& box, double half_depth) {
                      {box.half.x(), half_depth, box.half.y()}};
 }
 
-Piece<3> lift(const BallPiece<2>& ball, double) { return BallPiece<3>{lift(ball.centre), ball.radius}; }
-
-Piece<3> lift(const CapsulePiece<2>& capsule, double) {
-  return CapsulePiece<3>{lift(capsule.a), lift(capsule.b), capsule.radius};
-}
-
-Piece<3> lift(const HullPiece<2>& polygon, double half_depth) {
-  HullPiece<3> hull;
-  for (const Vec2& corner : polygon.corners) {
+Piece<3> lift(const HullPiece<2>& flat, double half_depth) {
+  HullPiece<3> hull{{}, flat.radius};
+  for (const Vec2& corner : flat.corners) {
+    if (flat.round()) {
+      hull.corners.push_back(lift(corner));
+      continue;
+    }
     hull.corners.push_back(lift(corner) + half_depth * Vec3::UnitY());
     hull.corners.push_back(lift(corner) - half_depth * Vec3::UnitY());
   }

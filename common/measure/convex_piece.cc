@@ -48,37 +48,6 @@ void add_faces(ConvexPiece<3>& piece) {
   }
 }
 
-/// Corners of each kind of piece and the radius around their hull.
-template <int Dim>
-struct Corners {
-  ConvexPiece<Dim> operator()(const BoxPiece<Dim>& box) const {
-    ConvexPiece<Dim> piece;
-    const std::array<std::array<int, 2>, 4> round = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};  // in order, as 2D needs
-    for (const auto& [x, last] : round) {
-      if constexpr (Dim == 2) {
-        piece.corners.push_back(box.pose * Vec2(x * box.half.x(), last * box.half.y()));
-      } else {
-        for (const int y : {-1, 1}) {
-          piece.corners.push_back(box.pose * Vec3(x * box.half.x(), y * box.half.y(), last * box.half.z()));
-        }
-      }
-    }
-    return piece;
-  }
-  ConvexPiece<Dim> operator()(const BallPiece<Dim>& ball) const { return of({ball.centre}, ball.radius); }
-  ConvexPiece<Dim> operator()(const CapsulePiece<Dim>& capsule) const {
-    return of({capsule.a, capsule.b}, capsule.radius);
-  }
-  ConvexPiece<Dim> operator()(const HullPiece<Dim>& hull) const { return of(hull.corners, 0.0); }
-
-  static ConvexPiece<Dim> of(std::vector<Vec<Dim>> corners, double radius) {
-    ConvexPiece<Dim> piece;
-    piece.corners = std::move(corners);
-    piece.radius = radius;
-    return piece;
-  }
-};
-
 }  // namespace
 
 template <int Dim>
@@ -91,7 +60,10 @@ Box<Dim> ConvexPiece<Dim>::bounds() const {
 
 template <int Dim>
 ConvexPiece<Dim> convex_piece(const Piece<Dim>& piece) {
-  ConvexPiece<Dim> convex = std::visit(Corners<Dim>{}, piece);
+  HullPiece<Dim> hull = as_hull(piece);
+  ConvexPiece<Dim> convex;
+  convex.corners = std::move(hull.corners);
+  convex.radius = hull.radius;
   add_faces(convex);
   return convex;
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/shape/piece_width.h"
+#include "common/shape/piece.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/shape/bounding_radius.h"
+#include "common/shape/shape.h"
 
 namespace talus {
 namespace {

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "common/math/require.h"
-#include "common/shape/check_piece.h"
 #include "common/shape/convex_hull.h"
 #include "common/shape/polygon.h"
 #include "common/shape/polygon_partition.h"
@@ -50,6 +49,42 @@ std::vector<Vec3> arranged(std::span<const Vec3> points) {
   return result;
 }
 
+void check_ring(const RingParams& ring) {
+  require(std::isfinite(ring.inner_radius) && ring.inner_radius > 0.0, "ring.inner_radius", ring.inner_radius,
+          "must be finite and above 0 m");
+  require(std::isfinite(ring.outer_radius) && ring.outer_radius > ring.inner_radius, "ring.outer_radius",
+          ring.outer_radius, "must be finite and above the inner radius");
+  require(ring.parts >= 3 && ring.parts <= 64, "ring.parts", ring.parts, "must be in 3..64");
+  const int corners = ring.section_corners;
+  require(corners == 4 || corners == 6 || corners == 8, "ring.section_corners", corners, "must be 4, 6 or 8");
+  require(std::isfinite(ring.depth) && ring.depth >= 0.0, "ring.depth", ring.depth, "must be finite and at least 0 m");
+}
+
+Vec2 on_circle(double radius, double angle) { return radius * Vec2(std::cos(angle), std::sin(angle)); }
+
+HullPiece<2> flat_part(const RingParams& ring, double from, double to) {
+  return {{on_circle(ring.inner_radius, from), on_circle(ring.outer_radius, from), on_circle(ring.outer_radius, to),
+           on_circle(ring.inner_radius, to)}};
+}
+
+// The section is a regular polygon with one side on the outer and one on the inner radius, stretched to the depth.
+HullPiece<3> tube_part(const RingParams& ring, double from, double to) {
+  const double middle = (ring.outer_radius + ring.inner_radius) / 2.0;
+  const double turn = std::numbers::pi / ring.section_corners;
+  const double reach = (ring.outer_radius - ring.inner_radius) / 2.0 / std::cos(turn);
+  const double highest = reach * (ring.section_corners == 6 ? 1.0 : std::cos(turn));  // 6: a corner there, else a side
+  const double stretch = ring.depth > 0.0 ? ring.depth / 2.0 / highest : 1.0;
+  HullPiece<3> hull;
+  for (const double angle : {from, to}) {
+    for (int k = 0; k < ring.section_corners; ++k) {
+      const Vec2 corner = on_circle(reach, (2 * k + 1) * turn);
+      const Vec2 place = on_circle(middle + corner.x(), angle);
+      hull.corners.push_back({place.x(), stretch * corner.y(), place.y()});
+    }
+  }
+  return hull;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -75,7 +110,7 @@ std::vector<Piece<Dim>> l_pieces(const LParams& params) {
 
 template <int Dim>
 std::vector<Piece<Dim>> ball_pieces(double radius) {
-  const Piece<Dim> ball = BallPiece<Dim>{Vec<Dim>::Zero(), radius};
+  const Piece<Dim> ball = HullPiece<Dim>{{Vec<Dim>::Zero()}, radius};
   check_piece(ball, "ball");
   return {ball};
 }
@@ -85,7 +120,7 @@ std::vector<Piece<Dim>> capsule_pieces(double length, double radius) {
   require(std::isfinite(length) && length > 2.0 * radius, "capsule.length", length,
           "must be finite and above twice the radius");
   const Vec<Dim> end = Vec<Dim>::Unit(0) * (length / 2.0 - radius);
-  const Piece<Dim> capsule = CapsulePiece<Dim>{-end, end, radius};
+  const Piece<Dim> capsule = HullPiece<Dim>{{-end, end}, radius};
   check_piece(capsule, "capsule");
   return {capsule};
 }
@@ -109,6 +144,7 @@ std::vector<Piece<Dim>> cylinder_pieces(const CylinderParams& params) {
 
 template <int Dim>
 std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners) {
+  check_corner_count<Dim>(corners.size(), "hull.corners");
   if constexpr (Dim == 3) {
     check_piece<3>(HullPiece<3>{{corners.begin(), corners.end()}}, "hull");
   }
@@ -136,6 +172,21 @@ std::vector<Piece<Dim>> polygon_pieces(std::span<const Vec2> corners, double dep
   return pieces;
 }
 
+template <int Dim>
+std::vector<Piece<Dim>> ring_pieces(const RingParams& params) {
+  check_ring(params);
+  const double step = 2.0 * std::numbers::pi / params.parts;
+  std::vector<Piece<Dim>> pieces;
+  for (int k = 0; k < params.parts; ++k) {
+    if constexpr (Dim == 2) {
+      pieces.push_back(flat_part(params, k * step, (k + 1) * step));
+    } else {
+      pieces.push_back(tube_part(params, k * step, (k + 1) * step));
+    }
+  }
+  return pieces;
+}
+
 template std::vector<Piece<2>> box_pieces(const Vec<2>&);
 template std::vector<Piece<3>> box_pieces(const Vec<3>&);
 template std::vector<Piece<2>> l_pieces(const LParams&);
@@ -150,5 +201,7 @@ template std::vector<Piece<2>> hull_pieces(std::span<const Vec<2>>);
 template std::vector<Piece<3>> hull_pieces(std::span<const Vec<3>>);
 template std::vector<Piece<2>> polygon_pieces(std::span<const Vec2>, double);
 template std::vector<Piece<3>> polygon_pieces(std::span<const Vec2>, double);
+template std::vector<Piece<2>> ring_pieces(const RingParams&);
+template std::vector<Piece<3>> ring_pieces(const RingParams&);
 
 }  // namespace talus

@@ -28,25 +28,24 @@ double ball_volume(double radius) {
 
 // The mean of x^2 over a ball around the origin is r^2 / (Dim + 2).
 template <int Dim>
-Moments<Dim> moments_of(const BallPiece<Dim>& ball) {
-  const double volume = ball_volume<Dim>(ball.radius);
-  return {volume, ball.centre, volume * ball.radius * ball.radius / (Dim + 2) * Matrix<Dim>::Identity()};
+Moments<Dim> ball_moments(const Vec<Dim>& centre, double radius) {
+  const double volume = ball_volume<Dim>(radius);
+  return {volume, centre, volume * radius * radius / (Dim + 2) * Matrix<Dim>::Identity()};
 }
 
 // A rod of half length h (rectangle or cylinder) between two halves of a ball. The flat side of a half ball lies h from
 // the middle, its own centre `offset` further out.
 template <int Dim>
-Moments<Dim> moments_of(const CapsulePiece<Dim>& capsule) {
-  const double r = capsule.radius;
-  const double half = (capsule.b - capsule.a).norm() / 2.0;
-  const Vec<Dim> axis = (capsule.b - capsule.a).normalized();
+Moments<Dim> capsule_moments(const Vec<Dim>& a, const Vec<Dim>& b, double r) {
+  const double half = (b - a).norm() / 2.0;
+  const Vec<Dim> axis = (b - a).normalized();
   const double rod = 2.0 * half * (Dim == 2 ? 2.0 * r : pi * r * r);
   const double caps = ball_volume<Dim>(r);
   const double offset = Dim == 2 ? 4.0 * r / (3.0 * pi) : 3.0 * r / 8.0;
   const double along = rod * half * half / 3.0 + caps * (half * half + 2.0 * half * offset + r * r / (Dim + 2));
   const double across = rod * r * r / (Dim + 1) + caps * r * r / (Dim + 2);
   const Matrix<Dim> second = across * Matrix<Dim>::Identity() + (along - across) * axis * axis.transpose();
-  return {rod + caps, (capsule.a + capsule.b) / 2.0, second};
+  return {rod + caps, (a + b) / 2.0, second};
 }
 
 // Corners of the simplices, one on each edge or triangle of the surface, whose common tip is the first corner.
@@ -69,6 +68,8 @@ std::vector<std::array<int, Dim>> surface_simplices(const std::vector<Vec<Dim>>&
 
 template <int Dim>
 Moments<Dim> moments_of(const HullPiece<Dim>& hull) {
+  if (hull.corners.size() == 1) return ball_moments<Dim>(hull.corners[0], hull.radius);
+  if (hull.corners.size() == 2) return capsule_moments<Dim>(hull.corners[0], hull.corners[1], hull.radius);
   return moments_within<Dim>(hull.corners, surface_simplices<Dim>(hull.corners));
 }
 

@@ -35,4 +35,8 @@ std::string text(const Vec2& corner);
 /// Unit normal, pointing outwards, of the side that begins at a corner of a counter-clockwise polygon.
 Vec2 outward_normal(std::span<const Vec2> corners, std::size_t from);
 
+/// Throws std::invalid_argument with field, value and rule unless the corners, in order and either way round, make a
+/// simple polygon: at least 3, finite, no edge touching another but its neighbours in their common corner.
+void check_simple_polygon(std::span<const Vec2> corners);
+
 }  // namespace talus

@@ -4,7 +4,6 @@
 
 #include "common/math/require.h"
 #include "common/shape/polygon.h"
-#include "common/shape/simple_polygon.h"
 
 namespace talus {
 namespace {

@@ -3,61 +3,13 @@
 #include <fmt/format.h>
 
 #include "common/math/require.h"
-#include "common/shape/check_piece.h"
 #include "common/shape/moments.h"
 
 namespace talus {
-namespace {
-
-template <int Dim>
-void move(BoxPiece<Dim>& box, const Vec<Dim>& by) {
-  box.pose.position += by;
+void check_material(const Material& material, const std::string& field) {
+  check_fields(material, density_field, field);
+  check_fields(material, surface_fields, field);
 }
-template <int Dim>
-void move(BallPiece<Dim>& ball, const Vec<Dim>& by) {
-  ball.centre += by;
-}
-template <int Dim>
-void move(CapsulePiece<Dim>& capsule, const Vec<Dim>& by) {
-  capsule.a += by;
-  capsule.b += by;
-}
-template <int Dim>
-void move(HullPiece<Dim>& hull, const Vec<Dim>& by) {
-  for (Vec<Dim>& corner : hull.corners) {
-    corner += by;
-  }
-}
-
-template <int Dim>
-using Matrix = Eigen::Matrix<double, Dim, Dim>;
-
-template <int Dim>
-void extend(Box<Dim>& bounds, const BoxPiece<Dim>& box, const Vec<Dim>& position, const Matrix<Dim>& turn) {
-  const Matrix<Dim> axes = turn * box.pose.rotation.toRotationMatrix();
-  const Vec<Dim> reach = axes.cwiseAbs() * box.half;
-  const Vec<Dim> centre = position + turn * box.pose.position;
-  bounds.extend(Box<Dim>(centre - reach, centre + reach));
-}
-template <int Dim>
-void extend(Box<Dim>& bounds, const BallPiece<Dim>& ball, const Vec<Dim>& position, const Matrix<Dim>& turn) {
-  const Vec<Dim> reach = Vec<Dim>::Constant(ball.radius);
-  const Vec<Dim> centre = position + turn * ball.centre;
-  bounds.extend(Box<Dim>(centre - reach, centre + reach));
-}
-template <int Dim>
-void extend(Box<Dim>& bounds, const CapsulePiece<Dim>& capsule, const Vec<Dim>& position, const Matrix<Dim>& turn) {
-  extend(bounds, BallPiece<Dim>{capsule.a, capsule.radius}, position, turn);
-  extend(bounds, BallPiece<Dim>{capsule.b, capsule.radius}, position, turn);
-}
-template <int Dim>
-void extend(Box<Dim>& bounds, const HullPiece<Dim>& hull, const Vec<Dim>& position, const Matrix<Dim>& turn) {
-  for (const Vec<Dim>& corner : hull.corners) {
-    bounds.extend(position + turn * corner);
-  }
-}
-
-}  // namespace
 
 template <int Dim>
 MassProperties<Dim> mass_properties(const Piece<Dim>& piece) {
@@ -85,7 +37,7 @@ Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Ma
           "must be finite and above 0");
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     check_piece(pieces[i], fmt::format("shape '{}': pieces[{}]", name, i));
-    std::visit([&](auto& kind) { move<Dim>(kind, -masses.centre); }, pieces[i]);
+    translate<Dim>(pieces[i], -masses.centre);
   }
   Shape<Dim> shape;
   shape.name = std::move(name);
@@ -103,12 +55,21 @@ Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Ma
 
 template <int Dim>
 Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose) {
-  const Matrix<Dim> turn = pose.rotation.toRotationMatrix();
+  const Eigen::Matrix<double, Dim, Dim> turn = pose.rotation.toRotationMatrix();
   Box<Dim> bounds;
   for (const Piece<Dim>& piece : shape.pieces) {
-    std::visit([&](const auto& kind) { extend<Dim>(bounds, kind, pose.position, turn); }, piece);
+    bounds.extend(bounds_of<Dim>(piece, turn, pose.position));
   }
   return bounds;
+}
+
+template <int Dim>
+double bounding_radius(const Shape<Dim>& shape) {
+  double radius = 0.0;
+  for (const Piece<Dim>& piece : shape.pieces) {
+    radius = std::max(radius, reach_of(piece));
+  }
+  return radius;
 }
 
 template MassProperties<2> mass_properties(const Piece<2>&);
@@ -119,5 +80,7 @@ template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&
 template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&, const MassProperties<3>&);
 template Box<2> bounds_at(const Shape<2>&, const Pose<2>&);
 template Box<3> bounds_at(const Shape<3>&, const Pose<3>&);
+template double bounding_radius(const Shape<2>&);
+template double bounding_radius(const Shape<3>&);
 
 }  // namespace talus

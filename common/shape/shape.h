@@ -3,44 +3,13 @@
 
 #include <array>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "common/math/vector.h"
 #include "common/params/field.h"
+#include "common/shape/piece.h"
 
 namespace talus {
-
-/// Box (rectangle in 2D), turned and placed within the shape.
-template <int Dim>
-struct BoxPiece {
-  Pose<Dim> pose;
-  Vec<Dim> half = Vec<Dim>::Constant(0.5);  // [m], > 0 on every axis
-};
-
-/// Disc in 2D, sphere in 3D.
-template <int Dim>
-struct BallPiece {
-  Vec<Dim> centre = Vec<Dim>::Zero();  // [m]
-  double radius = 0.5;                 // [m], > 0
-};
-
-/// All points within `radius` of the segment from `a` to `b`.
-template <int Dim>
-struct CapsulePiece {
-  Vec<Dim> a = Vec<Dim>::Zero();   // [m]
-  Vec<Dim> b = Vec<Dim>::Unit(0);  // [m]
-  double radius = 0.25;            // [m], > 0
-};
-
-/// Convex polygon (2D: corners counter-clockwise, at most 8) or convex hull (3D: corners in any order).
-template <int Dim>
-struct HullPiece {
-  std::vector<Vec<Dim>> corners;  // [m]
-};
-
-template <int Dim>
-using Piece = std::variant<BoxPiece<Dim>, BallPiece<Dim>, CapsulePiece<Dim>, HullPiece<Dim>>;
 
 /// What a surface and the matter behind it do. Friction and restitution are combined values: two bodies of this
 /// material meet with just these. Two materials meet with the geometric mean of theirs, in every engine. surface_fields
@@ -72,6 +41,9 @@ inline constexpr auto density_field = std::to_array<Field<Material>>({
           "only ratios matter to a pile: masses of a scene's shapes must be within a factor of 100, better 10, or "
           "heavy bodies sink through light ones. Mass and inertia must be at least 1e-20 kg and kg m^2"}},
 });
+
+/// Throws on a density, friction or restitution outside its range.
+void check_material(const Material& material, const std::string& field);
 
 /// Inertia about the centre of mass [kg m^2]: one number in 2D (about y), a symmetric matrix in 3D.
 template <int Dim>
@@ -119,5 +91,9 @@ Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Ma
 /// The smallest axis-aligned box around a shape at a pose [m].
 template <int Dim>
 Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose);
+
+/// Radius [m] of the smallest sphere about the centre of mass that holds the shape however it is turned.
+template <int Dim>
+double bounding_radius(const Shape<Dim>& shape);
 
 }  // namespace talus

@@ -15,12 +15,6 @@ void check_segments(int segments) {
   require(segments >= 4 && segments % 4 == 0, "segments", segments, "must be a multiple of 4, at least 4");
 }
 
-Loop<2> outline(const BoxPiece<2>& box, int) {
-  const Vec2& half = box.half;
-  return {box.pose * Vec2(-half.x(), -half.y()), box.pose * Vec2(half.x(), -half.y()), box.pose * half,
-          box.pose * Vec2(-half.x(), half.y())};
-}
-
 // Adds the corners of an arc, both ends included.
 void add_arc(Loop<2>& loop, const Vec2& centre, double radius, double from, double to, int segments) {
   for (int i = 0; i <= segments; ++i) {
@@ -29,30 +23,19 @@ void add_arc(Loop<2>& loop, const Vec2& centre, double radius, double from, doub
   }
 }
 
-Loop<2> outline(const BallPiece<2>& disc, int segments) {
+Loop<2> outline(const HullPiece<2>& hull, int segments) {
+  if (!hull.round()) return hull.corners;
   Loop<2> loop;
-  add_arc(loop, disc.centre, disc.radius, 0.0, 2.0 * pi * (segments - 1) / segments, segments - 1);
-  return loop;
-}
-
-Loop<2> outline(const CapsulePiece<2>& capsule, int segments) {
-  const Vec2 along = capsule.b - capsule.a;
-  const double angle = std::atan2(along.y(), along.x());
-  Loop<2> loop;
-  add_arc(loop, capsule.b, capsule.radius, angle - pi / 2.0, angle + pi / 2.0, segments / 2);
-  add_arc(loop, capsule.a, capsule.radius, angle + pi / 2.0, angle + 1.5 * pi, segments / 2);
-  return loop;
-}
-
-Loop<2> outline(const HullPiece<2>& hull, int) { return hull.corners; }
-
-void add_faces(std::vector<Loop<3>>& faces, const HullPiece<3>& hull, int) {
-  for (const std::vector<int>& face : convex_hull_faces(hull.corners)) {
-    Loop<3>& loop = faces.emplace_back();
-    for (const int index : face) {
-      loop.push_back(hull.corners[index]);
-    }
+  const Vec2& a = hull.corners.front();
+  const Vec2& b = hull.corners.back();
+  if (hull.corners.size() == 1) {
+    add_arc(loop, a, hull.radius, 0.0, 2.0 * pi * (segments - 1) / segments, segments - 1);
+  } else {
+    const double angle = std::atan2((b - a).y(), (b - a).x());
+    add_arc(loop, b, hull.radius, angle - pi / 2.0, angle + pi / 2.0, segments / 2);
+    add_arc(loop, a, hull.radius, angle + pi / 2.0, angle + 1.5 * pi, segments / 2);
   }
+  return loop;
 }
 
 void add_faces(std::vector<Loop<3>>& faces, const BoxPiece<3>& box, int) {
@@ -112,14 +95,20 @@ void add_revolved(std::vector<Loop<3>>& faces, const std::vector<Latitude>& ring
   }
 }
 
-void add_faces(std::vector<Loop<3>>& faces, const BallPiece<3>& ball, int segments) {
-  const Vec3 axis = Vec3::UnitZ();
-  add_revolved(faces, latitudes(ball.centre, ball.centre, axis, ball.radius, segments), axis, segments);
-}
-
-void add_faces(std::vector<Loop<3>>& faces, const CapsulePiece<3>& capsule, int segments) {
-  const Vec3 axis = (capsule.b - capsule.a).normalized();
-  add_revolved(faces, latitudes(capsule.a, capsule.b, axis, capsule.radius, segments), axis, segments);
+void add_faces(std::vector<Loop<3>>& faces, const HullPiece<3>& hull, int segments) {
+  if (hull.round()) {
+    const Vec3& a = hull.corners.front();
+    const Vec3& b = hull.corners.back();
+    const Vec3 axis = hull.corners.size() == 1 ? Vec3::UnitZ() : Vec3((b - a).normalized());
+    add_revolved(faces, latitudes(a, b, axis, hull.radius, segments), axis, segments);
+    return;
+  }
+  for (const std::vector<int>& face : convex_hull_faces(hull.corners)) {
+    Loop<3>& loop = faces.emplace_back();
+    for (const int index : face) {
+      loop.push_back(hull.corners[index]);
+    }
+  }
 }
 
 }  // namespace
@@ -128,7 +117,7 @@ std::vector<Loop<2>> outlines(const Shape<2>& shape, int segments) {
   check_segments(segments);
   std::vector<Loop<2>> loops;
   for (const Piece<2>& piece : shape.pieces) {
-    loops.push_back(std::visit([&](const auto& kind) { return outline(kind, segments); }, piece));
+    loops.push_back(outline(as_hull(piece), segments));
   }
   return loops;
 }

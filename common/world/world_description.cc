@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "common/math/require.h"
-#include "common/shape/check_piece.h"
-#include "common/shape/piece_width.h"
+#include "common/shape/piece.h"
 
 namespace talus {
 namespace {

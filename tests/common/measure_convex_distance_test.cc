@@ -24,6 +24,11 @@ double distance(const Piece<Dim>& a, const Piece<Dim>& b, const Pose<Dim>& at_b 
 Pose<3> at(double x, double y, double z) { return {Vec3(x, y, z)}; }
 Pose<2> at(double x, double z) { return {Vec2(x, z)}; }
 
+template <int Dim>
+HullPiece<Dim> ball_of(double radius) {
+  return {{Vec<Dim>::Zero()}, radius};
+}
+
 BoxPiece<3> random_box(std::mt19937_64& random) {
   BoxPiece<3> box;
   box.half = Vec3(0.5, 0.3, 0.2) + uniform_within<3>(Vec3::Constant(0.15), random);
@@ -73,15 +78,15 @@ double distance_by_projection(const BoxPiece<3>& a, const BoxPiece<3>& b) {
 }
 
 TEST(ConvexDistance, OfBallsIsThatOfCentresLessRadii) {
-  EXPECT_NEAR(distance<3>(BallPiece<3>{.radius = 0.5}, BallPiece<3>{.radius = 0.25}, at(0.0, 3.0, 4.0)), 4.25, exact);
-  EXPECT_NEAR(distance<3>(BallPiece<3>{.radius = 0.5}, BallPiece<3>{.radius = 0.25}, at(0.0, 0.0, 0.25)), -0.5, exact);
-  EXPECT_NEAR(distance<2>(BallPiece<2>{.radius = 0.5}, BallPiece<2>{.radius = 0.5}, at(0.6, 0.8)), 0.0, exact);
-  EXPECT_NEAR(distance<2>(BallPiece<2>{.radius = 0.5}, BallPiece<2>{.radius = 0.5}), -1.0, exact);
+  EXPECT_NEAR(distance<3>(ball_of<3>(0.5), ball_of<3>(0.25), at(0.0, 3.0, 4.0)), 4.25, exact);
+  EXPECT_NEAR(distance<3>(ball_of<3>(0.5), ball_of<3>(0.25), at(0.0, 0.0, 0.25)), -0.5, exact);
+  EXPECT_NEAR(distance<2>(ball_of<2>(0.5), ball_of<2>(0.5), at(0.6, 0.8)), 0.0, exact);
+  EXPECT_NEAR(distance<2>(ball_of<2>(0.5), ball_of<2>(0.5)), -1.0, exact);
 }
 
 TEST(ConvexDistance, OfBallAndBoxFollowsFaceEdgeAndCorner) {
   const BoxPiece<3> box{.pose = {}, .half = Vec3(1.0, 0.5, 0.25)};
-  const BallPiece<3> ball{.radius = 0.1};
+  const HullPiece<3> ball = ball_of<3>(0.1);
   EXPECT_NEAR(distance<3>(box, ball, at(1.5, 0.2, 0.1)), 0.4, exact);
   EXPECT_NEAR(distance<3>(box, ball, at(1.3, 0.9, 0.1)), 0.4, exact);
   EXPECT_NEAR(distance<3>(box, ball, at(1.2, 0.7, 0.35)), 0.3 - 0.1, exact);
@@ -90,21 +95,21 @@ TEST(ConvexDistance, OfBallAndBoxFollowsFaceEdgeAndCorner) {
   EXPECT_NEAR(distance<3>(box, ball, at(0.0, 0.0, 0.25)), -0.1, exact) << "centre on a face";
   EXPECT_NEAR(distance<3>(box, ball, at(1.0, 0.5, 0.25)), -0.1, exact) << "centre on a corner";
   const BoxPiece<2> rectangle{.pose = {}, .half = Vec2(1.0, 0.5)};
-  const BallPiece<2> disc{.radius = 0.1};
+  const HullPiece<2> disc = ball_of<2>(0.1);
   EXPECT_NEAR(distance<2>(rectangle, disc, at(1.3, 0.9)), 0.4, exact);
   EXPECT_NEAR(distance<2>(rectangle, disc, at(0.9, 0.1)), -0.1 - 0.1, exact);
 }
 
 TEST(ConvexDistance, OfCapsulesIsThatOfTheirSegmentsLessRadii) {
-  const CapsulePiece<3> lying{.a = Vec3(-1, 0, 0), .b = Vec3(1, 0, 0), .radius = 0.2};
-  const CapsulePiece<3> across{.a = Vec3(0, -1, 0), .b = Vec3(0, 1, 0), .radius = 0.1};
+  const HullPiece<3> lying{{Vec3(-1, 0, 0), Vec3(1, 0, 0)}, 0.2};
+  const HullPiece<3> across{{Vec3(0, -1, 0), Vec3(0, 1, 0)}, 0.1};
   EXPECT_NEAR(distance<3>(lying, across, at(0.5, 0.3, 1.0)), 0.7, exact);
   EXPECT_NEAR(distance<3>(lying, across), -0.3, exact) << "axes that cross";
   EXPECT_NEAR(distance<3>(lying, lying, at(0.5, 0.3, 0.0)), -0.1, exact) << "parallel axes";
   EXPECT_NEAR(distance<3>(lying, lying, at(2.3, 0.4, 0.0)), 0.1, exact) << "tip to tip";
   EXPECT_NEAR(distance<3>(lying, lying, at(0.5, 0.0, 0.0)), -0.4, exact) << "axes in one line, overlapping";
-  const CapsulePiece<2> flat{.a = Vec2(-1, 0), .b = Vec2(1, 0), .radius = 0.2};
-  const CapsulePiece<2> upright{.a = Vec2(0, -0.25), .b = Vec2(0, 0.25), .radius = 0.1};
+  const HullPiece<2> flat{{Vec2(-1, 0), Vec2(1, 0)}, 0.2};
+  const HullPiece<2> upright{{Vec2(0, -0.25), Vec2(0, 0.25)}, 0.1};
   EXPECT_NEAR(distance<2>(flat, upright, at(0.5, 1.0)), 0.75 - 0.3, exact);
   EXPECT_NEAR(distance<2>(flat, upright, at(0.5, 0.1)), -0.15 - 0.3, exact)
       << "in a plane, crossing axes must be parted";
@@ -113,7 +118,7 @@ TEST(ConvexDistance, OfCapsulesIsThatOfTheirSegmentsLessRadii) {
 
 TEST(ConvexDistance, OfCapsuleAndBoxKnowsPointsInsideAndOutside) {
   const BoxPiece<3> box{.pose = {}, .half = Vec3(1.0, 1.0, 0.5)};
-  const CapsulePiece<3> upright{.a = Vec3(0, 0, -0.1), .b = Vec3(0, 0, 2.0), .radius = 0.2};
+  const HullPiece<3> upright{{Vec3(0, 0, -0.1), Vec3(0, 0, 2.0)}, 0.2};
   EXPECT_NEAR(distance<3>(box, upright, at(0.3, 0.2, 0.8)), 0.0, exact) << "tip touches the top";
   EXPECT_NEAR(distance<3>(box, upright, at(0.3, 0.2, 0.5)), -0.1 - 0.2, exact) << "out upwards";
   EXPECT_NEAR(distance<3>(box, upright, at(0.9, 0.0, -0.5)), -0.1 - 0.2, exact) << "out sideways";

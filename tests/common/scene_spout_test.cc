@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "common/scene/spout_rate.h"
-#include "common/shape/bounding_radius.h"
 #include "common/shape/catalogue.h"
+#include "common/shape/shape.h"
 
 namespace talus::scene_spout_test {
 namespace {

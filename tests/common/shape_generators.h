@@ -72,10 +72,10 @@ Piece<Dim> random_piece() {
     return BoxPiece<Dim>{pose, Vec<Dim>::Constant(1.2) + random_point<Dim>(1.0)};
   }
   if (kind == 1) {
-    return BallPiece<Dim>{pose.position, radius};
+    return HullPiece<Dim>{{pose.position}, radius};
   }
   if (kind == 2) {
-    return CapsulePiece<Dim>{pose.position, pose * Vec<Dim>::Unit(0), radius};
+    return HullPiece<Dim>{{pose.position, pose * Vec<Dim>::Unit(0)}, radius};
   }
   return random_simplex<Dim>();
 }
@@ -85,11 +85,6 @@ template <int Dim>
 Piece<Dim> placed(Piece<Dim> piece, const Pose<Dim>& pose) {
   if (auto* box = std::get_if<BoxPiece<Dim>>(&piece)) {
     box->pose = {pose * box->pose.position, pose.rotation * box->pose.rotation};
-  } else if (auto* ball = std::get_if<BallPiece<Dim>>(&piece)) {
-    ball->centre = pose * ball->centre;
-  } else if (auto* capsule = std::get_if<CapsulePiece<Dim>>(&piece)) {
-    capsule->a = pose * capsule->a;
-    capsule->b = pose * capsule->b;
   } else {
     for (Vec<Dim>& corner : std::get<HullPiece<Dim>>(piece).corners) {
       corner = pose * corner;

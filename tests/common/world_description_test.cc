@@ -162,11 +162,21 @@ TYPED_TEST(WorldDescriptionTest, PiecesWithoutVolumeAreRefused) {
     BoxPiece<dim> box;
     box.half[0] = size;
     this->refuse_pieces("pieces[0].half[0]", {box});
-    this->refuse_pieces("pieces[0].radius", {BallPiece<dim>{Vec<dim>::Zero(), size}});
-    this->refuse_pieces("pieces[0].radius", {CapsulePiece<dim>{Vec<dim>::Zero(), Vec<dim>::Ones(), size}});
+    this->refuse_pieces("pieces[0].radius", {HullPiece<dim>{{Vec<dim>::Zero()}, size}});
+    this->refuse_pieces("pieces[0].radius", {HullPiece<dim>{{Vec<dim>::Zero(), Vec<dim>::Ones()}, size}});
   }
-  this->refuse_pieces("pieces[0] distance", {CapsulePiece<dim>{Vec<dim>::Zero(), Vec<dim>::Zero(), 1.0}});
+  this->refuse_pieces("pieces[0] distance", {HullPiece<dim>{{Vec<dim>::Zero(), Vec<dim>::Zero()}, 1.0}});
+  this->refuse_pieces("pieces[0].corners.size = 0", {HullPiece<dim>{}});
   this->refuse_pieces("pieces.size", {});
+}
+
+TYPED_TEST(WorldDescriptionTest, APolygonOrPolyhedronWithARadiusIsRefused) {
+  constexpr int dim = TypeParam::value;
+  HullPiece<dim> simplex{{Vec<dim>::Zero()}, 0.1};
+  for (int axis = 0; axis < dim; ++axis) {
+    simplex.corners.push_back(Vec<dim>::Unit(axis));
+  }
+  this->refuse_pieces("pieces[0].radius = 0.1", {simplex});
 }
 
 TEST(PolygonCorners, ThatMakeNoConvexPolygonAreRefused) {

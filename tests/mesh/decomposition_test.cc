@@ -9,7 +9,7 @@
 #include "common/mesh/mesh_repair.h"
 #include "common/mesh/parts_volume.h"
 #include "common/shape/catalogue.h"
-#include "common/shape/piece_width.h"
+#include "common/shape/piece.h"
 #include "common/shape/surface.h"
 
 namespace talus::decomposition_test {

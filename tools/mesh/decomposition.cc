@@ -9,7 +9,7 @@
 
 #include "common/math/require.h"
 #include "common/mesh/parts_volume.h"
-#include "common/shape/piece_width.h"
+#include "common/shape/piece.h"
 #include "tools/mesh/hull_mesh.h"
 
 namespace talus {

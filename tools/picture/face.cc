@@ -17,12 +17,10 @@ std::vector<Face> faces_of(const Shape<3>& shape, int segments) {
   std::vector<Face> all;
   for (const Piece<3>& piece : shape.pieces) {
     Shape<3> alone;
-    alone.pieces = {piece};
+    alone.pieces.push_back(piece);
     std::optional<Core> core;
-    if (const auto* ball = std::get_if<BallPiece<3>>(&piece)) {
-      core = {ball->centre, ball->centre};
-    } else if (const auto* capsule = std::get_if<CapsulePiece<3>>(&piece)) {
-      core = {capsule->a, capsule->b};
+    if (const HullPiece<3> hull = as_hull(piece); hull.round()) {
+      core = {hull.corners.front(), hull.corners.back()};
     }
     for (const Loop<3>& loop : faces(alone, segments)) {
       Vec3 normal = Vec3::Zero();
