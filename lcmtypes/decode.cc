@@ -1,12 +1,152 @@
 #include "lcmtypes/decode.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <type_traits>
 
-#include "lcmtypes/big_endian.h"
 #include "lcmtypes/encode.h"
-#include "lcmtypes/ranges.h"
+#include "lcmtypes/layout.h"
 
 namespace talus {
+namespace {
+
+using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_shapes_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v1;
+using talus_lcm::talus_stats_v2;
+
+// A layer of almost no volume at the apex, with a stream of bodies above it, reaches thousands.
+constexpr float max_density = 1e9F;
+
+constexpr auto is_index_or_none = [](std::int32_t value) { return value >= -1; };
+
+constexpr auto is_negative = [](auto value) { return value < 0; };
+
+/// What all messages have.
+template <class Message>
+bool header_holds(const Message& m) {
+  return m.step >= 0 && m.seq >= 0 && m.sim_time >= 0.0;
+}
+
+template <class Message>
+bool parts_hold(const Message& m) {
+  return m.part >= 0 && m.part < m.parts;
+}
+
+bool layer_holds(const talus_layer_v1& layer) {
+  return layer.bottom >= 0 && layer.top >= 0 && layer.radius >= 0 && layer.capacity >= 0 && layer.density >= 0 &&
+         layer.density <= max_density && layer.sleeping >= 0 && layer.sleeping <= layer.count;
+}
+
+bool pile_holds(const talus_pile_v1& pile) {
+  return pile.structure_size >= 0 && pile.lift >= 0 && pile.height >= 0 && pile.radius >= 0 &&
+         pile.occupation_ratio >= 0 && pile.merged_into >= -1 && pile.layer_count <= pile.layer_total &&
+         std::all_of(pile.layers.begin(), pile.layers.end(), layer_holds);
+}
+
+/// Values of one piece: exactly so many, or for a hull a whole number of corners.
+bool piece_length_holds(int kind, int length, int dimension) {
+  const int turn = dimension == 2 ? 1 : 4;
+  switch (kind) {
+    case talus_shapes_v1::BOX:
+      return length == 2 * dimension + turn;
+    case talus_shapes_v1::BALL:
+      return length == dimension + 1;
+    case talus_shapes_v1::CAPSULE:
+      return length == 2 * dimension + 1;
+    case talus_shapes_v1::HULL:
+      return length > dimension * dimension && length % dimension == 0;
+    default:
+      return false;
+  }
+}
+
+/// What both versions of the statistics have.
+template <class Message>
+std::string_view stats_fault(const Message& m) {
+  if (!header_holds(m)) return "header out of range";
+  if (m.awake < 0 || m.asleep < 0 || m.contacts < -1) return "negative count";
+  if (m.kinetic_energy < 0) return "kinetic energy out of range";
+  for (const float value : {m.ms_emit, m.ms_step, m.ms_collide, m.ms_solve, m.ms_read, m.ms_count, m.ms_decide,
+                            m.ms_apply, m.ms_observe, m.real_time_factor}) {
+    if (value < 0) return "time out of range";
+  }
+  if (m.queued_bytes < 0 || m.dropped < 0) return "negative count";
+  return {};
+}
+
+}  // namespace
+
+std::string_view range_fault(const talus_run_v1& m) {
+  if (!header_holds(m)) return "header out of range";
+  if (m.phase < talus_run_v1::BEGIN || m.phase > talus_run_v1::END) return "unknown phase";
+  if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
+  if (m.dt < 0 || m.dt == 0.0 || m.steps < 0) return "length out of range";
+  if (m.gravity < 0) return "world out of range";
+  if (std::any_of(m.sent.begin(), m.sent.end(), is_negative)) return "negative number of messages";
+  return {};
+}
+
+std::string_view range_fault(const talus_piles_v1& m) {
+  if (!header_holds(m) || !parts_hold(m)) return "header out of range";
+  if (m.first_pile < 0 || std::int64_t{m.first_pile} + m.pile_count > m.pile_total) return "piles out of range";
+  if (!std::all_of(m.piles.begin(), m.piles.end(), pile_holds)) return "pile out of range";
+  return {};
+}
+
+std::string_view range_fault(const talus_sleep_v1& m) {
+  if (!header_holds(m) || !parts_hold(m)) return "header out of range";
+  if (std::any_of(m.body.begin(), m.body.end(), is_negative)) return "negative body";
+  if (!std::all_of(m.pile.begin(), m.pile.end(), is_index_or_none)) return "pile out of range";
+  if (!std::all_of(m.layer.begin(), m.layer.end(), is_index_or_none)) return "layer out of range";
+  const auto known = [](std::int8_t cause) { return cause >= talus_sleep_v1::SCORE && cause <= talus_sleep_v1::USER; };
+  if (!std::all_of(m.cause.begin(), m.cause.end(), known)) return "unknown cause";
+  return {};
+}
+
+std::string_view range_fault(const talus_stats_v1& m) { return stats_fault(m); }
+
+std::string_view range_fault(const talus_stats_v2& m) {
+  if (m.planned < -1 || m.appeared < -1) return "negative count";
+  if (m.warning_count > talus_stats_v2::NOT_APPEARED + 1) return "more warnings than kinds";
+  const auto known = [](auto kind) {
+    return kind >= talus_stats_v2::BELOW_GROUND && kind <= talus_stats_v2::NOT_APPEARED;
+  };
+  if (!std::all_of(m.warning_kind.begin(), m.warning_kind.end(), known)) return "unknown kind of warning";
+  if (std::any_of(m.warning_step.begin(), m.warning_step.end(), is_negative)) return "negative step of a warning";
+  if (std::any_of(m.warning_bodies.begin(), m.warning_bodies.end(), is_negative)) return "negative count";
+  if (!std::all_of(m.warning_body.begin(), m.warning_body.end(), is_index_or_none)) return "body out of range";
+  return stats_fault(m);
+}
+
+std::string_view range_fault(const talus_bodies_v1& m) {
+  if (!header_holds(m) || !parts_hold(m)) return "header out of range";
+  if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
+  if (m.value_count != m.body_count * (m.dimension == 2 ? 3 : 7)) return "values do not match bodies";
+  const auto not_ascending = [](auto before, auto after) { return before >= after; };
+  if (std::adjacent_find(m.body.begin(), m.body.end(), not_ascending) != m.body.end()) return "bodies not ascending";
+  if (m.body_count > 0 && m.body.front() < 0) return "negative body";
+  if (std::any_of(m.shape.begin(), m.shape.end(), is_negative)) return "negative shape";
+  return {};
+}
+
+std::string_view range_fault(const talus_shapes_v1& m) {
+  if (!header_holds(m) || m.index < 0 || m.index >= m.total) return "header out of range";
+  if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
+  if (m.density < 0 || m.friction < 0 || m.restitution < 0) return "bad material";
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < m.kind.size(); ++i) {
+    if (!piece_length_holds(m.kind[i], m.length[i], m.dimension)) return "piece of a wrong length";
+    sum += m.length[i];
+  }
+  if (sum != m.value_count) return "values do not match pieces";
+  return {};
+}
 
 using talus_lcm::talus_stats_v1;
 using talus_lcm::talus_stats_v2;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "lcmtypes/big_endian.h"
-
 namespace talus {
 namespace {
 

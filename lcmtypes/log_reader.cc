@@ -6,9 +6,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "lcmtypes/big_endian.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/decode.h"
+#include "lcmtypes/layout.h"
 
 namespace talus {
 namespace {

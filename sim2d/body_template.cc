@@ -1,8 +1,114 @@
 #include "sim2d/body_template.h"
 
-#include "sim2d/materials.h"
+#include <algorithm>
+#include <cmath>
+
+#include "sim2d/conversions.h"
 
 namespace talus::box2d {
+
+b2FixtureDef fixture_of(const Material& material, const SolverParams& solver) {
+  b2FixtureDef fixture;
+  fixture.density = 0.0F;
+  fixture.friction = static_cast<float>(material.friction);
+  fixture.restitution = static_cast<float>(material.restitution);
+  fixture.restitutionThreshold = static_cast<float>(solver.restitution_threshold);
+  return fixture;
+}
+
+bool restitutions_differ(const WorldDescription<2>& description) {
+  std::vector<double> all;
+  if (description.ground.present) {
+    all.push_back(description.ground.material.restitution);
+  }
+  for (const auto& obstacle : description.obstacles) {
+    all.push_back(obstacle.shape.material.restitution);
+  }
+  for (const auto& shape : description.shapes) {
+    all.push_back(shape.material.restitution);
+  }
+  return std::ranges::adjacent_find(all, std::ranges::not_equal_to{}) != all.end();
+}
+
+void mix_restitution(b2Contact& contact) {
+  contact.SetRestitution(std::sqrt(contact.GetFixtureA()->GetRestitution() * contact.GetFixtureB()->GetRestitution()));
+}
+
+namespace {
+
+b2CircleShape disc(const Vec2& centre, double radius) {
+  b2CircleShape circle;
+  circle.m_p = to_engine(centre);
+  circle.m_radius = static_cast<float>(radius);
+  return circle;
+}
+
+b2PolygonShape rectangle(const Pose<2>& pose, const Vec2& half) {
+  b2PolygonShape polygon;
+  const b2Vec2 h = to_engine(half);
+  polygon.SetAsBox(h.x, h.y, to_engine(pose.position), engine_angle(pose.rotation.angle()));
+  return polygon;
+}
+
+/// Filled in by hand: b2PolygonShape::Set() welds corners closer than 2.5 mm and aborts on what it then finds flat.
+b2PolygonShape convex_polygon(const HullPiece<2>& hull) {
+  b2PolygonShape polygon;
+  polygon.m_count = static_cast<int>(hull.corners.size());
+  for (std::size_t i = 0; i < hull.corners.size(); ++i) {
+    const Vec2 side = (hull.corners[(i + 1) % hull.corners.size()] - hull.corners[i]).normalized();
+    polygon.m_vertices[i] = to_engine(hull.corners[i]);
+    polygon.m_normals[i] = to_engine(Vec2(side.y(), -side.x()));
+  }
+  polygon.m_centroid = to_engine(mass_properties<2>(hull).centre);
+  return polygon;
+}
+
+void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b, double radius) {
+  out.emplace_back(disc(a, radius));
+  out.emplace_back(disc(b, radius));
+  const Vec2 along = b - a;
+  const Pose<2> middle{(a + b) / 2.0, Rotation<2>(std::atan2(along.y(), along.x()))};
+  // Box2D gives polygons a skin and discs none; less the skin, the straight sides lie flush with the round ends.
+  const double half_width = std::max(radius - b2_polygonRadius, radius / 4.0);
+  out.emplace_back(rectangle(middle, {along.norm() / 2.0, half_width}));
+}
+
+void append(std::vector<EnginePiece>& out, const BoxPiece<2>& box) { out.emplace_back(rectangle(box.pose, box.half)); }
+
+void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull) {
+  if (hull.corners.size() == 1) {
+    out.emplace_back(disc(hull.corners[0], hull.radius));
+  } else if (hull.corners.size() == 2) {
+    append_capsule(out, hull.corners[0], hull.corners[1], hull.radius);
+  } else {
+    out.emplace_back(convex_polygon(hull));
+  }
+}
+
+}  // namespace
+
+std::vector<EnginePiece> engine_pieces(const Shape<2>& shape) {
+  std::vector<EnginePiece> out;
+  for (const Piece<2>& piece : shape.pieces) {
+    std::visit([&out](const auto& kind) { append(out, kind); }, piece);
+  }
+  return out;
+}
+
+EnginePiece moved(const EnginePiece& piece, const b2Transform& pose) {
+  EnginePiece copy = piece;
+  if (auto* circle = std::get_if<b2CircleShape>(&copy)) {
+    circle->m_p = b2Mul(pose, circle->m_p);
+  } else {
+    auto& polygon = std::get<b2PolygonShape>(copy);
+    for (int i = 0; i < polygon.m_count; ++i) {
+      polygon.m_vertices[i] = b2Mul(pose, polygon.m_vertices[i]);
+      polygon.m_normals[i] = b2Mul(pose.q, polygon.m_normals[i]);
+    }
+    polygon.m_centroid = b2Mul(pose, polygon.m_centroid);
+  }
+  return copy;
+}
 
 BodyTemplate make_body_template(const Shape<2>& shape, const SolverParams& solver) {
   b2MassData mass;

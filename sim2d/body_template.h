@@ -3,12 +3,36 @@
 
 #include <box2d/box2d.h>
 
+#include <variant>
 #include <vector>
 
+#include "common/shape/shape.h"
 #include "common/world/world_description.h"
-#include "sim2d/pieces.h"
 
 namespace talus::box2d {
+
+/// Friction and restitution of a fixture; density 0, since a body's mass is set as a whole. Box2D mixes friction by the
+/// geometric mean, as we do.
+b2FixtureDef fixture_of(const Material& material, const SolverParams& solver);
+
+/// Whether restitutions differ, so that Box2D's rule (the larger wins) must be replaced contact by contact.
+bool restitutions_differ(const WorldDescription<2>& description);
+
+/// Sets the geometric mean of both restitutions on a contact; it stays until the contact ends.
+void mix_restitution(b2Contact& contact);
+
+/// A convex piece in Box2D.
+using EnginePiece = std::variant<b2CircleShape, b2PolygonShape>;
+
+inline const b2Shape& base(const EnginePiece& piece) {
+  return std::visit([](const auto& one) -> const b2Shape& { return one; }, piece);
+}
+
+/// The pieces of a shape, in their order; a capsule becomes two discs and the rectangle between.
+std::vector<EnginePiece> engine_pieces(const Shape<2>& shape);
+
+/// The same piece after the motion `pose`. Corners keep their order.
+EnginePiece moved(const EnginePiece& piece, const b2Transform& pose);
 
 /// All that a body of one Shape needs from it; made once and shared by its bodies.
 struct BodyTemplate {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim2d/body_template.h"
 #include "sim2d/conversions.h"
-#include "sim2d/materials.h"
 
 namespace talus::box2d {
 namespace {

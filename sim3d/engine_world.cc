@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sim3d/bodies.h"
+#include "sim3d/body_template.h"
 #include "sim3d/conversions.h"
-#include "sim3d/mass_scale.h"
 
 namespace talus::bullet {
 namespace {

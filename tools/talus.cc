@@ -16,7 +16,6 @@
 #endif
 #ifdef TALUS_LCM
 #include "tools/monitor/monitor_command.h"
-#include "tools/record/record_commands.h"
 #endif
 #include "tools/output/output.h"
 #include "tools/run/huge_pages.h"

@@ -1,12 +1,20 @@
 #pragma once
 // Meshes and their convex parts in Wavefront OBJ files.
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <vector>
 
+#include "common/math/vector.h"
 #include "common/mesh/mesh.h"
 
 namespace talus {
+
+/// Cuts a face, given as indices of corners in order, into triangles without new corners, by clipping ears. The face
+/// may be concave; it should be nearly flat and not cross itself (else its triangles may overlap). Every edge of the
+/// face, collinear ones too, is the edge of one triangle. Time grows with the square of the corners.
+std::vector<std::array<int, 3>> face_triangles(std::span<const int> face, std::span<const Vec3> corners);
 
 /// All surfaces of an OBJ file as one mesh, polygons cut into triangles, as it stands in the file: not yet repaired().
 /// Throws std::invalid_argument as checked_obj_text() does, and with the file's name when it holds no surface.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "common/math/require.h"
+#include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
-#include "common/mesh/mesh_repair.h"
 #include "common/mesh/parts_volume.h"
 #include "common/mesh/silhouette.h"
 #include "common/shape/catalogue.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/scene/text_limits.h"
-#include "common/text/shortened.h"
+#include "common/text/printable.h"
 
 namespace talus {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/text/nearest_name.h"
-#include "common/text/shortened.h"
+#include "common/text/printable.h"
 
 namespace talus {
 namespace {

@@ -6,6 +6,7 @@
 #include "common/shape/moments.h"
 
 namespace talus {
+
 void check_material(const Material& material, const std::string& field) {
   check_fields(material, density_field, field);
   check_fields(material, surface_fields, field);

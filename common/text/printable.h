@@ -1,6 +1,7 @@
 #pragma once
-// Text from files and from the network, on its way to a terminal.
+// Foreign text in messages: made safe for a terminal, and short.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,14 @@ std::string printable(std::string_view text);
 
 /// The same, with line feeds kept.
 std::string printable_lines(std::string_view text);
+
+/// A UTF-8 text of more than `longest` bytes cut there, in front of the letter that would be split, and "..." put after
+/// it.
+inline std::string shortened(std::string text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xC0u) == 0x80u) --longest;
+  text.resize(longest);
+  return text + "...";
+}
 
 }  // namespace talus

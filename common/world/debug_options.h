@@ -19,7 +19,7 @@ struct DebugOptions {
   bool sweep_slow_bodies = false;
   bool bullet_islands = false;        // else sim3d/bullet/islands.h
   bool bullet_solver = false;         // else sim3d/bullet/rows.h
-  bool bullet_row_order = false;      // else sim3d/bullet/row_order.h
+  bool bullet_row_order = false;      // else sim3d/bullet/row_system.h
   bool bullet_row_setup = false;      // else sim3d/bullet/row_setup.h
   bool bullet_compounds = false;      // else sim3d/bullet/placed_pieces.h
   bool visit_separate_pairs = false;  // else sim3d/bullet/idle_pairs.h

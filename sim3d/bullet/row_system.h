@@ -5,14 +5,35 @@
 #include <span>
 #include <vector>
 
-#include "sim3d/bullet/row_order.h"
 #include "sim3d/bullet/rows.h"
 
 namespace talus::bullet {
 
+/// The bodies of a row in the order in which Bullet solves the rows.
+struct RowBodies {
+  std::int32_t a;
+  std::int32_t b;
+};
+
+/// Sorts rows by level: a row stands one level above the highest earlier row with which it shares a moving body. Rows
+/// of one level depend on none of each other, so their order is free; of two rows that share a body the earlier stays
+/// the earlier. So all results keep their bits, and a row need not wait for the one before it.
+class RowOrder {
+ public:
+  /// place[i]: where row i of `rows` goes. `bodies`: how many there are; `fixed`: the one that never moves, or -1.
+  void sort(std::span<const RowBodies> rows, int bodies, std::int32_t fixed, std::vector<std::int32_t>& place);
+
+ private:
+  std::vector<std::int32_t> reached_;  // by body: level of the next row that it takes part in
+  std::vector<std::int32_t> starts_;   // by level: the place of its next row
+};
+
+/// The order in which Bullet has them.
+void keep_order(std::size_t rows, std::vector<std::int32_t>& place);
+
 /// Replaces btSequentialImpulseConstraintSolver::solveSingleIteration and solveGroupCacheFriendlySplitImpulseIterations
 /// for contacts without rolling friction, softness or joints: packed rows (rows.h), solved level by level
-/// (row_order.h). Two more differences, of work alone: the split impulse walks the deep contacts, not all; and a row's
+/// (RowOrder). Two more differences, of work alone: the split impulse walks the deep contacts, not all; and a row's
 /// residual, a division in double precision, is computed for as many rows as it takes to find one that has changed.
 class RowSystem {
  public:

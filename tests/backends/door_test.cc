@@ -19,7 +19,7 @@
 #include "common/scene/toml_text.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
-#include "common/world/errors.h"
+#include "common/world/world.h"
 #include "tests/backends/backend.h"
 
 namespace talus::door_test {

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "common/math/random.h"
-#include "common/measure/replay.h"
+#include "common/measure/fork.h"
 #include "common/measure/short_horizon.h"
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"

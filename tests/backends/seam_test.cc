@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "common/world/errors.h"
+#include "common/world/world.h"
 #include "tests/backends/backend.h"
 
 namespace talus::seam_test {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
-#include "common/mesh/mesh_repair.h"
 #include "common/mesh/obj_text.h"
 #include "common/mesh/parts_volume.h"
 #include "tests/common/temporary_folder.h"

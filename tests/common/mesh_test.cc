@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "common/mesh/mesh_file.h"
-#include "common/mesh/mesh_repair.h"
 #include "common/mesh/mesh_shape.h"
 #include "common/mesh/silhouette.h"
 #include "common/shape/catalogue.h"

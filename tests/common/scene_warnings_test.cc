@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
-#include "common/mesh/mesh_repair.h"
 #include "common/mesh/mesh_shape.h"
 #include "common/shape/shape.h"
 #include "tests/common/temporary_folder.h"

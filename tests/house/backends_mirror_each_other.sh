@@ -2,7 +2,6 @@
 # replacements of Bullet's own classes and is left out. Each exemption below has its reason.
 set -eu
 exempt='
-materials.h         Box2D mixes restitutions by another rule than ours; Bullet multiplies, so roots do it (body_template.h)
 tag.h               Box2D has no body of its own for a frozen one, so each fixture names its owner and piece
 static_hosts.h      Box2D visits all bodies in a step, so frozen ones share static bodies
 contact_records.h   Box2D tells impulses and speeds to a listener only, Bullet keeps them in its contact points
@@ -10,8 +9,7 @@ continuous.h        Box2D sweeps each body against static ones, Bullet only bodi
 body_swap.h         Bullet keeps a body in its broadphase entry while it changes its form
 bodies.h            Bullet leaves the memory of its bodies to the caller
 engine.h            Bullet is a set of objects, Box2D one b2World
-friction_impulse.h  Bullet keeps friction in two directions of its own choice
-mass_scale.h        Bullet drops contacts of heavy bodies in single precision'
+friction_impulse.h  Bullet keeps friction in two directions of its own choice'
 
 headers() {
   git ls-files "$1/*.h" | sed "s|^$1/||" | grep -v '^bullet/' | grep -vxF "$(echo "$exempt" | cut -d ' ' -f 1)" |

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "common/mesh/mesh_repair.h"
+#include "common/mesh/mesh.h"
 #include "common/shape/catalogue.h"
 #include "common/shape/surface.h"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
-#include "common/mesh/mesh_repair.h"
 #include "common/mesh/parts_volume.h"
 #include "common/shape/catalogue.h"
 #include "common/shape/piece.h"

@@ -6,7 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "tests/picture/sample.h"
-#include "tools/picture/layout.h"
+#include "tools/picture/page.h"
 
 namespace talus::framing_test {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "tests/common/temporary_folder.h"
 #include "tests/picture/sample.h"
-#include "tools/picture/coarse_layers.h"
-#include "tools/picture/exposed.h"
+#include "tools/picture/face.h"
+#include "tools/picture/layers.h"
 
 namespace talus::many_bodies_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "tests/common/temporary_folder.h"
 #include "tests/picture/sample.h"
-#include "tools/picture/layout.h"
+#include "tools/picture/page.h"
 
 namespace talus::picture_test {
 namespace {

@@ -6,8 +6,6 @@
 
 #include <limits>
 
-#include "tools/plot/gnuplot_script.h"
-
 namespace talus::plot_test {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "common/world/errors.h"
+#include "common/world/world.h"
 #include "sim2d/engine_world.h"
 #include "tests/sim2d/heap.h"
 

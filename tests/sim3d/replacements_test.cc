@@ -9,7 +9,7 @@
 #include "common/shape/catalogue.h"
 #include "common/simulation/state_hash.h"
 #include "common/world/container.h"
-#include "common/world/errors.h"
+#include "common/world/world.h"
 #include "sim3d/make_world.h"
 
 namespace talus::replacements_test {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "common/policy/phase_times.h"
+#include "common/policy/frame.h"
 #include "tests/common/documented_names.h"
 #include "tests/process/process.h"
 #include "tools/bench/measure.h"

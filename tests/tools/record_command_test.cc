@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "lcmtypes/big_endian.h"
 #include "lcmtypes/encode.h"
+#include "lcmtypes/layout.h"
 #include "tests/process/process.h"
 
 namespace talus::record_command_test {

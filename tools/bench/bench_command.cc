@@ -4,7 +4,7 @@
 #include "tools/bench/benchmarks.h"
 #include "tools/bench/truth_command.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/number_between.h"
+#include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 

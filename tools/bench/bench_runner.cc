@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/measure/ensemble.h"
-#include "common/world/errors.h"
+#include "common/world/world.h"
 #include "tools/bench/error_meter.h"
 #include "tools/bench/timed_run.h"
 #include "tools/output/output.h"

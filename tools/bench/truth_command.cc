@@ -4,7 +4,7 @@
 
 #include "tools/bench/truth.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/number_between.h"
+#include "tools/commands/validators.h"
 #include "tools/run/backends.h"
 
 namespace talus {

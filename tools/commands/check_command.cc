@@ -1,5 +1,4 @@
 
-#include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"

@@ -1,5 +1,5 @@
 #include "tools/commands/commands.h"
-#include "tools/commands/number_between.h"
+#include "tools/commands/validators.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_scene.h"
 

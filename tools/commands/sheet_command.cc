@@ -5,7 +5,7 @@
 
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/number_between.h"
+#include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/picture/contact_sheet.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
-#include "common/mesh/mesh_repair.h"
+#include "tools/mesh/convex_parts.h"
 #include "tools/mesh/decomposition.h"
-#include "tools/mesh/hull_mesh.h"
 #include "tools/output/output.h"
 
 namespace talus {

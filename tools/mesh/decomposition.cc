@@ -10,7 +10,7 @@
 #include "common/math/require.h"
 #include "common/mesh/parts_volume.h"
 #include "common/shape/piece.h"
-#include "tools/mesh/hull_mesh.h"
+#include "tools/mesh/convex_parts.h"
 
 namespace talus {
 namespace {

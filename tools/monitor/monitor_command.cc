@@ -11,7 +11,7 @@
 
 #include "lcmtypes/live_link.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/number_between.h"
+#include "tools/commands/validators.h"
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
 #include "tools/output/output.h"

@@ -1,6 +1,7 @@
 #include "tools/output/output.h"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 
 #include <cerrno>
 #include <csignal>
@@ -11,7 +12,6 @@
 #include "common/text/printable.h"
 
 namespace talus {
-
 namespace {
 
 [[noreturn]] void results_failed(int error) {
@@ -45,5 +45,12 @@ void write_note(std::string_view text) noexcept {
 }
 
 void write_message(std::string_view line) { write_note(printable_lines(line) + '\n'); }
+
+int terminal_width(int file_descriptor) {
+  constexpr int usual_width = 80;
+  winsize size{};
+  if (ioctl(file_descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return usual_width;
+  return size.ws_col;
+}
 
 }  // namespace talus

@@ -1,6 +1,6 @@
 #pragma once
-// What the sub-commands print. Results go to standard output: one that cannot be written is an error. Warnings, errors
-// and progress go to standard error: one that cannot be written is lost, and changes nothing else.
+// What the sub-commands print, and how they end. Results go to standard output: one that cannot be written is an error.
+// Warnings, errors and progress go to standard error: one that cannot be written is lost, and changes nothing else.
 
 #include <fmt/format.h>
 
@@ -8,6 +8,13 @@
 #include <utility>
 
 namespace talus {
+
+namespace exit_codes {
+inline constexpr int success = 0;
+inline constexpr int failed = 1;         // the run itself went wrong; all that was recorded is kept
+inline constexpr int bad_input = 2;      // a scene, option or file is not as it should be
+inline constexpr int interrupted = 130;  // Ctrl-C; all is saved
+}  // namespace exit_codes
 
 /// At the start of the program. Reserves the descriptors 0 to 2 where they are closed, so that no file of a run gets
 /// the number of a standard stream; a write to such a descriptor fails. A pipe without a reader and
@@ -35,5 +42,8 @@ template <class... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
   write_message(fmt::format(format, std::forward<Values>(values)...));
 }
+
+/// Columns of the terminal behind a file descriptor; 80 where it is unknown.
+int terminal_width(int file_descriptor);
 
 }  // namespace talus

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "tools/picture/canvas.h"
-#include "tools/picture/text_wrap.h"
-#include "tools/picture/write_file.h"
 
 namespace talus {
 

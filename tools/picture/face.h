@@ -6,8 +6,13 @@
 #include <vector>
 
 #include "tools/picture/framing.h"
+#include "tools/picture/picture.h"
 
 namespace talus {
+
+/// Those of `bodies` that are no deeper than two extents beneath the lowest surface around them, the surface being the
+/// highest body in each column as wide as an extent. All of them, where they are few enough to draw each.
+std::vector<BodyIndex> exposed(const PictureInput<3>& input, const std::vector<BodyIndex>& bodies);
 
 /// Owner of a face: a body's index, or one of these.
 inline constexpr std::int32_t ground_owner = -1;

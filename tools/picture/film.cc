@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/picture/layout.h"
+#include "tools/picture/page.h"
 #include "tools/picture/scene_painter.h"
 
 namespace talus {

@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "common/shape/surface.h"
-#include "tools/picture/layer_rim.h"
-#include "tools/picture/layer_style.h"
+#include "tools/picture/layers.h"
 #include "tools/picture/scene_painter.h"
 
 namespace talus {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/picture/layer_rim.h"
+#include "tools/picture/layers.h"
 
 namespace talus {
 

@@ -1,10 +1,14 @@
 #pragma once
 // What stands around the scene: title, legend, scale bar, caption.
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "tools/picture/canvas.h"
+#include "tools/picture/framing.h"
+#include "tools/picture/projection.h"
 
 namespace talus {
 
@@ -48,5 +52,23 @@ class Page {
   double header_ = 0.0;
   double footer_ = 0.0;
 };
+
+template <int Dim>
+struct Layout {
+  Projection<Dim> projection;  // from the world to the page
+  int height = 0;              // of the page [px]
+};
+
+/// All that is framed fits between the page's header and footer, with room for labels at its sides. The page is as high
+/// as this needs, within limits.
+template <int Dim>
+Layout<Dim> lay_out(const Framing<Dim>& framing, const Page& page, const PictureParams& params);
+
+/// The largest of 1, 2, 5 times a power of ten that is at most `limit` (> 0): the length of a scale bar.
+inline double nice_length(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  const double share = limit / power;
+  return power * (share >= 5.0 ? 5.0 : share >= 2.0 ? 2.0 : 1.0);
+}
 
 }  // namespace talus

@@ -1,9 +1,9 @@
 #include "tools/picture/picture.h"
 
-#include "tools/picture/coarse_layers.h"
-#include "tools/picture/layout.h"
+#include "tools/picture/canvas.h"
+#include "tools/picture/layers.h"
+#include "tools/picture/page.h"
 #include "tools/picture/scene_painter.h"
-#include "tools/picture/write_file.h"
 
 namespace talus {
 

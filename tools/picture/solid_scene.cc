@@ -3,9 +3,8 @@
 #include <array>
 #include <memory>
 
-#include "tools/picture/layer_rim.h"
-#include "tools/picture/layer_style.h"
-#include "tools/picture/nice_length.h"
+#include "tools/picture/layers.h"
+#include "tools/picture/page.h"
 #include "tools/picture/scene_painter.h"
 #include "tools/picture/shaded_image.h"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tools/picture/write_file.h"
+#include "tools/picture/canvas.h"
 
 namespace talus {
 

@@ -35,4 +35,10 @@ struct Plot {
 /// the rule; std::runtime_error with gnuplot's own words, or saying which package to install where it is missing.
 std::string svg_of(const Plot& plot);
 
+/// Throws std::invalid_argument if the plot's numbers do not fit together.
+void check(const Plot& plot);
+
+/// The input with which gnuplot writes the plot as SVG to its standard output, data included.
+std::string gnuplot_script(const Plot& plot);
+
 }  // namespace talus

@@ -12,7 +12,6 @@
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/output/output.h"
-#include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
 #include "tools/report/json_text.h"
 #include "tools/report/table.h"

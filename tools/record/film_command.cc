@@ -8,10 +8,9 @@
 #include "common/math/require.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/number_between.h"
+#include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/picture/webp.h"
-#include "tools/record/record_commands.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "common/scene/engine_warnings.h"
+#include "common/scene/warnings.h"
 #include "common/simulation/make_policy.h"
 #include "tools/run/backends.h"
 

@@ -8,10 +8,8 @@
 #include <cstdio>
 
 #include "tools/output/output.h"
-#include "tools/run/terminal_width.h"
 
 namespace talus {
-
 namespace {
 
 std::string as_time(double seconds) {
@@ -60,5 +58,16 @@ void Progress<Dim>::on_end(const Frame<Dim>&, std::string_view) {
 
 template class Progress<2>;
 template class Progress<3>;
+
+template <int Dim>
+void WarningPrinter<Dim>::print(const Frame<Dim>& frame) {
+  for (; printed_ < frame.warnings.size(); ++printed_) {
+    if (isatty(STDERR_FILENO) != 0) write_note("\r\x1b[K");  // the line of progress
+    print_message("warning: {}", advice(frame.warnings[printed_]));
+  }
+}
+
+template class WarningPrinter<2>;
+template class WarningPrinter<3>;
 
 }  // namespace talus

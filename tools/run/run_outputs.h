@@ -42,4 +42,9 @@ template <int Dim>
 PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& scene,
                                 const Simulation<Dim>& simulation);
 
+/// The closing lines of a run on standard output; on a terminal with its pile.
+template <int Dim>
+void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
+               const RunOutputs<Dim>& outputs);
+
 }  // namespace talus

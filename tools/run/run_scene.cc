@@ -4,27 +4,24 @@
 
 #include <optional>
 
-#include "common/scene/engine_warnings.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
 #include "common/text/printable.h"
-#include "common/world/errors.h"
+#include "common/world/world.h"
 #ifdef TALUS_LCM
 #include "lcmtypes/live_link.h"
 #endif
-#include "tools/commands/commands.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
-#include "tools/run/print_run.h"
+#include "tools/run/progress.h"
 #include "tools/run/run_outputs.h"
 #include "tools/run/speed_up.h"
-#include "tools/run/warning_printer.h"
 
 namespace talus {
 

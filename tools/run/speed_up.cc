@@ -8,7 +8,6 @@
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/stopwatch.h"
-#include "tools/commands/commands.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/processor_watch.h"

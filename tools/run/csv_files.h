@@ -1,8 +1,11 @@
 #pragma once
+// frames.csv and avalanches.csv of a run.
 
 #include <filesystem>
 #include <fstream>
+#include <span>
 
+#include "common/measure/avalanches.h"
 #include "common/simulation/observer.h"
 
 namespace talus {
@@ -22,5 +25,8 @@ class FramesCsv final : public Observer<Dim> {
   std::filesystem::path file_;
   std::ofstream out_;
 };
+
+/// Writes avalanches.csv, a row each. Throws std::runtime_error where it cannot.
+void write_avalanches(const std::filesystem::path& file, std::span<const Avalanche> avalanches);
 
 }  // namespace talus

@@ -1,10 +1,36 @@
-#include "tools/picture/layer_rim.h"
+#include "tools/picture/layers.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace talus {
+
+template <int Dim>
+Pile<Dim> with_coarse_layers(Pile<Dim> pile, int most) {
+  const std::size_t together = (pile.layers.size() + most - 1) / most;
+  std::vector<Layer> coarse;
+  for (std::size_t i = 0; i < pile.layers.size(); ++i) {
+    const Layer& fine = pile.layers[i];
+    if (i % together == 0) {
+      coarse.push_back(fine);
+      continue;
+    }
+    Layer& layer = coarse.back();
+    layer.top = fine.top;
+    layer.volume += fine.volume;
+    layer.capacity += fine.capacity;
+    layer.count += fine.count;
+    layer.sleeping += fine.sleeping;
+  }
+  pile.layers = std::move(coarse);
+  return pile;
+}
+
+template Pile<2> with_coarse_layers(Pile<2>, int);
+template Pile<3> with_coarse_layers(Pile<3>, int);
 
 namespace {
 
@@ -55,5 +81,23 @@ std::vector<Vec<Dim>> layer_rim(const Pile<Dim>& pile, const Layer& layer, doubl
 
 template std::vector<Vec<2>> layer_rim(const Pile<2>&, const Layer&, double);
 template std::vector<Vec<3>> layer_rim(const Pile<3>&, const Layer&, double);
+
+double layer_opacity(const Layer& layer) { return 0.10 + 0.22 * std::clamp(layer.density(), 0.0, 1.0); }
+
+void DensityLabels::draw(cairo_t* canvas, const Vec2& at, const Layer& layer) {
+  if (layer.count == 0) {
+    return;
+  }
+  const TextStyle style = {.size = 0.82 * params_.font_size, .colour = params_.layer, .halo = 3.0};
+  const std::string text = fmt::format("{:.2f}", layer.density());
+  const Vec2 left = at + Vec2(0.4 * params_.font_size, 0.0);
+  const Box<2> box(Vec2(left - Vec2(0.0, 0.6 * style.size)),
+                   Vec2(left + Vec2(text_width(canvas, text, style), 0.6 * style.size)));
+  if (std::ranges::any_of(taken_, [&](const Box<2>& other) { return other.intersects(box); })) {
+    return;
+  }
+  taken_.push_back(box);
+  draw_text(canvas, left + Vec2(0.0, 0.36 * style.size), text, style);
+}
 
 }  // namespace talus

@@ -1,4 +1,5 @@
 #pragma once
+// Checks of options on the command line.
 
 #include <fmt/format.h>
 
@@ -6,10 +7,28 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <system_error>
 
 namespace talus {
+
+/// For options with a text: `--out ''` is not the same as no --out.
+inline CLI::Validator not_empty() {
+  return {[](const std::string& text) { return std::string(text.empty() ? "must not be empty" : ""); }, ""};
+}
+
+/// For options with a file to write: its folder must be there.
+inline CLI::Validator in_a_folder() {
+  return {[](const std::string& text) {
+            const std::filesystem::path folder = std::filesystem::path(text).parent_path();
+            std::error_code unused;
+            const bool there = !text.empty() && (folder.empty() || std::filesystem::is_directory(folder, unused));
+            return there ? std::string() : text + ": must be a file in a folder that exists";
+          },
+          ""};
+}
 
 enum class Bound { kept, left_out };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Style of layers in 2D and 3D.
+// How the layers of a pile are drawn, in 2D and 3D.
 
 #include <vector>
 
@@ -7,6 +7,16 @@
 #include "tools/picture/canvas.h"
 
 namespace talus {
+
+/// The same pile cut into `most` layers or fewer, each made of as many neighbours: thinner ones would be nothing but
+/// lines. `most` > 0.
+template <int Dim>
+Pile<Dim> with_coarse_layers(Pile<Dim> pile, int most);
+
+/// Where a layer ends, `height` above the pile's base: in 2D its left and right end, in 3D points around it, a circle
+/// or the shape of the walls that the pile fills, counter-clockwise seen from above.
+template <int Dim>
+std::vector<Vec<Dim>> layer_rim(const Pile<Dim>& pile, const Layer& layer, double height);
 
 /// Denser layers are less translucent.
 double layer_opacity(const Layer& layer);
