@@ -20,9 +20,8 @@ void put_checksum(std::span<std::uint8_t> bytes) {
   const auto body = bytes.first(bytes.size() - checksum_bytes);
   const std::uint32_t sum = checksum(body);
   const auto end = bytes.last(checksum_bytes);
-  for (std::size_t i = 0; i < checksum_bytes; ++i) {
+  for (std::size_t i = 0; i < checksum_bytes; ++i)
     end[i] = static_cast<std::uint8_t>(sum >> (8 * (checksum_bytes - 1 - i)));
-  }
 }
 
 }  // namespace
@@ -44,9 +43,7 @@ Packet MessageEncoder::encode(Message& message, const Stamp& stamp) {
   const int size = message.getEncodedSize();
   packet.bytes.resize(size);
   const int written = message.encode(packet.bytes.data(), 0, size);
-  if (written != size || packet.bytes.size() > max_message_bytes) {
-    abort_with(name_of(channel), packet.bytes.size());
-  }
+  if (written != size || packet.bytes.size() > max_message_bytes) abort_with(name_of(channel), packet.bytes.size());
   put_checksum(packet.bytes);
   return packet;
 }

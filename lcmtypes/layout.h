@@ -71,20 +71,17 @@ constexpr std::size_t entry_bytes(FieldType type) {
 /// Bytes of the fields that every message of a type has, without fingerprint, strings and counted entries.
 constexpr std::size_t fixed_bytes(std::span<const MessageField> fields) {
   std::size_t bytes = 0;
-  for (const MessageField& field : fields) {
+  for (const MessageField& field : fields)
     if (field.count_field < 0) bytes += field.number * entry_bytes(field.type);
-  }
   return bytes;
 }
 
 /// Bytes that one more entry takes in the fields whose number is the field `count`.
 constexpr std::size_t bytes_per_entry(std::span<const MessageField> fields, std::string_view count) {
   std::size_t bytes = 0;
-  for (const MessageField& field : fields) {
-    if (field.count_field >= 0 && fields[field.count_field].name == count) {
+  for (const MessageField& field : fields)
+    if (field.count_field >= 0 && fields[field.count_field].name == count)
       bytes += field.fields.empty() ? entry_bytes(field.type) : fixed_bytes(field.fields);
-    }
-  }
   return bytes;
 }
 

@@ -18,12 +18,10 @@ constexpr std::array live_channels = {Channel::run, Channel::piles, Channel::sle
 constexpr auto farewell_time = std::chrono::seconds(1);
 
 void check(const PublisherParams& params) {
-  if (!(params.piles_rate >= 0.0)) {
+  if (!(params.piles_rate >= 0.0))
     throw std::invalid_argument(fmt::format("piles_rate = {}: must be >= 0 per second", params.piles_rate));
-  }
-  if (params.queue_bytes < 1U << 20U) {
+  if (params.queue_bytes < 1U << 20U)
     throw std::invalid_argument(fmt::format("queue_bytes = {}: must be >= 1 MiB", params.queue_bytes));
-  }
 }
 
 std::unique_ptr<SendQueue> open_queue(const PublisherParams& params) {
@@ -107,9 +105,7 @@ void Publisher<Dim>::send_stats(const Frame<Dim>& frame, Clock::time_point now) 
   message.timed = 1;
   if (summed_steps_ > 0) put(message, sum_, summed_steps_);
   const std::chrono::duration<double> passed = now - stats_wall_;
-  if (passed.count() > 0.0) {
-    message.real_time_factor = static_cast<float>((frame.time - stats_time_) / passed.count());
-  }
+  if (passed.count() > 0.0) message.real_time_factor = static_cast<float>((frame.time - stats_time_) / passed.count());
   message.queued_bytes = static_cast<std::int64_t>(queue_->queued_bytes());
   message.dropped = queue_->dropped();
   sum_ = {};

@@ -22,12 +22,10 @@ constexpr std::array recorded_channels = {Channel::run,   Channel::piles,  Chann
 constexpr std::int64_t pace = 100;
 
 RecorderParams checked(const RecorderParams& params) {
-  if (!(params.flush_interval >= 0.0)) {
+  if (!(params.flush_interval >= 0.0))
     throw std::invalid_argument(fmt::format("flush_interval = {}: must be >= 0 s", params.flush_interval));
-  }
-  if (!(params.key_frame_interval > 0.0)) {
+  if (!(params.key_frame_interval > 0.0))
     throw std::invalid_argument(fmt::format("key_frame_interval = {}: must be > 0 s", params.key_frame_interval));
-  }
   return params;
 }
 
@@ -52,9 +50,8 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
 template <int Dim>
 void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
   write(to_sleep(frame.events), frame.step, frame.time);
-  for (const SleepEvent& event : frame.events) {
+  for (const SleepEvent& event : frame.events)
     if (!event.woke) fell_asleep_.push_back(event.body);
-  }
   if (frame.step % steps_per_frame_ == 0) {
     const bool due = frame.step % steps_per_key_frame_ == 0;
     if (due) write_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
@@ -81,9 +78,8 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   if (key_frame) {
     poses_since_key_frame_ = 0;
     bodies.clear();
-    for (BodyIndex body = 0; body < states.size(); ++body) {
+    for (BodyIndex body = 0; body < states.size(); ++body)
       if (states.removed[body] == 0) bodies.push_back(body);
-    }
   }
   write(to_bodies<Dim>(states, bodies, key_frame), frame.step, frame.time);
 }

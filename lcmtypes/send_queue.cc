@@ -68,11 +68,10 @@ void SendQueue::close(std::chrono::milliseconds patience) {
   state_->packets.clear();
   state_->bytes = 0;
   lock.unlock();
-  if (finished || !state_->owned) {
+  if (finished || !state_->owned)
     thread_.join();
-  } else {
+  else
     thread_.detach();
-  }
 }
 
 std::size_t SendQueue::queued_bytes() const {

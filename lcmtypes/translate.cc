@@ -72,25 +72,20 @@ talus_pile_v1 to_pile(const Pile<Dim>& pile) {
   message.occupation_ratio = pile.occupation_ratio();
   message.merged_into = pile.merged_into;
   message.layer_total = static_cast<std::int32_t>(pile.layers.size());
-  for (const Layer& layer : std::span(pile.layers).first(std::min(pile.layers.size(), max_layers))) {
+  for (const Layer& layer : std::span(pile.layers).first(std::min(pile.layers.size(), max_layers)))
     message.layers.push_back(to_layer(layer));
-  }
   message.layer_count = static_cast<std::int32_t>(message.layers.size());
   return message;
 }
 
 template <int Dim>
 void append(const Pose<Dim>& pose, std::vector<float>& values) {
-  for (const double x : pose.position) {
-    values.push_back(static_cast<float>(x));
-  }
-  if constexpr (Dim == 2) {
+  for (const double x : pose.position) values.push_back(static_cast<float>(x));
+  if constexpr (Dim == 2)
     values.push_back(static_cast<float>(pose.rotation.angle()));
-  } else {
-    for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()}) {
+  else
+    for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
       values.push_back(static_cast<float>(part));
-    }
-  }
 }
 
 }  // namespace
@@ -236,11 +231,10 @@ void append(const Vec<Dim>& point, std::vector<double>& values) {
 template <int Dim>
 void append(const Pose<Dim>& pose, std::vector<double>& values) {
   append<Dim>(pose.position, values);
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     values.push_back(pose.rotation.angle());
-  } else {
+  else
     values.insert(values.end(), {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()});
-  }
 }
 
 template <int Dim>
@@ -252,9 +246,7 @@ std::int8_t append(const BoxPiece<Dim>& box, std::vector<double>& values) {
 
 template <int Dim>
 std::int8_t append(const HullPiece<Dim>& hull, std::vector<double>& values) {
-  for (const Vec<Dim>& corner : hull.corners) {
-    append<Dim>(corner, values);
-  }
+  for (const Vec<Dim>& corner : hull.corners) append<Dim>(corner, values);
   if (!hull.round()) return talus_shapes_v1::HULL;
   values.push_back(hull.radius);
   return hull.corners.size() == 1 ? talus_shapes_v1::BALL : talus_shapes_v1::CAPSULE;
@@ -296,9 +288,8 @@ talus_shapes_v1 to_message(const Shape<Dim>& shape, std::size_t index, std::size
 template <int Dim>
 std::vector<talus_shapes_v1> to_shapes(const WorldDescription<Dim>& world) {
   std::vector<talus_shapes_v1> messages;
-  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+  for (std::size_t i = 0; i < world.shapes.size(); ++i)
     messages.push_back(to_message<Dim>(world.shapes[i], i, world.shapes.size()));
-  }
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     talus_shapes_v1& message =
         messages.emplace_back(to_message<Dim>(world.obstacles[i].shape, i, world.obstacles.size()));

@@ -18,15 +18,9 @@ b2FixtureDef fixture_of(const Material& material, const SolverParams& solver) {
 
 bool restitutions_differ(const WorldDescription<2>& description) {
   std::vector<double> all;
-  if (description.ground.present) {
-    all.push_back(description.ground.material.restitution);
-  }
-  for (const auto& obstacle : description.obstacles) {
-    all.push_back(obstacle.shape.material.restitution);
-  }
-  for (const auto& shape : description.shapes) {
-    all.push_back(shape.material.restitution);
-  }
+  if (description.ground.present) all.push_back(description.ground.material.restitution);
+  for (const auto& obstacle : description.obstacles) all.push_back(obstacle.shape.material.restitution);
+  for (const auto& shape : description.shapes) all.push_back(shape.material.restitution);
   return std::ranges::adjacent_find(all, std::ranges::not_equal_to{}) != all.end();
 }
 
@@ -76,22 +70,19 @@ void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b,
 void append(std::vector<EnginePiece>& out, const BoxPiece<2>& box) { out.emplace_back(rectangle(box.pose, box.half)); }
 
 void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull) {
-  if (hull.corners.size() == 1) {
+  if (hull.corners.size() == 1)
     out.emplace_back(disc(hull.corners[0], hull.radius));
-  } else if (hull.corners.size() == 2) {
+  else if (hull.corners.size() == 2)
     append_capsule(out, hull.corners[0], hull.corners[1], hull.radius);
-  } else {
+  else
     out.emplace_back(convex_polygon(hull));
-  }
 }
 
 }  // namespace
 
 std::vector<EnginePiece> engine_pieces(const Shape<2>& shape) {
   std::vector<EnginePiece> out;
-  for (const Piece<2>& piece : shape.pieces) {
-    std::visit([&out](const auto& kind) { append(out, kind); }, piece);
-  }
+  for (const Piece<2>& piece : shape.pieces) std::visit([&out](const auto& kind) { append(out, kind); }, piece);
   return out;
 }
 

@@ -29,9 +29,7 @@ class ContactRecords {
 
   /// The record of a contact, made if there is none. Valid until the next call.
   ContactRecord& operator[](const b2Contact* contact) {
-    if (2 * entries_.size() >= places_.size()) {
-      grow();
-    }
+    if (2 * entries_.size() >= places_.size()) grow();
     std::uint32_t& place = places_[find_place(contact)];
     if (place == 0) {
       entries_.push_back({contact, {}});
@@ -57,17 +55,13 @@ class ContactRecords {
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // spreads addresses that differ in a few bits (Knuth)
     const auto key = static_cast<std::uint64_t>(std::bit_cast<std::uintptr_t>(contact));
     std::size_t at = ((key * golden) >> 32) & (places_.size() - 1);
-    while (places_[at] != 0 && entries_[places_[at] - 1].contact != contact) {
-      at = (at + 1) & (places_.size() - 1);
-    }
+    while (places_[at] != 0 && entries_[places_[at] - 1].contact != contact) at = (at + 1) & (places_.size() - 1);
     return at;
   }
 
   void grow() {
     places_.assign(2 * places_.size(), 0);
-    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-      places_[find_place(entries_[i].contact)] = i + 1;
-    }
+    for (std::uint32_t i = 0; i < entries_.size(); ++i) places_[find_place(entries_[i].contact)] = i + 1;
   }
 
   std::vector<Entry> entries_;

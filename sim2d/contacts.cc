@@ -33,18 +33,12 @@ ContactListener::ContactListener(const WorldDescription<2>& description, const W
     : warm_start_(&warm_start), continuous_(description), mix_restitutions_(restitutions_differ(description)) {}
 
 void ContactListener::BeginContact(b2Contact* contact) {
-  if (mix_restitutions_) {
-    mix_restitution(*contact);
-  }
+  if (mix_restitutions_) mix_restitution(*contact);
 }
 
 void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
-  if (!warm_start_->empty() && before->pointCount == 0) {
-    warm_start_->apply(*contact);
-  }
-  if (!recording_) {
-    return;
-  }
+  if (!warm_start_->empty() && before->pointCount == 0) warm_start_->apply(*contact);
+  if (!recording_) return;
   b2WorldManifold world;
   contact->GetWorldManifold(&world);
   const b2Body& a = *contact->GetFixtureA()->GetBody();
@@ -59,12 +53,8 @@ void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
 }
 
 void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
-  if (sleepers_) {
-    continuous_.leave_out_if_slow(*contact);
-  }
-  if (!recording_) {
-    return;
-  }
+  if (sleepers_) continuous_.leave_out_if_slow(*contact);
+  if (!recording_) return;
   ContactRecord& record = records_[contact];
   for (int i = 0; i < impulse->count; ++i) {
     record.normal[i] += impulse->normalImpulses[i];
@@ -80,15 +70,10 @@ void ContactListener::start_step(bool sleepers, bool recording) {
 
 void ContactListener::gather(b2Body& body, BodyIndex index, std::vector<Contact<2>>& out) {
   touching_.clear();
-  for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next) {
-    if (edge->contact->IsTouching() && !belongs_to_other(*edge, index)) {
-      touching_.push_back(edge->contact);
-    }
-  }
+  for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next)
+    if (edge->contact->IsTouching() && !belongs_to_other(*edge, index)) touching_.push_back(edge->contact);
   std::ranges::sort(touching_, {}, [index](b2Contact* contact) { return rank(*contact, index); });
-  for (b2Contact* contact : touching_) {
-    append(*contact, index, out);
-  }
+  for (b2Contact* contact : touching_) append(*contact, index, out);
 }
 
 void ContactListener::append(b2Contact& contact, BodyIndex a, std::vector<Contact<2>>& out) const {

@@ -17,9 +17,7 @@ class Finder final : public b2QueryCallback {
  public:
   explicit Finder(std::vector<BodyIndex>& found) : found_(&found) {}
   bool ReportFixture(b2Fixture* fixture) override {
-    if (const BodyIndex owner = owner_of(*fixture); owner >= 0) {
-      found_->push_back(owner);
-    }
+    if (const BodyIndex owner = owner_of(*fixture); owner >= 0) found_->push_back(owner);
     return true;
   }
 
@@ -51,15 +49,11 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
       world_(b2Vec2(0.0F, -static_cast<float>(description.gravity))),
       hosts_(world_, !description.debug.keep_sleepers),
       listener_(description, warm_start_) {
-  for (const Shape<2>& shape : description.shapes) {
-    templates_.push_back(make_body_template(shape, description.solver));
-  }
+  for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
   world_.SetAllowSleeping(description.engine_sleep);
   world_.SetAutoClearForces(false);  // there are none
   world_.SetContactListener(&listener_);
-  if (description.ground.present) {
-    add_ground();
-  }
+  if (description.ground.present) add_ground();
   add_obstacles();
 }
 
@@ -121,11 +115,10 @@ b2Body* EngineWorld::create(BodyIndex index, const BodyTemplate& from, const Pos
 
 void EngineWorld::engine_remove(BodyIndex body) {
   find_new_contacts();
-  if (at(body).frozen != nullptr) {
+  if (at(body).frozen != nullptr)
     hosts_.remove(at(body).frozen, template_of_body(body));
-  } else {
+  else
     world_.DestroyBody(at(body).body);
-  }
   at(body) = {};
   warm_start_.forget(body);
 }
@@ -137,9 +130,7 @@ void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, co
 EngineTimes EngineWorld::engine_step() {
   warm_start_.start_step(states().asleep);
   listener_.start_step(!description().debug.sweep_slow_bodies && hosts_.hosts() > 0, records_contacts());
-  if (!description().debug.step_when_idle && awake().empty()) {
-    return {};
-  }
+  if (!description().debug.step_when_idle && awake().empty()) return {};
   check_memory();
   world_.Step(static_cast<float>(description().dt), description().solver.velocity_iterations,
               description().solver.position_iterations);
@@ -152,9 +143,7 @@ EngineTimes EngineWorld::engine_step() {
 
 std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
   const auto broken = std::ranges::find_if(awake(), [this](BodyIndex body) { return !is_finite(*at(body).body); });
-  if (broken != awake().end()) {
-    return *broken;
-  }
+  if (broken != awake().end()) return *broken;
   for (const BodyIndex index : awake()) {
     const b2Body& body = *at(index).body;
     states.pose[index].position = from_engine(body.GetPosition());
@@ -166,25 +155,19 @@ std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
 }
 
 void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
-  for (const BodyIndex body : awake()) {
-    listener_.gather(*at(body).body, body, contacts);
-  }
+  for (const BodyIndex body : awake()) listener_.gather(*at(body).body, body, contacts);
 }
 
 bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
 
 void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
-  for (const BodyIndex body : bodies) {
-    for (const b2ContactEdge* edge = at(body).body->GetContactList(); edge != nullptr; edge = edge->next) {
+  for (const BodyIndex body : bodies)
+    for (const b2ContactEdge* edge = at(body).body->GetContactList(); edge != nullptr; edge = edge->next)
       warm_start_.save(*edge->contact);
-    }
-  }
   // All are destroyed before the first is made again, last first: so every fixture gets its old number in the broad
   // phase again, which decides the side that Box2D measures a contact from.
   find_new_contacts();
-  for (std::size_t i = bodies.size(); i-- > 0;) {
-    world_.DestroyBody(at(bodies[i]).body);
-  }
+  for (std::size_t i = bodies.size(); i-- > 0;) world_.DestroyBody(at(bodies[i]).body);
   for (const BodyIndex body : bodies) {
     const Pose<2>& pose = states().pose[body];
     at(body) = {nullptr, hosts_.add(body, template_of_body(body), stored_pose(pose))};
@@ -195,21 +178,15 @@ void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
 void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies) {
     warm_start_.wake(body);
-    if (at(body).body != nullptr) {
-      at(body).body->SetAwake(true);  // asleep by the engine's own rule
-    }
+    if (at(body).body != nullptr) at(body).body->SetAwake(true);  // asleep by the engine's own rule
   }
   std::vector<b2Fixture*> fixtures = fixtures_of(bodies);
   hosts_.for_each_contact(fixtures, [this](b2Contact& contact, BodyIndex owner) {
-    if (states().asleep[owner] == 0) {
-      warm_start_.save(contact);
-    }
+    if (states().asleep[owner] == 0) warm_start_.save(contact);
   });
   find_new_contacts();
   std::ranges::reverse(fixtures);  // see engine_freeze()
-  for (b2Fixture* fixture : fixtures) {
-    hosts_.remove(fixture, template_of_body(owner_of(*fixture)));
-  }
+  for (b2Fixture* fixture : fixtures) hosts_.remove(fixture, template_of_body(owner_of(*fixture)));
   create_thawed(bodies);
   proxies_moved_ = true;
 }
@@ -217,21 +194,15 @@ void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
 /// The first fixture of each frozen body of `bodies`.
 std::vector<b2Fixture*> EngineWorld::fixtures_of(std::span<const BodyIndex> bodies) const {
   std::vector<b2Fixture*> fixtures;
-  for (const BodyIndex body : bodies) {
-    if (at(body).frozen != nullptr) {
-      fixtures.push_back(at(body).frozen);
-    }
-  }
+  for (const BodyIndex body : bodies)
+    if (at(body).frozen != nullptr) fixtures.push_back(at(body).frozen);
   return fixtures;
 }
 
 /// Creates a Box2D body for each of `bodies` that has none yet.
 void EngineWorld::create_thawed(std::span<const BodyIndex> bodies) {
-  for (const BodyIndex body : bodies) {
-    if (at(body).body == nullptr) {
-      at(body) = {create(body, template_of_body(body), states().pose[body]), nullptr};
-    }
-  }
+  for (const BodyIndex body : bodies)
+    if (at(body).body == nullptr) at(body) = {create(body, template_of_body(body), states().pose[body]), nullptr};
 }
 
 void EngineWorld::check_memory() const { reserve_.check(bodies_.size(), world_.GetContactCount()); }

@@ -5,9 +5,7 @@ namespace talus::box2d {
 std::size_t StaticHosts::open_host() {
   while (!open_.empty()) {
     const Host& host = hosts_[open_.back()];
-    if (host.body != nullptr && host.frozen < capacity_) {
-      return open_.back();
-    }
+    if (host.body != nullptr && host.frozen < capacity_) return open_.back();
     open_.pop_back();
   }
   if (vacant_.empty()) {
@@ -53,9 +51,7 @@ void StaticHosts::remove(b2Fixture* first, const BodyTemplate& from) {
     host.body->DestroyFixture(first);
     first = next;
   }
-  if (host.frozen == capacity_) {
-    open_.push_back(slot);
-  }
+  if (host.frozen == capacity_) open_.push_back(slot);
   --host.frozen;
 }
 

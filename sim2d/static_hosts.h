@@ -53,9 +53,7 @@ class StaticHosts {
 template <typename Visit>
 void StaticHosts::for_each_contact(std::span<b2Fixture* const> fixtures, Visit visit) {
   std::vector<std::size_t> slots;
-  for (b2Fixture* fixture : fixtures) {
-    slots.push_back(slot_of(*fixture->GetBody()));
-  }
+  for (b2Fixture* fixture : fixtures) slots.push_back(slot_of(*fixture->GetBody()));
   std::ranges::sort(slots);
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   for (const std::size_t slot : slots) {

@@ -17,9 +17,7 @@ std::array<Tag, 2> sorted_tags(b2Contact& contact) {
 }  // namespace
 
 void WarmStart::save(b2Contact& contact) {
-  if (!contact.IsTouching()) {
-    return;
-  }
+  if (!contact.IsTouching()) return;
   const auto [low, high] = sorted_tags(contact);
   SavedContact saved{low, high, {}};
   const b2Manifold& manifold = *contact.GetManifold();
@@ -33,9 +31,7 @@ void WarmStart::save(b2Contact& contact) {
 void WarmStart::apply(b2Contact& contact) const {
   const auto [low, high] = sorted_tags(contact);
   const auto found = std::ranges::lower_bound(waiting_, SavedContact{low, high, {}}, before);
-  if (found == waiting_.end() || found->low != low || found->high != high) {
-    return;
-  }
+  if (found == waiting_.end() || found->low != low || found->high != high) return;
   b2Manifold& manifold = *contact.GetManifold();
   for (b2ManifoldPoint& point : std::span(manifold.points, manifold.pointCount)) {
     for (const SavedPoint& saved : found->points) {
@@ -61,12 +57,8 @@ void SleepingContacts::keep(const SavedContact& contact) {
   free_.pop_back();
   nodes_[node].contact = contact;
   for (const BodyIndex body : {owner_of(contact.low), owner_of(contact.high)}) {
-    if (body < 0) {
-      continue;  // ground and obstacles never wake, so theirs are not needed
-    }
-    if (body >= std::ssize(first_)) {
-      first_.resize(body + 1, -1);
-    }
+    if (body < 0) continue;  // ground and obstacles never wake, so theirs are not needed
+    if (body >= std::ssize(first_)) first_.resize(body + 1, -1);
     std::int32_t& first = first_[body];
     next_of(node, body) = first;
     first = node;
@@ -75,16 +67,12 @@ void SleepingContacts::keep(const SavedContact& contact) {
 
 void SleepingContacts::unlink(std::int32_t node, BodyIndex body) {
   std::int32_t* link = &first_[body];
-  while (*link != node) {
-    link = &next_of(*link, body);
-  }
+  while (*link != node) link = &next_of(*link, body);
   *link = next_of(node, body);
 }
 
 void SleepingContacts::release(BodyIndex body, std::vector<SavedContact>& out) {
-  if (body >= std::ssize(first_)) {
-    return;
-  }
+  if (body >= std::ssize(first_)) return;
   std::int32_t& first = first_[body];
   while (first >= 0) {
     const std::int32_t node = first;
@@ -93,9 +81,7 @@ void SleepingContacts::release(BodyIndex body, std::vector<SavedContact>& out) {
     const BodyIndex low = owner_of(contact.low);
     const BodyIndex other = low == body ? owner_of(contact.high) : low;
     first = next_of(node, body);
-    if (other >= 0) {
-      unlink(node, other);
-    }
+    if (other >= 0) unlink(node, other);
     free_.push_back(node);
   }
 }
@@ -117,9 +103,7 @@ void WarmStart::start_step(std::span<const std::uint8_t> asleep) {
   waiting_.erase(std::unique(waiting_.begin(), waiting_.end(), same), waiting_.end());
   std::erase_if(waiting_, [&](const SavedContact& contact) {
     const bool put_away = sleeps(contact.low) && sleeps(contact.high);
-    if (put_away) {
-      sleeping_.keep(contact);
-    }
+    if (put_away) sleeping_.keep(contact);
     return put_away;
   });
 }

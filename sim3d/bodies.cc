@@ -12,17 +12,13 @@ void set_common(btCollisionObject& object, btScalar friction, btScalar restituti
 }  // namespace
 
 RigidBodyMaker::~RigidBodyMaker() {
-  for (void* memory : spare_) {
-    btAlignedFree(memory);
-  }
+  for (void* memory : spare_) btAlignedFree(memory);
 }
 
 std::unique_ptr<btRigidBody> RigidBodyMaker::make(const BodyTemplate& shape, const btTransform& place, BodyIndex index,
                                                   bool may_sleep) {
   // As the body's own operator new does, so that its operator delete can free it.
-  if (spare_.empty()) {
-    spare_.push_back(btAlignedAlloc(sizeof(btRigidBody), 16));
-  }
+  if (spare_.empty()) spare_.push_back(btAlignedAlloc(sizeof(btRigidBody), 16));
   btRigidBody::btRigidBodyConstructionInfo info(shape.mass, nullptr, shape.whole, shape.inertia);
   info.m_startWorldTransform = place;
   std::unique_ptr<btRigidBody> body(::new (spare_.back()) btRigidBody(info));
@@ -30,9 +26,7 @@ std::unique_ptr<btRigidBody> RigidBodyMaker::make(const BodyTemplate& shape, con
   body->setLinearFactor(shape.linear_factor);
   body->setAngularFactor(shape.angular_factor);
   set_common(*body, shape.friction, shape.restitution, index);
-  if (!may_sleep) {
-    body->setActivationState(DISABLE_DEACTIVATION);
-  }
+  if (!may_sleep) body->setActivationState(DISABLE_DEACTIVATION);
   // Bullet sweeps a body only in steps in which it moves further than this, so slow ones pay nothing.
   body->setCcdMotionThreshold(shape.sweep_from);
   body->setCcdSweptSphereRadius(shape.inner_radius);

@@ -37,9 +37,7 @@ PlacedPiece make(const HullPiece<3>& hull) {
   if (hull.corners.size() == 1) return make_ball(hull.corners[0], hull.radius);
   if (hull.corners.size() == 2) return make_capsule(hull.corners[0], hull.corners[1], hull.radius);
   auto shape = std::make_unique<btConvexHullShape>();
-  for (const Vec3& corner : hull.corners) {
-    shape->addPoint(to_bullet(corner), false);
-  }
+  for (const Vec3& corner : hull.corners) shape->addPoint(to_bullet(corner), false);
   shape->recalcLocalAabb();
   shape->setMargin(static_cast<btScalar>(hull_margin));
   return {with_faces(std::move(shape)), Vec3::Zero(), Eigen::Quaterniond::Identity()};
@@ -50,9 +48,7 @@ Piece<3> turn(const BoxPiece<3>& box, const Eigen::Quaterniond& by) {
 }
 
 Piece<3> turn(HullPiece<3> hull, const Eigen::Quaterniond& by) {
-  for (Vec3& corner : hull.corners) {
-    corner = by * corner;
-  }
+  for (Vec3& corner : hull.corners) corner = by * corner;
   return hull;
 }
 
@@ -92,12 +88,8 @@ template <int Dim>
 double mass_scale(std::span<const Shape<Dim>> shapes) {
   constexpr int scaled_exponent = 10;  // the heaviest shape weighs 1024 to 2048 units
   double heaviest = 0.0;
-  for (const Shape<Dim>& shape : shapes) {
-    heaviest = std::max(heaviest, shape.mass);
-  }
-  if (heaviest == 0.0 || (heaviest >= least_plain_mass && heaviest <= most_plain_mass)) {
-    return 1.0;
-  }
+  for (const Shape<Dim>& shape : shapes) heaviest = std::max(heaviest, shape.mass);
+  if (heaviest == 0.0 || (heaviest >= least_plain_mass && heaviest <= most_plain_mass)) return 1.0;
   return std::ldexp(1.0, scaled_exponent - std::ilogb(heaviest));
 }
 
@@ -109,9 +101,7 @@ namespace {
 // The turn from the principal axes to the shape's own; none where the inertia is diagonal already.
 Eigen::Quaterniond principal_frame(const Eigen::Matrix3d& inertia) {
   const Eigen::Matrix3d diagonal = inertia.diagonal().asDiagonal();
-  if ((inertia - diagonal).cwiseAbs().maxCoeff() <= 1e-9 * inertia.trace()) {
-    return Eigen::Quaterniond::Identity();
-  }
+  if ((inertia - diagonal).cwiseAbs().maxCoeff() <= 1e-9 * inertia.trace()) return Eigen::Quaterniond::Identity();
   Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvectors();
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return Eigen::Quaterniond(axes);
@@ -143,9 +133,7 @@ std::vector<PlacedPiece> make_pieces(const Shape<Dim>& shape, const BodyTemplate
   std::vector<PlacedPiece> pieces;
   for (const Piece<Dim>& piece : shape.pieces) {
     pieces.push_back(make_piece(turned(spatial(shape, piece), made.frame_inverse)));
-    if (pieces.back().position.norm() < 1e-9 * shape.extent) {
-      pieces.back().position.setZero();
-    }
+    if (pieces.back().position.norm() < 1e-9 * shape.extent) pieces.back().position.setZero();
   }
   return pieces;
 }
@@ -170,14 +158,12 @@ bool is_polyhedron(const Piece<Dim>& piece) {
 // The own axes of a lone box, ball or capsule are principal axes.
 template <int Dim>
 Eigen::Quaterniond choose_frame(const Shape<Dim>& shape) {
-  if (shape.pieces.size() == 1 && !is_polyhedron<Dim>(shape.pieces[0])) {
+  if (shape.pieces.size() == 1 && !is_polyhedron<Dim>(shape.pieces[0]))
     return make_piece(spatial(shape, shape.pieces[0])).rotation;
-  }
-  if constexpr (Dim == 3) {
+  if constexpr (Dim == 3)
     return principal_frame(shape.inertia);
-  } else {
+  else
     return Eigen::Quaterniond::Identity();
-  }
 }
 
 }  // namespace
@@ -193,9 +179,7 @@ BodyTemplate make_body_template(const Shape<Dim>& shape, double mass_scale) {
   made.friction = static_cast<btScalar>(std::sqrt(shape.material.friction));
   made.restitution = static_cast<btScalar>(std::sqrt(shape.material.restitution));
   double width = smallest_width(shape.pieces[0]);
-  for (const Piece<Dim>& piece : shape.pieces) {
-    width = std::min(width, smallest_width(piece));
-  }
+  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
   made.inner_radius = static_cast<btScalar>(0.5 * width);
   made.sweep_from = made.inner_radius;
   return made;

@@ -28,9 +28,7 @@ void Contacts<Dim>::gather(const Engine& engine, std::vector<Contact<Dim>>& cont
   find_touches(engine);
   // The manifolds' order depends on the history of pairs; those of one pair keep theirs.
   std::ranges::stable_sort(touches_, {}, &Touch::place);
-  for (const Touch& touch : touches_) {
-    append(touch, contacts);
-  }
+  for (const Touch& touch : touches_) append(touch, contacts);
 }
 
 template <int Dim>
@@ -40,9 +38,7 @@ void Contacts<Dim>::find_touches(const Engine& engine) {
     const btPersistentManifold& manifold = *const_cast<Engine&>(engine).dispatcher.getManifoldByIndexInternal(i);
     const btCollisionObject& first = *manifold.getBody0();
     const btCollisionObject& second = *manifold.getBody1();
-    if (manifold.getNumContacts() == 0 || (!first.isActive() && !second.isActive())) {
-      continue;
-    }
+    if (manifold.getNumContacts() == 0 || (!first.isActive() && !second.isActive())) continue;
     // The awake one is a, of two awake ones the first added.
     const bool swap = !first.isActive() || (second.isActive() && second.getUserIndex() < first.getUserIndex());
     const btCollisionObject& a = swap ? second : first;
@@ -57,9 +53,7 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
   const Motion motion_of_b = motion_before(*touch.b);
   for (int i = 0; i < touch.manifold->getNumContacts(); ++i) {
     const btManifoldPoint& point = touch.manifold->getContactPoint(i);
-    if (point.getDistance() > 0 && point.m_appliedImpulse <= 0) {
-      continue;
-    }
+    if (point.getDistance() > 0 && point.m_appliedImpulse <= 0) continue;
     const btVector3 normal = touch.swap ? -point.m_normalWorldOnB : point.m_normalWorldOnB;  // from second to first
     const btVector3 friction = friction_impulse(point);
     const btVector3& where = point.getPositionWorldOnB();
@@ -78,14 +72,10 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
 
 template <int Dim>
 typename Contacts<Dim>::Motion Contacts<Dim>::motion_before(const btCollisionObject& object) const {
-  if (object.isStaticObject()) {
-    return {};
-  }
+  if (object.isStaticObject()) return {};
   const BodyIndex index = object.getUserIndex();
   const auto found = std::lower_bound(moving_.begin(), moving_.end(), index);
-  if (found == moving_.end() || *found != index) {
-    return {};
-  }
+  if (found == moving_.end() || *found != index) return {};
   return motion_[found - moving_.begin()];
 }
 

@@ -20,29 +20,26 @@ inline btVector3 to_bullet(const Vec<2>& v) {
 
 template <int Dim>
 Vec<Dim> from_bullet(const btVector3& v) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return {v.x(), v.z()};
-  } else {
+  else
     return {v.x(), v.y(), v.z()};
-  }
 }
 
 template <int Dim>
 btVector3 spin_to_bullet(const Spin<Dim>& spin) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return {btScalar(0), static_cast<btScalar>(-spin[0]), btScalar(0)};
-  } else {
+  else
     return to_bullet(spin);
-  }
 }
 
 template <int Dim>
 Spin<Dim> spin_from_bullet(const btVector3& spin) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return Spin<2>(-spin.y());
-  } else {
+  else
     return from_bullet<3>(spin);
-  }
 }
 
 inline Eigen::Quaterniond quaternion(const Rotation<3>& rotation) { return rotation.normalized(); }

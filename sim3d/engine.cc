@@ -27,9 +27,7 @@ const bool takes_little = [] {
 
 std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params,
                                                                  const DebugOptions& debug) {
-  if (!debug.bullet_solver) {
-    return std::make_unique<PackedSolver>(params.warm_friction, debug);
-  }
+  if (!debug.bullet_solver) return std::make_unique<PackedSolver>(params.warm_friction, debug);
   return std::make_unique<WarmFrictionSolver>(params.warm_friction);
 }
 
@@ -40,9 +38,8 @@ Engine::Engine(double gravity, const SolverParams& params, const DebugOptions& d
       broadphase(&pairs),
       solver(make_solver(params, debug)),
       world(dispatcher, broadphase, pairs, *solver, configuration, debug) {
-  if (!debug.bullet_compounds) {
+  if (!debug.bullet_compounds)
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
-  }
   if (!debug.collide_in_flight) {
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE, &ground_pairs);
     dispatcher.registerCollisionCreateFunc(STATIC_PLANE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &swapped_ground_pairs);
@@ -53,9 +50,7 @@ Engine::Engine(double gravity, const SolverParams& params, const DebugOptions& d
   btContactSolverInfo& info = world.getSolverInfo();
   info.m_numIterations = params.velocity_iterations;
   info.m_restitutionVelocityThreshold = static_cast<btScalar>(params.restitution_threshold);
-  if (params.friction_directions == 2) {
-    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-  }
+  if (params.friction_directions == 2) info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
 }
 
 }  // namespace talus::bullet

@@ -19,9 +19,7 @@ struct Finder final : btBroadphaseAabbCallback {
   explicit Finder(std::vector<BodyIndex>& into) : found(into) {}
   bool process(const btBroadphaseProxy* proxy) override {
     const int index = static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
-    if (index >= 0) {
-      found.push_back(index);
-    }
+    if (index >= 0) found.push_back(index);
     return true;
   }
   std::vector<BodyIndex>& found;
@@ -52,13 +50,9 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
       engine_(description.gravity, description.solver, description.debug) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
-    if (description.debug.sweep_slow_bodies) {
-      templates_.back().sweep_from = shortest_sweep;
-    }
+    if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;
   }
-  if (description.ground.present) {
-    add_ground();
-  }
+  if (description.ground.present) add_ground();
   add_obstacles();
   engine_.world.set_after_collision([this] { swap_.restore_contacts(); });
 }
@@ -67,11 +61,8 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
 template <int Dim>
 EngineWorld<Dim>::~EngineWorld() {
   engine_.world.set_bodies({});
-  for (const std::unique_ptr<btCollisionObject>& object : objects_) {
-    if (object != nullptr) {
-      engine_.broadphase.destroyProxy(object->getBroadphaseHandle(), &engine_.dispatcher);
-    }
-  }
+  for (const std::unique_ptr<btCollisionObject>& object : objects_)
+    if (object != nullptr) engine_.broadphase.destroyProxy(object->getBroadphaseHandle(), &engine_.dispatcher);
 }
 
 template <int Dim>
@@ -113,12 +104,8 @@ void EngineWorld<Dim>::engine_remove(BodyIndex body) {
   engine_.broadphase.destroyProxy(at(body)->getBroadphaseHandle(), &engine_.dispatcher);
   const bool frozen = rigid_body(body) == nullptr;
   const auto leaving = std::move(at(body));  // outlives Bullet's lists of it
-  if (!frozen) {
-    std::erase(listed_, body);
-  }
-  if (!frozen || this->description().debug.keep_sleepers) {
-    update_lists();
-  }
+  if (!frozen) std::erase(listed_, body);
+  if (!frozen || this->description().debug.keep_sleepers) update_lists();
 }
 
 template <int Dim>
@@ -128,9 +115,7 @@ void EngineWorld<Dim>::engine_set_velocity(BodyIndex body, const Vec<Dim>& veloc
 
 template <int Dim>
 EngineTimes EngineWorld<Dim>::engine_step() {
-  if (this->records_contacts()) {
-    contacts_.note_motion(rigid_);
-  }
+  if (this->records_contacts()) contacts_.note_motion(rigid_);
   if (!this->description().debug.step_when_idle && rigid_.empty()) {
     // Upkeep of the broadphase's trees: their form decides the order of pairs, and so how a run continues after a thaw.
     engine_.broadphase.calculateOverlappingPairs(&engine_.dispatcher);
@@ -147,9 +132,7 @@ EngineTimes EngineWorld<Dim>::engine_step() {
 template <int Dim>
 std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) {
   const auto broken = std::ranges::find_if(rigid_, [](const btRigidBody* body) { return !is_finite(*body); });
-  if (broken != rigid_.end()) {
-    return (*broken)->getUserIndex();
-  }
+  if (broken != rigid_.end()) return (*broken)->getUserIndex();
   for (const btRigidBody* body : rigid_) {
     const BodyIndex i = body->getUserIndex();
     states.pose[i] = from_bullet<Dim>(body->getWorldTransform(), template_of_body(body->getUserIndex()).frame_inverse);
@@ -161,9 +144,7 @@ std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) 
 
 template <int Dim>
 void EngineWorld<Dim>::engine_freeze(std::span<const BodyIndex> bodies) {
-  for (const BodyIndex body : bodies) {
-    swap_.freeze(at(body), template_of_body(body));
-  }
+  for (const BodyIndex body : bodies) swap_.freeze(at(body), template_of_body(body));
   std::erase_if(listed_, [this](BodyIndex body) { return rigid_body(body) == nullptr; });
   update_lists();
 }
@@ -186,22 +167,15 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
 template <int Dim>
 void EngineWorld<Dim>::update_lists() {
   rigid_.clear();
-  for (const BodyIndex body : listed_) {
-    rigid_.push_back(rigid_body(body));
-  }
+  for (const BodyIndex body : listed_) rigid_.push_back(rigid_body(body));
   engine_.world.set_bodies(rigid_);
-  if (this->description().debug.keep_sleepers) {
-    list_frozen();
-  }
+  if (this->description().debug.keep_sleepers) list_frozen();
 }
 
 template <int Dim>
 void EngineWorld<Dim>::list_frozen() {
-  for (const std::unique_ptr<btCollisionObject>& object : objects_) {
-    if (object != nullptr && btRigidBody::upcast(object.get()) == nullptr) {
-      engine_.world.list(*object);
-    }
-  }
+  for (const std::unique_ptr<btCollisionObject>& object : objects_)
+    if (object != nullptr && btRigidBody::upcast(object.get()) == nullptr) engine_.world.list(*object);
 }
 
 // The broadphase has the place of a body before the last step and the place that it would have reached undisturbed.
@@ -215,32 +189,24 @@ void EngineWorld<Dim>::find_strayed() const {
     btVector3 high;
     body->getAabb(low, high);
     const auto* proxy = static_cast<const btDbvtProxy*>(body->getBroadphaseProxy());
-    if (!proxy->leaf->volume.Contain(btDbvtVolume::FromMM(low, high))) {
-      strayed_.push_back(body->getUserIndex());
-    }
+    if (!proxy->leaf->volume.Contain(btDbvtVolume::FromMM(low, high))) strayed_.push_back(body->getUserIndex());
   }
   strayed_known_ = true;
 }
 
 template <int Dim>
 void EngineWorld<Dim>::engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const {
-  if (!strayed_known_) {
-    find_strayed();
-  }
+  if (!strayed_known_) find_strayed();
   btVector3 low = to_bullet(Vec<Dim>(box.min()));
   btVector3 high = to_bullet(Vec<Dim>(box.max()));
   Finder finder(found);
   const_cast<Engine&>(engine_).broadphase.aabbTest(low, high, finder);
   for (const BodyIndex body : strayed_) {
-    if (at(body) == nullptr) {
-      continue;  // removed since
-    }
+    if (at(body) == nullptr) continue;  // removed since
     btVector3 body_low;
     btVector3 body_high;
     at(body)->getCollisionShape()->getAabb(at(body)->getWorldTransform(), body_low, body_high);
-    if (TestAabbAgainstAabb2(low, high, body_low, body_high)) {
-      found.push_back(body);
-    }
+    if (TestAabbAgainstAabb2(low, high, body_low, body_high)) found.push_back(body);
   }
 }
 

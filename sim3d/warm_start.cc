@@ -40,9 +40,8 @@ class PieceRecorder final : public btManifoldResult {
  private:
   void record() {
     btPersistentManifold* manifold = getPersistentManifold();
-    if (manifold != nullptr && (entries_.empty() || entries_.back().manifold != manifold)) {
+    if (manifold != nullptr && (entries_.empty() || entries_.back().manifold != manifold))
       entries_.push_back({m_index0, m_index1, manifold});
-    }
   }
   std::vector<Entry> entries_;
 };
@@ -55,9 +54,7 @@ struct WarmStart::Sides {
       : owner(&object_of(pair.m_pProxy0)), partner(&object_of(pair.m_pProxy1)) {
     const int o = owner->getUserIndex();
     const int p = partner->getUserIndex();
-    if (o < 0 || (p >= 0 && p < o)) {
-      std::swap(owner, partner);
-    }
+    if (o < 0 || (p >= 0 && p < o)) std::swap(owner, partner);
   }
   btCollisionObject* owner;
   btCollisionObject* partner;
@@ -72,21 +69,15 @@ void WarmStart::keep(const Sides& sides, const SavedPoint& point) {
   free_.pop_back();
   nodes_[node] = {point, -1};
   const BodyIndex owner = sides.owner->getUserIndex();
-  if (std::ssize(first_) <= owner) {
-    first_.resize(owner + 1, -1);
-  }
+  if (std::ssize(first_) <= owner) first_.resize(owner + 1, -1);
   std::int32_t* link = &first_[owner];
-  while (*link >= 0) {
-    link = &nodes_[*link].next;
-  }
+  while (*link >= 0) link = &nodes_[*link].next;
   *link = node;
 }
 
 void WarmStart::release(const Sides& sides, std::vector<SavedPoint>& out) {
   const BodyIndex owner = sides.owner->getUserIndex();
-  if (std::ssize(first_) <= owner) {
-    return;
-  }
+  if (std::ssize(first_) <= owner) return;
   for (std::int32_t* link = &first_[owner]; *link >= 0;) {
     const std::int32_t node = *link;
     const Node& here = nodes_[node];
@@ -101,9 +92,7 @@ void WarmStart::release(const Sides& sides, std::vector<SavedPoint>& out) {
 }
 
 void WarmStart::save(btBroadphasePair& pair) {
-  if (pair.m_algorithm == nullptr) {
-    return;  // no step has passed since the pair came back: what was saved still holds
-  }
+  if (pair.m_algorithm == nullptr) return;  // no step has passed since the pair came back: what was saved still holds
   const Sides sides(pair);
   release(sides, saved_);  // what an earlier sleep left
   saved_.clear();
@@ -132,9 +121,7 @@ void WarmStart::save(btBroadphasePair& pair) {
 }
 
 void WarmStart::announce(btBroadphaseProxy& woken, const PairCache& pairs) {
-  for (btBroadphaseProxy* partner : pairs.partners(&woken)) {
-    announced_.emplace_back(&woken, partner);
-  }
+  for (btBroadphaseProxy* partner : pairs.partners(&woken)) announced_.emplace_back(&woken, partner);
 }
 
 void WarmStart::forget(BodyIndex body) {
@@ -153,9 +140,7 @@ void WarmStart::forget(BodyIndex body) {
 void WarmStart::restore(PairCache& pairs, const btDispatcherInfo& info) {
   for (const auto& [a, b] : announced_) {
     btBroadphasePair* pair = pairs.findPair(a, b);
-    if (pair != nullptr && pair->m_algorithm != nullptr) {
-      restore(*pair, info);
-    }
+    if (pair != nullptr && pair->m_algorithm != nullptr) restore(*pair, info);
   }
   announced_.clear();
 }
@@ -166,9 +151,7 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   const Sides sides(pair);
   saved_.clear();
   release(sides, saved_);
-  if (saved_.empty()) {
-    return;
-  }
+  if (saved_.empty()) return;
   const btCollisionObjectWrapper owner(nullptr, sides.owner->getCollisionShape(), sides.owner,
                                        sides.owner->getWorldTransform(), -1, -1);
   const btCollisionObjectWrapper partner(nullptr, sides.partner->getCollisionShape(), sides.partner,

@@ -41,11 +41,10 @@ using Box = Eigen::AlignedBox<double, Dim>;
 
 template <int Dim>
 Rotation<Dim> identity_rotation() {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return Rotation<2>(0.0);
-  } else {
+  else
     return Rotation<3>::Identity();
-  }
 }
 
 /// Where a body is: the position of its centre of mass [m] and its rotation.

@@ -52,9 +52,7 @@ double triangle_distance(const Vec3& point, const Vec3& a, const Vec3& b, const 
   const double over_ac = d5 * d2 - d1 * d6;
   if (over_ac <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return (point - a - d2 / (d2 - d6) * ac).norm();
   const double over_bc = d3 * d6 - d5 * d4;
-  if (over_bc <= 0.0 && d4 >= d3 && d5 >= d6) {
-    return (point - b - (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b)).norm();
-  }
+  if (over_bc <= 0.0 && d4 >= d3 && d5 >= d6) return (point - b - (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b)).norm();
   const double sum = over_ab + over_ac + over_bc;
   return (point - a - over_ac / sum * ab - over_ab / sum * ac).norm();
 }
@@ -109,21 +107,17 @@ double widest_gap(const ConvexPiece<Dim>& a, const ConvexPiece<Dim>& b, double e
 template <int Dim>
 double edges_distance(const ConvexPiece<Dim>& a, const ConvexPiece<Dim>& b) {
   double nearest = infinity;
-  for (const auto& [a0, a1] : a.edges) {
-    for (const auto& [b0, b1] : b.edges) {
+  for (const auto& [a0, a1] : a.edges)
+    for (const auto& [b0, b1] : b.edges)
       nearest = std::min(nearest, segment_distance<Dim>(a.corners[a0], a.corners[a1], b.corners[b0], b.corners[b1]));
-    }
-  }
   return nearest;
 }
 
 double corners_distance(const ConvexPiece<3>& corners, const ConvexPiece<3>& faces) {
   double nearest = infinity;
-  for (const Vec3& corner : corners.corners) {
-    for (const auto& [i, j, k] : faces.triangles) {
+  for (const Vec3& corner : corners.corners)
+    for (const auto& [i, j, k] : faces.triangles)
       nearest = std::min(nearest, triangle_distance(corner, faces.corners[i], faces.corners[j], faces.corners[k]));
-    }
-  }
   return nearest;
 }
 

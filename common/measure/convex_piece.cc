@@ -43,9 +43,8 @@ void add_faces(ConvexPiece<3>& piece) {
       add_line<3>(piece.normals, normal);
     }
   }
-  for (const auto& [from, to] : piece.edges) {
+  for (const auto& [from, to] : piece.edges)
     if (from != to) add_line<3>(piece.directions, corner(to) - corner(from));
-  }
 }
 
 }  // namespace

@@ -18,9 +18,8 @@ struct PooledSample {
 
 std::vector<PooledSample> pool(const RunSamples& runs) {
   std::vector<PooledSample> pooled;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
+  for (std::size_t run = 0; run < runs.size(); ++run)
     for (const double value : runs[run]) pooled.push_back({value, run});
-  }
   std::stable_sort(pooled.begin(), pooled.end(), [](const auto& x, const auto& y) { return x.value < y.value; });
   return pooled;
 }
@@ -30,9 +29,8 @@ DistributionDistance distance(std::span<const PooledSample> pooled, std::span<co
                               std::span<const std::size_t> sizes) {
   double size_a = 0.0;
   double size_b = 0.0;
-  for (std::size_t run = 0; run < sizes.size(); ++run) {
+  for (std::size_t run = 0; run < sizes.size(); ++run)
     (in_a[run] != 0 ? size_a : size_b) += static_cast<double>(sizes[run]);
-  }
   DistributionDistance result;
   double count_a = 0.0;
   double count_b = 0.0;
@@ -83,9 +81,8 @@ void shuffle(std::vector<std::uint8_t>& values, std::mt19937_64& random) {
 /// Ways to choose `chosen` of `total`, or a number above `limit`.
 double ways(std::size_t total, std::size_t chosen, double limit) {
   double result = 1.0;
-  for (std::size_t k = 1; k <= chosen && result <= limit; ++k) {
+  for (std::size_t k = 1; k <= chosen && result <= limit; ++k)
     result = result * static_cast<double>(total - chosen + k) / static_cast<double>(k);
-  }
   return result;
 }
 
@@ -93,9 +90,8 @@ void check_runs(const RunSamples& runs) {
   if (runs.empty()) throw std::invalid_argument("ensemble: must hold at least one run");
   for (const auto& run : runs) {
     if (run.empty()) throw std::invalid_argument("run of an ensemble: must hold at least one number");
-    for (const double value : run) {
+    for (const double value : run)
       if (!std::isfinite(value)) throw std::invalid_argument("run of an ensemble: numbers must be finite");
-    }
   }
 }
 

@@ -18,9 +18,8 @@ void check_comparable(const Trajectory<Dim>& a, const Trajectory<Dim>& b) {
   if (a.frames() == 0 || b.frames() == 0) return;
   const double start_a = static_cast<double>(a.step(0)) * a.step_time();
   const double start_b = static_cast<double>(b.step(0)) * b.step_time();
-  if (std::abs(start_a - start_b) > 1e-6 * a.frame_time()) {
+  if (std::abs(start_a - start_b) > 1e-6 * a.frame_time())
     throw std::invalid_argument(fmt::format("first frame at {} s against {} s: must be equal", start_a, start_b));
-  }
 }
 
 template <int Dim>
@@ -50,9 +49,8 @@ int divergence_frame(std::span<const double> floor_pair) {
 }
 
 double skill(double value, double floor, double ceiling) {
-  if (!(ceiling > floor)) {
+  if (!(ceiling > floor))
     throw std::invalid_argument(fmt::format("ceiling = {}: must be above the floor, {}", ceiling, floor));
-  }
   return (value - floor) / (ceiling - floor);
 }
 

@@ -12,9 +12,8 @@ namespace talus {
 template <int Dim>
 void ForkRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();
-  for (std::size_t i = arrivals_.size(); i < states.shape.size(); ++i) {
+  for (std::size_t i = arrivals_.size(); i < states.shape.size(); ++i)
     arrivals_.push_back({frame.time, {states.shape[i], states.pose[i], states.velocity[i], states.spin[i]}});
-  }
   if (frame.step % interval_ == 0) forks_.push_back({frame.time, states});
 }
 
@@ -26,9 +25,7 @@ Trajectory<Dim> continue_full(const WorldMaker<Dim>& make_world, const WorldDesc
                               std::span<const Arrival<Dim>> arrivals, int frames) {
   BodyStates<Dim> states = fork.states;
   const auto first = std::find(states.removed.begin(), states.removed.end(), std::uint8_t{0});
-  if (first != states.removed.end()) {
-    states.pose[first - states.removed.begin()].position.x() += nudge;
-  }
+  if (first != states.removed.end()) states.pose[first - states.removed.begin()].position.x() += nudge;
   const std::unique_ptr<World<Dim>> world = rebuild(make_world, description, states, Sleepers::awake);
   Trajectory<Dim> trajectory(description.dt, steps_per_frame);
   std::int64_t step = std::llround(fork.time / description.dt);
@@ -90,10 +87,9 @@ class UntilStep final : public SleepPolicy<Dim> {
     if (frame.step < step_ && policy_->decides()) policy_->decide(frame, decision);
     if (frame.step != step_) return;
     const BodyStates<Dim>& states = frame.world.states();
-    for (BodyIndex body = 0; body < states.size(); ++body) {
+    for (BodyIndex body = 0; body < states.size(); ++body)
       if (states.asleep[body] && !states.removed[body])
         decision.thaw.push_back({.body = body, .cause = SleepCause::user});
-    }
   }
 
  private:

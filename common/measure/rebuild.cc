@@ -12,11 +12,10 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
   std::vector<BodyIndex> asleep;
   for (BodyIndex body = 0; body < states.size(); ++body) {
     world->add({states.shape[body], states.pose[body], states.velocity[body], states.spin[body]});
-    if (states.removed[body]) {
+    if (states.removed[body])
       world->remove(body);
-    } else if (states.asleep[body]) {
+    else if (states.asleep[body])
       asleep.push_back(body);
-    }
   }
   if (sleepers == Sleepers::frozen) world->freeze(asleep);
   return world;

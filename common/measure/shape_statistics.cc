@@ -28,9 +28,8 @@ Packing packing(std::span<const PlacedBody<Dim>> bodies, const Vec<Dim>& base_ce
     result.layers[layer] += body.volume;
     solid += body.volume;
   }
-  for (int layer = 0; layer < layers; ++layer) {
+  for (int layer = 0; layer < layers; ++layer)
     result.layers[layer] /= Profile<Dim>::slice_volume(radius_at(layer * rise), radius_at((layer + 1) * rise), rise);
-  }
   result.all = solid / Profile<Dim>::slice_volume(foot, 0.0, apex);
   return result;
 }

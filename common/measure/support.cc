@@ -128,9 +128,8 @@ std::vector<BodyIndex> floating_sleepers(const BodyStates<Dim>& states, std::spa
     for (const BodyIndex neighbour : neighbours[body]) carry(neighbour);
   }
   std::vector<BodyIndex> floating;
-  for (BodyIndex i = 0; i < states.size(); ++i) {
+  for (BodyIndex i = 0; i < states.size(); ++i)
     if (states.asleep[i] && !states.removed[i] && !carried[i]) floating.push_back(i);
-  }
   return floating;
 }
 

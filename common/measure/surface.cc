@@ -31,9 +31,8 @@ class Columns {
       for (int x = x_first; x <= x_last; ++x) lift(x, top);
     } else {
       const auto [y_first, y_last] = covered(bounds, 1);
-      for (int y = y_first; y <= y_last; ++y) {
+      for (int y = y_first; y <= y_last; ++y)
         for (int x = x_first; x <= x_last; ++x) lift(y * side_ + x, top);
-      }
     }
   }
 
@@ -44,11 +43,10 @@ class Columns {
   double at(std::size_t column) const {
     const int index = static_cast<int>(column);
     const double x = middle(index % side_);
-    if constexpr (Dim == 2) {
+    if constexpr (Dim == 2)
       return x;
-    } else {
+    else
       return std::hypot(x, middle(index / side_));
-    }
   }
 
  private:
@@ -96,9 +94,8 @@ std::vector<ProfileBin> height_profile(std::span<const PlacedBody<Dim>> bodies, 
 }
 
 double profile_difference(std::span<const ProfileBin> a, std::span<const ProfileBin> b) {
-  if (a.size() != b.size()) {
+  if (a.size() != b.size())
     throw std::invalid_argument(fmt::format("profiles of {} and {} bins: must be on one grid", a.size(), b.size()));
-  }
   double squares = 0.0;
   double columns = 0.0;
   for (std::size_t bin = 0; bin < a.size(); ++bin) {

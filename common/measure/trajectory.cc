@@ -37,19 +37,17 @@ void Trajectory<Dim>::append_lost(std::int64_t step_number) {
 template <int Dim>
 void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_number,
                              std::span<const std::uint8_t> unknown) {
-  if (states.size() < bodies()) {
+  if (states.size() < bodies())
     throw std::invalid_argument(fmt::format("states hold {} bodies: {} were there before", states.size(), bodies()));
-  }
   begin_frame(step_number, false);
   shape_.assign(states.shape.begin(), states.shape.end());
   for (std::size_t i = 0; i < states.shape.size(); ++i) {
     const Pose<Dim>& pose = states.pose[i];
     for (int axis = 0; axis < Dim; ++axis) poses_.push_back(static_cast<float>(pose.position[axis]));
-    if constexpr (Dim == 2) {
+    if constexpr (Dim == 2)
       poses_.push_back(static_cast<float>(pose.rotation.angle()));
-    } else {
+    else
       for (int k = 0; k < 4; ++k) poses_.push_back(static_cast<float>(pose.rotation.coeffs()[k]));
-    }
     const bool is_unknown = !unknown.empty() && unknown[i] != 0;
     const int here = states.removed[i] || is_unknown ? 0 : present_flag;
     const int sleeps = states.asleep[i] ? asleep_flag : 0;
@@ -74,11 +72,10 @@ Vec<Dim> Trajectory<Dim>::position(int frame, BodyIndex body) const {
 template <int Dim>
 Rotation<Dim> Trajectory<Dim>::rotation(int frame, BodyIndex body) const {
   const float* values = &poses_[entry(frame, body) * floats_per_body + Dim];
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return Rotation<2>(values[0]);
-  } else {
+  else
     return Rotation<3>(values[3], values[0], values[1], values[2]).normalized();
-  }
 }
 
 template <int Dim>
@@ -106,9 +103,7 @@ Trajectory<Dim> Trajectory<Dim>::part(int first, int count) const {
 template <int Dim>
 bool Trajectory<Dim>::same(int frame, const Trajectory& other, BodyIndex body) const {
   if (unknown(frame, body) || other.unknown(frame, body)) return true;
-  if (!present(frame, body) || !other.present(frame, body)) {
-    return present(frame, body) == other.present(frame, body);
-  }
+  if (!present(frame, body) || !other.present(frame, body)) return present(frame, body) == other.present(frame, body);
   return std::memcmp(&poses_[entry(frame, body) * floats_per_body],
                      &other.poses_[other.entry(frame, body) * floats_per_body], floats_per_body * sizeof(float)) == 0;
 }

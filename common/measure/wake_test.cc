@@ -15,9 +15,8 @@ class Observation {
  public:
   Observation(const WorldDescription<Dim>& description, const BodyStates<Dim>& start)
       : description_(description), start_(start) {
-    for (std::size_t i = 0; i < start.shape.size(); ++i) {
+    for (std::size_t i = 0; i < start.shape.size(); ++i)
       if (!start.removed[i]) weight_ += weight(i);
-    }
   }
 
   void note_energy(const BodyStates<Dim>& states) {

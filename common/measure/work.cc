@@ -32,9 +32,8 @@ Hindsight hindsight(const Trajectory<Dim>& full, std::span<const double> extents
   const auto moves = [&](int frame, BodyIndex body) {
     const Vec<Dim> here = full.position(frame, body);
     const double far = x * extents[full.shape(body)];
-    for (int later = frame + 1; later <= frame + ahead && full.present(later, body); ++later) {
+    for (int later = frame + 1; later <= frame + ahead && full.present(later, body); ++later)
       if ((full.position(later, body) - here).norm() > far) return true;
-    }
     return false;
   };
   for (int frame = std::max(first, 0); frame < end; ++frame) {

@@ -18,20 +18,12 @@ Moments<3> moments(const Mesh& mesh) { return moments_within<3>(mesh.corners, me
 std::uint64_t content_hash(const Mesh& mesh) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&](std::uint64_t word) {
-    for (int byte = 0; byte < 8; ++byte) {
-      hash = (hash ^ ((word >> (8 * byte)) & 0xffu)) * 0x100000001b3u;
-    }
+    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ ((word >> (8 * byte)) & 0xffu)) * 0x100000001b3u;
   };
-  for (const Vec3& corner : mesh.corners) {
-    for (const double coordinate : corner) {
-      add(std::bit_cast<std::uint64_t>(coordinate));
-    }
-  }
-  for (const auto& triangle : mesh.triangles) {
-    for (const int corner : triangle) {
-      add(static_cast<std::uint64_t>(corner));
-    }
-  }
+  for (const Vec3& corner : mesh.corners)
+    for (const double coordinate : corner) add(std::bit_cast<std::uint64_t>(coordinate));
+  for (const auto& triangle : mesh.triangles)
+    for (const int corner : triangle) add(static_cast<std::uint64_t>(corner));
   return hash;
 }
 
@@ -71,16 +63,12 @@ Mesh merged(const Mesh& mesh) {
       const std::array<double, 3> place = {std::round(corner.x() / grid), std::round(corner.y() / grid),
                                            std::round(corner.z() / grid)};
       const auto [entry, is_new] = number_at.try_emplace(place, static_cast<int>(result.corners.size()));
-      if (is_new) {
-        result.corners.push_back(corner);
-      }
+      if (is_new) result.corners.push_back(corner);
       renumbered[k] = entry->second;
     }
     const bool has_edges =
         renumbered[0] != renumbered[1] && renumbered[1] != renumbered[2] && renumbered[2] != renumbered[0];
-    if (has_edges && seen.insert(canonical(renumbered)).second) {
-      result.triangles.push_back(renumbered);
-    }
+    if (has_edges && seen.insert(canonical(renumbered)).second) result.triangles.push_back(renumbered);
   }
   return result;
 }
@@ -90,11 +78,9 @@ using Edge = std::pair<int, int>;  // corners, the smaller number first
 // The triangles at each edge; two of them on a closed surface.
 std::map<Edge, std::vector<std::size_t>> neighbours(const Mesh& mesh) {
   std::map<Edge, std::vector<std::size_t>> beside;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
       beside[std::minmax({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]})].push_back(t);
-    }
-  }
   return beside;
 }
 
@@ -116,11 +102,8 @@ void require_closed(const Mesh& mesh, const std::map<Edge, std::vector<std::size
 }
 
 bool runs_along(const Triangle& triangle, int from, int to) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (triangle[k] == from && triangle[(k + 1) % 3] == to) {
-      return true;
-    }
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    if (triangle[k] == from && triangle[(k + 1) % 3] == to) return true;
   return false;
 }
 
@@ -139,9 +122,7 @@ void orient_part(Mesh& mesh, const std::map<Edge, std::vector<std::size_t>>& bes
       const bool same_way = runs_along(mesh.triangles[other], from, to);
       require(!(same_way && done[other]), "mesh surface", "one-sided", "must have an inside and an outside");
       if (!done[other]) {
-        if (same_way) {
-          std::swap(mesh.triangles[other][1], mesh.triangles[other][2]);
-        }
+        if (same_way) std::swap(mesh.triangles[other][1], mesh.triangles[other][2]);
         done[other] = true;
         part.push_back(other);
       }
@@ -149,14 +130,9 @@ void orient_part(Mesh& mesh, const std::map<Edge, std::vector<std::size_t>>& bes
   }
   std::vector<Triangle> surface;
   surface.reserve(part.size());
-  for (const std::size_t t : part) {
-    surface.push_back(mesh.triangles[t]);
-  }
-  if (moments_within<3>(mesh.corners, surface).volume < 0.0) {
-    for (const std::size_t t : part) {
-      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
-    }
-  }
+  for (const std::size_t t : part) surface.push_back(mesh.triangles[t]);
+  if (moments_within<3>(mesh.corners, surface).volume < 0.0)
+    for (const std::size_t t : part) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
 }
 
 }  // namespace
@@ -167,11 +143,8 @@ Mesh repaired(const Mesh& mesh) {
   const auto beside = neighbours(result);
   require_closed(result, beside);
   std::vector<bool> done(result.triangles.size(), false);
-  for (std::size_t t = 0; t < done.size(); ++t) {
-    if (!done[t]) {
-      orient_part(result, beside, t, done);
-    }
-  }
+  for (std::size_t t = 0; t < done.size(); ++t)
+    if (!done[t]) orient_part(result, beside, t, done);
   const double length = bounds_of(result).diagonal().norm();
   const double volume = result.triangles.empty() ? 0.0 : moments(result).volume;
   require(volume > flatness * length * length * length, "mesh volume", volume, "must be positive for its length");

@@ -22,9 +22,7 @@ namespace {
 std::vector<Vec2> flattened(std::span<const int> face, std::span<const Vec3> corners) {
   const auto corner = [&](std::size_t i) { return corners[face[i % face.size()]]; };
   Vec3 normal = Vec3::Zero();
-  for (std::size_t i = 0; i < face.size(); ++i) {
-    normal += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
-  }
+  for (std::size_t i = 0; i < face.size(); ++i) normal += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
   const Vec3 right = normal.norm() > 0.0 ? normal.unitOrthogonal() : Vec3::UnitX();
   const Vec3 up = normal.norm() > 0.0 ? Vec3(normal.normalized().cross(right)) : Vec3::UnitY();
   std::vector<Vec2> flat;
@@ -55,9 +53,7 @@ bool is_ear(const std::vector<std::size_t>& left, std::size_t at, const std::vec
 std::vector<std::array<int, 3>> face_triangles(std::span<const int> face, std::span<const Vec3> corners) {
   const std::vector<Vec2> flat = flattened(face, corners);
   std::vector<std::size_t> left;
-  for (std::size_t i = 0; i < face.size(); ++i) {
-    left.push_back(i);
-  }
+  for (std::size_t i = 0; i < face.size(); ++i) left.push_back(i);
   std::vector<std::array<int, 3>> triangles;
   // Of a face that does not cross itself, clipping an ear can make ears of its two neighbours only (O'Rourke 1998).
   std::vector<bool> no_ear(face.size(), false);
@@ -96,9 +92,7 @@ std::vector<std::array<int, 3>> triangles_of(const tinyobj::mesh_t& mesh, std::s
   auto index = mesh.indices.begin();
   for (const unsigned count : mesh.num_face_vertices) {
     face.clear();
-    for (unsigned i = 0; i < count; ++i, ++index) {
-      face.push_back(index->vertex_index);
-    }
+    for (unsigned i = 0; i < count; ++i, ++index) face.push_back(index->vertex_index);
     const auto cut = face_triangles(face, corners);
     triangles.insert(triangles.end(), cut.begin(), cut.end());
   }
@@ -117,12 +111,9 @@ ObjFile read_obj(const std::filesystem::path& file) {
   require(ok, "mesh file", file.string(), "must be a readable Wavefront OBJ file. " + errors);
   ObjFile result;
   const std::vector<double>& values = attributes.vertices;
-  for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
     result.corners.emplace_back(values[i], values[i + 1], values[i + 2]);
-  }
-  for (const tinyobj::shape_t& shape : shapes) {
-    result.objects.push_back(triangles_of(shape.mesh, result.corners));
-  }
+  for (const tinyobj::shape_t& shape : shapes) result.objects.push_back(triangles_of(shape.mesh, result.corners));
   return result;
 }
 
@@ -133,9 +124,7 @@ Mesh mesh_of(const std::vector<Vec3>& corners, std::vector<std::array<int, 3>> t
   for (auto& triangle : triangles) {
     for (int& corner : triangle) {
       const auto [entry, is_new] = number_of.try_emplace(corner, static_cast<int>(mesh.corners.size()));
-      if (is_new) {
-        mesh.corners.push_back(corners[corner]);
-      }
+      if (is_new) mesh.corners.push_back(corners[corner]);
       corner = entry->second;
     }
   }
@@ -150,9 +139,7 @@ std::string header(const Mesh& mesh) { return fmt::format("# convex parts of mes
 Mesh read_mesh(const std::filesystem::path& file) {
   ObjFile obj = read_obj(file);
   Mesh whole;
-  for (const auto& object : obj.objects) {
-    whole.triangles.insert(whole.triangles.end(), object.begin(), object.end());
-  }
+  for (const auto& object : obj.objects) whole.triangles.insert(whole.triangles.end(), object.begin(), object.end());
   whole.corners = std::move(obj.corners);
   require(!whole.triangles.empty(), "mesh file", file.string(), "must hold faces");
   return whole;
@@ -171,19 +158,14 @@ void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std:
   int first = 1;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     out << fmt::format("o part_{}\n", i);
-    for (const Vec3& corner : parts[i].corners) {
-      out << fmt::format("v {} {} {}\n", corner.x(), corner.y(), corner.z());
-    }
-    for (const auto& triangle : parts[i].triangles) {
+    for (const Vec3& corner : parts[i].corners) out << fmt::format("v {} {} {}\n", corner.x(), corner.y(), corner.z());
+    for (const auto& triangle : parts[i].triangles)
       out << fmt::format("f {} {} {}\n", triangle[0] + first, triangle[1] + first, triangle[2] + first);
-    }
     first += static_cast<int>(parts[i].corners.size());
   }
   out.close();
   std::error_code error;
-  if (out) {
-    std::filesystem::rename(unfinished, file, error);
-  }
+  if (out) std::filesystem::rename(unfinished, file, error);
   if (!out || error) {
     std::filesystem::remove(unfinished, error);
     throw std::runtime_error("cannot write " + file.string());
@@ -201,9 +183,7 @@ std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh
           "must be made again, " + command + ": the mesh has changed");
   const ObjFile obj = read_obj(file);
   std::vector<Mesh> parts;
-  for (const auto& object : obj.objects) {
-    parts.push_back(repaired(mesh_of(obj.corners, object)));
-  }
+  for (const auto& object : obj.objects) parts.push_back(repaired(mesh_of(obj.corners, object)));
   return parts;
 }
 

@@ -14,16 +14,12 @@ namespace {
 
 double longest_side(const Mesh& mesh) {
   Box<3> bounds;
-  for (const Vec3& corner : mesh.corners) {
-    bounds.extend(corner);
-  }
+  for (const Vec3& corner : mesh.corners) bounds.extend(corner);
   return bounds.sizes().maxCoeff();
 }
 
 Mesh scaled(Mesh mesh, double factor, bool y_up) {
-  for (Vec3& corner : mesh.corners) {
-    corner = factor * (y_up ? Vec3(corner.x(), -corner.z(), corner.y()) : corner);
-  }
+  for (Vec3& corner : mesh.corners) corner = factor * (y_up ? Vec3(corner.x(), -corner.z(), corner.y()) : corner);
   return mesh;
 }
 
@@ -47,9 +43,8 @@ Shape<3> make_mesh_shape(std::string name, const std::filesystem::path& file, co
                       "`talus decompose`",
                       100.0 * parts_refused, ratio));
   std::vector<Piece<3>> pieces;
-  for (const Mesh& part : parts) {
+  for (const Mesh& part : parts)
     pieces.push_back(hull_pieces<3>(scaled(part, factor, params.up == "y").corners).front());
-  }
   const Moments<3> integrals = moments(body);
   Shape<3> shape = make_shape<3>(std::move(name), std::move(pieces), material,
                                  {integrals.volume, integrals.centre, integrals.inertia()});

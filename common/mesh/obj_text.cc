@@ -37,9 +37,7 @@ bool is_finite_number(std::string_view word) {
 // The part of a word that fits into a message.
 std::string shown(std::string_view word) {
   std::string text(word.substr(0, 30));
-  for (char& letter : text) {
-    letter = letter < ' ' || letter > '~' ? '?' : letter;
-  }
+  for (char& letter : text) letter = letter < ' ' || letter > '~' ? '?' : letter;
   return text;
 }
 
@@ -53,11 +51,10 @@ class ObjLines {
     ++number_;
     const std::vector<std::string_view> words = words_of(line);
     const std::string_view kind = words.empty() ? "" : words.front();
-    if (kind == "v") {
+    if (kind == "v")
       check_corner(words);
-    } else if (kind == "f") {
+    else if (kind == "f")
       check_face(words);
-    }
     return kind == "v" || kind == "f" || kind == "o" || kind == "g";
   }
 
@@ -68,16 +65,13 @@ class ObjLines {
 
  private:
   void require_here(bool holds, const std::string& rule) const {
-    if (!holds) {
-      require(false, "mesh file", fmt::format("{}:{}", file_, number_), rule);
-    }
+    if (!holds) require(false, "mesh file", fmt::format("{}:{}", file_, number_), rule);
   }
 
   void check_corner(const std::vector<std::string_view>& words) {
     require_here(words.size() >= 4, "a corner must be three numbers");
-    for (std::size_t i = 1; i <= 3; ++i) {
+    for (std::size_t i = 1; i <= 3; ++i)
       require_here(is_finite_number(words[i]), "a corner must be three finite numbers, not " + shown(words[i]));
-    }
     ++corners_;
   }
 
@@ -130,9 +124,7 @@ std::string checked_obj_text(const std::filesystem::path& file) {
   while (start < all.size()) {
     const std::size_t end = std::min(all.find_first_of("\r\n", start), all.size());
     const std::string_view line = std::string_view(all).substr(start, end - start);
-    if (lines.check(line)) {
-      kept.append(line).push_back('\n');
-    }
+    if (lines.check(line)) kept.append(line).push_back('\n');
     start = end + (all.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
   lines.check_end();

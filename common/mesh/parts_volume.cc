@@ -26,9 +26,7 @@ struct Part {
 
 Part half_spaces_of(const Mesh& mesh) {
   Part part;
-  for (const Vec3& corner : mesh.corners) {
-    part.bounds.extend(corner);
-  }
+  for (const Vec3& corner : mesh.corners) part.bounds.extend(corner);
   for (const auto& triangle : mesh.triangles) {
     const auto corner = [&](std::size_t k) { return mesh.corners[triangle[k]]; };
     const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
@@ -39,20 +37,17 @@ Part half_spaces_of(const Mesh& mesh) {
 
 // Where the line parallel to z through (x, y) lies in the part; `high` below `low` where it misses the part.
 Interval inside(const Part& part, double x, double y) {
-  if (x < part.bounds.min().x() || x > part.bounds.max().x() || y < part.bounds.min().y() ||
-      y > part.bounds.max().y()) {
+  if (x < part.bounds.min().x() || x > part.bounds.max().x() || y < part.bounds.min().y() || y > part.bounds.max().y())
     return {0.0, -1.0};
-  }
   Interval interval{part.bounds.min().z(), part.bounds.max().z()};
   for (const HalfSpace& half : part.half_spaces) {
     const double rest = half.offset - half.normal.x() * x - half.normal.y() * y;
-    if (half.normal.z() > 0.0) {
+    if (half.normal.z() > 0.0)
       interval.high = std::min(interval.high, rest / half.normal.z());
-    } else if (half.normal.z() < 0.0) {
+    else if (half.normal.z() < 0.0)
       interval.low = std::max(interval.low, rest / half.normal.z());
-    } else if (rest < 0.0) {
+    else if (rest < 0.0)
       return {0.0, -1.0};
-    }
   }
   return interval;
 }
@@ -78,9 +73,7 @@ double union_volume(std::span<const Mesh> parts) {
     all.push_back(half_spaces_of(mesh));
     bounds.extend(all.back().bounds);
   }
-  if (all.empty()) {
-    return 0.0;
-  }
+  if (all.empty()) return 0.0;
   // Places that fill a square evenly without being in rows, which may fall beside edges (the R2 sequence of M.
   // Roberts).
   const Vec2 share_of = {0.7548776662466927, 0.5698402909980532};
@@ -93,9 +86,7 @@ double union_volume(std::span<const Mesh> parts) {
     intervals.clear();
     for (const Part& part : all) {
       const Interval interval = inside(part, x, y);
-      if (interval.high > interval.low) {
-        intervals.push_back(interval);
-      }
+      if (interval.high > interval.low) intervals.push_back(interval);
     }
     length += length_of_union(intervals);
   }

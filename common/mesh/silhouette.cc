@@ -17,18 +17,15 @@ ClipperLib::Path projected(const Mesh& mesh, const std::array<int, 3>& triangle,
     const Vec3& corner = mesh.corners[index];
     path.emplace_back(std::llround(corner.x() * ticks), std::llround(corner.z() * ticks));
   }
-  if (!ClipperLib::Orientation(path)) {
-    ClipperLib::ReversePath(path);
-  }
+  if (!ClipperLib::Orientation(path)) ClipperLib::ReversePath(path);
   return path;
 }
 
 // The union of all triangles; those facing away are turned, so that they add to the others instead of taking away.
 ClipperLib::Path largest_region(const Mesh& mesh, double ticks) {
   ClipperLib::Clipper clipper;
-  for (const auto& triangle : mesh.triangles) {
+  for (const auto& triangle : mesh.triangles)
     clipper.AddPath(projected(mesh, triangle, ticks), ClipperLib::ptSubject, true);
-  }
   ClipperLib::Paths regions;
   clipper.Execute(ClipperLib::ctUnion, regions, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   const auto largest = std::max_element(regions.begin(), regions.end(), [](const auto& a, const auto& b) {
@@ -76,15 +73,12 @@ std::vector<Vec2> simplified(std::vector<Vec2> loop, double detail) {
 
 std::vector<Vec2> silhouette(const Mesh& mesh, double detail) {
   Box<3> bounds;
-  for (const Vec3& corner : mesh.corners) {
-    bounds.extend(corner);
-  }
+  for (const Vec3& corner : mesh.corners) bounds.extend(corner);
   const double ticks = ticks_per_length / bounds.diagonal().norm();
   require(std::isfinite(detail) && detail > 0.0, "silhouette.detail", detail, "must be finite and above 0 m");
   std::vector<Vec2> outline;
-  for (const ClipperLib::IntPoint& point : largest_region(mesh, ticks)) {
+  for (const ClipperLib::IntPoint& point : largest_region(mesh, ticks))
     outline.emplace_back(static_cast<double>(point.X) / ticks, static_cast<double>(point.Y) / ticks);
-  }
   require(!outline.empty(), "silhouette of mesh", 0.0, "must have an area");
   std::vector<Vec2> corners = simplified(std::move(outline), detail);
   require(corners.size() >= 3, "silhouette.detail", detail, "must be finer: it leaves no area of the mesh");

@@ -72,9 +72,7 @@ template <typename S, typename Visitor>
 void for_each_field(S& params, std::type_identity_t<Fields<std::remove_const_t<S>>> fields, const Visitor& visit) {
   for (const auto& field : fields) {
     const auto with_member = [&](auto member) {
-      if constexpr (!std::is_same_v<decltype(member), std::monostate>) {
-        visit(field.key, params.*member);
-      }
+      if constexpr (!std::is_same_v<decltype(member), std::monostate>) visit(field.key, params.*member);
     };
     std::visit(with_member, field.member);
   }
@@ -98,9 +96,8 @@ std::vector<double> numbers_of(const T& value) {
     return value ? numbers_of(*value) : std::vector<double>();
   } else {
     std::vector<double> numbers;
-    for (const auto& part : value) {
+    for (const auto& part : value)
       for (const double number : numbers_of(part)) numbers.push_back(number);
-    }
     return numbers;
   }
 }

@@ -23,16 +23,11 @@ struct Range {
     const Range any;
     const bool bounded_below = low > any.low;
     const bool bounded_above = high < any.high;
-    if (!bounded_below && !bounded_above) {
-      return "must be finite";
-    }
+    if (!bounded_below && !bounded_above) return "must be finite";
     std::string text = "must be ";
-    if (bounded_below) {
-      text += fmt::format("{} {}", low_excluded ? "above" : "at least", low);
-    }
-    if (bounded_above) {
+    if (bounded_below) text += fmt::format("{} {}", low_excluded ? "above" : "at least", low);
+    if (bounded_above)
       text += fmt::format("{}{} {}", bounded_below ? " and " : "", high_excluded ? "below" : "at most", high);
-    }
     return text;
   }
 };

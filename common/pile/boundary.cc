@@ -9,7 +9,6 @@
 #include "common/shape/polygon.h"
 
 namespace talus {
-
 namespace {
 
 constexpr double far_away = 1e6;  // [m], beyond any scene: a container that reaches so far is not closed
@@ -23,9 +22,8 @@ std::vector<Vec2> clip(const std::vector<Vec2>& corners, const Wall<3>& wall) {
     const double beyond_a = wall.normal.dot(a) - wall.distance;
     const double beyond_b = wall.normal.dot(b) - wall.distance;
     if (beyond_a <= 0.0) kept.push_back(a);
-    if ((beyond_a < 0.0) != (beyond_b < 0.0) && beyond_a != beyond_b) {
+    if ((beyond_a < 0.0) != (beyond_b < 0.0) && beyond_a != beyond_b)
       kept.push_back(a + (b - a) * (beyond_a / (beyond_a - beyond_b)));
-    }
   }
   return kept;
 }

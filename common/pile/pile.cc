@@ -7,7 +7,6 @@
 #include "common/pile/profile.h"
 
 namespace talus {
-
 namespace {
 
 /// Scale of the cross-section at a height: 1 up to the lift, then shrinking to 0 at the apex.

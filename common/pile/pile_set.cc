@@ -6,7 +6,6 @@
 #include "common/pile/angle_of_repose.h"
 
 namespace talus {
-
 namespace {
 
 /// Least distance by which a centre drifts [D]. A drift makes all bodies be recounted, so smaller ones wait.
@@ -27,11 +26,10 @@ template <int Dim>
 PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body) : body_(body) {
   for (const PileParams<Dim>& pile : params) {
     needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true) || !pile.alpha;
-    if (pile.at) {
+    if (pile.at)
       add_pile(pile, *pile.at);
-    } else {
+    else
       unplaced_.push_back(pile);
-    }
   }
 }
 
@@ -105,9 +103,8 @@ template <int Dim>
 void PileSet<Dim>::recount(std::size_t pile, const BodyStates<Dim>& states) {
   PileCounts<Dim>& counts = records_[pile].counts;
   counts.clear(piles_[pile], states.shape.size());
-  for (BodyIndex body = 0; body < states.size(); ++body) {
+  for (BodyIndex body = 0; body < states.size(); ++body)
     counts.count(piles_[pile], body, counted_now(pile, states, body));
-  }
 }
 
 template <int Dim>
@@ -154,9 +151,7 @@ void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double
   const Record& record = records_[pile];
   if (record.counts.bodies() == 0 || record.params.boundary) return;
   Vec<Dim> step = Vec<Dim>::Zero();
-  for (Eigen::Index axis = 0; axis < Dim - 1; ++axis) {
-    step[axis] = record.counts.mean(axis) - piles_[pile].centre[axis];
-  }
+  for (Eigen::Index axis = 0; axis < Dim - 1; ++axis) step[axis] = record.counts.mean(axis) - piles_[pile].centre[axis];
   const auto steps = static_cast<double>(steps_between_slow_updates(dt));
   step *= 1.0 - std::exp(-record.params.drift_rate * steps * dt);
   if (step.norm() < min_drift * body_.extent) return;

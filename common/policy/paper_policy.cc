@@ -44,9 +44,8 @@ void PaperPolicy<Dim>::wake_hit_piles(const Frame<Dim>& frame, Decision<Dim>& de
   for (const BodyIndex body : frame.world.awake()) {
     if (!hits(frame, body)) continue;
     for (const BodyIndex sleeper : near_) {
-      for (std::size_t p = 0; p < pile_woken_.size(); ++p) {
+      for (std::size_t p = 0; p < pile_woken_.size(); ++p)
         if (frame.piles.layer_of(p, sleeper) >= 0) wake(p, SleepCause::momentum, frame, decision);
-      }
     }
   }
 }
@@ -74,9 +73,8 @@ void PaperPolicy<Dim>::wake_overfull_piles(const Frame<Dim>& frame, Decision<Dim
   for (std::size_t p = 0; p < piles.size(); ++p) {
     const std::vector<Layer>& layers = piles[p].layers;
     bool overfull = false;
-    for (std::size_t i = 0; i < layers.size() && !overfull; ++i) {
+    for (std::size_t i = 0; i < layers.size() && !overfull; ++i)
       overfull = layers[i].density() > params_.avalanche_density_of(i);
-    }
     if (overfull && frame.step >= pile_calm_from_[p]) wake(p, SleepCause::avalanche, frame, decision);
   }
 }

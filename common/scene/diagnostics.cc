@@ -28,19 +28,11 @@ std::string one_line_each(const std::vector<SceneError>& errors) {
 
 std::string to_string(const SceneError& error) {
   std::string text = error.file;
-  if (error.line > 0) {
-    text += fmt::format(":{}:{}", error.line, error.column);
-  }
-  if (!error.field.empty()) {
-    text += fmt::format(": {}", error.field);
-  }
-  if (!error.value.empty()) {
-    text += fmt::format(" = {}", error.value);
-  }
+  if (error.line > 0) text += fmt::format(":{}:{}", error.line, error.column);
+  if (!error.field.empty()) text += fmt::format(": {}", error.field);
+  if (!error.value.empty()) text += fmt::format(" = {}", error.value);
   text += fmt::format(": {}", error.rule);
-  if (!error.suggestion.empty()) {
-    text += fmt::format(" (did you mean \"{}\"?)", error.suggestion);
-  }
+  if (!error.suggestion.empty()) text += fmt::format(" (did you mean \"{}\"?)", error.suggestion);
   return text;
 }
 

@@ -14,9 +14,7 @@ namespace {
 toml::table read_value(const std::string& text, const std::string& origin) {
   try {
     toml::table parsed = toml::parse("value = " + text, origin);
-    if (parsed.size() == 1) {
-      return parsed;
-    }
+    if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
     // Taken for a text without quotes; if the scene wants no text here, its reader says so.
   }
@@ -31,15 +29,12 @@ bool is_index(const toml::path_component& part) { return part.type() == toml::pa
 std::string broken_rule(const toml::node& parent, const toml::path_component& part) {
   if (is_index(part)) {
     const toml::array* array = parent.as_array();
-    if (array == nullptr) {
-      return fmt::format("[{}] follows what is no array", part.index());
-    }
+    if (array == nullptr) return fmt::format("[{}] follows what is no array", part.index());
     const bool inside = part.index() < array->size();
     return inside ? "" : fmt::format("[{}]: there are only {}, counted from 0", part.index(), array->size());
   }
-  if (parent.is_array()) {
+  if (parent.is_array())
     return fmt::format("\"{}\" follows an array: say which of it, as in source[0].rate", part.key());
-  }
   return parent.is_table() ? "" : fmt::format("\"{}\" follows what is no table", part.key());
 }
 
@@ -57,9 +52,7 @@ void put(toml::node& parent, const toml::path_component& part, toml::node& value
 
 // The node at `part`; a table is made where there is none.
 toml::node& enter(toml::node& parent, const toml::path_component& part, const std::string& origin) {
-  if (is_index(part)) {
-    return *parent.as_array()->get(part.index());
-  }
+  if (is_index(part)) return *parent.as_array()->get(part.index());
   toml::table& table = *parent.as_table();
   if (!table.contains(part.key())) {
     toml::table made = read_value("{}", origin);
@@ -75,17 +68,12 @@ std::string apply(toml::table& table, const Override& one, const std::string& or
   const std::string_view written = std::string_view(one.text).substr(0, equals);
   const toml::path path(written);
   // The parser of paths takes much for right, such as a bracket without its other half; its text then differs.
-  if (equals == std::string::npos || equals == 0 || path.empty() || path.str() != written) {
+  if (equals == std::string::npos || equals == 0 || path.empty() || path.str() != written)
     return "must be path=value, the path as in source[0].rate";
-  }
   toml::node* parent = &table;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (std::string rule = broken_rule(*parent, path[i]); !rule.empty()) {
-      return rule;
-    }
-    if (i + 1 < path.size()) {
-      parent = &enter(*parent, path[i], origin);
-    }
+    if (std::string rule = broken_rule(*parent, path[i]); !rule.empty()) return rule;
+    if (i + 1 < path.size()) parent = &enter(*parent, path[i], origin);
   }
   toml::table value = read_value(one.text.substr(equals + 1), origin);
   put(*parent, path[path.size() - 1], *value.get("value"));
@@ -98,9 +86,8 @@ void apply_overrides(toml::table& table, std::span<const Override> overrides, st
   for (const Override& one : overrides) {
     const std::string origin = one.origin.empty() ? "--set " + shortened(one.text, 200) : one.origin;
     check_scene_text(one.text, origin);
-    if (std::string rule = apply(table, one, origin); !rule.empty()) {
+    if (std::string rule = apply(table, one, origin); !rule.empty())
       errors.push_back({origin, 0, 0, "", "", std::move(rule), ""});
-    }
   }
 }
 

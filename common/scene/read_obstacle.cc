@@ -13,9 +13,8 @@ std::vector<Vec2> read_outline(TableReader& table) {
   std::vector<Vec2> corners;
   table.read(outline_corners_key, corners);
   if (signed_area(corners) < 0.0) std::reverse(corners.begin(), corners.end());
-  if (table.ok() && (corners.size() < 3 || non_convex_corner(corners))) {
+  if (table.ok() && (corners.size() < 3 || non_convex_corner(corners)))
     table.error("corners", "must be three or more corners of a convex polygon, in order");
-  }
   return table.ok() ? corners : std::vector<Vec2>();
 }
 
@@ -90,9 +89,8 @@ std::vector<Obstacle<Dim>> build(const Outlined<Dim>& outlined, const BoundaryPa
   pose.position = at;
   ContainerParams<Dim> box{.wall = *params.wall, .floor = params.floor.value_or(false)};
   if constexpr (Dim == 3) {
-    if (!outlined.corners.empty()) {
+    if (!outlined.corners.empty())
       return convex_container_walls({outlined.corners, params.rim, box.wall, box.floor}, pose, material);
-    }
   }
   box.inner_size << outlined.size, params.rim;
   return container_walls(box, pose, material);
@@ -112,11 +110,10 @@ void read_obstacle(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
   table.read_fields(material, surface_fields);
   WorldDescription<Dim> alone;
   table.check([&] {
-    if (kind == "container") {
+    if (kind == "container")
       alone.obstacles = read_container(table, pose, material);
-    } else if (const auto shape = read_shape<Dim>(table, kind, table.path(), material)) {
+    else if (const auto shape = read_shape<Dim>(table, kind, table.path(), material))
       alone.obstacles = {{*shape, pose_of_centre(*shape, pose)}};
-    }
     check(alone);  // here, so that the error has its place in the file
   });
   obstacles.insert(obstacles.end(), alone.obstacles.begin(), alone.obstacles.end());

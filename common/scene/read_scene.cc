@@ -38,9 +38,7 @@ void read_shapes(TableReader& root, std::vector<std::string>& names, std::vector
     names.push_back(name);
     if (auto shape = read_body_shape<Dim>(table, name)) shapes.push_back(std::move(*shape));
   });
-  if (well_formed && names.empty()) {
-    root.error("shape", "must be given: at least one [shape.NAME] to drop");
-  }
+  if (well_formed && names.empty()) root.error("shape", "must be given: at least one [shape.NAME] to drop");
 }
 
 template <int Dim>
@@ -50,12 +48,9 @@ void read_sources(TableReader& root, std::span<const std::string> shape_names, S
     scene.sources.push_back(read_source<Dim>(table, shape_names, scene.world));
     bodies += scene.sources.back().count;
   });
-  if (well_formed && scene.sources.empty()) {
+  if (well_formed && scene.sources.empty())
     root.error("source", "must be given: at least one [[source]], which drops the bodies");
-  }
-  if (bodies > most_bodies) {
-    root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
-  }
+  if (bodies > most_bodies) root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
 }
 
 template <int Dim>
@@ -64,9 +59,8 @@ void read_pile_boundary(TableReader& table, PileParams<Dim>& pile, std::vector<O
     pile.boundary = read_boundary<Dim>(within, pile.at.value_or(Vec<Dim>::Zero()), obstacles);
   });
   if (!pile.at) table.error("boundary", "must be given together with at, the middle of its floor");
-  if (pile.control_slope) {
+  if (pile.control_slope)
     table.error("control_slope", "must be false within walls, which support their bodies at any slope");
-  }
   table.require("alpha_deg");  // walls hide the slope that bodies take by themselves
 }
 
@@ -77,9 +71,8 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
   table.read_fields(pile, pile_fields<Dim>);
   if (pile.control_slope) {
     table.require("alpha_deg");
-    if (pile.alpha.value_or(0.0) > max_angle_of_repose) {
+    if (pile.alpha.value_or(0.0) > max_angle_of_repose)
       table.error("alpha_deg", "must be at most 75 with control_slope: no steeper slope is measured");
-    }
   }
   if (table.has("boundary")) read_pile_boundary(table, pile, obstacles);
   return pile;
@@ -100,9 +93,8 @@ void read_run(TableReader& table, double dt, RunParams& run) {
                                           1.0 / dt));
     return;
   }
-  if (table.ok() && steps * static_cast<double>(run.frames) > most_steps) {
+  if (table.ok() && steps * static_cast<double>(run.frames) > most_steps)
     table.error("frames", fmt::format("must make at most {} steps, here {:.3g} steps a frame", most_steps, steps));
-  }
 }
 
 /// The keys of `[skip]`, as `[debug]` was named before, in which true meant that the work is left out. Read for one
@@ -135,11 +127,10 @@ void read_old_skips(TableReader& table, DebugOptions& options) {
 
 void read_debug(TableReader& root, DebugOptions& options) {
   const bool old_given = root.has_old("skip");
-  if (old_given && root.has("debug")) {
+  if (old_given && root.has("debug"))
     root.error("skip", "must not be given beside [debug], its new name");
-  } else if (old_given) {
+  else if (old_given)
     root.table("skip", [&](TableReader& table) { read_old_skips(table, options); });
-  }
   root.table("debug", [&](TableReader& table) { table.read_fields(options, debug_fields); });
 }
 
@@ -215,9 +206,8 @@ toml::table parse(std::string_view text, std::string_view file_name) {
 std::string contents(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code unused;
-  if (!stream || std::filesystem::is_directory(file, unused)) {
+  if (!stream || std::filesystem::is_directory(file, unused))
     throw SceneErrors({{file.string(), 0, 0, "", "", "no such file, or it cannot be read", ""}});
-  }
   const auto size = std::filesystem::file_size(file, unused);
   if (!unused) check_scene_text_size(size, file.string());
   std::string text(max_scene_text + 1, '\0');
@@ -228,9 +218,7 @@ std::string contents(const std::filesystem::path& file) {
 
 /// Comments are kept where no value was put in.
 std::string as_run(std::string_view text, const toml::table& table, std::span<const Override> overrides) {
-  if (overrides.empty()) {
-    return std::string(text);
-  }
+  if (overrides.empty()) return std::string(text);
   std::string as_toml;
   for (const Override& one : overrides) {
     std::string comment = one.text;

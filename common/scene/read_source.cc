@@ -36,11 +36,10 @@ void read_orientation(TableReader& table, Source<Dim>& source) {
   std::string choice;
   if (table.has("orientation")) table.read(orientation_key, choice);
   source.orientation = read_rotation<Dim>(table);
-  if (!choice.empty() && source.orientation) {
+  if (!choice.empty() && source.orientation)
     table.error("orientation", "must not be given beside angle_deg");
-  } else if (choice.empty() && !source.orientation) {
+  else if (choice.empty() && !source.orientation)
     table.fill("orientation", toml_text(random_orientation));
-  }
 }
 
 /// A body at the limit of what the source may drop: an error at `key` if the engines cannot simulate it.
@@ -66,9 +65,7 @@ void check_bodies(TableReader& table, const Source<Dim>& source, const WorldDesc
 /// No body may appear in the ground, which would push it out.
 template <int Dim>
 void check_height(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
-  if (!world.ground.present) {
-    return;
-  }
+  if (!world.ground.present) return;
   const double radius = largest_radius(source, world);
   const double least = world.ground.height + radius + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep));
   if (height<Dim>(source.position) < least) {
@@ -92,12 +89,10 @@ void check_spacing(TableReader& table, const Source<Dim>& source, const WorldDes
 template <int Dim>
 void check_sweep(TableReader& table, const Source<Dim>& source) {
   constexpr double shortest_period = 0.01;  // [s]
-  if (table.ok() && source.sweep_period != 0.0 && source.sweep_period < shortest_period) {
+  if (table.ok() && source.sweep_period != 0.0 && source.sweep_period < shortest_period)
     table.error("sweep_period", fmt::format("must be 0 or at least {}", shortest_period));
-  }
-  if (source.sweep.norm() > 0.0 && source.sweep_period == 0.0) {
+  if (source.sweep.norm() > 0.0 && source.sweep_period == 0.0)
     table.error("sweep", "must be given together with a sweep_period above 0");
-  }
 }
 
 }  // namespace

@@ -169,9 +169,8 @@ std::string with_reference(std::string_view document) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     const bool begins = line.starts_with(keys_mark) || line == example_mark;
-    if (begins == inside && (begins || line == end_mark)) {
+    if (begins == inside && (begins || line == end_mark))
       throw std::invalid_argument(fmt::format("line {}: {} must be one of a pair of marks", number, line));
-    }
     if (line == end_mark) inside = false;
     if (!inside) result += line + "\n";
     if (!begins) continue;
@@ -182,9 +181,8 @@ std::string with_reference(std::string_view document) {
     }
     const std::string name = line.substr(keys_mark.size(), line.rfind(" -->") - keys_mark.size());
     const auto found = std::ranges::find(tables, name, [](const auto& table) { return table.first; });
-    if (found == tables.end()) {
+    if (found == tables.end())
       throw std::invalid_argument(fmt::format("line {}: {} names no table of keys", number, line));
-    }
     result += "\n" + found->second + "\n";
   }
   if (inside) throw std::invalid_argument("the last mark has no <!-- end -->");

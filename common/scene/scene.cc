@@ -9,11 +9,10 @@ int Source<Dim>::due_by(double time) const {
   int due = 0;  // a bisection of its own: clang 14 cannot compile the views of libstdc++ 12
   for (int not_due = count; due < not_due;) {
     const int middle = due + (not_due - due) / 2;
-    if (due_time(middle) <= time) {
+    if (due_time(middle) <= time)
       due = middle + 1;
-    } else {
+    else
       not_due = middle;
-    }
   }
   return due;
 }

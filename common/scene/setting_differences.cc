@@ -13,15 +13,13 @@ using Settings = std::map<std::string, std::string>;
 
 void flatten(const std::string& path, const toml::node& node, Settings& settings) {
   const toml::array* array = node.as_array();
-  if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, child] : *table) {
+  if (const toml::table* table = node.as_table())
+    for (const auto& [key, child] : *table)
       flatten(path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), child, settings);
-    }
-  } else if (array != nullptr && array->is_homogeneous<toml::table>()) {
+  else if (array != nullptr && array->is_homogeneous<toml::table>())
     for (std::size_t i = 0; i < array->size(); ++i) flatten(fmt::format("{}[{}]", path, i), *array->get(i), settings);
-  } else {
+  else
     settings[path] = value_text(node);
-  }
 }
 
 Settings settings_of(std::string_view toml) {
@@ -45,9 +43,8 @@ std::vector<SettingDifference> setting_differences(std::string_view toml_a, std:
     differences[path].b = value;
   }
   std::vector<SettingDifference> list;
-  for (const auto& [path, difference] : differences) {
+  for (const auto& [path, difference] : differences)
     if (!same_value(difference.a, difference.b)) list.push_back(difference);
-  }
   return list;
 }
 

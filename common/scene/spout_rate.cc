@@ -15,9 +15,7 @@ double steps_to_go(double distance, double speed, double acceleration, double dt
   const double quadratic = 0.5 * acceleration * dt * dt;
   const double linear = speed * dt + quadratic;
   const double denominator = linear + std::sqrt(linear * linear + 4.0 * quadratic * distance);
-  if (denominator <= 0.0) {
-    return std::numeric_limits<double>::infinity();
-  }
+  if (denominator <= 0.0) return std::numeric_limits<double>::infinity();
   // The smallest share of a step off, or rounding turns a whole number into the next.
   return std::ceil(2.0 * distance / denominator - 1e-9);
 }
@@ -27,18 +25,15 @@ double steps_to_go(double distance, double speed, double acceleration, double dt
 template <int Dim>
 double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world) {
   double radius = 0.0;
-  for (const int shape : source.shapes) {
-    radius = std::max(radius, bounding_radius(world.shapes[shape]));
-  }
+  for (const int shape : source.shapes) radius = std::max(radius, bounding_radius(world.shapes[shape]));
   return radius;
 }
 
 template <int Dim>
 Vec<Dim> default_spread(const Source<Dim>& source, const WorldDescription<Dim>& world) {
   Vec<Dim> spread = Vec<Dim>::Zero();
-  for (int axis = 0; axis < Dim - 1; ++axis) {
+  for (int axis = 0; axis < Dim - 1; ++axis)
     spread[axis] = source.grid[axis] == 1 ? largest_radius(source, world) : 0.0;
-  }
   return spread;
 }
 
@@ -48,9 +43,7 @@ double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& wor
   const Vec<Dim> distance =
       2.0 * (Vec<Dim>::Constant(largest_radius(source, world)) + source.spread) + source.grid_extent();
   Vec<Dim> follow = source.velocity_spread;
-  if (source.sweep_period > 0.0) {
-    follow += 4.0 / source.sweep_period * source.sweep.cwiseAbs();
-  }
+  if (source.sweep_period > 0.0) follow += 4.0 / source.sweep_period * source.sweep.cwiseAbs();
   double steps = steps_to_go(distance[up], -source.velocity[up] - follow[up], world.gravity, world.dt);
   for (int axis = 0; axis < up; ++axis) {
     const double away = std::abs(source.velocity[axis]) - follow[axis];
@@ -61,9 +54,7 @@ double clearing_time(const Source<Dim>& source, const WorldDescription<Dim>& wor
 
 template <int Dim>
 double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& world) {
-  if (source.count <= source.bodies_at_once()) {
-    return source.rate;  // nothing comes after the first
-  }
+  if (source.count <= source.bodies_at_once()) return source.rate;  // nothing comes after the first
   return std::min(source.rate, source.bodies_at_once() / clearing_time(source, world));
 }
 

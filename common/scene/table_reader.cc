@@ -14,9 +14,7 @@ namespace {
 
 /// A value short enough for a message; a table is shown as {...}.
 std::string written(const toml::node& node) {
-  if (node.is_table()) {
-    return "{...}";
-  }
+  if (node.is_table()) return "{...}";
   return shortened(value_text(node), 60);
 }
 
@@ -111,18 +109,16 @@ void TableReader::fill(std::string_view key, std::string_view toml) {
   if (!diagnostics_.fills || toml.empty()) return;
   auto& values = diagnostics_.filled[filled_].values;
   const auto before = std::ranges::find(values, key, [](const auto& value) { return value.first; });
-  if (before == values.end()) {
+  if (before == values.end())
     values.emplace_back(key, toml);
-  } else {
+  else
     before->second = toml;
-  }
 }
 
 TableReader::Location TableReader::locate(const toml::source_region& region) const {
   if (region.begin.line == 0) return location_;
-  if (region.path && *region.path != diagnostics_.file) {
+  if (region.path && *region.path != diagnostics_.file)
     return {*region.path, 0, 0};  // a `--set`: line and column within its value would only confuse
-  }
   return {diagnostics_.file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
@@ -180,11 +176,10 @@ void TableReader::forbid(std::string_view key, std::string rule) {
 
 void TableReader::error(std::string_view key, std::string rule) {
   const toml::node* node = key.empty() ? nullptr : node_of(key);
-  if (node != nullptr) {
+  if (node != nullptr)
     error_at(*node, field(key), std::move(rule));
-  } else {
+  else
     error_at_table(key.empty() ? path_ : field(key), std::move(rule));
-  }
 }
 
 void TableReader::check(const std::function<void()>& body, std::string_view key) {
@@ -232,9 +227,8 @@ bool TableReader::tables(std::string_view key, const Body& body) {
   }
   const toml::array& array = *node->as_array();
   if (is_too_many(key, *node, array.size())) return false;
-  for (std::size_t i = 0; i < array.size(); ++i) {
+  for (std::size_t i = 0; i < array.size(); ++i)
     read_child(array[i], {fmt::format("{}[{}]", key, i), fmt::format("{}[]", key), std::string(key), true}, body);
-  }
   return true;
 }
 
@@ -326,9 +320,8 @@ bool TableReader::read_value(const toml::node& node, const std::string& name, co
 
 bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& /*range*/,
                              std::string& value) {
-  if (!key.choices.empty()) {
+  if (!key.choices.empty())
     return read_choice(node, name, value, std::vector<std::string>(key.choices.begin(), key.choices.end()));
-  }
   const auto* text = node.as_string();
   if (text == nullptr || (*text)->empty() || (*text)->find_first_of("\n\r") != std::string::npos) {
     error_at(node, name, "must be a text on one line, in quotes, not empty");
@@ -364,9 +357,8 @@ bool TableReader::read_array(const toml::node& node, const std::string& name, co
     return false;
   }
   bool good = true;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < values.size(); ++i)
     good = read_value((*array)[i], fmt::format("{}[{}]", name, i), key, range, values[i]) && good;
-  }
   return good;
 }
 

@@ -98,11 +98,10 @@ class TableReader {
     const toml::node* node = find(key);
     if (node != nullptr) read_value(*node, field(key.name), key, range, value);
     if (!diagnostics_.fills) return;
-    if (node != nullptr) {
+    if (node != nullptr)
       fill(key.name, value_text(*node));
-    } else if (in_range(key, numbers_of(value))) {
+    else if (in_range(key, numbers_of(value)))
       fill(key.name, field_text(key, value));
-    }
   }
 
   // The value of a node, whose name is for messages; whether it has the right type and range.
@@ -134,9 +133,8 @@ class TableReader {
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
                   std::vector<Eigen::Vector<double, Size>>& values) {
     values.assign(count_of_points(node, name), Eigen::Vector<double, Size>::Zero());
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i)
       read_value((*node.as_array())[i], fmt::format("{}[{}]", name, i), key, range, values[i]);
-    }
     return !values.empty();
   }
   template <typename T>

@@ -42,11 +42,10 @@ class NestingScan {
       follow(letter);
       if (parts_ > max_scene_nesting) return {at, "parts of a dotted name"};
       if (brackets_ > max_scene_nesting) return {at, "arrays and tables inside each other"};
-      if (letter == '#') {
+      if (letter == '#')
         at = std::min(text_.size(), text_.find('\n', at));
-      } else {
+      else
         at = letter == '"' || letter == '\'' ? end_of_string(text_, at) : at + 1;
-      }
     }
     return {};
   }

@@ -37,9 +37,7 @@ bool is_section(const toml::node& node) {
 // Values come before tables, since what follows a table's head belongs to it; both in the order of the file.
 std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table) {
   std::vector<std::pair<std::string, const toml::node*>> entries;
-  for (const auto& [key, node] : table) {
-    entries.emplace_back(key_text(key.str()), &node);
-  }
+  for (const auto& [key, node] : table) entries.emplace_back(key_text(key.str()), &node);
   const auto place = [](const toml::node& node) {
     return std::tuple(is_section(node), node.source().begin.line, node.source().begin.column);
   };
@@ -57,9 +55,7 @@ void write_table(const std::string& path, const toml::table& table, std::string&
       const bool head_says_nothing =
           !child->empty() &&
           std::all_of(child->begin(), child->end(), [](const auto& entry) { return is_section(entry.second); });
-      if (!head_says_nothing) {
-        text += fmt::format("\n[{}]\n", below);
-      }
+      if (!head_says_nothing) text += fmt::format("\n[{}]\n", below);
       write_table(below, *child, text);
     } else {
       for (const toml::node& element : *node->as_array()) {
@@ -94,23 +90,15 @@ std::string toml_array(const std::vector<std::string>& values) { return fmt::for
 std::string value_text(const toml::node& node) {
   std::vector<std::string> parts;
   if (const toml::array* array = node.as_array()) {
-    for (const toml::node& element : *array) {
-      parts.push_back(value_text(element));
-    }
+    for (const toml::node& element : *array) parts.push_back(value_text(element));
     return toml_array(parts);
   }
   if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, child] : in_order(*table)) {
-      parts.push_back(fmt::format("{} = {}", key, value_text(*child)));
-    }
+    for (const auto& [key, child] : in_order(*table)) parts.push_back(fmt::format("{} = {}", key, value_text(*child)));
     return fmt::format("{{{}}}", fmt::join(parts, ", "));
   }
-  if (const auto* number = node.as_floating_point()) {
-    return toml_text(**number);
-  }
-  if (const auto* text = node.as_string()) {
-    return in_quotes(**text);
-  }
+  if (const auto* number = node.as_floating_point()) return toml_text(**number);
+  if (const auto* text = node.as_string()) return in_quotes(**text);
   std::ostringstream stream;
   node.visit([&stream](const auto& other) { stream << other; });
   return stream.str();

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace talus {
-
 namespace {
 
 constexpr double rare = 0.02;  // for each body of the most frequent shape
@@ -18,9 +17,8 @@ std::vector<double> bodies_of_piles(const Scene<Dim>& scene) {
     for (const int shape : source.shapes) dropped[shape] += each;
   }
   const double most = dropped.empty() ? 0.0 : *std::max_element(dropped.begin(), dropped.end());
-  for (double& count : dropped) {
+  for (double& count : dropped)
     if (count < rare * most) count = 0.0;
-  }
   return dropped;
 }
 

@@ -69,11 +69,8 @@ void warn_of_mixtures(const Scene<Dim>& scene, Lines& lines) {
   }
   const std::vector<double> bodies = bodies_of_piles(scene);
   std::vector<Shape<Dim>> of_piles;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i] > 0.0) {
-      of_piles.push_back(scene.world.shapes[i]);
-    }
-  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i] > 0.0) of_piles.push_back(scene.world.shapes[i]);
   const double volumes = ratio(of_piles, &Shape<Dim>::bounding_volume);
   if (volumes > 2.0) {
     lines.push_back(
@@ -85,16 +82,14 @@ void warn_of_mixtures(const Scene<Dim>& scene, Lines& lines) {
 
 template <int Dim>
 void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
-  if (scene.policy.kind == "paper" && scene.piles.empty()) {
+  if (scene.policy.kind == "paper" && scene.piles.empty())
     lines.emplace_back("policy.kind = \"paper\" without any [[pile]]: no body will ever sleep");
-  }
   if (scene.policy.kind != "adaptive" && std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope)) {
     lines.push_back(
         fmt::format("policy.kind = \"{}\" controls no slope; pile.control_slope has no effect", scene.policy.kind));
   }
-  if (scene.world.dt > 1.0 / 60.0) {
+  if (scene.world.dt > 1.0 / 60.0)
     lines.emplace_back("world.steps_per_second below 60: bodies sink visibly into each other");
-  }
 }
 
 }  // namespace
@@ -119,9 +114,7 @@ using EngineLines = std::vector<std::string>;
 template <int Dim>
 double thinnest(const Shape<Dim>& shape) {
   double width = std::numeric_limits<double>::infinity();
-  for (const Piece<Dim>& piece : shape.pieces) {
-    width = std::min(width, smallest_width(piece));
-  }
+  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
   return width;
 }
 

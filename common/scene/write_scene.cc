@@ -21,18 +21,13 @@ void copy_referred(const fs::path& from, const fs::path& to) {
 
 template <int Dim>
 void write_scene(const Scene<Dim>& scene, const std::filesystem::path& file) {
-  if (scene.toml.empty()) {
+  if (scene.toml.empty())
     throw std::invalid_argument("scene.toml is empty: only a scene that was read from TOML can be written");
-  }
   std::ofstream stream(file, std::ios::binary);
   stream << scene.toml;
   stream.close();
-  if (!stream) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
-  for (const fs::path& referred : scene.referred) {
-    copy_referred(scene.folder / referred, file.parent_path() / referred);
-  }
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  for (const fs::path& referred : scene.referred) copy_referred(scene.folder / referred, file.parent_path() / referred);
 }
 
 template void write_scene(const Scene<2>&, const std::filesystem::path&);

@@ -30,22 +30,16 @@ BoxPiece<Dim> box_between(const Vec2& low, const Vec2& high, double depth) {
 
 std::vector<Vec2> arranged(std::span<const Vec2> corners) {
   std::vector<Vec2> result(corners.begin(), corners.end());
-  if (signed_area(corners) < 0.0) {
-    std::reverse(result.begin(), result.end());
-  }
+  if (signed_area(corners) < 0.0) std::reverse(result.begin(), result.end());
   return result;
 }
 
 // Only the points that are corners of the hull, in the order in which they were given.
 std::vector<Vec3> arranged(std::span<const Vec3> points) {
   std::set<int> used;
-  for (const std::vector<int>& face : convex_hull_faces(points)) {
-    used.insert(face.begin(), face.end());
-  }
+  for (const std::vector<int>& face : convex_hull_faces(points)) used.insert(face.begin(), face.end());
   std::vector<Vec3> result;
-  for (const int index : used) {
-    result.push_back(points[index]);
-  }
+  for (const int index : used) result.push_back(points[index]);
   return result;
 }
 
@@ -134,9 +128,8 @@ std::vector<Piece<Dim>> cylinder_pieces(const CylinderParams& params) {
     std::vector<Vec3> corners;
     for (int i = 0; i < params.sides; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / params.sides;
-      for (const double z : {-params.length / 2.0, params.length / 2.0}) {
+      for (const double z : {-params.length / 2.0, params.length / 2.0})
         corners.emplace_back(params.radius * std::cos(angle), params.radius * std::sin(angle), z);
-      }
     }
     return hull_pieces<3>(corners);
   }
@@ -145,9 +138,7 @@ std::vector<Piece<Dim>> cylinder_pieces(const CylinderParams& params) {
 template <int Dim>
 std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners) {
   check_corner_count<Dim>(corners.size(), "hull.corners");
-  if constexpr (Dim == 3) {
-    check_piece<3>(HullPiece<3>{{corners.begin(), corners.end()}}, "hull");
-  }
+  if constexpr (Dim == 3) check_piece<3>(HullPiece<3>{{corners.begin(), corners.end()}}, "hull");
   const Piece<Dim> hull = HullPiece<Dim>{arranged(corners)};
   check_piece(hull, "hull");
   return {hull};
@@ -177,13 +168,11 @@ std::vector<Piece<Dim>> ring_pieces(const RingParams& params) {
   check_ring(params);
   const double step = 2.0 * std::numbers::pi / params.parts;
   std::vector<Piece<Dim>> pieces;
-  for (int k = 0; k < params.parts; ++k) {
-    if constexpr (Dim == 2) {
+  for (int k = 0; k < params.parts; ++k)
+    if constexpr (Dim == 2)
       pieces.push_back(flat_part(params, k * step, (k + 1) * step));
-    } else {
+    else
       pieces.push_back(tube_part(params, k * step, (k + 1) * step));
-    }
-  }
   return pieces;
 }
 

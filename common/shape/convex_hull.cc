@@ -47,9 +47,8 @@ std::vector<std::vector<int>> read_faces(qhT* qh) {
   for (facetT* facet = qh->facet_list; facet != nullptr && facet->next != nullptr; facet = facet->next) {
     setT* vertices = qh_facet3vertex(qh, facet);
     std::vector<int> face;
-    for (int i = qh_setsize(qh, vertices) - 1; i >= 0; --i) {
+    for (int i = qh_setsize(qh, vertices) - 1; i >= 0; --i)
       face.push_back(qh_pointid(qh, static_cast<vertexT*>(vertices->e[i].p)->point));
-    }
     qh_settempfree(qh, &vertices);
     faces.push_back(std::move(face));
   }
@@ -66,9 +65,7 @@ std::vector<std::vector<int>> convex_hull_faces(std::span<const Vec3> points) {
     coordinates.insert(coordinates.end(), point.begin(), point.end());
     largest = std::max(largest, point.cwiseAbs().maxCoeff());
   }
-  if (points.size() < 4) {
-    return {};
-  }
+  if (points.size() < 4) return {};
   // Corners that were turned lie off their face by more rounding than qhull itself allows for.
   std::string command = fmt::format("qhull C-{}", 1e-13 * largest);
   QhullState qhull;

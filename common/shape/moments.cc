@@ -53,15 +53,10 @@ template <int Dim>
 std::vector<std::array<int, Dim>> surface_simplices(const std::vector<Vec<Dim>>& corners) {
   std::vector<std::array<int, Dim>> simplices;
   if constexpr (Dim == 2) {
-    for (int i = 1; i + 1 < static_cast<int>(corners.size()); ++i) {
-      simplices.push_back({i, i + 1});
-    }
+    for (int i = 1; i + 1 < static_cast<int>(corners.size()); ++i) simplices.push_back({i, i + 1});
   } else {
-    for (const std::vector<int>& face : convex_hull_faces(corners)) {
-      for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-        simplices.push_back({face[0], face[i], face[i + 1]});
-      }
-    }
+    for (const std::vector<int>& face : convex_hull_faces(corners))
+      for (std::size_t i = 1; i + 1 < face.size(); ++i) simplices.push_back({face[0], face[i], face[i + 1]});
   }
   return simplices;
 }
@@ -85,9 +80,7 @@ Moments<Dim> moments_within(std::span<const Vec<Dim>> corners, std::span<const s
   Matrix<Dim> second = Matrix<Dim>::Zero();
   for (const std::array<int, Dim>& simplex : boundary) {
     Matrix<Dim> edges;
-    for (int k = 0; k < Dim; ++k) {
-      edges.col(k) = corners[simplex[k]] - tip;
-    }
+    for (int k = 0; k < Dim; ++k) edges.col(k) = corners[simplex[k]] - tip;
     const double part = edges.determinant() / (Dim == 2 ? 2.0 : 6.0);
     const Vec<Dim> sum = edges.rowwise().sum();
     volume += part;
@@ -110,11 +103,10 @@ Moments<Dim>& Moments<Dim>::operator+=(const Moments& other) {
 
 template <int Dim>
 Inertia<Dim> Moments<Dim>::inertia() const {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return Inertia<2>(second.trace());
-  } else {
+  else
     return second.trace() * Inertia<3>::Identity() - second;
-  }
 }
 
 template <int Dim>

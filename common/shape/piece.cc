@@ -18,9 +18,7 @@ double width(const std::vector<Vec2>& corners) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2& to = corners[(i + 1) % corners.size()];
     double largest = 0.0;
-    for (const Vec2& corner : corners) {
-      largest = std::max(largest, distance_from_line(corner, corners[i], to));
-    }
+    for (const Vec2& corner : corners) largest = std::max(largest, distance_from_line(corner, corners[i], to));
     least = std::min(least, largest);
   }
   return least;
@@ -32,14 +30,11 @@ double width(const std::vector<Vec3>& corners) {
   for (const std::vector<int>& face : faces) {
     const Vec3& origin = corners[face[0]];
     Vec3 normal = Vec3::Zero();
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
       normal += (corners[face[i]] - origin).cross(corners[face[i + 1]] - origin);
-    }
     normal.normalize();
     double largest = 0.0;
-    for (const Vec3& corner : corners) {
-      largest = std::max(largest, -normal.dot(corner - origin));
-    }
+    for (const Vec3& corner : corners) largest = std::max(largest, -normal.dot(corner - origin));
     least = std::min(least, largest);
   }
   return least;
@@ -50,22 +45,19 @@ std::vector<Vec<Dim>> corners_of(const BoxPiece<Dim>& box) {
   std::vector<Vec<Dim>> corners;
   const std::array<std::array<int, 2>, 4> round = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   for (const auto& [x, last] : round) {
-    if constexpr (Dim == 2) {
+    if constexpr (Dim == 2)
       corners.push_back(box.pose * Vec2(x * box.half.x(), last * box.half.y()));
-    } else {
-      for (const int y : {-1, 1}) {
+    else
+      for (const int y : {-1, 1})
         corners.push_back(box.pose * Vec3(x * box.half.x(), y * box.half.y(), last * box.half.z()));
-      }
-    }
   }
   return corners;
 }
 
 template <int Dim>
 void require_finite(const Vec<Dim>& point, const std::string& field) {
-  for (int axis = 0; axis < Dim; ++axis) {
+  for (int axis = 0; axis < Dim; ++axis)
     require(std::isfinite(point[axis]), fmt::format("{}[{}]", field, axis), point[axis], "must be finite");
-  }
 }
 
 void require_length(double length, const std::string& field) {
@@ -83,9 +75,7 @@ void check_corners(const std::vector<Vec2>& corners, const std::string& field) {
 void check_corners(const std::vector<Vec3>& corners, const std::string& field) {
   check_corner_count<3>(corners.size(), field);
   Box<3> bounds;
-  for (const Vec3& corner : corners) {
-    bounds.extend(corner);
-  }
+  for (const Vec3& corner : corners) bounds.extend(corner);
   const double thickness = width(corners);
   require(thickness > flatness * bounds.diagonal().norm(), field + " thickness", thickness,
           "must be at least four points that do not lie in one plane");
@@ -95,16 +85,13 @@ template <int Dim>
 void check_kind(const BoxPiece<Dim>& box, const std::string& field) {
   require_finite<Dim>(box.pose.position, field + ".position");
   check_rotation<Dim>(box.pose.rotation, field + ".rotation");
-  for (int axis = 0; axis < Dim; ++axis) {
-    require_length(box.half[axis], fmt::format("{}.half[{}]", field, axis));
-  }
+  for (int axis = 0; axis < Dim; ++axis) require_length(box.half[axis], fmt::format("{}.half[{}]", field, axis));
 }
 
 template <int Dim>
 void check_kind(const HullPiece<Dim>& hull, const std::string& field) {
-  for (std::size_t i = 0; i < hull.corners.size(); ++i) {
+  for (std::size_t i = 0; i < hull.corners.size(); ++i)
     require_finite<Dim>(hull.corners[i], fmt::format("{}.corners[{}]", field, i));
-  }
   if (!hull.round()) {
     require(hull.radius == 0.0, field + ".radius", hull.radius, "must be 0: only one or two corners have a radius");
     check_corners(hull.corners, field + ".corners");
@@ -112,9 +99,8 @@ void check_kind(const HullPiece<Dim>& hull, const std::string& field) {
   }
   require(!hull.corners.empty(), field + ".corners.size", 0.0, "must be one or more");
   require_length(hull.radius, field + ".radius");
-  if (hull.corners.size() == 2) {
+  if (hull.corners.size() == 2)
     require_length((hull.corners[1] - hull.corners[0]).norm(), field + " distance of corners");
-  }
 }
 
 }  // namespace
@@ -127,13 +113,10 @@ HullPiece<Dim> as_hull(const Piece<Dim>& piece) {
 
 template <int Dim>
 void translate(Piece<Dim>& piece, const Vec<Dim>& by) {
-  if (auto* box = std::get_if<BoxPiece<Dim>>(&piece)) {
+  if (auto* box = std::get_if<BoxPiece<Dim>>(&piece))
     box->pose.position += by;
-  } else {
-    for (Vec<Dim>& corner : std::get<HullPiece<Dim>>(piece).corners) {
-      corner += by;
-    }
-  }
+  else
+    for (Vec<Dim>& corner : std::get<HullPiece<Dim>>(piece).corners) corner += by;
 }
 
 template <int Dim>
@@ -159,9 +142,7 @@ template <int Dim>
 double reach_of(const Piece<Dim>& piece) {
   const HullPiece<Dim> hull = as_hull(piece);
   double distance = 0.0;
-  for (const Vec<Dim>& corner : hull.corners) {
-    distance = std::max(distance, corner.norm());
-  }
+  for (const Vec<Dim>& corner : hull.corners) distance = std::max(distance, corner.norm());
   return distance + hull.radius;
 }
 
@@ -185,11 +166,10 @@ void check_corner_count(std::size_t count, const std::string& field) {
 
 template <int Dim>
 void check_rotation(const Rotation<Dim>& rotation, const std::string& field) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     require(std::isfinite(rotation.angle()), field, rotation.angle(), "must be finite");
-  } else {
+  else
     require(std::abs(rotation.norm() - 1.0) < 1e-6, field + " length", rotation.norm(), "must be finite and 1");
-  }
 }
 
 template HullPiece<2> as_hull(const Piece<2>&);

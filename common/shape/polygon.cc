@@ -12,9 +12,7 @@ double cross(const Vec2& origin, const Vec2& a, const Vec2& b) {
 
 double signed_area(std::span<const Vec2> corners) {
   double twice = 0.0;
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    twice += cross(corners[0], corners[i], corners[i + 1]);
-  }
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) twice += cross(corners[0], corners[i], corners[i + 1]);
   return twice / 2.0;
 }
 
@@ -26,17 +24,13 @@ double distance_from_line(const Vec2& point, const Vec2& from, const Vec2& to) {
 // Every corner must lie to the left of every edge that it does not belong to.
 std::optional<std::size_t> non_convex_corner(std::span<const Vec2> corners) {
   Box<2> bounds;
-  for (const Vec2& corner : corners) {
-    bounds.extend(corner);
-  }
+  for (const Vec2& corner : corners) bounds.extend(corner);
   const double least = flatness * bounds.diagonal().norm();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t next = (i + 1) % corners.size();
     for (std::size_t other = 0; other < corners.size(); ++other) {
       const bool on_edge = other == i || other == next;
-      if (!on_edge && !(distance_from_line(corners[other], corners[i], corners[next]) > least)) {
-        return other;
-      }
+      if (!on_edge && !(distance_from_line(corners[other], corners[i], corners[next]) > least)) return other;
     }
   }
   return std::nullopt;
@@ -54,9 +48,7 @@ namespace {
 // Whether the closed segments a-b and c-d have a point in common.
 bool touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Box<2> first = Box<2>(a.cwiseMin(b), a.cwiseMax(b));
-  if (!first.intersects(Box<2>(c.cwiseMin(d), c.cwiseMax(d)))) {
-    return false;
-  }
+  if (!first.intersects(Box<2>(c.cwiseMin(d), c.cwiseMax(d)))) return false;
   const auto side = [](double value) { return (value > 0.0) - (value < 0.0); };
   return side(cross(a, b, c)) * side(cross(a, b, d)) <= 0 && side(cross(c, d, a)) * side(cross(c, d, b)) <= 0;
 }

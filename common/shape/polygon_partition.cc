@@ -12,9 +12,7 @@ using Indices = std::vector<std::size_t>;  // a loop of corners by their numbers
 
 std::vector<Vec2> places(const std::vector<Vec2>& corners, const Indices& loop) {
   std::vector<Vec2> result;
-  for (const std::size_t index : loop) {
-    result.push_back(corners[index]);
-  }
+  for (const std::size_t index : loop) result.push_back(corners[index]);
   return result;
 }
 
@@ -27,23 +25,18 @@ bool holds(const std::vector<Vec2>& triangle, const Vec2& point) {
 // Counter-clockwise, without corners in the middle of a straight edge.
 std::vector<Vec2> tidied(std::span<const Vec2> corners) {
   Box<2> bounds;
-  for (const Vec2& corner : corners) {
-    bounds.extend(corner);
-  }
+  for (const Vec2& corner : corners) bounds.extend(corner);
   const double least = flatness * bounds.diagonal().norm();
   std::vector<Vec2> result(corners.begin(), corners.end());
   for (std::size_t i = 0; i < result.size() && result.size() > 3;) {
     const Vec2& before = result[(i + result.size() - 1) % result.size()];
     const Vec2& after = result[(i + 1) % result.size()];
-    if (std::abs(distance_from_line(result[i], before, after)) <= least) {
+    if (std::abs(distance_from_line(result[i], before, after)) <= least)
       result.erase(result.begin() + static_cast<std::ptrdiff_t>(i));
-    } else {
+    else
       ++i;
-    }
   }
-  if (signed_area(result) < 0.0) {
-    std::reverse(result.begin(), result.end());
-  }
+  if (signed_area(result) < 0.0) std::reverse(result.begin(), result.end());
   return result;
 }
 
@@ -62,13 +55,10 @@ std::size_t best_ear(const std::vector<Vec2>& corners, const Indices& loop) {
     const std::size_t before = (i + loop.size() - 1) % loop.size();
     const std::size_t after = (i + 1) % loop.size();
     const std::vector<Vec2> triangle = places(corners, {loop[before], loop[i], loop[after]});
-    if (quality(triangle) <= best_quality || non_convex_corner(triangle)) {
-      continue;
-    }
+    if (quality(triangle) <= best_quality || non_convex_corner(triangle)) continue;
     bool empty = true;
-    for (std::size_t other = 0; other < loop.size() && empty; ++other) {
+    for (std::size_t other = 0; other < loop.size() && empty; ++other)
       empty = other == before || other == i || other == after || !holds(triangle, corners[loop[other]]);
-    }
     if (empty) {
       best = i;
       best_quality = quality(triangle);
@@ -81,9 +71,7 @@ std::size_t best_ear(const std::vector<Vec2>& corners, const Indices& loop) {
 
 std::vector<Indices> triangulation(const std::vector<Vec2>& corners) {
   Indices loop(corners.size());
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    loop[i] = i;
-  }
+  for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = i;
   std::vector<Indices> triangles;
   while (loop.size() >= 3) {
     const std::size_t ear = best_ear(corners, loop);
@@ -106,9 +94,7 @@ std::vector<Diagonal> diagonals(const std::vector<Vec2>& corners, const std::vec
       const std::size_t from = triangle[i];
       const std::size_t to = triangle[(i + 1) % 3];
       const bool edge = to == (from + 1) % corners.size();
-      if (!edge && from < to) {
-        result.push_back({from, to, (corners[to] - corners[from]).norm()});
-      }
+      if (!edge && from < to) result.push_back({from, to, (corners[to] - corners[from]).norm()});
     }
   }
   std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.length > b.length; });
@@ -150,9 +136,7 @@ std::vector<std::vector<Vec2>> convex_partition(std::span<const Vec2> corners) {
   std::vector<Indices> pieces = triangulation(tidy);
   merge(tidy, pieces);
   std::vector<std::vector<Vec2>> result;
-  for (const Indices& piece : pieces) {
-    result.push_back(places(tidy, piece));
-  }
+  for (const Indices& piece : pieces) result.push_back(places(tidy, piece));
   return result;
 }
 

@@ -58,18 +58,14 @@ template <int Dim>
 Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose) {
   const Eigen::Matrix<double, Dim, Dim> turn = pose.rotation.toRotationMatrix();
   Box<Dim> bounds;
-  for (const Piece<Dim>& piece : shape.pieces) {
-    bounds.extend(bounds_of<Dim>(piece, turn, pose.position));
-  }
+  for (const Piece<Dim>& piece : shape.pieces) bounds.extend(bounds_of<Dim>(piece, turn, pose.position));
   return bounds;
 }
 
 template <int Dim>
 double bounding_radius(const Shape<Dim>& shape) {
   double radius = 0.0;
-  for (const Piece<Dim>& piece : shape.pieces) {
-    radius = std::max(radius, reach_of(piece));
-  }
+  for (const Piece<Dim>& piece : shape.pieces) radius = std::max(radius, reach_of(piece));
   return radius;
 }
 

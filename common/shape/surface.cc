@@ -65,9 +65,7 @@ std::vector<Latitude> latitudes(const Vec3& a, const Vec3& b, const Vec3& axis, 
     const bool lower = 2 * i <= steps;
     const double around = i == 0 || i == steps ? 0.0 : radius * std::cos(angle);
     rings.push_back({(lower ? a : b) + radius * std::sin(angle) * axis, around});
-    if (2 * i == steps && a != b) {
-      rings.push_back({b, radius});
-    }
+    if (2 * i == steps && a != b) rings.push_back({b, radius});
   }
   return rings;
 }
@@ -83,13 +81,9 @@ void add_revolved(std::vector<Loop<3>>& faces, const std::vector<Latitude>& ring
   for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
     for (int i = 0; i < segments; ++i) {
       Loop<3> loop = {corner(rings[k], i)};
-      if (rings[k].radius > 0.0) {
-        loop.push_back(corner(rings[k], i + 1));
-      }
+      if (rings[k].radius > 0.0) loop.push_back(corner(rings[k], i + 1));
       loop.push_back(corner(rings[k + 1], i + 1));
-      if (rings[k + 1].radius > 0.0) {
-        loop.push_back(corner(rings[k + 1], i));
-      }
+      if (rings[k + 1].radius > 0.0) loop.push_back(corner(rings[k + 1], i));
       faces.push_back(std::move(loop));
     }
   }
@@ -105,9 +99,7 @@ void add_faces(std::vector<Loop<3>>& faces, const HullPiece<3>& hull, int segmen
   }
   for (const std::vector<int>& face : convex_hull_faces(hull.corners)) {
     Loop<3>& loop = faces.emplace_back();
-    for (const int index : face) {
-      loop.push_back(hull.corners[index]);
-    }
+    for (const int index : face) loop.push_back(hull.corners[index]);
   }
 }
 
@@ -116,18 +108,15 @@ void add_faces(std::vector<Loop<3>>& faces, const HullPiece<3>& hull, int segmen
 std::vector<Loop<2>> outlines(const Shape<2>& shape, int segments) {
   check_segments(segments);
   std::vector<Loop<2>> loops;
-  for (const Piece<2>& piece : shape.pieces) {
-    loops.push_back(outline(as_hull(piece), segments));
-  }
+  for (const Piece<2>& piece : shape.pieces) loops.push_back(outline(as_hull(piece), segments));
   return loops;
 }
 
 std::vector<Loop<3>> faces(const Shape<3>& shape, int segments) {
   check_segments(segments);
   std::vector<Loop<3>> all;
-  for (const Piece<3>& piece : shape.pieces) {
+  for (const Piece<3>& piece : shape.pieces)
     std::visit([&](const auto& kind) { add_faces(all, kind, segments); }, piece);
-  }
   return all;
 }
 

@@ -6,7 +6,6 @@
 #include "common/math/random.h"
 
 namespace talus {
-
 namespace {
 
 constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight and does not lift a spout

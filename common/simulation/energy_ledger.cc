@@ -22,9 +22,8 @@ EnergyLedger<Dim>::EnergyLedger(const WorldDescription<Dim>& world) {
 
 template <int Dim>
 void EnergyLedger<Dim>::note_added(const World<Dim>& world) {
-  for (auto body = static_cast<BodyIndex>(last_.size()); body < world.states().size(); ++body) {
+  for (auto body = static_cast<BodyIndex>(last_.size()); body < world.states().size(); ++body)
     last_.push_back(energy(world, body, kinetic_energy(world, body)));
-  }
 }
 
 template <int Dim>

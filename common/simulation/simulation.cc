@@ -14,21 +14,18 @@ namespace {
 /// Where a pile's parameters leave open whether bodies in flight count, the policy decides it.
 template <int Dim>
 std::vector<PileParams<Dim>> piles_as_counted(std::vector<PileParams<Dim>> piles, const SleepPolicy<Dim>& policy) {
-  for (PileParams<Dim>& pile : piles) {
+  for (PileParams<Dim>& pile : piles)
     if (!pile.count_flying) pile.count_flying = policy.counts_flying();
-  }
   return piles;
 }
 
 /// The scene. Throws InvalidValue where a source or a pile has a value outside of its range.
 template <int Dim>
 const Scene<Dim>& checked(const Scene<Dim>& scene) {
-  for (std::size_t i = 0; i < scene.sources.size(); ++i) {
+  for (std::size_t i = 0; i < scene.sources.size(); ++i)
     check_fields(scene.sources[i], source_fields<Dim>, fmt::format("source[{}]", i));
-  }
-  for (std::size_t i = 0; i < scene.piles.size(); ++i) {
+  for (std::size_t i = 0; i < scene.piles.size(); ++i)
     check_fields(scene.piles[i], pile_fields<Dim>, fmt::format("pile[{}]", i));
-  }
   return scene;
 }
 
@@ -123,11 +120,10 @@ void Simulation<Dim>::apply() {
       event.woke = woke;
       bodies_.push_back(event.body);
     }
-    if (woke) {
+    if (woke)
       world_->thaw(bodies_);
-    } else {
+    else
       world_->freeze(bodies_);
-    }
     for (const BodyIndex body : bodies_) piles_.recount_body(world_->states(), body);
     events_.insert(events_.end(), list.begin(), list.end());
   };

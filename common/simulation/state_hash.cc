@@ -3,7 +3,6 @@
 #include <bit>
 
 namespace talus {
-
 namespace {
 
 struct Fnv1a {

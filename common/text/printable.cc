@@ -51,11 +51,10 @@ std::string clean(std::string_view text, bool keep_lines) {
     const Character character = first_character(text);
     const std::size_t bytes = std::max<std::size_t>(character.bytes, 1);
     const bool line_feed = keep_lines && text.front() == '\n';
-    if (line_feed || (character.bytes > 0 && !is_command(character.code))) {
+    if (line_feed || (character.bytes > 0 && !is_command(character.code)))
       result += text.substr(0, bytes);
-    } else {
+    else
       result += '?';
-    }
     text.remove_prefix(bytes);
   }
   return result;

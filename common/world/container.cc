@@ -53,9 +53,7 @@ std::vector<Obstacle<Dim>> container_walls(const ContainerParams<Dim>& params, c
   for (int axis = 0; axis < up; ++axis) {
     Vec<Dim> size = inner;
     size[axis] = params.wall;
-    if (axis > 0) {
-      size[0] += 2.0 * params.wall;  // the later walls reach over the corners
-    }
+    if (axis > 0) size[0] += 2.0 * params.wall;  // the later walls reach over the corners
     Vec<Dim> middle = Vec<Dim>::Unit(axis) * (inner[axis] + params.wall) / 2.0;
     middle[up] = inner[up] / 2.0;
     add(size, middle);
@@ -79,9 +77,7 @@ std::vector<Obstacle<3>> convex_container_walls(const ConvexContainerParams& par
     walls.push_back(prism(std::vector<Vec2>{params.outline[i], wide[i], wide[next], params.outline[next]}, 0.0,
                           params.height, pose, material));
   }
-  if (params.floor) {
-    walls.push_back(prism(wide, -params.wall, 0.0, pose, material));
-  }
+  if (params.floor) walls.push_back(prism(wide, -params.wall, 0.0, pose, material));
   return walls;
 }
 
@@ -89,9 +85,8 @@ std::vector<Vec2> round_outline(double radius) {
   constexpr int sides = 32;
   const double turn = 2.0 * std::numbers::pi / sides;
   std::vector<Vec2> outline;
-  for (int i = 0; i < sides; ++i) {
+  for (int i = 0; i < sides; ++i)
     outline.emplace_back(radius / std::cos(turn / 2.0) * Vec2(std::cos(i * turn), std::sin(i * turn)));
-  }
   return outline;
 }
 

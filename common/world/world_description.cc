@@ -83,9 +83,8 @@ void check(const WorldDescription<Dim>& description) {
     check_shape(description.obstacles[i].shape, field + ".shape");
     check_pose(description.obstacles[i].pose, field + ".pose");
   }
-  for (std::size_t i = 0; i < description.shapes.size(); ++i) {
+  for (std::size_t i = 0; i < description.shapes.size(); ++i)
     check_shape(description.shapes[i], fmt::format("world.shapes[{}] ('{}')", i, description.shapes[i].name));
-  }
   check_masses(description.shapes);
 }
 

@@ -64,9 +64,8 @@ class ToyWorld final : public World<3> {
 
   // The result of a step.
   std::optional<BodyIndex> engine_read(BodyStates<3>& states) override {
-    for (const BodyIndex body : awake()) {
+    for (const BodyIndex body : awake())
       if (!at(body).centre.allFinite() || !at(body).velocity.allFinite()) return body;
-    }
     for (const BodyIndex body : awake()) {
       states.pose[body] = {at(body).centre, at(body).rotation};
       states.velocity[body] = at(body).velocity;
@@ -87,9 +86,8 @@ class ToyWorld final : public World<3> {
     }
   }
   void engine_query_box(const Box<3>& box, std::vector<BodyIndex>& found) const override {
-    for (BodyIndex body = 0; body < states().size(); ++body) {
+    for (BodyIndex body = 0; body < states().size(); ++body)
       if (states().removed[body] == 0 && box.intersects(bounds_of(body))) found.push_back(body);
-    }
   }
 
   void set_frozen(std::span<const BodyIndex> bodies, bool frozen) {

@@ -66,9 +66,7 @@ btCollisionAlgorithm* CompoundPair::Maker::CreateCollisionAlgorithm(btCollisionA
 }
 
 CompoundPair::~CompoundPair() {
-  for (const PiecePair& pair : pieces_) {
-    destroy(pair.algorithm);
-  }
+  for (const PiecePair& pair : pieces_) destroy(pair.algorithm);
 }
 
 void CompoundPair::destroy(btCollisionAlgorithm* algorithm) {
@@ -95,9 +93,8 @@ void CompoundPair::processCollision(const btCollisionObjectWrapper* first, const
 void CompoundPair::collide(const Side& first, const Side& second, const btDispatcherInfo& info,
                            btManifoldResult& result) {
   refresh(result);
-  if (pieces_overlap(first.placed, second.placed)) {
+  if (pieces_overlap(first.placed, second.placed))
     descend(tree(first), tree(second), Visit(first, second, info, result));
-  }
   part(first, second);
 }
 
@@ -105,9 +102,7 @@ void CompoundPair::fetch_points() const {
   for (const PiecePair& pair : pieces_) {
     if (pair.may_touch && pair.manifold != nullptr) {
       const auto* memory = reinterpret_cast<const char*>(pair.manifold);
-      for (std::size_t at = 0; at < sizeof(btPersistentManifold); at += 64) {
-        __builtin_prefetch(memory + at);
-      }
+      for (std::size_t at = 0; at < sizeof(btPersistentManifold); at += 64) __builtin_prefetch(memory + at);
     }
   }
 }
@@ -129,9 +124,7 @@ void CompoundPair::descend(const btDbvtNode& first, const btDbvtNode& second, co
       !overlap(visit.first.placed.pieces[first.dataAsInt].box, visit.second.placed.pieces[second.dataAsInt].box)) {
     return;
   }
-  if (!visit.overlap(first.volume, second.volume)) {
-    return;
-  }
+  if (!visit.overlap(first.volume, second.volume)) return;
   if (leaves) {
     meet(first.dataAsInt, second.dataAsInt, visit);
   } else if (second.isleaf()) {
@@ -152,9 +145,7 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
   const WorldPiece& a = visit.first.placed.pieces[first];
   const WorldPiece& b = visit.second.placed.pieces[second];
   const auto known = find(first, second);
-  if (known != pieces_.end() && !known->may_touch && still_apart(*known, a, b)) {
-    return;
-  }
+  if (known != pieces_.end() && !known->may_touch && still_apart(*known, a, b)) return;
   const btCollisionObjectWrapper& whole_a = visit.first.whole;
   const btCollisionObjectWrapper& whole_b = visit.second.whole;
   const btCollisionObjectWrapper side_a(&whole_a, a.shape, whole_a.getCollisionObject(), a.place, -1, first);
@@ -166,20 +157,15 @@ void CompoundPair::meet(int first, int second, const Visit& visit) {
 /// Whether two pieces that do not touch are too far apart for points. First where they were apart last.
 bool CompoundPair::still_apart(PiecePair& pair, const WorldPiece& a, const WorldPiece& b) {
   if (is_box(a) && is_box(b)) {
-    if (pair.apart < 0 || !apart_along(pair.apart, box(a), a.place, box(b), b.place)) {
+    if (pair.apart < 0 || !apart_along(pair.apart, box(a), a.place, box(b), b.place))
       pair.apart = separating_axis(box(a), a.place, box(b), b.place);
-    }
     return pair.apart >= 0;
   }
-  if (pair.manifold == nullptr || polyhedron(a) == nullptr || polyhedron(b) == nullptr) {
-    return false;
-  }
+  if (pair.manifold == nullptr || polyhedron(a) == nullptr || polyhedron(b) == nullptr) return false;
   const PlacedPolyhedron first{polyhedron(a), a.place};
   const PlacedPolyhedron second{polyhedron(b), b.place};
   const btScalar gap = pair.manifold->getContactBreakingThreshold();
-  if (pair.apart < 0 || !apart_along(pair.apart, first, second, gap)) {
-    pair.apart = separating_face(first, second, gap);
-  }
+  if (pair.apart < 0 || !apart_along(pair.apart, first, second, gap)) pair.apart = separating_face(first, second, gap);
   return pair.apart >= 0;
 }
 
@@ -195,9 +181,7 @@ void CompoundPair::work(PiecePair& pair, const btCollisionObjectWrapper& a, cons
   pair.algorithm->processCollision(&a, &b, visit.info, &result);
   result.setBody0Wrap(whole_a);
   result.setBody1Wrap(whole_b);
-  if (pair.manifold == nullptr) {
-    pair.manifold = manifold_of(*pair.algorithm);
-  }
+  if (pair.manifold == nullptr) pair.manifold = manifold_of(*pair.algorithm);
   pair.may_touch = pair.manifold != nullptr && pair.manifold->getNumContacts() > 0;
 }
 
@@ -216,9 +200,7 @@ std::vector<CompoundPair::PiecePair>::iterator CompoundPair::find(int first, int
 
 CompoundPair::PiecePair& CompoundPair::add(int first, int second, const btCollisionObjectWrapper& a,
                                            const btCollisionObjectWrapper& b) {
-  if (pieces_.empty()) {
-    pieces_.reserve(4);  // two pieces meet two
-  }
+  if (pieces_.empty()) pieces_.reserve(4);  // two pieces meet two
   btCollisionAlgorithm* algorithm = m_dispatcher->findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
   pieces_.push_back({first, second, algorithm});
   return pieces_.back();

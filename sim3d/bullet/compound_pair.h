@@ -37,9 +37,7 @@ class CompoundPair final : public btCollisionAlgorithm {
 
   /// Fetches what collide() will read first.
   void fetch() const {
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      __builtin_prefetch(pieces_.data() + i);
-    }
+    for (std::size_t i = 0; i < pieces_.size(); ++i) __builtin_prefetch(pieces_.data() + i);
   }
   void fetch_points() const;
 

@@ -41,11 +41,10 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
 }
 
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
-  if (!debug_.bullet_islands) {
+  if (!debug_.bullet_islands)
     islands_.solve(*this, getSimulationIslandManager()->getUnionFind(), *getConstraintSolver(), info);
-  } else {
+  else
     btDiscreteDynamicsWorld::solveConstraints(info);
-  }
 }
 
 }  // namespace talus::bullet

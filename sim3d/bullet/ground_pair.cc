@@ -17,9 +17,8 @@ btCollisionAlgorithm* GroundPair::Maker::CreateCollisionAlgorithm(btCollisionAlg
 
 void GroundPair::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                                   const btDispatcherInfo& info, btManifoldResult* result) {
-  if (!in_flight(m_isSwapped ? *second : *first, m_isSwapped ? *first : *second)) {
+  if (!in_flight(m_isSwapped ? *second : *first, m_isSwapped ? *first : *second))
     btCompoundCollisionAlgorithm::processCollision(first, second, info, result);
-  }
 }
 
 /// Whether Bullet would neither find nor drop a point. Its first look is never left out, since it makes the manifolds,
@@ -28,18 +27,13 @@ bool GroundPair::in_flight(const btCollisionObjectWrapper& body, const btCollisi
   btManifoldArray& manifolds = maker_.manifolds;
   manifolds.resize(0);
   for (int i = 0; i < m_childCollisionAlgorithms.size(); ++i) {
-    if (m_childCollisionAlgorithms[i] == nullptr) {
-      return false;
-    }
+    if (m_childCollisionAlgorithms[i] == nullptr) return false;
     m_childCollisionAlgorithms[i]->getAllContactManifolds(manifolds);
   }
   const auto& plane = *static_cast<const btStaticPlaneShape*>(ground.getCollisionShape());
   const btScalar gap = body.getCollisionObject()->getBroadphaseHandle()->m_aabbMin.z() - plane.getPlaneConstant();
-  for (int i = 0; i < manifolds.size(); ++i) {
-    if (manifolds[i]->getNumContacts() > 0 || gap <= manifolds[i]->getContactBreakingThreshold()) {
-      return false;
-    }
-  }
+  for (int i = 0; i < manifolds.size(); ++i)
+    if (manifolds[i]->getNumContacts() > 0 || gap <= manifolds[i]->getContactBreakingThreshold()) return false;
   return true;
 }
 

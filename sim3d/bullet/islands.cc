@@ -27,16 +27,10 @@ void Islands::solve(btCollisionWorld& world, btUnionFind& sets, btConstraintSolv
   int next = 0;
   for (const Range& range : ranges_) {
     bool active = false;
-    for (int i = range.begin; i < range.end; ++i) {
-      active = active || objects[sets.getElement(i).m_sz]->isActive();
-    }
-    for (int i = range.begin; active && i < range.end; ++i) {
-      bodies_.push_back(objects[sets.getElement(i).m_sz]);
-    }
+    for (int i = range.begin; i < range.end; ++i) active = active || objects[sets.getElement(i).m_sz]->isActive();
+    for (int i = range.begin; active && i < range.end; ++i) bodies_.push_back(objects[sets.getElement(i).m_sz]);
     next = take(sets.getElement(range.begin).m_id, next, active);
-    if (batch_ > info.m_minimumSolverBatchSize) {
-      flush(world, solver, info);
-    }
+    if (batch_ > info.m_minimumSolverBatchSize) flush(world, solver, info);
   }
   flush(world, solver, info);
 }
@@ -45,9 +39,7 @@ void Islands::find_ranges(const btUnionFind& sets) {
   ranges_.clear();
   const int count = sets.getNumElements();
   for (int begin = 0, end = 0; begin < count; begin = end) {
-    while (end < count && sets.getElement(end).m_id == sets.getElement(begin).m_id) {
-      ++end;
-    }
+    while (end < count && sets.getElement(end).m_id == sets.getElement(begin).m_id) ++end;
     ranges_.push_back({begin, end});
   }
 }
@@ -56,9 +48,8 @@ void Islands::find_ranges(const btUnionFind& sets) {
 void Islands::settle(const btUnionFind& sets, const btCollisionObjectArray& objects) const {
   for (const Range& range : ranges_) {
     bool all_sleep = true;
-    for (int i = range.begin; i < range.end && all_sleep; ++i) {
+    for (int i = range.begin; i < range.end && all_sleep; ++i)
       all_sleep = !keeps_awake(*objects[sets.getElement(i).m_sz]);
-    }
     for (int i = range.begin; i < range.end; ++i) {
       btCollisionObject& object = *objects[sets.getElement(i).m_sz];
       if (all_sleep) {
@@ -76,14 +67,11 @@ void Islands::gather(btDispatcher& dispatcher) {
   btPersistentManifold** manifolds = dispatcher.getInternalManifoldPointer();
   constexpr int ahead = 8;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
-    if (i + ahead < dispatcher.getNumManifolds()) {
-      fetch_head(*manifolds[i + ahead]);
-    }
+    if (i + ahead < dispatcher.getNumManifolds()) fetch_head(*manifolds[i + ahead]);
     const btCollisionObject& first = *manifolds[i]->getBody0();
     const btCollisionObject& second = *manifolds[i]->getBody1();
-    if ((!sleeps(first) || !sleeps(second)) && dispatcher.needsResponse(&first, &second)) {
+    if ((!sleeps(first) || !sleeps(second)) && dispatcher.needsResponse(&first, &second))
       members_.push_back({first.getIslandTag() >= 0 ? first.getIslandTag() : second.getIslandTag(), manifolds[i]});
-    }
   }
   members_.quickSort([](const Member& a, const Member& b) { return a.island < b.island; });
 }
@@ -91,11 +79,8 @@ void Islands::gather(btDispatcher& dispatcher) {
 /// Puts the island's manifolds into the group if it is active; where the next island's begin.
 int Islands::take(int island, int from, bool active) {
   int next = from;
-  for (; next < members_.size() && members_[next].island == island; ++next) {
-    if (active && members_[next].manifold->getNumContacts() > 0) {
-      manifolds_.push_back(members_[next].manifold);
-    }
-  }
+  for (; next < members_.size() && members_[next].island == island; ++next)
+    if (active && members_[next].manifold->getNumContacts() > 0) manifolds_.push_back(members_[next].manifold);
   batch_ += active ? next - from : 0;
   return next;
 }

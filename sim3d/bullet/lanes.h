@@ -96,15 +96,13 @@ inline Lanes select_equal(Lanes x, Lanes y, Lanes a, Lanes b) {
   return each_lane([&](int i) { return x.v[i] == y.v[i] ? a.v[i] : b.v[i]; });
 }
 inline bool none_above(Lanes a, Lanes b, Lanes c, Lanes d) {
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     if (a.v[i] > b.v[i] || c.v[i] > d.v[i]) return false;
-  }
   return true;
 }
 inline bool all_at_most(Lanes a, Lanes b, Lanes c, Lanes d) {
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     if (!(a.v[i] <= b.v[i]) || !(c.v[i] <= d.v[i])) return false;
-  }
   return true;
 }
 template <int I, int J, int K, int L>

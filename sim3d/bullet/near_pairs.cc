@@ -14,9 +14,7 @@ const btCollisionObject& body_of(const btBroadphaseProxy* proxy) {
 /// The first lines of memory of a body: its place, its shape, and whether it is active.
 void fetch_body(const btBroadphaseProxy& proxy) {
   const auto* memory = static_cast<const char*>(proxy.m_clientObject);
-  for (std::size_t at = 0; at < sizeof(btCollisionObject); at += 64) {
-    __builtin_prefetch(memory + at);
-  }
+  for (std::size_t at = 0; at < sizeof(btCollisionObject); at += 64) __builtin_prefetch(memory + at);
 }
 
 }  // namespace
@@ -27,9 +25,7 @@ void NearPairs::collide(const btDispatcherInfo& info) {
   for (int i = 0; i < pairs.size(); ++i) {
     fetch_ahead(i);
     btBroadphasePair& pair = pairs[i];
-    if (!IdleMark::is_set(pair) || !is_idle(pair)) {
-      visit(pair, info);
-    }
+    if (!IdleMark::is_set(pair) || !is_idle(pair)) visit(pair, info);
   }
 }
 
@@ -37,9 +33,7 @@ void NearPairs::collide(const btDispatcherInfo& info) {
 void NearPairs::fetch_ahead(int i) const {
   constexpr int stride = 4;
   const btBroadphasePairArray& pairs = const_cast<PairCache&>(pairs_).getOverlappingPairArray();
-  if (i + 4 * stride >= pairs.size()) {
-    return;
-  }
+  if (i + 4 * stride >= pairs.size()) return;
   const btBroadphasePair& far = pairs[i + 4 * stride];
   if (IdleMark::is_set(far)) {
     const IdleMark mark = IdleMark::of(far);
@@ -54,13 +48,10 @@ void NearPairs::fetch_ahead(int i) const {
     fetch_body(*nearer.m_pProxy0);
     fetch_body(*nearer.m_pProxy1);
   }
-  if (const btBroadphasePair& near = pairs[i + 2 * stride];
-      IdleMark::is_compound(near) && near.m_algorithm != nullptr) {
+  if (const btBroadphasePair& near = pairs[i + 2 * stride]; IdleMark::is_compound(near) && near.m_algorithm != nullptr)
     static_cast<const CompoundPair*>(near.m_algorithm)->fetch();
-  }
-  if (const btBroadphasePair& next = pairs[i + stride]; IdleMark::is_compound(next) && next.m_algorithm != nullptr) {
+  if (const btBroadphasePair& next = pairs[i + stride]; IdleMark::is_compound(next) && next.m_algorithm != nullptr)
     static_cast<const CompoundPair*>(next.m_algorithm)->fetch_points();
-  }
 }
 
 bool NearPairs::is_idle(const btBroadphasePair& pair) {
@@ -68,12 +59,8 @@ bool NearPairs::is_idle(const btBroadphasePair& pair) {
   PlacedPieces& places = pairs_.places();
   const PlacedBody* first = places.known(mark.first);
   const PlacedBody* second = places.known(mark.second);
-  if (first == nullptr) {
-    first = &places.of(mark.first, body_of(pair.m_pProxy0));
-  }
-  if (second == nullptr) {
-    second = &places.of(mark.second, body_of(pair.m_pProxy1));
-  }
+  if (first == nullptr) first = &places.of(mark.first, body_of(pair.m_pProxy0));
+  if (second == nullptr) second = &places.of(mark.second, body_of(pair.m_pProxy1));
   return !pieces_overlap(*first, *second);
 }
 
@@ -95,20 +82,18 @@ void NearPairs::meet(btBroadphasePair& pair, const btCollisionObject& first, con
                                              -1);
   const btCollisionObjectWrapper second_whole(nullptr, second.getCollisionShape(), &second, second.getWorldTransform(),
                                               -1, -1);
-  if (pair.m_algorithm == nullptr) {
+  if (pair.m_algorithm == nullptr)
     pair.m_algorithm = dispatcher_.findAlgorithm(&first_whole, &second_whole, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-  }
   auto& algorithm = *static_cast<CompoundPair*>(pair.m_algorithm);
   const IdleMark slots{pairs_.list_of(first), pairs_.list_of(second)};
   const PlacedBody& first_placed = pairs_.places().of(slots.first, first);
   const PlacedBody& second_placed = pairs_.places().of(slots.second, second);
   btManifoldResult result(&first_whole, &second_whole);
   algorithm.collide({first_whole, first_placed}, {second_whole, second_placed}, info, result);
-  if (skip_idle_ && algorithm.is_empty() && slots.first >= 0 && slots.second >= 0) {
+  if (skip_idle_ && algorithm.is_empty() && slots.first >= 0 && slots.second >= 0)
     slots.set(pair);
-  } else {
+  else
     IdleMark::set_compound(pair);
-  }
 }
 
 }  // namespace talus::bullet

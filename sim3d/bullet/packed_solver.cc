@@ -84,9 +84,7 @@ void PackedSolver::pack_rows() {
   for (int i = 0; i < contacts; ++i) {
     const btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
     system_.contact(i) = packed(row);
-    if (row.m_rhsPenetration != 0) {
-      system_.add_deep(i, row.m_rhsPenetration);
-    }
+    if (row.m_rhsPenetration != 0) system_.add_deep(i, row.m_rhsPenetration);
   }
   for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
     const btSolverConstraint& row = m_tmpSolverContactFrictionConstraintPool[i];
@@ -97,12 +95,10 @@ void PackedSolver::pack_rows() {
 }
 
 void PackedSolver::unpack() {
-  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i)
     m_tmpSolverContactConstraintPool[i].m_appliedImpulse = system_.contact(i).applied;
-  }
-  for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
+  for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i)
     m_tmpSolverContactFrictionConstraintPool[i].m_appliedImpulse = system_.friction(i).applied;
-  }
   for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
     btSolverBody& body = m_tmpSolverBodyPool[i];
     body.m_deltaLinearVelocity = to_vector(system_.body(i).linear);

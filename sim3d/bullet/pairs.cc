@@ -18,9 +18,7 @@ bool is_static(const btBroadphaseProxy* proxy) {
 /// In two strides: the parts of a pair, then the bodies, which only those know.
 void fetch_ahead(const btBroadphasePairArray& pairs, int i) {
   constexpr int stride = 4;
-  if (i + 2 * stride >= pairs.size()) {
-    return;
-  }
+  if (i + 2 * stride >= pairs.size()) return;
   const btBroadphasePair& far = pairs[i + 2 * stride];
   __builtin_prefetch(far.m_algorithm);
   __builtin_prefetch(far.m_pProxy0);
@@ -52,11 +50,10 @@ void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispat
   btBroadphasePairArray& pairs = getOverlappingPairArray();
   for (int i = 0; i < pairs.size();) {
     fetch_ahead(pairs, i);
-    if (callback->processOverlap(pairs[i])) {
+    if (callback->processOverlap(pairs[i]))
       removeOverlappingPair(pairs[i].m_pProxy0, pairs[i].m_pProxy1, dispatcher);
-    } else {
+    else
       ++i;
-    }
   }
 }
 
@@ -72,18 +69,14 @@ std::int32_t PairCache::list_of(const btCollisionObject& object) const {
 
 void PairCache::remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* partner) {
   const int index = index_of(proxy);
-  if (index < 0) {
-    return;
-  }
+  if (index < 0) return;
   if (list_of(proxy) < 0) {
     if (free_.empty()) {
       lists_.emplace_back();
       free_.reserve(lists_.capacity());  // for all of them, so that forget() takes no memory
       free_.push_back(static_cast<std::int32_t>(lists_.size()) - 1);
     }
-    if (std::ssize(lists_of_bodies_) <= index) {
-      lists_of_bodies_.resize(index + 1, -1);
-    }
+    if (std::ssize(lists_of_bodies_) <= index) lists_of_bodies_.resize(index + 1, -1);
     places_.grow(free_.back());
     places_.forget(free_.back());
     lists_of_bodies_[index] = free_.back();
@@ -94,14 +87,10 @@ void PairCache::remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* part
 
 void PairCache::forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* partner) {
   const std::int32_t number = list_of(proxy);
-  if (number < 0) {
-    return;
-  }
+  if (number < 0) return;
   std::vector<btBroadphaseProxy*>& list = lists_[number];
   const auto found = std::find(list.begin(), list.end(), partner);
-  if (found != list.end()) {
-    list.erase(found);
-  }
+  if (found != list.end()) list.erase(found);
   if (list.empty()) {
     lists_of_bodies_[index_of(proxy)] = -1;
     free_.push_back(number);
@@ -109,21 +98,16 @@ void PairCache::forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* 
 }
 
 void PairCache::forget_place(const btBroadphaseProxy* proxy) {
-  if (const std::int32_t slot = list_of(proxy); slot >= 0) {
-    places_.forget(slot);
-  }
+  if (const std::int32_t slot = list_of(proxy); slot >= 0) places_.forget(slot);
 }
 
 void PairCache::removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
-  while (!partners(proxy).empty()) {
+  while (!partners(proxy).empty())
     removeOverlappingPair(proxy, partners(proxy).front(), dispatcher);  // takes it off the list
-  }
 }
 
 void PairCache::cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
-  for (btBroadphaseProxy* partner : partners(proxy)) {
-    cleanOverlappingPair(*findPair(proxy, partner), dispatcher);
-  }
+  for (btBroadphaseProxy* partner : partners(proxy)) cleanOverlappingPair(*findPair(proxy, partner), dispatcher);
 }
 
 std::span<btBroadphaseProxy* const> PairCache::static_partners(const btBroadphaseProxy* proxy) {
@@ -135,9 +119,7 @@ std::span<btBroadphaseProxy* const> PairCache::static_partners(const btBroadphas
 
 std::span<btBroadphaseProxy* const> PairCache::partners(const btBroadphaseProxy* proxy) const {
   const std::int32_t number = list_of(proxy);
-  if (number < 0) {
-    return {};
-  }
+  if (number < 0) return {};
   return lists_[number];
 }
 

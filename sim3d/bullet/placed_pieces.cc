@@ -19,9 +19,7 @@ void PlacedBody::place(const btCompoundShape& shape, const btTransform& body) {
 }
 
 bool pieces_overlap(const PlacedBody& a, const PlacedBody& b) {
-  if (!overlap(a.box, b.box)) {
-    return false;
-  }
+  if (!overlap(a.box, b.box)) return false;
   return std::ranges::any_of(a.pieces, [&b](const WorldPiece& piece) {
     return overlap(piece.box, b.box) &&
            std::ranges::any_of(b.pieces, [&piece](const WorldPiece& other) { return overlap(piece.box, other.box); });
@@ -29,16 +27,12 @@ bool pieces_overlap(const PlacedBody& a, const PlacedBody& b) {
 }
 
 void PlacedPieces::grow(std::int32_t slot) {
-  if (std::ssize(slots_) <= slot) {
-    slots_.resize(slot + 1);
-  }
+  if (std::ssize(slots_) <= slot) slots_.resize(slot + 1);
 }
 
 PlacedBody& PlacedPieces::obstacle(int index) {
   const int number = -index;
-  if (std::ssize(obstacles_) <= number) {
-    obstacles_.resize(number + 1);
-  }
+  if (std::ssize(obstacles_) <= number) obstacles_.resize(number + 1);
   return obstacles_[number];
 }
 

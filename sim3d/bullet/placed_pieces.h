@@ -55,9 +55,7 @@ class PlacedPieces {
   /// The pieces of a body with a compound shape. `slot` -1: an obstacle.
   const PlacedBody& of(std::int32_t slot, const btCollisionObject& body) {
     PlacedBody& placed = slot >= 0 ? slots_[slot] : obstacle(body.getUserIndex());
-    if (placed.known_until < step_) {
-      update(placed, body);
-    }
+    if (placed.known_until < step_) update(placed, body);
     return placed;
   }
 

@@ -11,9 +11,7 @@ namespace {
 
 void fetch(const btManifoldPoint& point) {
   const auto* memory = reinterpret_cast<const char*>(&point);
-  for (std::size_t at = 0; at < sizeof(btManifoldPoint); at += 64) {
-    __builtin_prefetch(memory + at);
-  }
+  for (std::size_t at = 0; at < sizeof(btManifoldPoint); at += 64) __builtin_prefetch(memory + at);
 }
 
 }  // namespace
@@ -23,22 +21,16 @@ void RowSetup::make(std::span<btCollisionObject*> bodies, std::span<btPersistent
   const auto count = static_cast<std::int32_t>(bodies.size());
   bodies_.clear();
   system.clear(count + 1, count);
-  for (btCollisionObject* each : bodies) {
-    add_body(*each, info.m_timeStep, system);
-  }
+  for (btCollisionObject* each : bodies) add_body(*each, info.m_timeStep, system);
   bodies_.emplace_back();  // stands for all that never move
   find_contacts(manifolds, system);
   system.arrange(sides_, 2, by_level);
   last_frictions_.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (i + 4 < points_.size()) {
-      fetch(*points_[i + 4]);
-    }
+    if (i + 4 < points_.size()) fetch(*points_[i + 4]);
     make_contact(i, info, system);
   }
-  if (warm_friction_) {
-    start_friction(system);
-  }
+  if (warm_friction_) start_friction(system);
 }
 
 // As initSolverBody and convertBodies.
@@ -51,16 +43,13 @@ void RowSetup::add_body(btCollisionObject& object, btScalar time_step, RowSystem
   body.origin = rigid.getWorldTransform().getOrigin();
   body.force_impulse = rigid.getTotalForce() * rigid.getInvMass() * time_step;
   body.torque_impulse = rigid.getTotalTorque() * rigid.getInvInertiaTensorWorld() * time_step;
-  if ((rigid.getFlags() & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0) {
+  if ((rigid.getFlags() & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0)
     body.torque_impulse += rigid.computeGyroscopicImpulseImplicit_Body(time_step);
-  }
   body.velocity = rigid.getLinearVelocity() + body.force_impulse;
   body.spin = rigid.getAngularVelocity();
   body.pushed_spin = body.spin + body.torque_impulse;
   body.angular_factor = rigid.getAngularFactor();
-  for (int i = 0; i < 3; ++i) {
-    body.inv_inertia[i] = rigid.getInvInertiaTensorWorld().getRow(i);
-  }
+  for (int i = 0; i < 3; ++i) body.inv_inertia[i] = rigid.getInvInertiaTensorWorld().getRow(i);
   body.inv_mass = rigid.getInvMass();
   const btScalar inv_mass = rigid.getInvMass();
   system.body(index).inv_mass = lanes(btVector3(inv_mass, inv_mass, inv_mass) * rigid.getLinearFactor());
@@ -75,9 +64,8 @@ void RowSetup::find_contacts(std::span<btPersistentManifold*> manifolds, RowSyst
   };
   for (btPersistentManifold* manifold : manifolds) {
     const RowBodies sides = {index_of(manifold->getBody0()), index_of(manifold->getBody1())};
-    if (to_vector(system.body(sides.a).inv_mass).fuzzyZero() && to_vector(system.body(sides.b).inv_mass).fuzzyZero()) {
+    if (to_vector(system.body(sides.a).inv_mass).fuzzyZero() && to_vector(system.body(sides.b).inv_mass).fuzzyZero())
       continue;  // Bullet takes bodies as heavy as that for immovable
-    }
     for (int i = 0; i < manifold->getNumContacts(); ++i) {
       btManifoldPoint& point = manifold->getContactPoint(i);
       if (point.getDistance() <= manifold->getContactProcessingThreshold()) {
@@ -103,16 +91,12 @@ void RowSetup::start_friction(RowSystem& system) const {
 
 void RowSetup::write_back(const btContactSolverInfo& info, RowSystem& system) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (i + 4 < points_.size()) {
-      fetch(*points_[i + 4]);
-    }
+    if (i + 4 < points_.size()) fetch(*points_[i + 4]);
     btManifoldPoint& point = *points_[i];
     point.m_appliedImpulse = system.contact(i).applied;
     point.m_appliedImpulseLateral1 = system.friction(2 * i).applied;
     point.m_appliedImpulseLateral2 = system.friction(2 * i + 1).applied;
-    if (warm_friction_) {
-      set_friction_impulse(point, friction_impulse(point));
-    }
+    if (warm_friction_) set_friction_impulse(point, friction_impulse(point));
   }
   for (std::size_t i = 0; i + 1 < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
@@ -150,16 +134,13 @@ NormalTarget normal_target(const btManifoldPoint& point, const btContactSolverIn
   const btScalar penetration = point.getDistance() + info.m_linearSlop;
   btScalar position_error = 0;
   btScalar velocity_error = restitution - approach;
-  if (penetration > 0) {
+  if (penetration > 0)
     velocity_error -= penetration * inv_time_step;
-  } else {
+  else
     position_error = -penetration * info.m_erp2 * inv_time_step;
-  }
   const btScalar for_position = position_error * gain;
   const btScalar for_velocity = velocity_error * gain;
-  if (penetration > info.m_splitImpulsePenetrationThreshold) {
-    return {for_position + for_velocity, 0};
-  }
+  if (penetration > info.m_splitImpulsePenetrationThreshold) return {for_position + for_velocity, 0};
   return {for_velocity, for_position};
 }
 
@@ -181,9 +162,7 @@ void choose_friction(btManifoldPoint& point, const btVector3& velocity, btScalar
 
 /// The speed at which the surfaces are to part [m/s], as restitutionCurve.
 btScalar bounce(const btManifoldPoint& point, btScalar approach, const btContactSolverInfo& info) {
-  if (btFabs(approach) < info.m_restitutionVelocityThreshold) {
-    return 0;
-  }
+  if (btFabs(approach) < info.m_restitutionVelocityThreshold) return 0;
   return std::max(btScalar(0), point.m_combinedRestitution * -approach);
 }
 
@@ -199,9 +178,7 @@ struct RowSetup::Side {
   /// `axis`: the rows' directions on this body; `turn`: their torques.
   Side(const Body& body, const btVector3& reach, const Vectors& axis, const Vectors& torque, bool second)
       : turn(torque), effect(product(body.inv_inertia, torque, body.angular_factor)) {
-    if (body.rigid == nullptr) {
-      turn = {splat(0), splat(0), splat(0)};
-    }
+    if (body.rigid == nullptr) turn = {splat(0), splat(0), splat(0)};
     const Vectors spin = three(body.pushed_spin, body.spin, body.spin);
     approach = dot(second ? -axis : axis, same(body.velocity)) + dot(turn, spin);
     response = splat(body.inv_mass) + dot(axis, cross(second ? -effect : effect, same(reach)));
@@ -224,9 +201,7 @@ void RowSetup::make_contact(std::size_t i, const btContactSolverInfo& info, RowS
   const btVector3 reach_a = point.getPositionWorldOnA() - a.origin;
   const btVector3 reach_b = point.getPositionWorldOnB() - b.origin;
   const btVector3& normal = point.m_normalWorldOnB;
-  if (warm_friction_) {
-    last_frictions_[i] = friction_impulse(point);
-  }
+  if (warm_friction_) last_frictions_[i] = friction_impulse(point);
   const btVector3 velocity = (a.velocity + a.pushed_spin.cross(reach_a)) - (b.velocity + b.pushed_spin.cross(reach_b));
   choose_friction(point, velocity, normal.dot(velocity));
 
@@ -240,9 +215,8 @@ void RowSetup::make_contact(std::size_t i, const btContactSolverInfo& info, RowS
   const Lanes approach = on_a.approach + on_b.approach;
 
   btScalar restitution = 0;
-  if (point.m_combinedRestitution != 0) {
+  if (point.m_combinedRestitution != 0)
     restitution = bounce(point, normal.dot(velocity_at(a.rigid, reach_a) - velocity_at(b.rigid, reach_b)), info);
-  }
   const NormalTarget target = normal_target(point, info, restitution, first(approach), first(gain));
   float rhs[4];
   store(rhs, splat(0) + (splat(0) - approach) * gain);
@@ -251,9 +225,7 @@ void RowSetup::make_contact(std::size_t i, const btContactSolverInfo& info, RowS
   PackedRow& row = system.contact(i);
   row.applied = point.m_appliedImpulse * info.m_warmstartingFactor;
   apply(row, system.body(row.a), system.body(row.b), splat(row.applied));
-  if (target.deep != 0) {
-    system.add_deep(i, target.deep);
-  }
+  if (target.deep != 0) system.add_deep(i, target.deep);
 }
 
 void RowSetup::write_rows(std::size_t i, const ThreeRows& axes, const Sides& sides, Lanes gain,

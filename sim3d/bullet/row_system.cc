@@ -17,15 +17,11 @@ void RowOrder::sort(std::span<const RowBodies> rows, int bodies, std::int32_t fi
     place[i] = level;
     a = rows[i].a == fixed ? 0 : level + 1;
     b = rows[i].b == fixed ? 0 : level + 1;
-    if (std::ssize(starts_) < level + 2) {
-      starts_.push_back(0);
-    }
+    if (std::ssize(starts_) < level + 2) starts_.push_back(0);
     ++starts_[level + 1];
   }
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  for (std::int32_t& each : place) {
-    each = starts_[each]++;
-  }
+  for (std::int32_t& each : place) each = starts_[each]++;
 }
 
 void keep_order(std::size_t rows, std::vector<std::int32_t>& place) {
@@ -40,9 +36,7 @@ bool rows_at_rest(std::span<const PackedRow> rows, std::span<const float> change
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto change =
         static_cast<float>(static_cast<double>(changes[i]) * (1.0 / static_cast<double>(rows[i].gain())));
-    if (!(change * change <= residual)) {
-      return false;
-    }
+    if (!(change * change <= residual)) return false;
   }
   return true;
 }
@@ -52,9 +46,8 @@ PackedBody& at(std::vector<PackedBody>& bodies, std::int32_t i) { return bodies[
 void solve_normals(std::vector<PackedRow>& rows, std::vector<PackedBody>& bodies, std::vector<float>& changes) {
   const Lanes lowest = splat(0);
   const Lanes highest = splat(std::numeric_limits<float>::infinity());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
     changes[i] = solve(rows[i], at(bodies, rows[i].a), at(bodies, rows[i].b), lowest, highest);
-  }
 }
 
 }  // namespace
@@ -79,9 +72,7 @@ void RowSystem::arrange(std::span<const RowBodies> contacts, int directions, boo
     return;
   }
   friction_bodies_.clear();
-  for (const RowBodies& contact : contacts) {
-    friction_bodies_.insert(friction_bodies_.end(), directions, contact);
-  }
+  for (const RowBodies& contact : contacts) friction_bodies_.insert(friction_bodies_.end(), directions, contact);
   order_.sort(contacts, static_cast<int>(bodies_.size()), fixed_, contact_place_);
   order_.sort(friction_bodies_, static_cast<int>(bodies_.size()), fixed_, friction_place_);
 }
@@ -96,16 +87,12 @@ void RowSystem::solve(const Settings& settings) {
   for (int i = 0; i < settings.iterations; ++i) {
     solve_contacts();
     solve_frictions(settings.release_unpressed);
-    if (at_rest(settings.residual)) {
-      return;
-    }
+    if (at_rest(settings.residual)) return;
   }
 }
 
 void RowSystem::solve_deep(const Settings& settings) {
-  if (deep_contacts_.empty()) {
-    return;
-  }
+  if (deep_contacts_.empty()) return;
   pushes_ = bodies_;
   for (PackedBody& body : pushes_) {
     body.linear = splat(0);
@@ -123,9 +110,7 @@ void RowSystem::solve_deep(const Settings& settings) {
   changes.resize(std::max(changes.size(), deep_.size()));
   for (int i = 0; i < settings.iterations; ++i) {
     solve_normals(deep_, pushes_, changes);
-    if (rows_at_rest(deep_, changes, settings.residual)) {
-      return;
-    }
+    if (rows_at_rest(deep_, changes, settings.residual)) return;
   }
 }
 
@@ -141,9 +126,7 @@ void RowSystem::solve_frictions(bool release_unpressed) {
       friction_changes_[i] = talus::bullet::solve(row, at(bodies_, row.a), at(bodies_, row.b), -limit, limit);
     } else {
       friction_changes_[i] = 0;
-      if (release_unpressed && row.applied != 0) {
-        unpressed_.push_back(i);
-      }
+      if (release_unpressed && row.applied != 0) unpressed_.push_back(i);
     }
   }
   for (const std::size_t i : unpressed_) {

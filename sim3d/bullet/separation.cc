@@ -12,9 +12,8 @@ bool outside(const btFace& face, const btTransform& place, const PlacedPolyhedro
   const btVector3 in_other = normal * other.place.getBasis();
   const btScalar middle = normal.dot(other.place.getOrigin() - place.getOrigin()) + face.m_plane[3];
   btScalar reach = 0;
-  for (int i = 0; i < other.shape->m_vertices.size(); ++i) {
+  for (int i = 0; i < other.shape->m_vertices.size(); ++i)
     reach = btMax(reach, -in_other.dot(other.shape->m_vertices[i]));
-  }
   return middle - reach > gap + clearance * (btFabs(middle) + btFabs(face.m_plane[3]) + reach);
 }
 
@@ -35,11 +34,8 @@ bool apart_along(BoxAxis axis, const btBoxShape& first, const btTransform& first
 
 BoxAxis separating_axis(const btBoxShape& first, const btTransform& first_place, const btBoxShape& second,
                         const btTransform& second_place) {
-  for (BoxAxis axis = 0; axis < 6; ++axis) {
-    if (apart_along(axis, first, first_place, second, second_place)) {
-      return axis;
-    }
-  }
+  for (BoxAxis axis = 0; axis < 6; ++axis)
+    if (apart_along(axis, first, first_place, second, second_place)) return axis;
   return -1;
 }
 
@@ -51,11 +47,8 @@ bool apart_along(FaceAxis face, const PlacedPolyhedron& first, const PlacedPolyh
 
 FaceAxis separating_face(const PlacedPolyhedron& first, const PlacedPolyhedron& second, btScalar gap) {
   const int faces = first.shape->m_faces.size() + second.shape->m_faces.size();
-  for (FaceAxis face = 0; face < faces; ++face) {
-    if (apart_along(face, first, second, gap)) {
-      return face;
-    }
-  }
+  for (FaceAxis face = 0; face < faces; ++face)
+    if (apart_along(face, first, second, gap)) return face;
   return -1;
 }
 

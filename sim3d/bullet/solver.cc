@@ -16,18 +16,16 @@ void WarmFrictionSolver::convertContacts(btPersistentManifold** manifolds, int c
   for (int m = 0; m < count; ++m) {
     for (int i = 0; i < manifolds[m]->getNumContacts(); ++i) {
       const btManifoldPoint& point = manifolds[m]->getContactPoint(i);
-      if (point.getDistance() <= manifolds[m]->getContactProcessingThreshold()) {
+      if (point.getDistance() <= manifolds[m]->getContactProcessingThreshold())
         last_.push_back(friction_impulse(point));
-      }
     }
   }
   btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
   const int rows = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0 ? 2 : 1;
   for (int c = 0; c < m_tmpSolverContactConstraintPool.size(); ++c) {
     const btSolverConstraint& contact = m_tmpSolverContactConstraintPool[c];
-    for (int row = 0; row < rows; ++row) {
+    for (int row = 0; row < rows; ++row)
       start(m_tmpSolverContactFrictionConstraintPool[contact.m_frictionIndex + row], contact, last_[c]);
-    }
   }
 }
 
@@ -70,13 +68,10 @@ btScalar WarmFrictionSolver::solveSingleIteration(int iteration, btCollisionObje
 btScalar WarmFrictionSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
                                                            const btContactSolverInfo& info) {
   points_.clear();
-  for (int c = 0; warm_friction_ && c < m_tmpSolverContactConstraintPool.size(); ++c) {
+  for (int c = 0; warm_friction_ && c < m_tmpSolverContactConstraintPool.size(); ++c)
     points_.push_back(static_cast<btManifoldPoint*>(m_tmpSolverContactConstraintPool[c].m_originalContactPoint));
-  }
   const btScalar residual = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, count, info);
-  for (btManifoldPoint* point : points_) {
-    set_friction_impulse(*point, friction_impulse(*point));
-  }
+  for (btManifoldPoint* point : points_) set_friction_impulse(*point, friction_impulse(*point));
   return residual;
 }
 

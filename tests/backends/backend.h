@@ -79,11 +79,10 @@ Vec<Dim> up(double height) {
 /// Rotation by which the x axis comes to point upwards by `angle` [rad].
 template <int Dim>
 Rotation<Dim> tilted(double angle) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return Rotation<2>(angle);
-  } else {
+  else
     return Rotation<3>(Eigen::AngleAxisd(-angle, Vec3::UnitY()));
-  }
 }
 
 /// Fixture: a world of unit cubes (shape 0), balls of diameter 1 (shape 1) and L's (shape 2) over the ground.

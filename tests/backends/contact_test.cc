@@ -37,9 +37,8 @@ TYPED_TEST(Seam, ContactHasTheSpeedOfApproach) {
   double approach = 0.0;
   for (int i = 0; i < 60 && approach == 0.0; ++i) {
     world->step();
-    for (const Contact<dim>& contact : world->contacts()) {
+    for (const Contact<dim>& contact : world->contacts())
       if (contact.normal_impulse > 0.0) approach = std::max(approach, contact.approach_speed);
-    }
   }
   // Falls at most 2.5 m: v^2 = 81 + 50; the contact may be solved up to a step early.
   EXPECT_NEAR(approach, std::sqrt(131.0), 0.4);

@@ -28,17 +28,13 @@ namespace {
 /// Calls `visit` with each number below a node and its path, as `source[0].position[1]`.
 void for_each_number(toml::node& node, const std::string& path,
                      const std::function<void(toml::node&, const std::string&)>& visit) {
-  if (node.is_integer() || node.is_floating_point()) {
+  if (node.is_integer() || node.is_floating_point())
     visit(node, path);
-  } else if (toml::table* table = node.as_table()) {
-    for (auto&& [key, child] : *table) {
+  else if (toml::table* table = node.as_table())
+    for (auto&& [key, child] : *table)
       for_each_number(child, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), visit);
-    }
-  } else if (toml::array* array = node.as_array()) {
-    for (std::size_t i = 0; i < array->size(); ++i) {
-      for_each_number((*array)[i], fmt::format("{}[{}]", path, i), visit);
-    }
-  }
+  else if (toml::array* array = node.as_array())
+    for (std::size_t i = 0; i < array->size(); ++i) for_each_number((*array)[i], fmt::format("{}[{}]", path, i), visit);
 }
 
 /// A key without the numbers of its tables: `source[0].position[1]` becomes `source[].position`.
@@ -128,11 +124,10 @@ void for_each_mutant(const FullScene& full, const Values& values,
   };
   for_each_number(scene, "", [&](toml::node& node, const std::string& path) {
     if (!full.paths.contains(path)) return;
-    if (auto* decimal = node.as_floating_point()) {
+    if (auto* decimal = node.as_floating_point())
       try_all(*decimal, values.decimals, path);
-    } else if (path != "dimension") {
+    else if (path != "dimension")
       try_all(*node.as_integer(), values.wholes, path);
-    }
   });
 }
 
@@ -163,9 +158,8 @@ std::string fault_of(const std::string& text, const std::string& policy) {
   try {
     return fault_of<Backend>(std::get<Scene<Backend::dim>>(parse_scene(text, "text")), policy);
   } catch (const SceneErrors& errors) {
-    for (const SceneError& error : errors.errors()) {
+    for (const SceneError& error : errors.errors())
       if (error.rule.empty() || error.line == 0) return "refused without a place: " + to_string(error);
-    }
     return "";
   }
 }

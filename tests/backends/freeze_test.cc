@@ -87,9 +87,8 @@ TYPED_TEST(FrozenBody, BarelyMovesWhenThawedAtRest) {
   }
   // One step of free fall would be 0.167 m/s: the contacts must bear weight from the first step on.
   EXPECT_LT(fastest, 0.15);
-  for (std::size_t i = 0; i < tower.size(); ++i) {
+  for (std::size_t i = 0; i < tower.size(); ++i)
     EXPECT_LT((this->pose(*world, tower[i]).position - before[i]).norm(), 0.02) << "box " << i;
-  }
 }
 
 TYPED_TEST(FrozenBody, MayBeFrozenOrThawedTwice) {
@@ -129,11 +128,10 @@ TYPED_TEST(FrozenBody, SupportsAPileThatIsFrozenAndThawedAtRandomWithoutHarm) {
     random = random * 1664525U + 1013904223U;  // Numerical Recipes' generator
     const auto body = static_cast<BodyIndex>((random >> 8) % static_cast<std::uint32_t>(world->states().size()));
     const Pose<dim> before = this->pose(*world, body);
-    if (this->asleep(*world, body)) {
+    if (this->asleep(*world, body))
       this->thaw(*world, body);
-    } else if (this->speed(*world, body) < 1.0) {
+    else if (this->speed(*world, body) < 1.0)
       this->freeze(*world, body);
-    }
     ASSERT_EQ(this->pose(*world, body).position, before.position);
   }
   std::vector<BodyIndex> all;

@@ -27,9 +27,8 @@ class Mass : public BackendTest<Backend> {
   /// A heap that falls, is frozen in part, thawed and falls on.
   static std::unique_ptr<World<Backend::dim>> heap(double factor) {
     auto world = Backend::make(description(factor));
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 12; ++i)
       world->add(Base::at(up<Backend::dim>(0.8 + 1.3 * i) + 0.1 * (i % 3) * Vec<Backend::dim>::Unit(0), i % 3));
-    }
     std::vector<BodyIndex> lower(6);
     std::iota(lower.begin(), lower.end(), 0);
     Base::run(*world, 1.0);

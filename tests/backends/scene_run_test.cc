@@ -44,9 +44,8 @@ TYPED_TEST(SceneRun, DropsWhatIsDueAndKeepsItAboveTheGround) {
     auto simulation = TestFixture::simulation(scene);
     for (int i = 0; i < 70; ++i) simulation.step();
     double due = 0.0;
-    for (const Source<dim>& source : scene.sources) {
+    for (const Source<dim>& source : scene.sources)
       if (source.start == 0.0) due += std::min<double>(source.count, 1.0 * source.rate);
-    }
     EXPECT_GE(simulation.emitter().emitted(), due) << "within a second, as its sources promise";
     for (const Pose<dim>& pose : simulation.world().states().pose) {
       // Nothing may be inside the ground by more than a step's fall of the fastest.

@@ -36,9 +36,8 @@ class SlopeControl : public ::testing::Test {
     for (int i = 0; i < 900; ++i) simulation.step();
     const Pile<dimension>& pile = simulation.piles().piles().front();
     std::vector<Vec<dimension>> positions;
-    for (const Pose<dimension>& pose : simulation.world().states().pose) {
+    for (const Pose<dimension>& pose : simulation.world().states().pose)
       if (pile.reaches(pose.position)) positions.push_back(pose.position - pile.centre);
-    }
     return estimate_angle_of_repose<dimension>(positions);
   }
 
@@ -67,9 +66,8 @@ class LongSlopeControl : public SlopeControl<Backend> {};
 TYPED_TEST_SUITE(LongSlopeControl, Backends, BackendName);
 
 TYPED_TEST(LongSlopeControl, IsWithinTwoDegreesOfTheSetpointOnAverage) {
-  for (const double setpoint : {45.0, 50.0, 55.0}) {
+  for (const double setpoint : {45.0, 50.0, 55.0})
     EXPECT_NEAR(this->mean_slope(400, 8, setpoint * degree) / degree, setpoint, 2.0);
-  }
 }
 
 TYPED_TEST(LongSlopeControl, DoesNotFlattenASteeperPile) {

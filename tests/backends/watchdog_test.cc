@@ -60,9 +60,8 @@ class WatchedRun : public BackendTest<Backend> {
         SCOPED_TRACE(name + " " + policy);
         auto scene = std::get<Scene<dim>>(read_scene(entry.path()));
         scene.policy.kind = policy;
-        for (const Warning& warning : warnings(scene, frames * scene.steps_per_frame())) {
+        for (const Warning& warning : warnings(scene, frames * scene.steps_per_frame()))
           ADD_FAILURE() << advice(warning);
-        }
       }
     }
   }

@@ -20,11 +20,9 @@ std::size_t distinct_pairs(const Design& design, std::size_t a, std::size_t b) {
 }
 
 void expect_all_pairs(const Design& design, const std::vector<int>& values) {
-  for (std::size_t a = 0; a < values.size(); ++a) {
-    for (std::size_t b = a + 1; b < values.size(); ++b) {
+  for (std::size_t a = 0; a < values.size(); ++a)
+    for (std::size_t b = a + 1; b < values.size(); ++b)
       EXPECT_EQ(distinct_pairs(design, a, b), static_cast<std::size_t>(values[a] * values[b])) << a << " and " << b;
-    }
-  }
 }
 
 TEST(CoveringDesign, EveryPairOfValuesOccurs) {

@@ -21,9 +21,8 @@ struct Bodies {
   }
   std::vector<BodyIndex> awake() const {
     std::vector<BodyIndex> list;
-    for (BodyIndex i = 0; i < states.size(); ++i) {
+    for (BodyIndex i = 0; i < states.size(); ++i)
       if (states.asleep[i] == 0 && states.removed[i] == 0) list.push_back(i);
-    }
     return list;
   }
 };

@@ -26,21 +26,19 @@ inline Names documented(const std::string& heading) {
 
 /// Adds the paths of all plain values: "shape.r50_m", "piles[].layers".
 inline void collect(const nlohmann::json& value, const std::string& path, Names& names) {
-  if (value.is_object()) {
+  if (value.is_object())
     for (const auto& [key, child] : value.items()) collect(child, path.empty() ? key : path + "." + key, names);
-  } else if (value.is_array()) {
+  else if (value.is_array())
     for (const nlohmann::json& child : value) collect(child, path + "[]", names);
-  } else {
+  else
     names.insert(path);
-  }
 }
 
 /// Those of `names` that `others` lacks.
 inline std::string missing(const Names& names, const Names& others) {
   std::string list;
-  for (const std::string& name : names) {
+  for (const std::string& name : names)
     if (!others.contains(name)) list += name + " ";
-  }
   return list;
 }
 

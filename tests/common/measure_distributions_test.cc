@@ -38,9 +38,8 @@ TEST(DistributionDistance, EnergyEqualsItsDefinitionByPairs) {
   const RunSamples runs = ensemble(2, 40, 0.0, 0.3, 9);
   const auto mean_gap = [](const std::vector<double>& x, const std::vector<double>& y) {
     double sum = 0.0;
-    for (const double p : x) {
+    for (const double p : x)
       for (const double q : y) sum += std::abs(p - q);
-    }
     return sum / static_cast<double>(x.size() * y.size());
   };
   const double by_pairs = 2.0 * mean_gap(runs[0], runs[1]) - mean_gap(runs[0], runs[0]) - mean_gap(runs[1], runs[1]);

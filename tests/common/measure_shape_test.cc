@@ -35,11 +35,10 @@ std::vector<PlacedBody<Dim>> heap(double scatter = 0.0) {
   };
   for (int i = -side; i < side; ++i) {
     const double x = (i + 0.5) * size;
-    if constexpr (Dim == 2) {
+    if constexpr (Dim == 2)
       add(Vec2(x, 0.0));
-    } else {
+    else
       for (int j = -side; j < side; ++j) add(Vec3(x, (j + 0.5) * size, 0.0));
-    }
   }
   return bodies;
 }

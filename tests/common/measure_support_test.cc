@@ -60,9 +60,8 @@ TEST(TouchingPairs, OfTenThousandBodiesTakeLessThanTwoSeconds) {
   std::mt19937_64 random(1);
   BodyStates<3> states;
   std::vector<Vec3> places;
-  for (int i = 0; i < 10000; ++i) {  // 0.85 m apart: as dense as a heap of L shapes, 42 % solid
+  for (int i = 0; i < 10000; ++i)  // 0.85 m apart: as dense as a heap of L shapes, 42 % solid
     places.push_back(0.85 * Vec3(i % 22, i / 22 % 22, i / 484) + uniform_within<3>(Vec3::Constant(0.1), random));
-  }
   states = states_at<3>(places);
   for (auto& pose : states.pose) pose.rotation = uniform_rotation<3>(random);
   const std::clock_t start = std::clock();  // of this process: others may be busy

@@ -28,9 +28,8 @@ std::string prism(const std::vector<Vec2>& outline) {
   std::string bottom = "f";
   std::string top = "f";
   std::string sides;
-  for (std::size_t i = 0; i < 2 * count; ++i) {
+  for (std::size_t i = 0; i < 2 * count; ++i)
     text += fmt::format("v {} {} {}\n", outline[i % count].x(), outline[i % count].y(), i / count);
-  }
   for (std::size_t i = 1; i <= count; ++i) {
     const std::size_t next = i % count + 1;
     bottom += fmt::format(" {}", count + 1 - i);

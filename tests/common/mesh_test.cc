@@ -56,11 +56,8 @@ TEST(MeshRepair, MergesCornersAndDropsTrianglesWithoutAreaOrThereTwice) {
 
 RC_GTEST_PROP(MeshRepair, TurnsTrianglesOutwardsWhicheverWayTheyWere, ()) {
   Mesh mesh = soup(box);
-  for (auto& triangle : mesh.triangles) {
-    if (*rc::gen::arbitrary<bool>()) {
-      std::swap(triangle[0], triangle[1]);
-    }
-  }
+  for (auto& triangle : mesh.triangles)
+    if (*rc::gen::arbitrary<bool>()) std::swap(triangle[0], triangle[1]);
   const Moments<3> integrals = moments(repaired(mesh));
   RC_ASSERT(std::abs(integrals.volume - 6.0) < 1e-12);
   RC_ASSERT((integrals.inertia() - box.inertia).norm() < 1e-12);
@@ -120,11 +117,8 @@ class MeshFile : public testing::Test {
   void SetUp() override {
     const std::vector<Vec2> outline = {{0, 0}, {100, 0}, {100, 40}, {40, 40}, {40, 100}, {0, 100}};
     std::ofstream out(file_);
-    for (const int depth : {-20, 20}) {
-      for (const Vec2& corner : outline) {
-        out << "v " << corner.x() << " " << corner.y() << " " << depth << "\n";
-      }
-    }
+    for (const int depth : {-20, 20})
+      for (const Vec2& corner : outline) out << "v " << corner.x() << " " << corner.y() << " " << depth << "\n";
     out << "f 1 2 3 4 5 6\nf 7 8 9 10 11 12\n";  // turned the same way: one is inside out
     for (int i = 1; i <= 6; ++i) {
       const int next = i % 6 + 1;
@@ -135,9 +129,7 @@ class MeshFile : public testing::Test {
   static std::vector<Mesh> arms() { return {arm({50, 20, 0}, {100, 40, 40}), arm({20, 70, 0}, {40, 60, 40})}; }
   static Mesh arm(const Vec3& centre, const Vec3& size) {
     Mesh mesh = soup(make_shape<3>("arm", box_pieces<3>(size), {}));
-    for (Vec3& corner : mesh.corners) {
-      corner += centre;
-    }
+    for (Vec3& corner : mesh.corners) corner += centre;
     return repaired(mesh);
   }
 

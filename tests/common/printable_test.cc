@@ -9,9 +9,8 @@ namespace talus::printable_test {
 namespace {
 
 TEST(Printable, KeepsTextOfAllLanguages) {
-  for (const char* text : {"", "400 L shapes", "Haufen größer", "山の石", "🪨 rock", "e\u0301"}) {
+  for (const char* text : {"", "400 L shapes", "Haufen größer", "山の石", "🪨 rock", "e\u0301"})
     EXPECT_EQ(printable(text), text);
-  }
 }
 
 TEST(Printable, ReplacesTerminalCommands) {

@@ -13,9 +13,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> bad_files() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(TALUS_SOURCE_DIR) / "tests" / "scenes_bad")) {
+  for (const auto& entry : fs::directory_iterator(fs::path(TALUS_SOURCE_DIR) / "tests" / "scenes_bad"))
     files.push_back(entry.path());
-  }
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -25,9 +24,8 @@ std::vector<std::string> expected_errors(const fs::path& file) {
   const std::string mark = "# expect: ";
   std::vector<std::string> expected;
   std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line) && line.starts_with(mark);) {
+  for (std::string line; std::getline(stream, line) && line.starts_with(mark);)
     expected.push_back(file.string() + ":" + line.substr(mark.size()));
-  }
   return expected;
 }
 
@@ -36,9 +34,7 @@ std::vector<std::string> told_errors(const fs::path& file) {
   try {
     read_scene(file);
   } catch (const SceneErrors& errors) {
-    for (const SceneError& error : errors.errors()) {
-      told.push_back(to_string(error));
-    }
+    for (const SceneError& error : errors.errors()) told.push_back(to_string(error));
   }
   return told;
 }
@@ -52,9 +48,8 @@ TEST(WrongSceneFile, IsRefusedWithAllItsErrorsAndTheirPlaces) {
     const std::vector<std::string> told = told_errors(file);
     ASSERT_FALSE(expected.empty());
     ASSERT_EQ(told.size(), expected.size());
-    for (std::size_t i = 0; i < told.size(); ++i) {
+    for (std::size_t i = 0; i < told.size(); ++i)
       EXPECT_TRUE(told[i].starts_with(expected[i])) << "told:     " << told[i] << "\nexpected: " << expected[i];
-    }
   }
 }
 

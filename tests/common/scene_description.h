@@ -13,9 +13,7 @@ namespace talus {
 template <typename Matrix>
 std::string numbers(const Matrix& matrix) {
   std::string text;
-  for (Eigen::Index i = 0; i < matrix.size(); ++i) {
-    text += fmt::format(" {}", matrix.reshaped()[i]);
-  }
+  for (Eigen::Index i = 0; i < matrix.size(); ++i) text += fmt::format(" {}", matrix.reshaped()[i]);
   return text;
 }
 
@@ -49,12 +47,9 @@ std::string description(const WorldDescription<Dim>& world) {
                      description(world.debug, debug_fields) + description(world.ground, ground_fields) +
                      description(world.ground.material, surface_fields) +
                      fmt::format("engine_sleep {} dt {}\n", world.engine_sleep, world.dt);
-  for (const Obstacle<Dim>& obstacle : world.obstacles) {
+  for (const Obstacle<Dim>& obstacle : world.obstacles)
     text += "obstacle at" + numbers(obstacle.pose) + " " + description(obstacle.shape);
-  }
-  for (const Shape<Dim>& shape : world.shapes) {
-    text += "shape " + description(shape);
-  }
+  for (const Shape<Dim>& shape : world.shapes) text += "shape " + description(shape);
   return text;
 }
 
@@ -69,9 +64,8 @@ std::string description(const PileParams<Dim>& pile) {
   std::string text = "pile\n" + description(pile, pile_fields<Dim>);
   if (pile.boundary) {
     text += fmt::format(" rim {} radius {}", pile.boundary->rim, pile.boundary->cylinder_radius);
-    for (const Wall<Dim>& wall : pile.boundary->walls) {
+    for (const Wall<Dim>& wall : pile.boundary->walls)
       text += fmt::format(" wall {} {}", wall.distance, numbers(wall.normal));
-    }
   }
   return text + "\n";
 }
@@ -80,12 +74,8 @@ std::string description(const PileParams<Dim>& pile) {
 template <int Dim>
 std::string description(const Scene<Dim>& scene) {
   std::string text = fmt::format("{}, {}D, seed {}\n", scene.title, Dim, scene.seed) + description(scene.world);
-  for (const Source<Dim>& source : scene.sources) {
-    text += description(source);
-  }
-  for (const PileParams<Dim>& pile : scene.piles) {
-    text += description(pile);
-  }
+  for (const Source<Dim>& source : scene.sources) text += description(source);
+  for (const PileParams<Dim>& pile : scene.piles) text += description(pile);
   return text + description(scene.policy, policy_fields) + description(scene.policy.paper, paper_fields) +
          description(scene.policy.adaptive, adaptive_fields) + description(scene.run, run_fields);
 }

@@ -58,9 +58,7 @@ void expect_no_warning_but_of_the_bunnys_parts(const Scene<Dim>& scene) {
 TEST(EveryScene, IsReadWithoutWarningAndWrittenBackTheSame) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator(scenes)) {
-    if (entry.path().extension() != ".toml") {
-      continue;
-    }
+    if (entry.path().extension() != ".toml") continue;
     SCOPED_TRACE(entry.path());
     for (const std::vector<Override>& overrides : {std::vector<Override>(), {{"seed=7"}, {"policy.tau=0.1"}}}) {
       const AnyScene scene = read_scene(entry.path(), overrides);

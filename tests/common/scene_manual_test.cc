@@ -16,9 +16,7 @@ namespace {
 std::vector<std::string> manual() {
   std::ifstream stream(std::filesystem::path(TALUS_SOURCE_DIR) / "docs" / "scenes.md");
   std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
 }
 
@@ -40,13 +38,10 @@ std::set<std::string> keys_of_the_manual() {
   std::set<std::string> keys;
   std::string section;
   for (const std::string& line : manual()) {
-    if (line.starts_with("## ")) {
+    if (line.starts_with("## "))
       section = line.ends_with("`") ? quoted_in(line).back() : "";
-    } else if (!section.empty() && line.starts_with("| `")) {
-      for (const std::string& name : quoted_in(line.substr(0, line.find(" |", 2)))) {
-        keys.insert(section + " " + name);
-      }
-    }
+    else if (!section.empty() && line.starts_with("| `"))
+      for (const std::string& name : quoted_in(line.substr(0, line.find(" |", 2)))) keys.insert(section + " " + name);
   }
   return keys;
 }
@@ -54,19 +49,16 @@ std::set<std::string> keys_of_the_manual() {
 // `source[].rate` as the manual has it: "[[source]] rate".
 std::string in_manual(const std::string& key) {
   const std::size_t dot = key.rfind('.');
-  if (dot == std::string::npos) {
-    return "root " + key;
-  }
+  if (dot == std::string::npos) return "root " + key;
   std::string head = key.substr(0, dot);
-  if (head == "pile[].boundary") {
+  if (head == "pile[].boundary")
     head = "[pile.boundary]";
-  } else if (head == "shape.*") {
+  else if (head == "shape.*")
     head = "[shape.NAME]";
-  } else if (head.ends_with("[]")) {
+  else if (head.ends_with("[]"))
     head = "[[" + head.substr(0, head.size() - 2) + "]]";
-  } else {
+  else
     head = "[" + head + "]";
-  }
   return head + " " + key.substr(dot + 1);
 }
 
@@ -107,12 +99,9 @@ TEST(Manual, HasEveryKeyThatTheReaderKnows) {
 
 TEST(Manual, HasNoKeyThatTheReaderDoesNotKnow) {
   std::set<std::string> known;
-  for (const std::string& key : keys_of_the_reader()) {
-    known.insert(in_manual(key));
-  }
-  for (const std::string& key : keys_of_the_manual()) {
+  for (const std::string& key : keys_of_the_reader()) known.insert(in_manual(key));
+  for (const std::string& key : keys_of_the_manual())
     EXPECT_TRUE(known.contains(key)) << key << " of docs/scenes.md is unknown to the reader";
-  }
 }
 
 // The TOML blocks of the manual.

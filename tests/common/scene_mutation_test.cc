@@ -99,9 +99,7 @@ RC_GTEST_PROP(MutatedScene, IsASceneOrSceneErrors, ()) {
       "tests/scenes_bad/hull_flat.toml");
   const std::string text = text_of(file);
   RC_ASSERT(!text.empty());
-  for (int i = 0; i < 20; ++i) {
-    expect_scene_or_errors(mutated(text), {});
-  }
+  for (int i = 0; i < 20; ++i) expect_scene_or_errors(mutated(text), {});
 }
 
 RC_GTEST_PROP(MutatedOverride, IsASceneOrSceneErrors, ()) {

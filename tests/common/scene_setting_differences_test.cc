@@ -34,12 +34,10 @@ TEST(SettingDifferences, TakesAWholeNumberForTheSameWithOrWithoutAPoint) {
 }
 
 TEST(SettingDifferences, CountPolicyTitleAndLengthAsTheSameScene) {
-  for (const char* path : {"title", "run.frames", "policy.kind", "policy.tau"}) {
+  for (const char* path : {"title", "run.frames", "policy.kind", "policy.tau"})
     EXPECT_FALSE(is_of_scene({path, "1", "2"})) << path;
-  }
-  for (const char* path : {"seed", "source[0].count", "world.gravity", "run.frame_rate"}) {
+  for (const char* path : {"seed", "source[0].count", "world.gravity", "run.frame_rate"})
     EXPECT_TRUE(is_of_scene({path, "1", "2"})) << path;
-  }
 }
 
 }  // namespace

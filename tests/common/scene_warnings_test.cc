@@ -12,9 +12,8 @@ std::string warnings_with(std::vector<Override> overrides) {
       "title = \"A scene\"\ndimension = 3\nshape.ball = {kind = \"ball\", radius = 0.5}\n"
       "source = [{rate = 2, count = 10}]\npile = [{alpha_deg = 20}]\n";
   std::string lines;
-  for (const std::string& line : warnings(std::get<Scene<3>>(parse_scene(text, "text", overrides)))) {
+  for (const std::string& line : warnings(std::get<Scene<3>>(parse_scene(text, "text", overrides))))
     lines += line + "\n";
-  }
   return lines;
 }
 
@@ -105,10 +104,8 @@ std::string engine_warnings_with(std::vector<Override> overrides) {
       "title = \"A scene\"\ndimension = 3\nshape.ball = {kind = \"ball\", radius = 0.5}\n"
       "source = [{rate = 2, count = 10}]\n";
   std::string lines;
-  for (const std::string& line :
-       engine_warnings(std::get<Scene<3>>(parse_scene(text, "text", overrides)), slow_engine)) {
+  for (const std::string& line : engine_warnings(std::get<Scene<3>>(parse_scene(text, "text", overrides)), slow_engine))
     lines += line + "\n";
-  }
   return lines;
 }
 

@@ -17,9 +17,7 @@ inline double random_number(double low, double high) {
 template <int Dim>
 Vec<Dim> random_point(double reach) {
   Vec<Dim> point;
-  for (double& value : point) {
-    value = random_number(-reach, reach);
-  }
+  for (double& value : point) value = random_number(-reach, reach);
   return point;
 }
 
@@ -44,9 +42,7 @@ Pose<Dim> random_pose() {
 template <int Dim>
 HullPiece<Dim> random_simplex() {
   HullPiece<Dim> hull = {{Vec<Dim>::Zero()}};
-  for (int axis = 0; axis < Dim; ++axis) {
-    hull.corners.push_back(Vec<Dim>::Unit(axis) + random_point<Dim>(0.3));
-  }
+  for (int axis = 0; axis < Dim; ++axis) hull.corners.push_back(Vec<Dim>::Unit(axis) + random_point<Dim>(0.3));
   return hull;
 }
 
@@ -68,28 +64,19 @@ Piece<Dim> random_piece() {
   const int kind = *rc::gen::inRange(0, 4);
   const Pose<Dim> pose = random_pose<Dim>();
   const double radius = random_number(0.1, 1.0);
-  if (kind == 0) {
-    return BoxPiece<Dim>{pose, Vec<Dim>::Constant(1.2) + random_point<Dim>(1.0)};
-  }
-  if (kind == 1) {
-    return HullPiece<Dim>{{pose.position}, radius};
-  }
-  if (kind == 2) {
-    return HullPiece<Dim>{{pose.position, pose * Vec<Dim>::Unit(0)}, radius};
-  }
+  if (kind == 0) return BoxPiece<Dim>{pose, Vec<Dim>::Constant(1.2) + random_point<Dim>(1.0)};
+  if (kind == 1) return HullPiece<Dim>{{pose.position}, radius};
+  if (kind == 2) return HullPiece<Dim>{{pose.position, pose * Vec<Dim>::Unit(0)}, radius};
   return random_simplex<Dim>();
 }
 
 /// The piece turned and moved.
 template <int Dim>
 Piece<Dim> placed(Piece<Dim> piece, const Pose<Dim>& pose) {
-  if (auto* box = std::get_if<BoxPiece<Dim>>(&piece)) {
+  if (auto* box = std::get_if<BoxPiece<Dim>>(&piece))
     box->pose = {pose * box->pose.position, pose.rotation * box->pose.rotation};
-  } else {
-    for (Vec<Dim>& corner : std::get<HullPiece<Dim>>(piece).corners) {
-      corner = pose * corner;
-    }
-  }
+  else
+    for (Vec<Dim>& corner : std::get<HullPiece<Dim>>(piece).corners) corner = pose * corner;
   return piece;
 }
 

@@ -126,9 +126,8 @@ TEST(HullShape, OfFourCornersIsATetrahedron) {
 
 TEST(HullShape, OfABoxesCornersEqualsTheBox) {
   std::vector<Vec3> corners = {{0.5, 1.0, 1.5}};  // a point inside changes nothing
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 8; ++i)
     corners.push_back({(i & 1) != 0 ? 1.0 : 0.0, (i & 2) != 0 ? 2.0 : 0.0, (i & 4) != 0 ? 3.0 : 0.0});
-  }
   const Shape<3> hull = make_shape("hull", hull_pieces<3>(corners), {});
   const Shape<3> box = make_shape("box", box_pieces<3>({1.0, 2.0, 3.0}), {});
   EXPECT_EQ(std::get<HullPiece<3>>(hull.pieces[0]).corners.size(), 8u);
@@ -166,9 +165,7 @@ void masses_do_not_depend_on_the_axes_of_description() {
   const MassProperties<Dim> there = mass_properties(test::placed(piece, pose));
   const Eigen::Matrix<double, Dim, Dim> turn = pose.rotation.toRotationMatrix();
   Inertia<Dim> turned = here.inertia;
-  if constexpr (Dim == 3) {
-    turned = turn * here.inertia * turn.transpose();
-  }
+  if constexpr (Dim == 3) turned = turn * here.inertia * turn.transpose();
   // Up to 15 m off the origin and a least volume of 0.004 m^3: squares of the distance cancel to 1e-10 of the inertia.
   RC_ASSERT(std::abs(there.volume - here.volume) < 1e-10 * here.volume);
   RC_ASSERT((there.centre - pose * here.centre).norm() < 1e-10);

@@ -16,9 +16,7 @@ using std::numbers::pi;
 
 double total_area(const std::vector<std::vector<Vec2>>& pieces) {
   double sum = 0.0;
-  for (const std::vector<Vec2>& piece : pieces) {
-    sum += signed_area(piece);
-  }
+  for (const std::vector<Vec2>& piece : pieces) sum += signed_area(piece);
   return sum;
 }
 
@@ -26,9 +24,8 @@ int pieces_holding(const std::vector<std::vector<Vec2>>& pieces, const Vec2& poi
   int count = 0;
   for (const std::vector<Vec2>& piece : pieces) {
     bool inside = true;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
+    for (std::size_t i = 0; i < piece.size(); ++i)
       inside = inside && cross(piece[i], piece[(i + 1) % piece.size()], point) > 0.0;
-    }
     count += inside ? 1 : 0;
   }
   return count;
@@ -40,9 +37,8 @@ bool inside(const std::vector<Vec2>& corners, const Vec2& point) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2& a = corners[i];
     const Vec2& b = corners[(i + 1) % corners.size()];
-    if ((a.y() > point.y()) != (b.y() > point.y())) {
+    if ((a.y() > point.y()) != (b.y() > point.y()))
       odd ^= point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    }
   }
   return odd;
 }
@@ -60,9 +56,7 @@ TEST(Partition, OfAnLIsTwoQuadsWithItsAreaNotItsHulls) {
 TEST(Partition, LeavesAConvexPolygonWholeUnlessItHasTooManyCorners) {
   const auto regular = [](int count) {
     std::vector<Vec2> corners;
-    for (int i = 0; i < count; ++i) {
-      corners.push_back({std::cos(2.0 * pi * i / count), std::sin(2.0 * pi * i / count)});
-    }
+    for (int i = 0; i < count; ++i) corners.push_back({std::cos(2.0 * pi * i / count), std::sin(2.0 * pi * i / count)});
     return corners;
   };
   EXPECT_EQ(convex_partition(regular(3)).size(), 1u);
@@ -86,9 +80,7 @@ TEST(Partition, CutsACombWithManyCornersOnOneLine) {
   for (int tooth = 10; tooth >= 0; --tooth) {
     const double x = 2.0 * tooth;
     comb.insert(comb.end(), {{x + 1.0, 3.0}, {x, 3.0}});
-    if (tooth > 0) {
-      comb.insert(comb.end(), {{x, 1.0}, {x - 1.0, 1.0}});
-    }
+    if (tooth > 0) comb.insert(comb.end(), {{x, 1.0}, {x - 1.0, 1.0}});
   }
   const auto pieces = convex_partition(comb);
   EXPECT_NEAR(total_area(pieces), 21.0 + 11.0 * 2.0, 1e-12);

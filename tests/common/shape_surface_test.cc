@@ -24,18 +24,15 @@ double area(const Loop<2>& loop) {
 
 Vec3 area_vector(const Loop<3>& loop) {
   Vec3 twice = Vec3::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i) {
+  for (std::size_t i = 0; i < loop.size(); ++i)
     twice += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
-  }
   return twice / 2.0;
 }
 
 // By the divergence theorem, for planar faces.
 double volume(const std::vector<Loop<3>>& surface) {
   double sum = 0.0;
-  for (const Loop<3>& loop : surface) {
-    sum += loop[0].dot(area_vector(loop)) / 3.0;
-  }
+  for (const Loop<3>& loop : surface) sum += loop[0].dot(area_vector(loop)) / 3.0;
   return sum;
 }
 
@@ -63,14 +60,11 @@ TEST(Outlines, OfACapsuleHaveTwoHalvesOfARegularPolygonAtTheEnds) {
 
 TEST(Faces, OfABoxGivenAsAHullAreSixQuads) {
   std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 8; ++i)
     corners.push_back({(i & 1) != 0 ? 1.0 : 0.0, (i & 2) != 0 ? 2.0 : 0.0, (i & 4) != 0 ? 3.0 : 0.0});
-  }
   const std::vector<Loop<3>> surface = faces(make_shape("hull", hull_pieces<3>(corners), {}), 4);
   ASSERT_EQ(surface.size(), 6u);
-  for (const Loop<3>& loop : surface) {
-    EXPECT_EQ(loop.size(), 4u);
-  }
+  for (const Loop<3>& loop : surface) EXPECT_EQ(loop.size(), 4u);
   EXPECT_NEAR(volume(surface), 6.0, 1e-12);
 }
 
@@ -91,11 +85,8 @@ TEST(Faces, OfASphereFillItBetterWithMoreSegments) {
 TEST(Faces, OfACapsuleReachFromTipToTip) {
   const std::vector<Loop<3>> surface = faces(make_shape("capsule", capsule_pieces<3>(5.0, 1.0), {}), 8);
   Box<3> bounds;
-  for (const Loop<3>& loop : surface) {
-    for (const Vec3& corner : loop) {
-      bounds.extend(corner);
-    }
-  }
+  for (const Loop<3>& loop : surface)
+    for (const Vec3& corner : loop) bounds.extend(corner);
   EXPECT_TRUE(bounds.isApprox(Box<3>(Vec3(-2.5, -1.0, -1.0), Vec3(2.5, 1.0, 1.0))));
 }
 
@@ -132,9 +123,7 @@ RC_GTEST_PROP(Faces, AreClosedPlanarAndTurnedOutwards, ()) {
       balance[std::minmax(from, to)] += from < to ? 1 : -1;
     }
   }
-  for (const auto& [edge, sum] : balance) {
-    RC_ASSERT(sum == 0);
-  }
+  for (const auto& [edge, sum] : balance) RC_ASSERT(sum == 0);
   // Eight segments fill 0.64 of a sphere's volume.
   RC_ASSERT(volume(surface) > 0.6 * shape.volume && volume(surface) < (1.0 + 1e-10) * shape.volume);
 }
@@ -144,17 +133,13 @@ RC_GTEST_PROP(Faces, AreClosedPlanarAndTurnedOutwards, ()) {
 template <int Dim>
 Box<Dim> bounds_of_surface(const Shape<Dim>& shape, const Pose<Dim>& pose) {
   std::vector<Loop<Dim>> surface;
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     surface = outlines(shape, 64);
-  } else {
+  else
     surface = faces(shape, 64);
-  }
   Box<Dim> bounds;
-  for (const Loop<Dim>& loop : surface) {
-    for (const Vec<Dim>& corner : loop) {
-      bounds.extend(pose * corner);
-    }
-  }
+  for (const Loop<Dim>& loop : surface)
+    for (const Vec<Dim>& corner : loop) bounds.extend(pose * corner);
   return bounds;
 }
 

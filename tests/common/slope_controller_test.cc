@@ -107,9 +107,8 @@ TEST_F(SlopeControllerTest, TooFewBodiesLeaveTheIntegralAsItIs) {
   for (BodyIndex body = 5; body < 20; ++body) world_.remove(body);
   add_moving(Vec3(1.0, 0.0, 0.5));
   SlopeController<3> controller(RuleParts{}.setup());
-  for (int update = 0; update < 50; ++update) {
+  for (int update = 0; update < 50; ++update)
     EXPECT_NEAR(std::exp(-damping(controller, 30 * update) * cubes().dt), kept(), 1e-9);
-  }
   lay(1.0, 1.0);
   RuleOutput<3> out;
   controller.update(in(30 * 50), out);
@@ -124,9 +123,8 @@ TEST_F(SlopeControllerTest, ABodyBelongsToTheNearestOfTwoPilesOnly) {
   piles_ = PileSet<3>({controlled(), beside}, piles_.typical_body());
   lay(1.0, 1.0);
   add_moving(Vec3(1.0, 0.0, 0.5));
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 40; ++i)
     world_.freeze(std::vector{world_.add({.pose = {.position = Vec3(12.0 + 0.1 * i, 0.0, 0.5)}})});
-  }
   EXPECT_TRUE(damped().empty());
 }
 

@@ -64,15 +64,13 @@ TYPED_TEST(WorldDescriptionTest, ASoundWorldAndBodyAreAccepted) {
 }
 
 TYPED_TEST(WorldDescriptionTest, ATimeStepOutsideItsRangeIsRefused) {
-  for (const double dt : {0.0, -0.01, nan, infinity, 1.0 / 15.0}) {
+  for (const double dt : {0.0, -0.01, nan, infinity, 1.0 / 15.0})
     this->refuse_world("world.steps_per_second", [&](auto& world) { world.dt = dt; });
-  }
 }
 
 TYPED_TEST(WorldDescriptionTest, GravityGroundAndSolverMustBeInRange) {
-  for (const double gravity : {nan, infinity, -9.81}) {
+  for (const double gravity : {nan, infinity, -9.81})
     this->refuse_world("world.gravity", [&](auto& world) { world.gravity = gravity; });
-  }
   this->refuse_world("world.ground.height", [](auto& world) { world.ground.height = nan; });
   this->refuse_world("world.ground.material.friction", [](auto& world) { world.ground.material.friction = -0.1; });
   this->refuse_world("velocity_iterations", [](auto& world) { world.solver.velocity_iterations = 0; });
@@ -82,12 +80,10 @@ TYPED_TEST(WorldDescriptionTest, GravityGroundAndSolverMustBeInRange) {
 }
 
 TYPED_TEST(WorldDescriptionTest, AMaterialOutsideItsRangeIsRefused) {
-  for (const double density : {0.0, -1.0, nan, infinity}) {
+  for (const double density : {0.0, -1.0, nan, infinity})
     this->refuse_world("material.density", [&](auto& world) { world.shapes[0].material.density = density; });
-  }
-  for (const double friction : {-0.1, nan, infinity}) {
+  for (const double friction : {-0.1, nan, infinity})
     this->refuse_world("material.friction", [&](auto& world) { world.shapes[0].material.friction = friction; });
-  }
   for (const double restitution : {-0.1, 1.1, nan}) {
     this->refuse_world("material.restitution",
                        [&](auto& world) { world.shapes[0].material.restitution = restitution; });
@@ -130,9 +126,8 @@ TYPED_TEST(WorldDescriptionTest, AnObstaclesPoseMustBeSound) {
 }
 
 TYPED_TEST(WorldDescriptionTest, ABodysStateMustBeFiniteAndWithinTheEnginesLimits) {
-  for (const double value : {nan, infinity, -infinity, 1.1e4}) {
+  for (const double value : {nan, infinity, -infinity, 1.1e4})
     this->refuse_body("body.pose.position[1]", [&](auto& body) { body.pose.position[1] = value; });
-  }
   for (const double value : {nan, infinity, 1000.0}) {
     this->refuse_body("body.velocity", [&](auto& body) { body.velocity[0] = value; });
     this->refuse_body("body.spin", [&](auto& body) { body.spin[0] = value; });
@@ -173,9 +168,7 @@ TYPED_TEST(WorldDescriptionTest, PiecesWithoutVolumeAreRefused) {
 TYPED_TEST(WorldDescriptionTest, APolygonOrPolyhedronWithARadiusIsRefused) {
   constexpr int dim = TypeParam::value;
   HullPiece<dim> simplex{{Vec<dim>::Zero()}, 0.1};
-  for (int axis = 0; axis < dim; ++axis) {
-    simplex.corners.push_back(Vec<dim>::Unit(axis));
-  }
+  for (int axis = 0; axis < dim; ++axis) simplex.corners.push_back(Vec<dim>::Unit(axis));
   this->refuse_pieces("pieces[0].radius = 0.1", {simplex});
 }
 
@@ -184,9 +177,7 @@ TEST(PolygonCorners, ThatMakeNoConvexPolygonAreRefused) {
     expect_refused([&] { hull_pieces<2>(corners); }, field);
   };
   std::vector<Vec2> nine;
-  for (int i = 0; i < 9; ++i) {
-    nine.push_back({std::cos(i * 0.69), std::sin(i * 0.69)});
-  }
+  for (int i = 0; i < 9; ++i) nine.push_back({std::cos(i * 0.69), std::sin(i * 0.69)});
   refuse(nine, "corners.size = 9");
   refuse({{0.0, 0.0}, {1.0, 0.0}}, "corners.size = 2");
   refuse({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}, "corners[");

@@ -67,10 +67,9 @@ TEST_F(OutputFault, AResultThatCannotBePrintedIsAnErrorOfEverySubCommand) {
 }
 
 TEST_F(OutputFault, AMessageThatCannotBePrintedChangesNothing) {
-  for (const std::string& command : commands()) {
+  for (const std::string& command : commands())
     for (const char* redirection : {"2>/dev/full", "2>&-"})
       EXPECT_EQ(with(command, redirection).exit_code, 0) << command;
-  }
   for (const char* redirection : {"2>/dev/full", "2>&-", "2>&- >&-", "2>/dev/full >/dev/full", "<&- >&- 2>&-"}) {
     EXPECT_EQ(with("check nonexistent", redirection).exit_code, 2) << redirection;
     EXPECT_EQ(with("run --no-such-option", redirection).exit_code, 2) << redirection;

@@ -77,9 +77,7 @@ unset LCM_DEFAULT_URL
 $alone "$TALUS" run drop_in_a_pile_2d --set run.frames=40 --hash --out a; echo "$alone")");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out.find('\n'), 16U) << "nothing but the hash belongs on standard output: " << outcome.out;
-  if (outcome.out.size() > 18U) {
-    EXPECT_NE(outcome.err.find("no live view"), std::string::npos) << outcome.err;
-  }
+  if (outcome.out.size() > 18U) EXPECT_NE(outcome.err.find("no live view"), std::string::npos) << outcome.err;
 }
 
 /// Kills a run `kills` times, each at a random moment of its first seconds, and reads what is left.
@@ -98,9 +96,8 @@ echo $(((killed - $(date -r run/run.lcm +%s%N)) / 1000000)) $(stat -c %s run/run
     words >> milliseconds >> bytes >> read;
     EXPECT_LE(milliseconds, 2000) << "a second, and one for a busy machine";
     EXPECT_TRUE(read == 0 || (read == 2 && bytes < 4096)) << read << ": " << outcome.err;
-    if (read == 0 && bytes > 0) {
+    if (read == 0 && bytes > 0)
       EXPECT_LT(Json::parse(contents(folder.path() / "comparison"))["a"]["damaged_bytes"], 60000);
-    }
   }
 }
 
@@ -126,11 +123,10 @@ if [ "$in_namespace" = false ]; then cd small; ulimit -f $size; . ../script
 else $in_namespace bash -c "mount -t tmpfs -o size=${size}k none small && cd small && . ../script"; fi)");
   EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 1) << size << ": " << outcome.exit_code << outcome.err;
   EXPECT_EQ(outcome.out.find("died"), std::string::npos) << size << ": " << outcome.out;
-  if (outcome.exit_code == 0) {
+  if (outcome.exit_code == 0)
     EXPECT_NE(outcome.out.find("301\n"), std::string::npos) << size << ": frames.csv is cut and nothing says so";
-  } else {
+  else
     EXPECT_NE(outcome.err.find("talus: "), std::string::npos) << size << ": " << outcome.err;
-  }
 }
 
 TEST(DiskFault, AFullDiskEndsARunWithAMessage) {
@@ -182,9 +178,8 @@ for limit in $(seq $least 1900 $((least + 38000))); do
 done | sort | uniq)");
   std::istringstream lines(outcome.out);
   int endings = 0;
-  for (std::string line; std::getline(lines, line); ++endings) {
+  for (std::string line; std::getline(lines, line); ++endings)
     EXPECT_TRUE(line == "0 " || line == "1 talus: out of memory" || line.starts_with("2 talus: source")) << line;
-  }
   EXPECT_GE(endings, 2) << "no limit was too low, or all were: " << outcome.out << outcome.err;
 }
 

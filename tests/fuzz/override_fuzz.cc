@@ -38,13 +38,11 @@ frames = 30
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<talus::Override> overrides(1);
   const std::string_view input = talus::fuzz::text({data, size});
-  for (const char letter : input) {
-    if (letter == '\n') {
+  for (const char letter : input)
+    if (letter == '\n')
       overrides.emplace_back();
-    } else {
+    else
       overrides.back().text += letter;
-    }
-  }
   talus::fuzz::read_as_scene(input, scene, overrides);
   return 0;
 }

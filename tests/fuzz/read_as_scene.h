@@ -29,9 +29,8 @@ inline void read_as_scene(std::string_view input, std::string_view text, std::sp
     std::visit([](const auto& one) { (void)warnings(one); }, scene);
   } catch (const SceneErrors& errors) {
     require_that(!errors.errors().empty(), "a refused scene has an error");
-    for (const SceneError& error : errors.errors()) {
+    for (const SceneError& error : errors.errors())
       require_that(!error.rule.empty() && !error.file.empty(), "an error names a file and a rule");
-    }
   }
 }
 

@@ -47,9 +47,8 @@ std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
 /// What somebody sends who gets the checksum right but not the rest.
 void seal_again(Bytes& bytes) {
   const std::uint32_t sum = checksum(std::span(bytes).first(bytes.size() - checksum_bytes));
-  for (std::size_t i = 0; i < checksum_bytes; ++i) {
+  for (std::size_t i = 0; i < checksum_bytes; ++i)
     bytes[bytes.size() - 1 - i] = static_cast<std::uint8_t>(sum >> (8 * i));
-  }
 }
 
 template <int Dim>
@@ -95,11 +94,8 @@ TEST(Decoder, RefusesBytesThatFollow) {
 }
 
 TEST(Decoder, RefusesAnotherType) {
-  for (const Packet& packet : samples<2>()) {
-    if (packet.channel != Channel::piles) {
-      EXPECT_EQ(fault_of<talus_piles_v1>(packet.bytes), "another type or version");
-    }
-  }
+  for (const Packet& packet : samples<2>())
+    if (packet.channel != Channel::piles) EXPECT_EQ(fault_of<talus_piles_v1>(packet.bytes), "another type or version");
 }
 
 // Debian's generated decoder would resize to 2^31 - 1 entries first and look at the bytes left afterwards.
@@ -181,9 +177,8 @@ RC_GTEST_PROP(DecoderProperty, SurvivesSealedMessagesWithRandomBytesIn, ()) {
   const Packet& packet = *rc::gen::elementOf(samples<3>());
   Bytes bytes = packet.bytes;
   const auto changes = *rc::gen::inRange(1, 8);
-  for (int i = 0; i < changes; ++i) {
+  for (int i = 0; i < changes; ++i)
     bytes[*rc::gen::inRange<std::size_t>(0, bytes.size())] = *rc::gen::arbitrary<std::uint8_t>();
-  }
   seal_again(bytes);
   fault_of(packet.channel, bytes);  // may be accepted where only a value changed within its range
 }

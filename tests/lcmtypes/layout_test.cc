@@ -16,9 +16,8 @@ using talus_lcm::talus_sleep_v1;
 /// Puts the bits of a field with one entry, at `offset` bytes after the fingerprint.
 template <class Bits>
 void put(std::vector<std::uint8_t>& bytes, std::size_t offset, Bits bits) {
-  for (std::size_t i = 0; i < sizeof(Bits); ++i) {
+  for (std::size_t i = 0; i < sizeof(Bits); ++i)
     bytes[fingerprint_bytes + offset + i] = static_cast<std::uint8_t>(bits >> (8 * (sizeof(Bits) - 1 - i)));
-  }
 }
 
 template <class Message>

@@ -107,9 +107,8 @@ TEST(RunRecorder, WritesAKeyFrameOnlyAfterAsManyPosesOfMovingBodies) {
   const ScratchFile lively;
   record<2>(lively.path(), 180);
   std::vector<std::int64_t> steps;
-  for (const auto& bodies : read(lively.path()).all<talus_bodies_v1>()) {
+  for (const auto& bodies : read(lively.path()).all<talus_bodies_v1>())
     if (bodies.key_frame != 0) steps.push_back(bodies.step);
-  }
   EXPECT_EQ(steps, (std::vector<std::int64_t>{60, 120, 180, 180}));
 
   const ScratchFile calm;
@@ -141,9 +140,8 @@ TEST(RunRecorder, StampsWithSimulatedTimeSoThatPlayersKeepThePace) {
     EXPECT_GE(event.timestamp, last + 100);  // never a burst
     last = event.timestamp;
   }
-  for (const auto& stats : record.all<talus_stats_v2>()) {
+  for (const auto& stats : record.all<talus_stats_v2>())
     EXPECT_NEAR(static_cast<double>(stats.utime), 1e6 * stats.sim_time, 1500.0);  // a frame's few messages, 100 us each
-  }
 }
 
 TEST(RunRecorder, WritesTheSameBytesForTheSameRun) {

@@ -77,9 +77,8 @@ TEST(PilesMessage, TellsTheLowestLayersOfAPileWithThousands) {
 RC_GTEST_PROP(SleepMessage, CarriesAllEventsInOrderInSmallMessages, ()) {
   const auto number = *rc::gen::inRange<std::size_t>(0, 12000);
   std::vector<SleepEvent> events(number);
-  for (std::size_t i = 0; i < number; ++i) {
+  for (std::size_t i = 0; i < number; ++i)
     events[i] = {.body = static_cast<BodyIndex>(i), .layer = 3, .woke = i % 3 == 0, .cause = SleepCause::lost_support};
-  }
   auto messages = to_sleep(events);
   RC_ASSERT(messages.empty() == events.empty());
   BodyIndex next = 0;

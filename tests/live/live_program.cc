@@ -110,9 +110,8 @@ void forge(int port, int pairs) {
   constexpr std::array offsets = {99'999U, 0x7fffffffU, 0xfffffff0U, 200'000U};
   for (int i = 0; i < pairs; ++i) {
     const std::uint32_t outside = offsets[static_cast<std::size_t>(i) % offsets.size()];
-    for (const Bytes& bytes : {fragment(0, 0, first), fragment(outside, 1, std::string(1400, 'y'))}) {
+    for (const Bytes& bytes : {fragment(0, 0, first), fragment(outside, 1, std::string(1400, 'y'))})
       sendto(descriptor, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&group), sizeof group);
-    }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   close(descriptor);

@@ -44,9 +44,7 @@ Mesh torus(int around) {
 
 double total_volume(const std::vector<Mesh>& parts) {
   double sum = 0.0;
-  for (const Mesh& part : parts) {
-    sum += moments(part).volume;
-  }
+  for (const Mesh& part : parts) sum += moments(part).volume;
   return sum;
 }
 
@@ -88,9 +86,7 @@ TEST(ConvexParts, AreTheSameEveryTime) {
   const std::vector<Mesh> once = convex_parts(ring, {});
   const std::vector<Mesh> again = convex_parts(ring, {});
   ASSERT_EQ(once.size(), again.size());
-  for (std::size_t i = 0; i < once.size(); ++i) {
-    EXPECT_EQ(content_hash(once[i]), content_hash(again[i]));
-  }
+  for (std::size_t i = 0; i < once.size(); ++i) EXPECT_EQ(content_hash(once[i]), content_hash(again[i]));
 }
 
 TEST(ConvexParts, RefuseNumbersOutOfRange) {

@@ -38,9 +38,8 @@ TEST(DecomposeCommand, ThatFailsLeavesAnOlderFileOfPartsAsItIs) {
   const TemporaryFolder folder;
   std::ofstream mesh(folder / "boxes.obj");
   for (const double at : {0.0, 0.2}) {
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 8; ++i)
       mesh << "v " << at + (i & 1) << ' ' << at / 2 + (i >> 1 & 1) << ' ' << at / 2 + (i >> 2) << '\n';
-    }
     mesh << "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n";
   }
   mesh.close();

@@ -75,9 +75,7 @@ TEST(Decomposition, OfAMeshWithHollowsFillsIt) {
     const Decomposition result = decomposed(mesh, {});
     EXPECT_GE(result.parts.size(), 2u);
     EXPECT_NEAR(result.ratio, 1.0, parts_tolerance);
-    for (const Mesh& part : result.parts) {
-      EXPECT_GE(smallest_width<3>(HullPiece<3>{part.corners}), thinnest_part);
-    }
+    for (const Mesh& part : result.parts) EXPECT_GE(smallest_width<3>(HullPiece<3>{part.corners}), thinnest_part);
   }
 }
 

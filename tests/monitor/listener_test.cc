@@ -72,9 +72,8 @@ TEST(Listener, WhoJoinsLateHasLostNothing) {
 TEST(Listener, CountsARunThatIsPlayedAgainAnew) {
   Wire wire;
   const auto packets = stream(20);
-  for (int time = 0; time < 2; ++time) {
+  for (int time = 0; time < 2; ++time)
     for (const Packet& packet : packets) wire.send(packet);
-  }
   EXPECT_EQ(wire.run().slept(), 20);
   EXPECT_EQ(wire.listener.runs().lost(), 0);
 }
@@ -98,11 +97,10 @@ RC_GTEST_PROP(ListenerProperty, CountsExactlyWhatWasDropped, ()) {
   std::int64_t dropped = 0;
   for (std::size_t i = 0; i < packets.size(); ++i) {
     const bool is_end = i == 0 || i + 1 == packets.size();
-    if (!is_end && *rc::gen::inRange(0, 4) == 0) {
+    if (!is_end && *rc::gen::inRange(0, 4) == 0)
       ++dropped;
-    } else {
+    else
       wire.send(packets[i]);
-    }
   }
   RC_ASSERT(wire.listener.runs().lost() == dropped);
 }
@@ -110,9 +108,8 @@ RC_GTEST_PROP(ListenerProperty, CountsExactlyWhatWasDropped, ()) {
 RC_GTEST_PROP(ListenerProperty, CountsRepeatedAndReorderedMessagesOnce, ()) {
   Wire wire;
   auto packets = stream(30);
-  for (std::size_t i = 1; i + 2 < packets.size(); ++i) {
+  for (std::size_t i = 1; i + 2 < packets.size(); ++i)
     if (*rc::gen::inRange(0, 3) == 0) std::swap(packets[i], packets[i + 1]);
-  }
   for (const Packet& packet : packets) {
     wire.send(packet);
     if (packet.channel != Channel::sleep && *rc::gen::inRange(0, 3) == 0) wire.send(packet);
@@ -163,9 +160,8 @@ TEST(Listener, CountsTheLossThatForgedNumbersClaimWithoutOverflow) {
       Packet packet = MessageEncoder(id).encode(stats, {});
       for (std::size_t i = 0; i < 8; ++i) packet.bytes[40 + i] = static_cast<std::uint8_t>(number >> (56 - 8 * i));
       const std::uint32_t sum = checksum(std::span(packet.bytes).first(packet.bytes.size() - checksum_bytes));
-      for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t i = 0; i < 4; ++i)
         packet.bytes[packet.bytes.size() - 4 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
-      }
       wire.send(packet);
     }
   }

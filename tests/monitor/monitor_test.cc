@@ -105,12 +105,10 @@ TEST(Monitor, StopsWhenAsked) {
 
 TEST(Monitor, RefusesBadParameters) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double seconds : {0.0, -1.0, nan}) {
+  for (const double seconds : {0.0, -1.0, nan})
     EXPECT_THROW(watch({.seconds = seconds}, receive_nothing), std::invalid_argument) << seconds;
-  }
-  for (const double interval : {0.0, -1.0, nan, 1e300, std::numeric_limits<double>::infinity()}) {
+  for (const double interval : {0.0, -1.0, nan, 1e300, std::numeric_limits<double>::infinity()})
     EXPECT_THROW(watch({.interval = interval}, receive_nothing), std::invalid_argument) << interval;
-  }
 }
 
 /// Sends one message of a run, dies at once in the first process, and later in none.

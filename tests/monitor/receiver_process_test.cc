@@ -19,11 +19,9 @@ void wait_forever() {
 /// What the datagrams of the next `time` say.
 std::vector<std::string> heard(ReceiverProcess& receiver, milliseconds time) {
   std::vector<std::string> texts;
-  for (const auto end = Clock::now() + time; Clock::now() < end;) {
-    if (const auto datagram = receiver.next(milliseconds(10))) {
+  for (const auto end = Clock::now() + time; Clock::now() < end;)
+    if (const auto datagram = receiver.next(milliseconds(10)))
       texts.emplace_back(datagram->bytes.begin(), datagram->bytes.end());
-    }
-  }
   return texts;
 }
 

@@ -18,9 +18,7 @@ Sample<Dim> sample_at(const std::vector<Place>& places) {
   Sample<Dim> sample;
   for (const Place& place : places) {
     Vec<Dim> position;
-    for (int axis = 0; axis < Dim; ++axis) {
-      position[axis] = 0.01 * place[axis];
-    }
+    for (int axis = 0; axis < Dim; ++axis) position[axis] = 0.01 * place[axis];
     sample.add(position, false);
   }
   return sample;

@@ -42,9 +42,8 @@ TEST(ExposedBodies, AreTheSkinOfAThickBlock) {
   constexpr int side = 64;
   constexpr int tall = 32;
   const double spacing = 1.001 * sample.shapes[0].extent;
-  for (int i = 0; i < side * side * tall; ++i) {
+  for (int i = 0; i < side * side * tall; ++i)
     sample.add(spacing * Vec3(i % side, i / side % side, i / side / side), true);
-  }
   std::vector<BodyIndex> all(sample.states.shape.size());
   std::iota(all.begin(), all.end(), 0);
   const std::vector<BodyIndex> seen = exposed(sample.input(), all);

@@ -57,9 +57,8 @@ class Image {
  public:
   explicit Image(const std::filesystem::path& png)
       : surface_(cairo_image_surface_create_from_png(png.c_str()), cairo_surface_destroy) {
-    if (cairo_surface_status(surface_.get()) != CAIRO_STATUS_SUCCESS) {
+    if (cairo_surface_status(surface_.get()) != CAIRO_STATUS_SUCCESS)
       throw std::runtime_error("no PNG: " + png.string());
-    }
     cairo_surface_flush(surface_.get());
   }
   int width() const { return cairo_image_surface_get_width(surface_.get()); }

@@ -17,9 +17,7 @@ constexpr const char* asleep_colour = "\x1b[38;5;244m";
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
 }
 
@@ -41,9 +39,7 @@ void expect_within_limits(const Sample<Dim>& sample) {
     for (const TerminalParams params : {TerminalParams{72, 24, colours}, {48, 6, colours}, {200, 10, colours}}) {
       const std::vector<std::string> lines = lines_of(terminal_picture<Dim>(sample.input(), params));
       EXPECT_LE(static_cast<int>(lines.size()), params.rows);
-      for (const std::string& line : lines) {
-        EXPECT_LE(columns_of(line), params.columns) << line;
-      }
+      for (const std::string& line : lines) EXPECT_LE(columns_of(line), params.columns) << line;
     }
   }
 }

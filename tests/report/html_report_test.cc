@@ -37,9 +37,8 @@ TEST(HtmlReport, HoldsItsFiguresWithoutTheirFileHead) {
 
 TEST(HtmlReport, AsksForNothingFromElsewhere) {
   const std::string html = html_of(sample());
-  for (const char* reference : {"src=", "href=", "url(", "@import", "<script"}) {
+  for (const char* reference : {"src=", "href=", "url(", "@import", "<script"})
     EXPECT_EQ(html.find(reference), std::string::npos) << reference;
-  }
 }
 
 TEST(HtmlReport, RefusesRaggedTablesAndFiguresThatAreNoSvg) {

@@ -53,14 +53,11 @@ Unrest unrest(World<2>& world) {
   for (int step = 0; step < 60; ++step) {
     world.step();
     double sum = 0.0;
-    for (const Vec2& velocity : world.states().velocity) {
-      sum += velocity.norm();
-    }
+    for (const Vec2& velocity : world.states().velocity) sum += velocity.norm();
     result.peak = std::max(result.peak, sum / count);
   }
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (std::size_t i = 0; i < before.size(); ++i)
     result.drift += (world.states().pose[i].position - before[i].position).norm() / count;
-  }
   return result;
 }
 

@@ -29,15 +29,11 @@ inline BodyDef<2> l_in_stack(int index, int columns, std::mt19937& random) {
 
 inline void add_stack(World<2>& world, int count, int columns, unsigned seed = 1) {
   std::mt19937 random(seed);
-  for (int i = 0; i < count; ++i) {
-    world.add(l_in_stack(i, columns, random));
-  }
+  for (int i = 0; i < count; ++i) world.add(l_in_stack(i, columns, random));
 }
 
 inline void run(World<2>& world, int steps) {
-  for (int i = 0; i < steps; ++i) {
-    world.step();
-  }
+  for (int i = 0; i < steps; ++i) world.step();
 }
 
 inline std::vector<BodyIndex> awake_of(const World<2>& world) { return {world.awake().begin(), world.awake().end()}; }

@@ -63,9 +63,8 @@ TEST(Box2DWorld, TakesEveryShapeThatTheSeamAllows) {
     description.shapes.push_back(make_shape<2>("small", pieces, Material{.density = 1e-3 / shape.volume}));
   }
   const auto world = make_box2d_world(description);
-  for (int shape = 0; shape < 5; ++shape) {
+  for (int shape = 0; shape < 5; ++shape)
     world->add({shape, {{2.0 * shape, 0.3}, Rotation<2>(1e9 + shape)}, Vec2::Zero(), Spin<2>::Zero()});
-  }
   EXPECT_NO_THROW(run(*world, 300));
   for (const Pose<2>& pose : world->states().pose) {
     EXPECT_GT(pose.position.y(), 0.0);
@@ -90,9 +89,8 @@ TEST(Capsule, LiesOnItsStraightSideAsHighAsOnItsRoundEnds) {
 
 TEST(Ground, HoldsFarFromTheOrigin) {
   const auto world = make_box2d_world(l_world());
-  for (const double x : {-1e4, -5e3, 0.0, 5e3, 1e4}) {
+  for (const double x : {-1e4, -5e3, 0.0, 5e3, 1e4})
     world->add({0, {{x, 20.0}, Rotation<2>(0.3)}, {0.0, -100.0}, Spin<2>::Zero()});
-  }
   run(*world, 300);
   for (const Pose<2>& pose : world->states().pose) {
     EXPECT_GT(pose.position.y(), 0.2);

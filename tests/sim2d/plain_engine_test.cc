@@ -24,9 +24,7 @@ class PlainHeap {
     line.SetTwoSided({-2e4F, 0.0F}, {2e4F, 0.0F});
     engine_.CreateBody(&ground)->CreateFixture(&fixture(line));
     std::mt19937 random(1);
-    for (int i = 0; i < bodies; ++i) {
-      add(l_in_stack(i, columns, random), description.shapes[0]);
-    }
+    for (int i = 0; i < bodies; ++i) add(l_in_stack(i, columns, random), description.shapes[0]);
   }
 
   void step() { engine_.Step(static_cast<float>(1.0 / 60.0), 10, 4); }

@@ -58,15 +58,11 @@ TEST(Sleepers, AreNoBodiesOfTheEngineAndHaveNoContacts) {
 TEST(Sleepers, LeaveNothingBehindWhenTheyWakeOrGo) {
   const auto world = bed_of_sleepers(300);
   std::vector<BodyIndex> all;
-  for (BodyIndex body = 0; body < 300; ++body) {
-    all.push_back(body);
-  }
+  for (BodyIndex body = 0; body < 300; ++body) all.push_back(body);
   world->thaw(all);
   EXPECT_EQ(engine_of(*world).GetBodyCount(), 1 + 300);
   world->freeze(all);
-  for (const BodyIndex body : all) {
-    world->remove(body);
-  }
+  for (const BodyIndex body : all) world->remove(body);
   EXPECT_EQ(engine_of(*world).GetBodyCount(), 1);
   EXPECT_EQ(engine_of(*world).GetProxyCount(), 1);
 }

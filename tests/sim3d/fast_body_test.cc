@@ -28,9 +28,7 @@ int through_the_wall(double speed, MakeWorld make_world) {
   }
   run(*world, 30);
   int through = 0;
-  for (const Pose<Dim>& pose : world->states().pose) {
-    through += pose.position[0] > 0.0 ? 1 : 0;
-  }
+  for (const Pose<Dim>& pose : world->states().pose) through += pose.position[0] > 0.0 ? 1 : 0;
   return through;
 }
 

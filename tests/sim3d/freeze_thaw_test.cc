@@ -53,9 +53,7 @@ TEST(FrozenBody, HasPairsOnlyWithTheAwake) {
   add_stack(*world, 40, 3);
   run(*world, 300);
   std::vector<BodyIndex> even;
-  for (BodyIndex body = 0; body < 40; body += 2) {
-    even.push_back(body);
-  }
+  for (BodyIndex body = 0; body < 40; body += 2) even.push_back(body);
   world->freeze(even);
   run(*world, 30);
   const bullet::Engine& engine = engine_of(*world);
@@ -72,9 +70,7 @@ double peak_speed(World<3>& world) {
   for (int step = 0; step < 30; ++step) {
     world.step();
     double sum = 0.0;
-    for (const Vec3& velocity : world.states().velocity) {
-      sum += velocity.norm();
-    }
+    for (const Vec3& velocity : world.states().velocity) sum += velocity.norm();
     peak = std::max(peak, sum / world.states().size());
   }
   return peak;
@@ -117,12 +113,9 @@ TEST(ThawedBody, FindsItsContactsInTheFirstStep) {
   world->step();
   double weight_before = 0.0;
   double weight_after = 0.0;
-  for (const Contact<3>& contact : before) {
-    weight_before += contact.b == ground_index ? contact.normal_impulse : 0.0;
-  }
-  for (const Contact<3>& contact : world->contacts()) {
+  for (const Contact<3>& contact : before) weight_before += contact.b == ground_index ? contact.normal_impulse : 0.0;
+  for (const Contact<3>& contact : world->contacts())
     weight_after += contact.b == ground_index ? contact.normal_impulse : 0.0;
-  }
   // In one step the solver, which takes over 85 % of each impulse, does not find the balance to the last per cent.
   EXPECT_NEAR(weight_after / weight_before, 1.0, 0.1);
 }
@@ -141,9 +134,7 @@ TEST(BrokenState, StopsTheWorldAsItWasBeforeTheStep) {
       EXPECT_EQ(error.step, 101);
     }
   }
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    EXPECT_EQ(world->states().pose[i].position, before[i].position);
-  }
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(world->states().pose[i].position, before[i].position);
 }
 
 TEST(RemovedBody, TakesItsPairsAlongAsleepOrAwake) {

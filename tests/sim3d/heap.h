@@ -20,9 +20,7 @@ WorldDescription<Dim> l_world() {
 inline Eigen::Quaterniond random_turn(std::mt19937& random) {
   std::normal_distribution<double> normal;
   Eigen::Vector4d q;
-  for (int i = 0; i < 4; ++i) {
-    q[i] = normal(random);
-  }
+  for (int i = 0; i < 4; ++i) q[i] = normal(random);
   return Eigen::Quaterniond(q.normalized());
 }
 
@@ -38,16 +36,12 @@ inline BodyDef<3> l_in_stack(int index, int columns, std::mt19937& random) {
 
 inline void add_stack(World<3>& world, int count, int columns, unsigned seed = 1) {
   std::mt19937 random(seed);
-  for (int i = 0; i < count; ++i) {
-    world.add(l_in_stack(i, columns, random));
-  }
+  for (int i = 0; i < count; ++i) world.add(l_in_stack(i, columns, random));
 }
 
 template <int Dim>
 void run(World<Dim>& world, int steps) {
-  for (int i = 0; i < steps; ++i) {
-    world.step();
-  }
+  for (int i = 0; i < steps; ++i) world.step();
 }
 
 template <int Dim>

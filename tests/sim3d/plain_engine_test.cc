@@ -28,14 +28,10 @@ class PlainHeap {
     ground_.setFriction(std::sqrt(0.5F));
     world_.addRigidBody(&ground_);
     std::mt19937 random(1);
-    for (int i = 0; i < bodies; ++i) {
-      add(l_in_stack(i, columns, random), description.engine_sleep);
-    }
+    for (int i = 0; i < bodies; ++i) add(l_in_stack(i, columns, random), description.engine_sleep);
   }
   ~PlainHeap() {
-    for (const auto& body : bodies_) {
-      world_.removeRigidBody(body.get());
-    }
+    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
     world_.removeRigidBody(&ground_);
   }
 
@@ -58,9 +54,7 @@ class PlainHeap {
     info.m_startWorldTransform = bullet::to_bullet(def.pose, shape_.frame);
     auto body = std::make_unique<btRigidBody>(info);
     body->setFriction(std::sqrt(0.5F));
-    if (!may_sleep) {
-      body->setActivationState(DISABLE_DEACTIVATION);
-    }
+    if (!may_sleep) body->setActivationState(DISABLE_DEACTIVATION);
     world_.addRigidBody(body.get());
     bodies_.push_back(std::move(body));
   }
@@ -82,11 +76,9 @@ bool same_bits(const Values& a, const Values& b) {
 }
 
 bool same_bits(const BodyStates<3>& a, const BodyStates<3>& b) {
-  for (std::size_t i = 0; i < a.pose.size(); ++i) {  // one by one: a Pose has gaps between its members
-    if (a.pose[i].position != b.pose[i].position || a.pose[i].rotation.coeffs() != b.pose[i].rotation.coeffs()) {
+  for (std::size_t i = 0; i < a.pose.size(); ++i)  // one by one: a Pose has gaps between its members
+    if (a.pose[i].position != b.pose[i].position || a.pose[i].rotation.coeffs() != b.pose[i].rotation.coeffs())
       return false;
-    }
-  }
   return same_bits(a.velocity, b.velocity) && same_bits(a.spin, b.spin);
 }
 

@@ -46,21 +46,16 @@ class Sequence {
       description_.debug.*field = chance(0.15);
     }
     worlds_ = {make(description_), make(packaged)};
-    for (const auto& world : worlds_) {
-      world->record_contacts(true);
-    }
+    for (const auto& world : worlds_) world->record_contacts(true);
   }
 
   /// What differs after that many acts; empty: nothing.
   std::string run(int acts) {
     for (int act = 0; act < acts; ++act) {
       const std::string what = do_something();
-      if (state_hash(worlds_[0]->states()) != state_hash(worlds_[1]->states())) {
+      if (state_hash(worlds_[0]->states()) != state_hash(worlds_[1]->states()))
         return "act " + std::to_string(act) + ": " + what;
-      }
-      if (stopped_) {
-        return "";
-      }
+      if (stopped_) return "";
     }
     return same_contacts() ? "" : "contacts";
   }
@@ -119,32 +114,21 @@ class Sequence {
       body.pose.rotation = Rotation<2>(within(3.0));
       body.spin[0] = within(3.0);
     }
-    for (const auto& world : worlds_) {
-      world->add(body);
-    }
+    for (const auto& world : worlds_) world->add(body);
     present_.push_back(worlds_[0]->states().size() - 1);
   }
 
   void freeze(bool to_sleep) {
     std::vector<BodyIndex> some;
-    for (const BodyIndex body : present_) {
-      if (chance(0.5)) {
-        some.push_back(body);
-      }
-    }
-    for (const auto& world : worlds_) {
-      to_sleep ? world->freeze(some) : world->thaw(some);
-    }
+    for (const BodyIndex body : present_)
+      if (chance(0.5)) some.push_back(body);
+    for (const auto& world : worlds_) to_sleep ? world->freeze(some) : world->thaw(some);
   }
 
   void remove() {
-    if (present_.empty()) {
-      return;
-    }
+    if (present_.empty()) return;
     const auto which = present_.begin() + below(static_cast<int>(present_.size()));
-    for (const auto& world : worlds_) {
-      world->remove(*which);
-    }
+    for (const auto& world : worlds_) world->remove(*which);
     present_.erase(which);
   }
 
@@ -185,9 +169,8 @@ class Sequence {
 
 template <int Dim>
 void expect_same_bits(unsigned first, unsigned last) {
-  for (unsigned seed = first; seed < last; ++seed) {
+  for (unsigned seed = first; seed < last; ++seed)
     EXPECT_EQ(Sequence<Dim>(seed).run(60), "") << Dim << "D, sequence " << seed;
-  }
 }
 
 TEST(ReplacementsOfBullet, GiveItsBitsForAnyOrderOfCallsIn3D) { expect_same_bits<3>(0, 150); }

@@ -52,11 +52,10 @@ RC_GTEST_PROP(SeparatingAxis, IsOneWhereTheShadowsAreApart, ()) {
   const PlacedBox a;
   const PlacedBox b;
   const BoxAxis found = separating_axis(a.shape, a.place, b.shape, b.place);
-  if (found >= 0) {
+  if (found >= 0)
     RC_ASSERT(gap(a, b, found) > 0.0);
-  } else {
+  else
     for (BoxAxis axis = 0; axis < 6; ++axis) RC_ASSERT(gap(a, b, axis) < 1e-3);
-  }
 }
 
 TEST(SeparatingAxis, IsNoneWhereBoxesOnlyTouch) {

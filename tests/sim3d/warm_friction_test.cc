@@ -21,9 +21,7 @@ double creep(unsigned seed, bool warm_friction) {
   const std::vector<Pose<3>> before = world->states().pose;
   run(*world, 200);
   double sum = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    sum += (world->states().pose[i].position - before[i].position).norm();
-  }
+  for (std::size_t i = 0; i < before.size(); ++i) sum += (world->states().pose[i].position - before[i].position).norm();
   return sum / static_cast<double>(before.size());
 }
 

@@ -44,9 +44,8 @@ Json results_of(const TemporaryFolder& folder, const std::string& name, const st
     EXPECT_EQ(each["end_hashes"].size(), 1U) << "the same input gives the same end: " << each["policy"];
     EXPECT_GT(each["against_full"]["seconds"], 0.0);
     EXPECT_GT(each["against_full"]["speed_up"], 0.0);
-    for (const auto& [measure, value] : each["against_full"].items()) {
+    for (const auto& [measure, value] : each["against_full"].items())
       EXPECT_TRUE(std::isfinite(value.get<double>())) << measure;
-    }
   }
   return json;
 }

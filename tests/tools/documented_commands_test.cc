@@ -98,9 +98,8 @@ void expect_known(const CommandLine& line) {
       const std::string option = word.substr(0, word.find('='));
       EXPECT_TRUE(std::regex_search(help, std::regex("[\n, ]" + option + "[ ,{\n]"))) << "unknown option: " << option;
     }
-    if (is_scene_name(word)) {
+    if (is_scene_name(word))
       EXPECT_TRUE(fs::exists(fs::path(TALUS_SOURCE) / "scenes" / (word + ".toml"))) << "unknown scene: " << word;
-    }
   }
 }
 
@@ -108,9 +107,8 @@ void expect_known(const CommandLine& line) {
 std::set<std::string> presets(const std::string& kind) {
   std::set<std::string> names;
   const auto all = nlohmann::json::parse(contents(fs::path(TALUS_SOURCE) / "CMakePresets.json"));
-  for (const auto& preset : all.at(kind)) {
+  for (const auto& preset : all.at(kind))
     if (!preset.value("hidden", false)) names.insert(preset.at("name"));
-  }
   return names;
 }
 
@@ -129,21 +127,16 @@ void expect_dev(const std::vector<std::string>& words) {
   const std::string help = shell("./dev help").out;
   EXPECT_TRUE(std::regex_search(help, std::regex("\n  " + words[1] + "[ \n]"))) << "unknown: ./dev " << words[1];
   if (words.size() == 2 || std::isupper(words[2].front()) != 0) return;
-  if (words[1] == "build") {
-    EXPECT_TRUE(presets("buildPresets").contains(words[2])) << words[2];
-  }
-  if (words[1] == "fuzz") {
+  if (words[1] == "build") EXPECT_TRUE(presets("buildPresets").contains(words[2])) << words[2];
+  if (words[1] == "fuzz")
     EXPECT_TRUE(fs::exists(fs::path(TALUS_SOURCE) / "tests/fuzz" / (words[2] + "_fuzz.cc"))) << words[2];
-  }
 }
 
 /// Words such as docs/scenes.md or .ci/run: files of the repository.
 void expect_files(const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    if (std::regex_match(word, std::regex("(\\.ci|docs|scenes|tests|tools|common)/[A-Za-z0-9_./]+"))) {
+  for (const std::string& word : words)
+    if (std::regex_match(word, std::regex("(\\.ci|docs|scenes|tests|tools|common)/[A-Za-z0-9_./]+")))
       EXPECT_TRUE(fs::exists(fs::path(TALUS_SOURCE) / word)) << "no such file: " << word;
-    }
-  }
 }
 
 void expect_other_program(const CommandLine& line) {
@@ -190,16 +183,14 @@ TEST(CommandsInText, HaveSubCommandsOptionsAndScenesThatExist) {
 }
 
 TEST(CommandsInText, StandInBlocksMarkedAsShellWhereTheyHaveALineOfTheirOwn) {
-  for (const std::string& name : page_names()) {
+  for (const std::string& name : page_names())
     for (const CommandLine& line : read_page(name).outside) ADD_FAILURE() << line.place << ": " << line.text;
-  }
 }
 
 TEST(ShortenedCommands, AreAllInTheManual) {
   std::set<std::string> all;
-  for (const std::string& name : page_names()) {
+  for (const std::string& name : page_names())
     for (const CommandLine& line : read_page(name).commands) all.insert(line.text);
-  }
   for (const Shortened& each : shortened) EXPECT_TRUE(all.contains(std::string(each.command))) << each.command;
 }
 

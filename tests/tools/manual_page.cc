@@ -7,7 +7,6 @@
 #include "tests/process/process.h"
 
 namespace talus {
-
 namespace {
 
 const std::filesystem::path root = TALUS_SOURCE;
@@ -43,9 +42,8 @@ class PageReader {
 
   ManualPage finish() {
     const std::regex command("`((talus|\\./dev) [^`]*)`");
-    for (std::sregex_iterator match(text_.begin(), text_.end(), command); match != std::sregex_iterator(); ++match) {
+    for (std::sregex_iterator match(text_.begin(), text_.end(), command); match != std::sregex_iterator(); ++match)
       page_.inline_commands.push_back({page_.name, (*match)[1]});
-    }
     return page_;
   }
 
@@ -83,9 +81,8 @@ ManualPage read_page(const std::string& name) {
 
 std::vector<std::string> page_names() {
   std::vector<std::string> names = {"README.md", "CONTRIBUTING.md"};
-  for (const auto& entry : std::filesystem::directory_iterator(root / "docs")) {
+  for (const auto& entry : std::filesystem::directory_iterator(root / "docs"))
     if (entry.path().extension() == ".md") names.push_back("docs/" + entry.path().filename().string());
-  }
   std::sort(names.begin() + 2, names.end());
   return names;
 }

@@ -20,9 +20,8 @@ TEST(RunCommand, LeavesARunFolderThatExplainsItself) {
   const TemporaryFolder folder;
   const Outcome outcome = talus_command("run " + short_scene + "--out " + (folder / "run"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* name : {"scene.toml", "summary.json", "frames.csv", "pile.svg", "pile.png"}) {
+  for (const char* name : {"scene.toml", "summary.json", "frames.csv", "pile.svg", "pile.png"})
     EXPECT_GT(fs::file_size(folder.path() / "run" / name), 100U) << name;
-  }
   const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
   EXPECT_EQ(summary["reason"], "finished");
   EXPECT_EQ(summary["steps"], 300);

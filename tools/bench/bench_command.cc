@@ -9,7 +9,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 /// For options with a folder that is made where it is not there.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 namespace talus {
-
 namespace {
 
 /// " --OPTION VALUE" for each value, quoted where a shell needs it.

@@ -10,7 +10,6 @@
 #include "tools/run/find_scene.h"
 
 namespace talus {
-
 namespace {
 
 /// The scenes that a name stands for.
@@ -36,9 +35,8 @@ std::vector<std::string> scenes_of(const BenchOptions& options, const std::vecto
   }
   if (!options.scenes.empty()) return scenes;
   const std::size_t count = options.quick ? std::min(quick_count, names.size()) : names.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     for (const std::string& scene : scenes_named(names[i])) scenes.push_back(scene);
-  }
   return scenes;
 }
 
@@ -47,11 +45,9 @@ std::vector<std::string> backends_of(const BenchOptions& options, const std::str
   if (able.empty()) return {};
   if (options.backends.empty()) return {able.front()};
   std::vector<std::string> wanted;
-  for (const std::string& backend : able) {
-    if (std::find(options.backends.begin(), options.backends.end(), backend) != options.backends.end()) {
+  for (const std::string& backend : able)
+    if (std::find(options.backends.begin(), options.backends.end(), backend) != options.backends.end())
       wanted.push_back(backend);
-    }
-  }
   return wanted;
 }
 

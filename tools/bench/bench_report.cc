@@ -7,7 +7,6 @@
 #include "tools/output/output.h"
 
 namespace talus {
-
 namespace {
 
 std::vector<CaseColumn> named(std::vector<CaseColumn> columns) {
@@ -66,21 +65,17 @@ std::vector<Section> common_sections(const BenchRunner& runner, const std::vecto
 
 void run_report(const BenchReport& report, const BenchOptions& options) {
   std::vector<BenchGroup> groups;
-  for (const std::string& scene : scenes_of(options, report.scenes, report.quick_scenes)) {
-    for (const std::string& backend : backends_of(options, scene)) {
+  for (const std::string& scene : scenes_of(options, report.scenes, report.quick_scenes))
+    for (const std::string& backend : backends_of(options, scene))
       std::ranges::move(report.groups(options, scene, backend), std::back_inserter(groups));
-    }
-  }
   BenchRunner runner(options);
   runner.run(groups);
   BenchResults results{report.title, {report.note}, {}};
   const Table table = case_table(runner, groups, report.columns, Pass::against_full, report.in_table);
   results.sections.push_back({"In short", {table}});
-  for (const CasePlot& plot : report.plots) {
-    for (Figure& figure : figures_of(runner, groups, plot)) {
+  for (const CasePlot& plot : report.plots)
+    for (Figure& figure : figures_of(runner, groups, plot))
       results.sections.front().blocks.emplace_back(std::move(figure));
-    }
-  }
   std::ranges::move(common_sections(runner, groups), std::back_inserter(results.sections));
   write_results(runner, groups, results);
   print_text(text_of(table));

@@ -13,7 +13,6 @@
 #include "tools/output/output.h"
 
 namespace talus {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -44,9 +43,8 @@ Json results_json(const BenchRunner& runner, const std::vector<BenchGroup>& grou
       const RowKey key = key_of(each);
       Json row = {{"scene", key.scene},        {"backend", key.backend}, {"policy", key.policy},
                   {"settings", each.settings}, {"version", key.version}, {"end_hashes", runner.hashes(each)}};
-      for (const Pass pass : passes_of(runner.options())) {
+      for (const Pass pass : passes_of(runner.options()))
         row[name_of(pass)] = json_of(runner.summary(each, group.full(), pass));
-      }
       json["cases"].push_back(row);
     }
   }
@@ -63,9 +61,8 @@ Table results_table(const BenchRunner& runner, const std::vector<BenchGroup>& gr
         table.rows.push_back({key.scene, key.backend, key.policy, key.settings, key.version, name_of(pass),
                               fmt::format("{}", fmt::join(runner.hashes(each), " "))});
         const Values values = runner.summary(each, group.full(), pass);
-        for (const MeasureId id : MeasureId::all()) {
+        for (const MeasureId id : MeasureId::all())
           table.rows.back().push_back(std::isfinite(values[id]) ? fmt::format("{}", values[id]) : "");
-        }
       }
     }
   }
@@ -89,9 +86,8 @@ std::string markdown_of(const BenchResults& results, const std::string& name) {
     text += fmt::format("\n## {}\n", section.heading);
     for (const Block& block : section.blocks) {
       if (const auto* paragraph = std::get_if<Paragraph>(&block)) text += "\n" + paragraph->text + "\n";
-      if (const auto* table = std::get_if<Table>(&block)) {
+      if (const auto* table = std::get_if<Table>(&block))
         text += (table->caption.empty() ? "\n" : fmt::format("\n{}\n\n", table->caption)) + talus::markdown_of(*table);
-      }
       if (const auto* figure = std::get_if<Figure>(&block)) {
         ++number;
         text += fmt::format("\n![{}]({}-{}.svg)\n", figure->caption, name, number);

@@ -12,7 +12,6 @@
 #include "tools/output/output.h"
 
 namespace talus {
-
 namespace {
 
 RowKey key_at(const BenchCase& bench_case, Pass pass, int round) {
@@ -53,9 +52,8 @@ bool BenchRunner::missing(const BenchCase& bench_case, const Task& task) const {
 void BenchRunner::run(const std::vector<BenchGroup>& groups) {
   total_ = done_ = 0;
   for (const BenchGroup& group : groups) {
-    for (const BenchCase& each : group.cases) {
+    for (const BenchCase& each : group.cases)
       for (const Task& task : tasks()) total_ += missing(each, task) ? 1 : 0;
-    }
   }
   watch_.lap();
   for (const BenchGroup& group : groups) {
@@ -64,9 +62,8 @@ void BenchRunner::run(const std::vector<BenchGroup>& groups) {
         measure_errors(group, task);
         continue;
       }
-      for (const BenchCase& each : group.cases) {
+      for (const BenchCase& each : group.cases)
         if (missing(each, task)) time_once(each, task);
-      }
     }
   }
 }
@@ -135,9 +132,8 @@ Values BenchRunner::summary(const BenchCase& bench_case, const BenchCase& full, 
   }
   const auto over_rounds = [&](MeasureId id) {
     std::vector<double> numbers;
-    for (const Values& values : rounds) {
+    for (const Values& values : rounds)
       if (std::isfinite(values[id])) numbers.push_back(values[id]);
-    }
     return numbers;
   };
   for (const MeasureId id : MeasureId::all()) {
@@ -155,9 +151,8 @@ Values BenchRunner::summary(const BenchCase& bench_case, const BenchCase& full, 
 
 std::vector<std::string> BenchRunner::hashes(const BenchCase& bench_case) const {
   std::vector<std::string> all;
-  for (const Row* row : store_.rounds(key_of(bench_case))) {
+  for (const Row* row : store_.rounds(key_of(bench_case)))
     if (std::ranges::find(all, row->end_hash) == all.end()) all.push_back(row->end_hash);
-  }
   return all;
 }
 

@@ -5,7 +5,6 @@
 #include <numeric>
 
 namespace talus {
-
 namespace {
 
 constexpr std::size_t most_curves = 7;  // colours that people of any colour vision can distinguish

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace talus {
-
 namespace {
 
 /// The policy, with those of the case's settings that not all cases of its group have.

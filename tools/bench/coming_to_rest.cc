@@ -13,7 +13,6 @@
 #include "tools/run/processor_watch.h"
 
 namespace talus {
-
 namespace {
 
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
@@ -24,9 +23,7 @@ class Trail {
  public:
   void add(const World<Dim>& world) {
     std::vector<Place>& places = steps_.emplace_back();
-    for (const BodyIndex body : world.awake()) {
-      places.emplace_back(body, world.states().pose[body].position);
-    }
+    for (const BodyIndex body : world.awake()) places.emplace_back(body, world.states().pose[body].position);
   }
 
   /// Number of steps until no body is farther from where it ends.

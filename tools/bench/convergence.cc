@@ -9,7 +9,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 /// Solver settings of the full simulation.
@@ -84,9 +83,8 @@ void bench_convergence(const BenchOptions& options) {
   BenchOptions own = options;
   own.errors = true;
   own.reference = false;
-  if (own.backends.empty()) {
+  if (own.backends.empty())
     for (const int dimension : {2, 3}) std::ranges::copy(backends(dimension), std::back_inserter(own.backends));
-  }
   // 15 s of pour, 15 s after it.
   if (own.settings.empty()) own.settings = {"source[0].count=100", "run.frames=900"};
   run_report(

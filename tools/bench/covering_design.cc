@@ -10,7 +10,6 @@
 #include "common/math/random.h"
 
 namespace talus {
-
 namespace {
 
 using DesignRow = std::vector<int>;
@@ -41,9 +40,8 @@ class PairCounts {
   }
 
   void add(const DesignRow& row) {
-    for (std::size_t a = 0; a < row.size(); ++a) {
+    for (std::size_t a = 0; a < row.size(); ++a)
       for (std::size_t b = 0; b < row.size(); ++b) ++counts_[entry(a, row[a], b, row[b])];
-    }
   }
 
   /// Worth of a pair: one that does not occur yet outweighs any number of those that do.
@@ -54,9 +52,8 @@ class PairCounts {
   /// Sum over the pairs of `value` of factor `a` with what the row has decided.
   double worth_in(const DesignRow& row, std::size_t a, int value) const {
     double sum = 0.0;
-    for (std::size_t b = 0; b < row.size(); ++b) {
+    for (std::size_t b = 0; b < row.size(); ++b)
       if (b != a && row[b] != undecided) sum += worth(a, value, b, row[b]);
-    }
     return sum;
   }
 
@@ -96,9 +93,8 @@ DesignRow candidate_row(std::span<const int> values, const PairCounts& counts, c
   row[start.first] = start.first_value;
   row[start.second] = start.second_value;
   std::vector<std::size_t> open;
-  for (std::size_t f = 0; f < values.size(); ++f) {
+  for (std::size_t f = 0; f < values.size(); ++f)
     if (row[f] == undecided) open.push_back(f);
-  }
   while (!open.empty()) {
     const std::size_t place = draw_below(random, open.size());
     const std::size_t factor = open[place];

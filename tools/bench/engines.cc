@@ -13,7 +13,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 constexpr int least_seeds = 8;  // fewer determine a shape badly

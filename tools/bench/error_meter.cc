@@ -15,7 +15,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 constexpr double still = 1.0;  // [m/s]; faster bodies are in flight
@@ -28,9 +27,8 @@ WorldMaker<Dim> maker_of(const std::string& backend) {
 /// Without the bodies in flight: they would count as displaced when they land.
 template <int Dim>
 BodyStates<Dim> settled(BodyStates<Dim> states) {
-  for (std::size_t i = 0; i < states.shape.size(); ++i) {
+  for (std::size_t i = 0; i < states.shape.size(); ++i)
     if (states.velocity[i].norm() > still) states.removed[i] = 1;
-  }
   return states;
 }
 

@@ -13,7 +13,6 @@
 #include "tools/plot/plot.h"
 
 namespace talus {
-
 namespace {
 
 /// Means over about a second each, so that a curve can be seen.

@@ -15,7 +15,6 @@
 #include "tools/run/version.h"
 
 namespace talus {
-
 namespace {
 
 double number(const std::string& text) {

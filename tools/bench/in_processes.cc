@@ -14,7 +14,6 @@
 #include <vector>
 
 namespace talus {
-
 namespace {
 
 /// A process at work, and what it has written so far.
@@ -86,14 +85,12 @@ void in_processes(int count, int jobs, const std::function<std::string(int)>& ta
   std::vector<Worker> workers;
   int next = 0;
   while (next < count || !workers.empty()) {
-    while (next < count && static_cast<int>(workers.size()) < std::max(1, jobs)) {
+    while (next < count && static_cast<int>(workers.size()) < std::max(1, jobs))
       workers.push_back(start_worker(task, next++));
-    }
     std::vector<pollfd> pipes;
     for (const Worker& worker : workers) pipes.push_back({worker.pipe, POLLIN, 0});
-    if (poll(pipes.data(), pipes.size(), -1) < 0 && errno != EINTR) {
+    if (poll(pipes.data(), pipes.size(), -1) < 0 && errno != EINTR)
       throw std::system_error(errno, std::generic_category(), "poll");
-    }
     for (std::size_t i = workers.size(); i-- > 0;) {
       if (pipes[i].revents == 0 || !read_some(workers[i])) continue;
       const Worker worker = std::move(workers[i]);

@@ -11,7 +11,6 @@
 #include "tools/run/version.h"
 
 namespace talus {
-
 namespace {
 
 /// Value of the first line "NAME : VALUE" of a file under /proc; empty where there is none.

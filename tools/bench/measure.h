@@ -155,9 +155,8 @@ class MeasureId {
  private:
   explicit constexpr MeasureId(std::size_t index) : index_(index) {}
   static constexpr std::size_t find(std::string_view name) {
-    for (std::size_t i = 0; i < measures.size(); ++i) {
+    for (std::size_t i = 0; i < measures.size(); ++i)
       if (measures[i].name == name) return i;
-    }
     throw std::logic_error("no measure of this name: " + std::string(name));
   }
 

@@ -7,7 +7,6 @@
 #include "tools/bench/benchmarks.h"
 
 namespace talus {
-
 namespace {
 
 /// One curve: a policy while one setting takes several values.
@@ -26,9 +25,8 @@ std::vector<Sweep> pareto_sweeps(const BenchOptions& options) {
   std::vector<Sweep> sweeps = {{"full, iterations", "full", iterations, some({5, 20}, {5, 20, 40})},
                                {"full, steps a second", "full", "world.steps_per_second", some({120}, {120, 240})}};
   for (const std::string& policy : policies_of(options)) {
-    if (policy == "paper") {
+    if (policy == "paper")
       sweeps.push_back({"paper, tau", "paper", "policy.tau", some({0.3, 0.5}, {0.1, 0.2, 0.3, 0.4, 0.5})});
-    }
     sweeps.push_back({policy + ", iterations", policy, iterations, some({10}, {5, 10, 20, 40})});
   }
   return sweeps;

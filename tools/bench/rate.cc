@@ -9,7 +9,6 @@
 #include "tools/bench/benchmarks.h"
 
 namespace talus {
-
 namespace {
 
 int rate_bodies(const BenchOptions& options) { return options.quick ? 100 : 400; }

@@ -8,7 +8,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 /// Time from which on no body has been awake.
@@ -16,11 +15,10 @@ template <int Dim>
 class RestObserver final : public Observer<Dim> {
  public:
   void on_frame(const Frame<Dim>& frame) override {
-    if (!frame.world.awake().empty() || frame.world.states().size() == 0) {
+    if (!frame.world.awake().empty() || frame.world.states().size() == 0)
       since_.reset();
-    } else if (!since_) {
+    else if (!since_)
       since_ = frame.time;
-    }
   }
   std::optional<double> since() const { return since_; }
 

@@ -9,7 +9,6 @@
 #include "tools/output/output.h"
 
 namespace talus {
-
 namespace {
 
 /// Of one scene on one engine: the engine's own sleeping first, then the others beside it.
@@ -51,9 +50,8 @@ void bench_rest(const BenchOptions& options) {
                {"engine's over it", true}},
               {}};
   const std::vector<std::string> names = {"drop_in_a_pile", "drop_in_a_line", "multiple_piles", "rings_in_a_box"};
-  for (const std::string& scene : scenes_of(options, names, 1)) {
+  for (const std::string& scene : scenes_of(options, names, 1))
     for (const std::string& backend : backends_of(options, scene)) add_rows(options, scene, backend, table);
-  }
   const BenchRunner runner(options);
   BenchResults results{"Coming to rest", {}, {}};
   results.notes.emplace_back(

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 namespace talus {
-
 namespace {
 
 using Json = nlohmann::ordered_json;

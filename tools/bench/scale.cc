@@ -12,7 +12,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 constexpr int awake_bodies = 100;

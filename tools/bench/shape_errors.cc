@@ -6,7 +6,6 @@
 #include "common/measure/ensemble.h"
 
 namespace talus {
-
 namespace {
 
 template <int Dim>
@@ -25,9 +24,8 @@ std::vector<ProfileBin> mean_profile(const ShapeEnsemble<Dim>& ensemble, int lef
   std::vector<ProfileBin> profile = ensemble.runs.front().profile;
   for (std::size_t bin = 0; bin < profile.size(); ++bin) {
     std::vector<double> heights;
-    for (std::size_t run = 0; run < ensemble.runs.size(); ++run) {
+    for (std::size_t run = 0; run < ensemble.runs.size(); ++run)
       if (static_cast<int>(run) != left_out) heights.push_back(ensemble.runs[run].profile[bin].height);
-    }
     profile[bin].height = mean(heights);
   }
   return profile;
@@ -43,9 +41,8 @@ Distances scatter(const RunSamples& samples) {
   Distances sum;
   for (std::size_t run = 0; run < samples.size(); ++run) {
     std::vector<double> others;
-    for (std::size_t other = 0; other < samples.size(); ++other) {
+    for (std::size_t other = 0; other < samples.size(); ++other)
       if (other != run) others.insert(others.end(), samples[other].begin(), samples[other].end());
-    }
     const DistributionDistance distance = distribution_distance(samples[run], others);
     sum.kolmogorov_smirnov += distance.kolmogorov_smirnov;
     sum.wasserstein += distance.wasserstein;

@@ -11,7 +11,6 @@
 #include "tools/output/output.h"
 
 namespace talus {
-
 namespace {
 
 /// Without debug options, then with each in turn.
@@ -30,11 +29,9 @@ std::vector<BenchGroup> plan(const BenchOptions& options) {
       options.policies.empty() ? std::vector<std::string>{"adaptive"} : options.policies;
   std::vector<BenchGroup> groups;
   for (const std::string& scene : scenes_of(options, names, 1)) {
-    for (const std::string& backend : backends_of(options, scene)) {
-      for (const std::string& policy : policies) {
+    for (const std::string& backend : backends_of(options, scene))
+      for (const std::string& policy : policies)
         groups.push_back(skips_group({scene, backend, policy, settings_of(options, scene)}));
-      }
-    }
   }
   return groups;
 }
@@ -90,9 +87,8 @@ Table skips_table(const BenchRunner& runner, const std::vector<BenchGroup>& grou
                            "profile rms / D, floor", "KS(r) / floor"}) {
     table.columns.push_back({name, true});
   }
-  for (const BenchGroup& group : groups) {
+  for (const BenchGroup& group : groups)
     for (const BenchCase& each : group.cases) table.rows.push_back(row_of(runner, group, each));
-  }
   return table;
 }
 

@@ -16,7 +16,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 /// Memory that this process holds [bytes].

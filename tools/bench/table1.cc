@@ -6,7 +6,6 @@
 #include "tools/bench/paper_figures.h"
 
 namespace talus {
-
 namespace {
 
 const paper::Example* example_of(const CaseView& view) {
@@ -57,9 +56,8 @@ std::vector<CaseColumn> table1_columns() {
 /// Scenes of Table 1; four that differ most come first, for --quick.
 std::vector<std::string> table1_scenes() {
   std::vector<std::string> names = {"drop_in_a_pile", "varying_drops", "multiple_piles", "drop_in_a_line"};
-  for (const paper::Example& example : paper::table_1) {
+  for (const paper::Example& example : paper::table_1)
     if (std::ranges::find(names, example.scene) == names.end()) names.emplace_back(example.scene);
-  }
   return names;
 }
 

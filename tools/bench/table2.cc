@@ -8,7 +8,6 @@
 #include "tools/bench/paper_figures.h"
 
 namespace talus {
-
 namespace {
 
 std::vector<BenchGroup> table2_groups(const BenchOptions& options, const std::string& scene,

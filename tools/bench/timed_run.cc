@@ -11,7 +11,6 @@
 #include "tools/run/processor_watch.h"
 
 namespace talus {
-
 namespace {
 
 double mean_of_last(const std::vector<double>& values, std::size_t count) {

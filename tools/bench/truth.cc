@@ -25,7 +25,6 @@
 #include "tools/run/find_scene.h"
 
 namespace talus {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,9 +75,8 @@ TruthOptions completed_truth(TruthOptions options) {
 std::vector<TruthCell> cells_of(const TruthOptions& options) {
   const TruthBodies bodies{options.bodies, std::max(10, options.bodies * 3 / 10)};
   std::vector<TruthCell> all = truth_design(static_cast<std::uint64_t>(options.design), options.count, bodies);
-  if (options.design == 1 && (!options.quick || !options.cells.empty())) {
+  if (options.design == 1 && (!options.quick || !options.cells.empty()))
     for (TruthCell& scene : truth_scenes()) all.push_back(std::move(scene));
-  }
   if (options.cells.empty()) return all;
   std::vector<TruthCell> chosen;
   const auto add = [&](const TruthCell& cell) {
@@ -108,9 +106,8 @@ fs::path scene_file_of(const TruthCell& cell, const fs::path& folder) {
   out << cell.text;
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
   const bool has_mesh = cell.text.find("shapes/") != std::string::npos;
-  if (has_mesh && !fs::exists(file.parent_path() / "shapes")) {
+  if (has_mesh && !fs::exists(file.parent_path() / "shapes"))
     fs::copy(scene_folder() / "shapes", file.parent_path() / "shapes", fs::copy_options::recursive);
-  }
   return file;
 }
 
@@ -168,9 +165,8 @@ std::string measure_unit(const TruthUnit& unit, const RowStore& store, const Tru
       const TruthRunParams params{policy != reference_policy, policy == "adaptive" ? 8 : 0};
       const TruthRun<Dim> run = truth_run(scene, unit.task.backend, unit.task.cell.geometry, params);
       rows += line_of({key, "", run.values});
-      if (unit.seed == 1 && policy != reference_policy) {
+      if (unit.seed == 1 && policy != reference_policy)
         draw_truth(scene, run, picture_file(options.out, unit.task.cell.name, unit.task.backend, policy));
-      }
     };
     std::visit(measure, load(case_of(unit.task, policy, options)));
   }

@@ -11,7 +11,6 @@
 #include "tools/bench/paper_figures.h"
 
 namespace talus {
-
 namespace {
 
 /// A shape of the design in one dimension.
@@ -145,11 +144,9 @@ std::string ground_text(const CellPlan& plan) {
     const double length = CellPlan::hopper_wall * extent;
     const double out = 0.5 * (plan.outlet_width() + length * std::cos(CellPlan::hopper_angle));
     const double up = 0.5 * (plan.outlet_height() + plan.hopper_top());
-    for (int along = 0; along < plan.dimension - 1; ++along) {
-      for (const double sign : {-1.0, 1.0}) {
+    for (int along = 0; along < plan.dimension - 1; ++along)
+      for (const double sign : {-1.0, 1.0})
         text += slab(plan, along, sign, -CellPlan::hopper_angle, out, up, length, 2.0 * length);
-      }
-    }
   }
   return text;
 }
@@ -179,9 +176,8 @@ std::string scene_text(const CellPlan& plan, const std::string& name) {
   if (plan.dimension == 3) text += "\n[world.solver]\nwarm_friction = true\n";
   text += ground_text(plan);
   text += fmt::format("\n[shape.body]\n{}friction = {}\n", plan.shape.keys, plan.friction);
-  if (!plan.shape.further.empty()) {
+  if (!plan.shape.further.empty())
     text += fmt::format("\n[shape.large]\n{}friction = {}\n", plan.shape.further, plan.friction);
-  }
   const double end = (plan.rate > 0.0 ? plan.bodies / plan.rate : 0.0) + calm_time(plan.gravity);
   return text + source_text(plan) + fmt::format("\n[run]\nframes = {}\n", std::llround(30.0 * end));
 }
@@ -189,9 +185,8 @@ std::string scene_text(const CellPlan& plan, const std::string& name) {
 TruthGeometry geometry_of(const CellPlan& plan) {
   TruthGeometry geometry;
   geometry.slope = plan.slope();
-  if (plan.ground == CellGround::slope) {
+  if (plan.ground == CellGround::slope)
     geometry.inside_half_width = 0.49 * CellPlan::slope_length * plan.shape.extent * std::cos(plan.slope());
-  }
   if (plan.ground == CellGround::bin) geometry.inside_half_width = 0.5 * plan.bin_width();
   if (plan.ground == CellGround::hopper) geometry.inside_above = plan.outlet_height();
   return geometry;
@@ -226,9 +221,8 @@ const std::vector<TruthFactor>& truth_factors() {
 TruthCell truth_cell(const std::vector<int>& values, const TruthBodies& bodies) {
   const auto value = [&](std::size_t factor) { return static_cast<std::size_t>(values.at(factor)); };
   std::string name;
-  for (std::size_t f = 0; f < values.size(); ++f) {
+  for (std::size_t f = 0; f < values.size(); ++f)
     name += (f == 0 ? "" : "-") + std::string(truth_factors()[f].values.at(value(f)));
-  }
   const int dimension = 2 + values[0];
   const CellShapes& shapes = cell_shapes.at(value(2));
   const double rate = rates.at(value(3));
@@ -256,9 +250,8 @@ std::optional<TruthCell> truth_cell_named(std::string_view name, const TruthBodi
 
 std::vector<TruthCell> truth_design(std::uint64_t seed, int count, const TruthBodies& bodies) {
   std::vector<TruthCell> cells;
-  for (const std::vector<int>& values : covering_design(numbers_of_values(), count, seed)) {
+  for (const std::vector<int>& values : covering_design(numbers_of_values(), count, seed))
     cells.push_back(truth_cell(values, bodies));
-  }
   return cells;
 }
 

@@ -8,7 +8,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 constexpr const char* truth_footer =

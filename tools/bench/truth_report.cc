@@ -19,7 +19,6 @@
 #include "tools/report/json_text.h"
 
 namespace talus {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,13 +116,11 @@ Table truth_csv(const Json& json) {
   for (const auto& [key, value] : json.front().items()) table.columns.push_back({key});
   for (const Json& each : json) {
     std::vector<std::string> cells;
-    for (const auto& [key, value] : each.items()) {
-      if (value.is_array()) {
+    for (const auto& [key, value] : each.items())
+      if (value.is_array())
         cells.push_back(fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), " + ")));
-      } else {
+      else
         cells.push_back(value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump());
-      }
-    }
     table.rows.push_back(cells);
   }
   return table;
@@ -137,27 +134,24 @@ std::string red_cells(const std::vector<TruthRow>& rows) {
     red += !row.result.beyond.empty();
     for (const std::string& name : row.result.beyond) {
       const auto found = std::ranges::find(reasons, name, &std::pair<std::string, int>::first);
-      if (found != reasons.end()) {
+      if (found != reasons.end())
         ++found->second;
-      } else {
+      else
         reasons.emplace_back(name, 1);
-      }
     }
   }
   std::ranges::stable_sort(reasons, [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text = fmt::format("{} of {} cells are red", red, rows.size());
-  for (const auto& [name, count] : reasons) {
+  for (const auto& [name, count] : reasons)
     text += fmt::format("{}{} {}", name == reasons.front().first ? ": " : ", ", name, count);
-  }
   return text + ".";
 }
 
 /// Of a number over the cells that have it.
 EnsembleSummary over_cells(const std::vector<TruthRow>& rows, const std::function<double(const TruthResult&)>& number) {
   std::vector<double> numbers;
-  for (const TruthRow& row : rows) {
+  for (const TruthRow& row : rows)
     if (std::isfinite(number(row.result))) numbers.push_back(number(row.result));
-  }
   return numbers.empty() ? EnsembleSummary{} : summarize(numbers);
 }
 
@@ -189,12 +183,9 @@ std::string base64(std::string_view bytes) {
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
       three = three << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k < bytes.size() + 1 ? digits[three >> (18U - 6U * k) & 63U] : '=';
-    }
+    for (std::size_t k = 0; k < 4; ++k) text += i + k < bytes.size() + 1 ? digits[three >> (18U - 6U * k) & 63U] : '=';
   }
   return text;
 }

@@ -7,7 +7,6 @@
 #include "common/measure/ensemble.h"
 
 namespace talus {
-
 namespace {
 
 using RunValues = std::vector<Values>;
@@ -15,9 +14,8 @@ using RunValues = std::vector<Values>;
 /// The finite numbers of a measure, by seed.
 std::vector<double> numbers_of(const RunValues& runs, MeasureId id) {
   std::vector<double> numbers;
-  for (const Values& values : runs) {
+  for (const Values& values : runs)
     if (std::isfinite(values[id])) numbers.push_back(values[id]);
-  }
   return numbers;
 }
 
@@ -34,9 +32,8 @@ Bias bias_over(const RunValues& runs, const RunValues& baseline, MeasureId id) {
 /// Median over the seeds.
 double time_ratio(const RunValues& slow, const RunValues& fast) {
   std::vector<double> ratios;
-  for (std::size_t i = 0; i < std::min(slow.size(), fast.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(slow.size(), fast.size()); ++i)
     ratios.push_back(slow[i]["seconds"] / fast[i]["seconds"]);
-  }
   return median(ratios);
 }
 
@@ -63,12 +60,10 @@ std::vector<std::pair<double, std::string>> over_limits(const TruthResult& resul
       {result.floating > 0.0 ? 1.0 + result.floating : 0.0, "floating"},
       {result.asleep < 1.0 ? 2.0 - result.asleep : 0.0, "not asleep"},
       {std::min(result.awake_ratio, result.awake_errors / limits.errors), "awake"}};
-  if (runs.dimension == 3 || runs.friction >= 0.35) {
+  if (runs.dimension == 3 || runs.friction >= 0.35)
     over.emplace_back(over_limit(result.poured, limits.poured_percent, limits.errors), "poured");
-  }
-  if (std::abs(result.spill.difference) >= 0.5) {
+  if (std::abs(result.spill.difference) >= 0.5)
     over.emplace_back(std::abs(result.spill.errors) / limits.errors, "spill");
-  }
   return over;
 }
 

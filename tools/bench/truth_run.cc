@@ -16,7 +16,6 @@
 #include "tools/run/processor_watch.h"
 
 namespace talus {
-
 namespace {
 
 constexpr double fastest_of_pile = 1.0;  // [m/s]; faster bodies are in flight
@@ -44,9 +43,8 @@ bool is_spilled(const Vec<Dim>& position, const TruthGeometry& geometry) {
 template <int Dim>
 int spilled(const BodyStates<Dim>& states, const TruthGeometry& geometry) {
   int count = 0;
-  for (std::size_t i = 0; i < states.shape.size(); ++i) {
+  for (std::size_t i = 0; i < states.shape.size(); ++i)
     count += !states.removed[i] && is_spilled<Dim>(states.pose[i].position, geometry);
-  }
   return count;
 }
 
@@ -55,9 +53,8 @@ template <int Dim>
 std::vector<PlacedBody<Dim>> pile_of(const Scene<Dim>& scene, const BodyStates<Dim>& states,
                                      const TruthGeometry& geometry) {
   auto bodies = placed_bodies<Dim>(scene.world.shapes, states, fastest_of_pile);
-  if (geometry.slope > 0.0) {
+  if (geometry.slope > 0.0)
     std::erase_if(bodies, [&](const auto& body) { return is_spilled<Dim>(body.centre, geometry); });
-  }
   for (PlacedBody<Dim>& body : bodies) {
     if (geometry.slope == 0.0) body.centre[Dim - 1] -= scene.world.ground.height;
     body.centre = along_slope<Dim>(body.centre, geometry.slope);
@@ -94,9 +91,8 @@ void add_last_state(const Scene<Dim>& scene, const std::string& backend, BodySta
   constexpr double reach = 0.05;  // [m], see touching_pairs()
   const auto touches = touching_pairs<Dim>(scene.world, last, reach);
   values["floating"] = static_cast<double>(floating_sleepers<Dim>(last, touches).size());
-  for (std::size_t i = 0; i < last.shape.size(); ++i) {
+  for (std::size_t i = 0; i < last.shape.size(); ++i)
     if (last.velocity[i].norm() > fastest_of_pile) last.removed[i] = 1;
-  }
   const WakeTest wake = wake_test<Dim>(world_maker<Dim>(backend), reference_settings(scene.world), last,
                                        {.duration = 0.5 * calm_time(scene.world.gravity)});
   if (wake.bodies > 0) values["drift_mean_D"] = wake.mean / typical_body(scene).extent;
@@ -153,9 +149,8 @@ class TruthStepper {
     awake_ += static_cast<double>(simulation_.world().awake().size());
     if (moments_ == 0) return;
     const BodyStates<Dim>& states = simulation_.world().states();
-    for (std::size_t i = arrivals_.size(); i < states.shape.size(); ++i) {
+    for (std::size_t i = arrivals_.size(); i < states.shape.size(); ++i)
       arrivals_.push_back({simulation_.time(), {states.shape[i], states.pose[i], states.velocity[i], states.spin[i]}});
-    }
     if (static_cast<int>(forks_.size()) == moments_) return;
     if (simulation_.time() < (static_cast<double>(forks_.size()) + 0.5) * between_) return;
     forks_.push_back({simulation_.time(), states});

@@ -12,7 +12,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 /// Freezes all bodies at one step and wakes them a number of steps later.

@@ -11,7 +11,6 @@
 #include "tools/run/make_simulation.h"
 
 namespace talus {
-
 namespace {
 
 template <int Dim>
@@ -28,10 +27,9 @@ void print_report(const Scene<Dim>& scene) {
                  source.count, source.rate, source.start, reachable_rate(source, scene.world));
   }
   for (const std::string& warning : warnings(scene)) print_result("  warning: {}\n", printable(warning));
-  for (const std::string& backend : backends(Dim)) {
+  for (const std::string& backend : backends(Dim))
     for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
       print_result("  warning: {}: {}\n", backend, printable(warning));
-  }
 }
 
 /// Builds what a run would build on each engine of this build: `check` refuses what every one of them refuses.

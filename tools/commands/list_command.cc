@@ -6,7 +6,6 @@
 #include "tools/run/find_scene.h"
 
 namespace talus {
-
 namespace {
 
 int list_scenes() {

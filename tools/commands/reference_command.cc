@@ -35,11 +35,10 @@ void add_reference_command(CLI::App& app, int& exit_code) {
   command->add_option("--update", *file, "Put the tables into this Markdown file, between its marks, as docs/scenes.md")
       ->check(not_empty());
   command->callback([=, &exit_code] {
-    if (file->empty()) {
+    if (file->empty())
       print_reference();
-    } else {
+    else
       update(*file);
-    }
     exit_code = exit_codes::success;
   });
 }

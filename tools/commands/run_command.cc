@@ -4,7 +4,6 @@
 #include "tools/run/run_scene.h"
 
 namespace talus {
-
 namespace {
 
 constexpr const char* footer =

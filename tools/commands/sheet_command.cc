@@ -10,7 +10,6 @@
 #include "tools/picture/contact_sheet.h"
 
 namespace talus {
-
 namespace {
 
 namespace fs = std::filesystem;

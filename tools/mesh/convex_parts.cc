@@ -16,25 +16,17 @@ namespace {
 // A point within an edge or a face of the hull belongs to one or two faces; a corner to three or more.
 std::vector<Vec3> corners_of_hull(std::span<const Vec3> points) {
   std::vector<int> faces_at(points.size(), 0);
-  for (const std::vector<int>& face : convex_hull_faces(points)) {
-    for (const int corner : face) {
-      ++faces_at[corner];
-    }
-  }
+  for (const std::vector<int>& face : convex_hull_faces(points))
+    for (const int corner : face) ++faces_at[corner];
   std::vector<Vec3> corners;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (faces_at[i] >= 3) {
-      corners.push_back(points[i]);
-    }
-  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (faces_at[i] >= 3) corners.push_back(points[i]);
   return corners;
 }
 
 // How far a point lies outside a hull; of a hull without triangles, its distance from the middle of the corners.
 double distance_outside(const Mesh& hull, const Vec3& point) {
-  if (hull.triangles.empty()) {
-    return std::numeric_limits<double>::max();
-  }
+  if (hull.triangles.empty()) return std::numeric_limits<double>::max();
   double distance = 0.0;
   for (const auto& triangle : hull.triangles) {
     const auto corner = [&](std::size_t k) { return hull.corners[triangle[k]]; };
@@ -50,11 +42,8 @@ std::vector<Vec3> extreme_corners(const Mesh& hull) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto less = [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; };
     const auto [low, high] = std::minmax_element(hull.corners.begin(), hull.corners.end(), less);
-    for (const Vec3& corner : {*low, *high}) {
-      if (std::find(extremes.begin(), extremes.end(), corner) == extremes.end()) {
-        extremes.push_back(corner);
-      }
-    }
+    for (const Vec3& corner : {*low, *high})
+      if (std::find(extremes.begin(), extremes.end(), corner) == extremes.end()) extremes.push_back(corner);
   }
   return extremes;
 }
@@ -63,11 +52,8 @@ std::vector<Vec3> extreme_corners(const Mesh& hull) {
 
 Mesh hull_mesh(std::span<const Vec3> points) {
   Mesh hull{corners_of_hull(points), {}};
-  for (const std::vector<int>& face : convex_hull_faces(hull.corners)) {
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-      hull.triangles.push_back({face[0], face[i], face[i + 1]});
-    }
-  }
+  for (const std::vector<int>& face : convex_hull_faces(hull.corners))
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) hull.triangles.push_back({face[0], face[i], face[i + 1]});
   return hull;
 }
 
@@ -77,19 +63,14 @@ Mesh coarser_hull(const Mesh& hull, int corners) {
   Mesh coarser = hull_mesh(chosen);
   while (std::ssize(chosen) < most_part_corners) {
     const bool enough = std::ssize(chosen) >= corners && !coarser.triangles.empty();
-    if (enough && fills_mesh(moments(coarser).volume / volume)) {
-      break;
-    }
+    if (enough && fills_mesh(moments(coarser).volume / volume)) break;
     const auto nearer = [&](const Vec3& a, const Vec3& b) {
       return distance_outside(coarser, a) < distance_outside(coarser, b);
     };
     std::vector<Vec3> rest;
-    for (const Vec3& corner : hull.corners) {
+    for (const Vec3& corner : hull.corners)
       if (std::find(chosen.begin(), chosen.end(), corner) == chosen.end()) rest.push_back(corner);
-    }
-    if (rest.empty()) {
-      break;
-    }
+    if (rest.empty()) break;
     chosen.push_back(*std::max_element(rest.begin(), rest.end(), nearer));
     coarser = hull_mesh(chosen);
   }
@@ -109,13 +90,9 @@ std::vector<Mesh> parts_of(HACD::HACD& decomposition) {
     std::vector<Indices> faces(decomposition.GetNTrianglesCH(k));
     decomposition.GetCH(k, corners.data(), faces.data());
     std::vector<Vec3> places;
-    for (const Point& corner : corners) {
-      places.emplace_back(corner.X(), corner.Y(), corner.Z());
-    }
+    for (const Point& corner : corners) places.emplace_back(corner.X(), corner.Y(), corner.Z());
     const Mesh part = hull_mesh(places);  // HACD's own triangles are not needed
-    if (!part.triangles.empty()) {
-      parts.push_back(repaired(part));
-    }
+    if (!part.triangles.empty()) parts.push_back(repaired(part));
   }
   return parts;
 }
@@ -138,14 +115,10 @@ std::vector<Mesh> convex_parts(const Mesh& mesh, const ConvexPartsParams& params
   require(params.corners >= 4 && params.corners <= most_part_corners, "corners", params.corners, "must be in 4..128");
   std::vector<Point> points;
   points.reserve(mesh.corners.size());
-  for (const Vec3& corner : mesh.corners) {
-    points.emplace_back(corner.x(), corner.y(), corner.z());
-  }
+  for (const Vec3& corner : mesh.corners) points.emplace_back(corner.x(), corner.y(), corner.z());
   std::vector<Indices> triangles;
   triangles.reserve(mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    triangles.emplace_back(triangle[0], triangle[1], triangle[2]);
-  }
+  for (const auto& triangle : mesh.triangles) triangles.emplace_back(triangle[0], triangle[1], triangle[2]);
   HACD::HACD decomposition;
   decomposition.SetPoints(points.data());
   decomposition.SetNPoints(points.size());

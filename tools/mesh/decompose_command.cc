@@ -10,7 +10,6 @@
 #include "tools/output/output.h"
 
 namespace talus {
-
 namespace {
 
 void print_report(const Mesh& mesh, const Decomposition& decomposition, const std::filesystem::path& file) {

@@ -19,19 +19,14 @@ constexpr double convexity_tolerance = 1e-3;  // share by which the hull's volum
 
 double longest_side(const Mesh& mesh) {
   Box<3> bounds;
-  for (const Vec3& corner : mesh.corners) {
-    bounds.extend(corner);
-  }
+  for (const Vec3& corner : mesh.corners) bounds.extend(corner);
   return bounds.sizes().maxCoeff();
 }
 
 std::vector<Mesh> without_thin(const std::vector<Mesh>& parts, double least_width) {
   std::vector<Mesh> thick;
-  for (const Mesh& part : parts) {
-    if (smallest_width<3>(HullPiece<3>{part.corners}) >= least_width) {
-      thick.push_back(part);
-    }
-  }
+  for (const Mesh& part : parts)
+    if (smallest_width<3>(HullPiece<3>{part.corners}) >= least_width) thick.push_back(part);
   return thick;
 }
 
@@ -52,9 +47,7 @@ Decomposition best_number_of_parts(const Mesh& mesh, ConvexPartsParams params) {
   while (fewest <= most && !(best && fills_mesh(best->ratio))) {
     const Decomposition next = attempt(mesh, params);
     (next.ratio < 1.0 ? most : fewest) = next.ratio < 1.0 ? params.parts - 1 : params.parts + 1;
-    if (!best || std::abs(next.ratio - 1.0) < std::abs(best->ratio - 1.0)) {
-      best = next;
-    }
+    if (!best || std::abs(next.ratio - 1.0) < std::abs(best->ratio - 1.0)) best = next;
     params.parts = (fewest + most) / 2;
   }
   return *best;

@@ -28,9 +28,8 @@ void send_or_end(int socket, std::uint8_t kind, const void* bytes, std::size_t s
   msghdr message{};
   message.msg_iov = parts;
   message.msg_iovlen = size > 0 ? 2 : 1;
-  while (sendmsg(socket, &message, MSG_NOSIGNAL) < 0) {
+  while (sendmsg(socket, &message, MSG_NOSIGNAL) < 0)
     if (errno != EINTR) _exit(0);  // the monitor is gone
-  }
 }
 
 std::string description_of(int status) {

@@ -45,11 +45,10 @@ void RunView::take(const talus_piles_v1& message) {
   for (std::int32_t i = 0; i < message.pile_count; ++i) {
     const talus_pile_v1& pile = message.piles[i];
     const std::int32_t number = message.first_pile + i;
-    if (pile.merged_into >= 0) {
+    if (pile.merged_into >= 0)
       forget(number);
-    } else {
+    else
       keep(number, pile);
-    }
   }
 }
 

@@ -81,9 +81,8 @@ std::string text_line(const Faults& faults) {
     line += fmt::format(" receiver crashed {} times, the last time by {}, restarted after {} ms;",
                         faults.receiver_crashes, faults.last_crash, faults.restart_delay_ms);
   }
-  if (faults.undecodable > 0) {
+  if (faults.undecodable > 0)
     line += fmt::format(" undecodable {}, the last one on {};", faults.undecodable, faults.last_undecodable);
-  }
   if (faults.dropped_runs > 0) {
     line += fmt::format(" {} runs dropped from a full table, the last one {};", faults.dropped_runs,
                         short_id(faults.last_dropped));

@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace talus {
-
 namespace exit_codes {
 inline constexpr int success = 0;
 inline constexpr int failed = 1;         // the run itself went wrong; all that was recorded is kept

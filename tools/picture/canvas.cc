@@ -28,9 +28,7 @@ Colour mix(const Colour& from, const Colour& to, double share) {
 
 void trace_line(cairo_t* canvas, std::span<const Vec2> points) {
   cairo_new_sub_path(canvas);
-  for (const Vec2& point : points) {
-    cairo_line_to(canvas, point.x(), point.y());
-  }
+  for (const Vec2& point : points) cairo_line_to(canvas, point.x(), point.y());
 }
 
 void trace_polygon(cairo_t* canvas, std::span<const Vec2> corners) {
@@ -98,9 +96,7 @@ void write_file(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream file(path, std::ios::binary);
   file << bytes;
   file.close();
-  if (!file) {
-    throw std::runtime_error("cannot write " + path.string());
-  }
+  if (!file) throw std::runtime_error("cannot write " + path.string());
 }
 
 namespace {
@@ -113,9 +109,8 @@ using Surface = std::unique_ptr<cairo_surface_t, Release>;
 using Canvas = std::unique_ptr<cairo_t, Release>;
 
 void require(cairo_status_t status, const char* doing) {
-  if (status != CAIRO_STATUS_SUCCESS) {
+  if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(std::string(doing) + ": " + cairo_status_to_string(status));
-  }
 }
 
 void paint_on(const Surface& surface, const Painter& paint) {

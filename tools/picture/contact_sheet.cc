@@ -10,7 +10,6 @@
 #include "tools/picture/canvas.h"
 
 namespace talus {
-
 namespace {
 
 constexpr double caption_line_height = 1.4;  // in font sizes
@@ -20,9 +19,8 @@ using Picture = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
 Picture read_png(const std::filesystem::path& path) {
   Picture surface(cairo_image_surface_create_from_png(path.c_str()), cairo_surface_destroy);
   const cairo_status_t status = cairo_surface_status(surface.get());
-  if (status != CAIRO_STATUS_SUCCESS) {
+  if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(fmt::format("cannot read {}: {}", path.string(), cairo_status_to_string(status)));
-  }
   return surface;
 }
 
@@ -37,9 +35,7 @@ struct PlacedTile {
 
 void check(std::span<const Tile> tiles, const ContactSheetParams& params) {
   const auto require = [](bool holds, const char* field, auto value, const char* rule) {
-    if (!holds) {
-      throw std::invalid_argument(fmt::format("contact_sheet.{} = {}: {}", field, value, rule));
-    }
+    if (!holds) throw std::invalid_argument(fmt::format("contact_sheet.{} = {}: {}", field, value, rule));
   };
   require(!tiles.empty(), "tiles", tiles.size(), "must be at least 1");
   require(params.columns >= 1 && params.columns <= 20, "columns", params.columns, "must be 1 to 20");
@@ -56,9 +52,8 @@ class Sheet {
         params_(params),
         columns_(std::min(tiles.size(), static_cast<std::size_t>(params.columns))) {
     height_ = params.gap + (title_.empty() ? 0.0 : 2.2 * title_style().size);
-    for (std::size_t first = 0; first < tiles.size(); first += columns_) {
+    for (std::size_t first = 0; first < tiles.size(); first += columns_)
       place_row(tiles.subspan(first, std::min(columns_, tiles.size() - first)));
-    }
   }
 
   int width() const {
@@ -104,9 +99,7 @@ class Sheet {
       lines = std::max(lines, tile.caption.size());
       placed_.push_back(std::move(tile));
     }
-    for (std::size_t i = first; i < placed_.size(); ++i) {
-      placed_[i].top = height_ + tallest - placed_[i].height;
-    }
+    for (std::size_t i = first; i < placed_.size(); ++i) placed_[i].top = height_ + tallest - placed_[i].height;
     height_ += tallest + caption_line_height * params_.font_size * static_cast<double>(lines) + params_.gap;
   }
 

@@ -55,22 +55,14 @@ class HighestBodies {
 }  // namespace
 
 std::vector<BodyIndex> exposed(const PictureInput<3>& input, const std::vector<BodyIndex>& bodies) {
-  if (bodies.size() <= few) {
-    return bodies;
-  }
+  if (bodies.size() <= few) return bodies;
   const auto at = [&](BodyIndex body) { return input.states.pose[body].position; };
   double extent = 0.0;
-  for (const Shape<3>& shape : input.shapes) {
-    extent = std::max(extent, shape.extent);
-  }
+  for (const Shape<3>& shape : input.shapes) extent = std::max(extent, shape.extent);
   Box<3> box;
-  for (const BodyIndex body : bodies) {
-    box.extend(at(body));
-  }
+  for (const BodyIndex body : bodies) box.extend(at(body));
   HighestBodies surface(box, extent);
-  for (const BodyIndex body : bodies) {
-    surface.raise(at(body));
-  }
+  for (const BodyIndex body : bodies) surface.raise(at(body));
   std::vector<BodyIndex> seen;
   std::ranges::copy_if(bodies, std::back_inserter(seen), [&](BodyIndex body) {
     return !(at(body).z() < surface.lowest_around(at(body)) - skin * extent);
@@ -90,14 +82,11 @@ std::vector<Face> faces_of(const Shape<3>& shape, int segments) {
     Shape<3> alone;
     alone.pieces.push_back(piece);
     std::optional<Core> core;
-    if (const HullPiece<3> hull = as_hull(piece); hull.round()) {
-      core = {hull.corners.front(), hull.corners.back()};
-    }
+    if (const HullPiece<3> hull = as_hull(piece); hull.round()) core = {hull.corners.front(), hull.corners.back()};
     for (const Loop<3>& loop : faces(alone, segments)) {
       Vec3 normal = Vec3::Zero();
-      for (std::size_t i = 0; i < loop.size(); ++i) {
+      for (std::size_t i = 0; i < loop.size(); ++i)
         normal += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
-      }
       all.push_back({loop, normal.normalized(), 0, core});
     }
   }
@@ -109,12 +98,8 @@ void add_faces(std::vector<Face>& all, const std::vector<Face>& shape, const Pos
     Face& placed = all.emplace_back(face);
     placed.owner = owner;
     placed.normal = pose.rotation * face.normal;
-    for (Vec3& corner : placed.corners) {
-      corner = pose * corner;
-    }
-    if (face.core) {
-      placed.core = {pose * face.core->a, pose * face.core->b};
-    }
+    for (Vec3& corner : placed.corners) corner = pose * corner;
+    if (face.core) placed.core = {pose * face.core->a, pose * face.core->b};
   }
 }
 
@@ -124,17 +109,14 @@ void add_ground(std::vector<Face>& faces, const Framing<3>& framing, double heig
   middle.z() = height;
   Face& face = faces.emplace_back();
   face.normal = Vec3::UnitZ();
-  for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+  for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
     face.corners.push_back(middle + reach * Vec3(x, y, 0.0));
-  }
 }
 
 }  // namespace
 
 Vec3 Face::normal_at(const Vec3& point) const {
-  if (!core) {
-    return normal;
-  }
+  if (!core) return normal;
   const Vec3 along = core->b - core->a;
   const double length = along.squaredNorm();
   const double share = length > 0.0 ? std::clamp((point - core->a).dot(along) / length, 0.0, 1.0) : 0.0;
@@ -144,20 +126,15 @@ Vec3 Face::normal_at(const Vec3& point) const {
 std::vector<Face> faces_of(const PictureInput<3>& input, const Framing<3>& framing) {
   const int segments = segments_for(framing.drawn.size());
   std::vector<std::vector<Face>> shapes;
-  for (const Shape<3>& shape : input.shapes) {
-    shapes.push_back(faces_of(shape, segments));
-  }
+  for (const Shape<3>& shape : input.shapes) shapes.push_back(faces_of(shape, segments));
   std::vector<Face> all;
-  for (const BodyIndex body : exposed(input, framing.drawn)) {
+  for (const BodyIndex body : exposed(input, framing.drawn))
     add_faces(all, shapes[input.states.shape[body]], input.states.pose[body], body);
-  }
   for (std::size_t k = 0; k < input.obstacles.size(); ++k) {
     const Obstacle<3>& obstacle = input.obstacles[k];
     add_faces(all, faces_of(obstacle.shape, 48), obstacle.pose, obstacle_owner - static_cast<std::int32_t>(k));
   }
-  if (input.ground.present) {
-    add_ground(all, framing, input.ground.height);
-  }
+  if (input.ground.present) add_ground(all, framing, input.ground.height);
   return all;
 }
 

@@ -6,16 +6,14 @@
 #include "tools/picture/scene_painter.h"
 
 namespace talus {
-
 namespace {
 
 /// Counts of the bodies present, for the legend.
 template <int Dim>
 PageContent page_content(const PictureInput<Dim>& input) {
   PageContent content = {.title = input.title, .caption = input.caption};
-  for (std::size_t i = 0; i < input.states.removed.size(); ++i) {
+  for (std::size_t i = 0; i < input.states.removed.size(); ++i)
     if (input.states.removed[i] == 0) ++(input.states.asleep[i] != 0 ? content.asleep : content.awake);
-  }
   content.shapes = static_cast<int>(input.shapes.size());
   content.layers = !input.piles.empty();
   content.parallel = Dim == 2;
@@ -26,9 +24,8 @@ PageContent page_content(const PictureInput<Dim>& input) {
 template <int Dim>
 std::vector<BodyIndex> present_in(const BodyStates<Dim>& states) {
   std::vector<BodyIndex> present;
-  for (BodyIndex body = 0; body < states.size(); ++body) {
+  for (BodyIndex body = 0; body < states.size(); ++body)
     if (states.removed[body] == 0) present.push_back(body);
-  }
   return present;
 }
 

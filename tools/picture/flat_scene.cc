@@ -8,7 +8,6 @@
 #include "tools/picture/scene_painter.h"
 
 namespace talus {
-
 namespace {
 
 constexpr std::size_t most_vectors = 20000;  // bodies; of more, the SVG would take half a kilobyte each
@@ -24,31 +23,23 @@ struct FlatScene {
 
   std::vector<Vec2> on_page(const std::vector<Vec2>& points) const {
     std::vector<Vec2> page;
-    for (const Vec2& point : points) {
-      page.push_back(projection.on_page(point));
-    }
+    for (const Vec2& point : points) page.push_back(projection.on_page(point));
     return page;
   }
 
   void paint(cairo_t* canvas) const {
-    if (input.ground.present) {
-      paint_ground(canvas);
-    }
-    for (const Obstacle<2>& obstacle : input.obstacles) {
+    if (input.ground.present) paint_ground(canvas);
+    for (const Obstacle<2>& obstacle : input.obstacles)
       paint_pieces(canvas, outlines(obstacle.shape, 96), obstacle.pose, params.obstacle, params.obstacle_outline, 1.5);
-    }
     // More beneath the bodies than over them: tinted, they still keep their colours.
     paint_layers(canvas, 0.65);
-    if (many_bodies != nullptr) {
+    if (many_bodies != nullptr)
       paint_image(canvas);
-    } else {
+    else
       paint_bodies(canvas);
-    }
     paint_layers(canvas, 0.35);
     paint_layer_lines(canvas);
-    if (input.ground.present) {
-      paint_ground_line(canvas);
-    }
+    if (input.ground.present) paint_ground_line(canvas);
     paint_densities(canvas);
   }
 
@@ -88,9 +79,7 @@ struct FlatScene {
                     const Colour& outline, double line) const {
     for (const Loop<2>& loop : loops) {
       std::vector<Vec2> corners;
-      for (const Vec2& corner : loop) {
-        corners.push_back(projection.on_page(pose * corner));
-      }
+      for (const Vec2& corner : loop) corners.push_back(projection.on_page(pose * corner));
       trace_polygon(canvas, corners);
     }
     if (line > 0.0) {
@@ -138,11 +127,8 @@ struct FlatScene {
   }
 
   void paint_layer_lines(cairo_t* canvas) const {
-    for (const Pile<2>& pile : input.piles) {
-      for (const Layer& layer : pile.layers) {
-        trace(canvas, pile, layer);
-      }
-    }
+    for (const Pile<2>& pile : input.piles)
+      for (const Layer& layer : pile.layers) trace(canvas, pile, layer);
     set_colour(canvas, with_alpha(params.layer, 0.8));
     cairo_set_line_width(canvas, 1.4);
     cairo_stroke(canvas);

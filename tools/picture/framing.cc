@@ -5,7 +5,6 @@
 #include "tools/picture/layers.h"
 
 namespace talus {
-
 namespace {
 
 constexpr double fence_widths = 1.5;
@@ -14,11 +13,8 @@ constexpr double obstacle_sizes = 2.5;  // an obstacle this many times larger th
 template <int Dim>
 std::vector<BodyIndex> present_bodies(const BodyStates<Dim>& states) {
   std::vector<BodyIndex> present;
-  for (BodyIndex body = 0; body < states.size(); ++body) {
-    if (states.removed[body] == 0) {
-      present.push_back(body);
-    }
-  }
+  for (BodyIndex body = 0; body < states.size(); ++body)
+    if (states.removed[body] == 0) present.push_back(body);
   return present;
 }
 
@@ -28,9 +24,7 @@ Box<Dim> fence_of(const BodyStates<Dim>& states, const std::vector<BodyIndex>& p
   Box<Dim> fence;
   std::vector<double> values(present.size());
   for (int axis = 0; axis < Dim; ++axis) {
-    for (std::size_t i = 0; i < present.size(); ++i) {
-      values[i] = states.pose[present[i]].position[axis];
-    }
+    for (std::size_t i = 0; i < present.size(); ++i) values[i] = states.pose[present[i]].position[axis];
     std::sort(values.begin(), values.end());
     const double lower = values[(values.size() - 1) / 4];
     const double upper = values[(3 * (values.size() - 1) + 3) / 4];
@@ -56,22 +50,17 @@ std::vector<Vec<Dim>> rims_of(const Pile<Dim>& pile) {
 
 template <int Dim>
 void include(Framing<Dim>& framing, const Box<Dim>& box) {
-  for (int corner = 0; corner < (1 << Dim); ++corner) {
+  for (int corner = 0; corner < (1 << Dim); ++corner)
     framing.points.push_back(box.corner(static_cast<typename Box<Dim>::CornerType>(corner)));
-  }
   framing.box.extend(box);
 }
 
 template <int Dim>
 void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input, const std::vector<Box<Dim>>& piles) {
   const std::vector<BodyIndex> present = present_bodies(input.states);
-  if (present.empty()) {
-    return;
-  }
+  if (present.empty()) return;
   double largest = 0.0;
-  for (const Shape<Dim>& shape : input.shapes) {
-    largest = std::max(largest, shape.extent);
-  }
+  for (const Shape<Dim>& shape : input.shapes) largest = std::max(largest, shape.extent);
   const Box<Dim> fence = fence_of(input.states, present, 2.0 * largest);
   for (const BodyIndex body : present) {
     const Vec<Dim>& position = input.states.pose[body].position;
@@ -83,9 +72,8 @@ void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input, const
     // Each is far off on one axis or another: there is no middle to be far from.
     std::swap(framing.drawn, framing.outside);
   }
-  for (const BodyIndex body : framing.drawn) {
+  for (const BodyIndex body : framing.drawn)
     include(framing, bounds_at(input.shapes[input.states.shape[body]], input.states.pose[body]));
-  }
 }
 
 }  // namespace
@@ -106,13 +94,10 @@ Framing<Dim> framing_of(const PictureInput<Dim>& input) {
   const double size = framing.box.isEmpty() ? 0.0 : framing.box.diagonal().norm();
   for (const Obstacle<Dim>& obstacle : input.obstacles) {
     const Box<Dim> box = bounds_at(obstacle.shape, obstacle.pose);
-    if (size == 0.0 || box.diagonal().norm() < obstacle_sizes * size) {
-      include(framing, box);
-    }
+    if (size == 0.0 || box.diagonal().norm() < obstacle_sizes * size) include(framing, box);
   }
-  if (framing.box.isEmpty()) {
+  if (framing.box.isEmpty())
     include(framing, Box<Dim>(Vec<Dim>(Vec<Dim>::Constant(-1.0)), Vec<Dim>(Vec<Dim>::Constant(1.0))));
-  }
   return framing;
 }
 

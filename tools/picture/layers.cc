@@ -40,9 +40,7 @@ std::vector<Horizontal<2>> directions(const Pile<2>&) { return {Horizontal<2>(-1
 std::vector<Horizontal<3>> directions(const Pile<3>& pile) {
   constexpr int points = 120;
   std::vector<double> angles;
-  for (int i = 0; i < points; ++i) {
-    angles.push_back(2.0 * std::numbers::pi * i / points);
-  }
+  for (int i = 0; i < points; ++i) angles.push_back(2.0 * std::numbers::pi * i / points);
   const std::vector<Wall<3>> walls = pile.boundary ? pile.boundary->walls : std::vector<Wall<3>>();
   for (std::size_t i = 0; i < walls.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -57,9 +55,7 @@ std::vector<Horizontal<3>> directions(const Pile<3>& pile) {
   }
   std::sort(angles.begin(), angles.end());
   std::vector<Horizontal<3>> all;
-  for (const double angle : angles) {
-    all.emplace_back(std::cos(angle), std::sin(angle));
-  }
+  for (const double angle : angles) all.emplace_back(std::cos(angle), std::sin(angle));
   return all;
 }
 
@@ -85,17 +81,13 @@ template std::vector<Vec<3>> layer_rim(const Pile<3>&, const Layer&, double);
 double layer_opacity(const Layer& layer) { return 0.10 + 0.22 * std::clamp(layer.density(), 0.0, 1.0); }
 
 void DensityLabels::draw(cairo_t* canvas, const Vec2& at, const Layer& layer) {
-  if (layer.count == 0) {
-    return;
-  }
+  if (layer.count == 0) return;
   const TextStyle style = {.size = 0.82 * params_.font_size, .colour = params_.layer, .halo = 3.0};
   const std::string text = fmt::format("{:.2f}", layer.density());
   const Vec2 left = at + Vec2(0.4 * params_.font_size, 0.0);
   const Box<2> box(Vec2(left - Vec2(0.0, 0.6 * style.size)),
                    Vec2(left + Vec2(text_width(canvas, text, style), 0.6 * style.size)));
-  if (std::ranges::any_of(taken_, [&](const Box<2>& other) { return other.intersects(box); })) {
-    return;
-  }
+  if (std::ranges::any_of(taken_, [&](const Box<2>& other) { return other.intersects(box); })) return;
   taken_.push_back(box);
   draw_text(canvas, left + Vec2(0.0, 0.36 * style.size), text, style);
 }

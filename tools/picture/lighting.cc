@@ -4,7 +4,6 @@
 #include <numbers>
 
 namespace talus {
-
 namespace {
 
 constexpr int sun_lamps = 10;
@@ -51,11 +50,8 @@ Lighting::Lighting(std::span<const Face> faces, const Box<3>& box, const Project
   }
   for (std::vector<Lamp>* lamps : {&sun_, &sky_}) {
     for (Lamp& each : *lamps) {
-      for (const Face& face : faces) {
-        if (face.normal.dot(each.direction) > 0.0) {
-          each.shadows.add(face, 0, each.projection);
-        }
-      }
+      for (const Face& face : faces)
+        if (face.normal.dot(each.direction) > 0.0) each.shadows.add(face, 0, each.projection);
     }
   }
 }
@@ -71,9 +67,8 @@ Lighting::Lamp Lighting::lamp(const Vec3& direction, double strength, int resolu
 double Lighting::Lamp::reaching(const Vec3& point, const Vec3& normal) const {
   // Sampled a little above the surface: a z-buffer's pixels are coarser than the surface they show.
   const Vec3 seen = projection.project(point + 1.5 / projection.scale * normal);
-  if (!(seen.x() >= 0.5 && seen.y() >= 0.5 && seen.x() < shadows.width() - 0.5 && seen.y() < shadows.height() - 0.5)) {
+  if (!(seen.x() >= 0.5 && seen.y() >= 0.5 && seen.x() < shadows.width() - 0.5 && seen.y() < shadows.height() - 0.5))
     return 1.0;
-  }
   // Interpolates between the four nearest pixels, so that a shadow's edge is as wide as a pixel.
   const int x = static_cast<int>(seen.x() - 0.5);
   const int y = static_cast<int>(seen.y() - 0.5);
@@ -93,9 +88,7 @@ double Lighting::sum(const std::vector<Lamp>& lamps, const Vec3& point, const Ve
   double light = 0.0;
   for (const Lamp& lamp : lamps) {
     const double slant = normal.dot(lamp.direction);
-    if (slant > 0.0) {
-      light += lamp.strength * slant * lamp.reaching(point, normal);
-    }
+    if (slant > 0.0) light += lamp.strength * slant * lamp.reaching(point, normal);
   }
   return light;
 }

@@ -62,9 +62,7 @@ void Page::draw(cairo_t* canvas, double height, double pixels_per_metre) const {
 }
 
 std::string Page::outside_note() const {
-  if (content_.outside == 0) {
-    return "";
-  }
+  if (content_.outside == 0) return "";
   return content_.outside == 1 ? "1 body lies outside the picture"
                                : fmt::format("{} bodies lie outside the picture", content_.outside);
 }
@@ -83,9 +81,8 @@ void Page::draw_legend(cairo_t* canvas) const {
   const auto colours = std::min(params_.awake.size(), static_cast<std::size_t>(std::max(1, content_.shapes)));
   const std::vector<Colour> awake(params_.awake.begin(), params_.awake.begin() + static_cast<std::ptrdiff_t>(colours));
   left = draw_entry(canvas, left, awake, params_.awake_outline, counted(content_.awake, "awake"));
-  if (content_.layers) {
+  if (content_.layers)
     draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
-  }
 }
 
 double Page::draw_entry(cairo_t* canvas, double left, const std::vector<Colour>& fills, const Colour& outline,

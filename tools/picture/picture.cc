@@ -6,7 +6,6 @@
 #include "tools/picture/scene_painter.h"
 
 namespace talus {
-
 namespace {
 
 constexpr int most_layers = 32;  // of a pile
@@ -14,11 +13,8 @@ constexpr int most_layers = 32;  // of a pile
 template <int Dim>
 PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& framing) {
   PageContent content = {.title = input.title, .caption = input.caption};
-  for (const auto* bodies : {&framing.drawn, &framing.outside}) {
-    for (const BodyIndex body : *bodies) {
-      (input.states.asleep[body] != 0 ? content.asleep : content.awake) += 1;
-    }
-  }
+  for (const auto* bodies : {&framing.drawn, &framing.outside})
+    for (const BodyIndex body : *bodies) (input.states.asleep[body] != 0 ? content.asleep : content.awake) += 1;
   content.outside = static_cast<int>(framing.outside.size());
   content.shapes = static_cast<int>(input.shapes.size());
   content.layers = !input.piles.empty();
@@ -33,9 +29,7 @@ void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& pn
                const PictureParams& params) {
   check(params);
   std::vector<Pile<Dim>> piles;
-  for (const Pile<Dim>& pile : input.piles) {
-    piles.push_back(with_coarse_layers(pile, most_layers));
-  }
+  for (const Pile<Dim>& pile : input.piles) piles.push_back(with_coarse_layers(pile, most_layers));
   PictureInput<Dim> drawn = input;
   drawn.piles = piles;
   const Framing<Dim> framing = framing_of(drawn);

@@ -6,14 +6,11 @@
 #include <stdexcept>
 
 namespace talus {
-
 namespace {
 
 template <typename Value>
 void require(bool holds, const char* field, const Value& value, const char* rule) {
-  if (!holds) {
-    throw std::invalid_argument(fmt::format("picture.{} = {}: {}", field, value, rule));
-  }
+  if (!holds) throw std::invalid_argument(fmt::format("picture.{} = {}: {}", field, value, rule));
 }
 
 }  // namespace

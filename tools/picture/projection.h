@@ -51,9 +51,7 @@ Vec2 fit(Projection<Dim>& projection, std::span<const Vec<Dim>> points, const Bo
   projection.scale = 1.0;
   projection.shift = Vec2::Zero();
   Box<2> bounds;
-  for (const Vec<Dim>& point : points) {
-    bounds.extend(projection.on_page(point));
-  }
+  for (const Vec<Dim>& point : points) bounds.extend(projection.on_page(point));
   const Vec2 size = bounds.sizes().cwiseMax(1e-9);
   projection.scale = area.sizes().cwiseQuotient(size).minCoeff();
   projection.shift = area.center() - projection.scale * bounds.center();

@@ -17,9 +17,7 @@ Projection<3> finer(Projection<3> projection, int samples) {
 /// How wide the lines around bodies may be for their size in the picture, in [0, 1].
 double outline_limit(const PictureInput<3>& input, const Projection<3>& projection) {
   double extent = 0.0;
-  for (const Shape<3>& shape : input.shapes) {
-    extent = std::max(extent, shape.extent);
-  }
+  for (const Shape<3>& shape : input.shapes) extent = std::max(extent, shape.extent);
   return std::clamp((extent * projection.pixels_per_metre() - 4.0) / 30.0, 0.15, 1.0);
 }
 
@@ -39,21 +37,15 @@ ShadedImage::ShadedImage(const PictureInput<3>& input, const Framing<3>& framing
   std::ranges::copy_if(all, std::back_inserter(casting), is_body);
   enter(std::move(all));
   std::ranges::copy_if(faces_, std::back_inserter(casting), is_obstacle);
-  for (const Face& face : faces_) {
-    paints_.push_back(paint_of(face, input));
-  }
+  for (const Face& face : faces_) paints_.push_back(paint_of(face, input));
   shade(Lighting(casting, framing.box, projection_));
-  for (const Face& face : glass_) {
-    blend(face, with_alpha(params_.obstacle, 0.22));
-  }
+  for (const Face& face : glass_) blend(face, with_alpha(params_.obstacle, 0.22));
   blend_layers(input.piles);
 }
 
 void ShadedImage::enter(std::vector<Face> faces) {
   for (Face& face : faces) {
-    if (!faces_eye(face, projection_)) {
-      continue;
-    }
+    if (!faces_eye(face, projection_)) continue;
     if (is_obstacle(face) && hides_bodies(face)) {
       glass_.push_back(std::move(face));
     } else {
@@ -68,9 +60,7 @@ bool ShadedImage::hidden(const Vec3& point) const {
   const Vec3 seen = projection_.project(point + 0.004 * projection_.distance * projection_.towards_eye(point));
   const int x = static_cast<int>(std::floor(seen.x()));
   const int y = static_cast<int>(std::floor(seen.y()));
-  if (x < 0 || y < 0 || x >= buffer_.width() || y >= buffer_.height()) {
-    return false;
-  }
+  if (x < 0 || y < 0 || x >= buffer_.width() || y >= buffer_.height()) return false;
   return static_cast<double>(buffer_.nearness(x, y)) > seen.z();
 }
 
@@ -101,15 +91,9 @@ constexpr double crease = 0.85;  // cosine of the angle between two faces of one
 }  // namespace
 
 ShadedImage::Paint ShadedImage::paint_of(const Face& face, const PictureInput<3>& input) const {
-  if (face.owner == ground_owner) {
-    return {params_.paper, params_.paper};
-  }
-  if (is_obstacle(face)) {
-    return {params_.obstacle, params_.obstacle_outline};
-  }
-  if (input.states.asleep[face.owner] != 0) {
-    return {params_.asleep, params_.asleep_outline};
-  }
+  if (face.owner == ground_owner) return {params_.paper, params_.paper};
+  if (is_obstacle(face)) return {params_.obstacle, params_.obstacle_outline};
+  if (input.states.asleep[face.owner] != 0) return {params_.asleep, params_.asleep_outline};
   return {params_.awake[input.states.shape[face.owner] % params_.awake.size()], params_.awake_outline};
 }
 
@@ -120,9 +104,7 @@ double ShadedImage::outline_strength(int x, int y) const {
   double strength = 0.0;
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
     const auto [nx, ny] = neighbours[i];
-    if (nx < 0 || ny < 0 || nx >= buffer_.width() || ny >= buffer_.height() || buffer_.face(nx, ny) == here) {
-      continue;
-    }
+    if (nx < 0 || ny < 0 || nx >= buffer_.width() || ny >= buffer_.height() || buffer_.face(nx, ny) == here) continue;
     const std::int32_t there = buffer_.face(nx, ny);
     const bool same_body = there >= 0 && faces_[there].owner == face.owner;
     if (!same_body) {
@@ -150,9 +132,7 @@ ShadedImage::Pixel ShadedImage::shaded(int x, int y, double light) const {
 void ShadedImage::shade(const Lighting& lighting) {
   std::vector<LitFace> skies(width_);
   for (int y = 0; y < height_; ++y) {
-    if (y % 2 == 0) {
-      skies.assign(skies.size(), {});
-    }
+    if (y % 2 == 0) skies.assign(skies.size(), {});
     for (int x = 0; x < width_; ++x) {
       // Squares of two by two pixels share the sky's light where they show one face.
       pixel(x, y) = mean_of_samples(x, y, lighting, skies[x / 2]);
@@ -173,12 +153,8 @@ ShadedImage::Pixel ShadedImage::mean_of_samples(int x, int y, const Lighting& li
     if (number != ZBuffer::nothing) {
       const Vec3 point = projection_.unproject({sx + 0.5, sy + 0.5, static_cast<double>(buffer_.nearness(sx, sy))});
       const Vec3 normal = faces_[number].normal_at(point);
-      if (number != sun.face) {
-        sun = {number, lighting.sun(point, normal)};
-      }
-      if (number != sky.face) {
-        sky = {number, lighting.sky(point, normal)};
-      }
+      if (number != sun.face) sun = {number, lighting.sun(point, normal)};
+      if (number != sky.face) sky = {number, lighting.sky(point, normal)};
       seen = shaded(sx, sy, sun.light + sky.light);
     }
     mean.red += share * seen.red;
@@ -205,9 +181,7 @@ void ShadedImage::blend(const Face& face, const Colour& colour) {
   const int samples = params_.samples;
   const double alpha = colour.alpha / (samples * samples);
   scan_convex(projected(face, projection_), buffer_.width(), buffer_.height(), [&](int x, int y, double nearness) {
-    if (nearness <= static_cast<double>(buffer_.nearness(x, y))) {
-      return;
-    }
+    if (nearness <= static_cast<double>(buffer_.nearness(x, y))) return;
     Pixel& seen = pixel(x / samples, y / samples);
     seen.red += alpha * (colour.red - seen.red);
     seen.green += alpha * (colour.green - seen.green);
@@ -225,9 +199,7 @@ void ShadedImage::blend_layers(std::span<const Pile<3>> piles) {
       for (std::size_t k = 0; k < low.size(); ++k) {
         const std::size_t next = (k + 1) % low.size();
         const Face wall = {{low[k], low[next], high[next], high[k]}, (low[next] - low[k]).cross(Vec3::UnitZ()), 0, {}};
-        if (faces_eye(wall, projection_)) {
-          blend(wall, colour);
-        }
+        if (faces_eye(wall, projection_)) blend(wall, colour);
       }
       blend({high, Vec3::UnitZ(), 0, {}}, with_alpha(colour, 0.5 * colour.alpha));
     }

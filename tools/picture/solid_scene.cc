@@ -9,7 +9,6 @@
 #include "tools/picture/shaded_image.h"
 
 namespace talus {
-
 namespace {
 
 struct SolidScene {
@@ -21,18 +20,12 @@ struct SolidScene {
 
   void paint(cairo_t* canvas) const {
     image.paint(canvas);
-    if (input.ground.present) {
-      paint_grid(canvas);
-    }
-    for (const Face& face : image.glass()) {
-      paint_line(canvas, closed(face.corners), params.obstacle_outline, 1.2);
-    }
+    if (input.ground.present) paint_grid(canvas);
+    for (const Face& face : image.glass()) paint_line(canvas, closed(face.corners), params.obstacle_outline, 1.2);
     for (const Pile<3>& pile : input.piles) {
-      for (const Layer& layer : pile.layers) {
-        for (const double z : {layer.bottom, layer.top}) {
+      for (const Layer& layer : pile.layers)
+        for (const double z : {layer.bottom, layer.top})
           paint_line(canvas, closed(layer_rim(pile, layer, z)), params.layer, 1.4);
-        }
-      }
     }
     paint_densities(canvas);
   }
@@ -88,18 +81,14 @@ struct SolidScene {
 
   /// The seen parts of a straight line.
   void paint_seen(cairo_t* canvas, const Vec3& from, const Vec3& to, const Colour& colour) const {
-    if (projection.depth(from) < projection.near_limit() || projection.depth(to) < projection.near_limit()) {
-      return;
-    }
+    if (projection.depth(from) < projection.near_limit() || projection.depth(to) < projection.near_limit()) return;
     const double length = (projection.on_page(to) - projection.on_page(from)).norm();
     const int steps = std::clamp(static_cast<int>(length / 2.0), 1, 2000);
     std::vector<Vec2> run;
     for (int step = 0; step <= steps; ++step) {
       const Vec3 point = from + (to - from) * step / steps;
       const bool seen = !image.hidden(point);
-      if (seen) {
-        run.push_back(projection.on_page(point));
-      }
+      if (seen) run.push_back(projection.on_page(point));
       if (!seen || step == steps) {
         trace_line(canvas, run);
         run.clear();

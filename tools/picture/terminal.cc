@@ -37,20 +37,17 @@ void fill(Dots& dots, const PictureInput<2>& input, const Framing<2>& framing, c
     const Shape<2>& shape = input.shapes[input.states.shape[body]];
     fill_pieces(dots, shape, input.states.pose[body], projection, dot_of(input.states, body));
   }
-  for (const Obstacle<2>& obstacle : input.obstacles) {
+  for (const Obstacle<2>& obstacle : input.obstacles)
     fill_pieces(dots, obstacle.shape, obstacle.pose, projection, Dot::obstacle);
-  }
 }
 
 void fill(Dots& dots, const PictureInput<3>& input, const Framing<3>& framing, const Projection<3>& projection) {
   const std::vector<Face> faces = faces_of(input, framing);
   for (const bool bodies : {true, false}) {
     ZBuffer buffer(dots.width, dots.height);
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (faces[i].owner != ground_owner && (faces[i].owner >= 0) == bodies) {
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      if (faces[i].owner != ground_owner && (faces[i].owner >= 0) == bodies)
         buffer.add(faces[i], static_cast<std::int32_t>(i), projection);
-      }
-    }
     for (int y = 0; y < dots.height; ++y) {
       for (int x = 0; x < dots.width; ++x) {
         const std::int32_t face = buffer.face(x, y);
@@ -85,9 +82,7 @@ Dots dots_of(const PictureInput<Dim>& input, const Framing<Dim>& framing, const 
     const Vec2 seen = projection.on_page(input.states.pose[body].position);
     const int x = std::clamp(static_cast<int>(seen.x()), 0, width - 1);
     const int y = std::clamp(static_cast<int>(seen.y()), 0, height - 1);
-    if (dots.at(x, y) == Dot::empty) {
-      dots.at(x, y) = dot_of(input.states, body);
-    }
+    if (dots.at(x, y) == Dot::empty) dots.at(x, y) = dot_of(input.states, body);
   }
   return dots;
 }
@@ -124,9 +119,7 @@ Cell cell_at(const Dots& dots, int column, int row) {
   }
   for (const Dot kind : {Dot::obstacle, Dot::asleep, Dot::awake}) {
     const int count = counts[static_cast<std::size_t>(kind)];
-    if (count > 0 && count >= counts[static_cast<std::size_t>(cell.kind)]) {
-      cell.kind = kind;
-    }
+    if (count > 0 && count >= counts[static_cast<std::size_t>(cell.kind)]) cell.kind = kind;
   }
   return cell;
 }
@@ -183,9 +176,8 @@ std::vector<std::string> densities(const PictureInput<Dim>& input, const Project
     for (const Layer& layer : pile.layers) {
       const Vec<Dim> middle = pile.centre + 0.5 * (layer.bottom + layer.top) * Vec<Dim>::Unit(Dim - 1);
       const int row = static_cast<int>(std::floor(projection.on_page(middle).y() / cell_height));
-      if (layer.count > 0 && row >= 0 && row < rows && labels[row].empty()) {
+      if (layer.count > 0 && row >= 0 && row < rows && labels[row].empty())
         labels[row] = fmt::format("  {:.2f}", layer.density());
-      }
     }
   }
   return labels;
@@ -206,19 +198,15 @@ std::string legend(const PictureInput<Dim>& input, const Framing<Dim>& framing, 
     text += fmt::format("{} {} {}   ", mark, counts[static_cast<std::size_t>(kind)],
                         kind == Dot::asleep ? "asleep" : "awake");
   }
-  if (!framing.outside.empty()) {
-    text += fmt::format("{} outside", framing.outside.size());
-  }
+  if (!framing.outside.empty()) text += fmt::format("{} outside", framing.outside.size());
   return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
 }
 
 void check(const TerminalParams& params) {
-  if (params.columns < 48 || params.columns > 400) {
+  if (params.columns < 48 || params.columns > 400)
     throw std::invalid_argument(fmt::format("terminal.columns = {}: must be 48 to 400", params.columns));
-  }
-  if (params.rows < 6 || params.rows > 200) {
+  if (params.rows < 6 || params.rows > 200)
     throw std::invalid_argument(fmt::format("terminal.rows = {}: must be 6 to 200", params.rows));
-  }
 }
 
 }  // namespace
@@ -244,14 +232,10 @@ std::string terminal_picture(const PictureInput<Dim>& input, const TerminalParam
     const std::string line = line_of(dots, row, params.colours) + labels[row];
     const std::size_t end = line.find_last_not_of(' ') + 1;
     // Room for a cone that rises above all bodies is of no use here.
-    if (end > 0 || !text.empty()) {
-      text += line.substr(0, end) + "\n";
-    }
+    if (end > 0 || !text.empty()) text += line.substr(0, end) + "\n";
   }
   if (input.ground.present) {
-    for (int column = 0; column < columns; ++column) {
-      text += "▔";
-    }
+    for (int column = 0; column < columns; ++column) text += "▔";
     text += "\n";
   }
   return text + legend(input, framing, params.colours);

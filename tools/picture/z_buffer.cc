@@ -39,12 +39,9 @@ std::vector<Vec3> projected(const Face& face, const Projection<3>& projection) {
       continue;
     }
     const Vec3& next = face.corners[(i + 1) % face.corners.size()];
-    if (room(here) > 0.0) {
-      result.push_back(projection.project(here));
-    }
-    if ((room(here) > 0.0) != (room(next) > 0.0)) {
+    if (room(here) > 0.0) result.push_back(projection.project(here));
+    if ((room(here) > 0.0) != (room(next) > 0.0))
       result.push_back(projection.project(here + (next - here) * (room(here) / (room(here) - room(next)))));
-    }
   }
   return result;
 }

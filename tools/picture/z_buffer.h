@@ -57,9 +57,7 @@ struct NearnessPlane {
 template <typename Visit>
 void scan_convex(const std::vector<Vec3>& corners, int width, int height, Visit&& visit) {
   const NearnessPlane plane(corners);
-  if (corners.size() < 3 || plane.flat) {
-    return;
-  }
+  if (corners.size() < 3 || plane.flat) return;
   double top = corners[0].y();
   double bottom = top;
   for (const Vec3& corner : corners) {
@@ -84,9 +82,7 @@ void scan_convex(const std::vector<Vec3>& corners, int width, int height, Visit&
     }
     const int first = static_cast<int>(std::ceil(std::clamp(left - 0.5, 0.0, static_cast<double>(width))));
     const int last = static_cast<int>(std::ceil(std::clamp(right - 0.5, 0.0, static_cast<double>(width))));
-    for (int x = first; x < last; ++x) {
-      visit(x, y, plane.a * (x + 0.5) + plane.b * level + plane.c);
-    }
+    for (int x = first; x < last; ++x) visit(x, y, plane.a * (x + 0.5) + plane.b * level + plane.c);
   }
 }
 

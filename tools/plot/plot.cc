@@ -26,9 +26,8 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "talus_plot_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
+    if (mkdtemp(name.data()) == nullptr)
       throw std::runtime_error("cannot make a folder in " + std::filesystem::temp_directory_path().string());
-    }
     path_ = name;
   }
   ~TemporaryFolder() {
@@ -61,12 +60,9 @@ int run_gnuplot(std::string script, const std::string& output, const std::string
   pid_t child = 0;
   const int failure = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (failure == ENOENT) {
+  if (failure == ENOENT)
     throw std::runtime_error("plots need gnuplot, which is not on this machine: apt-get install gnuplot-nox");
-  }
-  if (failure != 0) {
-    throw std::runtime_error(std::string("cannot start gnuplot: ") + std::strerror(failure));
-  }
+  if (failure != 0) throw std::runtime_error(std::string("cannot start gnuplot: ") + std::strerror(failure));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -82,9 +78,8 @@ std::string svg_of(const Plot& plot) {
   std::ofstream(script) << gnuplot_script(plot);
   const int status = run_gnuplot(script, folder / "plot.svg", folder / "errors");
   std::string svg = text_of(folder / "plot.svg");
-  if (status != 0 || svg.find("</svg>") == std::string::npos) {
+  if (status != 0 || svg.find("</svg>") == std::string::npos)
     throw std::runtime_error("gnuplot could not draw \"" + plot.title + "\": " + text_of(folder / "errors"));
-  }
   return svg;
 }
 
@@ -97,9 +92,7 @@ constexpr std::array<const char*, 7> palette = {"#0072B2", "#D55E00", "#009E73",
 constexpr std::array<int, 7> point_types = {7, 5, 9, 11, 13, 6, 4};
 
 void require(bool holds, const std::string& field, const std::string& value, const std::string& rule) {
-  if (!holds) {
-    throw std::invalid_argument(fmt::format("{} = {}: {}", field, value, rule));
-  }
+  if (!holds) throw std::invalid_argument(fmt::format("{} = {}: {}", field, value, rule));
 }
 
 void check_values(const std::string& field, const std::vector<double>& values, bool logarithmic) {
@@ -112,9 +105,7 @@ void check_values(const std::string& field, const std::vector<double>& values, b
 /// In gnuplot's single quotes nothing but the quote has a meaning.
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
-    result += c == '\n' ? std::string(" ") : c == '\'' ? std::string("''") : std::string(1, c);
-  }
+  for (const char c : text) result += c == '\n' ? std::string(" ") : c == '\'' ? std::string("''") : std::string(1, c);
   return result + "'";
 }
 
@@ -137,9 +128,8 @@ std::string logarithmic_axis(char axis, const Plot& plot) {
   std::string script = fmt::format("set logscale {0} 10\nset {0}range [{1}:{2}]\n", axis, low / margin, high * margin);
   if (high / low > few_decades) return script;
   script += fmt::format("set {}tics (", axis);
-  for (double decade = std::pow(10.0, std::floor(std::log10(low / margin))); decade <= high * margin; decade *= 10.0) {
+  for (double decade = std::pow(10.0, std::floor(std::log10(low / margin))); decade <= high * margin; decade *= 10.0)
     for (const double step : {1.0, 2.0, 5.0}) script += fmt::format("'{0:g}' {0:g},", step * decade);
-  }
   script.back() = ')';
   return script + "\n";
 }
@@ -185,9 +175,7 @@ std::string curve_of(const Series& series, std::size_t number) {
                       ? fmt::format("linecolor '{}' linewidth 2", palette[number % palette.size()])
                       : style,
                   quoted(series.name));
-  if (!series.low.empty()) {
-    curve += fmt::format(", $series{} using 1:2:3:4 with yerrorbars {} notitle", number, style);
-  }
+  if (!series.low.empty()) curve += fmt::format(", $series{} using 1:2:3:4 with yerrorbars {} notitle", number, style);
   return curve;
 }
 

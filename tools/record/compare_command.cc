@@ -17,7 +17,6 @@
 #include "tools/report/table.h"
 
 namespace talus {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -139,9 +138,8 @@ void print_head(const Json& run, char letter) {
   print_result("{}: {}: {}, policy {}, {} steps, {} bodies, {} sleep events\n", letter, printed(run["run"]),
                printed(run["backend"]), printed(run["policy"]), run["steps"].get<std::int64_t>(),
                run["bodies"].get<int>(), run["sleep_events"].get<int>());
-  if (const auto damage = run["damage"].get<std::string>(); !damage.empty()) {
+  if (const auto damage = run["damage"].get<std::string>(); !damage.empty())
     print_result("   the record is damaged: {}\n", damage);
-  }
 }
 
 void print_settings(const Json& settings) {
@@ -150,9 +148,8 @@ void print_settings(const Json& settings) {
   if (other_scene) print_result("These are runs of different scenes: a body of A is not the same body in B.\n");
   if (settings.empty()) return;
   Table table{"Settings that differ", {{"setting"}, {"A"}, {"B"}}, {}};
-  for (const Json& setting : settings) {
+  for (const Json& setting : settings)
     table.rows.push_back({printed(setting["path"]), printed(setting["a"]), printed(setting["b"])});
-  }
   print_result("{}\n", text_of(table));
 }
 
@@ -184,16 +181,14 @@ void print_comparison(const Json& json) {
     motion.rows.push_back({"distance_D " + name, number(value)});
   print_text(text_of(motion));
   Table shape{"\nShape at the last frame that both have", {{"measure"}, {"A", true}, {"B", true}}, {}};
-  for (const auto& [name, value] : json["shape_a"].items()) {
+  for (const auto& [name, value] : json["shape_a"].items())
     shape.rows.push_back({name, number(value), number(json["shape_b"][name])});
-  }
   print_text(text_of(shape));
   Table between{
       "\nBetween the shapes", {{"measure"}, {"value", true}}, {{"profile_rms_D", number(json["profile_rms_D"])}}};
-  for (const char* axis : {"z", "r"}) {
+  for (const char* axis : {"z", "r"})
     for (const auto& [name, value] : json[axis].items())
       between.rows.push_back({fmt::format("{} {}", axis, name), number(value)});
-  }
   print_text(text_of(between));
 }
 
@@ -203,11 +198,10 @@ int compare(const std::string& folder_a, const std::string& folder_b, bool as_js
   if (a.index() != b.index()) throw std::invalid_argument("a run in 2D and one in 3D: must be of one dimension");
   const Json json = std::visit(
       [&]<int Dim>(const RecordedRun<Dim>& one) { return comparison_json(one, std::get<RecordedRun<Dim>>(b)); }, a);
-  if (as_json) {
+  if (as_json)
     print_result("{}\n", json_text(json, 2));
-  } else {
+  else
     print_comparison(json);
-  }
   return exit_codes::success;
 }
 

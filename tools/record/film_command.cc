@@ -14,7 +14,6 @@
 #include "tools/record/recorded_run.h"
 
 namespace talus {
-
 namespace {
 
 struct FilmOptions {

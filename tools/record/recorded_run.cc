@@ -13,7 +13,6 @@
 #include "tools/record/state_reader.h"
 
 namespace talus {
-
 namespace fs = std::filesystem;
 
 namespace {
@@ -39,9 +38,8 @@ class RunReader {
     run_.last = states_.states_with_velocities(run_.scene.world.dt);
     run_.last_step = states_.step();
     run_.damage.lost_events = sleep_numbers_.lost();
-    for (std::size_t i = 0; i < states_.unknown().size(); ++i) {
+    for (std::size_t i = 0; i < states_.unknown().size(); ++i)
       run_.damage.unknown_bodies += states_.unknown()[i] != 0 ? 1 : 0;
-    }
     return std::move(run_);
   }
 
@@ -49,11 +47,10 @@ class RunReader {
   template <class Message>
   void decode_and_take(const LogEvent& event) {
     Message message;
-    if (decode<Message>(event.data, message).empty()) {
+    if (decode<Message>(event.data, message).empty())
       take(message);
-    } else {
+    else
       ++run_.damage.undecodable;
-    }
   }
 
   void take(const talus_lcm::talus_run_v1& message) {
@@ -122,9 +119,8 @@ std::string text_of(const RecordDamage& damage) {
   if (damage.lost_events > 0) parts.push_back(fmt::format("{} messages of sleep events missing", damage.lost_events));
   if (damage.undecodable > 0) parts.push_back(fmt::format("{} messages not decodable", damage.undecodable));
   if (damage.bytes > 0) parts.push_back(plural(damage.bytes, "damaged byte"));
-  if (damage.unknown_bodies > 0) {
+  if (damage.unknown_bodies > 0)
     parts.push_back(fmt::format("{} bodies of unknown pose in the last state", damage.unknown_bodies));
-  }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

@@ -7,16 +7,14 @@
 #include "tools/monitor/sequence_tracker.h"
 
 namespace talus {
-
 namespace {
 
 template <int Dim>
 Pose<Dim> pose_of(const float* values) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return {{values[0], values[1]}, Rotation<2>(values[2])};
-  } else {
+  else
     return {{values[0], values[1], values[2]}, Rotation<3>(values[3], values[4], values[5], values[6])};
-  }
 }
 
 /// Turn from one rotation to another as a vector [rad].
@@ -62,9 +60,8 @@ void StateReader<Dim>::check(const Message& message) const {
 
 template <int Dim>
 void StateReader<Dim>::note_event(BodyIndex body) {
-  if (body >= bodies_) {
+  if (body >= bodies_)
     throw std::invalid_argument(fmt::format("sleep event of body {}, but the scene has {} bodies", body, bodies_));
-  }
   events_.push_back(body);
 }
 
@@ -79,9 +76,8 @@ void StateReader<Dim>::apply() {
   }
   step_ = parts_[0].step;
   seen_.assign(states_.shape.size(), 0);
-  for (const Message& part : parts_) {
+  for (const Message& part : parts_)
     for (std::size_t entry = 0; entry < part.body.size(); ++entry) set(part, entry);
-  }
   if (parts_[0].key_frame != 0) {
     for (std::size_t i = 0; i < seen_.size(); ++i) states_.removed[i] = seen_[i] != 0 ? 0 : 1;
     unknown_.assign(states_.shape.size(), 0);
@@ -95,9 +91,8 @@ void StateReader<Dim>::apply() {
 /// where not all events are known.
 template <int Dim>
 void StateReader<Dim>::doubt() {
-  for (std::size_t i = 0; i < unknown_.size(); ++i) {
+  for (std::size_t i = 0; i < unknown_.size(); ++i)
     if (events_lost_ || (states_.asleep[i] == 0 && states_.removed[i] == 0)) unknown_[i] = 1;
-  }
   for (const BodyIndex body : events_) {
     grow(body + 1);
     unknown_[body] = 1;

@@ -16,7 +16,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -122,9 +121,8 @@ void print_wake(const Json& json) {
   const auto text = [&](const char* key) { return printable(json[key].get<std::string>()); };
   print_result("{} ({}, policy {}) after step {}: {} bodies, {} of them asleep\n", text("run"), text("backend"),
                text("policy"), json["step"].get<std::int64_t>(), json["bodies"].get<int>(), json["asleep"].get<int>());
-  if (const auto damage = json["damage"].get<std::string>(); !damage.empty()) {
+  if (const auto damage = json["damage"].get<std::string>(); !damage.empty())
     print_result("the record is damaged: {}\n", damage);
-  }
   print_unfinished(json["unfinished"]);
   print_result("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
   print_result("sleepers below ground: {} (must be 0)\n", json["sunken_sleepers"].get<int>());
@@ -148,11 +146,10 @@ void print_wake(const Json& json) {
 
 int wake_command(const WakeOptions& options) {
   const Json json = std::visit([&](const auto& run) { return result_of(run, options); }, read_run(options.run));
-  if (options.json) {
+  if (options.json)
     print_result("{}\n", json_text(json, 2));
-  } else {
+  else
     print_wake(json);
-  }
   return exit_codes::success;
 }
 

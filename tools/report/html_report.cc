@@ -8,7 +8,6 @@
 #include "tools/report/style.h"
 
 namespace talus {
-
 namespace {
 
 std::string escaped(const std::string& text) {
@@ -62,9 +61,8 @@ std::string html_of(const Table& table) {
 std::string html_of(const Figure& figure) {
   const std::size_t begin = figure.svg.find("<svg");
   const std::size_t end = figure.svg.rfind("</svg>");
-  if (begin == std::string::npos || end == std::string::npos) {
+  if (begin == std::string::npos || end == std::string::npos)
     throw std::invalid_argument(fmt::format("figure \"{}\": must be the text of an SVG file", figure.caption));
-  }
   constexpr std::string_view closing = "</svg>";
   return "<figure>" + figure.svg.substr(begin, end + closing.size() - begin) + "<figcaption>" +
          escaped(figure.caption) + "</figcaption></figure>\n";
@@ -81,9 +79,7 @@ std::string html_of(const Report& report) {
   if (!report.subtitle.empty()) html += "<p class=\"subtitle\">" + escaped(report.subtitle) + "</p>\n";
   for (const Section& section : report.sections) {
     html += "<section>\n<h2>" + escaped(section.heading) + "</h2>\n";
-    for (const Block& block : section.blocks) {
-      html += std::visit([](const auto& kind) { return html_of(kind); }, block);
-    }
+    for (const Block& block : section.blocks) html += std::visit([](const auto& kind) { return html_of(kind); }, block);
     html += "</section>\n";
   }
   return html + "</main>\n</body>\n</html>\n";

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 namespace talus {
-
 namespace {
 
 void check(const Table& table) {
@@ -73,9 +72,8 @@ std::string text_of(const Table& table) {
   check(table);
   std::vector<std::size_t> widths;
   for (const Column& column : table.columns) widths.push_back(width_of(column.name));
-  for (const auto& row : table.rows) {
+  for (const auto& row : table.rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
-  }
   std::string text = table.caption;
   if (!text.empty()) text += '\n';
   text += padded_line(table, header(table), widths);

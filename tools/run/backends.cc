@@ -13,7 +13,6 @@
 #endif
 
 namespace talus {
-
 namespace {
 
 template <int Dim>
@@ -49,9 +48,8 @@ std::vector<std::string> names() {
 
 template <int Dim>
 Backend<Dim> find_backend(std::string_view name) {
-  for (const Backend<Dim>& known : table<Dim>()) {
+  for (const Backend<Dim>& known : table<Dim>())
     if (known.traits.name == name) return known;
-  }
   throw std::invalid_argument(fmt::format(
       "--backend = {}: must be {} for a scene in {}D", name,
       names<Dim>().empty() ? "built in, as no engine is," : fmt::format("{}", fmt::join(names<Dim>(), " or ")), Dim));

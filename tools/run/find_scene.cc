@@ -8,7 +8,6 @@
 #include "common/text/nearest_name.h"
 
 namespace talus {
-
 namespace fs = std::filesystem;
 
 fs::path scene_folder() {
@@ -22,9 +21,8 @@ std::vector<fs::path> scene_files() {
   std::vector<fs::path> files;
   const fs::path folder = scene_folder();
   if (!fs::is_directory(folder)) return files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  }
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -33,9 +31,8 @@ fs::path find_scene(const std::string& scene) {
   std::error_code error;
   const fs::file_type type = fs::status(scene, error).type();
   if (type == fs::file_type::regular) return scene;
-  if (type == fs::file_type::none) {  // its folder cannot be read, its name is too long, ...
+  if (type == fs::file_type::none)  // its folder cannot be read, its name is too long, ...
     throw std::invalid_argument(fmt::format("scene = {}: {}", scene, error.message()));
-  }
   std::vector<std::string> names;
   for (const fs::path& file : scene_files()) {
     if (file.stem() == scene) return file;

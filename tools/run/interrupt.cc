@@ -3,7 +3,6 @@
 #include <csignal>
 
 namespace talus {
-
 namespace {
 
 /// A signal handler can reach nothing but static storage.

@@ -11,7 +11,6 @@
 #include "tools/run/backends.h"
 
 namespace talus {
-
 namespace {
 
 /// Memory that the process may have at most [bytes].

@@ -14,7 +14,6 @@
 #include "tools/run/version.h"
 
 namespace talus {
-
 namespace fs = std::filesystem;
 
 namespace {
@@ -34,9 +33,8 @@ bool claim(const fs::path& folder) {
 /// The first folder of runs/NAME, runs/NAME-2, ... that is this run's alone.
 fs::path claim_numbered(const std::string& name) {
   fs::path folder = fs::path("runs") / name;
-  for (int number = 2; fs::exists(folder) || !claim(folder); ++number) {
+  for (int number = 2; fs::exists(folder) || !claim(folder); ++number)
     folder = fs::path("runs") / fmt::format("{}-{}", name, number);
-  }
   return folder;
 }
 

@@ -93,9 +93,8 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
   for (const Warning& warning : simulation.warnings()) print_result("  warning: {}\n", account(warning));
-  if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total()) {
+  if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
-  }
   if (summary.emit_waits > 0) {
     print_result("  the sources waited {} times for a free place; `talus check` gives the rate that they can reach\n",
                  summary.emit_waits);

@@ -24,7 +24,6 @@
 #include "tools/run/speed_up.h"
 
 namespace talus {
-
 namespace {
 
 /// What the command line sets, as overrides of the scene file, so that it is checked and recorded like the file's own
@@ -32,9 +31,7 @@ namespace {
 std::vector<Override> overrides(const RunOptions& options, const char* option, const std::string& policy) {
   std::vector<Override> list;
   for (const std::string& setting : options.settings) list.push_back({setting});
-  if (!policy.empty()) {
-    list.push_back({"policy.kind=" + policy, fmt::format("{} {}", option, policy)});
-  }
+  if (!policy.empty()) list.push_back({"policy.kind=" + policy, fmt::format("{} {}", option, policy)});
   if (options.seed) list.push_back({fmt::format("seed={}", *options.seed), fmt::format("--seed {}", *options.seed)});
   return list;
 }
@@ -55,9 +52,7 @@ std::string advance(Simulation<Dim>& simulation, std::int64_t steps, const Inter
 
 template <int Dim>
 int exit_code_of(std::string_view reason, bool strict, const Simulation<Dim>& simulation) {
-  if (reason == "finished") {
-    return strict && !simulation.warnings().empty() ? exit_codes::failed : exit_codes::success;
-  }
+  if (reason == "finished") return strict && !simulation.warnings().empty() ? exit_codes::failed : exit_codes::success;
   return reason == "interrupted" ? exit_codes::interrupted : exit_codes::failed;
 }
 
@@ -71,11 +66,10 @@ void warn(const Scene<Dim>& scene, const std::string& backend) {
 /// A run that did not finish has no end: its reason instead of a hash.
 template <int Dim>
 int print_hash(const Simulation<Dim>& simulation, const std::string& reason, bool strict) {
-  if (reason == "finished") {
+  if (reason == "finished")
     print_result("{:016x}\n", state_hash(simulation.world().states()));
-  } else {
+  else
     print_message("talus: no end hash: {}", reason);
-  }
   return exit_code_of(reason, strict, simulation);
 }
 

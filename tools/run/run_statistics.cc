@@ -3,7 +3,6 @@
 #include <numeric>
 
 namespace talus {
-
 namespace {
 
 constexpr std::size_t last_steps = 100;

@@ -13,7 +13,6 @@
 #include "tools/run/processor_watch.h"
 
 namespace talus {
-
 namespace {
 
 /// Processor time [s] of all steps but the first, in which the engine allocates.

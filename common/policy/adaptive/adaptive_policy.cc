@@ -62,9 +62,8 @@ void AdaptivePolicy<Dim>::limit_velocities() {
 template <int Dim>
 void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
   bodies_.clear();
-  for (const BodyIndex body : in.world.awake()) {
+  for (const BodyIndex body : in.world.awake())
     if (!below_ground(in, body) && rested_enough(frame, body)) bodies_.push_back(body);
-  }
   support_.keep_supported(in, bodies_);
   for (const BodyIndex body : bodies_) {
     const Placement place = placement(frame, body);

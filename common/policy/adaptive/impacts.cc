@@ -60,15 +60,13 @@ void Impacts<Dim>::collect(const RuleInput<Dim>& in) {
   for (const Contact<Dim>& contact : in.contacts) {
     fastest_approach_ = std::max(fastest_approach_, contact.approach_speed);
     if (contact.b < 0 || !in.asleep(contact.b)) continue;
-    if (impulses_.empty() || impulses_.back().awake != contact.a || impulses_.back().sleeper != contact.b) {
+    if (impulses_.empty() || impulses_.back().awake != contact.a || impulses_.back().sleeper != contact.b)
       impulses_.push_back({.awake = contact.a, .sleeper = contact.b});
-    }
     ContactImpulse& sum = impulses_.back();
     sum.impulse += contact.normal_impulse * contact.normal + contact.friction_impulse;
     sum.normal_impulse += contact.normal_impulse;
-    if (sum.normal_impulse > 0.0) {
+    if (sum.normal_impulse > 0.0)
       sum.point += contact.normal_impulse / sum.normal_impulse * (contact.point - sum.point);
-    }
     sum.approach_speed = std::max(sum.approach_speed, contact.approach_speed);
   }
 }
@@ -101,9 +99,8 @@ double Impacts<Dim>::increase(const ContactImpulse& contact, const Vec<Dim>& dir
                               double awake_inverse_mass) const {
   const auto last =
       std::lower_bound(last_impulses_.begin(), last_impulses_.end(), contact, pair_before<ContactImpulse>);
-  if (last != last_impulses_.end() && !pair_before(contact, *last)) {
+  if (last != last_impulses_.end() && !pair_before(contact, *last))
     return (contact.impulse - last->impulse).dot(direction);
-  }
   if (std::binary_search(last_awake_.begin(), last_awake_.end(), contact.awake)) return contact.impulse.norm();
   return contact.approach_speed / awake_inverse_mass;
 }

@@ -78,9 +78,8 @@ typename LocalAvalanches<Dim>::Cell LocalAvalanches<Dim>::cell_of(const Vec<Dim>
 template <int Dim>
 Vec<Dim> LocalAvalanches<Dim>::middle_of(const Cell& cell) const {
   Vec<Dim> middle = Vec<Dim>::Zero();
-  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+  for (std::size_t axis = 0; axis < cell.size(); ++axis)
     middle[static_cast<Eigen::Index>(axis)] = (cell[axis] + 0.5) * width_;
-  }
   return middle;
 }
 

@@ -55,9 +55,8 @@ void RestCriterion<Dim>::update(const RuleInput<Dim>& in) {
 template <int Dim>
 void RestCriterion<Dim>::expect_motion(const WakeList& wakes) {
   expected_to_move_.clear();
-  for (const auto& [body, wake] : wakes) {
+  for (const auto& [body, wake] : wakes)
     if (wake.before_impact) expected_to_move_.push_back(body);
-  }
 }
 
 template <int Dim>

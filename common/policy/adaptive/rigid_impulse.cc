@@ -6,11 +6,10 @@ namespace {
 /// Angular momentum of a momentum at a lever arm.
 template <int Dim>
 Spin<Dim> moment(const Vec<Dim>& arm, const Vec<Dim>& momentum) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return Spin<2>(arm[0] * momentum[1] - arm[1] * momentum[0]);
-  } else {
+  else
     return arm.cross(momentum);
-  }
 }
 
 /// Change of spin by an angular momentum.

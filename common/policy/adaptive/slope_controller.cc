@@ -38,9 +38,8 @@ void SlopeController<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out
   find_touching(in);
   const bool due = in.step % steps_between_slow_updates(dt_) == 0 || in.piles.size() != controls_.size();
   controls_.resize(in.piles.size());
-  for (std::size_t p = 0; p < in.piles.size() && due; ++p) {
+  for (std::size_t p = 0; p < in.piles.size() && due; ++p)
     if (std::ranges::find(touching_, p, &Touching::pile) != touching_.end()) update_damping(in, p);
-  }
   damp(in.states(), out);
 }
 
@@ -86,9 +85,8 @@ void SlopeController<Dim>::collect_positions(const RuleInput<Dim>& in, std::size
   for (std::size_t i = 0; i < states.pose.size(); ++i) {
     const Vec<Dim>& position = states.pose[i].position;
     if (states.asleep[i] == 0 || states.removed[i] != 0 || !within_pile(in.piles[pile], position)) continue;
-    if (nearest_pile(in.piles, position) == static_cast<int>(pile)) {
+    if (nearest_pile(in.piles, position) == static_cast<int>(pile))
       positions_.push_back(position - in.piles[pile].centre);
-    }
   }
   for (const Touching& touching : touching_) {
     if (touching.pile != pile || states.velocity[touching.body].norm() >= resting_speed_) continue;

@@ -72,9 +72,8 @@ class SupportGraph {
 
 template <int Dim>
 SupportCriterion<Dim>::SupportCriterion(const RuleSetup<Dim>& setup) : awake_share_(setup.params.awake_share) {
-  for (const Shape<Dim>& shape : setup.world.shapes) {
+  for (const Shape<Dim>& shape : setup.world.shapes)
     weights_.push_back(shape.mass * setup.world.gravity * setup.world.dt);
-  }
 }
 
 template <int Dim>
@@ -93,9 +92,8 @@ void SupportCriterion<Dim>::keep_supported(const RuleInput<Dim>& in, std::vector
     }
   }
   std::size_t count = 0;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
+  for (std::size_t i = 0; i < candidates.size(); ++i)
     if (kept[i] != 0) candidates[count++] = candidates[i];
-  }
   candidates.resize(count);
 }
 

@@ -28,9 +28,7 @@ void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   remember_new(in);
   for (const SupportContact& contact : contacts_) {
     const Vec<Dim> now = in.pose_of(contact.supporter) * contact.local;
-    if ((now - contact.point).norm() > slack_) {
-      out.wakes.add(contact.supported, {.cause = SleepCause::lost_support});
-    }
+    if ((now - contact.point).norm() > slack_) out.wakes.add(contact.supported, {.cause = SleepCause::lost_support});
   }
 }
 
