@@ -75,6 +75,10 @@ struct Pile {
 template <int Dim>
 int nearest_pile(std::span<const Pile<Dim>> piles, const Vec<Dim>& point);
 
+/// Slope [rad] of the nearest pile if it is controlled; else 0.
+template <int Dim>
+double controlled_slope(std::span<const Pile<Dim>> piles, const Vec<Dim>& point);
+
 /// An empty structure with room for `structure_size` bodies (section 3.1): k = max(1, floor(h / D)) layers of equal
 /// thickness h / k, so that their volumes sum to N v_obj. Within walls the base grows until it touches the nearest
 /// wall. From then on it fills the container and the tip, of slope alpha, is lifted, at most up to the rim; beyond that

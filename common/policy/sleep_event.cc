@@ -18,6 +18,8 @@ std::string_view to_string(SleepCause cause) {
       return "engine";
     case SleepCause::user:
       return "user";
+    case SleepCause::check:
+      return "check";
   }
   return "unknown";
 }

@@ -16,6 +16,7 @@ enum class SleepCause : std::uint8_t {
   lost_support,  // its support moved away
   engine = 7,    // the engine's own rule
   user,          // the user's request
+  check,         // with `adaptive`, its region is checked for stability
 };
 
 std::string_view to_string(SleepCause cause);

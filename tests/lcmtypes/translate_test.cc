@@ -97,6 +97,7 @@ TEST(SleepMessage, NumbersCausesAsTheCoreDoes) {
   EXPECT_EQ(talus_sleep_v1::SCORE, static_cast<int>(SleepCause::score));
   EXPECT_EQ(talus_sleep_v1::REST, static_cast<int>(SleepCause::rest));
   EXPECT_EQ(talus_sleep_v1::AVALANCHE, static_cast<int>(SleepCause::avalanche));
+  EXPECT_EQ(talus_sleep_v1::CHECK, static_cast<int>(SleepCause::check));
   EXPECT_EQ(talus_sleep_v1::MOMENTUM, static_cast<int>(SleepCause::momentum));
   EXPECT_EQ(talus_sleep_v1::LOST_SUPPORT, static_cast<int>(SleepCause::lost_support));
   EXPECT_EQ(talus_sleep_v1::ENGINE, static_cast<int>(SleepCause::engine));

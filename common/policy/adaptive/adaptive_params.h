@@ -11,6 +11,7 @@ namespace talus {
 /// adaptive_fields has the unit, range and effect of each. docs/method.md explains the rules, docs/research/ how the
 /// values were found.
 struct AdaptiveParams {
+  double tolerance = 0.0;
   double rest_distance = 0.01;
   double rest_time_deep = 0.06;
   double rest_time_surface = 0.14;
@@ -30,6 +31,14 @@ struct AdaptiveParams {
 };
 
 inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
+    {&AdaptiveParams::tolerance,
+     {.name = "tolerance",
+      .unit = "D",
+      .range = between(0.0, 10.0),
+      .meaning =
+          "mean distance that the bodies of a region at rest may still move when all of them wake. Each region is "
+          "checked for it when it comes to rest; 0.05 is a good value. Large: heaps come to rest too steep; small: "
+          "checks take long; 0: no checks"}},
     {&AdaptiveParams::rest_distance,
      {.name = "rest_distance",
       .unit = "D",

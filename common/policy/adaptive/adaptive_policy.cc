@@ -27,11 +27,12 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       impacts_({params, typical, world}),
       support_loss_({params, typical, world}),
       avalanches_({params, typical, world}),
-      slope_controller_({params, typical, world}) {}
+      slope_controller_({params, typical, world}),
+      checks_({params, typical, world}) {}
 
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
-  if (frame.world.awake().empty() && !avalanches_.has_unchecked()) return;
+  if (frame.world.awake().empty() && !avalanches_.has_unchecked() && !checks_.has_unchecked()) return;
   const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
   output_.clear();
   rest_.update(in);
@@ -40,6 +41,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   support_loss_.update(in, output_);
   avalanches_.update(in, output_);
   slope_controller_.update(in, output_);
+  checks_.update(in, rest_, output_);
   limit_velocities();
   for (const auto& [body, wake] : output_.wakes) {
     const Placement place = placement(frame, body);
@@ -49,6 +51,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   choose_sleepers(frame, in, decision);
   rest_.expect_motion(output_.wakes);
   avalanches_.count(in.states(), decision.freeze, decision.thaw);
+  checks_.count(in.states(), decision.freeze, decision.thaw);
 }
 
 template <int Dim>
@@ -62,8 +65,10 @@ void AdaptivePolicy<Dim>::limit_velocities() {
 template <int Dim>
 void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
   bodies_.clear();
-  for (const BodyIndex body : in.world.awake())
-    if (!below_ground(in, body) && rested_enough(frame, body)) bodies_.push_back(body);
+  for (const BodyIndex body : in.world.awake()) {
+    if (checks_.holds(body) || below_ground(in, body)) continue;
+    if (rested_enough(frame, body)) bodies_.push_back(body);
+  }
   support_.keep_supported(in, bodies_);
   for (const BodyIndex body : bodies_) {
     const Placement place = placement(frame, body);

@@ -10,6 +10,7 @@
 #include "common/policy/adaptive/local_avalanches.h"
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/adaptive/slope_controller.h"
+#include "common/policy/adaptive/stability_checks.h"
 #include "common/policy/adaptive/support_criterion.h"
 #include "common/policy/adaptive/support_loss.h"
 #include "common/policy/sleep_policy.h"
@@ -55,6 +56,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   SupportLoss<Dim> support_loss_;
   LocalAvalanches<Dim> avalanches_;
   SlopeController<Dim> slope_controller_;
+  StabilityChecks<Dim> checks_;
   RuleOutput<Dim> output_;         // scratch
   std::vector<BodyIndex> bodies_;  // scratch
 };

@@ -6,29 +6,10 @@
 namespace talus {
 namespace {
 
-/// Bound of coordinates [m] and column numbers: an int and an engine's float still hold it.
-constexpr double coordinate_limit = 1e9;
-
 /// By how much a column of a controlled pile may exceed the pile's slope [D]. Tops are single bodies, each of which may
 /// stand out of the slope. Without it such piles became 2 degrees flatter in 2D and kept a fifth more bodies awake
 /// (docs/research/slope_control.md).
 constexpr double top_roughness = 2.0;
-
-/// The column and those that share an edge or a corner with it.
-template <std::size_t Axes>
-std::vector<std::array<int, Axes>> around(const std::array<int, Axes>& cell) {
-  std::vector<std::array<int, Axes>> cells = {cell};
-  for (std::size_t axis = 0; axis < Axes; ++axis) {
-    const std::size_t known = cells.size();
-    for (const int step : {-1, 1}) {
-      for (std::size_t i = 0; i < known; ++i) {
-        cells.push_back(cells[i]);
-        cells.back()[axis] += step;
-      }
-    }
-  }
-  return cells;
-}
 
 /// Height [m] of the highest wall of a pile between two points, of which only the horizontal parts count; none if no
 /// wall separates them.
@@ -46,47 +27,21 @@ std::optional<double> wall_between(std::span<const Pile<Dim>> piles, const Vec<D
   return highest;
 }
 
-/// Slope [rad] of the controlled pile that a point belongs to; 0 if there is none.
-template <int Dim>
-double controlled_slope(std::span<const Pile<Dim>> piles, const Vec<Dim>& point) {
-  const int pile = nearest_pile(piles, point);
-  if (pile < 0 || !piles[pile].slope_controlled) return 0.0;
-  return piles[pile].alpha;
-}
-
 }  // namespace
 
 template <int Dim>
 LocalAvalanches<Dim>::LocalAvalanches(const RuleSetup<Dim>& setup)
     : extent_(setup.typical.extent),
-      width_(setup.params.avalanche_width * setup.typical.extent),
+      grid_(setup.params.avalanche_width * setup.typical.extent),
       growth_(setup.params.avalanche_growth),
       growth_quiet_(setup.params.avalanche_growth_quiet),
       angle_(setup.params.avalanche_angle),
       ground_(setup.world.ground.height) {}
 
 template <int Dim>
-typename LocalAvalanches<Dim>::Cell LocalAvalanches<Dim>::cell_of(const Vec<Dim>& position) const {
-  Cell cell;
-  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
-    const double column = std::floor(position[static_cast<Eigen::Index>(axis)] / width_);
-    cell[axis] = static_cast<int>(std::clamp(column, -coordinate_limit, coordinate_limit));
-  }
-  return cell;
-}
-
-template <int Dim>
-Vec<Dim> LocalAvalanches<Dim>::middle_of(const Cell& cell) const {
-  Vec<Dim> middle = Vec<Dim>::Zero();
-  for (std::size_t axis = 0; axis < cell.size(); ++axis)
-    middle[static_cast<Eigen::Index>(axis)] = (cell[axis] + 0.5) * width_;
-  return middle;
-}
-
-template <int Dim>
 void LocalAvalanches<Dim>::count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
                                  std::span<const SleepEvent> waking) {
-  const auto cell = [&](const SleepEvent& event) { return cell_of(states.pose[event.body].position); };
+  const auto cell = [&](const SleepEvent& event) { return grid_.cell_of(states.pose[event.body].position); };
   for (const SleepEvent& event : waking) --columns_[cell(event)].sleepers;
   for (const SleepEvent& event : falling_asleep) {
     grown_.push_back(cell(event));
@@ -108,7 +63,7 @@ void LocalAvalanches<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out
 template <int Dim>
 void LocalAvalanches<Dim>::check_quiet(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   for (const Cell& cell : unchecked_) {
-    if (controlled_slope(in.piles, middle_of(cell)) > angle_) continue;
+    if (controlled_slope(in.piles, grid_.template middle_of<Dim>(cell)) > angle_) continue;
     const int last = columns_[cell].last_checked;
     check_column(in, cell, std::max(last + 1.0, growth_quiet_ * last), true, out);
   }
@@ -145,11 +100,12 @@ bool LocalAvalanches<Dim>::mostly_awake() const {
 template <int Dim>
 bool LocalAvalanches<Dim>::is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const {
   const double top = neighbourhood_.at(cell).top.value_or(ground_);
-  const Vec<Dim> middle = middle_of(cell);
+  const Vec<Dim> middle = grid_.template middle_of<Dim>(cell);
   const double slope = controlled_slope(piles, middle);
-  const double rise = slope > angle_ ? width_ * std::tan(slope) + top_roughness * extent_ : width_ * std::tan(angle_);
+  const double rise =
+      grid_.width() * std::tan(std::max(slope, angle_)) + (slope > angle_ ? top_roughness * extent_ : 0.0);
   return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
-    const double wall = wall_between(piles, middle, middle_of(beside.first)).value_or(ground_);
+    const double wall = wall_between(piles, middle, grid_.template middle_of<Dim>(beside.first)).value_or(ground_);
     return top - std::max(beside.second.top.value_or(ground_), wall) > rise;
   });
 }
@@ -157,22 +113,21 @@ bool LocalAvalanches<Dim>::is_steep(std::span<const Pile<Dim>> piles, const Cell
 template <int Dim>
 void LocalAvalanches<Dim>::collect_neighbourhood(const RuleInput<Dim>& in, const Cell& cell) {
   neighbourhood_.clear();
-  Box<Dim> box(Vec<Dim>::Constant(-coordinate_limit), Vec<Dim>::Constant(coordinate_limit));
-  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
-    box.min()[static_cast<Eigen::Index>(axis)] = (cell[axis] - 1) * width_;
-    box.max()[static_cast<Eigen::Index>(axis)] = (cell[axis] + 2) * width_;
-  }
-  for (const Cell& beside : around(cell)) neighbourhood_[beside];
+  Cell first = cell;
+  Cell last = cell;
+  for (int& number : first) --number;
+  for (int& number : last) ++number;
+  for (const Cell& beside : Columns::around(cell)) neighbourhood_[beside];
   near_.clear();
   awake_near_ = 0;
-  in.world.query_box(box, near_);
+  in.world.query_box(grid_.template box_of<Dim>(first, last), near_);
   for (const BodyIndex body : near_) {
     if (!in.asleep(body)) {
       ++awake_near_;
       continue;
     }
     const Vec<Dim>& position = in.pose_of(body).position;
-    const auto found = neighbourhood_.find(cell_of(position));
+    const auto found = neighbourhood_.find(grid_.cell_of(position));
     if (found == neighbourhood_.end()) continue;
     Stack& stack = found->second;
     const double z = height<Dim>(position);

@@ -2,13 +2,13 @@
 // Heaps of sleeping bodies that grow too steep.
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <vector>
 
+#include "common/policy/adaptive/grid.h"
 #include "common/policy/adaptive/rule.h"
 
 namespace talus {
@@ -40,7 +40,8 @@ class LocalAvalanches {
   void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
 
  private:
-  using Cell = std::array<int, Dim - 1>;
+  using Columns = Grid<Dim - 1>;
+  using Cell = typename Columns::Cell;
   struct Column {
     /// Sleeping bodies at the last check. The initial value is the least from which bodies make a heap (chosen, not
     /// measured): in a column 4 D wide fewer lie in about one layer.
@@ -55,16 +56,14 @@ class LocalAvalanches {
     std::optional<double> top;  // height of the highest centre of mass [m]; none if empty
   };
 
-  Cell cell_of(const Vec<Dim>& position) const;
-  Vec<Dim> middle_of(const Cell& cell) const;
   void check_quiet(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
   void check_column(const RuleInput<Dim>& in, const Cell& cell, double enough, bool quiet, RuleOutput<Dim>& out);
   void collect_neighbourhood(const RuleInput<Dim>& in, const Cell& cell);
   bool mostly_awake() const;
   bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;
 
-  double extent_;        // D [m]
-  double width_;         // of a column [m]
+  double extent_;  // D [m]
+  Columns grid_;
   double growth_;        // of a column until it is checked, as a factor
   double growth_quiet_;  // the same while the world is quiet
   double angle_;         // slope between columns from which they may slide [rad]

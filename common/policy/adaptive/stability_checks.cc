@@ -1,0 +1,217 @@
+#include "common/policy/adaptive/stability_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace talus {
+namespace {
+
+// Times in sqrt(D / g), the time in which a body falls by half of D (docs/research/stability_checks.md).
+constexpr double sample_time = 0.4;      // between two samples of the displacement
+constexpr double shortest_time = 0.8;    // of a check
+constexpr double longest_time = 60.0;    // of a check: some contacts of an engine jitter for ever
+constexpr double horizon = 13.0;         // for which the present speed is extrapolated,
+constexpr double horizon_slowing = 3.0;  // and if the motion slows down
+constexpr double arrival_time = 4.0;     // without arrivals after which some motion is allowed
+constexpr double rest_time = 0.4;        // at rest, after which an awake body no longer counts as moving
+
+constexpr double slowing = 0.7;  // of the displacement of the sample before: less means that the motion slows down
+constexpr double moving_share = 0.15;  // of the bodies of a region that may move when its check begins
+constexpr double block_width = 1.5;    // [D]
+
+// Contacts of a body in a step.
+constexpr std::uint8_t touches = 1;
+constexpr std::uint8_t touches_body = 2;
+
+}  // namespace
+
+template <int Dim>
+StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
+    : columns_(setup.params.avalanche_width * setup.typical.extent),
+      blocks_(block_width * setup.typical.extent),
+      tolerance_(setup.params.tolerance * setup.typical.extent),
+      angle_(setup.params.avalanche_angle) {
+  constexpr double least_gravity = 1e-3;  // [m/s^2]; in less nothing slides
+  const double unit = std::sqrt(setup.typical.extent / std::max(setup.world.gravity, least_gravity));
+  const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / setup.world.dt)); };
+  rest_time_ = rest_time * unit;
+  sample_steps_ = steps(sample_time);
+  shortest_check_ = steps(shortest_time);
+  longest_check_ = steps(longest_time);
+  arrival_steps_ = steps(arrival_time);
+  for (const Shape<Dim>& shape : setup.world.shapes) reach_.push_back(0.5 * shape.extent);
+}
+
+template <int Dim>
+bool StabilityChecks<Dim>::holds(BodyIndex body) const {
+  return body < std::ssize(held_) && held_[body] != 0;
+}
+
+template <int Dim>
+void StabilityChecks<Dim>::count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
+                                 std::span<const SleepEvent> waking) {
+  if (tolerance_ <= 0.0) return;
+  checked_.resize(states.asleep.size());
+  for (const SleepEvent& event : waking) --sleeping_[columns_.cell_of(states.pose[event.body].position)];
+  for (const SleepEvent& event : falling_asleep) {
+    const BodyIndex b = event.body;
+    const Pose<Dim>& pose = states.pose[b];
+    const Column column = columns_.cell_of(pose.position);
+    ++sleeping_[column];
+    const double reach = reach_[states.shape[b]];
+    if (checked_[b] && max_displacement<Dim>(*checked_[b], pose, reach) <= tolerance_) continue;
+    checked_[b].reset();
+    unchecked_.insert(column);
+  }
+}
+
+template <int Dim>
+void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out) {
+  if (tolerance_ <= 0.0) return;
+  held_.resize(in.states().asleep.size(), 0);
+  arrived_.resize(held_.size(), 0);
+  checked_.resize(held_.size());
+  if (in.step % sample_steps_ != 0) return;
+  for (Check& check : checks_) release_resting(in, check);
+  std::erase_if(checks_, [](const Check& check) { return check.members.empty(); });
+  observe_motion(in, rest);
+  std::set<Column> columns;
+  std::ranges::copy_if(unchecked_, std::inserter(columns, columns.end()), [&](const Column& column) {
+    return controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column)) <= angle_;
+  });
+  while (!columns.empty()) {
+    const Region region = take_region(columns);
+    if (is_quiet(region, in.step)) begin(in, region, out);
+  }
+}
+
+template <int Dim>
+double StabilityChecks<Dim>::displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const {
+  return max_displacement<Dim>(from, in.pose_of(body), reach_[in.states().shape[body]]);
+}
+
+/// Takes a sample, and releases the members whose block and the blocks around it have come to rest.
+template <int Dim>
+void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& check) {
+  struct Motion {
+    double sum = 0.0;     // of displacements since the last sample [m]
+    double before = 0.0;  // the same a sample earlier [m]
+    int bodies = 0;
+    double mean() const { return sum / bodies; }
+  };
+  std::map<Block, Motion> motion;
+  std::erase_if(check.members, [&](const Member& member) { return in.states().removed[member.body] != 0; });
+  for (Member& member : check.members) {
+    Motion& block = motion[blocks_.cell_of(in.pose_of(member.body).position)];
+    const double moved = displacement(in, member.body, member.sample);
+    block.sum += moved;
+    block.before += member.moved;
+    member.moved = moved;
+    ++block.bodies;
+    member.sample = in.pose_of(member.body);
+  }
+  const std::int64_t lasted = in.step - check.begun;
+  if (lasted < shortest_check_) return;
+  const auto rests = [&](const Block& block) {
+    const auto found = motion.find(block);
+    if (found == motion.end()) return true;
+    const bool slows = found->second.sum <= slowing * found->second.before;
+    return found->second.mean() * (slows ? horizon_slowing : horizon) / sample_time <= tolerance_;
+  };
+  std::map<Block, bool> at_rest;
+  for (const auto& [block, moved] : motion)
+    at_rest[block] = lasted >= longest_check_ || std::ranges::all_of(Blocks::around(block), rests);
+  std::erase_if(check.members, [&](const Member& member) {
+    if (!at_rest[blocks_.cell_of(member.sample.position)]) return false;
+    held_[member.body] = 0;
+    checked_[member.body] = member.sample;
+    return true;
+  });
+}
+
+/// Finds where bodies move in contact with others, and whether bodies are on their way to a first contact.
+template <int Dim>
+void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest) {
+  contact_.assign(held_.size(), 0);
+  for (const Contact<Dim>& contact : in.contacts) {
+    contact_[contact.a] |= touches;
+    if (contact.b < 0) continue;
+    contact_[contact.a] |= touches_body;
+    contact_[contact.b] |= touches | touches_body;
+  }
+  moving_.clear();
+  for (const BodyIndex body : in.world.awake()) {
+    if (contact_[body] != 0) arrived_[body] = 1;
+    if (arrived_[body] == 0) last_arrival_ = in.step;
+    const bool moves = !holds(body) && rest.time_at_rest(body) < rest_time_;
+    if (moves && (contact_[body] & touches_body) != 0) ++moving_[columns_.cell_of(in.pose_of(body).position)];
+  }
+  under_check_.clear();
+  for (const Check& check : checks_)
+    for (const Member& member : check.members) under_check_.insert(columns_.cell_of(member.sample.position));
+}
+
+/// Takes a set of connected columns out of `columns`, and adds the columns around them.
+template <int Dim>
+typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::set<Column>& columns) const {
+  std::vector<Column> connected = {*columns.begin()};
+  columns.erase(columns.begin());
+  std::set<Column> all;
+  for (std::size_t i = 0; i < connected.size(); ++i) {
+    for (const Column& beside : Columns::around(connected[i])) {
+      all.insert(beside);
+      if (columns.erase(beside) != 0) connected.push_back(beside);
+    }
+  }
+  Region region{.columns = {all.begin(), all.end()}};
+  const auto number_in = [](const std::map<Column, int>& numbers, const Column& column) {
+    const auto found = numbers.find(column);
+    return found == numbers.end() ? 0 : found->second;
+  };
+  for (const Column& column : region.columns) {
+    region.moving += number_in(moving_, column);
+    region.sleeping += number_in(sleeping_, column);
+    region.under_check = region.under_check || under_check_.contains(column);
+  }
+  return region;
+}
+
+template <int Dim>
+bool StabilityChecks<Dim>::is_quiet(const Region& region, std::int64_t step) const {
+  if (region.under_check) return false;
+  if (region.moving == 0) return true;
+  const bool expects_arrivals = step - last_arrival_ <= arrival_steps_;
+  return !expects_arrivals && region.moving <= moving_share * (region.moving + region.sleeping);
+}
+
+/// Wakes the bodies of a region and holds them, and those that are awake in contact.
+template <int Dim>
+void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region, RuleOutput<Dim>& out) {
+  Check check{.members = {}, .begun = in.step};
+  for (const Column& column : region.columns) {
+    unchecked_.erase(column);
+    near_.clear();
+    in.world.query_box(columns_.template box_of<Dim>(column, column), near_);
+    int sleeping = 0;
+    for (const BodyIndex body : near_) {
+      const Pose<Dim>& pose = in.pose_of(body);
+      if (columns_.cell_of(pose.position) != column) continue;
+      if (in.asleep(body)) {
+        ++sleeping;
+        out.wakes.add(body, {.cause = SleepCause::check});
+      } else if (contact_[body] == 0) {
+        continue;
+      }
+      check.members.push_back({.body = body, .sample = pose});
+      held_[body] = 1;
+    }
+    sleeping_[column] = sleeping;
+  }
+  if (!check.members.empty()) checks_.push_back(std::move(check));
+}
+
+template class StabilityChecks<2>;
+template class StabilityChecks<3>;
+
+}  // namespace talus

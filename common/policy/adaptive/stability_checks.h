@@ -1,0 +1,101 @@
+#pragma once
+// Would the sleeping bodies of a region stay where they are if they were awake?
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "common/policy/adaptive/grid.h"
+#include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/adaptive/rule.h"
+
+namespace talus {
+
+/// The rest criterion judges one body over a short time, so it accepts a slope that fails slowly, late or as a whole.
+/// Therefore a region whose bodies have fallen asleep is checked once it is quiet: all of its bodies wake and are held
+/// awake until they have come to rest together. Parts of it are released as they come to rest: a block of space is, and
+/// the blocks around it, when its bodies have so little speed that they would move less than the tolerance, on average,
+/// within a fixed horizon, which is shorter if they slow down. Where the check leaves a body it counts as checked,
+/// until it falls asleep farther from there than the tolerance.
+///
+/// A region is a set of connected vertical columns with unchecked sleeping bodies, and the columns around these. It is
+/// quiet when no body moves in contact with another one; some may while no body is on its way to a first contact, since
+/// a slope that slides slowly as a whole would otherwise delay its own check. A pile whose slope is controlled is left
+/// out where it is steeper than heaps become by themselves, since only sleep keeps it so steep.
+template <int Dim>
+class StabilityChecks {
+ public:
+  explicit StabilityChecks(const RuleSetup<Dim>& setup);
+
+  /// Notes the bodies that fall asleep and that wake after this step. Costs O(events).
+  void count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
+             std::span<const SleepEvent> waking);
+
+  /// Whether sleeping bodies wait for a check. update() must be called then although all bodies sleep.
+  bool has_unchecked() const { return !unchecked_.empty(); }
+
+  /// Whether an awake body takes part in a check and must stay awake.
+  bool holds(BodyIndex body) const;
+
+  /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a
+  /// few times in sqrt(D / g), and a box query for each column that is checked.
+  void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out);
+
+ private:
+  using Columns = Grid<Dim - 1>;
+  using Column = typename Columns::Cell;
+  using Blocks = Grid<Dim>;
+  using Block = typename Blocks::Cell;
+
+  /// A body that a check holds awake, and where the last sample found it.
+  struct Member {
+    BodyIndex body = 0;
+    Pose<Dim> sample{};
+    double moved = 0.0;  // between the two samples before [m]
+  };
+  struct Check {
+    std::vector<Member> members;
+    std::int64_t begun = 0;  // step
+  };
+  /// Columns that are checked together.
+  struct Region {
+    std::vector<Column> columns;
+    int sleeping = 0;  // bodies
+    int moving = 0;    // bodies that move in contact with others
+    bool under_check = false;
+  };
+
+  double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
+  void release_resting(const RuleInput<Dim>& in, Check& check);
+  void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
+  Region take_region(std::set<Column>& columns) const;
+  bool is_quiet(const Region& region, std::int64_t step) const;
+  void begin(const RuleInput<Dim>& in, const Region& region, RuleOutput<Dim>& out);
+
+  Columns columns_;
+  Blocks blocks_;
+  double tolerance_;                               // [m]; 0: no checks
+  double angle_;                                   // [rad] above which a controlled slope is not checked
+  double rest_time_;                               // [s] at rest, after which an awake body no longer counts as moving
+  std::int64_t sample_steps_;                      // between two samples of the displacement
+  std::int64_t shortest_check_;                    // [steps]
+  std::int64_t longest_check_;                     // [steps]
+  std::int64_t arrival_steps_;                     // without arrivals after which some motion is allowed
+  std::vector<double> reach_;                      // [shape] largest distance of a point from the centre of mass [m]
+  std::set<Column> unchecked_;                     // columns with unchecked sleeping bodies
+  std::map<Column, int> sleeping_;                 // bodies, by column
+  std::vector<Check> checks_;                      // under way
+  std::vector<std::uint8_t> held_;                 // [body]
+  std::vector<std::uint8_t> arrived_;              // [body] whether it has touched anything
+  std::vector<std::optional<Pose<Dim>>> checked_;  // [body] where the last check left it
+  std::int64_t last_arrival_ = 0;                  // last step in which a body was on its way to its first contact
+  std::map<Column, int> moving_;                   // scratch: bodies that move in contact with others, by column
+  std::set<Column> under_check_;                   // scratch
+  std::vector<std::uint8_t> contact_;              // scratch [body]
+  std::vector<BodyIndex> near_;                    // scratch
+};
+
+}  // namespace talus

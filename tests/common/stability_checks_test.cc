@@ -1,0 +1,210 @@
+// When the policy `adaptive` wakes a region to see whether it stays where it is.
+
+#include "common/policy/adaptive/stability_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/common/adaptive_rules.h"
+
+namespace talus::stability_checks_test {
+namespace {
+
+/// Cubes of 1 m that lie where they are put, and the rule with D = 1 m and g = 1 m/s^2, so that sqrt(D / g) is a second
+/// of 60 steps and columns are 4 m wide. The tolerance is 0.05 m.
+class StabilityChecksTest : public testing::Test {
+ protected:
+  static constexpr int check_time = 120;  // steps within which a check of still bodies is over
+
+  static RuleParts parts() {
+    RuleParts parts{.extent = 1.0};
+    parts.params.tolerance = 0.05;
+    parts.world.gravity = 1.0;
+    return parts;
+  }
+  StabilityChecksTest() : world_(parts().world), rest_(parts().setup()), checks_(parts().setup()) {}
+
+  BodyIndex add(double x, double height = 0.5) { return world_.add({.pose = {.position = Vec3(x, 2.0, height)}}); }
+
+  void put_to_sleep(const std::vector<BodyIndex>& bodies) {
+    world_.freeze(bodies);
+    checks_.count(world_.states(), events(bodies), {});
+  }
+
+  /// One step; returns the bodies that wake.
+  std::vector<BodyIndex> step() {
+    const RuleInput<3> in = input(world_, ++step_, piles_);
+    RuleOutput<3> out;
+    rest_.update(in);
+    checks_.update(in, rest_, out);
+    const std::vector<BodyIndex> woken = bodies_in(out.wakes);
+    world_.thaw(woken);
+    checks_.count(world_.states(), {}, events(woken));
+    return woken;
+  }
+
+  /// The bodies that wake within so many steps; `each` is called before each step.
+  template <typename Each>
+  std::vector<BodyIndex> steps(int count, Each each) {
+    std::vector<BodyIndex> woken;
+    for (int i = 0; i < count; ++i) {
+      each();
+      const std::vector<BodyIndex> now = step();
+      woken.insert(woken.end(), now.begin(), now.end());
+    }
+    return woken;
+  }
+  std::vector<BodyIndex> steps(int count) {
+    return steps(count, [] {});
+  }
+
+  /// Moves a body by so much along x [m].
+  void move(BodyIndex body, double distance) {
+    Pose<3> pose = world_.states().pose[body];
+    pose.position.x() += distance;
+    world_.move(body, pose);
+  }
+
+  static std::vector<SleepEvent> events(const std::vector<BodyIndex>& bodies) {
+    std::vector<SleepEvent> events;
+    for (const BodyIndex body : bodies) events.push_back({.body = body});
+    return events;
+  }
+
+  StillWorld<3> world_;
+  RestCriterion<3> rest_;
+  StabilityChecks<3> checks_;
+  std::vector<Pile<3>> piles_;
+  std::int64_t step_ = 0;
+};
+
+TEST_F(StabilityChecksTest, WakeAQuietRegionAndHoldItUntilItHasLainStill) {
+  const std::vector<BodyIndex> bodies = {add(1.0), add(2.0)};
+  put_to_sleep(bodies);
+  EXPECT_TRUE(checks_.has_unchecked());
+  EXPECT_EQ(steps(30), bodies);
+  EXPECT_FALSE(checks_.has_unchecked());
+  EXPECT_TRUE(checks_.holds(0) && checks_.holds(1));
+  steps(check_time);
+  EXPECT_FALSE(checks_.holds(0) || checks_.holds(1));
+}
+
+// The tolerance of 0.05 m within the horizon of 13 s is a speed of 0.0038 m/s.
+TEST_F(StabilityChecksTest, HoldABodyForAsLongAsItMoves) {
+  put_to_sleep({add(1.0)});
+  steps(30);
+  steps(600, [&] { move(0, 1.1 * 0.0038 / 60.0); });
+  EXPECT_TRUE(checks_.holds(0));
+  steps(check_time, [&] { move(0, 0.9 * 0.0038 / 60.0); });
+  EXPECT_FALSE(checks_.holds(0));
+}
+
+// Within the horizon of 3 s, which holds for motion that slows down, it is a speed of 0.017 m/s.
+TEST_F(StabilityChecksTest, ReleaseABodySoonerThatSlowsDown) {
+  put_to_sleep({add(1.0)});
+  steps(30);
+  steps(600, [&] { move(0, 0.9 * 0.017 / 60.0); });
+  EXPECT_TRUE(checks_.holds(0)) << "at an even speed";
+  steps(24, [&] { move(0, 1.8 * 0.017 / 60.0); });
+  steps(24, [&] { move(0, 0.9 * 0.017 / 60.0); });
+  EXPECT_FALSE(checks_.holds(0)) << "at half the speed before";
+}
+
+TEST_F(StabilityChecksTest, ReleaseWhatLiesStillFarFromWhatMoves) {
+  // In one column of 4 m, but more than a block of 1.5 m apart.
+  put_to_sleep({add(0.5, 0.5), add(0.5, 9.5)});
+  steps(30 + check_time, [&] {
+    if (checks_.holds(1)) move(1, 0.001);
+  });
+  EXPECT_FALSE(checks_.holds(0));
+  EXPECT_TRUE(checks_.holds(1));
+}
+
+TEST_F(StabilityChecksTest, EndAfterAMinuteOfTheirTimeWhateverMoves) {
+  put_to_sleep({add(1.0)});
+  steps(30);
+  steps(61 * 60, [&] { move(0, world_.states().pose[0].position.x() > 2.0 ? -0.01 : 0.01); });
+  EXPECT_FALSE(checks_.holds(0)) << "contacts of an engine may jitter for ever";
+}
+
+TEST_F(StabilityChecksTest, AreNotRepeatedForABodyThatSleepsAgainWhereItWas) {
+  put_to_sleep({add(1.0)});
+  steps(30 + check_time);
+  move(0, 0.04);
+  put_to_sleep({0});
+  EXPECT_FALSE(checks_.has_unchecked());
+  world_.thaw(std::vector<BodyIndex>{0});
+  move(0, 0.02);  // 0.06 m from where the check left it
+  put_to_sleep({0});
+  EXPECT_TRUE(checks_.has_unchecked());
+  EXPECT_EQ(steps(30), (std::vector<BodyIndex>{0}));
+}
+
+TEST_F(StabilityChecksTest, WakeTheColumnsAroundAndNoneFarther) {
+  const BodyIndex checked = add(6.0);
+  put_to_sleep({checked});
+  steps(30 + check_time);
+  const BodyIndex far = add(-6.0);
+  put_to_sleep({far});
+  steps(30 + check_time);
+  put_to_sleep({checked, far});
+  EXPECT_FALSE(checks_.has_unchecked()) << "both lie where a check left them";
+  const BodyIndex fresh = add(1.0);  // in the column from 0 to 4 m, the others from 4 m up and below -4 m
+  put_to_sleep({fresh});
+  EXPECT_EQ(steps(30), (std::vector<BodyIndex>{checked, fresh}));
+}
+
+TEST_F(StabilityChecksTest, WaitWhileABodyMovesOnTheRegion) {
+  put_to_sleep({add(1.0)});
+  const BodyIndex rolling = add(1.0, 1.5);
+  world_.touching = {contact(0, rolling, Vec3(1.0, 2.0, 1.0), -Vec3::UnitZ(), 0.1)};
+  const auto roll = [&] { move(rolling, step_ % 2 == 0 ? 0.1 : -0.1); };
+  EXPECT_TRUE(steps(300, roll).empty());
+  EXPECT_EQ(steps(60), (std::vector<BodyIndex>{0})) << "once it rests";
+}
+
+TEST_F(StabilityChecksTest, AllowSomeMotionOnceNoBodyIsOnItsWay) {
+  std::vector<BodyIndex> heap;
+  for (int i = 0; i < 20; ++i) heap.push_back(add(0.1 + 0.1 * i));
+  put_to_sleep(heap);
+  const BodyIndex rolling = add(1.0, 1.5);
+  const BodyIndex flying = add(1.0, 50.0);
+  const std::vector<Contact<3>> on_heap = {contact(0, rolling, Vec3(1.0, 2.0, 1.0), -Vec3::UnitZ(), 0.1)};
+  world_.touching = on_heap;
+  const auto roll = [&] { move(rolling, step_ % 2 == 0 ? 0.1 : -0.1); };
+  EXPECT_TRUE(steps(300, roll).empty()) << "a body is on its way";
+  world_.touching.push_back(contact(flying, ground_index, Vec3::Zero(), Vec3::UnitZ(), 0.1));
+  EXPECT_EQ(steps(300, roll), heap) << "one in twenty may move";
+}
+
+TEST_F(StabilityChecksTest, LeaveAPileAloneWhoseSlopeIsControlledAboveTheAngleOfAvalanches) {
+  Pile<3> pile = make_pile<3>(Vec3(2.0, 2.0, 0.0), 1.0, 100.0, parts().typical, std::nullopt);
+  pile.slope_controlled = true;
+  piles_ = {pile};
+  put_to_sleep({add(1.0)});
+  EXPECT_TRUE(steps(300).empty());
+  piles_.front().slope_controlled = false;
+  EXPECT_EQ(steps(30), (std::vector<BodyIndex>{0}));
+}
+
+TEST_F(StabilityChecksTest, GoOnWhenABodyUnderCheckIsRemoved) {
+  put_to_sleep({add(1.0), add(2.0)});
+  steps(30);
+  world_.remove(0);
+  steps(check_time);
+  EXPECT_FALSE(checks_.holds(1));
+}
+
+TEST(StabilityChecks, AreOffWithoutATolerance) {
+  StillWorld<3> world(cubes());
+  const RuleParts parts;
+  StabilityChecks<3> checks(parts.setup());
+  world.add({.pose = {.position = Vec3(0.0, 0.0, 0.5)}});
+  world.freeze(std::vector<BodyIndex>{0});
+  checks.count(world.states(), std::vector<SleepEvent>{{.body = 0}}, {});
+  EXPECT_FALSE(checks.has_unchecked());
+}
+
+}  // namespace
+}  // namespace talus::stability_checks_test
