@@ -15,6 +15,7 @@ namespace {
 /// of 60 steps and columns are 4 m wide. The tolerance is 0.05 m.
 class StabilityChecksTest : public testing::Test {
  protected:
+  static constexpr int sample_time = 24;  // steps between two samples of the displacement
   static constexpr int check_time = 120;  // steps within which a check of still bodies is over
 
   static RuleParts parts() {
@@ -103,11 +104,11 @@ TEST_F(StabilityChecksTest, HoldABodyForAsLongAsItMoves) {
 // Within the horizon of 3 s, which holds for motion that slows down, it is a speed of 0.017 m/s.
 TEST_F(StabilityChecksTest, ReleaseABodySoonerThatSlowsDown) {
   put_to_sleep({add(1.0)});
-  steps(30);
-  steps(600, [&] { move(0, 0.9 * 0.017 / 60.0); });
+  steps(sample_time);
+  steps(25 * sample_time, [&] { move(0, 0.9 * 0.017 / 60.0); });
   EXPECT_TRUE(checks_.holds(0)) << "at an even speed";
-  steps(24, [&] { move(0, 1.8 * 0.017 / 60.0); });
-  steps(24, [&] { move(0, 0.9 * 0.017 / 60.0); });
+  steps(sample_time, [&] { move(0, 1.8 * 0.017 / 60.0); });
+  steps(sample_time, [&] { move(0, 0.9 * 0.017 / 60.0); });
   EXPECT_FALSE(checks_.holds(0)) << "at half the speed before";
 }
 
