@@ -1,6 +1,3 @@
-#ifdef TALUS_LCM
-#endif
-
 #include "tools/run/run_outputs.h"
 
 #include <fmt/format.h>
@@ -12,13 +9,15 @@
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
 #include "common/text/printable.h"
-#include "lcmtypes/publisher.h"
-#include "lcmtypes/run_recorder.h"
 #include "tools/output/output.h"
 #include "tools/picture/terminal.h"
 #include "tools/run/csv_files.h"
 #include "tools/run/progress.h"
 #include "tools/run/version.h"
+#ifdef TALUS_LCM
+#include "lcmtypes/publisher.h"
+#include "lcmtypes/run_recorder.h"
+#endif
 
 namespace talus {
 
