@@ -51,7 +51,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   choose_sleepers(frame, in, decision);
   rest_.expect_motion(output_.wakes);
   avalanches_.count(in.states(), decision.freeze, decision.thaw);
-  checks_.count(in.states(), decision.freeze, decision.thaw);
+  checks_.count(in, decision.freeze, decision.thaw);
 }
 
 template <int Dim>

@@ -40,7 +40,6 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
   shortest_check_ = steps(shortest_time);
   longest_check_ = steps(longest_time);
   arrival_steps_ = steps(arrival_time);
-  for (const Shape<Dim>& shape : setup.world.shapes) reach_.push_back(0.5 * shape.extent);
 }
 
 template <int Dim>
@@ -49,19 +48,17 @@ bool StabilityChecks<Dim>::holds(BodyIndex body) const {
 }
 
 template <int Dim>
-void StabilityChecks<Dim>::count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
+void StabilityChecks<Dim>::count(const RuleInput<Dim>& in, std::span<const SleepEvent> falling_asleep,
                                  std::span<const SleepEvent> waking) {
   if (tolerance_ <= 0.0) return;
-  checked_.resize(states.asleep.size());
-  for (const SleepEvent& event : waking) --sleeping_[columns_.cell_of(states.pose[event.body].position)];
+  checked_.resize(in.states().asleep.size());
+  for (const SleepEvent& event : waking) --sleeping_[columns_.cell_of(in.pose_of(event.body).position)];
   for (const SleepEvent& event : falling_asleep) {
-    const BodyIndex b = event.body;
-    const Pose<Dim>& pose = states.pose[b];
-    const Column column = columns_.cell_of(pose.position);
+    const Column column = columns_.cell_of(in.pose_of(event.body).position);
     ++sleeping_[column];
-    const double reach = reach_[states.shape[b]];
-    if (checked_[b] && max_displacement<Dim>(*checked_[b], pose, reach) <= tolerance_) continue;
-    checked_[b].reset();
+    std::optional<Pose<Dim>>& checked = checked_[event.body];
+    if (checked && displacement(in, event.body, *checked) <= tolerance_) continue;
+    checked.reset();
     unchecked_.insert(column);
   }
 }
@@ -84,11 +81,15 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
     const Region region = take_region(columns);
     if (is_quiet(region, in.step)) begin(in, region, out);
   }
+  for (const Contact<Dim>& contact : in.contacts) {
+    contact_[contact.a] = 0;
+    if (contact.b >= 0) contact_[contact.b] = 0;
+  }
 }
 
 template <int Dim>
 double StabilityChecks<Dim>::displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const {
-  return max_displacement<Dim>(from, in.pose_of(body), reach_[in.states().shape[body]]);
+  return max_displacement<Dim>(from, in.pose_of(body), 0.5 * in.shape_of(body).extent);
 }
 
 /// Takes a sample, and releases the members whose block and the blocks around it have come to rest.
@@ -133,7 +134,7 @@ void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& chec
 /// Finds where bodies move in contact with others, and whether bodies are on their way to a first contact.
 template <int Dim>
 void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest) {
-  contact_.assign(held_.size(), 0);
+  contact_.resize(held_.size(), 0);
   for (const Contact<Dim>& contact : in.contacts) {
     contact_[contact.a] |= touches;
     if (contact.b < 0) continue;

@@ -31,8 +31,7 @@ class StabilityChecks {
   explicit StabilityChecks(const RuleSetup<Dim>& setup);
 
   /// Notes the bodies that fall asleep and that wake after this step. Costs O(events).
-  void count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
-             std::span<const SleepEvent> waking);
+  void count(const RuleInput<Dim>& in, std::span<const SleepEvent> falling_asleep, std::span<const SleepEvent> waking);
 
   /// Whether sleeping bodies wait for a check. update() must be called then although all bodies sleep.
   bool has_unchecked() const { return !unchecked_.empty(); }
@@ -60,7 +59,7 @@ class StabilityChecks {
     std::vector<Member> members;
     std::int64_t begun = 0;  // step
   };
-  /// Columns that are checked together.
+  /// Columns that one check covers.
   struct Region {
     std::vector<Column> columns;
     int sleeping = 0;  // bodies
@@ -84,7 +83,6 @@ class StabilityChecks {
   std::int64_t shortest_check_;                    // [steps]
   std::int64_t longest_check_;                     // [steps]
   std::int64_t arrival_steps_;                     // without arrivals after which some motion is allowed
-  std::vector<double> reach_;                      // [shape] largest distance of a point from the centre of mass [m]
   std::set<Column> unchecked_;                     // columns with unchecked sleeping bodies
   std::map<Column, int> sleeping_;                 // bodies, by column
   std::vector<Check> checks_;                      // under way
@@ -94,7 +92,7 @@ class StabilityChecks {
   std::int64_t last_arrival_ = 0;                  // last step in which a body was on its way to its first contact
   std::map<Column, int> moving_;                   // scratch: bodies that move in contact with others, by column
   std::set<Column> under_check_;                   // scratch
-  std::vector<std::uint8_t> contact_;              // scratch [body]
+  std::vector<std::uint8_t> contact_;              // scratch [body], all 0 between calls
   std::vector<BodyIndex> near_;                    // scratch
 };
 
