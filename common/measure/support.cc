@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/measure/convex_distance.h"
 #include "common/measure/ensemble.h"
+#include "common/shape/convex_distance.h"
 
 namespace talus {
 namespace {
@@ -16,14 +16,6 @@ struct Solid {
   std::vector<Box<Dim>> piece_bounds;
   Box<Dim> bounds;
 };
-
-template <int Dim>
-std::vector<ConvexPiece<Dim>> convex_pieces(const Shape<Dim>& shape) {
-  std::vector<ConvexPiece<Dim>> pieces;
-  pieces.reserve(shape.pieces.size());
-  for (const Piece<Dim>& piece : shape.pieces) pieces.push_back(convex_piece<Dim>(piece));
-  return pieces;
-}
 
 template <int Dim>
 Solid<Dim> make_solid(BodyIndex index, const std::vector<ConvexPiece<Dim>>& pieces, const Pose<Dim>& pose) {

@@ -62,7 +62,7 @@ struct Frame {
   std::span<const SleepEvent> events;  // of this step, by body; empty while a policy decides
   PhaseTimes phases;
   std::span<const Warning> warnings = {};  // one of each kind that the run has shown so far, if it is observed
-  int bodies_asked = 0;                    // that the scene's sources add in all
+  int bodies_asked = 0;                    // of the scene in all
 };
 
 }  // namespace talus

@@ -48,12 +48,6 @@ std::vector<Obstacle<Dim>> read_container(TableReader& table, const Pose<Dim>& p
   return table.ok() ? container_walls(params, pose, material) : std::vector<Obstacle<Dim>>();
 }
 
-/// The pose that brings the origin of the axes in which the shape was described to `pose`.
-template <int Dim>
-Pose<Dim> pose_of_centre(const Shape<Dim>& shape, const Pose<Dim>& pose) {
-  return {pose * Vec<Dim>(-shape.reference), pose.rotation};
-}
-
 /// The boundary and its outline, which is needed to build it: of a box the full widths, else corners.
 template <int Dim>
 struct Outlined {

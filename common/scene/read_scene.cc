@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/pile/angle_of_repose.h"
+#include "common/scene/read_body.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_shape.h"
 #include "common/scene/read_source.h"
@@ -43,14 +44,19 @@ void read_shapes(TableReader& root, std::vector<std::string>& names, std::vector
 
 template <int Dim>
 void read_sources(TableReader& root, std::span<const std::string> shape_names, Scene<Dim>& scene) {
-  std::int64_t bodies = 0;
-  const bool well_formed = root.tables("source", [&](TableReader& table) {
-    scene.sources.push_back(read_source<Dim>(table, shape_names, scene.world));
-    bodies += scene.sources.back().count;
-  });
-  if (well_formed && scene.sources.empty())
-    root.error("source", "must be given: at least one [[source]], which drops the bodies");
-  if (bodies > most_bodies) root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
+  root.tables("source",
+              [&](TableReader& table) { scene.sources.push_back(read_source<Dim>(table, shape_names, scene.world)); });
+  if (scene.bodies_asked() > most_bodies)
+    root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
+}
+
+/// After all obstacles, which bodies must not overlap.
+template <int Dim>
+void read_bodies(TableReader& root, std::span<const std::string> shape_names, Scene<Dim>& scene) {
+  OverlapCheck<Dim> placed(scene.world);
+  root.tables("body", [&](TableReader& table) { read_body(table, shape_names, placed, scene); });
+  if (!root.has("source") && !root.has("body"))
+    root.error("source", "must be given: at least one [[source]] or [[body]], where bodies come from");
 }
 
 template <int Dim>
@@ -158,6 +164,7 @@ Scene<Dim> read_root(TableReader& root) {
   read_shapes(root, shape_names, scene.world.shapes);
   read_sources(root, shape_names, scene);
   root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
+  read_bodies(root, shape_names, scene);
   root.table("policy", [&](TableReader& table) { read_policy(table, scene.policy); });
   scene.world.engine_sleep = scene.policy.kind == "engine";
   root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });

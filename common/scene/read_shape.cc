@@ -25,26 +25,26 @@ ShapeKind<Dim> kind_of(std::string_view name, Fields<Params> fields,
           }};
 }
 
-std::optional<Rotation<2>> read_angle(TableReader& table) {
+std::optional<Turn<2>> read_angle(TableReader& table) {
   if (!table.has("angle_deg")) return std::nullopt;
-  double angle = 0.0;
-  table.read(angle_key, angle);
-  return Rotation<2>(angle);
+  Turn<2> turn;
+  table.read(angle_key, turn.angle);
+  return turn;
 }
 
-std::optional<Rotation<3>> read_angle_about_axis(TableReader& table) {
+std::optional<Turn<3>> read_angle_about_axis(TableReader& table) {
   if (!table.has("angle_deg") && !table.has("axis")) return std::nullopt;
-  double angle = 0.0;
-  Vec3 axis = Vec3::UnitZ();
+  Turn<3> turn;
   table.require("angle_deg");
   table.require("axis");
-  table.read(angle_key, angle);
-  table.read(axis_key, axis);
-  if (axis.norm() < 1e-6) {
+  table.read(angle_key, turn.angle);
+  table.read(axis_key, turn.axis);
+  if (turn.axis.norm() < 1e-6) {
     table.error("axis", "must have a length, of any size");
     return std::nullopt;
   }
-  return Rotation<3>(Eigen::AngleAxisd(angle, axis.normalized()));
+  turn.axis.normalize();
+  return turn;
 }
 
 template <int Dim>
@@ -127,13 +127,19 @@ std::string read_kind(TableReader& table, const std::vector<std::string>& kinds)
 }
 
 template <int Dim>
-std::optional<Rotation<Dim>> read_rotation(TableReader& table) {
+std::optional<Turn<Dim>> read_turn(TableReader& table) {
   if constexpr (Dim == 2) {
     table.forbid("axis", "means nothing where dimension = 2");
     return read_angle(table);
   } else {
     return read_angle_about_axis(table);
   }
+}
+
+template <int Dim>
+std::optional<Rotation<Dim>> read_rotation(TableReader& table) {
+  const std::optional<Turn<Dim>> turn = read_turn<Dim>(table);
+  return turn ? std::optional(turn->rotation()) : std::nullopt;
 }
 
 template <int Dim>
@@ -161,6 +167,8 @@ template std::vector<ShapeKind<2>> shape_kinds<2>();
 template std::vector<ShapeKind<3>> shape_kinds<3>();
 template std::vector<std::string> names_of_shape_kinds<2>();
 template std::vector<std::string> names_of_shape_kinds<3>();
+template std::optional<Turn<2>> read_turn<2>(TableReader&);
+template std::optional<Turn<3>> read_turn<3>(TableReader&);
 template std::optional<Rotation<2>> read_rotation<2>(TableReader&);
 template std::optional<Rotation<3>> read_rotation<3>(TableReader&);
 template std::optional<Shape<2>> read_shape(TableReader&, const std::string&, const std::string&, const Material&);

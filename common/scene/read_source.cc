@@ -66,20 +66,22 @@ void check_bodies(TableReader& table, const Source<Dim>& source, const WorldDesc
 template <int Dim>
 void check_height(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
   if (!world.ground.present) return;
-  const double radius = largest_radius(source, world);
-  const double least = world.ground.height + radius + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep));
+  const double reach = -height<Dim>(largest_bounds(source, world).min());
+  const double least = world.ground.height + reach + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep));
   if (height<Dim>(source.position) < least) {
     table.error("position",
                 fmt::format("must be at least {:.4g} m high, so that no body reaches into the ground", least));
   }
 }
 
-/// Bodies of one grid may not overlap at any rotation: the later one would wait without end.
+/// Bodies of one grid may not overlap at any rotation that they may have: the later one would wait without end.
 template <int Dim>
 void check_spacing(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  constexpr double rounding = 1e-9;  // [m]
+  const Vec<Dim> sizes = largest_bounds(source, world).sizes();
   for (int axis = 0; axis < Dim; ++axis) {
-    const double least = 2.0 * (largest_radius(source, world) + source.spread[axis]);
-    if (source.grid[axis] > 1 && source.spacing[axis] < least) {
+    const double least = sizes[axis] + 2.0 * source.spread[axis];
+    if (source.grid[axis] > 1 && source.spacing[axis] < least - rounding) {
       table.error("spacing", fmt::format("must be at least {:.4g} m, so that no two bodies of a grid touch", least));
       return;
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/mesh/mesh_shape.h"
+#include "common/scene/read_body.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_scene.h"
 #include "common/shape/catalogue.h"
@@ -144,6 +145,7 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[shape.NAME] polygon", rows_of<PolygonParams>(polygon_fields)},
       {"[shape.NAME] ring", rows_of<RingParams>(ring_fields)},
       {"[shape.NAME] mesh", rows_of<MeshParams>(mesh_fields)},
+      {"[[body]]", rows_of<BodyParams<3>>(body_fields<3>)},
       {"[[source]]", rows_of<Source<3>>(source_fields<3>)},
       {"[[pile]]", rows_of<PileParams<3>>(pile_fields<3>)},
       {"[pile.boundary]", rows_of<BoundaryParams>(boundary_fields) + rows_of<Material>(surface_fields)},

@@ -22,6 +22,13 @@ std::int64_t Scene<Dim>::steps_per_frame() const {
   return std::llround(1.0 / (run.frame_rate * world.dt));
 }
 
+template <int Dim>
+std::int64_t Scene<Dim>::bodies_asked() const {
+  auto asked = static_cast<std::int64_t>(bodies.size());
+  for (const Source<Dim>& source : sources) asked += source.count;
+  return asked;
+}
+
 template struct Source<2>;
 template struct Source<3>;
 template struct Scene<2>;

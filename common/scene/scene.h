@@ -16,8 +16,15 @@
 
 namespace talus {
 
-/// All sources together drop no more: states and records of ten million bodies fill a present-day machine.
+/// Bodies of a scene in all: states and records of ten million bodies fill a present-day machine.
 inline constexpr int most_bodies = 10'000'000;
+
+/// A body that is in the world from the start.
+template <int Dim>
+struct InitialBody {
+  BodyDef<Dim> def;
+  bool asleep = false;  // with policies that decide on sleep
+};
 
 /// Drops bodies. A body is emitted only where its place is free: else it waits, and with it all after it.
 /// source_fields has the unit, range and effect of each field.
@@ -40,6 +47,8 @@ struct Source {
   double ride_above = 0.0;
 
   int bodies_at_once() const { return grid.prod(); }
+  /// Overlap of bounding boxes [m] that still leaves a place free: bodies of a grid of one rotation may touch.
+  double overlap_allowed() const { return orientation && bodies_at_once() > 1 ? 1e-4 : 0.0; }
   /// When the body of this number is due, from 0 on [s].
   double due_time(int number) const {
     const int before_its_grid = number - number % bodies_at_once();
@@ -58,14 +67,15 @@ inline constexpr Key orientation_key = {.name = "orientation",
                                         .choices = orientations,
                                         .default_text = "`\"random\"`",
                                         .meaning = "each body has a random rotation, uniformly distributed"};
-inline constexpr Key angle_key = {.name = "angle_deg",
-                                  .unit = "degrees",
-                                  .stored = Stored::in_radians,
-                                  .range = between(-360.0, 360.0),
-                                  .default_text = "none",
-                                  .meaning =
-                                      "rotation, counter-clockwise: of an obstacle about the origin of its axes, "
-                                      "of all bodies of a source in the place of a random one"};
+inline constexpr Key angle_key = {
+    .name = "angle_deg",
+    .unit = "degrees",
+    .stored = Stored::in_radians,
+    .range = between(-360.0, 360.0),
+    .default_text = "none",
+    .meaning =
+        "rotation, counter-clockwise: of an obstacle or a body about the origin of its axes, "
+        "of all bodies of a source in the place of a random one"};
 inline constexpr Key axis_key = {.name = "axis",
                                  .dimension = 3,
                                  .type = "vector",
@@ -85,7 +95,7 @@ inline constexpr auto source_fields = std::to_array<Field<Source<Dim>>>({
     {&Source<Dim>::count,
      {.name = "count",
       .range = between(1.0, most_bodies),
-      .meaning = "bodies in all; all sources together drop no more than ten million"}},
+      .meaning = "bodies in all; a scene has no more than ten million"}},
     {&Source<Dim>::start,
      {.name = "start", .unit = "s", .range = between(0.0, 1e6), .meaning = "when the first body is due"}},
     {&Source<Dim>::rate,
@@ -111,7 +121,8 @@ inline constexpr auto source_fields = std::to_array<Field<Source<Dim>>>({
       .type = "lengths",
       .unit = "m",
       .range = spread_range,
-      .meaning = "from row to row of a grid. It must be so wide that no two bodies touch at any rotation"}},
+      .meaning = "from row to row of a grid. It must be so wide that the bodies' bounding boxes do not overlap, with a "
+                 "random orientation at any rotation; with `angle_deg` they may touch"}},
     {&Source<Dim>::spread,
      {.name = "spread",
       .type = "lengths",
@@ -206,6 +217,7 @@ template <int Dim>
 struct Scene {
   std::string title;  // one line, what `talus list` shows
   WorldDescription<Dim> world;
+  std::vector<InitialBody<Dim>> bodies;  // in the world from the start; those of sources are numbered after them
   std::vector<Source<Dim>> sources;
   std::vector<PileParams<Dim>> piles;
   PolicyParams policy;
@@ -219,6 +231,8 @@ struct Scene {
   /// Steps of dt in one frame of output.
   std::int64_t steps_per_frame() const;
   std::int64_t steps() const { return run.frames * steps_per_frame(); }
+  /// Bodies that are there from the start and that the sources drop.
+  std::int64_t bodies_asked() const;
 };
 
 inline constexpr Key dimension_key = {
@@ -242,7 +256,12 @@ inline constexpr auto scene_fields = std::to_array<Field<Scene<Dim>>>({
     {{}, {.name = "world", .type = "table", .default_text = "see below", .meaning = "`[world]`"}},
     {{}, {.name = "ground", .type = "table", .default_text = "see below", .meaning = "`[ground]`"}},
     {{}, {.name = "shape", .required = true, .type = "tables by name", .meaning = "`[shape.NAME]`, one or more"}},
-    {{}, {.name = "source", .required = true, .type = "tables", .meaning = "`[[source]]`, one or more"}},
+    {{},
+     {.name = "source",
+      .type = "tables",
+      .default_text = "none",
+      .meaning = "`[[source]]`; one, or a `[[body]]`, must be there"}},
+    {{}, {.name = "body", .type = "tables", .default_text = "none", .meaning = "`[[body]]`"}},
     {{}, {.name = "obstacle", .type = "tables", .default_text = "none", .meaning = "`[[obstacle]]`"}},
     {{}, {.name = "pile", .type = "tables", .default_text = "none", .meaning = "`[[pile]]`"}},
     {{}, {.name = "policy", .type = "table", .default_text = "see below", .meaning = "`[policy]`"}},

@@ -30,6 +30,19 @@ double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& wo
 }
 
 template <int Dim>
+Box<Dim> largest_bounds(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  Box<Dim> bounds;
+  for (const int shape : source.shapes) {
+    const Vec<Dim> reach = Vec<Dim>::Constant(bounding_radius(world.shapes[shape]));
+    if (source.orientation)
+      bounds.extend(bounds_at(world.shapes[shape], Pose<Dim>{Vec<Dim>::Zero(), *source.orientation}));
+    else
+      bounds.extend(Box<Dim>(-reach, reach));
+  }
+  return bounds;
+}
+
+template <int Dim>
 Vec<Dim> default_spread(const Source<Dim>& source, const WorldDescription<Dim>& world) {
   Vec<Dim> spread = Vec<Dim>::Zero();
   for (int axis = 0; axis < Dim - 1; ++axis)
@@ -64,6 +77,8 @@ template double clearing_time(const Source<2>&, const WorldDescription<2>&);
 template double clearing_time(const Source<3>&, const WorldDescription<3>&);
 template double reachable_rate(const Source<2>&, const WorldDescription<2>&);
 template double reachable_rate(const Source<3>&, const WorldDescription<3>&);
+template Box<2> largest_bounds(const Source<2>&, const WorldDescription<2>&);
+template Box<3> largest_bounds(const Source<3>&, const WorldDescription<3>&);
 template double largest_radius(const Source<2>&, const WorldDescription<2>&);
 template double largest_radius(const Source<3>&, const WorldDescription<3>&);
 

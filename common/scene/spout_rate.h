@@ -24,6 +24,11 @@ double reachable_rate(const Source<Dim>& source, const WorldDescription<Dim>& wo
 template <int Dim>
 Vec<Dim> default_spread(const Source<Dim>& source, const WorldDescription<Dim>& world);
 
+/// The smallest box, seen from the centre of mass, that holds each body of a source at each rotation that it may have
+/// when it appears [m].
+template <int Dim>
+Box<Dim> largest_bounds(const Source<Dim>& source, const WorldDescription<Dim>& world);
+
 /// Bounding radius of the largest shape that a source drops [m].
 template <int Dim>
 double largest_radius(const Source<Dim>& source, const WorldDescription<Dim>& world);

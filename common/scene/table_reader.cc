@@ -348,12 +348,13 @@ bool TableReader::read_value(const toml::node& node, const std::string& name, co
 
 bool TableReader::read_array(const toml::node& node, const std::string& name, const Key& key, const Range& range,
                              std::span<double> values) {
+  if (values.size() == 1 && node.is_number()) return read_value(node, name, key, range, values.front());
   const toml::array* array = node.as_array();
   if (array == nullptr || array->size() != values.size()) {
     error_at(node, name,
-             fmt::format("must be {} in brackets", values.size() == 1   ? "one number"
-                                                   : values.size() == 2 ? "two numbers"
-                                                                        : "three numbers"));
+             fmt::format("must be {}", values.size() == 1   ? "one number"
+                                       : values.size() == 2 ? "two numbers in brackets"
+                                                            : "three numbers in brackets"));
     return false;
   }
   bool good = true;

@@ -180,12 +180,9 @@ void warn_of_demand(const Scene<Dim>& scene, const EngineTraits& engine, EngineL
 
 template <int Dim>
 Demand demand(const Scene<Dim>& scene, const EngineTraits& engine) {
-  double bodies = 0.0;
-  double at_once = 0.0;
-  for (const Source<Dim>& source : scene.sources) {
-    bodies += source.count;
-    at_once += std::min(source.count, source.bodies_at_once());
-  }
+  const auto bodies = static_cast<double>(scene.bodies_asked());
+  auto at_once = static_cast<double>(std::ranges::count(scene.bodies, false, &InitialBody<Dim>::asleep));
+  for (const Source<Dim>& source : scene.sources) at_once += std::min(source.count, source.bodies_at_once());
   Demand need;
   need.awake = scene.policy.kind == "full" ? bodies : at_once;
   need.bytes = need.awake * engine.awake_bytes + (bodies - need.awake) * engine.sleeper_bytes;

@@ -14,7 +14,9 @@ constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight 
 
 template <int Dim>
 Emitter<Dim>::Emitter(const Scene<Dim>& scene)
-    : slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0) {
+    : slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0),
+      total_(static_cast<int>(scene.bodies_asked())) {
+  for (const InitialBody<Dim>& body : scene.bodies) initial_.push_back(body.def);
   if (scene.world.ground.present) ground_ = scene.world.ground.height;
   for (const Obstacle<Dim>& obstacle : scene.world.obstacles)
     fixed_.push_back(bounds_at(obstacle.shape, obstacle.pose));
@@ -22,13 +24,13 @@ Emitter<Dim>::Emitter(const Scene<Dim>& scene)
   for (const Source<Dim>& source : scene.sources) {
     std::seed_seq seed{scene.seed, number++};
     spouts_.push_back({.source = source, .random = std::mt19937_64(seed)});
-    total_ += source.count;
   }
 }
 
 template <int Dim>
 void Emitter<Dim>::emit(World<Dim>& world, double time) {
   if (finished()) return;
+  add_initial(world);
   while (!births_.empty() && births_.front().time + slow_time_ <= time) births_.pop_front();
   for (Spout& spout : spouts_) {
     bool ridden = spout.source.ride_above == 0.0;
@@ -38,7 +40,7 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
       ridden = true;
       BodyDef<Dim> body = spout.next;
       body.pose.position += place(spout, time) + place_in_grid(spout);
-      if (!has_room(world, body)) {
+      if (!has_room(world, body, spout.source.overlap_allowed())) {
         ++waits_;
         break;
       }
@@ -49,6 +51,13 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
       ++emitted_;
     }
   }
+}
+
+template <int Dim>
+void Emitter<Dim>::add_initial(World<Dim>& world) {
+  for (const BodyDef<Dim>& body : initial_) world.add(body);
+  emitted_ += static_cast<int>(initial_.size());
+  initial_.clear();
 }
 
 template <int Dim>
@@ -96,8 +105,10 @@ Vec<Dim> Emitter<Dim>::place_in_grid(const Spout& spout) const {
 }
 
 template <int Dim>
-bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body) {
-  const Box<Dim> place = bounds_at(world.shapes()[body.shape], body.pose);
+bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body, double overlap_allowed) {
+  Box<Dim> place = bounds_at(world.shapes()[body.shape], body.pose);
+  place.min().array() += overlap_allowed;
+  place.max().array() -= overlap_allowed;
   near_.clear();
   world.query_box(place, near_);
   return std::ranges::none_of(near_, [&](BodyIndex other) { return place.intersects(world.bounds_of(other)); });

@@ -1,5 +1,5 @@
 #pragma once
-// Adds the bodies of a scene's sources to a world.
+// Adds the bodies of a scene to a world.
 
 #include <cstdint>
 #include <deque>
@@ -12,8 +12,8 @@
 
 namespace talus {
 
-/// Adds due bodies to a world where their place is free. Each source draws from a generator of its own, so sources do
-/// not disturb one another; the same seed gives the same bodies.
+/// Adds the bodies that are there from the start, then due ones of the sources where their place is free. Each source
+/// draws from a generator of its own, so sources do not disturb one another; the same seed gives the same bodies.
 template <int Dim>
 class Emitter {
  public:
@@ -45,13 +45,15 @@ class Emitter {
   };
 
   bool due(const Spout& spout, double time) const;
+  void add_initial(World<Dim>& world);
   void draw(Spout& spout) const;
   Vec<Dim> place(const Spout& spout, double time) const;
   Vec<Dim> place_in_grid(const Spout& spout) const;
-  bool has_room(const World<Dim>& world, const BodyDef<Dim>& body);
+  bool has_room(const World<Dim>& world, const BodyDef<Dim>& body, double overlap_allowed);
   void ride(const World<Dim>& world, Spout& spout, double time);
   bool lies_on_something(const World<Dim>& world, BodyIndex body, const Box<Dim>& bounds);
 
+  std::vector<BodyDef<Dim>> initial_;  // still to be added
   std::vector<Spout> spouts_;
   std::vector<Box<Dim>> fixed_;                               // around the obstacles
   double ground_ = -std::numeric_limits<double>::infinity();  // [m]

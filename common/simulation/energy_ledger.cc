@@ -48,13 +48,13 @@ template <int Dim>
 void EnergyLedger<Dim>::close_step() {
   rise_ = std::max(0.0, rise_ + change_);
   largest_kinetic_ = std::max(largest_kinetic_, kinetic_);
-  last_scale_ = scale_;
+  largest_scale_ = std::max(largest_scale_, scale_);
   change_ = kinetic_ = scale_ = 0.0;
 }
 
 template <int Dim>
 double EnergyLedger<Dim>::tolerance() const {
-  return tolerated_share * (largest_kinetic_ + last_scale_);
+  return tolerated_share * (largest_kinetic_ + largest_scale_);
 }
 
 template <int Dim>

@@ -34,7 +34,8 @@ class EnergyLedger {
   double rise() const { return rise_; }
 
   /// What rounding, time steps and position correction may create [J]: a tenth of the largest kinetic energy so far
-  /// and of the work that lifts each awake body by its own extent.
+  /// and of the work that lifts each awake body by its own extent, at most so far: Box2D lifts a stack of touching
+  /// bodies, which may fall asleep before the sum is checked.
   double tolerance() const;
 
  private:
@@ -55,7 +56,7 @@ class EnergyLedger {
   double kinetic_ = 0.0;              // of the bodies noted in this step [J]
   double scale_ = 0.0;                // of the bodies noted in this step [J]
   double largest_kinetic_ = 0.0;      // so far [J]
-  double last_scale_ = 0.0;           // of the last step [J]
+  double largest_scale_ = 0.0;        // so far [J]
   double rise_ = 0.0;                 // [J]
 };
 

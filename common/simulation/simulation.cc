@@ -41,12 +41,27 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       watchdog_(scene, world_->speed_limits()),
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep),
-      debug_(scene.world.debug) {}
+      debug_(scene.world.debug) {
+  for (std::size_t i = 0; policy_->decides() && i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
+}
+
+/// In the first step, before the engine moves the bodies.
+template <int Dim>
+void Simulation<Dim>::freeze_initial_bodies() {
+  world_->freeze(asleep_at_start_);
+  for (const BodyIndex body : asleep_at_start_) {
+    piles_.recount_body(world_->states(), body);
+    user_events_.push_back({.step = step_ + 1, .body = body, .woke = false, .cause = SleepCause::user});
+  }
+  asleep_at_start_.clear();
+}
 
 template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
   emitter_.emit(*world_, time());
+  if (!asleep_at_start_.empty()) freeze_initial_bodies();
   if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
   world_->record_contacts(needs_contacts());

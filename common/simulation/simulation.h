@@ -56,6 +56,7 @@ class Simulation {
   void place_pile();
   void decide();
   void apply();
+  void freeze_initial_bodies();
   void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);
   void note_engine_sleep();
   bool watched() const { return !observers_.empty(); }
@@ -78,6 +79,7 @@ class Simulation {
   bool engine_sleep_;
   bool observers_need_contacts_ = false;
   DebugOptions debug_;
+  std::vector<BodyIndex> asleep_at_start_;
 };
 
 }  // namespace talus

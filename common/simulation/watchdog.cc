@@ -29,14 +29,14 @@ double farthest(const Vec<Dim>& place) {
 template <int Dim>
 Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
     : sources_(scene.sources),
+      initial_bodies_(static_cast<int>(scene.bodies.size())),
       ledger_(scene.world),
       lowest_(lowest_centre(scene.world.ground)),
       ground_(scene.world.ground.height),
       dt_(scene.world.dt),
       speed_squared_(at_limit(limits.speed)),
-      spin_squared_(at_limit(limits.spin)) {
-  for (const Source<Dim>& source : sources_) bodies_asked_ += source.count;
-}
+      spin_squared_(at_limit(limits.spin)),
+      bodies_asked_(static_cast<int>(scene.bodies_asked())) {}
 
 template <int Dim>
 void Watchdog<Dim>::note_added(const World<Dim>& world, std::int64_t step) {
@@ -113,7 +113,7 @@ void Watchdog<Dim>::note(WarningKind kind, BodyIndex body, std::int64_t step, do
 template <int Dim>
 int Watchdog<Dim>::due_by(double time) const {
   const auto add = [time](int sum, const Source<Dim>& source) { return sum + source.due_by(time); };
-  return std::accumulate(sources_.begin(), sources_.end(), 0, add);
+  return std::accumulate(sources_.begin(), sources_.end(), initial_bodies_, add);
 }
 
 /// A pour that the end of the run cuts short is late, not blocked: bodies are missed only when the last one was due

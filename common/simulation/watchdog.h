@@ -33,7 +33,7 @@ class Watchdog {
 
   /// One of each kind that was seen, in the order of first sight.
   std::span<const Warning> warnings() const { return warnings_; }
-  /// Bodies that the scene's sources add in all.
+  /// Bodies of the scene in all.
   int bodies_asked() const { return bodies_asked_; }
 
  private:
@@ -44,13 +44,14 @@ class Watchdog {
   void note(WarningKind kind, BodyIndex body, std::int64_t step, double value);
 
   std::vector<Source<Dim>> sources_;
+  int initial_bodies_;  // in the world from the start
   EnergyLedger<Dim> ledger_;
   double lowest_;         // height that no centre may lie below [m]
   double ground_;         // [m]
   double dt_;             // [s]
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
-  int bodies_asked_ = 0;
+  int bodies_asked_;
   BodyIndex appeared_ = 0;
   std::int64_t last_appearance_ = 0;  // [steps]
   std::vector<Warning> warnings_;

@@ -129,5 +129,14 @@ TEST_F(Ledger, ToleratesATenthOfTheLargestKineticEnergy) {
   EXPECT_NEAR(ledger.tolerance(), expected, 1e-9 * expected);
 }
 
+// Else a rise that was tolerated while many bodies were awake would count once they sleep.
+TEST_F(Ledger, ToleratesNoLessWhenBodiesFallAsleep) {
+  add(50.0);
+  look();
+  const double tolerance = ledger.tolerance();
+  ledger.close_step();
+  EXPECT_EQ(ledger.tolerance(), tolerance);
+}
+
 }  // namespace
 }  // namespace talus::energy_ledger_test

@@ -70,10 +70,17 @@ std::string description(const PileParams<Dim>& pile) {
   return text + "\n";
 }
 
+template <int Dim>
+std::string description(const InitialBody<Dim>& body) {
+  return fmt::format("body of {} at{} velocity{} spin{} asleep {}\n", body.def.shape, numbers(body.def.pose),
+                     numbers(body.def.velocity), numbers(body.def.spin), body.asleep);
+}
+
 /// Everything but the TOML that it came from.
 template <int Dim>
 std::string description(const Scene<Dim>& scene) {
   std::string text = fmt::format("{}, {}D, seed {}\n", scene.title, Dim, scene.seed) + description(scene.world);
+  for (const InitialBody<Dim>& body : scene.bodies) text += description(body);
   for (const Source<Dim>& source : scene.sources) text += description(source);
   for (const PileParams<Dim>& pile : scene.piles) text += description(pile);
   return text + description(scene.policy, policy_fields) + description(scene.policy.paper, paper_fields) +

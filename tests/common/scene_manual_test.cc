@@ -65,7 +65,7 @@ std::string in_manual(const std::string& key) {
 // All that the reader looks for, whatever the dimension and the kinds.
 template <int Dim>
 std::set<std::string> keys_of_the_reader() {
-  std::string text = "dimension = " + std::to_string(Dim) + "\nsource = [{angle_deg = 0}]\n";
+  std::string text = "dimension = " + std::to_string(Dim) + "\nsource = [{angle_deg = 0}]\nbody = [{angle_deg = 0}]\n";
   std::string shapes;
   std::string obstacles = "{kind = \"container\"}";
   for (const std::string& kind : names_of_shape_kinds<Dim>()) {

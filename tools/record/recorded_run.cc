@@ -24,7 +24,7 @@ template <int Dim>
 class RunReader {
  public:
   explicit RunReader(const Scene<Dim>& scene)
-      : run_(scene), states_(static_cast<int>(bodies_of(scene)), static_cast<int>(scene.world.shapes.size())) {
+      : run_(scene), states_(static_cast<int>(scene.bodies_asked()), static_cast<int>(scene.world.shapes.size())) {
     sleep_numbers_.expect(0);
   }
 
@@ -123,16 +123,6 @@ std::string text_of(const RecordDamage& damage) {
     parts.push_back(fmt::format("{} bodies of unknown pose in the last state", damage.unknown_bodies));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
-
-template <int Dim>
-std::int64_t bodies_of(const Scene<Dim>& scene) {
-  std::int64_t bodies = 0;
-  for (const Source<Dim>& source : scene.sources) bodies += source.count;
-  return bodies;
-}
-
-template std::int64_t bodies_of(const Scene<2>&);
-template std::int64_t bodies_of(const Scene<3>&);
 
 AnyRecordedRun read_run(const std::filesystem::path& folder) {
   for (const char* name : {"scene.toml", "run.lcm"}) {

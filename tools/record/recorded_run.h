@@ -48,10 +48,6 @@ struct RecordedRun {
 
 using AnyRecordedRun = std::variant<RecordedRun<2>, RecordedRun<3>>;
 
-/// Bodies that the sources of a scene drop in all.
-template <int Dim>
-std::int64_t bodies_of(const Scene<Dim>& scene);
-
 /// Reads the run folder; damage costs what it hit. Throws std::invalid_argument where the folder is not of a run, where
 /// run.lcm belongs to another scene or holds no frame; std::system_error where a file cannot be read.
 AnyRecordedRun read_run(const std::filesystem::path& folder);

@@ -27,6 +27,10 @@ struct ConvexPiece {
 template <int Dim>
 ConvexPiece<Dim> convex_piece(const Piece<Dim>& piece);
 
+/// All pieces of a shape.
+template <int Dim>
+std::vector<ConvexPiece<Dim>> convex_pieces(const Shape<Dim>& shape);
+
 template <int Dim>
 ConvexPiece<Dim> moved(ConvexPiece<Dim> piece, const Pose<Dim>& pose);
 

@@ -1,4 +1,4 @@
-#include "common/measure/convex_distance.h"
+#include "common/shape/convex_distance.h"
 
 #include <algorithm>
 #include <limits>

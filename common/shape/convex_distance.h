@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "common/math/vector.h"
-#include "common/measure/convex_piece.h"
+#include "common/shape/convex_piece.h"
 
 namespace talus {
 

@@ -1,4 +1,4 @@
-#include "common/measure/convex_piece.h"
+#include "common/shape/convex_piece.h"
 
 #include <algorithm>
 
@@ -68,6 +68,14 @@ ConvexPiece<Dim> convex_piece(const Piece<Dim>& piece) {
 }
 
 template <int Dim>
+std::vector<ConvexPiece<Dim>> convex_pieces(const Shape<Dim>& shape) {
+  std::vector<ConvexPiece<Dim>> pieces;
+  pieces.reserve(shape.pieces.size());
+  for (const Piece<Dim>& piece : shape.pieces) pieces.push_back(convex_piece<Dim>(piece));
+  return pieces;
+}
+
+template <int Dim>
 ConvexPiece<Dim> moved(ConvexPiece<Dim> piece, const Pose<Dim>& pose) {
   for (Vec<Dim>& corner : piece.corners) corner = pose * corner;
   for (Vec<Dim>& normal : piece.normals) normal = pose.rotation * normal;
@@ -79,6 +87,8 @@ template struct ConvexPiece<2>;
 template struct ConvexPiece<3>;
 template ConvexPiece<2> convex_piece(const Piece<2>&);
 template ConvexPiece<3> convex_piece(const Piece<3>&);
+template std::vector<ConvexPiece<2>> convex_pieces(const Shape<2>&);
+template std::vector<ConvexPiece<3>> convex_pieces(const Shape<3>&);
 template ConvexPiece<2> moved(ConvexPiece<2>, const Pose<2>&);
 template ConvexPiece<3> moved(ConvexPiece<3>, const Pose<3>&);
 

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "common/math/random.h"
-#include "common/measure/convex_distance.h"
+#include "common/shape/convex_distance.h"
 
-namespace talus::measure_convex_distance_test {
+namespace talus::shape_convex_distance_test {
 namespace {
 
 constexpr double exact = 1e-9;  // [m]; coordinates near 1 with some hundred roundings of 1e-16 each
@@ -214,4 +214,4 @@ TEST(ConvexDistance, IsExactFarFromTheOriginToo) {
 }
 
 }  // namespace
-}  // namespace talus::measure_convex_distance_test
+}  // namespace talus::shape_convex_distance_test

@@ -1,0 +1,111 @@
+#include "common/scene/overlap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/shape/convex_distance.h"
+
+namespace talus {
+namespace {
+
+/// By how much two boxes overlap [m] along the axis where they do least; negative where they are apart.
+template <int Dim>
+double box_overlap(const Box<Dim>& a, const Box<Dim>& b) {
+  return (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).minCoeff();
+}
+
+}  // namespace
+
+template <int Dim>
+std::size_t OverlapCheck<Dim>::CellHash::operator()(const Cell& cell) const {
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  for (const int number : cell) hash = (hash ^ static_cast<std::uint32_t>(number)) * 0x100000001b3U;
+  return hash;
+}
+
+template <int Dim>
+OverlapCheck<Dim>::OverlapCheck(const WorldDescription<Dim>& world) : world_(world) {
+  for (const Shape<Dim>& shape : world.shapes) {
+    shapes_.push_back(convex_pieces(shape));
+    width_ = std::max(width_, 2.0 * bounding_radius(shape));
+  }
+  for (const Obstacle<Dim>& obstacle : world.obstacles) {
+    Solid solid = make_solid(obstacle.shape, convex_pieces(obstacle.shape), obstacle.pose);
+    solid.name = static_cast<int>(names_.size());
+    names_.push_back(obstacle.shape.name);
+    obstacles_.push_back(std::move(solid));
+  }
+}
+
+template <int Dim>
+typename OverlapCheck<Dim>::Solid OverlapCheck<Dim>::make_solid(const Shape<Dim>& shape, const Pieces& pieces,
+                                                                const Pose<Dim>& pose) const {
+  Solid solid{.pieces = {}, .bounds = bounds_at(shape, pose), .fixed = true};
+  solid.pieces.reserve(pieces.size());
+  for (const ConvexPiece<Dim>& piece : pieces) solid.pieces.push_back(moved(piece, pose));
+  return solid;
+}
+
+template <int Dim>
+typename OverlapCheck<Dim>::Cell OverlapCheck<Dim>::cell_of(const Vec<Dim>& position) const {
+  Cell cell;
+  for (int axis = 0; axis < Dim; ++axis) cell[axis] = static_cast<int>(std::floor(position[axis] / width_));
+  return cell;
+}
+
+template <int Dim>
+void OverlapCheck<Dim>::compare(const Solid& body, const Solid& other, Overlap& deepest) const {
+  if (body.fixed && other.fixed) return;
+  if (box_overlap(body.bounds, other.bounds) <= most_overlap) return;
+  for (const ConvexPiece<Dim>& a : body.pieces) {
+    for (const ConvexPiece<Dim>& b : other.pieces) {
+      if (box_overlap(a.bounds(), b.bounds()) <= most_overlap) continue;
+      const double depth = -signed_distance(a, b, -most_overlap);
+      if (depth > std::max(deepest.depth, most_overlap)) deepest = {depth, name_of(other)};
+    }
+  }
+}
+
+template <int Dim>
+std::string OverlapCheck<Dim>::name_of(const Solid& solid) const {
+  return solid.number < 0 ? names_[solid.name] : fmt::format("body {} of {}", solid.number, names_[solid.name]);
+}
+
+/// With the bodies in a cell and in those around it.
+template <int Dim>
+void OverlapCheck<Dim>::compare_near(const Solid& body, const Cell& cell, Overlap& deepest) const {
+  constexpr int beside = 3;
+  const int count = Dim == 2 ? beside * beside : beside * beside * beside;
+  for (int number = 0; number < count; ++number) {
+    Cell near = cell;
+    for (int axis = 0, rest = number; axis < Dim; ++axis, rest /= beside) near[axis] += rest % beside - 1;
+    const auto found = near_.find(near);
+    if (found == near_.end()) continue;
+    for (const int other : found->second) compare(body, bodies_[other], deepest);
+  }
+}
+
+template <int Dim>
+Overlap OverlapCheck<Dim>::add(int shape, const Pose<Dim>& pose, bool fixed, const std::string& path) {
+  Solid body = make_solid(world_.shapes[shape], shapes_[shape], pose);
+  body.fixed = fixed;
+  Overlap deepest;
+  const double in_ground = world_.ground.height - height<Dim>(body.bounds.min());
+  if (!fixed && world_.ground.present && in_ground > most_overlap) deepest = {in_ground, "the ground"};
+  for (const Solid& obstacle : obstacles_) compare(body, obstacle, deepest);
+  const Cell cell = cell_of(pose.position);
+  compare_near(body, cell, deepest);
+  near_[cell].push_back(static_cast<int>(bodies_.size()));
+  if (names_.empty() || names_.back() != path) names_.push_back(path);
+  body.name = static_cast<int>(names_.size()) - 1;
+  body.number = bodies_.empty() || bodies_.back().name != body.name ? 0 : bodies_.back().number + 1;
+  bodies_.push_back(std::move(body));
+  return deepest;
+}
+
+template class OverlapCheck<2>;
+template class OverlapCheck<3>;
+
+}  // namespace talus

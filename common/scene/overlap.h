@@ -1,0 +1,64 @@
+#pragma once
+// Whether bodies at given places overlap.
+
+#include <array>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "common/shape/convex_piece.h"
+#include "common/world/world_description.h"
+
+namespace talus {
+
+/// Depth [m] up to which bodies may overlap at the start: Box2D's slop (b2_linearSlop), to which it lets contacts sink
+/// in. From deeper overlap an engine throws bodies apart.
+inline constexpr double most_overlap = 0.005;
+
+/// The deepest overlap of a body with what was there before it.
+struct Overlap {
+  double depth = 0.0;  // [m]
+  std::string other;   // as messages name it: "obstacle[2]", "body 5 of body[1]"
+};
+
+/// Finds overlaps of bodies by their true shapes. Each body costs a look at those near it and at all obstacles.
+template <int Dim>
+class OverlapCheck {
+ public:
+  /// `world`: its ground and obstacles count, and bodies have its shapes.
+  explicit OverlapCheck(const WorldDescription<Dim>& world);
+
+  /// Adds a body, the next one of the table of this path. Returns its deepest overlap; depth 0 if none is deeper than
+  /// `most_overlap`. What is fixed may overlap what is fixed.
+  Overlap add(int shape, const Pose<Dim>& pose, bool fixed, const std::string& path);
+
+ private:
+  using Pieces = std::vector<ConvexPiece<Dim>>;
+  using Cell = std::array<int, Dim>;
+  struct CellHash {
+    std::size_t operator()(const Cell& cell) const;
+  };
+  struct Solid {
+    Pieces pieces;
+    Box<Dim> bounds;
+    bool fixed = false;
+    int name = 0;     // index of names_
+    int number = -1;  // among the bodies of this name; -1: none
+  };
+
+  Solid make_solid(const Shape<Dim>& shape, const Pieces& pieces, const Pose<Dim>& pose) const;
+  void compare(const Solid& body, const Solid& other, Overlap& deepest) const;
+  std::string name_of(const Solid& solid) const;
+  void compare_near(const Solid& body, const Cell& cell, Overlap& deepest) const;
+  Cell cell_of(const Vec<Dim>& position) const;
+
+  const WorldDescription<Dim>& world_;
+  double width_ = 1.0;                                         // of a cell: no body is wider [m]
+  std::vector<Pieces> shapes_;                                 // of the world, in their own axes
+  std::vector<Solid> obstacles_;
+  std::vector<Solid> bodies_;
+  std::vector<std::string> names_;
+  std::unordered_map<Cell, std::vector<int>, CellHash> near_;  // bodies by the cell of their centre; only looked up
+};
+
+}  // namespace talus

@@ -1,0 +1,99 @@
+#pragma once
+// Bodies at given places, in scene files.
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "common/scene/overlap.h"
+#include "common/scene/read_shape.h"
+#include "common/scene/table_reader.h"
+
+namespace talus {
+
+/// Keys of `[[body]]`: one body, or rows and layers of bodies. body_fields has the unit, range and effect of each.
+template <int Dim>
+struct BodyParams {
+  Vec<Dim> position = Vec<Dim>::Zero();
+  double angle_step = 0.0;
+  Eigen::Vector<int, Dim> repeat = Eigen::Vector<int, Dim>::Ones();
+  Vec<Dim> step = Vec<Dim>::Zero();
+  Vec<Dim> stagger = Vec<Dim>::Zero();
+  int taper = 0;
+  Vec<Dim> velocity = Vec<Dim>::Zero();
+  Spin<Dim> spin = Spin<Dim>::Zero();
+  bool fixed = false;
+  bool asleep = false;
+};
+
+template <int Dim>
+inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
+    {{},
+     {.name = "shape",
+      .type = "text",
+      .further_rule = "name of a shape",
+      .default_text = "the only shape",
+      .meaning = "must be given where there are several"}},
+    {&BodyParams<Dim>::position,
+     {.name = "position",
+      .type = "point",
+      .unit = "m",
+      .range = coordinate_range,
+      .default_text = "origin",
+      .meaning = "where the origin of the shape's own axes goes, as for an [obstacle](#what-does-not-move-obstacle). "
+                 "Bodies may touch each other, obstacles and ground; overlap deeper than 0.005 m is refused"}},
+    {{}, angle_key},
+    {{}, axis_key},
+    {&BodyParams<Dim>::angle_step,
+     {.name = "angle_step_deg",
+      .unit = "degrees",
+      .stored = Stored::in_radians,
+      .range = between(-360.0, 360.0),
+      .meaning = "rotation of each body of `repeat` beyond the one before it; in 3D about `axis`"}},
+    {&BodyParams<Dim>::repeat,
+     {.name = "repeat",
+      .range = between(1.0, 1e4),
+      .meaning = "bodies along each axis, around `position` and upwards from it; the last number is that of layers"}},
+    {&BodyParams<Dim>::step,
+     {.name = "step",
+      .unit = "m",
+      .range = coordinate_range,
+      .meaning = "from one body to the next along each axis"}},
+    {&BodyParams<Dim>::stagger,
+     {.name = "stagger",
+      .unit = "m",
+      .range = coordinate_range,
+      .meaning = "shift of every second layer; nearly half a brick's width makes a wall in bond"}},
+    {&BodyParams<Dim>::taper,
+     {.name = "taper",
+      .range = between(0.0, 1e4),
+      .meaning = "bodies that each layer has fewer than the one beneath, along each horizontal axis with two or more. "
+                 "1: a pyramid"}},
+    {&BodyParams<Dim>::velocity,
+     {.name = "velocity",
+      .unit = "m/s",
+      .range = speed_range,
+      .further_rule = "below 2 m a step in 2D, 500 m/s in 3D",
+      .meaning = "of the centre of mass at the start"}},
+    {&BodyParams<Dim>::spin,
+     {.name = "spin",
+      .type = "vector, in 2D a number",
+      .unit = "rad/s",
+      .range = between(-1e4, 1e4),
+      .further_rule = "up to a quarter turn a step",
+      .meaning = "at the start, counter-clockwise"}},
+    {&BodyParams<Dim>::fixed,
+     {.name = "fixed", .meaning = "true: it never moves. It is an obstacle then and counts among no bodies"}},
+    {&BodyParams<Dim>::asleep,
+     {.name = "asleep",
+      .meaning = "true: it sleeps from the start, and hangs in the air if nothing supports it, until something wakes "
+                 "it. No effect with the policies `full` and `engine`"}},
+});
+
+/// One `[[body]]`: appends its bodies to the scene, fixed ones to the obstacles. `shape_names` in the order of
+/// world.shapes; where shapes were wrong, rules that depend on them are not checked. `placed`: all bodies before it.
+template <int Dim>
+void read_body(TableReader& table, std::span<const std::string> shape_names, OverlapCheck<Dim>& placed,
+               Scene<Dim>& scene);
+
+}  // namespace talus
