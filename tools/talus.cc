@@ -44,6 +44,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_compare_command(app, exit_code);
   talus::add_wake_command(app, exit_code);
   talus::add_film_command(app, exit_code);
+  talus::add_replay_command(app, exit_code);
 #endif
 }
 

@@ -124,31 +124,43 @@ std::string text_of(const RecordDamage& damage) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-AnyRecordedRun read_run(const std::filesystem::path& folder) {
+AnyScene scene_of_run(const fs::path& folder) {
   for (const char* name : {"scene.toml", "run.lcm"}) {
     if (std::filesystem::is_regular_file(folder / name)) continue;
     throw std::invalid_argument(
         fmt::format("{}: must be a folder that `talus run` left, but it has no {}", folder.string(), name));
   }
-  const AnyScene scene = read_scene(folder / "scene.toml");
+  return read_scene(folder / "scene.toml");
+}
+
+std::string name_of_run(const fs::path& folder) {
+  const fs::path base = folder.filename().empty() ? folder.parent_path() : folder;
+  return printable(base.filename().string());
+}
+
+std::invalid_argument no_frame(const fs::path& folder, std::uint64_t damaged_bytes) {
+  return std::invalid_argument(
+      fmt::format("{}: run.lcm holds no frame; the run ended before its first one, or all are damaged ({} damaged "
+                  "bytes)",
+                  folder.string(), damaged_bytes));
+}
+
+AnyRecordedRun read_run(const fs::path& folder) {
+  const AnyScene scene = scene_of_run(folder);
   LogReader log((folder / "run.lcm").string());
   return read_record(scene, log, folder);
 }
 
-AnyRecordedRun read_record(const AnyScene& scene, LogReader& log, const std::filesystem::path& folder) {
+AnyRecordedRun read_record(const AnyScene& scene, LogReader& log, const fs::path& folder) {
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> AnyRecordedRun {
         RunReader<Dim> reader(of_dimension);
         for (LogEvent event; log.next(event);) reader.take(event);
         RecordedRun<Dim> run = reader.finish();
-        const fs::path base = folder.filename().empty() ? folder.parent_path() : folder;
-        run.name = printable(base.filename().string());
+        run.name = name_of_run(folder);
         run.damage.bytes = log.damage().bytes;
         if (run.last_step > 0) return run;
-        throw std::invalid_argument(
-            fmt::format("{}: run.lcm holds no frame; the run ended before its first one, or all are damaged ({} "
-                        "damaged bytes)",
-                        folder.string(), run.damage.bytes));
+        throw no_frame(folder, run.damage.bytes);
       },
       scene);
 }

@@ -2,6 +2,7 @@
 // A run folder read back.
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -47,6 +48,15 @@ struct RecordedRun {
 };
 
 using AnyRecordedRun = std::variant<RecordedRun<2>, RecordedRun<3>>;
+
+/// The scene of a run folder. Throws std::invalid_argument where the folder is not of a run.
+AnyScene scene_of_run(const std::filesystem::path& folder);
+
+/// The folder's own name, printable.
+std::string name_of_run(const std::filesystem::path& folder);
+
+/// The error of a record without a frame.
+std::invalid_argument no_frame(const std::filesystem::path& folder, std::uint64_t damaged_bytes);
 
 /// Reads the run folder; damage costs what it hit. Throws std::invalid_argument where the folder is not of a run, where
 /// run.lcm belongs to another scene or holds no frame; std::system_error where a file cannot be read.

@@ -6,16 +6,12 @@
 #include <stdexcept>
 
 #include "common/text/nearest_name.h"
+#include "tools/run/data_folder.h"
 
 namespace talus {
 namespace fs = std::filesystem;
 
-fs::path scene_folder() {
-  std::error_code unknown;
-  const fs::path command = fs::read_symlink("/proc/self/exe", unknown);
-  const fs::path installed = command.parent_path().parent_path() / "share/talus/scenes";
-  return !unknown && fs::is_directory(installed, unknown) ? installed : fs::path(TALUS_SCENE_FOLDER);
-}
+fs::path scene_folder() { return data_folder("scenes", "scenes"); }
 
 std::vector<fs::path> scene_files() {
   std::vector<fs::path> files;

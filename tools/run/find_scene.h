@@ -6,8 +6,7 @@
 
 namespace talus {
 
-/// Folder of the scenes that come with talus: share/talus/scenes beside the folder of the running command if it is
-/// installed, else the source tree's. It does not depend on the current directory.
+/// Folder of the scenes that come with talus (data_folder.h).
 std::filesystem::path scene_folder();
 
 /// Scene files in that folder, by name.

@@ -1,0 +1,232 @@
+// Frames as the browser page reads them, decoded here from their description in tools/view/frame_stream.h.
+
+#include "tools/view/frame_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <map>
+#include <random>
+
+namespace talus::frame_stream_test {
+namespace {
+
+template <int Dim>
+struct Decoded {
+  static constexpr int components = Dim == 2 ? 3 : 7;
+  std::uint64_t step = 0;
+  std::vector<std::array<double, components>> pose;  // in quanta
+  std::vector<std::uint64_t> shape;
+  std::vector<int> asleep;
+  std::vector<int> removed;
+  std::vector<SleepEvent> events;  // of the last block
+  std::vector<std::vector<std::int64_t>> counts;
+  float kinetic_energy = 0.0F;
+  std::map<std::uint64_t, std::string> warnings;
+};
+
+template <int Dim>
+class Decoder {
+ public:
+  void take(const std::string& block) {
+    block_ = block;
+    at_ = 0;
+    state.step = number();
+    for (std::uint64_t bodies = number(); state.shape.size() < bodies;) {
+      state.shape.push_back(0);
+      state.pose.emplace_back();
+      state.asleep.push_back(0);
+      state.removed.push_back(0);
+      fresh_.push_back(state.shape.size() - 1);
+    }
+    for (const std::size_t body : fresh_) state.shape[body] = number();
+    fresh_.clear();
+    for (const std::uint64_t body : list()) state.removed[body] ^= 1;
+    for (const std::uint64_t body : list()) state.asleep[body] ^= 1;
+    const std::vector<std::uint64_t> moved = list();
+    for (int i = 0; i < Decoded<Dim>::components; ++i)
+      for (const std::uint64_t body : moved) state.pose[body][i] += static_cast<double>(difference());
+    take_events();
+    take_piles();
+    state.kinetic_energy = real();
+    for (std::uint64_t left = number(); left > 0; --left) {
+      const std::uint64_t kind = number();
+      number();
+      const std::uint64_t size = number();
+      state.warnings[kind] = block_.substr(at_, size);
+      at_ += size;
+    }
+    EXPECT_EQ(at_, block_.size()) << "a block ends where its description says";
+  }
+
+  Decoded<Dim> state;
+
+ private:
+  void take_events() {
+    state.events.clear();
+    for (std::uint64_t left = number(); left > 0; --left) {
+      SleepEvent event;
+      event.body = static_cast<BodyIndex>(number());
+      event.step = static_cast<std::int64_t>(state.step - number());
+      const std::uint64_t code = number();
+      event.woke = code % 2 == 1;
+      event.cause = static_cast<SleepCause>(code / 2);
+      event.pile = static_cast<int>(number()) - 1;
+      event.layer = static_cast<int>(number()) - 1;
+      event.score = real();
+      state.events.push_back(event);
+    }
+  }
+
+  void take_piles() {
+    state.counts.resize(number());
+    for (std::uint64_t left = number(); left > 0; --left) {
+      std::vector<std::int64_t>& counts = state.counts[number()];
+      if (number() == 1) {
+        for (int i = 0; i < Dim + 4; ++i) real();
+        const std::uint64_t layers = number();
+        for (std::uint64_t i = 0; i < 4 * layers; ++i) real();
+        counts.resize(2 * layers);
+      }
+      for (std::int64_t& count : counts) count += difference();
+    }
+  }
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    for (int shift = 0;; shift += 7) {
+      const auto byte = static_cast<unsigned char>(block_.at(at_++));
+      value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
+      if (byte < 0x80) return value;
+    }
+  }
+
+  std::int64_t difference() {
+    const std::uint64_t value = number();
+    return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+  }
+
+  float real() {
+    std::uint32_t bits = 0;
+    for (int shift = 0; shift < 32; shift += 8)
+      bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(block_.at(at_++))) << shift;
+    return std::bit_cast<float>(bits);
+  }
+
+  std::vector<std::uint64_t> list() {
+    std::vector<std::uint64_t> bodies(number());
+    std::uint64_t body = static_cast<std::uint64_t>(-1);
+    for (std::uint64_t& each : bodies) each = body += number();
+    return bodies;
+  }
+
+  std::string block_;
+  std::size_t at_ = 0;
+  std::vector<std::size_t> fresh_;
+};
+
+template <int Dim>
+void add_body(BodyStates<Dim>& states, const Pose<Dim>& pose) {
+  states.shape.push_back(states.size() % 3);
+  states.pose.push_back(pose);
+  states.velocity.push_back(Vec<Dim>::Zero());
+  states.spin.push_back(Spin<Dim>::Zero());
+  states.asleep.push_back(0);
+  states.removed.push_back(0);
+}
+
+TEST(FrameStream, PosesInThePlaneAreWithinHalfAQuantum) {
+  const Quantum quantum;
+  FrameEncoder<2> encoder(quantum);
+  Decoder<2> decoder;
+  BodyStates<2> states;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-20.0, 20.0);
+  for (int frame = 1; frame <= 50; ++frame) {
+    add_body<2>(states, {{any(random), any(random)}, Rotation<2>(any(random))});
+    for (Pose<2>& pose : states.pose) pose = {{any(random), any(random)}, Rotation<2>(any(random))};
+    decoder.take(encoder.encode({.step = frame, .states = states}));
+    for (BodyIndex body = 0; body < states.size(); ++body) {
+      const auto& seen = decoder.state.pose[body];
+      EXPECT_NEAR(seen[0] * quantum.position, states.pose[body].position.x(), 0.51 * quantum.position);
+      EXPECT_NEAR(seen[1] * quantum.position, states.pose[body].position.y(), 0.51 * quantum.position);
+      const Rotation<2> off(seen[2] * quantum.angle - states.pose[body].rotation.angle());
+      EXPECT_NEAR(off.smallestAngle(), 0.0, 0.51 * quantum.angle);
+    }
+  }
+}
+
+TEST(FrameStream, RotationsInSpaceAreWithinAQuantum) {
+  const Quantum quantum;
+  FrameEncoder<3> encoder(quantum);
+  Decoder<3> decoder;
+  BodyStates<3> states;
+  add_body<3>(states, {Vec3(1.0, 2.0, 3.0), Rotation<3>::Identity()});
+  std::srand(1);
+  for (int frame = 1; frame <= 200; ++frame) {
+    states.pose[0].rotation = Rotation<3>(Eigen::Quaterniond::UnitRandom());
+    decoder.take(encoder.encode({.step = frame, .states = states}));
+    const auto& seen = decoder.state.pose[0];
+    Rotation<3> q(seen[3], seen[4], seen[5], seen[6]);
+    q.normalize();
+    EXPECT_LT(q.angularDistance(states.pose[0].rotation), 2.5 * quantum.quaternion);
+  }
+}
+
+TEST(FrameStream, WhatDoesNotChangeTakesNoRoom) {
+  FrameEncoder<2> encoder({});
+  BodyStates<2> states;
+  for (int i = 0; i < 1000; ++i) add_body<2>(states, {{0.1 * i, 1.0}, Rotation<2>(0.0)});
+  EXPECT_GT(encoder.encode({.step = 1, .states = states}).size(), 1000U);
+  EXPECT_LT(encoder.encode({.step = 2, .states = states}).size(), 20U);
+}
+
+TEST(FrameStream, SleepRemovalEventsAndWarningsArrive) {
+  FrameEncoder<2> encoder({});
+  Decoder<2> decoder;
+  BodyStates<2> states;
+  for (int i = 0; i < 3; ++i) add_body<2>(states, {{1.0 * i, 1.0}, Rotation<2>(0.0)});
+  decoder.take(encoder.encode({.step = 1, .states = states}));
+  states.asleep[1] = 1;
+  states.removed[2] = 1;
+  const std::vector<SleepEvent> events = {
+      {.step = 5, .body = 1, .pile = 0, .layer = -1, .cause = SleepCause::rest, .score = 0.5}};
+  const std::vector<Warning> warnings = {{.kind = WarningKind::energy, .step = 4, .bodies = 1, .value = 2.0}};
+  decoder.take(
+      encoder.encode({.step = 7, .states = states, .events = events, .warnings = warnings, .kinetic_energy = 2.5}));
+  EXPECT_EQ(decoder.state.asleep, (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(decoder.state.removed, (std::vector<int>{0, 0, 1}));
+  EXPECT_EQ(decoder.state.shape, (std::vector<std::uint64_t>{0, 1, 2}));
+  ASSERT_EQ(decoder.state.events.size(), 1U);
+  EXPECT_EQ(decoder.state.events[0].step, 5);
+  EXPECT_EQ(decoder.state.events[0].body, 1);
+  EXPECT_EQ(decoder.state.events[0].cause, SleepCause::rest);
+  EXPECT_EQ(decoder.state.events[0].layer, -1);
+  EXPECT_FLOAT_EQ(decoder.state.kinetic_energy, 2.5F);
+  EXPECT_EQ(decoder.state.warnings.at(2), account(warnings[0]));
+  decoder.take(encoder.encode({.step = 8, .states = states, .warnings = warnings}));
+  EXPECT_TRUE(decoder.state.events.empty());
+}
+
+TEST(FrameStream, LayersCountAsThePilesDo) {
+  FrameEncoder<2> encoder({});
+  Decoder<2> decoder;
+  const BodyStates<2> states;
+  std::vector<Pile<2>> piles = {make_pile<2>(Vec2::Zero(), 0.6, 50.0, {.bounding_volume = 1.0, .extent = 1.4})};
+  ASSERT_GT(piles[0].layers.size(), 1U);
+  for (int frame = 1; frame < 5; ++frame) {
+    piles[0].layers[0].count = 7 * frame % 5;
+    piles[0].layers[1].sleeping = frame;
+    if (frame == 3) piles[0] = make_pile<2>(Vec2::Zero(), 0.6, 200.0, {.bounding_volume = 1.0, .extent = 1.4});
+    decoder.take(encoder.encode({.step = frame, .states = states, .piles = piles}));
+    ASSERT_EQ(decoder.state.counts.at(0).size(), 2 * piles[0].layers.size());
+    for (std::size_t i = 0; i < piles[0].layers.size(); ++i) {
+      EXPECT_EQ(decoder.state.counts[0][2 * i], piles[0].layers[i].count);
+      EXPECT_EQ(decoder.state.counts[0][2 * i + 1], piles[0].layers[i].sleeping);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace talus::frame_stream_test

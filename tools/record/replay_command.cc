@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "common/math/require.h"
+#include "common/text/printable.h"
+#include "tools/commands/commands.h"
+#include "tools/commands/validators.h"
+#include "tools/output/output.h"
+#include "tools/record/record_stream.h"
+#include "tools/view/page.h"
+
+namespace talus {
+namespace {
+
+struct ReplayOptions {
+  std::string run;
+  std::string html;
+};
+
+void write_replay(const ReplayOptions& options) {
+  require(options.html.ends_with(".html"), "--html", options.html, "must end in .html");
+  const std::string page = page_with(record_stream(options.run));
+  std::ofstream out(options.html, std::ios::binary);
+  out << page << std::flush;
+  if (!out) throw std::system_error(errno, std::generic_category(), options.html);
+  print_result("{}: {:.0f} kB\n", printable(options.html), static_cast<double>(page.size()) / 1e3);
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("replay", "Make a page that plays a recorded run, in one file");
+  auto options = std::make_shared<ReplayOptions>();
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
+  command->add_option("--html", options->html, "Page to write, overwritten if there; a browser opens it without a net")
+      ->required()
+      ->check(in_a_folder());
+  command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus replay runs/pour --html pour.html");
+  command->callback([options, &exit_code] {
+    write_replay(*options);
+    exit_code = exit_codes::success;
+  });
+}
+
+}  // namespace talus

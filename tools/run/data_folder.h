@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+
+namespace talus {
+
+/// A folder of the files that come with talus: share/talus/NAME beside the folder of the running command if it is
+/// installed, else IN_SOURCE below the source tree. It does not depend on the current directory.
+std::filesystem::path data_folder(const std::filesystem::path& name, const std::filesystem::path& in_source);
+
+}  // namespace talus

@@ -1,0 +1,99 @@
+#pragma once
+// States of a run as the browser page reads them: one block of bytes for each frame.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/pile/pile.h"
+#include "common/policy/sleep_event.h"
+#include "common/scene/scene.h"
+#include "common/world/body.h"
+#include "common/world/warning.h"
+
+namespace talus {
+
+/// Steps in which a page's poses are counted.
+struct Quantum {
+  double position = 1e-3;            // [m] > 0
+  double angle = 0.75e-3;            // [rad] of a rotation in 2D
+  double quaternion = 1.0 / 4096.0;  // of a quaternion's components, in 3D
+};
+
+/// Positions to a thousandth of the smallest shape's extent: less than a pixel on a screen full of one body.
+template <int Dim>
+Quantum quantum_of(const Scene<Dim>& scene);
+
+/// One state to show. Everything referred to must outlive the call.
+template <int Dim>
+struct ViewFrame {
+  std::int64_t step = 0;
+  const BodyStates<Dim>& states;
+  std::span<const SleepEvent> events = {};  // since the frame before, in order
+  std::span<const Pile<Dim>> piles = {};
+  std::span<const Warning> warnings = {};  // all so far
+  double kinetic_energy = 0.0;             // [J]
+};
+
+/// Writes frames as differences from the frame before: only what changed takes room, a sleeping body none. The first
+/// frame of an encoder is the whole state. The same frames give the same bytes.
+///
+/// A block is a sequence of numbers: `u` unsigned with seven bits a byte, low bits first, `s` signed in zigzag over
+/// `u`, `f` a float of four bytes, low byte first. A list of bodies is their number (u) and the distance of each from
+/// the one before (u), counted from -1.
+///
+///     u step; u bodies added so far; u shape of each new body
+///     list of removed bodies; list of bodies that fell asleep or woke; list of bodies with another pose,
+///     s change of each component of the pose, component by component
+///         (2D: x, z, angle; 3D: x, y, z, quaternion w, x, y, z), in quanta
+///     u number of events; of each: u body, u steps before this one, u cause * 2 + woke, u pile + 1, u layer + 1, f
+///     score u number of piles; u number of those that changed; of each: u number, u 1 where its form follows:
+///         f centre, f slope, f lift, f height, f radius, u layers, of each f bottom, f top, f radius, f capacity;
+///         s change of the count and s of the sleepers of each layer
+///     f kinetic energy
+///     u number of warnings that changed; of each: u kind, u step of the first, u bytes of its text, the text
+template <int Dim>
+class FrameEncoder {
+ public:
+  explicit FrameEncoder(const Quantum& quantum) : quantum_(quantum) {}
+
+  std::string encode(const ViewFrame<Dim>& frame);
+
+ private:
+  static constexpr int components = Dim == 2 ? 3 : 7;
+  using Counts = std::array<std::int32_t, components>;
+  /// What the page knows of a body.
+  struct Known {
+    Counts pose = {};
+    std::uint8_t asleep = 0;
+    std::uint8_t removed = 0;
+  };
+  struct KnownPile {
+    std::vector<float> form;
+    std::vector<std::int32_t> counts;  // of each layer bodies, sleepers
+  };
+
+  Counts counted(const Pose<Dim>& pose, const Counts& before) const;
+  void write_bodies(const BodyStates<Dim>& states);
+  void write_poses(const BodyStates<Dim>& states);
+  void write_events(const ViewFrame<Dim>& frame);
+  void write_piles(std::span<const Pile<Dim>> piles);
+  void write_pile(int number, const Pile<Dim>& pile, KnownPile& known);
+  void write_warnings(std::span<const Warning> warnings);
+
+  void write_list(std::span<const BodyIndex> bodies);
+  void write_unsigned(std::uint64_t value);
+  void write_signed(std::int64_t value);
+  void write_float(float value);
+
+  Quantum quantum_;
+  std::vector<Known> known_;
+  std::vector<KnownPile> known_piles_;
+  std::map<WarningKind, std::string> known_warnings_;  // their texts
+  std::string block_;
+};
+
+}  // namespace talus

@@ -1,0 +1,84 @@
+#include "tools/view/page.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "tools/run/data_folder.h"
+
+namespace talus {
+namespace {
+
+std::string deflated(std::string_view bytes) {
+  std::string result(compressBound(bytes.size()), '\0');
+  uLongf size = result.size();
+  const int status = compress2(reinterpret_cast<Bytef*>(result.data()), &size,
+                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+  if (status != Z_OK) throw std::runtime_error(fmt::format("zlib: error {}", status));
+  result.resize(size);
+  return result;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      group = group << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0);
+    for (std::size_t i = 0; i < 4; ++i) text += i <= count ? digits[group >> (18 - 6 * i) & 63] : '=';
+  }
+  return text;
+}
+
+std::string built_file(const char* name) {
+  const std::filesystem::path file = data_folder("page", "tools/view/page/dist") / name;
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw std::system_error(errno, std::generic_category(), file.string());
+  return text.str();
+}
+
+void put(std::string& page, std::string_view mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw std::logic_error(fmt::format("page.html has no mark \"{}\"", mark));
+  page.replace(at, mark.size(), text);
+}
+
+std::string page_of(const std::string& data) {
+  std::string page = built_file("page.html");
+  put(page, "<!-- vendor -->", "<script>\n" + built_file("vendor.js") + "</script>");
+  put(page, "<!-- data -->", data);
+  return page;
+}
+
+}  // namespace
+
+std::string stream_bytes(const nlohmann::ordered_json& head, std::string_view blocks) {
+  const std::string text = head.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  std::string bytes;
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((text.size() >> shift) & 0xFF);
+  bytes += text;
+  bytes += blocks;
+  return deflated(bytes);
+}
+
+std::string page_with(std::string_view stream) {
+  return page_of(R"(<script type="application/octet-stream" id="stream">)" + base64(stream) + "</script>");
+}
+
+std::string page_of_server(PageSource source) {
+  return page_of(fmt::format(R"(<script type="application/json" id="source">"{}"</script>)",
+                             source == PageSource::run ? "run" : "record"));
+}
+
+}  // namespace talus

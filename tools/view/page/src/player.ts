@@ -1,0 +1,391 @@
+// What the user does with the frames of a run: play, step, scrub, choose a body.
+
+import type { Head, Rgb } from "./head";
+import { Plots } from "./plots";
+import { css, type Paint, Stage } from "./stage";
+import { Timeline } from "./timeline";
+
+const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+
+/// Of sleeping and awake bodies by the number of the cause.
+const causeColours: Rgb[] = [
+  [0.1, 0.3, 0.55],
+  [0.17, 0.18, 0.2],
+  [0.85, 0.2, 0.15],
+  [0.95, 0.5, 0.1],
+  [0.75, 0.3, 0.75],
+  [0.5, 0.5, 0.5],
+  [0.5, 0.5, 0.5],
+  [0.15, 0.5, 0.45],
+  [0.95, 0.8, 0.2],
+  [0.45, 0.7, 0.95],
+];
+
+export const element = <T extends HTMLElement = HTMLElement>(id: string): T => document.getElementById(id) as T;
+
+function cell(text: string, name = ""): HTMLTableCellElement {
+  const td = document.createElement("td");
+  td.textContent = text;
+  td.className = name;
+  return td;
+}
+
+function swatch(colour: Rgb): HTMLTableCellElement {
+  const td = cell("");
+  const box = document.createElement("span");
+  box.className = "swatch";
+  box.style.background = css(colour);
+  td.append(box);
+  return td;
+}
+
+/// What a simulation that is still going on does with the controls.
+export interface Simulation {
+  toggle(): void;
+  step(): void;
+  restart(): void;
+  running(): boolean;
+}
+
+/// What a page shows, as numbers.
+export interface Shown {
+  frame: number;
+  frames: number;
+  step: number;
+  time: number;
+  bodies: number;
+  awake: number;
+  asleep: number;
+  playing: boolean;
+}
+
+export class Player {
+  timeline: Timeline;
+  stage: Stage;
+  private plots: Plots;
+  private simulation: Simulation | null = null;
+  private playing = false;
+  private following = false;
+  private clock = 0;
+  private time = 0;
+
+  constructor(private head: Head) {
+    this.timeline = new Timeline(head);
+    this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
+    this.plots = this.show();
+    this.listen();
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  /// Another run on the same page: everything from the start.
+  replace(head: Head): void {
+    const dimension = this.head.dimension;
+    this.head = head;
+    this.timeline = new Timeline(head);
+    if (head.dimension === dimension) {
+      this.plots = this.show();
+      return;
+    }
+    // A camera of another kind.
+    this.stage.dispose();
+    for (const id of ["bodies", "labels"]) element(id).replaceWith(Object.assign(document.createElement("canvas"), { id }));
+    this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
+    this.listenToStage();
+    this.plots = this.show();
+  }
+
+  attach(simulation: Simulation): void {
+    this.simulation = simulation;
+    this.following = true;
+    element("loop-label").hidden = true;
+  }
+
+  private show(): Plots {
+    const { head } = this;
+    this.time = 0;
+    this.stage.selected = -1;
+    document.title = `${head.title} - talus`;
+    element("title").textContent = head.title;
+    const seed = `seed ${head.seed}`;
+    element("subtitle").textContent = [head.name, head.backend, `policy ${head.policy}`, seed, head.version].filter((part) => part !== "").join(", ");
+    element("status").textContent = head.damage;
+    this.stage.setRun(this.timeline);
+    this.showBody();
+    this.showWarnings();
+    return new Plots(element("plots"), head, this.timeline, (time) => this.seekTime(time));
+  }
+
+  private listen(): void {
+    const click = (id: string, action: () => void): void => element(id).addEventListener("click", action);
+    click("play", () => this.toggle());
+    click("back", () => this.stepBy(-1));
+    click("forward", () => this.stepBy(1));
+    click("first", () => this.seek(0));
+    click("last", () => this.toEnd());
+    click("wake", () => this.toNextWake());
+    click("fit", () => this.stage.fit());
+    element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
+    element("paint").addEventListener("change", () => this.repaint());
+    element("layers").addEventListener("change", () => {
+      this.stage.showLayers = element<HTMLInputElement>("layers").checked;
+      this.stage.redraw();
+    });
+    for (const speed of speeds) element("rate").append(new Option(`${speed}x`, String(speed), false, speed === 1));
+    document.addEventListener("keydown", (event) => this.key(event));
+    this.listenToStage();
+  }
+
+  private listenToStage(): void {
+    const canvas = element("bodies");
+    let [downX, downY] = [0, 0];
+    canvas.addEventListener("pointerdown", (event) => ([downX, downY] = [event.clientX, event.clientY]));
+    canvas.addEventListener("pointerup", (event) => {
+      if (Math.hypot(event.clientX - downX, event.clientY - downY) < 4) this.select(this.stage.bodyAt(event.offsetX, event.offsetY));
+    });
+  }
+
+  private key(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.altKey || event.metaKey || ["TEXTAREA", "SELECT"].includes(target.tagName)) return;
+    const actions: Record<string, () => void> = {
+      " ": () => this.toggle(),
+      ".": () => this.stepBy(1),
+      ",": () => this.stepBy(-1),
+      n: () => this.toNextWake(),
+      f: () => this.stage.fit(),
+      r: () => (this.simulation ? this.simulation.restart() : this.seek(0)),
+      l: () => element("loop").click(),
+      Home: () => this.seek(0),
+      End: () => this.toEnd(),
+    };
+    const action = actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  /// Frames came: the controls and plots grow with them.
+  grown(): void {
+    element<HTMLInputElement>("scrub").max = String(Math.max(0, this.timeline.frames - 1));
+    this.showWarnings();
+    if (this.following) this.goTo(this.timeline.frames - 1);
+  }
+
+  private atEnd(): boolean {
+    return this.timeline.shown >= this.timeline.frames - 1;
+  }
+
+  /// A record: plays or pauses. A simulation: runs or pauses it where its newest frame is shown, else plays up to there.
+  toggle(): void {
+    if (this.simulation && this.following) this.simulation.toggle();
+    else if (this.playing) this.pause();
+    else this.play();
+  }
+
+  play(): void {
+    if (this.atEnd() && !this.simulation) this.seek(0);
+    this.playing = true;
+    this.clock = 0;
+    this.showPlaying();
+  }
+
+  pause(): void {
+    this.playing = false;
+    this.showPlaying();
+  }
+
+  /// The play button follows what is going on: the simulation where the newest frame is shown.
+  showPlaying(): void {
+    const going = this.simulation && this.following ? this.simulation.running() : this.playing;
+    element("play").textContent = going ? "\u2016" : "\u25B6";
+  }
+
+  stepBy(frames: number): void {
+    if (this.simulation && frames > 0 && this.atEnd()) {
+      this.following = true;
+      this.simulation.step();
+      return;
+    }
+    this.pause();
+    this.seek(this.timeline.shown + frames);
+  }
+
+  toEnd(): void {
+    this.seek(this.timeline.frames - 1);
+    this.following = this.simulation !== null;
+    this.pause();
+  }
+
+  toNextWake(): void {
+    const next = this.timeline.woken.findIndex((woken, frame) => frame > this.timeline.shown && woken > 0);
+    if (next >= 0) this.seek(next);
+  }
+
+  seekTime(time: number): void {
+    this.seek(this.timeline.frameAt(time));
+  }
+
+  /// Shows a frame; the nearest where there is none of that number.
+  seek(frame: number): void {
+    this.following = false;
+    this.goTo(frame);
+    this.time = this.timeline.shown < 0 ? 0 : this.timeline.time(this.timeline.shown);
+    this.showPlaying();
+  }
+
+  private goTo(frame: number): void {
+    if (this.timeline.frames === 0) return;
+    const changed = this.timeline.seek(Math.min(this.timeline.frames - 1, Math.max(0, frame)));
+    this.stage.update(changed, this.paint());
+    element<HTMLInputElement>("scrub").value = String(this.timeline.shown);
+    this.showCounts();
+    this.showBody();
+    this.plots.showTime();
+  }
+
+  private repaint(): void {
+    this.stage.update("all", this.paint());
+    this.showCounts();
+  }
+
+  /// Called before each picture of the browser.
+  private tick(now: number): void {
+    const passed = this.clock > 0 ? (now - this.clock) / 1000 : 0;
+    this.clock = now;
+    this.plots.refresh();
+    if (this.playing) this.advance(passed * Number(element<HTMLSelectElement>("rate").value));
+    requestAnimationFrame((next) => this.tick(next));
+  }
+
+  private advance(seconds: number): void {
+    this.time += seconds;
+    if (this.time > this.timeline.time(this.timeline.frames - 1)) {
+      if (element<HTMLInputElement>("loop").checked && !this.simulation) this.time = 0;
+      else this.toEnd();
+    }
+    if (this.playing) this.goTo(this.timeline.frameAt(this.time));
+  }
+
+  private byCause(): boolean {
+    return element<HTMLSelectElement>("paint").value === "cause";
+  }
+
+  private paint(): Paint {
+    const { colours } = this.head;
+    const { state } = this.timeline;
+    const plain: Paint = (body) => (state.asleep[body] !== 0 ? colours.asleep : colours.awake[state.shape[body] % colours.awake.length]);
+    if (!this.byCause()) return plain;
+    return (body) => {
+      const { event } = this.timeline.since(body);
+      return event && event.woke === (state.asleep[body] === 0) ? causeColours[event.cause] : plain(body);
+    };
+  }
+
+  select(body: number): void {
+    const before = this.stage.selected;
+    this.stage.selected = body;
+    this.stage.update([before, body].filter((one) => one >= 0), this.paint());
+    this.showBody();
+  }
+
+  private showCounts(): void {
+    const { state } = this.timeline;
+    const { colours } = this.head;
+    element("time").textContent = `${(state.step * this.head.dt).toFixed(2)} s, step ${state.step}`;
+    const rows: [Rgb, number, string][] = this.byCause()
+      ? this.countsByCause()
+      : [
+          [colours.awake[0], state.awake, "awake"],
+          [colours.asleep, state.asleepCount, "asleep"],
+        ];
+    element("counts").replaceChildren(
+      ...rows.map(([colour, count, text]) => {
+        const row = document.createElement("tr");
+        row.append(swatch(colour), cell(String(count), "count"), cell(text));
+        return row;
+      }),
+    );
+  }
+
+  private countsByCause(): [Rgb, number, string][] {
+    const { state } = this.timeline;
+    const counts = new Map<string, [Rgb, number, string]>();
+    const paint = this.paint();
+    for (let body = 0; body < state.bodies; ++body) {
+      if (state.removed[body] !== 0) continue;
+      const { event } = this.timeline.since(body);
+      const awake = state.asleep[body] === 0;
+      const named = event && event.woke === awake ? `${awake ? "awake" : "asleep"}: ${this.head.causes[event.cause]?.name}` : awake ? "awake since it appeared" : "asleep";
+      const row = counts.get(named) ?? [paint(body), 0, named];
+      ++row[1];
+      counts.set(named, row);
+    }
+    return [...counts.values()].sort((a, b) => a[2].localeCompare(b[2]));
+  }
+
+  private showBody(): void {
+    const body = this.stage.selected;
+    const { state } = this.timeline;
+    if (body < 0 || body >= state.bodies) {
+      const hint = Object.assign(document.createElement("p"), { className: "hint", textContent: body < 0 ? "Click a body to see why it sleeps." : `Body ${body} has not appeared yet.` });
+      element("body").replaceChildren(hint);
+      return;
+    }
+    const lines = this.describe(body).map((text) => Object.assign(document.createElement("p"), { textContent: text }));
+    element("body").replaceChildren(...lines);
+  }
+
+  /// Which body, since when it is as it is, and why.
+  describe(body: number): string[] {
+    const { state } = this.timeline;
+    const { step, event } = this.timeline.since(body);
+    const awake = state.asleep[body] === 0;
+    const since = `since ${(step * this.head.dt).toFixed(2)} s (step ${step})`;
+    const lines = [`Body ${body}, shape ${this.head.shapes[state.shape[body]]?.name ?? ""}`];
+    if (state.removed[body] !== 0) return [...lines, "removed"];
+    lines.push(`${awake ? "Awake" : "Asleep"} ${event ? since : `${since}, when it appeared`}`);
+    const cause = event ? this.head.causes[event.cause] : null;
+    if (event && cause) lines.push(`Cause: ${cause.name} (${event.woke ? cause.woke : cause.slept})`);
+    if (event && event.score > 0) lines.push(`Score ${event.score.toPrecision(3)}`);
+    const layer = this.layerOf(body);
+    lines.push(layer === null ? "In no layer" : `Layer ${layer.layer} from the bottom of pile ${layer.pile}, density ${layer.density.toFixed(2)}`);
+    return lines;
+  }
+
+  /// Layer in which the centre of a body lies; the first pile counts.
+  private layerOf(body: number): { pile: number; layer: number; density: number } | null {
+    const { state } = this.timeline;
+    const { position } = this.head.quantum;
+    const axes = this.head.dimension;
+    const components = axes === 2 ? 3 : 7;
+    const at = Array.from({ length: axes }, (_, i) => state.pose[components * body + i] * position);
+    for (const [pile, { centre, layers, counts }] of state.piles.entries()) {
+      const height = at[axes - 1] - centre[axes - 1];
+      const away = Math.hypot(...centre.slice(0, -1).map((value, i) => at[i] - value));
+      const layer = layers.findIndex(({ bottom, top, radius }) => height >= bottom && height < top && away <= radius);
+      if (layer >= 0) return { pile, layer, density: counts[2 * layer] / layers[layer].capacity };
+    }
+    return null;
+  }
+
+  private showWarnings(): void {
+    const { warnings } = this.timeline;
+    element("warnings").hidden = warnings.size === 0;
+    const lines = [...warnings.values()].map(({ text }) => Object.assign(document.createElement("li"), { textContent: text }));
+    element("warnings").querySelector("ul")!.replaceChildren(...lines);
+  }
+
+  shown(): Shown {
+    const { state } = this.timeline;
+    return {
+      frame: this.timeline.shown,
+      frames: this.timeline.frames,
+      step: state.step,
+      time: state.step * this.head.dt,
+      bodies: state.awake + state.asleepCount,
+      awake: state.awake,
+      asleep: state.asleepCount,
+      playing: this.playing,
+    };
+  }
+}

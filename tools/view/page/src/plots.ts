@@ -1,0 +1,133 @@
+// Counts and layer densities over time.
+
+import { density, type Pile } from "./frames";
+import type { Head } from "./head";
+import { css } from "./stage";
+import type { Timeline } from "./timeline";
+import { uPlot } from "./vendor";
+
+const mostColumns = 800; // drawn of a density map
+
+/// The pile with the most bodies.
+function largest(piles: Pile[]): Pile | undefined {
+  const bodies = (pile: Pile): number => pile.counts.reduce((sum, count, i) => (i % 2 === 0 ? sum + count : sum), 0);
+  return piles.reduce<Pile | undefined>((best, pile) => (best === undefined || bodies(pile) > bodies(best) ? pile : best), undefined);
+}
+
+export class Plots {
+  private readonly counts: uPlot;
+  private readonly densities: uPlot;
+  private readonly heads: HTMLElement[];
+  private frames = 0;
+
+  /// `seek` is called with a time where the user clicks.
+  constructor(
+    private readonly parent: HTMLElement,
+    private readonly head: Head,
+    private readonly timeline: Timeline,
+    seek: (time: number) => void,
+  ) {
+    parent.replaceChildren();
+    this.counts = this.plot(
+      [
+        this.series("awake", css(head.colours.awake[1]), 2),
+        this.series("asleep", css(head.colours.asleep), 1.5),
+        { label: "woken", stroke: css(head.colours.awake_outline), fill: css(head.colours.awake_outline, 0.6), paths: uPlot.paths.bars!({ size: [1, 3] }), points: { show: false } },
+      ],
+      "bodies",
+      {},
+    );
+    this.densities = this.plot([this.series("", "transparent", 0)], "layers [m]", { drawAxes: [(plot: uPlot) => this.drawDensities(plot)] });
+    this.heads = [this.counts, this.densities].map((plot) => {
+      const line = document.createElement("div");
+      line.className = "playhead";
+      plot.over.append(line);
+      let down = 0;
+      plot.over.addEventListener("mousedown", (event) => (down = event.clientX));
+      plot.over.addEventListener("mouseup", (event) => {
+        if (Math.abs(event.clientX - down) < 3) seek(plot.posToVal(event.offsetX, "x"));
+      });
+      return line;
+    });
+    new ResizeObserver(() => this.resize()).observe(parent);
+    this.refresh();
+  }
+
+  private series(label: string, stroke: string, width: number): uPlot.Series {
+    return { label, stroke, width, points: { show: false } };
+  }
+
+  private plot(series: uPlot.Series[], label: string, hooks: uPlot.Hooks.Arrays): uPlot {
+    const axis = { stroke: css(this.head.colours.quiet_text), grid: { stroke: "#0001" }, font: "11px system-ui", labelFont: "11px system-ui" };
+    return new uPlot(
+      {
+        width: 400,
+        height: 120,
+        series: [{ label: "s" }, ...series],
+        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(1, high)] } },
+        axes: [{ ...axis, size: 26 }, { ...axis, label, labelSize: 16, size: 40 }],
+        legend: { show: false },
+        cursor: { sync: { key: "talus" }, points: { show: false }, drag: { x: true, y: false } },
+        hooks,
+      },
+      [[], ...series.map(() => [])],
+      this.parent,
+    );
+  }
+
+  private resize(): void {
+    const width = this.parent.clientWidth;
+    const height = Math.max(60, Math.floor(this.parent.clientHeight / 2));
+    if (width > 0) for (const plot of [this.counts, this.densities]) plot.setSize({ width, height });
+    this.showTime();
+  }
+
+  /// Takes in the frames that came since the last call.
+  refresh(): void {
+    const { timeline } = this;
+    if (this.frames === timeline.frames) return;
+    this.frames = timeline.frames;
+    const time = timeline.step.map((step) => step * this.head.dt);
+    const top = timeline.piles.map((piles) => {
+      const pile = largest(piles);
+      return pile ? (pile.layers.at(-1)?.top ?? 0) : 0;
+    });
+    this.counts.setData([time, timeline.awake, timeline.asleep, timeline.woken]);
+    this.densities.setData([time, top]);
+    this.showTime();
+  }
+
+  /// Moves the line of the frame shown.
+  showTime(): void {
+    const { timeline } = this;
+    if (timeline.shown < 0) return;
+    const at = this.counts.valToPos(timeline.time(timeline.shown), "x");
+    for (const line of this.heads) line.style.left = `${at}px`;
+  }
+
+  /// Time from left to right, layers from bottom to top, dark where dense.
+  private drawDensities(plot: uPlot): void {
+    const { timeline } = this;
+    const paper = plot.ctx;
+    paper.save();
+    paper.beginPath();
+    paper.rect(plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height);
+    paper.clip();
+    const each = Math.max(1, Math.ceil(timeline.frames / mostColumns));
+    for (let frame = 0; frame < timeline.frames; frame += each) {
+      const pile = largest(timeline.piles[frame]);
+      if (!pile) continue;
+      const pixel = (value: number, scale: string): number => Math.round(plot.valToPos(value, scale, true));
+      const left = pixel(timeline.time(frame), "x");
+      const right = pixel(timeline.time(Math.min(timeline.frames - 1, frame + each)), "x");
+      pile.layers.forEach((layer, i) => {
+        const value = density(pile, i);
+        if (value <= 0) return;
+        const top = pixel(layer.top, "y");
+        paper.fillStyle = value > 1 ? css([0.8, 0.25, 0.15], Math.min(1, 0.4 + 0.5 * (value - 1))) : css(this.head.colours.layer, 0.9 * value);
+        paper.fillRect(left, top, Math.max(1, right - left), pixel(layer.bottom, "y") - top);
+      });
+    }
+    paper.restore();
+  }
+}

@@ -1,0 +1,117 @@
+// All frames of a run so far, and the one that is shown.
+
+import { type Pile, Reader, type SleepEvent, State, type Warning } from "./frames";
+import type { Head } from "./head";
+
+/// Frames between two kept states: a step back costs at most as many blocks.
+const keepEvery = 32;
+
+/// Bodies whose pose or sleep differs from the state shown before.
+export type Changed = number[] | "all";
+
+/// How a body came to be as it is.
+export interface Since {
+  step: number;
+  /// None: it has been awake since it appeared.
+  event: SleepEvent | null;
+}
+
+export class Timeline {
+  /// Of each frame.
+  readonly step: number[] = [];
+  readonly awake: number[] = [];
+  readonly asleep: number[] = [];
+  readonly woken: number[] = [];
+  readonly avalanches: number[] = [];
+  readonly piles: Pile[][] = [];
+  /// The last text of each kind, by kind.
+  readonly warnings = new Map<number, Warning>();
+  /// The frame shown, -1 before the first.
+  shown = -1;
+  state: State;
+
+  private readonly blocks: Uint8Array[] = [];
+  private readonly kept: State[] = [];
+  private readonly events: SleepEvent[][] = [];
+  private readonly born: number[] = [];
+  private readonly last: State;
+  private readonly avalanche: number;
+
+  constructor(readonly head: Head) {
+    this.state = new State(head.dimension);
+    this.last = new State(head.dimension);
+    this.avalanche = head.causes.findIndex((cause) => cause?.name === "avalanche");
+  }
+
+  get frames(): number {
+    return this.step.length;
+  }
+
+  time(frame: number): number {
+    return this.step[frame] * this.head.dt;
+  }
+
+  /// Frames one after the other.
+  addAll(blocks: Uint8Array): void {
+    for (let at = 0; at < blocks.length; ) at += this.add(blocks.subarray(at));
+  }
+
+  /// Takes the frame at the begin of `bytes`; returns its size.
+  add(bytes: Uint8Array): number {
+    const reader = new Reader(bytes);
+    const { events, warnings } = this.last.apply(reader);
+    this.blocks.push(bytes.subarray(0, reader.at));
+    if (this.frames % keepEvery === 0) this.kept.push(this.last.copy());
+    for (let body = this.born.length; body < this.last.bodies; ++body) {
+      this.born.push(this.last.step);
+      this.events.push([]);
+    }
+    for (const event of events) this.events[event.body]?.push(event);
+    for (const warning of warnings) this.warnings.set(warning.kind, warning);
+    const woken = events.filter((event) => event.woke);
+    this.step.push(this.last.step);
+    this.awake.push(this.last.awake);
+    this.asleep.push(this.last.asleepCount);
+    this.woken.push(woken.length);
+    this.avalanches.push(woken.filter((event) => event.cause === this.avalanche).length);
+    this.piles.push(this.last.piles);
+    return reader.at;
+  }
+
+  /// Shows a frame; returns what changed.
+  seek(frame: number): Changed {
+    if (frame === this.shown) return [];
+    if (frame === this.shown + 1) {
+      const { changed } = this.state.apply(new Reader(this.blocks[frame]));
+      this.shown = frame;
+      return changed;
+    }
+    const nearest = Math.floor(frame / keepEvery);
+    const forward = this.shown < frame && this.shown >= nearest * keepEvery;
+    if (!forward) this.state = this.kept[nearest].copy();
+    for (let next = forward ? this.shown + 1 : nearest * keepEvery + 1; next <= frame; ++next)
+      this.state.apply(new Reader(this.blocks[next]));
+    this.shown = frame;
+    return "all";
+  }
+
+  /// The last frame at or before a time.
+  frameAt(time: number): number {
+    const step = time / this.head.dt + 1e-6;
+    let low = 0;
+    for (let high = this.frames; low < high; ) {
+      const middle = (low + high) >> 1;
+      if (this.step[middle] <= step) low = middle + 1;
+      else high = middle;
+    }
+    return Math.max(0, low - 1);
+  }
+
+  /// Why a body is as it is in the frame shown.
+  since(body: number): Since {
+    const events = this.events[body] ?? [];
+    for (let i = events.length - 1; i >= 0; --i)
+      if (events[i].step <= this.state.step) return { step: events[i].step, event: events[i] };
+    return { step: this.born[body] ?? 0, event: null };
+  }
+}
