@@ -36,7 +36,7 @@ class DebugOptionsTest : public BackendTest<Backend> {
     source.position = up<dimension>(6.0);
     source.velocity = -up<dimension>(10.0);
     scene.sources = {source, source};
-    scene.sources[1].start = 7.0;
+    scene.sources[1].start = 10.0;
     scene.piles.resize(1);
     return scene;
   }
@@ -52,7 +52,7 @@ class DebugOptionsTest : public BackendTest<Backend> {
     } watch;
     Simulation<dimension> simulation(scene, Backend::make(scene.world), make_policy(scene));
     simulation.add_observer(watch);
-    for (int step = 0; step < 720; ++step) simulation.step();
+    for (int step = 0; step < 900; ++step) simulation.step();
     watch.outcome.hash = state_hash(simulation.world().states());
     return watch.outcome;
   }
@@ -87,7 +87,7 @@ TYPED_TEST(DebugOptionsTest, TheTestSceneRestsInBetweenAndWakes) {
   const Outcome outcome = this->run(this->two_strings("adaptive"));
   EXPECT_GT(outcome.idle_steps, 20);
   EXPECT_GT(outcome.woken, 0);
-  EXPECT_EQ(outcome.frames_seen, 720) << "observers see each step of a world at rest";
+  EXPECT_EQ(outcome.frames_seen, 900) << "observers see each step of a world at rest";
 }
 
 TYPED_TEST(DebugOptionsTest, SlowBodiesWithoutContinuousCollisionDoNotSinkIn) {
@@ -95,7 +95,7 @@ TYPED_TEST(DebugOptionsTest, SlowBodiesWithoutContinuousCollisionDoNotSinkIn) {
   for (const bool swept : {false, true}) {
     scene.world.debug.sweep_slow_bodies = swept;
     Simulation<TypeParam::dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
-    for (int step = 0; step < 720; ++step) simulation.step();
+    for (int step = 0; step < 900; ++step) simulation.step();
     for (const Pose<TypeParam::dim>& pose : simulation.world().states().pose) {
       // An L's centre of mass lies 0.2 m above the ground or higher, but for 2 cm that the engines let overlap.
       EXPECT_GT(height<TypeParam::dim>(pose.position), 0.18);

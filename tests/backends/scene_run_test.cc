@@ -89,7 +89,8 @@ TYPED_TEST(SceneRun, APileWithoutASlopeFindsItsOwn) {
   const ShapeStatistics<dim> shape = shape_statistics<dim>(bodies, grid, typical_body(scene).extent);
   const double apex = (dim == 3 ? 4.0 : 3.0) * shape.centre_height;
   const double foot = shape.r50 / (dim == 3 ? 0.5 : 1.0 - std::sqrt(0.5));
-  EXPECT_NEAR(simulation.piles().piles().front().alpha, std::atan2(apex, foot), 0.1);
+  // The slope is measured while the pile grows; afterwards the pile settles.
+  EXPECT_NEAR(simulation.piles().piles().front().alpha, std::atan2(apex, foot), 0.15);
 }
 
 // 50 rings do not fill the box: not one of them may get through its walls or its floor, or over its rim.

@@ -113,7 +113,7 @@ TEST_F(StabilityChecksTest, ReleaseABodySoonerThatSlowsDown) {
 }
 
 TEST_F(StabilityChecksTest, ReleaseWhatLiesStillFarFromWhatMoves) {
-  // In one column of 4 m, but more than a block of 1.5 m apart.
+  // In one column of 4 m, but with a block of 2.5 m between their blocks.
   put_to_sleep({add(0.5, 0.5), add(0.5, 9.5)});
   steps(30 + check_time, [&] {
     if (checks_.holds(1)) move(1, 0.001);
@@ -199,7 +199,8 @@ TEST_F(StabilityChecksTest, GoOnWhenABodyUnderCheckIsRemoved) {
 
 TEST(StabilityChecks, AreOffWithoutATolerance) {
   StillWorld<3> world(cubes());
-  const RuleParts parts;
+  RuleParts parts;
+  parts.params.tolerance = 0.0;
   StabilityChecks<3> checks(parts.setup());
   world.add({.pose = {.position = Vec3(0.0, 0.0, 0.5)}});
   world.freeze(std::vector<BodyIndex>{0});

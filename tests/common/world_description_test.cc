@@ -214,14 +214,14 @@ TEST(LParameters, ThatMakeNoLAreRefused) {
 
 TEST(DeclaredFields, AreRefusedWithFieldValueAndRule) {
   AdaptiveParams params;
-  params.rest_time_surface = 0.01;
+  params.rest_period_surface = 0.01;
   try {
     check_fields(params, adaptive_fields, "policy.adaptive");
     FAIL() << "was accepted";
   } catch (const InvalidValue& invalid) {
-    EXPECT_EQ(invalid.field(), "policy.adaptive.rest_time_surface");
+    EXPECT_EQ(invalid.field(), "policy.adaptive.rest_period_surface");
     EXPECT_EQ(invalid.value(), "0.01");
-    EXPECT_EQ(invalid.rule(), "must be at least 0.06 and at most 1000") << "the lower end is rest_time_deep";
+    EXPECT_EQ(invalid.rule(), "must be at least 0.16 and at most 1000") << "the lower end is rest_period_deep";
   }
   PolicyParams policy;
   policy.kind = "papper";

@@ -98,6 +98,17 @@ TEST(Decoder, RefusesAnotherType) {
     if (packet.channel != Channel::piles) EXPECT_EQ(fault_of<talus_piles_v1>(packet.bytes), "another type or version");
 }
 
+TEST(Decoder, AcceptsEachCauseOfASleepEventAndNoOther) {
+  MessageEncoder encoder(1);
+  for (int cause = 0; cause <= static_cast<int>(SleepCause::check); ++cause) {
+    talus_sleep_v1 message = to_sleep(std::vector<SleepEvent>{{.cause = static_cast<SleepCause>(cause)}}).front();
+    EXPECT_EQ(fault_of<talus_sleep_v1>(encoder.encode(message, {0, 1, 0.5}).bytes), "") << cause;
+  }
+  talus_sleep_v1 message = to_sleep(std::vector<SleepEvent>(1)).front();
+  message.cause[0] = static_cast<int>(SleepCause::check) + 1;
+  EXPECT_EQ(fault_of<talus_sleep_v1>(encoder.encode(message, {0, 1, 0.5}).bytes), "unknown cause");
+}
+
 // Debian's generated decoder would resize to 2^31 - 1 entries first and look at the bytes left afterwards.
 TEST(Decoder, RefusesHugeAndNegativeCountsWithoutAllocating) {
   for (const Packet& packet : samples<3>()) {

@@ -7,23 +7,22 @@
 
 namespace talus {
 
-/// Parameters of the policy `adaptive`. Lengths are in D, the typical body's extent, so that they hold at any scale.
-/// adaptive_fields has the unit, range and effect of each. docs/method.md explains the rules, docs/research/ how the
-/// values were found.
+/// Parameters of the policy `adaptive`. Lengths are in D, the typical body's extent, and times in sqrt(D/g), the time
+/// in which a body falls by D/2, so that they hold at any scale and in any gravity. adaptive_fields has the unit, range
+/// and effect of each. docs/method.md explains the rules, docs/research/ how the values were found.
 struct AdaptiveParams {
-  double tolerance = 0.0;
+  double tolerance = 0.05;
   double rest_distance = 0.01;
-  double rest_time_deep = 0.06;
-  double rest_time_surface = 0.14;
+  double rest_period_deep = 0.16;
+  double rest_period_surface = 0.37;
   double rest_distance_woken = 0.002;
-  double rest_time_woken = 0.05;
+  double rest_period_woken = 0.13;
   double wake_height = 0.03;
   double heavy_impact = 20.0;
   double support_slack = 0.01;
   double awake_share = 0.25;
   double avalanche_width = 4.0;
   double avalanche_growth = 1.15;
-  double avalanche_growth_quiet = 1.0;
   double avalanche_angle = 25.0 * std::numbers::pi / 180.0;
   double slope_proportional_gain = 20.0;
   double slope_integral_gain = 0.3;
@@ -37,8 +36,8 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .range = between(0.0, 10.0),
       .meaning =
           "mean distance that the bodies of a region at rest may still move when all of them wake. Each region is "
-          "checked for it when it comes to rest; 0.05 is a good value. Large: heaps come to rest too steep; small: "
-          "checks take long; 0: no checks"}},
+          "checked for it when it comes to rest. Large: heaps come to rest too steep; small: checks take long; 0: no "
+          "checks"}},
     {&AdaptiveParams::rest_distance,
      {.name = "rest_distance",
       .unit = "D",
@@ -46,17 +45,17 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .meaning =
           "a body is at rest while no point of it moves farther. Large: bodies that topple slowly fall asleep on "
           "edge; small: solver noise keeps the pile awake"}},
-    {&AdaptiveParams::rest_time_deep,
-     {.name = "rest_time_deep",
-      .unit = "s",
+    {&AdaptiveParams::rest_period_deep,
+     {.name = "rest_period_deep",
+      .unit = "sqrt(D/g)",
       .range = between(0.0, 1e3),
       .meaning = "time at rest before sleep where the score is 1: deep in the pile, where layers are dense and the "
                  "centre is near"}},
-    {&AdaptiveParams::rest_time_surface,
-     {.name = "rest_time_surface",
-      .unit = "s",
+    {&AdaptiveParams::rest_period_surface,
+     {.name = "rest_period_surface",
+      .unit = "sqrt(D/g)",
       .range = between(0.0, 1e3),
-      .not_below = "rest_time_deep",
+      .not_below = "rest_period_deep",
       .meaning =
           "the same where the score is 0: at the surface and outside the pile. Short: the peak becomes too high; "
           "long: slow"}},
@@ -64,11 +63,11 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
      {.name = "rest_distance_woken",
       .unit = "D",
       .range = above(0.0, 10.0),
-      .meaning = "a woken body that has moved no farther after `rest_time_woken` may sleep again. Large: slides are "
+      .meaning = "a woken body that has moved no farther after `rest_period_woken` may sleep again. Large: slides are "
                  "stopped as they begin; small: much stays awake for nothing"}},
-    {&AdaptiveParams::rest_time_woken,
-     {.name = "rest_time_woken",
-      .unit = "s",
+    {&AdaptiveParams::rest_period_woken,
+     {.name = "rest_period_woken",
+      .unit = "sqrt(D/g)",
       .range = between(0.0, 1e3),
       .meaning = "that time. Short: slow slides are stopped; long: much stays awake for nothing"}},
     {&AdaptiveParams::wake_height,
@@ -106,11 +105,6 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .range = above(1.0, 1e3),
       .meaning = "growth of a column's sleeping bodies, as a factor, from one check to the next, from which the column "
                  "may slide. Large: heaps become too steep; small: much wakes for nothing; 1000: in effect never"}},
-    {&AdaptiveParams::avalanche_growth_quiet,
-     {.name = "avalanche_growth_quiet",
-      .range = between(1.0, 1e3),
-      .meaning = "the same while no awake body touches another; 1: any growth. Large: piles come to rest too steep; "
-                 "1000: in effect never"}},
     {&AdaptiveParams::avalanche_angle,
      {.name = "avalanche_angle_deg",
       .unit = "degrees",

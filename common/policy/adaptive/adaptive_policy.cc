@@ -17,7 +17,9 @@ constexpr double max_turn_per_step = 1.5;  // [rad]; fastest_spin() allows pi / 
 template <int Dim>
 AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world,
                                     const TypicalBody& typical)
-    : params_(params),
+    : rest_time_deep_(params.rest_period_deep * time_unit(typical, world)),
+      rest_time_surface_(params.rest_period_surface * time_unit(typical, world)),
+      rest_time_woken_(params.rest_period_woken * time_unit(typical, world)),
       ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
       max_speed_(speed_margin * fastest_speed<Dim>(world.dt)),
       max_spin_(max_turn_per_step / world.dt),
@@ -32,7 +34,7 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
 
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
-  if (frame.world.awake().empty() && !avalanches_.has_unchecked() && !checks_.has_unchecked()) return;
+  if (frame.world.awake().empty() && !checks_.has_unchecked()) return;
   const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
   output_.clear();
   rest_.update(in);
@@ -87,10 +89,10 @@ bool AdaptivePolicy<Dim>::below_ground(const RuleInput<Dim>& in, BodyIndex body)
 template <int Dim>
 bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body) const {
   const double rested = rest_.time_at_rest(body);
-  if (rested >= params_.rest_time_woken && rest_.unmoved_since_wake(body)) return true;
-  if (rested < params_.rest_time_deep) return false;
-  const double shortened = params_.rest_time_surface - params_.rest_time_deep;
-  return rested >= params_.rest_time_surface - shortened * placement(frame, body).score;
+  if (rested >= rest_time_woken_ && rest_.unmoved_since_wake(body)) return true;
+  if (rested < rest_time_deep_) return false;
+  const double shortened = rest_time_surface_ - rest_time_deep_;
+  return rested >= rest_time_surface_ - shortened * placement(frame, body).score;
 }
 
 /// With the score of section 3.3 for a body at rest, at most 1.

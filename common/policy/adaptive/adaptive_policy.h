@@ -45,10 +45,12 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
-  AdaptiveParams params_;
-  double ground_;     // its height [m]; without ground the lowest number
-  double max_speed_;  // [m/s]
-  double max_spin_;   // [rad/s]
+  double rest_time_deep_;     // [s]
+  double rest_time_surface_;  // [s]
+  double rest_time_woken_;    // [s]
+  double ground_;             // its height [m]; without ground the lowest number
+  double max_speed_;          // [m/s]
+  double max_spin_;           // [rad/s]
   RestCriterion<Dim> rest_;
   SupportCriterion<Dim> support_;
   HeavyImpacts<Dim> heavy_impacts_;

@@ -34,7 +34,6 @@ LocalAvalanches<Dim>::LocalAvalanches(const RuleSetup<Dim>& setup)
     : extent_(setup.typical.extent),
       grid_(setup.params.avalanche_width * setup.typical.extent),
       growth_(setup.params.avalanche_growth),
-      growth_quiet_(setup.params.avalanche_growth_quiet),
       angle_(setup.params.avalanche_angle),
       ground_(setup.world.ground.height) {}
 
@@ -51,28 +50,13 @@ void LocalAvalanches<Dim>::count(const BodyStates<Dim>& states, std::span<const 
 
 template <int Dim>
 void LocalAvalanches<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
-  const bool quiet = std::ranges::none_of(in.contacts, [](const Contact<Dim>& contact) { return contact.b >= 0; });
-  for (const Cell& cell : grown_) check_column(in, cell, growth_ * columns_[cell].last_checked, quiet, out);
-  unchecked_.insert(grown_.begin(), grown_.end());
+  for (const Cell& cell : grown_) check_column(in, cell, growth_ * columns_[cell].last_checked, out);
   grown_.clear();
-  if (quiet) check_quiet(in, out);
-}
-
-/// Checks all columns that have grown since the world was quiet last. Those of a controlled pile steeper than the angle
-/// are left out: waking them repeatedly would flatten the slope that is being held.
-template <int Dim>
-void LocalAvalanches<Dim>::check_quiet(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
-  for (const Cell& cell : unchecked_) {
-    if (controlled_slope(in.piles, grid_.template middle_of<Dim>(cell)) > angle_) continue;
-    const int last = columns_[cell].last_checked;
-    check_column(in, cell, std::max(last + 1.0, growth_quiet_ * last), true, out);
-  }
-  unchecked_.clear();
 }
 
 /// Checks a column if it holds `enough` sleeping bodies, and wakes it with those around it if it is steep.
 template <int Dim>
-void LocalAvalanches<Dim>::check_column(const RuleInput<Dim>& in, const Cell& cell, double enough, bool quiet,
+void LocalAvalanches<Dim>::check_column(const RuleInput<Dim>& in, const Cell& cell, double enough,
                                         RuleOutput<Dim>& out) {
   Column& column = columns_[cell];
   if (column.sleepers < enough) return;
@@ -81,7 +65,7 @@ void LocalAvalanches<Dim>::check_column(const RuleInput<Dim>& in, const Cell& ce
   column.sleepers = static_cast<int>(found);
   if (column.sleepers < enough) return;
   column.note_check(found);
-  if ((!quiet && mostly_awake()) || !is_steep(in.piles, cell)) return;
+  if (mostly_awake() || !is_steep(in.piles, cell)) return;
   for (const auto& [place, stack] : neighbourhood_) {
     for (const BodyIndex body : stack.bodies) out.wakes.add(body, {.cause = SleepCause::avalanche});
     columns_[place].note_check(stack.bodies.size());

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <vector>
 
@@ -20,9 +19,7 @@ namespace talus {
 /// of its last check. If its highest body lies above that of a neighbouring column by a slope of `avalanche_angle`, the
 /// column wakes with all columns around it, which counts as a check of each. Bodies that can slide do so, the others
 /// sleep again a moment later. Where more bodies are awake than asleep nothing wakes, since impacts wake enough.
-///
-/// While the world is quiet, that is no awake body touches another, the factor is `avalanche_growth_quiet`, and all
-/// columns that have grown are checked at once, so that no heap comes to rest unchecked.
+/// Heaps that have come to rest are checked by StabilityChecks.
 template <int Dim>
 class LocalAvalanches {
  public:
@@ -31,9 +28,6 @@ class LocalAvalanches {
   /// Counts the bodies that fall asleep and that wake after this step. Costs O(events).
   void count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
              std::span<const SleepEvent> waking);
-
-  /// Whether a column has grown since the world was quiet last. update() must be called then although all bodies sleep.
-  bool has_unchecked() const { return !unchecked_.empty(); }
 
   /// Wakes the columns that may slide. Over the wall of a pile only what lies above its rim can slide; a pile whose
   /// slope is controlled may be as steep as that. Costs O(columns that grew), and a box query for each that is checked.
@@ -56,21 +50,18 @@ class LocalAvalanches {
     std::optional<double> top;  // height of the highest centre of mass [m]; none if empty
   };
 
-  void check_quiet(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
-  void check_column(const RuleInput<Dim>& in, const Cell& cell, double enough, bool quiet, RuleOutput<Dim>& out);
+  void check_column(const RuleInput<Dim>& in, const Cell& cell, double enough, RuleOutput<Dim>& out);
   void collect_neighbourhood(const RuleInput<Dim>& in, const Cell& cell);
   bool mostly_awake() const;
   bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;
 
   double extent_;  // D [m]
   Columns grid_;
-  double growth_;        // of a column until it is checked, as a factor
-  double growth_quiet_;  // the same while the world is quiet
-  double angle_;         // slope between columns from which they may slide [rad]
-  double ground_;        // [m]
+  double growth_;  // of a column until it is checked, as a factor
+  double angle_;   // slope between columns from which they may slide [rad]
+  double ground_;  // [m]
   std::map<Cell, Column> columns_;
   std::vector<Cell> grown_;              // since the last update
-  std::set<Cell> unchecked_;             // grown since the world was quiet last
   std::map<Cell, Stack> neighbourhood_;  // scratch: the column that is checked and those around it
   std::vector<BodyIndex> near_;          // scratch
   std::size_t awake_near_ = 0;           // scratch: awake bodies in the neighbourhood

@@ -3,6 +3,8 @@
 // they may change. Each rule is a class with a constructor from RuleSetup and a function update(RuleInput, RuleOutput)
 // that is called once a step.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -22,6 +24,14 @@ struct RuleSetup {
   const TypicalBody& typical;  // gives D and the mass of a body
   const WorldDescription<Dim>& world;
 };
+
+/// sqrt(D/g) [s], the time in which a body falls by D/2: the unit of the policy's times. In less than a thousandth of
+/// the Earth's gravity it no longer grows, since there nothing slides.
+template <int Dim>
+double time_unit(const TypicalBody& typical, const WorldDescription<Dim>& world) {
+  constexpr double least_gravity = 0.01;  // [m/s^2]
+  return std::sqrt(typical.extent / std::max(world.gravity, least_gravity));
+}
 
 /// One finished step; references are valid during one update().
 template <int Dim>

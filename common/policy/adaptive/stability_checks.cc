@@ -7,7 +7,7 @@
 namespace talus {
 namespace {
 
-// Times in sqrt(D / g), the time in which a body falls by half of D (docs/research/stability_checks.md).
+// Times in time_unit() (docs/research/stability_checks.md).
 constexpr double sample_time = 0.4;      // between two samples of the displacement
 constexpr double shortest_time = 0.8;    // of a check
 constexpr double longest_time = 60.0;    // of a check: some contacts of an engine jitter for ever
@@ -18,7 +18,7 @@ constexpr double rest_time = 0.4;        // at rest, after which an awake body n
 
 constexpr double slowing = 0.7;  // of the displacement of the sample before: less means that the motion slows down
 constexpr double moving_share = 0.15;  // of the bodies of a region that may move when its check begins
-constexpr double block_width = 1.5;    // [D]
+constexpr double block_width = 2.5;    // [D]
 
 // Contacts of a body in a step.
 constexpr std::uint8_t touches = 1;
@@ -32,8 +32,7 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
       blocks_(block_width * setup.typical.extent),
       tolerance_(setup.params.tolerance * setup.typical.extent),
       angle_(setup.params.avalanche_angle) {
-  constexpr double least_gravity = 1e-3;  // [m/s^2]; in less nothing slides
-  const double unit = std::sqrt(setup.typical.extent / std::max(setup.world.gravity, least_gravity));
+  const double unit = time_unit(setup.typical, setup.world);
   const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / setup.world.dt)); };
   rest_time_ = rest_time * unit;
   sample_steps_ = steps(sample_time);
@@ -92,43 +91,40 @@ double StabilityChecks<Dim>::displacement(const RuleInput<Dim>& in, BodyIndex bo
   return max_displacement<Dim>(from, in.pose_of(body), 0.5 * in.shape_of(body).extent);
 }
 
-/// Takes a sample, and releases the members whose block and the blocks around it have come to rest.
+/// Takes a sample, and releases the members of the blocks that have come to rest.
 template <int Dim>
 void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& check) {
-  struct Motion {
-    double sum = 0.0;     // of displacements since the last sample [m]
-    double before = 0.0;  // the same a sample earlier [m]
-    int bodies = 0;
-    double mean() const { return sum / bodies; }
-  };
-  std::map<Block, Motion> motion;
   std::erase_if(check.members, [&](const Member& member) { return in.states().removed[member.body] != 0; });
+  std::map<Block, Motion> motion;
   for (Member& member : check.members) {
-    Motion& block = motion[blocks_.cell_of(in.pose_of(member.body).position)];
+    const Pose<Dim>& pose = in.pose_of(member.body);
     const double moved = displacement(in, member.body, member.sample);
-    block.sum += moved;
-    block.before += member.moved;
+    motion[blocks_.cell_of(pose.position)].add({.sum = moved, .before = member.moved, .bodies = 1});
     member.moved = moved;
-    ++block.bodies;
-    member.sample = in.pose_of(member.body);
+    member.sample = pose;
   }
   const std::int64_t lasted = in.step - check.begun;
   if (lasted < shortest_check_) return;
-  const auto rests = [&](const Block& block) {
-    const auto found = motion.find(block);
-    if (found == motion.end()) return true;
-    const bool slows = found->second.sum <= slowing * found->second.before;
-    return found->second.mean() * (slows ? horizon_slowing : horizon) / sample_time <= tolerance_;
-  };
-  std::map<Block, bool> at_rest;
-  for (const auto& [block, moved] : motion)
-    at_rest[block] = lasted >= longest_check_ || std::ranges::all_of(Blocks::around(block), rests);
+  std::set<Block> at_rest;
+  for (const auto& block : motion)
+    if (lasted >= longest_check_ || is_at_rest(motion, block.first)) at_rest.insert(block.first);
   std::erase_if(check.members, [&](const Member& member) {
-    if (!at_rest[blocks_.cell_of(member.sample.position)]) return false;
+    if (!at_rest.contains(blocks_.cell_of(member.sample.position))) return false;
     held_[member.body] = 0;
     checked_[member.body] = member.sample;
     return true;
   });
+}
+
+/// Judges a block with those around it: one body that is still moving does not keep the others awake, and a slope is
+/// seen as a whole.
+template <int Dim>
+bool StabilityChecks<Dim>::is_at_rest(const std::map<Block, Motion>& motion, const Block& block) const {
+  Motion near;
+  for (const Block& beside : Blocks::around(block))
+    if (const auto found = motion.find(beside); found != motion.end()) near.add(found->second);
+  const bool slows = near.sum <= slowing * near.before;
+  return near.sum / near.bodies * (slows ? horizon_slowing : horizon) / sample_time <= tolerance_;
 }
 
 /// Finds where bodies move in contact with others, and whether bodies are on their way to a first contact.

@@ -16,10 +16,10 @@ namespace talus {
 
 /// The rest criterion judges one body over a short time, so it accepts a slope that fails slowly, late or as a whole.
 /// Therefore a region whose bodies have fallen asleep is checked once it is quiet: all of its bodies wake and are held
-/// awake until they have come to rest together. Parts of it are released as they come to rest: a block of space is, and
-/// the blocks around it, when its bodies have so little speed that they would move less than the tolerance, on average,
-/// within a fixed horizon, which is shorter if they slow down. Where the check leaves a body it counts as checked,
-/// until it falls asleep farther from there than the tolerance.
+/// awake until they have come to rest together. Parts of it are released as they come to rest: a block of space is when
+/// its bodies and those in the blocks around it have so little speed that they would move less than the tolerance, on
+/// average, within a fixed horizon, which is shorter if they slow down. Where the check leaves a body it counts as
+/// checked, until it falls asleep farther from there than the tolerance.
 ///
 /// A region is a set of connected vertical columns with unchecked sleeping bodies, and the columns around these. It is
 /// quiet when no body moves in contact with another one; some may while no body is on its way to a first contact, since
@@ -59,6 +59,18 @@ class StabilityChecks {
     std::vector<Member> members;
     std::int64_t begun = 0;  // step
   };
+  /// Displacements of bodies.
+  struct Motion {
+    double sum = 0.0;     // since the last sample [m]
+    double before = 0.0;  // between the two samples before [m]
+    int bodies = 0;
+
+    void add(const Motion& other) {
+      sum += other.sum;
+      before += other.before;
+      bodies += other.bodies;
+    }
+  };
   /// Columns that one check covers.
   struct Region {
     std::vector<Column> columns;
@@ -69,6 +81,7 @@ class StabilityChecks {
 
   double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
   void release_resting(const RuleInput<Dim>& in, Check& check);
+  bool is_at_rest(const std::map<Block, Motion>& motion, const Block& block) const;
   void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
   Region take_region(std::set<Column>& columns) const;
   bool is_quiet(const Region& region, std::int64_t step) const;
