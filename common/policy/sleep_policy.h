@@ -1,6 +1,7 @@
 #pragma once
 // What a sleep policy is: the part that decides which bodies sleep and which wake.
 
+#include <optional>
 #include <vector>
 
 #include "common/policy/frame.h"
@@ -24,6 +25,12 @@ struct Decision {
   std::vector<VelocityChange<Dim>> velocities;  // applied once the bodies to thaw are awake
 };
 
+/// What a policy knows of the error that its sleeping bodies have.
+struct DriftEstimate {
+  double drift = 0.0;          // mean distance that the sleeping bodies are expected to move once all are woken [m]
+  double checked_share = 0.0;  // of the sleeping bodies, for which this was measured; for the others it is extrapolated
+};
+
 template <int Dim>
 class SleepPolicy {
  public:
@@ -38,6 +45,9 @@ class SleepPolicy {
   /// Whether decide() reads the contacts of the step. If neither a policy nor an observer nor a pile does, steps do not
   /// record them.
   virtual bool needs_contacts() const { return false; }
+
+  /// None from a policy that does not measure it. Costs O(bodies).
+  virtual std::optional<DriftEstimate> drift_estimate(const World<Dim>& /*world*/) const { return std::nullopt; }
 
   /// Fills `decision` (empty on entry). Called once a step.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;

@@ -53,8 +53,8 @@ class OverlapCheck {
   Cell cell_of(const Vec<Dim>& position) const;
 
   const WorldDescription<Dim>& world_;
-  double width_ = 1.0;                                         // of a cell: no body is wider [m]
-  std::vector<Pieces> shapes_;                                 // of the world, in their own axes
+  double width_ = 1.0;          // of a cell: no body is wider [m]
+  std::vector<Pieces> shapes_;  // of the world, in their own axes
   std::vector<Solid> obstacles_;
   std::vector<Solid> bodies_;
   std::vector<std::string> names_;

@@ -98,8 +98,7 @@ void check_limits(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, c
 }
 
 template <int Dim>
-void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, bool fixed,
-                   OverlapCheck<Dim>& placed) {
+void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, bool fixed, OverlapCheck<Dim>& placed) {
   Overlap deepest;
   std::size_t first = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -111,19 +110,17 @@ void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, 
   if (deepest.depth <= 0.0) return;
   const bool of_itself = deepest.other.ends_with(" of " + table.path());
   const std::string which = bodies.size() > 1 ? fmt::format("its body {} ", first) : "it ";
-  table.error(of_itself ? "step" : "position",
-              fmt::format("must leave no overlap above {} m: {}is {:.3g} m deep in {}", most_overlap, which,
-                          deepest.depth, deepest.other));
+  table.error(of_itself ? "step" : "position", fmt::format("must leave no overlap above {} m: {}is {:.3g} m deep in {}",
+                                                           most_overlap, which, deepest.depth, deepest.other));
 }
 
 template <int Dim>
 void append(const std::vector<BodyDef<Dim>>& bodies, const BodyParams<Dim>& params, Scene<Dim>& scene) {
-  for (const BodyDef<Dim>& body : bodies) {
+  for (const BodyDef<Dim>& body : bodies)
     if (params.fixed)
       scene.world.obstacles.push_back({scene.world.shapes[body.shape], body.pose});
     else
       scene.bodies.push_back({body, params.asleep});
-  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // The loop.
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Simulation {
   const Emitter<Dim>& emitter() const { return emitter_; }
   /// What observers were shown as Frame::warnings; after end() with the bodies that never appeared.
   std::span<const Warning> warnings() const { return watchdog_.warnings(); }
+  /// What the policy expects its sleeping bodies to move once woken; none from a policy that does not measure it.
+  std::optional<DriftEstimate> drift_estimate() const { return policy_->drift_estimate(*world_); }
 
  private:
   bool needs_contacts() const;

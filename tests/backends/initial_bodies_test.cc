@@ -25,8 +25,8 @@ Scene<Dim> wall(const std::string& rest, const std::string& policy) {
       "title = \"Wall\"\ndimension = {}\npolicy.kind = \"{}\"\nshape.brick = {{kind = \"box\", size = {}}}\n"
       "[[body]]\nposition = {}\nrepeat = {}\nstep = {}\nstagger = {}\n{}\n",
       Dim, policy, Dim == 2 ? "[1, 0.5]" : "[1, 0.5, 0.5]", Dim == 2 ? "[0, 0.25]" : "[0, 0, 0.25]",
-      Dim == 2 ? "[4, 5]" : "[4, 2, 5]", Dim == 2 ? "[1, 0.5]" : "[1, 0.5, 0.5]", Dim == 2 ? "[0.25, 0]" : "[0.25, 0, 0]",
-      rest);
+      Dim == 2 ? "[4, 5]" : "[4, 2, 5]", Dim == 2 ? "[1, 0.5]" : "[1, 0.5, 0.5]",
+      Dim == 2 ? "[0.25, 0]" : "[0.25, 0, 0]", rest);
   return std::get<Scene<Dim>>(parse_scene(text, "text"));
 }
 

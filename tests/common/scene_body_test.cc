@@ -53,14 +53,14 @@ TEST(SceneBodies, NeedNoSource) {
 }
 
 TEST(SceneBodies, RepeatAroundTheirPlaceAndUpwardsFromIt) {
-  const Scene<2> scene = scene_of<2>("position = [10.0, 0.25]\nrepeat = [2, 2]\nstep = [1.0, 0.5]\nstagger = [0.5, 0]\n");
+  const Scene<2> scene =
+      scene_of<2>("position = [10.0, 0.25]\nrepeat = [2, 2]\nstep = [1.0, 0.5]\nstagger = [0.5, 0]\n");
   const std::vector<Vec2> expected = {{9.5, 0.25}, {10.5, 0.25}, {10.0, 0.75}, {11.0, 0.75}};
   EXPECT_EQ(places(scene), expected);
 }
 
 TEST(SceneBodies, TaperToAPyramidThatEndsInOneBody) {
-  const Scene<3> scene =
-      scene_of<3>("position = [0, 0, 0.5]\nrepeat = [3, 3, 9]\nstep = [1, 1, 1]\ntaper = 1\n");
+  const Scene<3> scene = scene_of<3>("position = [0, 0, 0.5]\nrepeat = [3, 3, 9]\nstep = [1, 1, 1]\ntaper = 1\n");
   ASSERT_EQ(scene.bodies.size(), 9U + 4U + 1U);
   EXPECT_EQ(places(scene).back(), Vec3(0.0, 0.0, 2.5));
 }
@@ -80,10 +80,10 @@ TEST(SceneBodies, TurnByOneStepMoreEach) {
 
 // So that a hull may be given in the world's coordinates.
 TEST(SceneBodies, ArePlacedByTheOriginOfTheirShapesAxes) {
-  const Scene<2> scene = std::get<Scene<2>>(parse_scene(
-      "title = \"Hull\"\ndimension = 2\nbody = [{}]\n"
-      "shape.h = {kind = \"hull\", corners = [[4, 1], [6, 1], [6, 3], [4, 3]]}\n",
-      "text"));
+  const Scene<2> scene =
+      std::get<Scene<2>>(parse_scene("title = \"Hull\"\ndimension = 2\nbody = [{}]\n"
+                                     "shape.h = {kind = \"hull\", corners = [[4, 1], [6, 1], [6, 3], [4, 3]]}\n",
+                                     "text"));
   EXPECT_LT((places(scene).front() - Vec2(5.0, 2.0)).norm(), 1e-12);
 }
 

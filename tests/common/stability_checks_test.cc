@@ -197,6 +197,37 @@ TEST_F(StabilityChecksTest, GoOnWhenABodyUnderCheckIsRemoved) {
   EXPECT_FALSE(checks_.holds(1));
 }
 
+TEST_F(StabilityChecksTest, EstimateNoDriftOfABodyThatLayStill) {
+  put_to_sleep({add(1.0)});
+  EXPECT_EQ(checks_.drift_estimate(world_)->checked_share, 0.0);
+  steps(30 + check_time);
+  put_to_sleep({0});
+  EXPECT_EQ(checks_.drift_estimate(world_)->checked_share, 1.0);
+  EXPECT_EQ(checks_.drift_estimate(world_)->drift, 0.0);
+}
+
+// sqrt(D/g) is 1 s.
+TEST_F(StabilityChecksTest, EstimateTheDriftFromTheSpeedAtWhichTheyLeaveABody) {
+  put_to_sleep({add(1.0)});
+  steps(30);
+  steps(check_time, [&] { move(0, 0.9 * 0.0038 / 60.0); });
+  put_to_sleep({0});
+  EXPECT_NEAR(checks_.drift_estimate(world_)->drift, 0.9 * 0.0038, 1e-4);
+}
+
+TEST_F(StabilityChecksTest, EstimateTheDriftOfUncheckedBodiesFromTheMotionOfThoseThatWereChecked) {
+  put_to_sleep({add(1.0)});
+  steps(30);
+  double moved = 0.0;
+  steps(check_time, [&] {
+    const double distance = checks_.holds(0) ? 0.9 * 0.0038 / 60.0 : 0.0;
+    move(0, distance);
+    moved += distance;
+  });
+  put_to_sleep({add(100.0)});
+  EXPECT_NEAR(checks_.drift_estimate(world_)->drift, moved, 1e-9);
+}
+
 TEST(StabilityChecks, AreOffWithoutATolerance) {
   StillWorld<3> world(cubes());
   RuleParts parts;
@@ -206,6 +237,7 @@ TEST(StabilityChecks, AreOffWithoutATolerance) {
   world.freeze(std::vector<BodyIndex>{0});
   checks.count(input(world), std::vector<SleepEvent>{{.body = 0}}, {});
   EXPECT_FALSE(checks.has_unchecked());
+  EXPECT_FALSE(checks.drift_estimate(world));
 }
 
 }  // namespace

@@ -122,6 +122,12 @@ Json piles_json(const PileSet<Dim>& piles) {
   return list;
 }
 
+/// Null where the policy does not measure it.
+Json drift_estimate_json(const std::optional<DriftEstimate>& estimate, double typical_extent) {
+  if (!estimate) return nullptr;
+  return {{"drift_D", estimate->drift / typical_extent}, {"checked_share", estimate->checked_share}};
+}
+
 template <int Dim>
 Json statistics_json(const RunStatistics<Dim>& statistics) {
   return {{"steps", statistics.steps()},
@@ -160,6 +166,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
   summary["shape"] = shape_json(scene, world, simulation.piles().typical_body().extent);
+  summary["estimate"] = drift_estimate_json(simulation.drift_estimate(), simulation.piles().typical_body().extent);
   summary["piles"] = piles_json(simulation.piles());
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
   std::ofstream out(file);

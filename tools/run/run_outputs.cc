@@ -91,6 +91,9 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   print_result("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
+  if (const std::optional<DriftEstimate> estimate = simulation.drift_estimate(); estimate)
+    print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
+                 estimate->drift / simulation.piles().typical_body().extent, 100.0 * estimate->checked_share);
   for (const Warning& warning : simulation.warnings()) print_result("  warning: {}\n", account(warning));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());

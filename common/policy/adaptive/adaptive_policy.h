@@ -2,6 +2,7 @@
 // Sleep by contact. The paper's layers set how long a body must have been at rest; its contacts decide whether it may
 // sleep.
 
+#include <optional>
 #include <vector>
 
 #include "common/policy/adaptive/adaptive_params.h"
@@ -30,6 +31,9 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool counts_flying() const override { return false; }
   bool needs_contacts() const override { return true; }
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
+  std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
+    return checks_.drift_estimate(world);
+  }
 
  private:
   /// A body's layer in the pile that scores it highest.

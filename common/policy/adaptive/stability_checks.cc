@@ -8,17 +8,19 @@ namespace talus {
 namespace {
 
 // Times in time_unit() (docs/research/stability_checks.md).
-constexpr double sample_time = 0.4;      // between two samples of the displacement
-constexpr double shortest_time = 0.8;    // of a check
-constexpr double longest_time = 60.0;    // of a check: some contacts of an engine jitter for ever
-constexpr double horizon = 13.0;         // for which the present speed is extrapolated,
-constexpr double horizon_slowing = 3.0;  // and if the motion slows down
-constexpr double arrival_time = 4.0;     // without arrivals after which some motion is allowed
-constexpr double rest_time = 0.4;        // at rest, after which an awake body no longer counts as moving
+constexpr double sample_time = 0.4;       // between two samples of the displacement
+constexpr double shortest_time = 0.8;     // of a check
+constexpr double longest_time = 60.0;     // of a check: some contacts of an engine jitter for ever
+constexpr double horizon = 13.0;          // for which the present speed is extrapolated,
+constexpr double horizon_slowing = 3.0;   // and if the motion slows down
+constexpr double horizon_estimate = 1.0;  // for the estimate of drift: the motion dies out
+constexpr double arrival_time = 4.0;      // without arrivals after which some motion is allowed
+constexpr double rest_time = 0.4;         // at rest, after which an awake body no longer counts as moving
 
 constexpr double slowing = 0.7;  // of the displacement of the sample before: less means that the motion slows down
-constexpr double moving_share = 0.15;  // of the bodies of a region that may move when its check begins
-constexpr double block_width = 2.5;    // [D]
+constexpr double moving_share = 0.15;          // of the bodies of a region that may move when its check begins
+constexpr double block_width = 2.5;            // [D]
+constexpr std::int64_t averaged_bodies = 300;  // over which found_ averages
 
 // Contacts of a body in a step.
 constexpr std::uint8_t touches = 1;
@@ -55,8 +57,8 @@ void StabilityChecks<Dim>::count(const RuleInput<Dim>& in, std::span<const Sleep
   for (const SleepEvent& event : falling_asleep) {
     const Column column = columns_.cell_of(in.pose_of(event.body).position);
     ++sleeping_[column];
-    std::optional<Pose<Dim>>& checked = checked_[event.body];
-    if (checked && displacement(in, event.body, *checked) <= tolerance_) continue;
+    std::optional<Release>& checked = checked_[event.body];
+    if (checked && displacement(in, event.body, checked->pose) <= tolerance_) continue;
     checked.reset();
     unchecked_.insert(column);
   }
@@ -105,26 +107,54 @@ void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& chec
   }
   const std::int64_t lasted = in.step - check.begun;
   if (lasted < shortest_check_) return;
-  std::set<Block> at_rest;
-  for (const auto& block : motion)
-    if (lasted >= longest_check_ || is_at_rest(motion, block.first)) at_rest.insert(block.first);
+  std::map<Block, Motion> around;
+  for (const auto& block : motion) around[block.first] = motion_around(motion, block.first);
   std::erase_if(check.members, [&](const Member& member) {
-    if (!at_rest.contains(blocks_.cell_of(member.sample.position))) return false;
-    held_[member.body] = 0;
-    checked_[member.body] = member.sample;
+    const Motion& near = around[blocks_.cell_of(member.sample.position)];
+    const bool slows = near.sum <= slowing * near.before;
+    const double to_come = near.mean() * (slows ? horizon_slowing : horizon) / sample_time;
+    if (to_come > tolerance_ && lasted < longest_check_) return false;
+    release(in, member, near.mean() * horizon_estimate / sample_time);
     return true;
   });
 }
 
-/// Judges a block with those around it: one body that is still moving does not keep the others awake, and a slope is
-/// seen as a whole.
+/// That of the bodies in a block and in those around it: one body that is still moving does not keep the others awake,
+/// and a slope is seen as a whole.
 template <int Dim>
-bool StabilityChecks<Dim>::is_at_rest(const std::map<Block, Motion>& motion, const Block& block) const {
+typename StabilityChecks<Dim>::Motion StabilityChecks<Dim>::motion_around(const std::map<Block, Motion>& motion,
+                                                                          const Block& block) const {
   Motion near;
   for (const Block& beside : Blocks::around(block))
     if (const auto found = motion.find(beside); found != motion.end()) near.add(found->second);
-  const bool slows = near.sum <= slowing * near.before;
-  return near.sum / near.bodies * (slows ? horizon_slowing : horizon) / sample_time <= tolerance_;
+  return near;
+}
+
+template <int Dim>
+void StabilityChecks<Dim>::release(const RuleInput<Dim>& in, const Member& member, double expected) {
+  held_[member.body] = 0;
+  checked_[member.body] = {.pose = member.sample, .expected = expected};
+  if (!member.slept) return;
+  found_count_ = std::min(found_count_ + 1, averaged_bodies);
+  found_ += (displacement(in, member.body, *member.slept) - found_) / static_cast<double>(found_count_);
+}
+
+template <int Dim>
+std::optional<DriftEstimate> StabilityChecks<Dim>::drift_estimate(const World<Dim>& world) const {
+  if (tolerance_ <= 0.0) return std::nullopt;
+  const BodyStates<Dim>& states = world.states();
+  double drift = 0.0;
+  int sleeping = 0;
+  int checked = 0;
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    if (states.asleep[body] == 0 || states.removed[body] != 0) continue;
+    ++sleeping;
+    const bool is_checked = body < std::ssize(checked_) && checked_[body];
+    checked += is_checked ? 1 : 0;
+    drift += is_checked ? checked_[body]->expected : found_;
+  }
+  if (sleeping == 0) return DriftEstimate{.drift = 0.0, .checked_share = 1.0};
+  return DriftEstimate{.drift = drift / sleeping, .checked_share = static_cast<double>(checked) / sleeping};
 }
 
 /// Finds where bodies move in contact with others, and whether bodies are on their way to a first contact.
@@ -194,13 +224,11 @@ void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region,
     for (const BodyIndex body : near_) {
       const Pose<Dim>& pose = in.pose_of(body);
       if (columns_.cell_of(pose.position) != column) continue;
-      if (in.asleep(body)) {
-        ++sleeping;
-        out.wakes.add(body, {.cause = SleepCause::check});
-      } else if (contact_[body] == 0) {
-        continue;
-      }
-      check.members.push_back({.body = body, .sample = pose});
+      const bool slept = in.asleep(body);
+      if (!slept && contact_[body] == 0) continue;
+      if (slept) out.wakes.add(body, {.cause = SleepCause::check});
+      sleeping += slept ? 1 : 0;
+      check.members.push_back({.body = body, .sample = pose, .slept = slept ? std::optional(pose) : std::nullopt});
       held_[body] = 1;
     }
     sleeping_[column] = sleeping;

@@ -39,6 +39,10 @@ class StabilityChecks {
   /// Whether an awake body takes part in a check and must stay awake.
   bool holds(BodyIndex body) const;
 
+  /// Of a body that a check has left: the motion expected of it then. Of the others: the mean distance that bodies
+  /// moved which a check woke, over the last few hundred. None without checks. Costs O(bodies).
+  std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const;
+
   /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a
   /// few times in sqrt(D / g), and a box query for each column that is checked.
   void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out);
@@ -53,7 +57,13 @@ class StabilityChecks {
   struct Member {
     BodyIndex body = 0;
     Pose<Dim> sample{};
-    double moved = 0.0;  // between the two samples before [m]
+    double moved = 0.0;                // between the two samples before [m]
+    std::optional<Pose<Dim>> slept{};  // where the check woke it
+  };
+  /// Where a check left a body.
+  struct Release {
+    Pose<Dim> pose{};
+    double expected = 0.0;  // motion from there on, mean over the blocks around [m]
   };
   struct Check {
     std::vector<Member> members;
@@ -65,6 +75,7 @@ class StabilityChecks {
     double before = 0.0;  // between the two samples before [m]
     int bodies = 0;
 
+    double mean() const { return sum / bodies; }
     void add(const Motion& other) {
       sum += other.sum;
       before += other.before;
@@ -81,7 +92,8 @@ class StabilityChecks {
 
   double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
   void release_resting(const RuleInput<Dim>& in, Check& check);
-  bool is_at_rest(const std::map<Block, Motion>& motion, const Block& block) const;
+  Motion motion_around(const std::map<Block, Motion>& motion, const Block& block) const;
+  void release(const RuleInput<Dim>& in, const Member& member, double expected);
   void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
   Region take_region(std::set<Column>& columns) const;
   bool is_quiet(const Region& region, std::int64_t step) const;
@@ -89,24 +101,26 @@ class StabilityChecks {
 
   Columns columns_;
   Blocks blocks_;
-  double tolerance_;                               // [m]; 0: no checks
-  double angle_;                                   // [rad] above which a controlled slope is not checked
-  double rest_time_;                               // [s] at rest, after which an awake body no longer counts as moving
-  std::int64_t sample_steps_;                      // between two samples of the displacement
-  std::int64_t shortest_check_;                    // [steps]
-  std::int64_t longest_check_;                     // [steps]
-  std::int64_t arrival_steps_;                     // without arrivals after which some motion is allowed
-  std::set<Column> unchecked_;                     // columns with unchecked sleeping bodies
-  std::map<Column, int> sleeping_;                 // bodies, by column
-  std::vector<Check> checks_;                      // under way
-  std::vector<std::uint8_t> held_;                 // [body]
-  std::vector<std::uint8_t> arrived_;              // [body] whether it has touched anything
-  std::vector<std::optional<Pose<Dim>>> checked_;  // [body] where the last check left it
-  std::int64_t last_arrival_ = 0;                  // last step in which a body was on its way to its first contact
-  std::map<Column, int> moving_;                   // scratch: bodies that move in contact with others, by column
-  std::set<Column> under_check_;                   // scratch
-  std::vector<std::uint8_t> contact_;              // scratch [body], all 0 between calls
-  std::vector<BodyIndex> near_;                    // scratch
+  double tolerance_;                             // [m]; 0: no checks
+  double angle_;                                 // [rad] above which a controlled slope is not checked
+  double rest_time_;                             // [s] at rest, after which an awake body no longer counts as moving
+  std::int64_t sample_steps_;                    // between two samples of the displacement
+  std::int64_t shortest_check_;                  // [steps]
+  std::int64_t longest_check_;                   // [steps]
+  std::int64_t arrival_steps_;                   // without arrivals after which some motion is allowed
+  std::set<Column> unchecked_;                   // columns with unchecked sleeping bodies
+  std::map<Column, int> sleeping_;               // bodies, by column
+  std::vector<Check> checks_;                    // under way
+  std::vector<std::uint8_t> held_;               // [body]
+  std::vector<std::uint8_t> arrived_;            // [body] whether it has touched anything
+  std::vector<std::optional<Release>> checked_;  // [body] by the last check, unless it fell asleep elsewhere
+  double found_ = 0.0;                           // distance that woken bodies moved in checks, moving average [m]
+  std::int64_t found_count_ = 0;                 // bodies in it
+  std::int64_t last_arrival_ = 0;                // last step in which a body was on its way to its first contact
+  std::map<Column, int> moving_;                 // scratch: bodies that move in contact with others, by column
+  std::set<Column> under_check_;                 // scratch
+  std::vector<std::uint8_t> contact_;            // scratch [body], all 0 between calls
+  std::vector<BodyIndex> near_;                  // scratch
 };
 
 }  // namespace talus
