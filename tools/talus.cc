@@ -36,6 +36,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_bench_command(app, exit_code);
   talus::add_sheet_command(app, exit_code);
   talus::add_reference_command(app, exit_code);
+  talus::add_view_command(app, exit_code);
 #ifdef TALUS_BULLET
   talus::add_decompose_command(app);
 #endif

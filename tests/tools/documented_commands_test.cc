@@ -31,6 +31,9 @@ struct Shortened {
 
 constexpr auto shortened = std::to_array<Shortened>({
     {"talus monitor", "talus monitor --seconds 1"},
+    {"talus view drop_in_a_pile_2d", "talus view drop_in_a_pile_2d --seconds 1"},
+    {"talus view discs.toml", "talus view discs.toml --seconds 1"},
+    {"talus view runs/pour", "talus view runs/pour --seconds 1"},
     {"talus monitor --json", "talus monitor --json --seconds 1"},
     // It hears no run here, which is a loss.
     {"talus monitor --json --seconds 60 --fail-on-loss", "! talus monitor --json --seconds 1 --fail-on-loss"},
@@ -202,7 +205,7 @@ TEST(ReadmeProgram, IsTheExampleThatIsCompiled) {
 
 TEST(HelpTexts, NameSubCommandsOptionsAndScenesThatExist) {
   for (const char* command :
-       {"run", "check", "bench", "compare", "wake", "film", "replay", "sheet", "decompose", "monitor"}) {
+       {"run", "check", "bench", "compare", "wake", "film", "replay", "view", "sheet", "decompose", "monitor"}) {
     std::istringstream help(talus_command(std::string(command) + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find("talus ");

@@ -159,7 +159,8 @@ Json run_head(const Scene<Dim>& scene, const RunTexts& texts, const Quantum& qua
 
 template <int Dim>
 Box<Dim> box_of(const Scene<Dim>& scene) {
-  Box<Dim> box(Vec<Dim>(Vec<Dim>::Zero()));
+  Box<Dim> box;
+  box.extend(Vec<Dim>::Zero().eval());
   for (const Source<Dim>& source : scene.sources) {
     const Vec<Dim> reach = source.sweep.cwiseAbs() + source.grid_extent();
     box.extend(Vec<Dim>(source.position - source.sweep.cwiseAbs()));

@@ -1,2 +1,165 @@
-import type { Player } from "./player";
-export function connect(_ready: (player: Player) => void): void {}
+// A run that goes on in `talus view`: frames come over a WebSocket, commands go back (tools/view/run_loop.h).
+
+import type { Head } from "./head";
+import { element, Player, type Simulation } from "./player";
+
+interface Status {
+  kind: "status";
+  running: boolean;
+  finished: boolean;
+  reason: string;
+  pace: number;
+  policy: string;
+  policies: string[];
+  ms_per_step: number;
+  real_time_factor: number;
+}
+
+interface Fault {
+  line: number;
+  column: number;
+  text: string;
+}
+
+type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] };
+
+const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
+
+class Live implements Simulation {
+  private player: Player | null = null;
+  private status: Status | null = null;
+  private readonly socket: WebSocket;
+
+  constructor(private readonly ready: (player: Player) => void) {
+    this.socket = new WebSocket(`ws://${location.host}/stream${location.search}`);
+    this.socket.binaryType = "arraybuffer";
+    this.socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+      if (typeof event.data === "string") this.take(JSON.parse(event.data) as Message);
+      else this.show(new Uint8Array(event.data));
+    };
+    this.socket.onclose = () => {
+      element("status").textContent = "The server has gone, or has too many pages. What came can still be played.";
+      for (const id of ["run", "single", "restart", "apply", "pace", "policy"]) element<HTMLButtonElement>(id).disabled = true;
+    };
+    this.prepare();
+  }
+
+  private prepare(): void {
+    element("simulation").hidden = element("scene").hidden = false;
+    document.body.classList.add("editing");
+    const click = (id: string, action: () => void): void => element(id).addEventListener("click", action);
+    click("run", () => this.toggle());
+    click("single", () => this.player?.stepSimulation());
+    click("restart", () => this.restart());
+    click("apply", () => this.apply());
+    for (const pace of paces) element("pace").append(new Option(pace === 0 ? "as fast as possible" : `${pace}x`, String(pace)));
+    element("pace").addEventListener("change", () => this.send({ do: "pace", value: Number(element<HTMLSelectElement>("pace").value) }));
+    element("policy").addEventListener("change", () => this.send({ do: "policy", value: element<HTMLSelectElement>("policy").value }));
+    element("text").addEventListener("keydown", (event) => {
+      if (event.key === "Enter" && event.ctrlKey) this.apply();
+    });
+  }
+
+  private send(command: object): void {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
+  }
+
+  private apply(): void {
+    this.send({ do: "scene", text: element<HTMLTextAreaElement>("text").value });
+  }
+
+  private take(message: Message): void {
+    switch (message.kind) {
+      case "status":
+        this.showStatus(message);
+        break;
+      case "head":
+        this.begin(message);
+        break;
+      case "scene":
+        element<HTMLTextAreaElement>("text").value = message.text;
+        break;
+      case "errors":
+        this.showErrors(message.errors);
+    }
+  }
+
+  private begin(head: Head): void {
+    if (this.player) {
+      this.player.replace(head);
+      return;
+    }
+    this.player = new Player(head);
+    this.player.attach(this);
+    this.ready(this.player);
+  }
+
+  /// A frame. The next one is sent once this one has been drawn.
+  private show(block: Uint8Array): void {
+    this.player?.timeline.add(block);
+    this.player?.grown();
+    const acknowledge = (): void => {
+      if (this.socket.readyState === WebSocket.OPEN) this.socket.send("shown");
+    };
+    // A hidden page draws nothing.
+    if (document.hidden) setTimeout(acknowledge, 200);
+    else requestAnimationFrame(acknowledge);
+  }
+
+  private showStatus(status: Status): void {
+    this.status = status;
+    element("run").textContent = status.running ? "Pause" : "Run";
+    const stuck = status.finished || status.reason !== "";
+    for (const id of ["run", "single"]) element<HTMLButtonElement>(id).disabled = stuck;
+    const policies = element<HTMLSelectElement>("policy");
+    if (policies.options.length === 0) policies.append(...status.policies.map((name) => new Option(name)));
+    policies.value = status.policy;
+    element<HTMLSelectElement>("pace").value = String(status.pace);
+    const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time`;
+    element("speed").textContent = status.reason || (status.finished ? "finished" : status.running ? speed : "paused");
+    this.player?.showPlaying();
+  }
+
+  private showErrors(errors: Fault[]): void {
+    const area = element<HTMLTextAreaElement>("text");
+    element("errors").replaceChildren(
+      ...errors.map(({ line, text }) => {
+        const item = Object.assign(document.createElement("li"), { textContent: text });
+        if (line > 0) item.addEventListener("click", () => selectLine(area, line));
+        return item;
+      }),
+    );
+    const first = errors.find(({ line }) => line > 0);
+    if (first) selectLine(area, first.line);
+  }
+
+  toggle(): void {
+    this.send({ do: this.status?.running ? "pause" : "run" });
+  }
+
+  step(): void {
+    this.send({ do: "step" });
+  }
+
+  restart(): void {
+    this.send({ do: "restart" });
+  }
+
+  running(): boolean {
+    return this.status?.running ?? false;
+  }
+}
+
+/// Marks a line of the text, counted from 1, and brings it into sight.
+function selectLine(area: HTMLTextAreaElement, line: number): void {
+  const lines = area.value.split("\n");
+  const begin = lines.slice(0, line - 1).reduce((sum, text) => sum + text.length + 1, 0);
+  area.focus();
+  area.setSelectionRange(begin, begin + (lines[line - 1]?.length ?? 0));
+  const lineHeight = area.scrollHeight / lines.length;
+  area.scrollTop = Math.max(0, (line - 4) * lineHeight);
+}
+
+export function connect(ready: (player: Player) => void): void {
+  new Live(ready);
+}

@@ -82,21 +82,25 @@ export class Player {
     const dimension = this.head.dimension;
     this.head = head;
     this.timeline = new Timeline(head);
+    this.pause();
+    this.following = this.simulation !== null;
     if (head.dimension === dimension) {
       this.plots = this.show();
+      if (this.stage.follows) this.stage.fit(false);
       return;
     }
     // A camera of another kind.
     this.stage.dispose();
     for (const id of ["bodies", "labels"]) element(id).replaceWith(Object.assign(document.createElement("canvas"), { id }));
     this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
+    this.stage.follows = this.following;
     this.listenToStage();
     this.plots = this.show();
   }
 
   attach(simulation: Simulation): void {
     this.simulation = simulation;
-    this.following = true;
+    this.following = this.stage.follows = true;
     element("loop-label").hidden = true;
   }
 
@@ -123,7 +127,7 @@ export class Player {
     click("first", () => this.seek(0));
     click("last", () => this.toEnd());
     click("wake", () => this.toNextWake());
-    click("fit", () => this.stage.fit());
+    click("fit", () => this.resetCamera());
     element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
     element("paint").addEventListener("change", () => this.repaint());
     element("layers").addEventListener("change", () => {
@@ -152,7 +156,7 @@ export class Player {
       ".": () => this.stepBy(1),
       ",": () => this.stepBy(-1),
       n: () => this.toNextWake(),
-      f: () => this.stage.fit(),
+      f: () => this.resetCamera(),
       r: () => (this.simulation ? this.simulation.restart() : this.seek(0)),
       l: () => element("loop").click(),
       Home: () => this.seek(0),
@@ -162,6 +166,11 @@ export class Player {
     if (!action) return;
     event.preventDefault();
     action();
+  }
+
+  private resetCamera(): void {
+    this.stage.follows = this.simulation !== null;
+    this.stage.fit();
   }
 
   /// Frames came: the controls and plots grow with them.
@@ -202,12 +211,18 @@ export class Player {
 
   stepBy(frames: number): void {
     if (this.simulation && frames > 0 && this.atEnd()) {
-      this.following = true;
-      this.simulation.step();
+      this.stepSimulation();
       return;
     }
     this.pause();
     this.seek(this.timeline.shown + frames);
+  }
+
+  /// One step of the simulation, shown when it has come.
+  stepSimulation(): void {
+    this.pause();
+    this.following = true;
+    this.simulation?.step();
   }
 
   toEnd(): void {

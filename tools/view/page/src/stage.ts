@@ -158,6 +158,10 @@ export class Stage {
   /// Whether the layers of piles are drawn.
   showLayers = true;
   selected = -1;
+  /// Whether the camera moves back as the pile grows, until the user moves it.
+  follows = false;
+  private box: [Vector3, Vector3];
+  private sun: DirectionalLight | null = null;
   /// Times at which frames were drawn [ms], the last few.
   readonly drawn: number[] = [];
 
@@ -167,6 +171,7 @@ export class Stage {
     head: Head,
   ) {
     this.head = head;
+    this.box = this.boxOf(head);
     this.flat = head.dimension === 2;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
@@ -190,13 +195,35 @@ export class Stage {
     this.renderer.dispose();
   }
 
+  private boxOf(head: Head): [Vector3, Vector3] {
+    const corner = (i: number): Vector3 => new Vector3(head.box[i][0], head.box[i][1], head.box[i][2] ?? 0);
+    return [corner(0), corner(1)];
+  }
+
   private boxSizes(): number[] {
     return this.head.box[1].map((high, i) => high - this.head.box[0][i]);
+  }
+
+  /// Takes bodies that left the picture into it.
+  private follow(bodies: number[]): void {
+    const [low, high] = this.box;
+    const before = low.distanceTo(high);
+    for (const body of bodies) {
+      const [x, y, z] = this.poseOf(body);
+      const at = new Vector3(x, y, this.flat ? 0 : z);
+      const reach = 0.6 * this.head.shapes[this.timeline!.state.shape[body]].extent;
+      low.min(at.clone().subScalar(reach));
+      high.max(at.addScalar(reach));
+    }
+    if (this.flat) low.z = high.z = 0;
+    if (this.head.ground.present) low.setComponent(this.flat ? 1 : 2, Math.max(low.getComponent(this.flat ? 1 : 2), this.head.ground.height));
+    if (low.distanceTo(high) > before) this.fit(false);
   }
 
   private prepareControls(): void {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.redraw());
+    this.controls.addEventListener("start", () => (this.follows = false));
     if (this.flat) {
       this.controls.enableRotate = false;
       this.controls.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
@@ -207,14 +234,16 @@ export class Stage {
     }
   }
 
-  /// Shows the box of the head as the pictures do.
-  fit(): void {
-    const corner = (i: number): Vector3 => new Vector3(this.head.box[i][0], this.head.box[i][1], this.head.box[i][2] ?? 0);
-    const [low, high] = [corner(0), corner(1)];
+  /// Shows the whole box, from where the pictures do unless `turn` is false.
+  fit(turn = true): void {
+    this.placeSun();
+    const [low, high] = this.box;
     const middle = low.clone().add(high).multiplyScalar(0.5);
     if (this.camera instanceof PerspectiveCamera) {
       const { azimuth, elevation } = this.head.camera;
-      const back = new Vector3(Math.cos(azimuth) * Math.cos(elevation), Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation));
+      const back = turn
+        ? new Vector3(Math.cos(azimuth) * Math.cos(elevation), Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation))
+        : this.camera.position.clone().sub(this.controls.target).normalize();
       this.camera.position.copy(middle).addScaledVector(back, this.distanceFor(low, high, middle, back));
     } else {
       const aspect = this.camera.right / this.camera.top;
@@ -256,26 +285,35 @@ export class Stage {
       instance.set(instance.add(0), this.matrixOf(obstacle.pose), colour(colours.obstacle), false);
       this.scene.add(instance.mesh);
     }
-    if (!this.flat) this.addLights(size);
+    if (!this.flat) this.addLights();
     if (ground.present) this.flat ? this.addGroundLine(size) : this.addGroundPlane(size);
   }
 
-  private addLights(size: number): void {
+  private addLights(): void {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
-    const middle = new Vector3(...this.head.box[0]).add(new Vector3(...this.head.box[1])).multiplyScalar(0.5);
-    const azimuth = this.head.camera.azimuth - 0.9;
     const sun = new DirectionalLight(0xffffff, 2.1);
-    sun.position.copy(middle).add(new Vector3(Math.cos(azimuth), Math.sin(azimuth), 1.5).multiplyScalar(size));
-    sun.target.position.copy(middle);
     sun.castShadow = true;
     sun.shadow.mapSize.set(2048, 2048);
     sun.shadow.radius = 4;
+    this.sun = sun;
+    this.scene.add(sun, sun.target, new AmbientLight(0xffffff, 1.7));
+  }
+
+  /// Light from the left of the eye at the start, with shadows of all that is in the box.
+  private placeSun(): void {
+    const { sun } = this;
+    if (!sun) return;
+    const size = this.box[0].distanceTo(this.box[1]);
+    const middle = this.box[0].clone().add(this.box[1]).multiplyScalar(0.5);
+    const azimuth = this.head.camera.azimuth - 0.9;
+    sun.position.copy(middle).add(new Vector3(Math.cos(azimuth), Math.sin(azimuth), 1.5).multiplyScalar(size));
+    sun.target.position.copy(middle);
     sun.shadow.normalBias = 0.002 * size;
     const eye = sun.shadow.camera;
     [eye.left, eye.right, eye.bottom, eye.top, eye.near, eye.far] = [-size, size, -size, size, 0.1 * size, 5 * size];
-    this.scene.add(sun, sun.target, new AmbientLight(0xffffff, 1.7));
+    eye.updateProjectionMatrix();
   }
 
   private addGroundLine(size: number): void {
@@ -293,7 +331,7 @@ export class Stage {
     shadow.position.set((box[0][0] + box[1][0]) / 2, (box[0][1] + box[1][1]) / 2, ground.height);
     shadow.receiveShadow = true;
     const points: number[] = [];
-    const reach = Math.ceil((1.5 * size) / this.gridLength);
+    const reach = Math.ceil((3 * size) / this.gridLength);
     const low = [0, 1].map((axis) => Math.round((box[0][axis] + box[1][axis]) / 2 / this.gridLength) - reach);
     for (let i = 0; i <= 2 * reach; ++i) {
       const [x, y] = low.map((first) => (first + i) * this.gridLength);
@@ -317,6 +355,7 @@ export class Stage {
     this.shapes.length = this.place.length = 0;
     this.timeline = timeline;
     this.head = timeline.head;
+    this.box = this.boxOf(this.head);
     const { awake_outline, asleep_outline } = this.head.colours;
     const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
     for (const shape of this.head.shapes) {
@@ -348,6 +387,7 @@ export class Stage {
       this.shapes[shape].set(this.place[body], matrix, colour(tint), !gone && state.asleep[body] !== 0);
     }
     for (const shape of this.shapes) shape.upload();
+    if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
   }
 

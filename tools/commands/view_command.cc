@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "tools/commands/commands.h"
+#include "tools/commands/validators.h"
+#include "tools/output/output.h"
+#ifdef TALUS_LCM
+#include "tools/record/record_stream.h"
+#endif
+#include "tools/run/find_scene.h"
+#include "tools/run/interrupt.h"
+#include "tools/view/page.h"
+#include "tools/view/run_loop.h"
+#include "tools/view/server.h"
+
+namespace talus {
+namespace {
+
+struct ViewOptions {
+  std::string what;
+  std::string backend;
+  std::string policy;
+  std::vector<std::string> settings;
+  std::optional<std::int64_t> seed;
+  double pace = 1.0;
+  int port = 0;
+  double seconds = 0.0;  // 0: until Ctrl-C
+};
+
+RunChoice choice_of(const ViewOptions& options) {
+  RunChoice choice = {.file = find_scene(options.what), .backend = options.backend, .pace = options.pace};
+  for (const std::string& setting : options.settings) choice.overrides.push_back({setting});
+  if (!options.policy.empty())
+    choice.overrides.push_back({"policy.kind=" + options.policy, "--policy " + options.policy});
+  if (options.seed)
+    choice.overrides.push_back({fmt::format("seed={}", *options.seed), fmt::format("--seed {}", *options.seed)});
+  return choice;
+}
+
+/// Serves until Ctrl-C, or for the time of --seconds.
+void serve(const ViewOptions& options, const ViewServer& server) {
+  const Interrupt interrupt;
+  print_result("{}\n", server.url());
+  flush_results();
+  print_message("Open this address in a browser of this machine; Ctrl-C ends.");
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
+  while (!interrupt.requested() && (options.seconds == 0.0 || std::chrono::steady_clock::now() < end))
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+void view_scene(const ViewOptions& options) {
+  PageHub hub;
+  RunLoop loop(choice_of(options), hub);
+  const ViewServer server(options.port, {.page = page_of_server(PageSource::run), .record = ""}, &hub, &loop);
+  serve(options, server);
+}
+
+void view(const ViewOptions& options) {
+#ifdef TALUS_LCM
+  if (std::filesystem::is_directory(options.what)) {
+    const ViewServer server(options.port,
+                            {.page = page_of_server(PageSource::record), .record = record_stream(options.what)},
+                            nullptr, nullptr);
+    serve(options, server);
+    return;
+  }
+#endif
+  view_scene(options);
+}
+
+void add_options(CLI::App& command, ViewOptions& options) {
+  command.add_option("what", options.what, "Run folder, scene file, or the name of a scene that `talus list` shows")
+      ->required()
+      ->check(not_empty());
+  command.add_option("-b,--backend", options.backend, "Of a scene: engine, as in `talus run`")->check(not_empty());
+  command.add_option("-p,--policy", options.policy, "Of a scene: which bodies may sleep")->check(not_empty());
+  command.add_option("-s,--set", options.settings, "Of a scene: replace a value, as policy.tau=0.4; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--seed", options.seed, "Of a scene: seed of all that is random, 0 or more")
+      ->check(whole_number());
+  command
+      .add_option("--pace", options.pace,
+                  "Of a scene: simulated seconds per second, 0.01 to 1000; 0: as fast as possible")
+      ->check(number_between(0.0, RunLoop::fastest_pace))
+      ->capture_default_str();
+  command.add_option("--port", options.port, "Port of the loopback interface; 0: one that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command.add_option("--seconds", options.seconds, "Stop after so many seconds; else Ctrl-C stops")
+      ->check(number_between(0.0, 1e9));
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("view", "Show a scene or a recorded run in the browser");
+  auto options = std::make_shared<ViewOptions>();
+  add_options(*command, *options);
+  command->footer(
+      "Examples:\n  talus view drop_in_a_pile_2d\n  talus view drop_in_a_pile_3d --policy full --pace 4\n\n"
+      "The page is for browsers of this machine and this user: its address holds a secret.");
+  command->callback([options, &exit_code] {
+    view(*options);
+    exit_code = exit_codes::success;
+  });
+}
+
+}  // namespace talus

@@ -1,0 +1,256 @@
+#include "tools/view/run_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "common/simulation/stopwatch.h"
+#include "common/world/world.h"
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto note_interval = std::chrono::milliseconds(500);
+constexpr auto longest_lag = std::chrono::milliseconds(250);  // that a slow run makes up for
+
+std::string text_of(const Json& message) { return message.dump(-1, ' ', true, Json::error_handler_t::replace); }
+
+Json error_of(const std::string& text) { return Json::array({{{"line", 0}, {"column", 0}, {"text", text}}}); }
+
+Json errors_of(const SceneErrors& errors) {
+  Json list = Json::array();
+  for (const SceneError& error : errors.errors())
+    list.push_back({{"line", error.line}, {"column", error.column}, {"text", to_string(error)}});
+  return list;
+}
+
+const std::string& toml_of(const AnyScene& scene) {
+  return std::visit([](const auto& of_dimension) -> const std::string& { return of_dimension.toml; }, scene);
+}
+
+const std::string& policy_of(const AnyScene& scene) {
+  return std::visit([](const auto& of_dimension) -> const std::string& { return of_dimension.policy.kind; }, scene);
+}
+
+}  // namespace
+
+RunLoop::RunLoop(const RunChoice& choice, PageHub& hub)
+    : hub_(hub),
+      file_(choice.file),
+      backend_(choice.backend),
+      scene_(read_scene(choice.file, choice.overrides)),
+      pace_(choice.pace) {
+  text_ = toml_of(scene_);
+  run_ = show_run(scene_, backend_, file_.stem().string());
+  hub_.begin(run_->snapshot());
+  hub_.set_status(status());
+  thread_ = std::thread([this] { work(); });
+}
+
+RunLoop::~RunLoop() {
+  change([this] { stop_ = true; });
+  thread_.join();
+}
+
+void RunLoop::change(const std::function<void()>& what) {
+  const std::lock_guard lock(mutex_);
+  what();
+  hub_.set_status(status());
+  changed_.notify_all();
+}
+
+void RunLoop::greet(int page) {
+  change([&] {
+    if (!std::exchange(greeted_, true)) running_ = true;
+    hub_.reply(page, text_of({{"kind", "scene"}, {"text", text_}}));
+  });
+}
+
+void RunLoop::command(int page, const std::string& text) {
+  const Json command = Json::parse(text, nullptr, false);
+  if (command.is_object() && command.contains("do") && command["do"].is_string())
+    obey(page, command);
+  else
+    reply_errors(page, error_of("a command must be an object with a text \"do\""));
+}
+
+void RunLoop::obey(int page, const Json& command) {
+  const auto& what = command["do"].get_ref<const std::string&>();
+  const Json value = command.value("value", Json());
+  if (what == "run") {
+    change([this] { running_ = true; });
+  } else if (what == "pause") {
+    change([this] { running_ = false; });
+  } else if (what == "step") {
+    change([this] {
+      running_ = false;
+      single_steps_ = std::min(single_steps_ + 1, 1000);
+    });
+  } else if (what == "restart") {
+    change([this] { restart_ = true; });
+  } else if (what == "pace") {
+    set_pace(page, value);
+  } else if (what == "policy" && value.is_string()) {
+    start_scene(page, text_, value.get<std::string>());
+  } else if (what == "scene" && command.value("text", Json()).is_string()) {
+    start_scene(page, command["text"].get<std::string>(), "");
+  } else {
+    reply_errors(page, error_of("\"do\" must be run, pause, step, restart, pace, policy or scene, with its value"));
+  }
+}
+
+void RunLoop::set_pace(int page, const Json& value) {
+  const double pace = value.is_number() ? value.get<double>() : NAN;
+  if (pace == 0.0 || (pace >= slowest_pace && pace <= fastest_pace))
+    change([&] { pace_ = pace; });
+  else
+    reply_errors(page, error_of("pace: must be 0 (as fast as possible) or 0.01 to 1000"));
+}
+
+/// Reads the scene in the page's thread, so that the run goes on meanwhile.
+void RunLoop::start_scene(int page, const std::string& text, const std::string& policy) {
+  try {
+    std::vector<Override> overrides;
+    if (!policy.empty()) overrides.push_back({"policy.kind=" + policy, "policy " + policy});
+    AnyScene scene = parse_scene(text, file_.string(), overrides);
+    change([&] {
+      scene_ = std::move(scene);
+      text_ = text;
+      policy_ = policy;
+      restart_ = true;
+      running_ = true;
+    });
+    reply_errors(page, Json::array());
+  } catch (const SceneErrors& errors) {
+    reply_errors(page, errors_of(errors));
+  } catch (const std::exception& error) {
+    reply_errors(page, error_of(error.what()));
+  }
+}
+
+void RunLoop::reply_errors(int page, const Json& errors) {
+  hub_.reply(page, text_of({{"kind", "errors"}, {"errors", errors}}));
+}
+
+void RunLoop::work() {
+  for (;;) {
+    switch (next_task()) {
+      case Task::stop:
+        return;
+      case Task::start:
+        start();
+        break;
+      case Task::step:
+        step();
+        break;
+    }
+  }
+}
+
+/// Waits until there is something to do.
+RunLoop::Task RunLoop::next_task() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (stop_) return Task::stop;
+    if (std::exchange(restart_, false)) return Task::start;
+    if (can_step() && single_steps_ > 0) {
+      --single_steps_;
+      return Task::step;
+    }
+    single_steps_ = 0;
+    const bool goes = running_ && can_step();
+    if (goes && (pace_ == 0.0 || Clock::now() >= due_)) return Task::step;
+    if (!published_) publish();
+    if (goes)
+      changed_.wait_until(lock, due_);
+    else
+      changed_.wait(lock);
+  }
+}
+
+void RunLoop::start() {
+  AnyScene scene;
+  {
+    const std::lock_guard lock(mutex_);
+    scene = scene_;
+  }
+  std::string reason;
+  run_.reset();
+  try {
+    run_ = show_run(scene, backend_, file_.stem().string());
+    hub_.begin(run_->snapshot());
+    published_ = true;
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  due_ = Clock::now();
+  change([&] {
+    finished_ = false;
+    reason_ = reason;
+  });
+}
+
+void RunLoop::step() {
+  Stopwatch watch;
+  std::string reason;
+  try {
+    run_->step();
+  } catch (const NonFiniteState& error) {
+    reason = error.what();
+  }
+  seconds_in_steps_ += watch.lap();
+  ++steps_since_;
+  published_ = false;
+  if (reason.empty()) hub_.add_events(run_->events());
+  if (hub_.wanted()) publish();
+  if (run_->finished() || !reason.empty()) {
+    change([&] {
+      running_ = false;
+      finished_ = run_->finished();
+      reason_ = reason;
+    });
+  }
+  note_speed();
+}
+
+void RunLoop::publish() {
+  hub_.publish(run_->snapshot());
+  published_ = true;
+}
+
+/// When the next step is due, and how fast the steps were.
+void RunLoop::note_speed() {
+  const auto now = Clock::now();
+  const std::lock_guard lock(mutex_);
+  if (pace_ > 0.0) {
+    due_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(run_->dt() / pace_));
+    due_ = std::max(due_, now - longest_lag);
+  } else {
+    due_ = now;
+  }
+  if (now - noted_ < note_interval) return;
+  const double passed = std::chrono::duration<double>(now - noted_).count();
+  ms_per_step_ = 1e3 * seconds_in_steps_ / static_cast<double>(steps_since_);
+  real_time_factor_ = static_cast<double>(steps_since_) * run_->dt() / passed;
+  noted_ = now;
+  steps_since_ = 0;
+  seconds_in_steps_ = 0.0;
+  hub_.set_status(status());
+}
+
+std::string RunLoop::status() const {
+  return text_of({{"kind", "status"},
+                  {"running", running_},
+                  {"finished", finished_},
+                  {"reason", reason_},
+                  {"pace", pace_},
+                  {"policy", policy_.empty() ? policy_of(scene_) : policy_},
+                  {"policies", policy_kinds},
+                  {"ms_per_step", ms_per_step_},
+                  {"real_time_factor", real_time_factor_}});
+}
+
+}  // namespace talus

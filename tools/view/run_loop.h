@@ -1,0 +1,101 @@
+#pragma once
+// A simulation that pages steer.
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/scene/read_scene.h"
+#include "tools/view/page_hub.h"
+#include "tools/view/shown_run.h"
+
+namespace talus {
+
+/// What is simulated at first.
+struct RunChoice {
+  std::filesystem::path file;            // of the scene
+  std::vector<Override> overrides = {};  // values that replace the scene's
+  std::string backend;                   // empty: the first engine that can simulate the scene
+  double pace = 1.0;                     // simulated seconds per second, 0: as fast as possible
+};
+
+/// Simulates in a thread of its own and publishes states to the hub as pages want them. It begins to run when the first
+/// page comes.
+class RunLoop {
+ public:
+  static constexpr double fastest_pace = 1000.0;
+  static constexpr double slowest_pace = 0.01;
+
+  /// Throws SceneErrors, and what make_simulation() throws, as talus run does.
+  RunLoop(const RunChoice& choice, PageHub& hub);
+  ~RunLoop();
+  RunLoop(const RunLoop&) = delete;
+  RunLoop& operator=(const RunLoop&) = delete;
+
+  /// A page came: it gets the scene's text.
+  void greet(int page);
+  /// A command of a page, as JSON: {"do": "run" | "pause" | "step" | "restart"}, {"do": "pace", "value": number},
+  /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}. What is wrong is replied to the page; then nothing
+  /// changes.
+  void command(int page, const std::string& text);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class Task : std::uint8_t { stop, start, step };
+
+  void obey(int page, const nlohmann::ordered_json& command);
+  void start_scene(int page, const std::string& text, const std::string& policy);
+  void set_pace(int page, const nlohmann::ordered_json& value);
+  void reply_errors(int page, const nlohmann::ordered_json& errors);
+  void change(const std::function<void()>& what);
+
+  void work();
+  Task next_task();
+  bool can_step() const { return run_ && !run_->finished() && reason_.empty(); }
+  void start();
+  void step();
+  void publish();
+  void note_speed();
+  std::string status() const;
+
+  PageHub& hub_;
+  std::filesystem::path file_;
+  std::string backend_;
+
+  // Of the loop's thread.
+  std::unique_ptr<ShownRun> run_;
+  bool published_ = true;  // whether the hub has the present state
+  Clock::time_point due_ = Clock::now();
+  Clock::time_point noted_ = Clock::now();
+  std::int64_t steps_since_ = 0;   // the last note of the speed
+  double seconds_in_steps_ = 0.0;  // since then
+
+  mutable std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::string text_;    // of the scene
+  std::string policy_;  // replaces the text's; empty: does not
+  AnyScene scene_;
+  bool restart_ = false;
+  bool stop_ = false;
+  bool greeted_ = false;
+  bool running_ = false;
+  int single_steps_ = 0;
+  double pace_;
+  bool finished_ = false;
+  std::string reason_;  // why the run cannot go on; empty: it can
+  double ms_per_step_ = 0.0;
+  double real_time_factor_ = 0.0;
+  std::thread thread_;
+};
+
+}  // namespace talus

@@ -1,0 +1,54 @@
+#pragma once
+// A simulation for the browser: one step at a time, and what there is to see of it.
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/policy/sleep_event.h"
+#include "common/scene/read_scene.h"
+
+namespace talus {
+
+/// Writes frames for one page.
+class BlockWriter {
+ public:
+  virtual ~BlockWriter() = default;
+};
+
+/// One state of a run, copied, so that pages can be served while the run goes on.
+class Snapshot {
+ public:
+  virtual ~Snapshot() = default;
+  /// What pages know before the first frame. The same object for all snapshots of a run.
+  virtual std::shared_ptr<const std::string> head() const = 0;
+  virtual std::int64_t step() const = 0;
+  virtual std::unique_ptr<BlockWriter> make_writer() const = 0;
+  /// The block (frame_stream.h) of this state. `writer`: of a snapshot of the same run. `events`: since the page's last
+  /// frame.
+  virtual std::string block(BlockWriter& writer, std::span<const SleepEvent> events) const = 0;
+};
+
+/// A scene that is being simulated, in 2D or 3D.
+class ShownRun {
+ public:
+  virtual ~ShownRun() = default;
+  /// Throws NonFiniteState as Simulation does.
+  virtual void step() = 0;
+  virtual bool finished() const = 0;
+  /// Length of a step [s].
+  virtual double dt() const = 0;
+  /// Sleep events of the last step.
+  virtual std::span<const SleepEvent> events() const = 0;
+  virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
+};
+
+/// Starts the scene on the engine of that name; an empty name: the first that can simulate it. `name`: for readers.
+/// Throws as make_simulation() does.
+std::unique_ptr<ShownRun> show_run(const AnyScene& scene, const std::string& backend, const std::string& name);
+
+}  // namespace talus
