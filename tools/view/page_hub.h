@@ -49,11 +49,11 @@ class PageHub {
   /// A page, by the number that the others take; -1 where there are too many. `socket` must stay until remove() has
   /// returned.
   int add(PageSocket& socket);
-  void remove(int page);
+  void remove(int number);
   /// The page has shown the last frame that it was sent.
-  void acknowledge(int page);
+  void acknowledge(int number);
   /// A text for this page alone.
-  void reply(int page, const std::string& text);
+  void reply(int number, const std::string& text);
   std::size_t pages() const;
 
  private:
