@@ -46,7 +46,7 @@ class SleepPolicy {
   /// record them.
   virtual bool needs_contacts() const { return false; }
 
-  /// None from a policy that does not measure it. Costs O(bodies).
+  /// None from a policy that does not measure it, or has not yet. Costs O(bodies).
   virtual std::optional<DriftEstimate> drift_estimate(const World<Dim>& /*world*/) const { return std::nullopt; }
 
   /// Fills `decision` (empty on entry). Called once a step.

@@ -49,7 +49,8 @@ class Simulation {
   const Emitter<Dim>& emitter() const { return emitter_; }
   /// What observers were shown as Frame::warnings; after end() with the bodies that never appeared.
   std::span<const Warning> warnings() const { return watchdog_.warnings(); }
-  /// What the policy expects its sleeping bodies to move once woken; none from a policy that does not measure it.
+  /// What the policy expects its sleeping bodies to move once woken; none from a policy that does not measure it,
+  /// or has not yet.
   std::optional<DriftEstimate> drift_estimate() const { return policy_->drift_estimate(*world_); }
 
  private:

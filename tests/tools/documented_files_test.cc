@@ -137,6 +137,18 @@ TEST(DocumentedFiles, HaveAllColumnsAndKeysOfBenchmarks) {
   expect_documented(columns, "frames-SCENE-BACKEND-POLICY.csv");
 }
 
+TEST(DocumentedFiles, HaveAllKeysOfBenchTruth) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command(
+      "bench truth --quick --bodies 10 --seeds 2 --cells 2d-f0.6-box-at_once-flat-g25 --out " + (folder / "b"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  Names keys;
+  collect(Json::parse(contents(folder.path() / "b" / "results.json"))[0], "", keys);
+  keys.insert("red[]");  // the list may be empty
+  keys.erase("red");
+  expect_documented(keys, "results.json of talus bench truth");
+}
+
 TEST(DocumentedFiles, HaveATableOfTheMeasuresAsTheyAreDeclared) {
   std::string table;
   for (const Measure& measure : measures) {

@@ -129,6 +129,7 @@ inline constexpr auto measures = std::to_array<Measure>({
      "height of the centre of mass when the last body appears"},
     {"spill", "spilled", 3, "bodies outside the container"},
     {"all_asleep", "all asleep", 1, "1 where every body sleeps at the end"},
+    {"estimate_D", "estimated drift / D", 2, "drift as the policy estimates it at the end"},
     {"awake_sampled", "awake at moments", 3, "awake bodies, mean over moments of the run"},
     {"moving_sampled", "moving at moments", 3,
      "bodies of which a point moves by more than 0.05 D within half a second with all awake, mean over the same "

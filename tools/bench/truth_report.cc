@@ -63,6 +63,8 @@ std::vector<TruthColumn> truth_columns() {
               "drift_95_D", "95 %", [](const R& r) { return r.drift_95; }, 2),
           number_column(
               "drift_full_D", "full's", [](const R& r) { return r.drift_full; }, 2),
+          number_column(
+              "estimate_D", "estimate", [](const R& r) { return r.estimate; }, 2),
           number_column("floating", "floating", [](const R& r) { return r.floating; }),
           number_column("asleep_percent", "asleep %", [](const R& r) { return 100.0 * r.asleep; }),
           number_column("awake", "awake", [](const R& r) { return r.awake; }),

@@ -96,6 +96,7 @@ TruthResult truth_result(const TruthRuns& runs, const TruthLimits& limits) {
   result.drift_full = mean_over(runs.full, "drift_mean_D");
   result.drift = mean_over(runs.adaptive, "drift_mean_D") - result.drift_full;
   result.drift_95 = quantile(numbers_of(runs.adaptive, "drift_mean_D"), 0.95) - result.drift_full;
+  result.estimate = mean_over(runs.adaptive, "estimate_D");
   result.floating = mean_over(runs.adaptive, "floating");
   result.asleep = mean_over(runs.adaptive, "all_asleep");
   result.awake = mean_over(runs.adaptive, "mean_awake");

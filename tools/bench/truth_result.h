@@ -54,6 +54,7 @@ struct TruthResult {
   double drift = 0.0;            // beyond full's, mean [D]
   double drift_95 = 0.0;         // 95 % of the runs have no more [D]
   double drift_full = 0.0;       // [D]
+  double estimate = 0.0;         // of drift, by the policy itself; full's is part of it [D]
   double floating = 0.0;         // mean
   double asleep = 0.0;           // share of runs
   double awake = 0.0;            // mean over the run

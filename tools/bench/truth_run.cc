@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/measure/ensemble.h"
 #include "common/measure/fork.h"
@@ -162,6 +163,8 @@ class TruthStepper {
     values["steps"] = static_cast<double>(steps_);
     values["mean_awake"] = awake_ / static_cast<double>(steps_);
     values["all_asleep"] = simulation_.world().awake().empty() ? 1.0 : 0.0;
+    if (const std::optional<DriftEstimate> estimate = simulation_.drift_estimate())
+      values["estimate_D"] = estimate->drift / simulation_.piles().typical_body().extent;
     if (forks_.empty()) return;
     double moving = 0.0;
     for (const Fork<Dim>& fork : forks_) moving += moving_bodies(scene_, backend, fork, arrivals_);

@@ -76,6 +76,19 @@ template PictureInput<3> picture_input(const SummaryInput&, const Scene<3>&, con
 template class RunOutputs<2>;
 template class RunOutputs<3>;
 
+/// What is known of the error that sleep has caused.
+template <int Dim>
+void print_estimate(const Simulation<Dim>& simulation, const AdaptiveParams& params) {
+  if (params.tolerance <= 0.0) return;
+  const std::optional<DriftEstimate> estimate = simulation.drift_estimate();
+  if (!estimate) {
+    print_result("  no stability check yet: the error of the sleeping bodies is not known\n");
+    return;
+  }
+  print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
+               estimate->drift / simulation.piles().typical_body().extent, 100.0 * estimate->checked_share);
+}
+
 template <int Dim>
 void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
                const RunOutputs<Dim>& outputs) {
@@ -91,9 +104,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   print_result("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
-  if (const std::optional<DriftEstimate> estimate = simulation.drift_estimate(); estimate)
-    print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
-                 estimate->drift / simulation.piles().typical_body().extent, 100.0 * estimate->checked_share);
+  if (scene.policy.kind == "adaptive") print_estimate(simulation, scene.policy.adaptive);
   for (const Warning& warning : simulation.warnings()) print_result("  warning: {}\n", account(warning));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());

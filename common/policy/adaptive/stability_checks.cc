@@ -154,6 +154,7 @@ std::optional<DriftEstimate> StabilityChecks<Dim>::drift_estimate(const World<Di
     drift += is_checked ? checked_[body]->expected : found_;
   }
   if (sleeping == 0) return DriftEstimate{.drift = 0.0, .checked_share = 1.0};
+  if (checked < sleeping && found_count_ == 0) return std::nullopt;
   return DriftEstimate{.drift = drift / sleeping, .checked_share = static_cast<double>(checked) / sleeping};
 }
 

@@ -40,7 +40,7 @@ class StabilityChecks {
   bool holds(BodyIndex body) const;
 
   /// Of a body that a check has left: the motion expected of it then. Of the others: the mean distance that bodies
-  /// moved which a check woke, over the last few hundred. None without checks. Costs O(bodies).
+  /// moved which a check woke, over the last few hundred. None without checks, and before the first. Costs O(bodies).
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const;
 
   /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a
