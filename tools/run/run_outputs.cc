@@ -29,7 +29,7 @@ PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& s
   return {scene.world.shapes,
           world.states(),
           simulation.piles().piles(),
-          scene.world.obstacles,
+          obstacles_at(scene.world.obstacles, scene.movers, simulation.time()),
           scene.world.ground,
           printable(scene.title),
           fmt::format("{}, policy {}: {} bodies, {} asleep", summary.backend, scene.policy.kind, bodies,
@@ -94,6 +94,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   if (const std::optional<DriftEstimate> estimate = simulation.drift_estimate(); estimate)
     print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
                  estimate->drift / simulation.piles().typical_body().extent, 100.0 * estimate->checked_share);
+  if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
   for (const Warning& warning : simulation.warnings()) print_result("  warning: {}\n", account(warning));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
