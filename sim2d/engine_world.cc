@@ -72,9 +72,11 @@ void EngineWorld::add_obstacles() {
   BodyIndex index = first_obstacle;
   for (const Obstacle<2>& obstacle : description().obstacles) {
     b2BodyDef fixed;
+    if (obstacle.moves) fixed.type = b2_kinematicBody;
     fixed.position = to_engine(obstacle.pose.position);
     fixed.angle = engine_angle(obstacle.pose.rotation.angle());
     b2Body& body = *world_.CreateBody(&fixed);
+    obstacles_.push_back(&body);
     b2FixtureDef fixture = fixture_of(obstacle.shape.material, description().solver);
     int number = 0;
     for (const EnginePiece& piece : engine_pieces(obstacle.shape)) {
@@ -159,6 +161,20 @@ void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
 }
 
 bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
+
+void EngineWorld::engine_move_obstacle(int number, const Pose<2>& to) {
+  const Pose<2>& from = obstacle_pose(number);
+  const double rate = 1.0 / description().dt;
+  give_velocity(*obstacles_[number], rate * (to.position - from.position),
+                Spin<2>(rate * (to.rotation.angle() - from.rotation.angle())));
+}
+
+void EngineWorld::engine_place_obstacle(int number, const Pose<2>& at) {
+  b2Body& body = *obstacles_[number];
+  body.SetTransform(to_engine(at.position), engine_angle(at.rotation.angle()));
+  give_velocity(body, Vec<2>::Zero(), Spin<2>::Zero());
+  proxies_moved_ = true;
+}
 
 void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies)

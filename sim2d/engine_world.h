@@ -40,6 +40,8 @@ class EngineWorld final : public World<2> {
   void engine_query_box(const Box<2>& box, std::vector<BodyIndex>& found) const override;
   void engine_contacts(std::vector<Contact<2>>& contacts) override;
   bool engine_awake(BodyIndex body) const override;
+  void engine_move_obstacle(int number, const Pose<2>& to) override;
+  void engine_place_obstacle(int number, const Pose<2>& at) override;
 
   void add_ground();
   void add_obstacles();
@@ -63,6 +65,7 @@ class EngineWorld final : public World<2> {
   WarmStart warm_start_;
   ContactListener listener_;
   std::vector<EngineBody> bodies_;
+  std::vector<b2Body*> obstacles_;
   bool proxies_moved_ = false;  // since the last step
 };
 

@@ -52,4 +52,15 @@ std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, b
   return object;
 }
 
+std::unique_ptr<btCollisionObject> make_moving_obstacle(const BodyTemplate& shape, const btTransform& place,
+                                                        BodyIndex index) {
+  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape.whole);
+  info.m_startWorldTransform = place;
+  auto body = std::make_unique<btRigidBody>(info);
+  body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+  body->setActivationState(DISABLE_DEACTIVATION);
+  set_common(*body, shape.friction, shape.restitution, index);
+  return body;
+}
+
 }  // namespace talus::bullet

@@ -36,4 +36,8 @@ class RigidBodyMaker {
 std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, btScalar friction, btScalar restitution,
                                                       const btTransform& place, BodyIndex index);
 
+/// An obstacle that moves by plan: Bullet takes its velocity from the difference of its two transforms.
+std::unique_ptr<btCollisionObject> make_moving_obstacle(const BodyTemplate& shape, const btTransform& place,
+                                                        BodyIndex index);
+
 }  // namespace talus::bullet

@@ -11,6 +11,9 @@ namespace {
 /// Ascending as (a, b) are; b is negative for ground and obstacles.
 std::int64_t place_of_pair(BodyIndex a, BodyIndex b) { return (std::int64_t{a} << 32) + b; }
 
+/// An obstacle that moves is active too.
+bool is_awake_body(const btCollisionObject& object) { return object.isActive() && object.getUserIndex() >= 0; }
+
 }  // namespace
 
 template <int Dim>
@@ -38,9 +41,9 @@ void Contacts<Dim>::find_touches(const Engine& engine) {
     const btPersistentManifold& manifold = *const_cast<Engine&>(engine).dispatcher.getManifoldByIndexInternal(i);
     const btCollisionObject& first = *manifold.getBody0();
     const btCollisionObject& second = *manifold.getBody1();
-    if (manifold.getNumContacts() == 0 || (!first.isActive() && !second.isActive())) continue;
+    if (manifold.getNumContacts() == 0 || (!is_awake_body(first) && !is_awake_body(second))) continue;
     // The awake one is a, of two awake ones the first added.
-    const bool swap = !first.isActive() || (second.isActive() && second.getUserIndex() < first.getUserIndex());
+    const bool swap = !is_awake_body(first) || (is_awake_body(second) && second.getUserIndex() < first.getUserIndex());
     const btCollisionObject& a = swap ? second : first;
     const btCollisionObject& b = swap ? first : second;
     touches_.push_back({place_of_pair(a.getUserIndex(), b.getUserIndex()), &manifold, &a, &b, swap});

@@ -80,8 +80,10 @@ void EngineWorld<Dim>::add_obstacles() {
   BodyIndex index = first_obstacle;
   for (const Obstacle<Dim>& obstacle : this->description().obstacles) {
     const BodyTemplate& from = obstacles_.emplace_back(make_body_template(obstacle.shape));
-    statics_.push_back(make_static_object(*from.whole, from.friction, from.restitution,
-                                          to_bullet(obstacle.pose, from.frame), index--));
+    const btTransform place = to_bullet(obstacle.pose, from.frame);
+    statics_.push_back(obstacle.moves ? make_moving_obstacle(from, place, index)
+                                      : make_static_object(*from.whole, from.friction, from.restitution, place, index));
+    --index;
     engine_.world.add_static(*statics_.back());
   }
 }
@@ -140,6 +142,26 @@ std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) 
     states.spin[i] = spin_from_bullet<Dim>(body->getAngularVelocity());
   }
   return std::nullopt;
+}
+
+/// The transform before the last step is set to what it would have been with the velocity of the next one: Bullet
+/// takes the velocity from the difference.
+template <int Dim>
+void EngineWorld<Dim>::engine_move_obstacle(int number, const Pose<Dim>& to) {
+  btCollisionObject& object = obstacle(number);
+  const btTransform& now = object.getWorldTransform();
+  const btTransform next = to_bullet(to, obstacles_[number].frame);
+  const btMatrix3x3 turn = next.getBasis() * now.getBasis().transpose();
+  object.setInterpolationWorldTransform(
+      btTransform(turn.transpose() * now.getBasis(), btScalar(2) * now.getOrigin() - next.getOrigin()));
+}
+
+template <int Dim>
+void EngineWorld<Dim>::engine_place_obstacle(int number, const Pose<Dim>& at) {
+  btCollisionObject& object = obstacle(number);
+  const btTransform place = to_bullet(at, obstacles_[number].frame);
+  object.setWorldTransform(place);
+  object.setInterpolationWorldTransform(place);
 }
 
 template <int Dim>

@@ -33,6 +33,8 @@ class EngineWorld final : public World<Dim> {
   void engine_freeze(std::span<const BodyIndex> bodies) override;
   void engine_thaw(std::span<const BodyIndex> bodies) override;
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override;
+  void engine_move_obstacle(int number, const Pose<Dim>& to) override;
+  void engine_place_obstacle(int number, const Pose<Dim>& at) override;
   void engine_contacts(std::vector<Contact<Dim>>& contacts) override { contacts_.gather(engine_, contacts); }
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
 
@@ -46,6 +48,7 @@ class EngineWorld final : public World<Dim> {
   std::unique_ptr<btCollisionObject>& at(BodyIndex body) { return objects_[body]; }
   /// Null if the body is frozen.
   btRigidBody* rigid_body(BodyIndex body) const { return btRigidBody::upcast(at(body).get()); }
+  btCollisionObject& obstacle(int number) const { return *statics_[number + (ground_ != nullptr ? 1 : 0)]; }
   const BodyTemplate& template_of(int shape) const { return templates_[shape]; }
   const BodyTemplate& template_of_body(BodyIndex body) const { return template_of(this->states().shape[body]); }
 
@@ -53,7 +56,7 @@ class EngineWorld final : public World<Dim> {
   std::vector<BodyTemplate> templates_;  // by shape
   std::vector<BodyTemplate> obstacles_;
   std::unique_ptr<btCollisionShape> ground_;
-  std::vector<std::unique_ptr<btCollisionObject>> statics_;  // ground and obstacles
+  std::vector<std::unique_ptr<btCollisionObject>> statics_;  // the ground if there is one, then the obstacles
   std::vector<std::unique_ptr<btCollisionObject>> objects_;  // by body; null once removed
   Engine engine_;
   BodySwap swap_{engine_};

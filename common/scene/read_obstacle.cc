@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "common/scene/read_motion.h"
 #include "common/shape/polygon.h"
 
 namespace talus {
@@ -90,10 +91,26 @@ std::vector<Obstacle<Dim>> build(const Outlined<Dim>& outlined, const BoundaryPa
   return container_walls(box, pose, material);
 }
 
+/// The obstacles of one table, which will be appended to those of the scene, move as one.
+template <int Dim>
+void read_mover(TableReader& table, const Vec<Dim>& pivot, std::vector<Obstacle<Dim>>& obstacles, Scene<Dim>& scene) {
+  double reach = 0.0;
+  for (Obstacle<Dim>& obstacle : obstacles) {
+    obstacle.moves = true;
+    reach = std::max(reach, (obstacle.pose.position - pivot).norm() + bounding_radius(obstacle.shape));
+  }
+  table.table("motion", [&](TableReader& own) {
+    scene.movers.push_back({.first = static_cast<int>(scene.world.obstacles.size()),
+                            .count = static_cast<int>(obstacles.size()),
+                            .pivot = pivot,
+                            .motion = read_motion<Dim>(own, pivot, reach, scene.world.dt)});
+  });
+}
+
 }  // namespace
 
 template <int Dim>
-void read_obstacle(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
+void read_obstacle(TableReader& table, Scene<Dim>& scene) {
   std::vector<std::string> kinds = names_of_shape_kinds<Dim>();
   kinds.emplace_back("container");
   const std::string kind = read_kind(table, kinds);
@@ -110,6 +127,8 @@ void read_obstacle(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
       alone.obstacles = {{*shape, pose_of_centre(*shape, pose)}};
     check(alone);  // here, so that the error has its place in the file
   });
+  if (table.has("motion")) read_mover(table, pose.position, alone.obstacles, scene);
+  std::vector<Obstacle<Dim>>& obstacles = scene.world.obstacles;
   obstacles.insert(obstacles.end(), alone.obstacles.begin(), alone.obstacles.end());
 }
 
@@ -134,8 +153,8 @@ Boundary<Dim> read_boundary(TableReader& table, const Vec<Dim>& at, std::vector<
   return boundary;
 }
 
-template void read_obstacle(TableReader&, std::vector<Obstacle<2>>&);
-template void read_obstacle(TableReader&, std::vector<Obstacle<3>>&);
+template void read_obstacle(TableReader&, Scene<2>&);
+template void read_obstacle(TableReader&, Scene<3>&);
 template Boundary<2> read_boundary(TableReader&, const Vec<2>&, std::vector<Obstacle<2>>&);
 template Boundary<3> read_boundary(TableReader&, const Vec<3>&, std::vector<Obstacle<3>>&);
 

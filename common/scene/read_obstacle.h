@@ -33,6 +33,11 @@ inline constexpr auto obstacle_fields = std::to_array<Field<Pose<Dim>>>({
           "of a container's floor, or the origin of its `corners`"}},
     {{}, angle_key},
     {{}, axis_key},
+    {{},
+     {.name = "motion",
+      .type = "table",
+      .default_text = "none",
+      .meaning = "how it moves by plan: `[obstacle.motion]`"}},
 });
 
 /// Keys of `[pile.boundary]`.
@@ -77,9 +82,9 @@ inline constexpr auto boundary_fields = std::to_array<Field<BoundaryParams>>({
       .meaning = "a slab beneath as thick as the walls; without, the ground is the floor. Not without `wall`"}},
 });
 
-/// One `[[obstacle]]`, appended; a container is as many as it has walls.
+/// One `[[obstacle]]`, appended to the scene's world; a container is as many as it has walls.
 template <int Dim>
-void read_obstacle(TableReader& table, std::vector<Obstacle<Dim>>& obstacles);
+void read_obstacle(TableReader& table, Scene<Dim>& scene);
 
 /// `[pile.boundary]`, the walls around a pile's middle. With `wall`, they are appended to the obstacles too.
 template <int Dim>

@@ -159,7 +159,7 @@ Scene<Dim> read_root(TableReader& root) {
   root.read(dimension_key, dimension);
   root.table("world", [&](TableReader& table) { read_world(table, scene.world); });
   root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
-  root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene.world.obstacles); });
+  root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
   std::vector<std::string> shape_names;
   read_shapes(root, shape_names, scene.world.shapes);
   read_sources(root, shape_names, scene);

@@ -10,6 +10,7 @@
 
 #include "common/mesh/mesh_shape.h"
 #include "common/scene/read_body.h"
+#include "common/scene/read_motion.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_scene.h"
 #include "common/shape/catalogue.h"
@@ -133,6 +134,10 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[world.solver]", rows_of<SolverParams>(solver_fields)},
       {"[ground]", rows_of<Ground>(ground_fields) + rows_of<Material>(surface_fields)},
       {"[[obstacle]]", rows_of<Pose<3>>(obstacle_fields<3>) + rows_of<Material>(surface_fields)},
+      {"[obstacle.motion]", row_of(motion_kind_key, "text", "")},
+      {"[obstacle.motion] sine", rows_of<Motion<3>>(sine_fields<3>)},
+      {"[obstacle.motion] turn", rows_of<Motion<3>>(turn_fields<3>)},
+      {"[obstacle.motion] path", rows_of<Motion<3>>(path_fields<3>)},
       {"[[obstacle]] container", rows_of<ContainerParams<3>>(container_fields<3>)},
       {"[[obstacle]] round container", rows_of<ConvexContainerParams>(convex_container_fields)},
       {"[shape.NAME]", rows_of_shape()},

@@ -12,6 +12,7 @@
 #include "common/pile/pile_params.h"
 #include "common/policy/adaptive/adaptive_params.h"
 #include "common/policy/paper_params.h"
+#include "common/world/motion.h"
 #include "common/world/world_description.h"
 
 namespace talus {
@@ -190,10 +191,16 @@ inline constexpr auto policy_fields = std::to_array<Field<PolicyParams>>({
     {{}, {.name = "adaptive", .type = "table", .default_text = "see below", .meaning = "`[policy.adaptive]`"}},
 });
 
+/// What ends a run.
+inline constexpr std::string_view until_frames = "frames";
+inline constexpr std::string_view until_rest = "rest";
+inline constexpr std::array<std::string_view, 2> run_ends = {until_frames, until_rest};
+
 /// Length of a run. Output comes in frames of one or more steps.
 struct RunParams {
   std::int64_t frames = 300;
   double frame_rate = 30.0;
+  std::string until = std::string(until_frames);
 };
 
 /// Steps of a run: at 60 a second half a year, at a quarter of a microsecond for a world at rest four minutes.
@@ -204,13 +211,18 @@ inline constexpr auto run_fields = std::to_array<Field<RunParams>>({
      {.name = "frames",
       .range = between(1.0, most_steps),
       .further_rule = "at most 1e9 steps",
-      .meaning = "frames of output"}},
+      .meaning = "frames of output, at most"}},
     {&RunParams::frame_rate,
      {.name = "frame_rate",
       .unit = "1/s",
       .range = between(1e-3, 1e5),
       .further_rule = "divides `world.steps_per_second`",
       .meaning = "frames per simulated second; a frame is one or more whole steps"}},
+    {&RunParams::until,
+     {.name = "until",
+      .choices = run_ends,
+      .meaning = "`rest`: the run ends before `frames` once all bodies have appeared, no obstacle is to move any more, "
+                 "and for 4 sqrt(`D`/g) no awake body has moved farther than 0.01 `D` and none woke"}},
 });
 
 template <int Dim>
@@ -219,6 +231,7 @@ struct Scene {
   WorldDescription<Dim> world;
   std::vector<InitialBody<Dim>> bodies;  // in the world from the start; those of sources are numbered after them
   std::vector<Source<Dim>> sources;
+  std::vector<Mover<Dim>> movers;  // obstacles that move by plan
   std::vector<PileParams<Dim>> piles;
   PolicyParams policy;
   RunParams run;

@@ -41,7 +41,10 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       watchdog_(scene, world_->speed_limits()),
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep),
-      debug_(scene.world.debug) {
+      debug_(scene.world.debug),
+      obstacles_(scene),
+      steps_(scene.steps()) {
+  if (scene.run.until == until_rest) rest_check_.emplace(scene);
   for (std::size_t i = 0; policy_->decides() && i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
 }
@@ -64,6 +67,7 @@ void Simulation<Dim>::step() {
   if (!asleep_at_start_.empty()) freeze_initial_bodies();
   if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
+  move_obstacles();
   world_->record_contacts(needs_contacts());
   world_->step();
   ++step_;
@@ -78,8 +82,25 @@ void Simulation<Dim>::step() {
   phases_.decide = watch.lap();
   apply();
   phases_.apply = watch.lap();
+  if (rest_check_)
+    at_rest_ = rest_check_->update(*world_, step_) && emitter_.finished() && !obstacles_.moves_after(time());
   show();
   phases_.observe = watch.lap();
+}
+
+template <int Dim>
+void Simulation<Dim>::move_obstacles() {
+  const std::vector<BodyIndex>& sleepers = obstacles_.move(*world_, time());
+  if (engine_sleep_)
+    world_->thaw(sleepers);  // note_engine_sleep() makes the events
+  else if (!sleepers.empty())
+    thaw_now(sleepers, SleepCause::lost_support);
+}
+
+/// A body that touches an obstacle that moves must follow it.
+template <int Dim>
+void Simulation<Dim>::keep_moved_awake() {
+  std::erase_if(decision_.freeze, [this](const SleepEvent& event) { return obstacles_.touch(*world_, event.body); });
 }
 
 template <int Dim>
@@ -124,6 +145,7 @@ void Simulation<Dim>::decide() {
   decision_.thaw.clear();
   decision_.velocities.clear();
   if (policy_->decides()) policy_->decide(frame(), decision_);
+  keep_moved_awake();
 }
 
 template <int Dim>

@@ -9,7 +9,9 @@
 #include "common/policy/sleep_policy.h"
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
+#include "common/simulation/moving_obstacles.h"
 #include "common/simulation/observer.h"
+#include "common/simulation/rest_check.h"
 #include "common/simulation/watchdog.h"
 
 namespace talus {
@@ -29,6 +31,11 @@ class Simulation {
 
   /// One step: emit due bodies, step the world, recount the piles, let the policy decide, apply its three lists.
   void step();
+
+  /// Whether the run is at its end: all frames are done or, where the scene says so, the world is at rest.
+  bool finished() const { return step_ >= steps_ || at_rest_; }
+  /// Whether the run ended since the world came to rest.
+  bool at_rest() const { return at_rest_; }
 
   /// Calls on_end() of the observers: "finished", "interrupted", or what went wrong.
   void end(std::string_view reason);
@@ -61,6 +68,8 @@ class Simulation {
   void decide();
   void apply();
   void freeze_initial_bodies();
+  void move_obstacles();
+  void keep_moved_awake();
   void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);
   void note_engine_sleep();
   bool watched() const { return !observers_.empty(); }
@@ -84,6 +93,10 @@ class Simulation {
   bool observers_need_contacts_ = false;
   DebugOptions debug_;
   std::vector<BodyIndex> asleep_at_start_;
+  MovingObstacles<Dim> obstacles_;
+  std::optional<RestCheck<Dim>> rest_check_;  // where the scene ends at rest
+  bool at_rest_ = false;
+  std::int64_t steps_;
 };
 
 }  // namespace talus

@@ -49,6 +49,7 @@ class Watchdog {
   double lowest_;         // height that no centre may lie below [m]
   double ground_;         // [m]
   double dt_;             // [s]
+  bool driven_;           // obstacles move by plan, so energy is put in
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
   int bodies_asked_;

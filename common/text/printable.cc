@@ -29,19 +29,19 @@ Character first_character(std::string_view text) {
   return {code, bytes};
 }
 
-struct Range {
+struct CodePoints {
   std::uint32_t first;
   std::uint32_t last;
 };
 
 // C0; DEL and C1; direction marks; line and paragraph separator, directional embedding; isolates; byte order mark;
 // tags.
-constexpr Range commands[] = {{0x00, 0x1F},     {0x7F, 0x9F},     {0x061C, 0x061C}, {0x200E, 0x200F},
-                              {0x2028, 0x202E}, {0x2066, 0x2069}, {0xFEFF, 0xFEFF}, {0xE0000, 0xE007F}};
+constexpr CodePoints commands[] = {{0x00, 0x1F},     {0x7F, 0x9F},     {0x061C, 0x061C}, {0x200E, 0x200F},
+                                   {0x2028, 0x202E}, {0x2066, 0x2069}, {0xFEFF, 0xFEFF}, {0xE0000, 0xE007F}};
 
 bool is_command(std::uint32_t code) {
   return std::any_of(std::begin(commands), std::end(commands),
-                     [=](Range range) { return code >= range.first && code <= range.last; });
+                     [=](CodePoints range) { return code >= range.first && code <= range.last; });
 }
 
 std::string clean(std::string_view text, bool keep_lines) {

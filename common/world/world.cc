@@ -44,6 +44,30 @@ void World<Dim>::step() {
   contacts_.clear();
   times_ = engine_step();
   if (!awake_.empty()) read_step();
+  place_obstacles();
+}
+
+template <int Dim>
+void World<Dim>::move_obstacle(int number, const Pose<Dim>& to) {
+  require(number >= 0 && number < std::ssize(description_.obstacles), "obstacle", number,
+          "must be the number of an obstacle, from 0 on");
+  require(description_.obstacles[number].moves, "obstacle", number, "must be one that may move");
+  engine_move_obstacle(number, to);
+  moves_.emplace_back(number, to);
+}
+
+template <int Dim>
+void World<Dim>::engine_move_obstacle(int number, const Pose<Dim>& /*to*/) {
+  require(false, "obstacle", number, "must stand still: this engine moves no obstacles");
+}
+
+template <int Dim>
+void World<Dim>::place_obstacles() {
+  for (const auto& [number, pose] : moves_) {
+    description_.obstacles[number].pose = pose;
+    engine_place_obstacle(number, pose);
+  }
+  moves_.clear();
 }
 
 template <int Dim>

@@ -72,6 +72,12 @@ class World {
   /// called during step().
   void thaw(std::span<const BodyIndex> bodies);
 
+  /// Where an obstacle that may move goes within the next step, with the velocity that this takes; it pushes awake
+  /// bodies. Sleeping ones do not notice: the caller wakes them. `number` in WorldDescription::obstacles.
+  void move_obstacle(int number, const Pose<Dim>& to);
+  /// Where an obstacle is.
+  const Pose<Dim>& obstacle_pose(int number) const { return description_.obstacles[number].pose; }
+
   /// Whether the steps from now on record their contacts, which takes 5 to 15 % of a step. Off in a new world.
   void record_contacts(bool record) { record_contacts_ = record; }
 
@@ -130,6 +136,12 @@ class World {
 
   virtual void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
 
+  /// Before a step: gives an obstacle that may move the velocity that takes it `to` there. An engine without moving
+  /// obstacles throws.
+  virtual void engine_move_obstacle(int number, const Pose<Dim>& to);
+  /// After the step: puts it there, at rest.
+  virtual void engine_place_obstacle(int /*number*/, const Pose<Dim>& /*at*/) {}
+
   /// Bodies that were awake; ascending, each once, at least one.
   virtual void engine_freeze(std::span<const BodyIndex> bodies) = 0;
   /// Bodies that were asleep; ascending, each once, at least one.
@@ -145,6 +157,7 @@ class World {
   /// WorldDescription::engine_sleep.
   virtual bool engine_awake(BodyIndex body) const = 0;
 
+  void place_obstacles();
   void require_present(BodyIndex body) const;
   /// Those of `bodies` that are asleep, or those that are not: ascending, each once.
   void choose(std::span<const BodyIndex> bodies, bool asleep);
@@ -157,7 +170,8 @@ class World {
   BodyStates<Dim> states_;
   std::vector<BodyIndex> awake_;
   std::vector<Contact<Dim>> contacts_;
-  std::vector<BodyIndex> chosen_;  // scratch
+  std::vector<BodyIndex> chosen_;                 // scratch
+  std::vector<std::pair<int, Pose<Dim>>> moves_;  // of obstacles in the next step
   EngineTimes times_;
   std::int64_t steps_ = 0;
   std::optional<NonFiniteState> failure_;

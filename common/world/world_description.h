@@ -61,11 +61,12 @@ inline constexpr auto ground_fields = std::to_array<Field<Ground>>({
     {&Ground::height, {.name = "height", .unit = "m", .range = coordinate_range, .meaning = "height of the plane"}},
 });
 
-/// A shape that never moves.
+/// A shape that no body moves.
 template <int Dim>
 struct Obstacle {
   Shape<Dim> shape;
   Pose<Dim> pose;
+  bool moves = false;  // World::move_obstacle() may be called for it
 };
 
 /// All that an engine is made from. world_fields has the unit, range and effect of gravity and time step.

@@ -22,6 +22,7 @@ void RowSetup::make(std::span<btCollisionObject*> bodies, std::span<btPersistent
   bodies_.clear();
   system.clear(count + 1, count);
   for (btCollisionObject* each : bodies) add_body(*each, info.m_timeStep, system);
+  fixed_ = count;
   bodies_.emplace_back();  // stands for all that never move
   find_contacts(manifolds, system);
   system.arrange(sides_, 2, by_level);
@@ -55,15 +56,31 @@ void RowSetup::add_body(btCollisionObject& object, btScalar time_step, RowSystem
   system.body(index).inv_mass = lanes(btVector3(inv_mass, inv_mass, inv_mass) * rigid.getLinearFactor());
 }
 
+/// An obstacle that moves by plan: a velocity without a response.
+void RowSetup::add_obstacle(btRigidBody& obstacle, RowSystem& system) {
+  obstacle.setCompanionId(system.add_heavy_body());
+  Body& body = bodies_.emplace_back();
+  body.rigid = &obstacle;
+  body.origin = obstacle.getWorldTransform().getOrigin();
+  body.velocity = obstacle.getLinearVelocity();
+  body.spin = body.pushed_spin = obstacle.getAngularVelocity();
+}
+
+std::int32_t RowSetup::index_of(btCollisionObject& object, RowSystem& system) {
+  btRigidBody* rigid = btRigidBody::upcast(&object);
+  if (rigid == nullptr) return fixed_;
+  if (rigid->isKinematicObject() && rigid->getCompanionId() < 0) add_obstacle(*rigid, system);
+  return rigid->getCompanionId();
+}
+
 void RowSetup::find_contacts(std::span<btPersistentManifold*> manifolds, RowSystem& system) {
   sides_.clear();
   points_.clear();
-  const auto fixed = static_cast<std::int32_t>(bodies_.size() - 1);
-  const auto index_of = [fixed](const btCollisionObject* object) {
-    return btRigidBody::upcast(object) != nullptr ? object->getCompanionId() : fixed;
+  const auto side = [&](const btCollisionObject* object) {
+    return index_of(const_cast<btCollisionObject&>(*object), system);  // manifolds give const access only
   };
   for (btPersistentManifold* manifold : manifolds) {
-    const RowBodies sides = {index_of(manifold->getBody0()), index_of(manifold->getBody1())};
+    const RowBodies sides = {side(manifold->getBody0()), side(manifold->getBody1())};
     if (to_vector(system.body(sides.a).inv_mass).fuzzyZero() && to_vector(system.body(sides.b).inv_mass).fuzzyZero())
       continue;  // Bullet takes bodies as heavy as that for immovable
     for (int i = 0; i < manifold->getNumContacts(); ++i) {
@@ -98,9 +115,9 @@ void RowSetup::write_back(const btContactSolverInfo& info, RowSystem& system) co
     point.m_appliedImpulseLateral2 = system.friction(2 * i + 1).applied;
     if (warm_friction_) set_friction_impulse(point, friction_impulse(point));
   }
-  for (std::size_t i = 0; i + 1 < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
-    const auto index = static_cast<std::int32_t>(i);
+  for (std::size_t i = fixed_ + 1; i < bodies_.size(); ++i) bodies_[i].rigid->setCompanionId(-1);
+  for (std::int32_t index = 0; index < fixed_; ++index) {
+    const Body& body = bodies_[index];
     const PackedBody& change = system.body(index);
     btRigidBody& rigid = *body.rigid;
     rigid.setLinearVelocity((rigid.getLinearVelocity() + to_vector(change.linear)) + body.force_impulse);

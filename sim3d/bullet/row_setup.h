@@ -59,7 +59,7 @@ inline ThreeRows by_rows(const Vectors& v, Lanes fourth) {
 /// friction of WarmFrictionSolver. The three rows of a point (normal and friction) are computed side by side, one a
 /// lane, each lane with Bullet's expressions, and written where the solver needs them; no btSolverBody and no
 /// btSolverConstraint is made. Left out, since bodies of talus have none: torques from outside, anisotropic and rolling
-/// friction, softness, friction anchors, kinematic bodies.
+/// friction, softness, friction anchors.
 class RowSetup {
  public:
   explicit RowSetup(bool warm_friction) : warm_friction_(warm_friction) {}
@@ -88,6 +88,8 @@ class RowSetup {
   struct Side;
   struct Sides;
   void add_body(btCollisionObject& object, btScalar time_step, RowSystem& system);
+  std::int32_t index_of(btCollisionObject& object, RowSystem& system);
+  void add_obstacle(btRigidBody& obstacle, RowSystem& system);
   void find_contacts(std::span<btPersistentManifold*> manifolds, RowSystem& system);
   void make_contact(std::size_t i, const btContactSolverInfo& info, RowSystem& system);
   void write_rows(std::size_t i, const ThreeRows& axes, const Sides& sides, Lanes gain, RowSystem& system) const;
@@ -95,7 +97,8 @@ class RowSetup {
   const Body& body(std::int32_t i) const { return bodies_[i]; }
 
   bool warm_friction_;
-  std::vector<Body> bodies_;
+  std::vector<Body> bodies_;               // those of the group, the one that never moves, obstacles that move
+  std::int32_t fixed_ = 0;                 // number of the one that never moves
   std::vector<RowBodies> sides_;           // by contact
   std::vector<btManifoldPoint*> points_;   // by contact
   std::vector<btVector3> last_frictions_;  // by contact: impulse of the last step [N s]

@@ -41,6 +41,12 @@ class RowSystem {
   /// -1.
   void clear(int bodies, std::int32_t fixed);
 
+  /// Adds one more body, at no change of velocity and of infinite mass; returns its number.
+  std::int32_t add_heavy_body() {
+    bodies_.push_back({splat(0), splat(0), splat(0)});
+    return static_cast<std::int32_t>(bodies_.size()) - 1;
+  }
+
   /// Makes room for the rows, and their places. The bodies of contact i are those of its friction rows, `directions`
   /// of them (1 or 2).
   void arrange(std::span<const RowBodies> contacts, int directions, bool by_level);

@@ -53,6 +53,8 @@ std::string in_manual(const std::string& key) {
   std::string head = key.substr(0, dot);
   if (head == "pile[].boundary")
     head = "[pile.boundary]";
+  else if (head == "obstacle[].motion")
+    head = "[obstacle.motion]";
   else if (head == "shape.*")
     head = "[shape.NAME]";
   else if (head.ends_with("[]"))
@@ -73,6 +75,8 @@ std::set<std::string> keys_of_the_reader() {
     obstacles += ", {kind = \"" + kind + "\", angle_deg = 0}";
   }
   obstacles += ", {kind = \"container\", radius = 1}, {kind = \"container\", corners = []}";
+  for (const char* motion : {"sine", "turn", "path"})
+    obstacles += fmt::format(", {{kind = \"container\", motion = {{kind = \"{}\"}}}}", motion);
   text += "obstacle = [" + obstacles + "]\n";
   text +=
       "pile = [{boundary = {kind = \"box\"}}, {boundary = {kind = \"cylinder\"}}, {boundary = {kind = \"convex\"}}]\n";

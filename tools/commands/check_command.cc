@@ -17,8 +17,10 @@ template <int Dim>
 void print_report(const Scene<Dim>& scene) {
   const TypicalBody body = typical_body(scene);
   print_result("{}\n", printable(scene.title));
-  print_result("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second), policy {}\n", Dim, scene.steps(),
-               scene.world.dt, scene.run.frames, scene.run.frame_rate, scene.policy.kind);
+  print_result("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second){}, policy {}\n", Dim, scene.steps(),
+               scene.world.dt, scene.run.frames, scene.run.frame_rate,
+               scene.run.until == until_rest ? " or until rest" : "", scene.policy.kind);
+  if (!scene.bodies.empty()) print_result("  {} bodies from the start\n", scene.bodies.size());
   print_result("  bodies of {:.4g} kg in the mean, bounding volume {:.4g} {}, largest extent {:.4g} m\n", body.mass,
                body.bounding_volume, Dim == 2 ? "m^2" : "m^3", body.extent);
   for (std::size_t i = 0; i < scene.sources.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/pile/pile.h"
 #include "common/world/world_description.h"
@@ -14,10 +15,10 @@ namespace talus {
 /// What there is to draw. Everything referred to must outlive the call.
 template <int Dim>
 struct PictureInput {
-  std::span<const Shape<Dim>> shapes;  // BodyStates::shape indexes these
-  const BodyStates<Dim>& states;       // removed bodies are not drawn
-  std::span<const Pile<Dim>> piles;    // may be empty
-  std::span<const Obstacle<Dim>> obstacles;
+  std::span<const Shape<Dim>> shapes;    // BodyStates::shape indexes these
+  const BodyStates<Dim>& states;         // removed bodies are not drawn
+  std::span<const Pile<Dim>> piles;      // may be empty
+  std::vector<Obstacle<Dim>> obstacles;  // where they are
   Ground ground;
   std::string title;    // one line, may be empty
   std::string caption;  // one line or more, separated by '\n'; may be empty

@@ -94,7 +94,7 @@ PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& s
   return {run.scene.world.shapes,
           states,
           {},
-          run.scene.world.obstacles,
+          obstacles_at(run.scene.world.obstacles, run.scene.movers, time),
           run.scene.world.ground,
           printable(run.scene.title),
           printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time))};

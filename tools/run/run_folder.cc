@@ -160,6 +160,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"bodies_planned", simulation.emitter().total()},
                   {"bodies_appeared", simulation.emitter().emitted()},
                   {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
+                  {"at_rest", simulation.at_rest()},
                   {"asleep_at_end", bodies - world.awake().size()},
                   {"warnings", warnings_json(simulation.warnings())},
                   {"emit_waits", input.emit_waits},

@@ -29,7 +29,7 @@ PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& s
   return {scene.world.shapes,
           world.states(),
           simulation.piles().piles(),
-          scene.world.obstacles,
+          obstacles_at(scene.world.obstacles, scene.movers, simulation.time()),
           scene.world.ground,
           printable(scene.title),
           fmt::format("{}, policy {}: {} bodies, {} asleep", summary.backend, scene.policy.kind, bodies,
@@ -105,6 +105,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
   if (scene.policy.kind == "adaptive") print_estimate(simulation, scene.policy.adaptive);
+  if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
   for (const Warning& warning : simulation.warnings()) print_result("  warning: {}\n", account(warning));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());

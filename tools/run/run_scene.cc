@@ -36,11 +36,11 @@ std::vector<Override> overrides(const RunOptions& options, const char* option, c
   return list;
 }
 
-/// Steps to the end of the scene, to Ctrl-C or to a failure; returns which.
+/// Steps to the end of the run, to Ctrl-C or to a failure; returns which.
 template <int Dim>
-std::string advance(Simulation<Dim>& simulation, std::int64_t steps, const Interrupt& interrupt) {
+std::string advance(Simulation<Dim>& simulation, const Interrupt& interrupt) {
   try {
-    for (std::int64_t i = 0; i < steps; ++i) {
+    while (!simulation.finished()) {
       if (interrupt.requested()) return "interrupted";
       simulation.step();
     }
@@ -79,7 +79,7 @@ int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict) {
   Simulation<Dim> simulation = make_simulation(scene, backend);
   WarningPrinter<Dim> printer;
   if (strict) simulation.add_observer(printer);
-  const std::string reason = advance(simulation, scene.steps(), interrupt);
+  const std::string reason = advance(simulation, interrupt);
   simulation.end(reason);
   return print_hash(simulation, reason, strict);
 }
@@ -92,7 +92,7 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
   RunOutputs<Dim> outputs(options, scene, name, backend, simulation);
   const Interrupt interrupt;
   Stopwatch watch;
-  const std::string reason = advance(simulation, scene.steps(), interrupt);
+  const std::string reason = advance(simulation, interrupt);
   const SummaryInput summary{name, backend, reason, watch.lap(), simulation.emitter().waits()};
   simulation.end(reason);
   outputs.finish(summary, scene, simulation);

@@ -1,4 +1,4 @@
-#include "tools/view/server.h"
+#include "tools/serve/server.h"
 
 #include <civetweb.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "tools/view/page_hub.h"
+#include "tools/serve/page_hub.h"
 
 #include <algorithm>
 #include <utility>

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "tools/view/shown_run.h"
+#include "tools/serve/shown_run.h"
 
 namespace talus {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "tools/view/page_hub.h"
-#include "tools/view/run_loop.h"
+#include "tools/serve/page_hub.h"
+#include "tools/serve/run_loop.h"
 
 namespace talus {
 

@@ -1,4 +1,4 @@
-#include "tools/view/run_loop.h"
+#include "tools/serve/run_loop.h"
 
 #include <algorithm>
 #include <cmath>

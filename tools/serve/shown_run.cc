@@ -1,4 +1,4 @@
-#include "tools/view/shown_run.h"
+#include "tools/serve/shown_run.h"
 
 #include <utility>
 

@@ -13,9 +13,9 @@
 #endif
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
+#include "tools/serve/run_loop.h"
+#include "tools/serve/server.h"
 #include "tools/view/page.h"
-#include "tools/view/run_loop.h"
-#include "tools/view/server.h"
 
 namespace talus {
 namespace {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "common/scene/read_scene.h"
-#include "tools/view/page_hub.h"
-#include "tools/view/shown_run.h"
+#include "tools/serve/page_hub.h"
+#include "tools/serve/shown_run.h"
 
 namespace talus {
 

@@ -1,0 +1,71 @@
+#include "common/scene/read_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace talus {
+namespace {
+
+template <int Dim>
+void read_motion_axis(TableReader& table, Motion<Dim>& motion, bool required) {
+  if (required && Dim == 3) table.require("axis");
+  table.read(motion_axis_key, motion.axis);
+  if (motion.axis.norm() < 1e-6)
+    table.error("axis", "must have a length, of any size");
+  else
+    motion.axis.normalize();
+}
+
+template <int Dim>
+void check_path(TableReader& table, const Motion<Dim>& motion) {
+  if (!table.ok()) return;
+  const std::size_t corners = motion.times.size();
+  if (corners < 2 || !std::ranges::is_sorted(motion.times, std::ranges::less_equal()))
+    table.error("times", "must be two or more, each later than the one before");
+  if (motion.shifts.size() != corners || motion.shifts.front().norm() > 0.0)
+    table.error("shifts", fmt::format("must be {}, as many as times, the first of them 0", corners));
+  if (!motion.angles.empty() && (motion.angles.size() != corners || motion.angles.front() != 0.0))
+    table.error("angles_deg", fmt::format("must be {}, as many as times, the first of them 0", corners));
+}
+
+/// The engines' limits hold for obstacles too.
+template <int Dim>
+void check_motion(TableReader& table, const Motion<Dim>& motion, const Vec<Dim>& position, double reach, double dt) {
+  if (motion.end && *motion.end <= motion.start) table.error("end", "must be after start");
+  if (!table.ok()) return;
+  const double speed = motion.fastest_shift() + reach * motion.fastest_turn();
+  if (speed > fastest_speed<Dim>(dt))
+    table.error("", fmt::format("must move at most at {:.4g} m/s, here {:.4g}", fastest_speed<Dim>(dt), speed));
+  if (motion.fastest_turn() > fastest_spin(dt))
+    table.error("", fmt::format("must turn by at most {:.4g} rad/s, a quarter turn a step", fastest_spin(dt)));
+  double farthest = motion.amplitude.norm();
+  for (const Vec<Dim>& shift : motion.shifts) farthest = std::max(farthest, shift.norm());
+  if (position.norm() + reach + farthest > farthest_place)
+    table.error("", fmt::format("must stay within {:g} m of the origin", farthest_place));
+}
+
+}  // namespace
+
+template <int Dim>
+Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double reach, double dt) {
+  Motion<Dim> motion;
+  const std::string kind = read_kind(table, {motion_kinds.begin(), motion_kinds.end()});
+  if (kind == "sine") {
+    table.read_fields(motion, sine_fields<Dim>);
+  } else if (kind == "turn") {
+    table.read_fields(motion, turn_fields<Dim>);
+    read_motion_axis(table, motion, true);
+  } else if (kind == "path") {
+    table.read_fields(motion, path_fields<Dim>);
+    read_motion_axis(table, motion, !motion.angles.empty());
+    check_path(table, motion);
+  }
+  check_motion(table, motion, position, reach, dt);
+  return motion;
+}
+
+template Motion<2> read_motion(TableReader&, const Vec<2>&, double, double);
+template Motion<3> read_motion(TableReader&, const Vec<3>&, double, double);
+
+}  // namespace talus

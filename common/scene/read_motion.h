@@ -1,0 +1,100 @@
+#pragma once
+// How an obstacle moves by plan, in scene files.
+
+#include <array>
+
+#include "common/scene/read_shape.h"
+#include "common/scene/table_reader.h"
+#include "common/world/motion.h"
+
+namespace talus {
+
+inline constexpr std::array<std::string_view, 3> motion_kinds = {"sine", "turn", "path"};
+inline constexpr Key motion_kind_key = {.name = "kind",
+                                        .required = true,
+                                        .type = "text",
+                                        .choices = motion_kinds,
+                                        .meaning = "decides which of the keys below belong here"};
+inline constexpr Key motion_axis_key = {.name = "axis",
+                                        .dimension = 3,
+                                        .type = "vector",
+                                        .range = coordinate_range,
+                                        .further_rule = "not zero",
+                                        .default_text = "required for a turn",
+                                        .meaning = "axis of the turn through the obstacle's `position`, of any length"};
+inline constexpr Range time_range = between(0.0, 1e6);
+
+template <int Dim>
+inline constexpr Field<Motion<Dim>> motion_start_field = {
+    &Motion<Dim>::start, {.name = "start", .unit = "s", .range = time_range, .meaning = "until then it stands still"}};
+template <int Dim>
+inline constexpr Field<Motion<Dim>> motion_end_field = {&Motion<Dim>::end,
+                                                        {.name = "end",
+                                                         .unit = "s",
+                                                         .range = time_range,
+                                                         .further_rule = "after `start`",
+                                                         .default_text = "never",
+                                                         .meaning = "from then on it stays where it is"}};
+
+template <int Dim>
+inline constexpr auto sine_fields = std::to_array<Field<Motion<Dim>>>({
+    {&Motion<Dim>::amplitude,
+     {.name = "amplitude",
+      .required = true,
+      .unit = "m",
+      .range = coordinate_range,
+      .meaning = "the obstacle goes from its place to `amplitude`, back, to minus `amplitude`, and so on"}},
+    {&Motion<Dim>::frequency,
+     {.name = "frequency", .required = true, .unit = "1/s", .range = above(0.0, 1e3), .meaning = "of that"}},
+    motion_start_field<Dim>,
+    motion_end_field<Dim>,
+});
+
+template <int Dim>
+inline constexpr auto turn_fields = std::to_array<Field<Motion<Dim>>>({
+    {&Motion<Dim>::speed,
+     {.name = "speed_deg",
+      .required = true,
+      .unit = "degrees/s",
+      .stored = Stored::in_radians,
+      .range = between(-1e5, 1e5),
+      .meaning = "of a steady turn about `position`, counter-clockwise"}},
+    {{}, motion_axis_key},
+    motion_start_field<Dim>,
+    motion_end_field<Dim>,
+});
+
+template <int Dim>
+inline constexpr auto path_fields = std::to_array<Field<Motion<Dim>>>({
+    {&Motion<Dim>::times,
+     {.name = "times",
+      .required = true,
+      .unit = "s",
+      .range = time_range,
+      .further_rule = "ascending, two or more",
+      .meaning =
+          "when the obstacle is at each of the `shifts`. Between two of them it moves steadily, before the first "
+          "and after the last it stands still"}},
+    {&Motion<Dim>::shifts,
+     {.name = "shifts",
+      .required = true,
+      .unit = "m",
+      .range = coordinate_range,
+      .further_rule = "as many as `times`, the first 0",
+      .meaning = "from `position`"}},
+    {&Motion<Dim>::angles,
+     {.name = "angles_deg",
+      .unit = "degrees",
+      .stored = Stored::in_radians,
+      .range = between(-36000.0, 36000.0),
+      .further_rule = "as many as `times`, the first 0",
+      .default_text = "no turn",
+      .meaning = "turn about `position`, counter-clockwise"}},
+    {{}, motion_axis_key},
+});
+
+/// `[obstacle.motion]` of an obstacle at `position` [m], no point of which is farther than `reach` [m] from there.
+template <int Dim>
+Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double reach, double dt);
+
+}  // namespace talus

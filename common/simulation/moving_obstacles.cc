@@ -1,0 +1,92 @@
+#include "common/simulation/moving_obstacles.h"
+
+#include <algorithm>
+
+#include "common/scene/typical_body.h"
+#include "common/shape/convex_distance.h"
+
+namespace talus {
+namespace {
+
+/// In D; above the gap that Box2D keeps between polygons and the margin of Bullet's boxes.
+constexpr double touching_distance = 0.03;
+
+bool same_pose(const Pose<2>& a, const Pose<2>& b) {
+  return a.position == b.position && a.rotation.angle() == b.rotation.angle();
+}
+bool same_pose(const Pose<3>& a, const Pose<3>& b) {
+  return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+}  // namespace
+
+template <int Dim>
+MovingObstacles<Dim>::MovingObstacles(const Scene<Dim>& scene) : movers_(scene.movers), dt_(scene.world.dt) {
+  if (movers_.empty()) return;
+  margin_ = touching_distance * typical_body(scene).extent;
+  obstacles_ = scene.world.obstacles;
+  for (const Shape<Dim>& shape : scene.world.shapes) bodies_.push_back(convex_pieces(shape));
+  pieces_.resize(obstacles_.size());
+  for (const Mover<Dim>& mover : movers_)
+    for (int k = mover.first; k < mover.first + mover.count; ++k) pieces_[k] = convex_pieces(obstacles_[k].shape);
+}
+
+template <int Dim>
+const std::vector<BodyIndex>& MovingObstacles<Dim>::move(World<Dim>& world, double time) {
+  moving_.clear();
+  touched_.clear();
+  for (const Mover<Dim>& mover : movers_)
+    for (int k = mover.first; k < mover.first + mover.count; ++k) move(world, mover, k, time);
+  for (const Piece& piece : moving_) find_sleepers(world, piece);
+  return touched_;
+}
+
+template <int Dim>
+void MovingObstacles<Dim>::move(World<Dim>& world, const Mover<Dim>& mover, int obstacle, double time) {
+  const Pose<Dim> from = world.obstacle_pose(obstacle);
+  const Pose<Dim> to = mover.pose_at(time + dt_, obstacles_[obstacle].pose);
+  if (same_pose(from, to)) return;
+  world.move_obstacle(obstacle, to);
+  for (const ConvexPiece<Dim>& piece : pieces_[obstacle]) {
+    const ConvexPiece<Dim> before = moved(piece, from);
+    Piece moving{.piece = moved(piece, to), .bounds = before.bounds()};
+    for (std::size_t i = 0; i < before.corners.size(); ++i)
+      moving.travel = std::max(moving.travel, (moving.piece.corners[i] - before.corners[i]).norm());
+    moving.bounds.extend(moving.piece.bounds());
+    moving_.push_back(std::move(moving));
+  }
+}
+
+template <int Dim>
+void MovingObstacles<Dim>::find_sleepers(const World<Dim>& world, const Piece& piece) {
+  const Vec<Dim> reach = Vec<Dim>::Constant(margin_);
+  near_.clear();
+  world.query_box({piece.bounds.min() - reach, piece.bounds.max() + reach}, near_);
+  for (const BodyIndex body : near_)
+    if (world.states().asleep[body] != 0 && touches(world, piece, body)) touched_.push_back(body);
+}
+
+template <int Dim>
+bool MovingObstacles<Dim>::touches(const World<Dim>& world, const Piece& piece, BodyIndex body) const {
+  const double reach = margin_ + piece.travel;
+  const Box<Dim> bounds = world.bounds_of(body);
+  if (bounds.squaredExteriorDistance(piece.bounds) > reach * reach) return false;
+  return std::ranges::any_of(bodies_[world.states().shape[body]], [&](const ConvexPiece<Dim>& own) {
+    return signed_distance(moved(own, world.states().pose[body]), piece.piece, reach) < reach;
+  });
+}
+
+template <int Dim>
+bool MovingObstacles<Dim>::touch(const World<Dim>& world, BodyIndex body) const {
+  return std::ranges::any_of(moving_, [&](const Piece& piece) { return touches(world, piece, body); });
+}
+
+template <int Dim>
+bool MovingObstacles<Dim>::moves_after(double time) const {
+  return std::ranges::any_of(movers_, [time](const Mover<Dim>& mover) { return mover.motion.moves_after(time); });
+}
+
+template class MovingObstacles<2>;
+template class MovingObstacles<3>;
+
+}  // namespace talus

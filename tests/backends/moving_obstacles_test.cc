@@ -1,0 +1,165 @@
+// Obstacles that move by plan, on every engine.
+
+#include <fmt/format.h>
+
+#include "common/scene/read_scene.h"
+#include "common/simulation/make_policy.h"
+#include "common/simulation/simulation.h"
+#include "common/simulation/state_hash.h"
+#include "tests/backends/backend.h"
+
+namespace talus::moving_obstacles_test {
+namespace {
+
+/// A cube of 1 m on a platform whose upper side is at a height of 2 m, with this motion.
+template <int Dim>
+Scene<Dim> platform(const std::string& motion, const std::string& rest = "") {
+  const std::string text = fmt::format(
+      "title = \"Platform\"\ndimension = {}\nshape.cube = {{kind = \"box\", size = {}, friction = 0.8}}\n{}\n"
+      "[[body]]\nposition = {}\n"
+      "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\nfriction = 0.8\nmotion = {}\n",
+      Dim, Dim == 2 ? "[1, 1]" : "[1, 1, 1]", rest, Dim == 2 ? "[0, 2.5]" : "[0, 0, 2.5]",
+      Dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", Dim == 2 ? "[0, 1.75]" : "[0, 0, 1.75]", motion);
+  return std::get<Scene<Dim>>(parse_scene(text, "text"));
+}
+
+template <int Dim>
+std::string along(double x, double height) {
+  return Dim == 2 ? fmt::format("[{}, {}]", x, height) : fmt::format("[{}, 0, {}]", x, height);
+}
+
+/// From 2 s on by `x` and `height` within 2 s.
+template <int Dim>
+std::string path(double x, double height) {
+  return fmt::format("{{kind = \"path\", times = [2, 4], shifts = [{}, {}]}}", along<Dim>(0, 0), along<Dim>(x, height));
+}
+
+template <typename Backend>
+class MovingObstacle : public ::testing::Test {
+ protected:
+  static constexpr int dimension = Backend::dim;
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
+    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
+  }
+  static void run_until(Simulation<dimension>& simulation, double time) {
+    while (simulation.time() < time - 1e-9) simulation.step();
+  }
+  static Vec<dimension> place(const Simulation<dimension>& simulation) {
+    return simulation.world().states().pose[0].position;
+  }
+  static bool asleep(const Simulation<dimension>& simulation) { return simulation.world().awake().empty(); }
+};
+
+TYPED_TEST_SUITE(MovingObstacle, Backends, BackendName);
+
+TYPED_TEST(MovingObstacle, CarriesASleeperAwayAndLetsItSleepWhenItStandsStill) {
+  constexpr int dim = TypeParam::dim;
+  const Scene<dim> scene = platform<dim>(path<dim>(2.0, 0.0));
+  auto simulation = TestFixture::simulation(scene);
+  TestFixture::run_until(simulation, 2.0);
+  EXPECT_TRUE(TestFixture::asleep(simulation)) << "before it moves";
+  for (int i = 0; i < 100; ++i) {
+    simulation.step();
+    ASSERT_FALSE(TestFixture::asleep(simulation)) << simulation.time();
+  }
+  TestFixture::run_until(simulation, 6.0);
+  EXPECT_TRUE(TestFixture::asleep(simulation)) << "after it has moved";
+  EXPECT_NEAR(TestFixture::place(simulation)[0], 2.0, 0.1);
+  EXPECT_NEAR(height<dim>(TestFixture::place(simulation)), 2.5, 0.03);
+  EXPECT_NEAR(simulation.world().obstacle_pose(0).position[0], 2.0, 1e-9);
+}
+
+TYPED_TEST(MovingObstacle, LiftsABodyWithoutThrowingIt) {
+  constexpr int dim = TypeParam::dim;
+  for (const char* policy : {"full", "adaptive", "engine"}) {
+    SCOPED_TRACE(policy);
+    auto simulation =
+        TestFixture::simulation(platform<dim>(path<dim>(0.0, 3.0), fmt::format("policy.kind = \"{}\"", policy)));
+    TestFixture::run_until(simulation, 3.0);
+    EXPECT_NEAR(height<dim>(TestFixture::place(simulation)), 4.0, 0.1);
+    TestFixture::run_until(simulation, 6.0);
+    EXPECT_NEAR(height<dim>(TestFixture::place(simulation)), 5.5, 0.03);
+  }
+}
+
+TYPED_TEST(MovingObstacle, TurnsABodyWithIt) {
+  constexpr int dim = TypeParam::dim;
+  if constexpr (dim == 3) {
+    auto simulation = TestFixture::simulation(
+        platform<dim>("{kind = \"turn\", speed_deg = 45, axis = [0, 0, 1], start = 1, end = 3}"));
+    TestFixture::run_until(simulation, 5.0);
+    const Vec3 side = simulation.world().states().pose[0].rotation * Vec3::UnitX();
+    EXPECT_LT((side - Vec3::UnitY()).norm(), 0.1);
+  } else {
+    // Tilted by 60 degrees, it lets the body slide off.
+    auto simulation = TestFixture::simulation(platform<dim>("{kind = \"turn\", speed_deg = 30, start = 1, end = 3}"));
+    TestFixture::run_until(simulation, 6.0);
+    EXPECT_LT(height<dim>(TestFixture::place(simulation)), 1.0);
+  }
+}
+
+TYPED_TEST(MovingObstacle, GivesTheSameBitsInEachRun) {
+  constexpr int dim = TypeParam::dim;
+  const auto hash = [] {
+    auto simulation = TestFixture::simulation(
+        platform<dim>(fmt::format("{{kind = \"sine\", amplitude = {}, frequency = 1.5}}", along<dim>(0.4, 0.1))));
+    TestFixture::run_until(simulation, 4.0);
+    return state_hash(simulation.world().states());
+  };
+  EXPECT_EQ(hash(), hash());
+}
+
+// Bullet's own row setup takes the velocity of obstacles that move by itself.
+TYPED_TEST(MovingObstacle, GivesTheSameBitsAsTheEnginesOwnSolver) {
+  constexpr int dim = TypeParam::dim;
+  const auto hash = [](bool own) {
+    Scene<dim> scene =
+        platform<dim>(fmt::format("{{kind = \"sine\", amplitude = {}, frequency = 1.5}}", along<dim>(0.4, 0.1)));
+    scene.world.debug.bullet_row_setup = own;
+    auto simulation = TestFixture::simulation(scene);
+    TestFixture::run_until(simulation, 4.0);
+    return state_hash(simulation.world().states());
+  };
+  EXPECT_EQ(hash(false), hash(true));
+}
+
+TYPED_TEST(MovingObstacle, IsTheOnlyKindThatMoves) {
+  constexpr int dim = TypeParam::dim;
+  Scene<dim> scene = platform<dim>(path<dim>(1.0, 0.0));
+  scene.world.obstacles[0].moves = false;
+  const auto world = TypeParam::make(scene.world);
+  EXPECT_THROW(world->move_obstacle(0, {}), std::invalid_argument);
+  EXPECT_THROW(world->move_obstacle(1, {}), std::invalid_argument);
+}
+
+TYPED_TEST(MovingObstacle, KeepsARunThatEndsAtRestFromEnding) {
+  constexpr int dim = TypeParam::dim;
+  for (const char* policy : {"full", "adaptive", "engine"}) {
+    SCOPED_TRACE(policy);
+    auto simulation = TestFixture::simulation(platform<dim>(
+        path<dim>(1.0, 0.0), fmt::format("run = {{until = \"rest\", frames = 600}}\npolicy.kind = \"{}\"", policy)));
+    while (!simulation.finished()) simulation.step();
+    EXPECT_TRUE(simulation.at_rest());
+    EXPECT_GT(simulation.time(), 4.0);
+    EXPECT_LT(simulation.time(), 10.0);
+  }
+}
+
+TYPED_TEST(MovingObstacle, IsNotNeededForTheEndAtRest) {
+  constexpr int dim = TypeParam::dim;
+  auto scene = platform<dim>(path<dim>(1.0, 0.0), "run = {until = \"rest\", frames = 600}");
+  scene.movers.clear();
+  scene.bodies[0].def.pose.position += up<dim>(3.0);
+  auto simulation = TestFixture::simulation(scene);
+  while (!simulation.finished()) simulation.step();
+  EXPECT_TRUE(simulation.at_rest());
+  EXPECT_GT(simulation.time(), 0.8) << "the fall alone takes as long";
+  EXPECT_LT(simulation.time(), 8.0);
+  scene.run.frames = 10;
+  auto cut = TestFixture::simulation(scene);
+  while (!cut.finished()) cut.step();
+  EXPECT_FALSE(cut.at_rest());
+}
+
+}  // namespace
+}  // namespace talus::moving_obstacles_test
