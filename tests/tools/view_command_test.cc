@@ -22,7 +22,12 @@ TEST(ViewCommand, PrintsAnAddressOfThisMachineWithANewTokenEachTime) {
 }
 
 TEST(ViewCommand, EndsInGoodOrderOnCtrlC) {
-  const Outcome outcome = shell("timeout --preserve-status -s INT 0.5 \"$TALUS\" view drop_in_a_pile_2d");
+  const TemporaryFolder folder;
+  const Outcome outcome = shell("cd '" + folder.path().string() +
+                                "'\n"
+                                "\"$TALUS\" view drop_in_a_pile_2d > address & process=$!\n"
+                                "for i in $(seq 100); do grep -q token address && break; sleep 0.1; done\n"
+                                "kill -INT $process; wait $process");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
