@@ -113,6 +113,8 @@ std::string_view range_fault(const talus_stats_v1& m) { return stats_fault(m); }
 
 std::string_view range_fault(const talus_stats_v2& m) {
   if (m.planned < -1 || m.appeared < -1) return "negative count";
+  if (!(m.drift_estimate >= 0.0 || m.drift_estimate == -1.0)) return "estimate of drift out of range";
+  if (!(m.checked_share >= 0.0 && m.checked_share <= 1.0)) return "share out of range";
   if (m.warning_count > talus_stats_v2::NOT_APPEARED + 1) return "more warnings than kinds";
   const auto known = [](auto kind) {
     return kind >= talus_stats_v2::BELOW_GROUND && kind <= talus_stats_v2::NOT_APPEARED;
@@ -167,6 +169,7 @@ talus_stats_v2 newest(const talus_stats_v1& old) {
   stats.kinetic_energy = old.kinetic_energy;
   stats.planned = -1;
   stats.appeared = -1;
+  stats.drift_estimate = -1.0;
   stats.timed = old.timed;
   stats.ms_emit = old.ms_emit;
   stats.ms_step = old.ms_step;

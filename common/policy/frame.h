@@ -52,6 +52,9 @@ inline PhaseTimes& operator+=(PhaseTimes& sum, const PhaseTimes& more) {
   return sum;
 }
 
+template <int Dim>
+class SleepPolicy;
+
 /// References are valid during the call that hands the frame over.
 template <int Dim>
 struct Frame {
@@ -61,8 +64,9 @@ struct Frame {
   const PileSet<Dim>& piles;
   std::span<const SleepEvent> events;  // of this step, by body; empty while a policy decides
   PhaseTimes phases;
-  std::span<const Warning> warnings = {};  // one of each kind that the run has shown so far, if it is observed
-  int bodies_asked = 0;                    // of the scene in all
+  std::span<const Warning> warnings = {};    // one of each kind that the run has shown so far, if it is observed
+  int bodies_asked = 0;                      // of the scene in all
+  const SleepPolicy<Dim>* policy = nullptr;  // that of the run, for its estimate of the drift
 };
 
 }  // namespace talus

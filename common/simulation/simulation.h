@@ -48,7 +48,8 @@ class Simulation {
 
   /// The last finished step.
   Frame<Dim> frame() const {
-    return {step_, time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_asked()};
+    return {step_,        time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_asked(),
+            policy_.get()};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }

@@ -15,8 +15,8 @@ namespace {
 /// of 60 steps and columns are 4 m wide. The tolerance is 0.05 m.
 class StabilityChecksTest : public testing::Test {
  protected:
-  static constexpr int sample_time = 24;  // steps between two samples of the displacement
-  static constexpr int check_time = 120;  // steps within which a check of still bodies is over
+  static constexpr int sample_time = 48;  // steps between two samples of the displacement
+  static constexpr int check_time = 144;  // steps within which a check of still bodies is over
 
   static RuleParts parts() {
     RuleParts parts{.extent = 1.0};
@@ -84,7 +84,7 @@ TEST_F(StabilityChecksTest, WakeAQuietRegionAndHoldItUntilItHasLainStill) {
   const std::vector<BodyIndex> bodies = {add(1.0), add(2.0)};
   put_to_sleep(bodies);
   EXPECT_TRUE(checks_.has_unchecked());
-  EXPECT_EQ(steps(30), bodies);
+  EXPECT_EQ(steps(sample_time), bodies);
   EXPECT_FALSE(checks_.has_unchecked());
   EXPECT_TRUE(checks_.holds(0) && checks_.holds(1));
   steps(check_time);
@@ -94,7 +94,7 @@ TEST_F(StabilityChecksTest, WakeAQuietRegionAndHoldItUntilItHasLainStill) {
 // The tolerance of 0.05 m within the horizon of 13 s is a speed of 0.0038 m/s.
 TEST_F(StabilityChecksTest, HoldABodyForAsLongAsItMoves) {
   put_to_sleep({add(1.0)});
-  steps(30);
+  steps(sample_time);
   steps(600, [&] { move(0, 1.1 * 0.0038 / 60.0); });
   EXPECT_TRUE(checks_.holds(0));
   steps(check_time, [&] { move(0, 0.9 * 0.0038 / 60.0); });
@@ -115,7 +115,7 @@ TEST_F(StabilityChecksTest, ReleaseABodySoonerThatSlowsDown) {
 TEST_F(StabilityChecksTest, ReleaseWhatLiesStillFarFromWhatMoves) {
   // In one column of 4 m, but with a block of 2.5 m between their blocks.
   put_to_sleep({add(0.5, 0.5), add(0.5, 9.5)});
-  steps(30 + check_time, [&] {
+  steps(sample_time + check_time, [&] {
     if (checks_.holds(1)) move(1, 0.001);
   });
   EXPECT_FALSE(checks_.holds(0));
@@ -124,14 +124,14 @@ TEST_F(StabilityChecksTest, ReleaseWhatLiesStillFarFromWhatMoves) {
 
 TEST_F(StabilityChecksTest, EndAfterAMinuteOfTheirTimeWhateverMoves) {
   put_to_sleep({add(1.0)});
-  steps(30);
+  steps(sample_time);
   steps(61 * 60, [&] { move(0, world_.states().pose[0].position.x() > 2.0 ? -0.01 : 0.01); });
   EXPECT_FALSE(checks_.holds(0)) << "contacts of an engine may jitter for ever";
 }
 
 TEST_F(StabilityChecksTest, AreNotRepeatedForABodyThatSleepsAgainWhereItWas) {
   put_to_sleep({add(1.0)});
-  steps(30 + check_time);
+  steps(sample_time + check_time);
   move(0, 0.04);
   put_to_sleep({0});
   EXPECT_FALSE(checks_.has_unchecked());
@@ -139,21 +139,21 @@ TEST_F(StabilityChecksTest, AreNotRepeatedForABodyThatSleepsAgainWhereItWas) {
   move(0, 0.02);  // 0.06 m from where the check left it
   put_to_sleep({0});
   EXPECT_TRUE(checks_.has_unchecked());
-  EXPECT_EQ(steps(30), (std::vector<BodyIndex>{0}));
+  EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{0}));
 }
 
 TEST_F(StabilityChecksTest, WakeTheColumnsAroundAndNoneFarther) {
   const BodyIndex checked = add(6.0);
   put_to_sleep({checked});
-  steps(30 + check_time);
+  steps(sample_time + check_time);
   const BodyIndex far = add(-6.0);
   put_to_sleep({far});
-  steps(30 + check_time);
+  steps(sample_time + check_time);
   put_to_sleep({checked, far});
   EXPECT_FALSE(checks_.has_unchecked()) << "both lie where a check left them";
   const BodyIndex fresh = add(1.0);  // in the column from 0 to 4 m, the others from 4 m up and below -4 m
   put_to_sleep({fresh});
-  EXPECT_EQ(steps(30), (std::vector<BodyIndex>{checked, fresh}));
+  EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{checked, fresh}));
 }
 
 TEST_F(StabilityChecksTest, WaitWhileABodyMovesOnTheRegion) {
@@ -174,9 +174,39 @@ TEST_F(StabilityChecksTest, AllowSomeMotionOnceNoBodyIsOnItsWay) {
   const std::vector<Contact<3>> on_heap = {contact(0, rolling, Vec3(1.0, 2.0, 1.0), -Vec3::UnitZ(), 0.1)};
   world_.touching = on_heap;
   const auto roll = [&] { move(rolling, step_ % 2 == 0 ? 0.1 : -0.1); };
-  EXPECT_TRUE(steps(300, roll).empty()) << "a body is on its way";
+  EXPECT_TRUE(steps(600, roll).empty()) << "a body is on its way";
   world_.touching.push_back(contact(flying, ground_index, Vec3::Zero(), Vec3::UnitZ(), 0.1));
-  EXPECT_EQ(steps(300, roll), heap) << "one in twenty may move";
+  EXPECT_EQ(steps(600, roll), heap) << "one in twenty may move";
+}
+
+TEST_F(StabilityChecksTest, WaitForAFifthOfARegionWhileBodiesArrive) {
+  const BodyIndex flying = add(1.0, 50.0);
+  std::vector<BodyIndex> heap;
+  for (int i = 0; i < 9; ++i) heap.push_back(add(0.1 + 0.1 * i));
+  put_to_sleep(heap);
+  EXPECT_EQ(steps(sample_time), heap);
+  steps(check_time);
+  put_to_sleep(heap);
+  const BodyIndex first = add(1.2);
+  put_to_sleep({first});
+  EXPECT_TRUE(steps(600).empty()) << "one of ten is unchecked";
+  const BodyIndex second = add(1.3);
+  const BodyIndex third = add(1.4);
+  put_to_sleep({second, third});
+  heap.insert(heap.end(), {first, second, third});
+  EXPECT_EQ(steps(sample_time), heap) << "three of twelve are";
+  EXPECT_FALSE(checks_.holds(flying));
+}
+
+TEST_F(StabilityChecksTest, DoNotWaitForFurtherBodiesOnceNoneArrives) {
+  std::vector<BodyIndex> heap;
+  for (int i = 0; i < 9; ++i) heap.push_back(add(0.1 + 0.1 * i));
+  put_to_sleep(heap);
+  steps(sample_time + check_time);
+  put_to_sleep(heap);
+  heap.push_back(add(1.2));
+  put_to_sleep({heap.back()});
+  EXPECT_EQ(steps(9 * 60), heap);
 }
 
 TEST_F(StabilityChecksTest, LeaveAPileAloneWhoseSlopeIsControlledAboveTheAngleOfAvalanches) {
@@ -186,12 +216,12 @@ TEST_F(StabilityChecksTest, LeaveAPileAloneWhoseSlopeIsControlledAboveTheAngleOf
   put_to_sleep({add(1.0)});
   EXPECT_TRUE(steps(300).empty());
   piles_.front().slope_controlled = false;
-  EXPECT_EQ(steps(30), (std::vector<BodyIndex>{0}));
+  EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{0}));
 }
 
 TEST_F(StabilityChecksTest, GoOnWhenABodyUnderCheckIsRemoved) {
   put_to_sleep({add(1.0), add(2.0)});
-  steps(30);
+  steps(sample_time);
   world_.remove(0);
   steps(check_time);
   EXPECT_FALSE(checks_.holds(1));
@@ -200,7 +230,7 @@ TEST_F(StabilityChecksTest, GoOnWhenABodyUnderCheckIsRemoved) {
 TEST_F(StabilityChecksTest, EstimateNoDriftOfABodyThatLayStill) {
   put_to_sleep({add(1.0)});
   EXPECT_FALSE(checks_.drift_estimate(world_)) << "before the first check nothing is known";
-  steps(30 + check_time);
+  steps(sample_time + check_time);
   put_to_sleep({0});
   EXPECT_EQ(checks_.drift_estimate(world_)->checked_share, 1.0);
   EXPECT_EQ(checks_.drift_estimate(world_)->drift, 0.0);
@@ -209,7 +239,7 @@ TEST_F(StabilityChecksTest, EstimateNoDriftOfABodyThatLayStill) {
 // sqrt(D/g) is 1 s.
 TEST_F(StabilityChecksTest, EstimateTheDriftFromTheSpeedAtWhichTheyLeaveABody) {
   put_to_sleep({add(1.0)});
-  steps(30);
+  steps(sample_time);
   steps(check_time, [&] { move(0, 0.9 * 0.0038 / 60.0); });
   put_to_sleep({0});
   EXPECT_NEAR(checks_.drift_estimate(world_)->drift, 0.9 * 0.0038, 1e-4);
@@ -217,7 +247,7 @@ TEST_F(StabilityChecksTest, EstimateTheDriftFromTheSpeedAtWhichTheyLeaveABody) {
 
 TEST_F(StabilityChecksTest, EstimateTheDriftOfUncheckedBodiesFromTheMotionOfThoseThatWereChecked) {
   put_to_sleep({add(1.0)});
-  steps(30);
+  steps(sample_time);
   double moved = 0.0;
   steps(check_time, [&] {
     const double distance = checks_.holds(0) ? 0.9 * 0.0038 / 60.0 : 0.0;

@@ -152,6 +152,7 @@ TEST(Decoder, ReadsStatisticsOfTheVersionBefore) {
   EXPECT_EQ(read.asleep, 4);
   EXPECT_EQ(read.kinetic_energy, 2.5);
   EXPECT_EQ(read.planned, -1);
+  EXPECT_EQ(read.drift_estimate, -1.0);
   EXPECT_EQ(read.warning_count, 0);
   EXPECT_EQ(read.ms_observe, 0.5F);
   EXPECT_EQ(read.dropped, 9);

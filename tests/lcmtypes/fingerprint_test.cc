@@ -23,7 +23,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_piles_v1::getHash()), 0x955F09EC62238F61U);
   EXPECT_EQ(fingerprint(talus_sleep_v1::getHash()), 0x81A04516E02D7E80U);
   EXPECT_EQ(fingerprint(talus_stats_v1::getHash()), 0xEA33F2068323C799U);
-  EXPECT_EQ(fingerprint(talus_stats_v2::getHash()), 0x5F8ACBD69A7641B6U);
+  EXPECT_EQ(fingerprint(talus_stats_v2::getHash()), 0x774FD4401E2D01CFU);
   EXPECT_EQ(fingerprint(talus_bodies_v1::getHash()), 0xC6FA8471FD1162E7U);
   EXPECT_EQ(fingerprint(talus_shapes_v1::getHash()), 0x081800A341BF37D4U);
 }

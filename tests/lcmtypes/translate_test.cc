@@ -179,6 +179,36 @@ TEST(StatsMessage, CarriesEveryWarningThereAndBack) {
   }
 }
 
+/// A policy that expects its sleeping bodies to move by one metre.
+class OneMetrePolicy final : public SleepPolicy<2> {
+ public:
+  std::optional<DriftEstimate> drift_estimate(const World<2>& /*world*/) const override {
+    return DriftEstimate{.drift = 1.0, .checked_share = 0.25};
+  }
+  void decide(const Frame<2>& /*frame*/, Decision<2>& /*decision*/) override {}
+};
+
+TEST(StatsMessage, CarriesTheEstimateOfDriftInExtentsOfTheTypicalBody) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  const TypicalBody typical{.bounding_volume = 0.5, .extent = 2.0, .mass = 1.0};
+  const PileSet<2> piles({}, typical);
+  const OneMetrePolicy policy;
+  auto stats = to_stats<2>(Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .policy = &policy});
+  MessageEncoder encoder(1);
+  talus_stats_v2 decoded;
+  ASSERT_EQ(decode(encoder.encode(stats, {}).bytes, decoded), "");
+  EXPECT_EQ(decoded.drift_estimate, 0.5);
+  EXPECT_EQ(decoded.checked_share, 0.25);
+}
+
+TEST(StatsMessage, HasNoEstimateOfDriftWithoutAPolicyThatMakesOne) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  const PileSet<2> piles({}, {});
+  EXPECT_EQ(to_stats<2>(Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}}).drift_estimate, -1.0);
+}
+
 TEST(StatsMessage, NumbersKindsOfWarningAsTheCoreDoes) {
   EXPECT_EQ(talus_stats_v2::BELOW_GROUND, static_cast<int>(WarningKind::below_ground));
   EXPECT_EQ(talus_stats_v2::OUTSIDE_WORLD, static_cast<int>(WarningKind::outside_world));

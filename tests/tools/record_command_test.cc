@@ -83,7 +83,7 @@ TEST(CompareCommand, StopsAtARecordThatIsNotOfItsScene) {
 TEST(WakeCommand, TellsHowFarTheSleepersDriftAndTakesTheFullRunsDriftOff) {
   const TemporaryFolder folder;
   record(folder, "full", "--policy full --set source[0].count=15");
-  record(folder, "piled", "--set policy.tau=0.2 --set source[0].count=15");
+  record(folder, "piled", "--policy paper --set policy.tau=0.2 --set source[0].count=15");
   const Json json = answer("wake " + (folder / "piled") + " --full " + (folder / "full") + " --seconds 1");
   EXPECT_EQ(json["bodies"], 15);
   EXPECT_GT(json["asleep"], 0);

@@ -67,6 +67,8 @@ std::string text_line(std::int64_t run_id, const RunView& view) {
   if (view.stats()) {
     line += fmt::format("  awake {}  asleep {}", view.stats()->awake, view.stats()->asleep);
     if (view.stats()->timed != 0) line += fmt::format("  {:.2f} x real time", view.stats()->real_time_factor);
+    if (view.stats()->drift_estimate >= 0.0)
+      line += fmt::format("  estimated drift {:.2g} D", view.stats()->drift_estimate);
     for (const Warning& warning : warnings_of(*view.stats())) line += fmt::format("  warning: {}", account(warning));
     if (view.stats()->dropped > 0) line += fmt::format("  dropped by the sender {}", view.stats()->dropped);
   }

@@ -130,10 +130,10 @@ PageHub::Parcel PageHub::take(Page& page) {
   parcel.new_run = page.sent == nullptr || page.sent->head() != newest_->head();
   parcel.snapshot = page.sent = newest_;
   // Events of steps after the snapshot stay for the next one.
-  const auto later = std::ranges::stable_partition(
-      page.events, [&](const SleepEvent& event) { return event.step <= newest_->step(); });
-  parcel.events.assign(page.events.begin(), later.begin());
-  page.events.erase(page.events.begin(), later.begin());
+  const auto later = std::stable_partition(page.events.begin(), page.events.end(),
+                                           [&](const SleepEvent& event) { return event.step <= newest_->step(); });
+  parcel.events.assign(page.events.begin(), later);
+  page.events.erase(page.events.begin(), later);
   page.ready = false;
   return parcel;
 }

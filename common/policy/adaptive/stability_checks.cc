@@ -8,17 +8,18 @@ namespace talus {
 namespace {
 
 // Times in time_unit() (docs/research/stability_checks.md).
-constexpr double sample_time = 0.4;       // between two samples of the displacement
+constexpr double sample_time = 0.8;       // between two samples of the displacement
 constexpr double shortest_time = 0.8;     // of a check
 constexpr double longest_time = 60.0;     // of a check: some contacts of an engine jitter for ever
 constexpr double horizon = 13.0;          // for which the present speed is extrapolated,
 constexpr double horizon_slowing = 3.0;   // and if the motion slows down
 constexpr double horizon_estimate = 1.0;  // for the estimate of drift: the motion dies out
-constexpr double arrival_time = 4.0;      // without arrivals after which some motion is allowed
+constexpr double arrival_time = 8.0;      // without arrivals after which a check need not wait
 constexpr double rest_time = 0.4;         // at rest, after which an awake body no longer counts as moving
 
 constexpr double slowing = 0.7;  // of the displacement of the sample before: less means that the motion slows down
 constexpr double moving_share = 0.15;          // of the bodies of a region that may move when its check begins
+constexpr double unchecked_share = 0.2;        // of its sleeping bodies for which a check is worth its cost
 constexpr double block_width = 2.5;            // [D]
 constexpr std::int64_t averaged_bodies = 300;  // over which found_ averages
 
@@ -53,14 +54,20 @@ void StabilityChecks<Dim>::count(const RuleInput<Dim>& in, std::span<const Sleep
                                  std::span<const SleepEvent> waking) {
   if (tolerance_ <= 0.0) return;
   checked_.resize(in.states().asleep.size());
-  for (const SleepEvent& event : waking) --sleeping_[columns_.cell_of(in.pose_of(event.body).position)];
+  for (const SleepEvent& event : waking) {
+    const Column column = columns_.cell_of(in.pose_of(event.body).position);
+    --sleeping_[column];
+    if (checked_[event.body]) continue;
+    const auto waiting = unchecked_.find(column);
+    if (waiting != unchecked_.end() && --waiting->second <= 0) unchecked_.erase(waiting);
+  }
   for (const SleepEvent& event : falling_asleep) {
     const Column column = columns_.cell_of(in.pose_of(event.body).position);
     ++sleeping_[column];
     std::optional<Release>& checked = checked_[event.body];
     if (checked && displacement(in, event.body, checked->pose) <= tolerance_) continue;
     checked.reset();
-    unchecked_.insert(column);
+    ++unchecked_[column];
   }
 }
 
@@ -74,9 +81,9 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
   for (Check& check : checks_) release_resting(in, check);
   std::erase_if(checks_, [](const Check& check) { return check.members.empty(); });
   observe_motion(in, rest);
-  std::set<Column> columns;
-  std::ranges::copy_if(unchecked_, std::inserter(columns, columns.end()), [&](const Column& column) {
-    return controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column)) <= angle_;
+  std::map<Column, int> columns = unchecked_;
+  std::erase_if(columns, [&](const auto& column) {
+    return controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column.first)) > angle_;
   });
   while (!columns.empty()) {
     const Region region = take_region(columns);
@@ -182,17 +189,22 @@ void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCr
 
 /// Takes a set of connected columns out of `columns`, and adds the columns around them.
 template <int Dim>
-typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::set<Column>& columns) const {
-  std::vector<Column> connected = {*columns.begin()};
+typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::map<Column, int>& columns) const {
+  std::vector<Column> connected = {columns.begin()->first};
+  int unchecked = columns.begin()->second;
   columns.erase(columns.begin());
   std::set<Column> all;
   for (std::size_t i = 0; i < connected.size(); ++i) {
     for (const Column& beside : Columns::around(connected[i])) {
       all.insert(beside);
-      if (columns.erase(beside) != 0) connected.push_back(beside);
+      const auto found = columns.find(beside);
+      if (found == columns.end()) continue;
+      connected.push_back(beside);
+      unchecked += found->second;
+      columns.erase(found);
     }
   }
-  Region region{.columns = {all.begin(), all.end()}};
+  Region region{.columns = {all.begin(), all.end()}, .unchecked = unchecked};
   const auto number_in = [](const std::map<Column, int>& numbers, const Column& column) {
     const auto found = numbers.find(column);
     return found == numbers.end() ? 0 : found->second;
@@ -208,8 +220,9 @@ typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::set
 template <int Dim>
 bool StabilityChecks<Dim>::is_quiet(const Region& region, std::int64_t step) const {
   if (region.under_check) return false;
-  if (region.moving == 0) return true;
   const bool expects_arrivals = step - last_arrival_ <= arrival_steps_;
+  if (expects_arrivals && region.unchecked < unchecked_share * region.sleeping) return false;
+  if (region.moving == 0) return true;
   return !expects_arrivals && region.moving <= moving_share * (region.moving + region.sleeping);
 }
 

@@ -22,8 +22,9 @@ namespace talus {
 /// checked, until it falls asleep farther from there than the tolerance.
 ///
 /// A region is a set of connected vertical columns with unchecked sleeping bodies, and the columns around these. It is
-/// quiet when no body moves in contact with another one; some may while no body is on its way to a first contact, since
-/// a slope that slides slowly as a whole would otherwise delay its own check. A pile whose slope is controlled is left
+/// quiet when no body moves in contact with another one. While bodies are on their way to a first contact, a check also
+/// waits until it has enough unchecked bodies to be worth its cost. When no more arrive, some bodies may move, since a
+/// slope that slides slowly as a whole would otherwise delay its own check. A pile whose slope is controlled is left
 /// out where it is steeper than heaps become by themselves, since only sleep keeps it so steep.
 template <int Dim>
 class StabilityChecks {
@@ -85,8 +86,9 @@ class StabilityChecks {
   /// Columns that one check covers.
   struct Region {
     std::vector<Column> columns;
-    int sleeping = 0;  // bodies
-    int moving = 0;    // bodies that move in contact with others
+    int sleeping = 0;   // bodies
+    int unchecked = 0;  // of these
+    int moving = 0;     // bodies that move in contact with others
     bool under_check = false;
   };
 
@@ -95,7 +97,7 @@ class StabilityChecks {
   Motion motion_around(const std::map<Block, Motion>& motion, const Block& block) const;
   void release(const RuleInput<Dim>& in, const Member& member, double expected);
   void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
-  Region take_region(std::set<Column>& columns) const;
+  Region take_region(std::map<Column, int>& columns) const;
   bool is_quiet(const Region& region, std::int64_t step) const;
   void begin(const RuleInput<Dim>& in, const Region& region, RuleOutput<Dim>& out);
 
@@ -107,8 +109,8 @@ class StabilityChecks {
   std::int64_t sample_steps_;                    // between two samples of the displacement
   std::int64_t shortest_check_;                  // [steps]
   std::int64_t longest_check_;                   // [steps]
-  std::int64_t arrival_steps_;                   // without arrivals after which some motion is allowed
-  std::set<Column> unchecked_;                   // columns with unchecked sleeping bodies
+  std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
+  std::map<Column, int> unchecked_;              // sleeping bodies that wait for a check, by column
   std::map<Column, int> sleeping_;               // bodies, by column
   std::vector<Check> checks_;                    // under way
   std::vector<std::uint8_t> held_;               // [body]
