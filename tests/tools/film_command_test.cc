@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/process/process.h"
 
 namespace talus::film_command_test {
@@ -31,6 +33,53 @@ TEST(FilmCommand, MakesAnAnimatedWebpOfTheRun) {
   EXPECT_TRUE(contents(folder / "b.webp") == bytes) << "the same run gives the same film";
 }
 
+TEST(FilmCommand, MakesSmallerWebpWithLoss) {
+  const TemporaryFolder folder;
+  const Outcome run =
+      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=60 --out " + (folder / "run"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string film = "film " + (folder / "run") + " --width 320 --speed 1 --rate 10 --out ";
+  ASSERT_EQ(talus_command(film + (folder / "all.webp")).exit_code, 0);
+  ASSERT_EQ(talus_command(film + (folder / "less.webp") + " --quality 20").exit_code, 0);
+  EXPECT_LT(contents(folder / "less.webp").size(), contents(folder / "all.webp").size());
+}
+
+bool has_ffmpeg() { return shell("command -v ffmpeg ffprobe").exit_code == 0; }
+
+TEST(FilmCommand, MakesMp4AndGifThatFfprobeReadsOrNamesTheProgramThatIsMissing) {
+  const TemporaryFolder folder;
+  const Outcome run =
+      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=60 --out " + (folder / "run"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const std::string ending : {"mp4", "gif"}) {
+    const std::string file = folder / ("a." + ending);
+    const Outcome film = talus_command("film " + (folder / "run") + " --width 321 --speed 1 --rate 10 --out " + file);
+    if (!has_ffmpeg()) {
+      EXPECT_EQ(film.exit_code, 1);
+      EXPECT_NE(film.err.find("needs the program ffmpeg (Debian package ffmpeg)"), std::string::npos) << film.err;
+      continue;
+    }
+    ASSERT_EQ(film.exit_code, 0) << film.err;
+    const std::string read =
+        shell("ffprobe -v error -count_frames -show_entries stream=codec_name,width,nb_read_frames -of csv=p=0 " + file)
+            .out;
+    // Twenty frames; an MP4 has the last one for a second and a half, and an even width.
+    EXPECT_EQ(read, ending == "mp4" ? "h264,322,35\n" : "gif,321,20\n");
+  }
+}
+
+TEST(FilmCommand, NamesAFileThatCannotBeWritten) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  const TemporaryFolder folder;
+  const Outcome run =
+      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=10 --out " + (folder / "run"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::filesystem::create_directory(folder.path() / "a.mp4");
+  const Outcome film = talus_command("film " + (folder / "run") + " --width 320 --out " + (folder / "a.mp4"));
+  EXPECT_EQ(film.exit_code, 1);
+  EXPECT_NE(film.err.find("a.mp4"), std::string::npos) << film.err;
+}
+
 TEST(FilmCommand, RefusesBadOptions) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& arguments, const std::string& said) {
@@ -39,7 +88,8 @@ TEST(FilmCommand, RefusesBadOptions) {
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
   };
   refused("--out a.webp", "must be a folder that `talus run` left");
-  refused("--out a.mp4", "--out");
+  refused("--out a.avi", "must end in .webp, .mp4 or .gif");
+  refused("--out a.webp --quality 101", "--quality");
   refused("--out a.webp --speed nan", "--speed");
   refused("--out a.webp --rate 500", "--rate");
   refused("--out a.webp --from 5 --to 3", "--to");

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <future>
 #include <memory>
+#include <thread>
 
 #include "common/math/require.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
-#include "tools/picture/webp.h"
+#include "tools/picture/film_file.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {
@@ -28,6 +31,8 @@ struct FilmOptions {
   double rate = 15.0;
   /// [px]
   int width = 800;
+  /// Of WebP; 100: without loss.
+  int quality = 100;
 };
 
 void check(const FilmOptions& options) {
@@ -36,7 +41,7 @@ void check(const FilmOptions& options) {
   require(options.to < 0.0 || in(options.to, options.from, 1e9), "--to", options.to, "must be --from or later");
   require(in(options.speed, 0.01, 1e4), "--speed", options.speed, "must be in 0.01 .. 10000");
   require(in(options.rate, 1.0, 50.0), "--rate", options.rate, "must be in 1 .. 50 frames per second");
-  require(options.out.ends_with(".webp"), "--out", options.out, "must end in .webp");
+  require(is_film_file(options.out), "--out", options.out, "must end in .webp, .mp4 or .gif");
 }
 
 /// The bodies of a recorded frame; velocities are zero.
@@ -61,8 +66,11 @@ struct Cut {
   int last = 0;
   /// Recorded frames from one shown frame to the next.
   double step = 1.0;
-  /// For which a frame is shown.
-  int milliseconds = 0;
+  /// For which a frame is shown [s].
+  double frame_time = 0.0;
+
+  int frames() const { return static_cast<int>((last - first) / step) + 1; }
+  int frame(int shown) const { return static_cast<int>(first + shown * step); }
 };
 
 template <int Dim>
@@ -75,7 +83,7 @@ Cut cut_of(const FilmOptions& options, const Trajectory<Dim>& frames) {
   require(options.from <= cut.last * frame_time, "--from", options.from, "must lie within the run");
   cut.first = static_cast<int>(options.from / frame_time);
   cut.step = std::max(1.0, options.speed / options.rate / frame_time);
-  cut.milliseconds = static_cast<int>(std::lround(1e3 * cut.step * frame_time / options.speed));
+  cut.frame_time = cut.step * frame_time / options.speed;
   return cut;
 }
 
@@ -100,26 +108,47 @@ PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& s
           printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time))};
 }
 
+/// Calls make(i) for i from 0 to below `count`, on all cores, and take() here with the results in order.
+template <class Make, class Take>
+void in_order(int count, const Make& make, const Take& take) {
+  const int ahead = static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) + 2;
+  std::deque<std::future<decltype(make(0))>> under_way;
+  for (int started = 0, taken = 0; taken < count; ++taken) {
+    for (; started < std::min(count, taken + ahead); ++started)
+      under_way.push_back(std::async(std::launch::async, make, started));
+    take(under_way.front().get());
+    under_way.pop_front();
+  }
+}
+
 template <int Dim>
 void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
-  constexpr int pause = 1500;  // [ms] on the last frame
   const Cut cut = cut_of(options, run.frames);
   const BodyStates<Dim> end = states_at(run.frames, cut.last);
   const FilmFrames<Dim> page(input_at(run, end, cut.last), params_of(options));
-  const bool progress = isatty(STDERR_FILENO) != 0;
-  std::unique_ptr<WebpFilm> webp;
-  for (double at = cut.first; at <= cut.last; at += cut.step) {
-    int frame = static_cast<int>(at);
+  const auto draw = [&](int shown) {
+    int frame = cut.frame(shown);
     while (frame > 0 && run.frames.lost(frame)) --frame;  // the record is damaged
     const BodyStates<Dim> states = states_at(run.frames, frame);
-    const Image image = page.draw(input_at(run, states, frame));
-    if (!webp) webp = std::make_unique<WebpFilm>(image.width, image.height);
-    webp->add(image, at + cut.step > cut.last ? pause : cut.milliseconds);
-    if (progress) write_note(fmt::format("\r{:.0f} %", 100.0 * (at - cut.first + 1.0) / (cut.last - cut.first + 1.0)));
-  }
-  webp->write(options.out);
-  if (progress) write_note("\r     \r");
-  print_result("{}: {:.0f} kB\n", printable(options.out),
+    return page.draw(input_at(run, states, frame));
+  };
+  const bool progress = isatty(STDERR_FILENO) != 0;
+  std::unique_ptr<FilmFile> file;
+  int taken = 0;
+  in_order(cut.frames(), draw, [&](const Image& image) {
+    if (!file) {
+      file = make_film_file({.file = options.out,
+                             .width = image.width,
+                             .height = image.height,
+                             .frame_time = cut.frame_time,
+                             .quality = options.quality});
+    }
+    file->add(image);
+    if (progress) write_note(fmt::format("\r{} of {} frames", ++taken, cut.frames()));
+  });
+  file->finish();
+  if (progress) write_note("\r\x1b[K");
+  print_result("{}: {} frames, {:.0f} kB\n", printable(options.out), cut.frames(),
                static_cast<double>(std::filesystem::file_size(options.out)) / 1e3);
 }
 
@@ -129,7 +158,7 @@ void add_film_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("film", "Make a moving picture of a recorded run");
   auto options = std::make_shared<FilmOptions>();
   command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
-  command->add_option("-o,--out", options->out, "Animated WebP to write, overwritten if there")
+  command->add_option("-o,--out", options->out, "Film to write, overwritten if there: .webp, or by ffmpeg .mp4 or .gif")
       ->required()
       ->check(in_a_folder());
   command->add_option("--from", options->from, "Simulated time at which the film begins [s]")->capture_default_str();
@@ -138,6 +167,9 @@ void add_film_command(CLI::App& app, int& exit_code) {
   command->add_option("--rate", options->rate, "Frames per second of film, 1 to 50")->capture_default_str();
   command->add_option("--width", options->width, "Width [pixels]")
       ->check(number_between(200, 8000))
+      ->capture_default_str();
+  command->add_option("--quality", options->quality, "Of a WebP film, 0 to 100; 100: without loss")
+      ->check(number_between(0, 100))
       ->capture_default_str();
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
   command->callback([options, &exit_code] {
