@@ -204,8 +204,8 @@ TEST(ReadmeProgram, IsTheExampleThatIsCompiled) {
 }
 
 TEST(HelpTexts, NameSubCommandsOptionsAndScenesThatExist) {
-  for (const char* command :
-       {"run", "check", "bench", "compare", "wake", "film", "replay", "view", "sheet", "decompose", "monitor"}) {
+  for (const char* command : {"run", "check", "bench", "compare", "wake", "film", "replay", "export", "view", "sheet",
+                              "decompose", "monitor"}) {
     std::istringstream help(talus_command(std::string(command) + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find("talus ");

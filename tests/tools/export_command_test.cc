@@ -1,0 +1,219 @@
+// `talus export` on recorded runs, read back: in C++, and by NumPy and VTK where Debian's Python has them.
+
+#ifdef TALUS_LCM
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/common/documented_names.h"
+#include "tests/process/process.h"
+
+namespace talus::export_command_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A pour of ten seconds in the folder run.
+void record(const TemporaryFolder& folder) {
+  const Outcome outcome =
+      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=150 --out " + (folder / "run"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+Outcome export_run(const TemporaryFolder& folder, const std::string& options) {
+  return talus_command("export " + (folder / "run") + " " + options);
+}
+
+/// The rows of a CSV file as cells, the head first.
+std::vector<std::vector<std::string>> rows_of(const fs::path& file) {
+  std::vector<std::vector<std::string>> rows;
+  std::ifstream text(file);
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string>& row = rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+  }
+  return rows;
+}
+
+/// Runs a script of Debian's Python in the folder.
+Outcome python(const TemporaryFolder& folder, const std::string& script) {
+  std::ofstream(folder.path() / "script.py") << script;
+  return shell("cd " + folder.path().string() + " && /usr/bin/python3 script.py");
+}
+
+bool python_has(const char* module) {
+  return shell(fmt::format("/usr/bin/python3 -c 'import {}'", module)).exit_code == 0;
+}
+
+TEST(ExportCommand, WritesACsvRowForEachBodyWithTheCountsOfTheRun) {
+  const TemporaryFolder folder;
+  record(folder);
+  ASSERT_EQ(export_run(folder, "--csv " + (folder / "a.csv")).exit_code, 0);
+  std::map<std::string, int> awake;
+  for (const auto& row : rows_of(folder.path() / "a.csv"))
+    if (row[0] != "step") awake[row[0]] += row[4] == "0" ? 1 : 0;
+  EXPECT_EQ(awake.size(), 150U);
+  int compared = 0;
+  for (const auto& row : rows_of(folder.path() / "run" / "frames.csv")) {
+    if (!awake.contains(row[0])) continue;
+    EXPECT_EQ(std::to_string(awake[row[0]]), row[3]) << "step " << row[0];
+    ++compared;
+  }
+  EXPECT_EQ(compared, 150);
+}
+
+TEST(ExportCommand, WritesTheColumnsAndArraysThatAreDocumented) {
+  const TemporaryFolder folder;
+  record(folder);
+  ASSERT_EQ(export_run(folder, fmt::format("--csv {} --npz {}", folder / "a.csv", folder / "a.npz")).exit_code, 0);
+  Names columns;
+  const auto rows = rows_of(folder.path() / "a.csv");
+  for (const std::string& name : rows.front()) columns.insert(name);
+  for (const char* of_3d : {"y_m", "qw", "qx", "qy", "qz"}) columns.insert(of_3d);
+  expect_documented(columns, "talus export --csv");
+  Names arrays;
+  const std::string bytes = contents(folder.path() / "a.npz");
+  for (std::size_t at = bytes.find("PK\x01\x02"); at != std::string::npos; at = bytes.find("PK\x01\x02", at + 4)) {
+    std::uint16_t length = 0;
+    std::memcpy(&length, bytes.data() + at + 28, 2);
+    arrays.insert(bytes.substr(at + 46, length - 4U));
+  }
+  expect_documented(arrays, "talus export --npz");
+}
+
+TEST(ExportCommand, WritesArraysThatNumpyReadsWithTheCountsOfTheRun) {
+  if (!python_has("numpy")) GTEST_SKIP() << "python3-numpy is not installed";
+  const TemporaryFolder folder;
+  record(folder);
+  ASSERT_EQ(export_run(folder, "--npz " + (folder / "a.npz")).exit_code, 0);
+  const Outcome read = python(folder, R"(
+import csv, numpy, zipfile
+assert zipfile.ZipFile("a.npz").testzip() is None
+run = numpy.load("a.npz")
+rows = {int(row["step"]): row for row in csv.DictReader(open("run/frames.csv"))}
+awake = (run["present"] & ~run["asleep"]).sum(axis=1)
+assert len(awake) == 150
+for step, count in zip(run["step"], awake): assert int(rows[step]["awake"]) == count, step
+assert run["event_woke"].sum() == sum(int(row["woken"]) for row in rows.values())
+assert (~run["event_woke"]).sum() == sum(int(row["slept"]) for row in rows.values())
+assert run["position"].shape == (150, len(run["shape"]), 2)
+assert list(run["shape_name"]) == [b"L"]
+print("good")
+)");
+  EXPECT_EQ(read.out, "good\n") << read.err;
+}
+
+TEST(ExportCommand, WritesMeshesAndSeriesThatVtkReads) {
+  if (!python_has("vtk")) GTEST_SKIP() << "python3-vtk9 is not installed";
+  const TemporaryFolder folder;
+  record(folder);
+  const std::string files = fmt::format("--ply {} --vtp {}", folder / "a.ply", folder / "a.pvd");
+  ASSERT_EQ(export_run(folder, files + " --every 50").exit_code, 0);
+  const Outcome read = python(folder, R"(
+import vtk, xml.etree.ElementTree as xml
+sets = xml.parse("a.pvd").getroot().findall("Collection/DataSet")
+assert len(sets) == 3
+reader = vtk.vtkXMLPolyDataReader()
+reader.SetFileName(sets[-1].get("file"))
+reader.Update()
+points = reader.GetOutput()
+bodies = points.GetNumberOfPoints()
+assert bodies > 10 and points.GetPointData().GetArray("orientation").GetNumberOfComponents() == 4
+reader = vtk.vtkPLYReader()
+reader.SetFileName("a.ply")
+reader.Update()
+mesh = reader.GetOutput()
+assert mesh.GetNumberOfPolys() == 2 * bodies, "two pieces of each L"
+assert abs(mesh.GetBounds()[5] - points.GetBounds()[5]) < 1.0
+print("good")
+)");
+  EXPECT_EQ(read.out, "good\n") << read.err;
+}
+
+/// The JSON of a GLB file; its lengths are checked.
+Json glb_json(const fs::path& file) {
+  const std::string bytes = contents(file);
+  std::uint32_t total = 0;
+  std::uint32_t length = 0;
+  std::memcpy(&total, bytes.data() + 8, 4);
+  std::memcpy(&length, bytes.data() + 12, 4);
+  EXPECT_EQ(bytes.substr(0, 4), "glTF");
+  EXPECT_EQ(total, bytes.size());
+  return Json::parse(bytes.substr(20, length));
+}
+
+TEST(ExportCommand, WritesAGlbWithTheLastPosesAndKeysOnlyWhereBodiesMove) {
+  const TemporaryFolder folder;
+  record(folder);
+  const std::string files = fmt::format("--glb {} --csv {}", folder / "a.glb", folder / "a.csv");
+  ASSERT_EQ(export_run(folder, files).exit_code, 0);
+  const Json glb = glb_json(folder.path() / "a.glb");
+  std::size_t checked = 0;
+  const auto rows = rows_of(folder.path() / "a.csv");
+  for (const auto& row : rows) {
+    if (row[0] != rows.back()[0]) continue;
+    const Json& node = glb["nodes"][std::stoul(row[2])];
+    EXPECT_EQ(node["name"], "body " + row[2]);
+    EXPECT_NEAR(node["translation"][0], std::stod(row[6]), 1e-5);
+    EXPECT_NEAR(node["translation"][2], std::stod(row[7]), 1e-5);
+    EXPECT_NEAR(node["rotation"][1], -std::sin(std::stod(row[8]) / 2), 1e-5);
+    ++checked;
+  }
+  EXPECT_EQ(checked + 1, glb["nodes"].size()) << "all bodies, and the node that holds them";
+  std::size_t keys = 0;
+  for (const Json& sampler : glb["animations"][0]["samplers"])
+    if (sampler["interpolation"] == "LINEAR") keys += glb["accessors"][sampler["input"].get<int>()]["count"].get<int>();
+  EXPECT_LT(keys, 2 * (rows.size() - 1)) << "a key for each place and turn of each row would be as many";
+}
+
+TEST(ExportCommand, TakesThePartOfTheRunThatIsChosen) {
+  const TemporaryFolder folder;
+  record(folder);
+  ASSERT_EQ(export_run(folder, fmt::format("--csv {} --from 2 --to 4 --every 30", folder / "a.csv")).exit_code, 0);
+  Names times;
+  for (const auto& row : rows_of(folder.path() / "a.csv")) times.insert(row[1]);
+  EXPECT_EQ(times, Names({"2.000000", "3.000000", "4.000000", "time_s"}));
+}
+
+TEST(ExportCommand, LeavesOutWhatDamageHitAndSaysSo) {
+  const TemporaryFolder folder;
+  record(folder);
+  std::string log = contents(folder.path() / "run" / "run.lcm");
+  const std::size_t at = log.find("TALUS_BODIES", log.size() / 2) + 60;
+  log[at] = static_cast<char>(log[at] ^ 1);
+  std::ofstream(folder.path() / "run" / "run.lcm", std::ios::binary) << log;
+  const Outcome outcome = export_run(folder, "--csv " + (folder / "a.csv"));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("the record is damaged"), std::string::npos) << outcome.err;
+}
+
+TEST(ExportCommand, RefusesBadOptions) {
+  const TemporaryFolder folder;
+  record(folder);
+  const auto refused = [&](const std::string& options, const std::string& said) {
+    const Outcome outcome = export_run(folder, options);
+    EXPECT_EQ(outcome.exit_code, 2) << options;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  };
+  refused("", "--csv,--npz,--ply,--vtp,--glb");
+  refused("--csv " + (folder / "a.txt"), "must end in .csv");
+  refused("--csv /no/folder/a.csv", "--csv");
+  refused("--csv " + (folder / "a.csv") + " --from 1000", "has no frame from --from 1000");
+  refused("--csv " + (folder / "a.csv") + " --every 0", "--every");
+  EXPECT_FALSE(fs::exists(folder.path() / "a.csv")) << "nothing is written where something is refused";
+}
+
+}  // namespace
+}  // namespace talus::export_command_test
+
+#endif

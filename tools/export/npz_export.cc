@@ -1,0 +1,150 @@
+#include <algorithm>
+
+#include "tools/export/exporter.h"
+#include "tools/export/npz_file.h"
+#include "tools/export/solid.h"
+
+namespace talus {
+namespace {
+
+constexpr int last_cause = static_cast<int>(SleepCause::check);
+
+template <int Dim>
+class NpzExport final : public Exporter<Dim> {
+ public:
+  explicit NpzExport(const ExportInput<Dim>& input) : scene_(input.scene), bodies_(input.bodies), file_(input.file) {
+    const auto frames = static_cast<std::uint64_t>(input.frames);
+    const auto bodies = static_cast<std::uint64_t>(input.bodies);
+    const auto events = static_cast<std::uint64_t>(input.events);
+    step_ = file_.declare("step", "<i8", {frames});
+    time_ = file_.declare("time", "<f8", {frames});
+    position_ = file_.declare("position", "<f4", {frames, bodies, Dim});
+    rotation_ = file_.declare("rotation", "<f4", {frames, bodies, Dim == 2 ? 1U : 4U});
+    present_ = file_.declare("present", "|b1", {frames, bodies});
+    asleep_ = file_.declare("asleep", "|b1", {frames, bodies});
+    cause_ = file_.declare("cause", "|i1", {frames, bodies});
+    event_step_ = file_.declare("event_step", "<i8", {events});
+    event_body_ = file_.declare("event_body", "<i4", {events});
+    event_woke_ = file_.declare("event_woke", "|b1", {events});
+    event_cause_ = file_.declare("event_cause", "|i1", {events});
+    event_layer_ = file_.declare("event_layer", "<i4", {events});
+    event_score_ = file_.declare("event_score", "<f4", {events});
+    shape_ = file_.declare("shape", "<i4", {bodies});
+    declare_names();
+    declare_meshes();
+  }
+
+  void add(const RecordedFrame<Dim>& frame) override {
+    put<std::int64_t>(step_, frame.step);
+    put<double>(time_, frame.time);
+    std::string position;
+    std::string rotation;
+    std::string present;
+    std::string asleep;
+    std::string cause;
+    shapes_.resize(bodies_, -1);
+    for (BodyIndex body = 0; body < bodies_; ++body) {
+      const bool shown = body < frame.states.size() && frame.shows(body);
+      append_pose(shown ? frame.states.pose[body] : Pose<Dim>{}, position, rotation);
+      present += shown ? '\1' : '\0';
+      asleep += shown && frame.states.asleep[body] != 0 ? '\1' : '\0';
+      cause += static_cast<char>(shown ? frame.cause[body] : -1);
+      if (shown) shapes_[body] = frame.states.shape[body];
+    }
+    file_.append(position_, position);
+    file_.append(rotation_, rotation);
+    file_.append(present_, present);
+    file_.append(asleep_, asleep);
+    file_.append(cause_, cause);
+    for (const SleepEvent& event : frame.events) add(event);
+  }
+
+  void finish() override {
+    for (const std::int32_t shape : shapes_) put(shape_, shape);
+    file_.finish();
+  }
+
+ private:
+  template <class Number>
+  void put(int array, Number number) {
+    std::string bytes;
+    append_bytes(bytes, number);
+    file_.append(array, bytes);
+  }
+
+  static void append_pose(const Pose<Dim>& pose, std::string& position, std::string& rotation) {
+    for (int axis = 0; axis < Dim; ++axis) append_bytes(position, static_cast<float>(pose.position[axis]));
+    if constexpr (Dim == 2)
+      append_bytes(rotation, static_cast<float>(pose.rotation.angle()));
+    else
+      for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
+        append_bytes(rotation, static_cast<float>(part));
+  }
+
+  void add(const SleepEvent& event) {
+    put<std::int64_t>(event_step_, event.step);
+    put<std::int32_t>(event_body_, event.body);
+    put<std::int8_t>(event_woke_, event.woke ? 1 : 0);
+    put(event_cause_, static_cast<std::int8_t>(event.cause));
+    put<std::int32_t>(event_layer_, event.layer);
+    put(event_score_, static_cast<float>(event.score));
+  }
+
+  /// Texts of equal length, filled with zeros.
+  void declare_names(std::string_view array, const std::vector<std::string>& names) {
+    std::size_t length = 1;
+    for (const std::string& name : names) length = std::max(length, name.size());
+    std::string bytes;
+    for (const std::string& name : names) bytes += name + std::string(length - name.size(), '\0');
+    const int number = file_.declare(array, "|S" + std::to_string(length), {names.size()});
+    file_.append(number, bytes);
+  }
+
+  void declare_names() {
+    std::vector<std::string> shapes;
+    for (const Shape<Dim>& shape : scene_.world.shapes) shapes.push_back(shape.name);
+    declare_names("shape_name", shapes);
+    std::vector<std::string> causes;
+    for (int cause = 0; cause <= last_cause; ++cause) causes.emplace_back(to_string(static_cast<SleepCause>(cause)));
+    declare_names("cause_name", causes);
+  }
+
+  /// The surfaces of all shapes as triangles.
+  void declare_meshes() {
+    std::string vertices;
+    std::string triangles;
+    std::string owners;
+    std::uint64_t vertex_count = 0;
+    std::uint64_t triangle_count = 0;
+    for (std::size_t shape = 0; shape < scene_.world.shapes.size(); ++shape) {
+      const TriangleMesh mesh = triangles_of(polygons_in_space(scene_.world.shapes[shape]));
+      for (const Vec3& corner : mesh.corners)
+        for (int axis = 0; axis < 3; ++axis) append_bytes(vertices, static_cast<float>(corner[axis]));
+      for (const int index : mesh.indices) append_bytes(triangles, static_cast<std::int32_t>(vertex_count + index));
+      for (std::size_t i = 0; i < mesh.indices.size(); i += 3) append_bytes(owners, static_cast<std::int32_t>(shape));
+      vertex_count += mesh.corners.size();
+      triangle_count += mesh.indices.size() / 3;
+    }
+    file_.append(file_.declare("mesh_vertex", "<f4", {vertex_count, 3}), vertices);
+    file_.append(file_.declare("mesh_triangle", "<i4", {triangle_count, 3}), triangles);
+    file_.append(file_.declare("mesh_shape", "<i4", {triangle_count}), owners);
+  }
+
+  const Scene<Dim>& scene_;
+  BodyIndex bodies_;
+  NpzFile file_;
+  std::vector<std::int32_t> shapes_;
+  int step_, time_, position_, rotation_, present_, asleep_, cause_, shape_;
+  int event_step_, event_body_, event_woke_, event_cause_, event_layer_, event_score_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<Exporter<Dim>> make_npz_export(const ExportInput<Dim>& input) {
+  return std::make_unique<NpzExport<Dim>>(input);
+}
+template std::unique_ptr<Exporter<2>> make_npz_export(const ExportInput<2>&);
+template std::unique_ptr<Exporter<3>> make_npz_export(const ExportInput<3>&);
+
+}  // namespace talus

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include "tools/export/exporter.h"
+#include "tools/export/output_file.h"
+#include "tools/export/solid.h"
+
+namespace talus {
+namespace {
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8U | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : letters[group >> (18U - 6U * k) & 63U];
+  }
+  return text;
+}
+
+/// An array of VTK's XML: its length in bytes, then the bytes.
+std::string data_array(std::string_view type, std::string_view name, int components, std::string_view bytes) {
+  std::string block;
+  append_bytes(block, static_cast<std::uint64_t>(bytes.size()));
+  block += bytes;
+  return fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">{}</DataArray>)"
+                     "\n",
+                     type, name, components, base64(block));
+}
+
+std::string vtk_file(std::string_view piece) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n{}</PolyData>\n</VTKFile>\n",
+      piece);
+}
+
+void append_point(std::string& bytes, const Vec3& point) {
+  for (int axis = 0; axis < 3; ++axis) append_bytes(bytes, static_cast<float>(point[axis]));
+}
+
+/// The cells of a piece: which points each has.
+std::string cells(std::string_view name, const std::string& connectivity, const std::string& offsets) {
+  return fmt::format("<{}>\n{}{}</{}>\n", name, data_array("Int64", "connectivity", 1, connectivity),
+                     data_array("Int64", "offsets", 1, offsets), name);
+}
+
+std::string mesh_file(const std::vector<Loop<3>>& polygons) {
+  std::string points;
+  std::string connectivity;
+  std::string offsets;
+  std::int64_t count = 0;
+  for (const Loop<3>& polygon : polygons) {
+    for (const Vec3& corner : polygon) {
+      append_point(points, corner);
+      append_bytes(connectivity, count++);
+    }
+    append_bytes(offsets, count);
+  }
+  return vtk_file(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n<Points>\n{}</Points>\n{}</Piece>\n",
+                              count, polygons.size(), data_array("Float32", "Points", 3, points),
+                              cells("Polys", connectivity, offsets)));
+}
+
+/// The data of the points of one frame.
+struct PointArrays {
+  std::string points, orientation, body, shape, asleep, cause, connectivity, offsets;
+  std::int64_t count = 0;
+
+  std::string file() const {
+    return vtk_file(
+        fmt::format("<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\">\n<PointData>\n{1}{2}{3}{4}{5}</PointData>\n"
+                    "<Points>\n{6}</Points>\n{7}</Piece>\n",
+                    count, data_array("Float32", "orientation", 4, orientation), data_array("Int32", "body", 1, body),
+                    data_array("Int32", "shape", 1, shape), data_array("UInt8", "asleep", 1, asleep),
+                    data_array("Int8", "cause", 1, cause), data_array("Float32", "Points", 3, points),
+                    cells("Verts", connectivity, offsets)));
+  }
+};
+
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+  OutputFile out(path);
+  out.write(text);
+  out.close();
+}
+
+template <int Dim>
+class VtpExport final : public Exporter<Dim> {
+ public:
+  explicit VtpExport(const ExportInput<Dim>& input) : file_(input.file), folder_(input.file) {
+    folder_.replace_extension();
+    folder_ += "_vtp";
+    std::filesystem::create_directory(folder_);
+    for (std::size_t i = 0; i < input.scene.world.shapes.size(); ++i)
+      write_whole(folder_ / fmt::format("shape_{}.vtp", i), mesh_file(polygons_in_space(input.scene.world.shapes[i])));
+  }
+
+  void add(const RecordedFrame<Dim>& frame) override {
+    PointArrays arrays;
+    for (BodyIndex body = 0; body < frame.states.size(); ++body)
+      if (frame.shows(body)) add_body(arrays, frame, body);
+    const std::string name = fmt::format("frame_{:06}.vtp", frames_++);
+    write_whole(folder_ / name, arrays.file());
+    series_ += fmt::format("<DataSet timestep=\"{:.6f}\" file=\"{}/{}\"/>\n", frame.time,
+                           xml_text(folder_.filename().string()), name);
+  }
+
+  void finish() override {
+    write_whole(file_, fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
+                                   "<Collection>\n{}</Collection>\n</VTKFile>\n",
+                                   series_));
+  }
+
+ private:
+  static std::string xml_text(const std::string& text) {
+    std::string escaped;
+    for (const char letter : text)
+      if (letter == '&')
+        escaped += "&amp;";
+      else if (letter == '"')
+        escaped += "&quot;";
+      else if (letter == '<')
+        escaped += "&lt;";
+      else
+        escaped += letter;
+    return escaped;
+  }
+
+  static void add_body(PointArrays& arrays, const RecordedFrame<Dim>& frame, BodyIndex body) {
+    const Pose<3> pose = in_space(frame.states.pose[body]);
+    append_point(arrays.points, pose.position);
+    for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
+      append_bytes(arrays.orientation, static_cast<float>(part));
+    append_bytes(arrays.body, static_cast<std::int32_t>(body));
+    append_bytes(arrays.shape, static_cast<std::int32_t>(frame.states.shape[body]));
+    append_bytes(arrays.asleep, frame.states.asleep[body]);
+    append_bytes(arrays.cause, frame.cause[body]);
+    append_bytes(arrays.connectivity, arrays.count++);
+    append_bytes(arrays.offsets, arrays.count);
+  }
+
+  std::filesystem::path file_;
+  std::filesystem::path folder_;
+  std::string series_;
+  int frames_ = 0;
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<Exporter<Dim>> make_vtp_export(const ExportInput<Dim>& input) {
+  return std::make_unique<VtpExport<Dim>>(input);
+}
+template std::unique_ptr<Exporter<2>> make_vtp_export(const ExportInput<2>&);
+template std::unique_ptr<Exporter<3>> make_vtp_export(const ExportInput<3>&);
+
+}  // namespace talus
