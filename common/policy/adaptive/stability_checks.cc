@@ -12,8 +12,8 @@ constexpr double sample_time = 0.8;       // between two samples of the displace
 constexpr double shortest_time = 0.8;     // of a check
 constexpr double longest_time = 60.0;     // of a check: some contacts of an engine jitter for ever
 constexpr double horizon = 13.0;          // for which the present speed is extrapolated,
-constexpr double horizon_slowing = 3.0;   // and if the motion slows down
-constexpr double horizon_estimate = 1.0;  // for the estimate of drift: the motion dies out
+constexpr double horizon_slowing = 6.0;   // and if the motion slows down
+constexpr double horizon_estimate = 1.5;  // for the estimate of drift: the motion dies out
 constexpr double arrival_time = 8.0;      // without arrivals after which a check need not wait
 constexpr double rest_time = 0.4;         // at rest, after which an awake body no longer counts as moving
 
