@@ -20,6 +20,7 @@
 #include "tools/output/output.h"
 #include "tools/run/huge_pages.h"
 #include "tools/run/version.h"
+#include "tools/stress/stress_command.h"
 
 namespace {
 
@@ -34,6 +35,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_list_command(app, exit_code);
   talus::add_check_command(app, exit_code);
   talus::add_bench_command(app, exit_code);
+  talus::add_stress_command(app, exit_code);
   talus::add_sheet_command(app, exit_code);
   talus::add_reference_command(app, exit_code);
   talus::add_view_command(app, exit_code);

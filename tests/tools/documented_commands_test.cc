@@ -43,6 +43,9 @@ constexpr auto shortened = std::to_array<Shortened>({
      "talus run drop_in_a_pile_2d --policy paper --out runs/paper --set run.frames=300"},
     {"talus bench table1 --quick",
      "talus bench table1 --quick --scene varying_drops_2d --share 0.02 --rounds 1 --no-errors"},
+    {"talus stress", "talus stress stack-5"},
+    {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
+    {"talus stress --long --docs docs", "talus stress stack-5 --docs docs"},
     {"talus bench table1 --reference",
      "talus bench table1 --reference --scene varying_drops_2d --share 0.02 --rounds 1 --seeds 1 --out bench/reference"},
 });

@@ -149,6 +149,13 @@ TEST(DocumentedFiles, HaveAllKeysOfBenchTruth) {
   expect_documented(keys, "results.json of talus bench truth");
 }
 
+TEST(DocumentedFiles, HaveAllColumnsOfStressCsv) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command("stress stack-5 --policy full --out " + (folder / "s"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_documented(split(header_of(folder.path() / "s" / "stress.csv")), "stress.csv");
+}
+
 TEST(DocumentedFiles, HaveATableOfTheMeasuresAsTheyAreDeclared) {
   std::string table;
   for (const Measure& measure : measures) {

@@ -142,8 +142,12 @@ void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& gro
   write(folder / "results.json", results_json(runner, groups, results).dump(2) + "\n");
   write_pages(folder, with_command);
   const std::string name = folder.filename().string();
-  if (!runner.options().docs.empty()) write_markdown(runner.options().docs, name, name, with_command);
+  if (!runner.options().docs.empty()) write_page(runner.options().docs, name, with_command);
   print_result("{}/report.html, results.md, results.csv and results.json\n", folder.string());
+}
+
+void write_page(const std::filesystem::path& folder, const std::string& name, const BenchResults& results) {
+  write_markdown(folder, name, name, results);
 }
 
 void write_pages(const std::filesystem::path& folder, const BenchResults& results) {

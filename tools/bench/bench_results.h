@@ -27,4 +27,7 @@ void write_results(const BenchRunner& runner, const std::vector<BenchGroup>& gro
 /// The pages alone, report.html and results.md with its figures, in `folder`.
 void write_pages(const std::filesystem::path& folder, const BenchResults& results);
 
+/// NAME.md in `folder`, and its figures as NAME-1.svg, NAME-2.svg, ...
+void write_page(const std::filesystem::path& folder, const std::string& name, const BenchResults& results);
+
 }  // namespace talus
