@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/common/temporary_folder.h"
+#include "tools/stress/advise.h"
 #include "tools/stress/stress_report.h"
 
 namespace talus::stress_test {
@@ -60,7 +61,7 @@ TEST(StressReport, ListsRedCellsWithTheirReason) {
       red_table({row("stack-5", "full", 0.0, StressOutcome::pass), row("stack-5", "paper", 0.2, StressOutcome::known),
                  row("stack-5", "adaptive", 0.2, StressOutcome::known)});
   ASSERT_EQ(table.rows.size(), 1U);
-  EXPECT_EQ(table.rows[0][2], "paper, adaptive");
+  EXPECT_EQ(table.rows[0][4], "paper 0.2, adaptive 0.2");
   EXPECT_EQ(table.rows[0].back(), "stands by statics");
 }
 
@@ -73,6 +74,32 @@ TEST(StressReport, TellsAtWhichNumbersAFamilyOfCasesPasses) {
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0][0], "stack");
   EXPECT_EQ(table.rows[0][2], "5 to 10");
+}
+
+AdviceRow setting(double rate, int iterations, double off, double seconds) {
+  AdviceRow row;
+  row.steps_per_second = rate;
+  row.iterations = iterations;
+  row.centre_off = off;
+  row.seconds = seconds;
+  return row;
+}
+
+TEST(StressAdvice, NamesTheCheapestSettingThatSufficesAndWhatTheScenesOwnWastes) {
+  std::vector<AdviceRow> rows = {setting(30, 10, 0.2, 1.0), setting(60, 5, 0.04, 1.5), setting(60, 10, 0.01, 3.0)};
+  rows[2].own = true;
+  EXPECT_EQ(advice(rows, 0.05),
+            "Cheapest that suffices for 0.05 D: 60 steps a second and 5 iterations. The scene's own, 60 steps a second "
+            "and 10 iterations, take 2 times its time.");
+  EXPECT_NE(advice(rows, 0.02).find("These are the scene's own."), std::string::npos);
+  EXPECT_NE(advice(rows, 0.001).find("No setting suffices"), std::string::npos);
+}
+
+TEST(StressAdvice, ASettingWithAWarningDoesNotSuffice) {
+  AdviceRow row = setting(60, 10, 0.0, 1.0);
+  EXPECT_TRUE(row.suffices(0.05));
+  row.warnings = 1;
+  EXPECT_FALSE(row.suffices(0.05));
 }
 
 TEST(StressHistory, KeepsTheRowsOfOtherVersionsAndReplacesThoseOfThisOne) {

@@ -44,6 +44,7 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus bench table1 --quick",
      "talus bench table1 --quick --scene varying_drops_2d --share 0.02 --rounds 1 --no-errors"},
     {"talus stress", "talus stress stack-5"},
+    {"talus stress --advise drop_in_a_pile_2d --tolerance 0.1", "talus stress --help"},
     {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
     {"talus stress --long --docs docs", "talus stress stack-5 --docs docs"},
     {"talus bench table1 --reference",

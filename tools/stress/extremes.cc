@@ -255,7 +255,7 @@ StressCase long_wall_case(double length) {
 
 std::vector<StressCase> extreme_cases() {
   std::vector<StressCase> cases;
-  for (const double rate : {15.0, 30.0, 60.0, 120.0, 240.0}) cases.push_back(rate_case(rate));
+  for (const double rate : {15.0, 30.0, 40.0, 50.0, 60.0, 120.0, 240.0}) cases.push_back(rate_case(rate));
   for (const int iterations : {4, 10, 20, 50, 100}) cases.push_back(iterations_case(iterations));
   for (const double side : {0.001, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0, 5.0, 20.0, 100.0, 1000.0})
     cases.push_back(size_case(side));

@@ -9,6 +9,7 @@
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
+#include "tools/stress/advise.h"
 #include "tools/stress/stress_report.h"
 
 namespace talus {
@@ -19,6 +20,7 @@ struct StressOptions {
   std::filesystem::path out;
   std::filesystem::path docs;
   std::filesystem::path history;
+  AdviceOptions advice;
   int jobs = 2;
   bool quick = false;
 };
@@ -74,7 +76,20 @@ std::string for_terminal(const Table& table) {
   return text_of(plain);
 }
 
+int give_advice(StressOptions options) {
+  const auto one = [](const std::vector<std::string>& list, const char* option) {
+    if (list.size() > 1) throw std::invalid_argument(fmt::format("{}: must be given once with --advise", option));
+    return list.empty() ? std::string() : list.front();
+  };
+  options.advice.backend = one(options.choice.backends, "--backend");
+  options.advice.policy = one(options.choice.policies, "--policy");
+  options.advice.jobs = options.jobs;
+  advise(options.advice);
+  return exit_codes::success;
+}
+
 int run(StressOptions options) {
+  if (!options.advice.scene.empty()) return give_advice(options);
   if (options.out.empty())
     options.out = std::filesystem::path("bench") / (options.choice.whole ? "stress" : "stress-quick");
   if (options.history.empty()) options.history = options.out / "stress.csv";
@@ -116,6 +131,23 @@ void add_stress_options(CLI::App& command, StressOptions& options) {
                   "Folder of stress.csv, report.html and results.md (bench/stress, quick: bench/stress-quick)")
       ->check(folder());
   command.add_option("--docs", options.docs, "Folder for the page limits.md")->check(folder());
+  auto* advise =
+      command
+          .add_option("--advise", options.advice.scene,
+                      "Instead run this scene at half, its own and double steps a second and iterations, and "
+                      "say which suffice")
+          ->check(not_empty())
+          ->excludes(quick);
+  command
+      .add_option("--tolerance", options.advice.tolerance,
+                  "What suffices for --advise: heights, radii and overlaps within this of the finest setting's [D]")
+      ->check(number_between(0.0, 10.0, Bound::left_out))
+      ->needs(advise)
+      ->capture_default_str();
+  command.add_option("--seeds", options.advice.seeds, "Runs at each setting of --advise")
+      ->check(CLI::Range(1, 100))
+      ->needs(advise)
+      ->capture_default_str();
   command.add_option("--history", options.history, "File of all versions' values; default: stress.csv in --out")
       ->check(not_empty());
 }

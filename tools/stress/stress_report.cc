@@ -52,21 +52,17 @@ Table stress_table(const std::vector<StressRow>& rows) {
 }
 
 Table red_table(const std::vector<StressRow>& rows) {
-  Table table{"", {{"case"}, {"engine"}, {"policies"}, {"quantity"}, {"measured", true}, {"must be"}, {"why"}}, {}};
+  Table table{"", {{"case"}, {"engine"}, {"quantity"}, {"must be"}, {"measured, by policy"}, {"why"}}, {}};
+  std::map<std::string, std::size_t> lines;  // of a case, engine, quantity and reason
   for (const StressRow& row : rows) {
     if (!is_bad(row.outcome)) continue;
-    const std::string measured = std::isfinite(row.measured) ? fmt::format("{:.3g}", row.measured) : "none";
     const std::string why = row.outcome == StressOutcome::red ? "not known yet: " + row.note : row.note;
-    if (!table.rows.empty()) {
-      std::vector<std::string>& above = table.rows.back();
-      const bool same = above[0] == row.name && above[1] == row.backend && above[3] == row.quantity &&
-                        above[4] == measured && above[6] == why;
-      if (same) {
-        above[2] += ", " + row.policy;
-        continue;
-      }
-    }
-    table.rows.push_back({row.name, row.backend, row.policy, row.quantity, measured, gate_text(row), why});
+    const std::string value = std::isfinite(row.measured) ? fmt::format("{:.3g}", row.measured) : "none";
+    const auto [line, is_new] =
+        lines.try_emplace(fmt::format("{}\n{}\n{}\n{}", row.name, row.backend, row.quantity, why), table.rows.size());
+    if (is_new) table.rows.push_back({row.name, row.backend, row.quantity, gate_text(row), "", why});
+    std::string& measured = table.rows[line->second][4];
+    measured += fmt::format("{}{} {}", measured.empty() ? "" : ", ", row.policy, value);
   }
   return table;
 }

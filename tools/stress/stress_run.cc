@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -13,6 +12,7 @@
 #include "tools/bench/in_processes.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
+#include "tools/run/processor_watch.h"
 
 namespace talus {
 namespace {
@@ -47,22 +47,16 @@ std::vector<StressTask> tasks_for(const StressChoice& choice) {
   return tasks;
 }
 
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 /// What the task's process returns; NaN becomes null.
 std::string measure_task(const StressTask& task) {
-  const double start = processor_seconds();
+  ProcessorWatch watch;
   Json result;
   try {
     result["values"] = task.stress_case->measure(task.dimension)(task.cell);
   } catch (const std::invalid_argument& refusal) {
     result["refused"] = refusal.what();
   }
-  result["seconds"] = processor_seconds() - start;
+  result["seconds"] = watch.lap();
   return result.dump();
 }
 
