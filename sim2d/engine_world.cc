@@ -46,9 +46,10 @@ void give_velocity(b2Body& body, const Vec<2>& velocity, const Spin<2>& spin) {
 
 EngineWorld::EngineWorld(const WorldDescription<2>& description)
     : World<2>(description, {fastest_speed<2>(description.dt), fastest_spin(description.dt)}),
-      world_(b2Vec2(0.0F, -static_cast<float>(description.gravity))),
+      world_(to_engine(description.gravity_vector())),
       hosts_(world_, !description.debug.keep_sleepers),
-      listener_(description, warm_start_) {
+      listener_(description, warm_start_),
+      rolling_(description, world_) {
   for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
   world_.SetAllowSleeping(description.engine_sleep);
   world_.SetAutoClearForces(false);  // there are none
@@ -134,6 +135,7 @@ EngineTimes EngineWorld::engine_step() {
   listener_.start_step(!description().debug.sweep_slow_bodies && hosts_.hosts() > 0, records_contacts());
   if (!description().debug.step_when_idle && awake().empty()) return {};
   check_memory();
+  rolling_.start_step(states().shape);
   world_.Step(static_cast<float>(description().dt), description().solver.velocity_iterations,
               description().solver.position_iterations);
   warm_start_.end_step();
@@ -174,6 +176,12 @@ void EngineWorld::engine_place_obstacle(int number, const Pose<2>& at) {
   body.SetTransform(to_engine(at.position), engine_angle(at.rotation.angle()));
   give_velocity(body, Vec<2>::Zero(), Spin<2>::Zero());
   proxies_moved_ = true;
+}
+
+void EngineWorld::engine_remove_obstacle(int number) {
+  find_new_contacts();
+  world_.DestroyBody(obstacles_[number]);
+  obstacles_[number] = nullptr;
 }
 
 void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {

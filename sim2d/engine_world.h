@@ -9,6 +9,8 @@
 #include "common/world/world.h"
 #include "sim2d/body_template.h"
 #include "sim2d/contacts.h"
+#include "sim2d/conversions.h"
+#include "sim2d/rolling_resistance.h"
 #include "sim2d/static_hosts.h"
 #include "sim2d/warm_start.h"
 
@@ -42,6 +44,8 @@ class EngineWorld final : public World<2> {
   bool engine_awake(BodyIndex body) const override;
   void engine_move_obstacle(int number, const Pose<2>& to) override;
   void engine_place_obstacle(int number, const Pose<2>& at) override;
+  void engine_remove_obstacle(int number) override;
+  void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
 
   void add_ground();
   void add_obstacles();
@@ -64,6 +68,7 @@ class EngineWorld final : public World<2> {
   StaticHosts hosts_;
   WarmStart warm_start_;
   ContactListener listener_;
+  RollingResistance rolling_;
   std::vector<EngineBody> bodies_;
   std::vector<b2Body*> obstacles_;
   bool proxies_moved_ = false;  // since the last step

@@ -3,9 +3,11 @@
 namespace talus::bullet {
 namespace {
 
-void set_common(btCollisionObject& object, btScalar friction, btScalar restitution, BodyIndex index) {
-  object.setFriction(friction);
-  object.setRestitution(restitution);
+void set_common(btCollisionObject& object, const Surface& surface, BodyIndex index) {
+  object.setFriction(surface.friction);
+  object.setRestitution(surface.restitution);
+  object.setSpinningFriction(
+      surface.rolling_arm);  // read by RollingSolver; Bullet uses it only beside its rolling friction
   object.setUserIndex(index);
 }
 
@@ -25,7 +27,7 @@ std::unique_ptr<btRigidBody> RigidBodyMaker::make(const BodyTemplate& shape, con
   spare_.pop_back();
   body->setLinearFactor(shape.linear_factor);
   body->setAngularFactor(shape.angular_factor);
-  set_common(*body, shape.friction, shape.restitution, index);
+  set_common(*body, shape.surface, index);
   if (!may_sleep) body->setActivationState(DISABLE_DEACTIVATION);
   // Bullet sweeps a body only in steps in which it moves further than this, so slow ones pay nothing.
   body->setCcdMotionThreshold(shape.sweep_from);
@@ -41,14 +43,14 @@ void RigidBodyMaker::retire(std::unique_ptr<btCollisionObject> object) {
   }
 }
 
-std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, btScalar friction, btScalar restitution,
+std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, const Surface& surface,
                                                       const btTransform& place, BodyIndex index) {
   auto object = std::make_unique<btCollisionObject>();
   object->setCollisionShape(&shape);
   object->setWorldTransform(place);
   object->setInterpolationWorldTransform(place);
   object->forceActivationState(ISLAND_SLEEPING);
-  set_common(*object, friction, restitution, index);
+  set_common(*object, surface, index);
   return object;
 }
 
@@ -59,7 +61,7 @@ std::unique_ptr<btCollisionObject> make_moving_obstacle(const BodyTemplate& shap
   auto body = std::make_unique<btRigidBody>(info);
   body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
   body->setActivationState(DISABLE_DEACTIVATION);
-  set_common(*body, shape.friction, shape.restitution, index);
+  set_common(*body, shape.surface, index);
   return body;
 }
 

@@ -33,7 +33,7 @@ class RigidBodyMaker {
 
 /// Asleep, and the form of ground and obstacles too: a bare collision object, half as large as a rigid body and
 /// without mass, velocity or any work in a step.
-std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, btScalar friction, btScalar restitution,
+std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, const Surface& surface,
                                                       const btTransform& place, BodyIndex index);
 
 /// An obstacle that moves by plan: Bullet takes its velocity from the difference of its two transforms.

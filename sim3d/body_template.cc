@@ -176,8 +176,9 @@ BodyTemplate make_body_template(const Shape<Dim>& shape, double mass_scale) {
   assemble(made, make_pieces(shape, made));
   made.mass = static_cast<btScalar>(mass_scale * shape.mass);
   set_inertia(made, Inertia<Dim>(mass_scale * shape.inertia));
-  made.friction = static_cast<btScalar>(std::sqrt(shape.material.friction));
-  made.restitution = static_cast<btScalar>(std::sqrt(shape.material.restitution));
+  made.surface.friction = static_cast<btScalar>(std::sqrt(shape.material.friction));
+  made.surface.restitution = static_cast<btScalar>(std::sqrt(shape.material.restitution));
+  made.surface.rolling_arm = static_cast<btScalar>(rolling_arm(shape));
   double width = smallest_width(shape.pieces[0]);
   for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
   made.inner_radius = static_cast<btScalar>(0.5 * width);

@@ -38,6 +38,14 @@ inline constexpr double most_plain_mass = 1e6;
 template <int Dim>
 double mass_scale(std::span<const Shape<Dim>> shapes);
 
+/// Of the surface of an object. Friction and restitution are square roots of the material's values: Bullet multiplies
+/// those of both objects, which makes the pair's value their geometric mean.
+struct Surface {
+  btScalar friction = 0;
+  btScalar restitution = 0;
+  btScalar rolling_arm = 0;  // see arm_of_pair() [m]
+};
+
 /// All that a body of one Shape needs from it; made once and shared by its bodies.
 ///
 /// Bullet wants a diagonal inertia, so it keeps each body in its principal axes; `frame` turns those into the shape's
@@ -52,8 +60,7 @@ struct BodyTemplate {
   btVector3 inertia = btVector3(0, 0, 0);        // about the principal axes [kg m^2 times the mass scale]
   btVector3 linear_factor = btVector3(1, 1, 1);  // 0 where a planar body must not move
   btVector3 angular_factor = btVector3(1, 1, 1);
-  btScalar friction = 0;      // square roots of the material's values: Bullet multiplies those of both bodies, which
-  btScalar restitution = 0;   // makes the pair's value their geometric mean
+  Surface surface;
   btScalar inner_radius = 0;  // half the smallest width of the thinnest piece [m]
   btScalar sweep_from = 0;    // a body that moves further in a step gets continuous collision [m]
 };

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "sim3d/bullet/packed_solver.h"
+#include "sim3d/bullet/rolling_solver.h"
 
 namespace talus::bullet {
 namespace {
@@ -25,18 +26,19 @@ const bool takes_little = [] {
   return true;
 }();
 
-std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params,
-                                                                 const DebugOptions& debug) {
+std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params, const DebugOptions& debug,
+                                                                 bool rolling_friction) {
+  if (rolling_friction) return std::make_unique<RollingSolver>();
   if (!debug.bullet_solver) return std::make_unique<PackedSolver>(params.warm_friction, debug);
   return std::make_unique<WarmFrictionSolver>(params.warm_friction);
 }
 
 }  // namespace
 
-Engine::Engine(double gravity, const SolverParams& params, const DebugOptions& debug)
+Engine::Engine(const btVector3& gravity, const SolverParams& params, const DebugOptions& debug, bool rolling_friction)
     : dispatcher(&configuration),
       broadphase(&pairs),
-      solver(make_solver(params, debug)),
+      solver(make_solver(params, debug, rolling_friction)),
       world(dispatcher, broadphase, pairs, *solver, configuration, debug) {
   if (!debug.bullet_compounds)
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
@@ -44,7 +46,7 @@ Engine::Engine(double gravity, const SolverParams& params, const DebugOptions& d
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE, &ground_pairs);
     dispatcher.registerCollisionCreateFunc(STATIC_PLANE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &swapped_ground_pairs);
   }
-  world.setGravity(btVector3(0, 0, static_cast<btScalar>(-gravity)));
+  world.setGravity(gravity);
   // Static bodies do not move: without this, Bullet refreshes their bounding boxes in every step.
   world.setForceUpdateAllAabbs(false);
   btContactSolverInfo& info = world.getSolverInfo();

@@ -17,7 +17,8 @@ namespace talus::bullet {
 
 /// Members are destroyed in reverse order: the world lets go of its proxies and pairs before these go.
 struct Engine {
-  Engine(double gravity, const SolverParams& params, const DebugOptions& debug);
+  /// `rolling_friction`: whether a shape has any.
+  Engine(const btVector3& gravity, const SolverParams& params, const DebugOptions& debug, bool rolling_friction);
 
   btDefaultCollisionConfiguration configuration;
   CompoundPair::Maker compound_pairs;

@@ -6,6 +6,7 @@
 
 #include "sim3d/bodies.h"
 #include "sim3d/body_template.h"
+#include "sim3d/bullet/rolling_solver.h"
 #include "sim3d/conversions.h"
 
 namespace talus::bullet {
@@ -35,6 +36,17 @@ bool is_finite(const btRigidBody& body) {
 }
 
 template <int Dim>
+btVector3 gravity_of(const WorldDescription<Dim>& description) {
+  return to_bullet(description.gravity_vector());
+}
+
+template <int Dim>
+bool has_rolling_friction(const WorldDescription<Dim>& description) {
+  return std::ranges::any_of(description.shapes,
+                             [](const Shape<Dim>& shape) { return shape.material.rolling_friction > 0.0; });
+}
+
+template <int Dim>
 void give_velocity(btRigidBody& body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
   body.setLinearVelocity(to_bullet(velocity));
   body.setAngularVelocity(spin_to_bullet<Dim>(spin));
@@ -47,14 +59,17 @@ template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     : World<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
-      engine_(description.gravity, description.solver, description.debug) {
+      engine_(gravity_of(description), description.solver, description.debug, has_rolling_friction(description)) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
     if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;
   }
   if (description.ground.present) add_ground();
   add_obstacles();
-  engine_.world.set_after_collision([this] { swap_.restore_contacts(); });
+  engine_.world.set_after_collision([this] {
+    swap_.restore_contacts();
+    if (auto* rolling = dynamic_cast<RollingSolver*>(engine_.solver.get())) rolling->start_step();
+  });
 }
 
 // Bullet holds the bodies by address: they leave it before they are destroyed.
@@ -69,9 +84,9 @@ template <int Dim>
 void EngineWorld<Dim>::add_ground() {
   const Ground& ground = this->description().ground;
   ground_ = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), static_cast<btScalar>(ground.height));
-  statics_.push_back(make_static_object(*ground_, static_cast<btScalar>(std::sqrt(ground.material.friction)),
-                                        static_cast<btScalar>(std::sqrt(ground.material.restitution)),
-                                        btTransform::getIdentity(), ground_index));
+  const Surface surface{static_cast<btScalar>(std::sqrt(ground.material.friction)),
+                        static_cast<btScalar>(std::sqrt(ground.material.restitution))};
+  statics_.push_back(make_static_object(*ground_, surface, btTransform::getIdentity(), ground_index));
   engine_.world.add_static(*statics_.back());
 }
 
@@ -82,7 +97,7 @@ void EngineWorld<Dim>::add_obstacles() {
     const BodyTemplate& from = obstacles_.emplace_back(make_body_template(obstacle.shape));
     const btTransform place = to_bullet(obstacle.pose, from.frame);
     statics_.push_back(obstacle.moves ? make_moving_obstacle(from, place, index)
-                                      : make_static_object(*from.whole, from.friction, from.restitution, place, index));
+                                      : make_static_object(*from.whole, from.surface, place, index));
     --index;
     engine_.world.add_static(*statics_.back());
   }
@@ -162,6 +177,22 @@ void EngineWorld<Dim>::engine_place_obstacle(int number, const Pose<Dim>& at) {
   const btTransform place = to_bullet(at, obstacles_[number].frame);
   object.setWorldTransform(place);
   object.setInterpolationWorldTransform(place);
+}
+
+/// It stays in Bullet's list of objects, without an entry in the broad phase: nothing meets it any more.
+template <int Dim>
+void EngineWorld<Dim>::engine_remove_obstacle(int number) {
+  btCollisionObject& object = obstacle(number);
+  engine_.broadphase.destroyProxy(object.getBroadphaseHandle(), &engine_.dispatcher);
+  object.setBroadphaseHandle(nullptr);
+  object.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+  object.forceActivationState(ISLAND_SLEEPING);
+}
+
+template <int Dim>
+void EngineWorld<Dim>::engine_set_gravity(const Vec<Dim>& gravity) {
+  engine_.world.setGravity(to_bullet(gravity));
+  for (btRigidBody* body : rigid_) body->setGravity(to_bullet(gravity));
 }
 
 template <int Dim>

@@ -35,6 +35,8 @@ class EngineWorld final : public World<Dim> {
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override;
   void engine_move_obstacle(int number, const Pose<Dim>& to) override;
   void engine_place_obstacle(int number, const Pose<Dim>& at) override;
+  void engine_remove_obstacle(int number) override;
+  void engine_set_gravity(const Vec<Dim>& gravity) override;
   void engine_contacts(std::vector<Contact<Dim>>& contacts) override { contacts_.gather(engine_, contacts); }
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
 

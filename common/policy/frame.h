@@ -67,6 +67,7 @@ struct Frame {
   std::span<const Warning> warnings = {};    // one of each kind that the run has shown so far, if it is observed
   int bodies_asked = 0;                      // of the scene in all
   const SleepPolicy<Dim>* policy = nullptr;  // that of the run, for its estimate of the drift
+  std::span<const int> scene_events = {};    // numbers of Scene::events that happened just before this step
 };
 
 }  // namespace talus

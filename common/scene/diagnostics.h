@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,7 @@ struct FilledTable {
 /// What a read of a scene file collects, shared by the readers of all its tables.
 struct Diagnostics {
   std::string file = {};
+  std::set<std::string, std::less<>> included = {};  // files whose values hold where this one gives none
   std::vector<SceneError> errors = {};
   std::set<std::string> keys = {};       // every key that the reader looked for, as `source[].rate` or `shape.*.kind`
   bool fills = false;                    // whether keys, filled are wanted

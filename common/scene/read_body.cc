@@ -8,20 +8,19 @@ namespace talus {
 namespace {
 
 /// The shape's number; nothing, with an error, if it is not clear which shape is meant.
-std::optional<int> read_shape_number(TableReader& table, std::span<const std::string> shape_names) {
+std::optional<int> read_shape_number(TableReader& table, const ShapeNames& shapes) {
   std::string name;
+  const std::span<const std::string> names = shapes.names();
   const bool given = table.has("shape");
-  if (shape_names.empty()) return std::nullopt;  // without any shape every name would be wrong
-  if (!given && shape_names.size() > 1) {
-    table.error("shape", fmt::format("must be given, since there are {} shapes", shape_names.size()));
+  if (names.empty()) return std::nullopt;  // without any shape every name would be wrong
+  if (!given && names.size() > 1) {
+    table.error("shape", fmt::format("must be given, since there are {} shapes", names.size()));
     return std::nullopt;
   }
-  table.fill("shape", toml_text(shape_names.front()));
-  table.read("shape", name, shape_names);
-  if (!given) return 0;
-  const auto found = std::ranges::find(shape_names, name);
-  if (found == shape_names.end()) return std::nullopt;
-  return static_cast<int>(found - shape_names.begin());
+  table.fill("shape", toml_text(names.front()));
+  table.read("shape", name, names);
+  const std::vector<int> variants = shapes.variants(given ? name : names.front());
+  return variants.empty() ? std::nullopt : std::optional(variants.front());
 }
 
 /// Bodies along an axis in a layer.
@@ -126,14 +125,13 @@ void append(const std::vector<BodyDef<Dim>>& bodies, const BodyParams<Dim>& para
 }  // namespace
 
 template <int Dim>
-void read_body(TableReader& table, std::span<const std::string> shape_names, OverlapCheck<Dim>& placed,
-               Scene<Dim>& scene) {
+void read_body(TableReader& table, const ShapeNames& shapes, OverlapCheck<Dim>& placed, Scene<Dim>& scene) {
   BodyParams<Dim> params;
-  const std::optional<int> shape = read_shape_number(table, shape_names);
+  const std::optional<int> shape = read_shape_number(table, shapes);
   table.read_fields(params, body_fields<Dim>);
   const Turn<Dim> turn = read_turn<Dim>(table).value_or(Turn<Dim>());
   check_params(table, params);
-  if (!table.ok() || !shape || scene.world.shapes.size() != shape_names.size()) return;
+  if (!table.ok() || !shape || !shapes.complete()) return;
   if (scene.bodies_asked() + bodies_in_all(params) > most_bodies) {
     table.error("repeat", fmt::format("must leave at most {} bodies in all", most_bodies));
     return;
@@ -144,7 +142,7 @@ void read_body(TableReader& table, std::span<const std::string> shape_names, Ove
   if (table.ok()) append(bodies, params, scene);
 }
 
-template void read_body(TableReader&, std::span<const std::string>, OverlapCheck<2>&, Scene<2>&);
-template void read_body(TableReader&, std::span<const std::string>, OverlapCheck<3>&, Scene<3>&);
+template void read_body(TableReader&, const ShapeNames&, OverlapCheck<2>&, Scene<2>&);
+template void read_body(TableReader&, const ShapeNames&, OverlapCheck<3>&, Scene<3>&);
 
 }  // namespace talus

@@ -87,10 +87,9 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
                  "it. No effect with the policies `full` and `engine`"}},
 });
 
-/// One `[[body]]`: appends its bodies to the scene, fixed ones to the obstacles. `shape_names` in the order of
-/// world.shapes; where shapes were wrong, rules that depend on them are not checked. `placed`: all bodies before it.
+/// One `[[body]]`: appends its bodies to the scene, fixed ones to the obstacles. Where
+/// shapes were wrong, rules that depend on them are not checked. `placed`: all bodies before it.
 template <int Dim>
-void read_body(TableReader& table, std::span<const std::string> shape_names, OverlapCheck<Dim>& placed,
-               Scene<Dim>& scene);
+void read_body(TableReader& table, const ShapeNames& shapes, OverlapCheck<Dim>& placed, Scene<Dim>& scene);
 
 }  // namespace talus

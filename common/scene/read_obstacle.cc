@@ -107,6 +107,15 @@ void read_mover(TableReader& table, const Vec<Dim>& pivot, std::vector<Obstacle<
   });
 }
 
+void read_name(TableReader& table, int first, int count, std::vector<ObstacleName>& names) {
+  if (!table.has("name")) return;
+  ObstacleName own{.name = {}, .first = first, .count = count};
+  table.read({.name = "name"}, own.name);
+  if (std::ranges::find(names, own.name, &ObstacleName::name) != names.end())
+    table.error("name", "must be of no other obstacle");
+  names.push_back(own);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -123,12 +132,13 @@ void read_obstacle(TableReader& table, Scene<Dim>& scene) {
   table.check([&] {
     if (kind == "container")
       alone.obstacles = read_container(table, pose, material);
-    else if (const auto shape = read_shape<Dim>(table, kind, table.path(), material))
-      alone.obstacles = {{*shape, pose_of_centre(*shape, pose)}};
+    else if (const auto shapes = read_shape<Dim>(table, kind, table.path(), material, scene.seed); !shapes.empty())
+      alone.obstacles = {{shapes.front(), pose_of_centre(shapes.front(), pose)}};
     check(alone);  // here, so that the error has its place in the file
   });
   if (table.has("motion")) read_mover(table, pose.position, alone.obstacles, scene);
   std::vector<Obstacle<Dim>>& obstacles = scene.world.obstacles;
+  read_name(table, static_cast<int>(obstacles.size()), static_cast<int>(alone.obstacles.size()), scene.obstacle_names);
   obstacles.insert(obstacles.end(), alone.obstacles.begin(), alone.obstacles.end());
 }
 

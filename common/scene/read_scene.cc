@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "common/pile/angle_of_repose.h"
+#include "common/scene/include.h"
 #include "common/scene/read_body.h"
+#include "common/scene/read_event.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_shape.h"
 #include "common/scene/read_source.h"
@@ -24,7 +26,16 @@ namespace {
 template <int Dim>
 void read_world(TableReader& table, WorldDescription<Dim>& world) {
   table.forbid("dt", "must be given as its inverse, as in steps_per_second = 60");
-  table.read_fields(world, world_fields<Dim>);
+  constexpr std::span<const Field<WorldDescription<Dim>>> fields = world_fields<Dim>;
+  if (table.is_array("gravity")) {
+    Vec<Dim> gravity = world.gravity_vector();
+    table.read(gravity_vector_key, gravity);
+    world.gravity = gravity.norm();
+    if (world.gravity > 0.0) world.down = gravity / world.gravity;
+    table.read_fields(world, fields.subspan(1));
+  } else {
+    table.read_fields(world, fields);
+  }
   table.table("solver", [&](TableReader& solver) { solver.read_fields(world.solver, solver_fields); });
 }
 
@@ -34,27 +45,29 @@ void read_ground(TableReader& table, Ground& ground) {
 }
 
 template <int Dim>
-void read_shapes(TableReader& root, std::vector<std::string>& names, std::vector<Shape<Dim>>& shapes) {
+void read_shapes(TableReader& root, ShapeNames& names, Scene<Dim>& scene) {
+  std::vector<Shape<Dim>>& shapes = scene.world.shapes;
   const bool well_formed = root.named_tables("shape", [&](const std::string& name, TableReader& table) {
-    names.push_back(name);
-    if (auto shape = read_body_shape<Dim>(table, name)) shapes.push_back(std::move(*shape));
+    const std::vector<Shape<Dim>> variants = read_body_shape<Dim>(table, name, scene.seed);
+    names.add(name, static_cast<int>(variants.size()));
+    shapes.insert(shapes.end(), variants.begin(), variants.end());
   });
-  if (well_formed && names.empty()) root.error("shape", "must be given: at least one [shape.NAME] to drop");
+  if (well_formed && names.names().empty()) root.error("shape", "must be given: at least one [shape.NAME] to drop");
 }
 
 template <int Dim>
-void read_sources(TableReader& root, std::span<const std::string> shape_names, Scene<Dim>& scene) {
+void read_sources(TableReader& root, ShapeNames& shapes, Scene<Dim>& scene) {
   root.tables("source",
-              [&](TableReader& table) { scene.sources.push_back(read_source<Dim>(table, shape_names, scene.world)); });
+              [&](TableReader& table) { scene.sources.push_back(read_source<Dim>(table, shapes, scene.world)); });
   if (scene.bodies_asked() > most_bodies)
     root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
 }
 
 /// After all obstacles, which bodies must not overlap.
 template <int Dim>
-void read_bodies(TableReader& root, std::span<const std::string> shape_names, Scene<Dim>& scene) {
+void read_bodies(TableReader& root, const ShapeNames& shapes, Scene<Dim>& scene) {
   OverlapCheck<Dim> placed(scene.world);
-  root.tables("body", [&](TableReader& table) { read_body(table, shape_names, placed, scene); });
+  root.tables("body", [&](TableReader& table) { read_body(table, shapes, placed, scene); });
   if (!root.has("source") && !root.has("body"))
     root.error("source", "must be given: at least one [[source]] or [[body]], where bodies come from");
 }
@@ -154,18 +167,20 @@ void check_world(TableReader& root, const WorldDescription<Dim>& world) {
 template <int Dim>
 Scene<Dim> read_root(TableReader& root) {
   Scene<Dim> scene;
+  root.has("include");  // read before, see include.h
   root.read_fields(scene, scene_fields<Dim>);
   std::int64_t dimension = Dim;
   root.read(dimension_key, dimension);
   root.table("world", [&](TableReader& table) { read_world(table, scene.world); });
   root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
   root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
-  std::vector<std::string> shape_names;
-  read_shapes(root, shape_names, scene.world.shapes);
-  read_sources(root, shape_names, scene);
+  ShapeNames shapes;
+  read_shapes(root, shapes, scene);
+  read_sources(root, shapes, scene);
   root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
-  read_bodies(root, shape_names, scene);
+  read_bodies(root, shapes, scene);
   root.table("policy", [&](TableReader& table) { read_policy(table, scene.policy); });
+  root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
   scene.world.engine_sleep = scene.policy.kind == "engine";
   root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });
   read_debug(root, scene.world.debug);
@@ -223,9 +238,12 @@ std::string contents(const std::filesystem::path& file) {
   return text;
 }
 
+toml::table parse_file(const std::filesystem::path& file) { return parse(contents(file), file.string()); }
+
 /// Comments are kept where no value was put in.
-std::string as_run(std::string_view text, const toml::table& table, std::span<const Override> overrides) {
-  if (overrides.empty()) return std::string(text);
+std::string as_run(std::string_view text, const toml::table& table, std::span<const Override> overrides,
+                   bool includes) {
+  if (overrides.empty() && !includes) return std::string(text);
   std::string as_toml;
   for (const Override& one : overrides) {
     std::string comment = one.text;
@@ -240,12 +258,13 @@ std::string as_run(std::string_view text, const toml::table& table, std::span<co
 AnyScene parse_scene(std::string_view text, std::string_view file_name, std::span<const Override> overrides) {
   toml::table table = parse(text, file_name);
   Diagnostics diagnostics{.file = std::string(file_name)};
+  const bool includes = put_in_included(table, file_name, diagnostics, parse_file);
   apply_overrides(table, overrides, diagnostics.errors);
   Reading reading = read_table(table, diagnostics);
   if (!reading.diagnostics.errors.empty()) throw SceneErrors(std::move(reading.diagnostics.errors));
   std::visit(
       [&](auto& scene) {
-        scene.toml = as_run(text, table, overrides);
+        scene.toml = as_run(text, table, overrides, includes);
         check_scene_text(scene.toml, "the scene with the values of --set");
         scene.folder = std::filesystem::path(file_name).parent_path();
         scene.referred = reading.diagnostics.referred;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <random>
 #include <utility>
 
 #include "common/mesh/mesh_file.h"
@@ -13,6 +14,7 @@ namespace talus {
 namespace {
 
 constexpr std::string_view mesh_kind = "mesh";
+constexpr std::string_view stone_kind = "stone";
 
 /// A kind whose parameters are a struct with declared fields.
 template <int Dim, typename Params>
@@ -64,24 +66,50 @@ std::optional<Shape<Dim>> read_mesh_shape(TableReader& table, const std::string&
   return shape;
 }
 
+/// The name of a variant, counted from 0.
+std::string name_of_variant(const std::string& name, int variant) {
+  return variant == 0 ? name : fmt::format("{}{}{}", name, variant_mark, variant + 1);
+}
+
+/// Stones of one name are the same in each scene of a seed, whatever other shapes it has.
 template <int Dim>
-std::optional<Shape<Dim>> read_any(TableReader& table, const std::string& kind, const std::string& name,
-                                   const Material& material) {
-  if (kind == mesh_kind) return read_mesh_shape<Dim>(table, name, material);
+std::vector<Shape<Dim>> read_stones(TableReader& table, const std::string& name, const Material& material,
+                                    std::uint64_t seed) {
+  StoneParams params;
+  table.read_fields(params, stone_fields);
+  std::vector<Shape<Dim>> stones;
+  for (int variant = 0; table.ok() && variant < params.variants; ++variant) {
+    std::vector<std::uint64_t> seeds = {seed, static_cast<std::uint64_t>(variant)};
+    seeds.insert(seeds.end(), name.begin(), name.end());
+    std::seed_seq sequence(seeds.begin(), seeds.end());
+    std::mt19937_64 random(sequence);
+    stones.push_back(make_shape<Dim>(name_of_variant(name, variant), stone_pieces<Dim>(params, random), material));
+  }
+  return stones;
+}
+
+template <int Dim>
+std::vector<Shape<Dim>> read_any(TableReader& table, const std::string& kind, const std::string& name,
+                                 const Material& material, std::uint64_t seed) {
+  if (kind == stone_kind) return read_stones<Dim>(table, name, material, seed);
+  if (kind == mesh_kind) {
+    std::optional<Shape<Dim>> shape = read_mesh_shape<Dim>(table, name, material);
+    return shape ? std::vector{std::move(*shape)} : std::vector<Shape<Dim>>();
+  }
   for (const ShapeKind<Dim>& one : shape_kinds<Dim>()) {
     if (one.name == kind) {
       std::vector<Piece<Dim>> pieces = one.read(table);
-      return table.ok() ? std::optional(make_shape<Dim>(name, std::move(pieces), material)) : std::nullopt;
+      if (table.ok()) return {make_shape<Dim>(name, std::move(pieces), material)};
     }
   }
-  return std::nullopt;
+  return {};
 }
 
-/// Whether the engines can simulate the shape: checked here, so that the error has its place in the file.
+/// Whether the engines can simulate the shapes: checked here, so that the error has its place in the file.
 template <int Dim>
-void check_alone(const Shape<Dim>& shape) {
+void check_alone(const std::vector<Shape<Dim>>& shapes) {
   WorldDescription<Dim> world;
-  world.shapes = {shape};
+  world.shapes = shapes;
   check(world);
 }
 
@@ -100,6 +128,8 @@ std::vector<ShapeKind<Dim>> shape_kinds() {
           "capsule", capsule_fields,
           [](const CapsuleParams& capsule) -> Pieces { return capsule_pieces<Dim>(capsule.length, capsule.radius); }),
       kind_of<Dim, CylinderParams>("cylinder", cylinder_fields, cylinder_pieces<Dim>),
+      kind_of<Dim, ConeParams>("cone", cone_fields, cone_pieces<Dim>),
+      kind_of<Dim, EllipseParams<Dim>>("ellipse", ellipse_fields<Dim>, ellipse_pieces<Dim>),
       kind_of<Dim, HullParams<Dim>>(
           "hull", hull_fields<Dim>,
           [](const HullParams<Dim>& hull) -> Pieces { return hull_pieces<Dim>(hull.corners); }),
@@ -114,6 +144,7 @@ template <int Dim>
 std::vector<std::string> names_of_shape_kinds() {
   std::vector<std::string> names;
   for (const ShapeKind<Dim>& kind : shape_kinds<Dim>()) names.emplace_back(kind.name);
+  names.emplace_back(stone_kind);
   names.emplace_back(mesh_kind);
   return names;
 }
@@ -143,24 +174,24 @@ std::optional<Rotation<Dim>> read_rotation(TableReader& table) {
 }
 
 template <int Dim>
-std::optional<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
-                                     const Material& material) {
-  std::optional<Shape<Dim>> shape;
+std::vector<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
+                                   const Material& material, std::uint64_t seed) {
+  std::vector<Shape<Dim>> shapes;
   table.check([&] {
-    std::optional<Shape<Dim>> described = read_any<Dim>(table, kind, name, material);
-    if (described) check_alone(*described);
-    shape = std::move(described);
+    std::vector<Shape<Dim>> described = read_any<Dim>(table, kind, name, material, seed);
+    if (!described.empty()) check_alone(described);
+    shapes = std::move(described);
   });
-  return shape;
+  return shapes;
 }
 
 template <int Dim>
-std::optional<Shape<Dim>> read_body_shape(TableReader& table, const std::string& name) {
+std::vector<Shape<Dim>> read_body_shape(TableReader& table, const std::string& name, std::uint64_t seed) {
   Material material;
   const std::string kind = read_kind(table, names_of_shape_kinds<Dim>());
-  table.read_fields(material, density_field);
+  table.read_fields(material, body_material_fields);
   table.read_fields(material, surface_fields);
-  return read_shape<Dim>(table, kind, name, material);
+  return read_shape<Dim>(table, kind, name, material, seed);
 }
 
 template std::vector<ShapeKind<2>> shape_kinds<2>();
@@ -171,9 +202,11 @@ template std::optional<Turn<2>> read_turn<2>(TableReader&);
 template std::optional<Turn<3>> read_turn<3>(TableReader&);
 template std::optional<Rotation<2>> read_rotation<2>(TableReader&);
 template std::optional<Rotation<3>> read_rotation<3>(TableReader&);
-template std::optional<Shape<2>> read_shape(TableReader&, const std::string&, const std::string&, const Material&);
-template std::optional<Shape<3>> read_shape(TableReader&, const std::string&, const std::string&, const Material&);
-template std::optional<Shape<2>> read_body_shape(TableReader&, const std::string&);
-template std::optional<Shape<3>> read_body_shape(TableReader&, const std::string&);
+template std::vector<Shape<2>> read_shape(TableReader&, const std::string&, const std::string&, const Material&,
+                                          std::uint64_t);
+template std::vector<Shape<3>> read_shape(TableReader&, const std::string&, const std::string&, const Material&,
+                                          std::uint64_t);
+template std::vector<Shape<2>> read_body_shape(TableReader&, const std::string&, std::uint64_t);
+template std::vector<Shape<3>> read_body_shape(TableReader&, const std::string&, std::uint64_t);
 
 }  // namespace talus

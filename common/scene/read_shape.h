@@ -1,9 +1,12 @@
 #pragma once
 // Shapes in scene files: the kinds, and the keys that obstacles and sources share with them.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/scene/scene.h"
@@ -61,14 +64,51 @@ Pose<Dim> pose_of_centre(const Shape<Dim>& shape, const Pose<Dim>& pose) {
   return {pose * Vec<Dim>(-shape.reference), pose.rotation};
 }
 
-/// The shape that the keys of `kind` describe; nothing, with an error at the key or at the table, if one of them is
-/// wrong or the engines cannot simulate such a shape.
+/// Stands between the name of a shape and the number of its variant or the factor of its size: no TOML key has it
+/// without quotes.
+inline constexpr std::string_view variant_mark = "#";
+
+/// The shape that the keys of `kind` describe, of a stone all its variants; none, with an error at the key or at the
+/// table, if one of them is wrong or the engines cannot simulate such a shape. `seed`: of the scene.
 template <int Dim>
-std::optional<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
-                                     const Material& material);
+std::vector<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
+                                   const Material& material, std::uint64_t seed);
 
 /// `[shape.NAME]`.
 template <int Dim>
-std::optional<Shape<Dim>> read_body_shape(TableReader& table, const std::string& name);
+std::vector<Shape<Dim>> read_body_shape(TableReader& table, const std::string& name, std::uint64_t seed);
+
+/// All shapes that bodies may have, as scene files name them.
+class ShapeNames {
+ public:
+  /// The next shapes in WorldDescription::shapes, the variants of one name; `count` is 0 where they are wrong.
+  void add(const std::string& name, int count) {
+    names_.push_back(name);
+    firsts_.push_back(shapes_);
+    counts_.push_back(count);
+    shapes_ += count;
+    complete_ = complete_ && count > 0;
+  }
+  /// More shapes, which have no name.
+  void add_unnamed(int count) { shapes_ += count; }
+
+  /// Whether no shape was wrong, so that rules that depend on them can be checked.
+  bool complete() const { return complete_; }
+  std::span<const std::string> names() const { return names_; }
+  /// The numbers of the variants of a name; none for an unknown one.
+  std::vector<int> variants(std::string_view name) const {
+    std::vector<int> numbers;
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      for (int k = 0; names_[i] == name && k < counts_[i]; ++k) numbers.push_back(firsts_[i] + k);
+    return numbers;
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<int> firsts_;
+  std::vector<int> counts_;
+  int shapes_ = 0;
+  bool complete_ = true;
+};
 
 }  // namespace talus

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "common/scene/read_shape.h"
@@ -12,23 +14,83 @@ namespace talus {
 namespace {
 
 template <int Dim>
-void read_shapes(TableReader& table, std::span<const std::string> shape_names, Source<Dim>& source) {
-  source.shapes.resize(shape_names.size());
-  std::iota(source.shapes.begin(), source.shapes.end(), 0);
-  std::vector<std::string> names;
-  if (shape_names.empty()) {
+void read_shapes(TableReader& table, const ShapeNames& shapes, Source<Dim>& source) {
+  source.shapes.clear();
+  if (shapes.names().empty()) {
     table.has("shape");  // without any shape every name would be wrong
     return;
   }
   std::vector<std::string> all;
-  for (const std::string& name : shape_names) all.push_back(toml_text(name));
+  for (const std::string& name : shapes.names()) all.push_back(toml_text(name));
   table.fill("shape", toml_array(all));
-  table.read("shape", names, shape_names);
-  if (!names.empty()) source.shapes.clear();
-  for (const std::string& name : names) {
-    const auto found = std::find(shape_names.begin(), shape_names.end(), name);
-    source.shapes.push_back(static_cast<int>(found - shape_names.begin()));
+  std::vector<std::string> names;
+  table.read("shape", names, shapes.names());
+  if (names.empty()) names.assign(shapes.names().begin(), shapes.names().end());
+  for (const std::string& name : names)
+    for (const int variant : shapes.variants(name)) source.shapes.push_back(variant);
+}
+
+/// The standard normal variable below which a share of the probability lies.
+double normal_quantile(double share) {
+  double low = -10.0;
+  double high = 10.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < share ? low : high) = middle;
   }
+  return 0.5 * (low + high);
+}
+
+/// The factor at the middle of each class; rounded, so that it is the same with every mathematical library.
+std::vector<double> factors_of(const ScaleParams& params) {
+  if (!params.factors.empty()) return params.factors;
+  std::vector<double> factors;
+  for (int i = 0; i < params.classes; ++i) {
+    const double share = (i + 0.5) / params.classes;
+    const double factor = params.uniform.empty() ? std::exp(params.lognormal * normal_quantile(share))
+                                                 : params.uniform[0] + share * (params.uniform[1] - params.uniform[0]);
+    factors.push_back(std::round(1e6 * factor) / 1e6);
+  }
+  return factors;
+}
+
+void check_scale(TableReader& table, const ScaleParams& params) {
+  const int given = (table.has("uniform") ? 1 : 0) + (table.has("lognormal") ? 1 : 0) + (table.has("factors") ? 1 : 0);
+  if (given != 1) table.error("", "must have one of uniform, lognormal and factors");
+  if (table.has("uniform") && table.ok() && (params.uniform.size() != 2 || params.uniform[0] >= params.uniform[1]))
+    table.error("uniform", "must be two factors, the smaller first");
+  if (table.has("shares") && params.shares.size() != params.factors.size())
+    table.error("shares", "must be as many as factors");
+}
+
+/// `[source.scale]`: the source's shapes in each size.
+template <int Dim>
+void read_scale(TableReader& table, ShapeNames& shapes, WorldDescription<Dim>& world, Source<Dim>& source) {
+  ScaleParams params;
+  table.read_fields(params, scale_fields);
+  check_scale(table, params);
+  if (!table.ok() || source.shapes.empty() || !shapes.complete()) return;
+  const std::vector<double> factors = factors_of(params);
+  params.shares.resize(factors.size(), 1.0);
+  const double whole = std::accumulate(params.shares.begin(), params.shares.end(), 0.0);
+  WorldDescription<Dim> sized;
+  double sum = 0.0;
+  table.check([&] {
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+      for (const int shape : source.shapes) {
+        const Shape<Dim>& original = world.shapes[shape];
+        sized.shapes.push_back(scaled(original, factors[i], fmt::format("{}*{:g}", original.name, factors[i])));
+      }
+      sum += params.shares[i] / whole;
+      source.shares.push_back(sum);
+    }
+    check(sized);
+  });
+  if (!table.ok()) return;
+  source.shapes.resize(sized.shapes.size());
+  std::iota(source.shapes.begin(), source.shapes.end(), static_cast<int>(world.shapes.size()));
+  shapes.add_unnamed(static_cast<int>(sized.shapes.size()));
+  world.shapes.insert(world.shapes.end(), sized.shapes.begin(), sized.shapes.end());
 }
 
 template <int Dim>
@@ -100,14 +162,14 @@ void check_sweep(TableReader& table, const Source<Dim>& source) {
 }  // namespace
 
 template <int Dim>
-Source<Dim> read_source(TableReader& table, std::span<const std::string> shape_names,
-                        const WorldDescription<Dim>& world) {
+Source<Dim> read_source(TableReader& table, ShapeNames& shapes, WorldDescription<Dim>& world) {
   Source<Dim> source;
-  read_shapes(table, shape_names, source);
+  read_shapes(table, shapes, source);
   table.read_fields(source, source_fields<Dim>);
   check_sweep(table, source);
   read_orientation(table, source);
-  if (table.ok() && !source.shapes.empty() && world.shapes.size() == shape_names.size()) {
+  if (table.has("scale")) table.table("scale", [&](TableReader& own) { read_scale(own, shapes, world, source); });
+  if (table.ok() && !source.shapes.empty() && shapes.complete()) {
     if (!table.has("spread")) {
       source.spread = default_spread(source, world);
       table.fill("spread", field_text({.name = "spread"}, source.spread));
@@ -116,10 +178,11 @@ Source<Dim> read_source(TableReader& table, std::span<const std::string> shape_n
     check_height(table, source, world);
     check_spacing(table, source, world);
   }
+  if (source.shapes.empty()) source.shapes = {0};
   return source;
 }
 
-template Source<2> read_source(TableReader&, std::span<const std::string>, const WorldDescription<2>&);
-template Source<3> read_source(TableReader&, std::span<const std::string>, const WorldDescription<3>&);
+template Source<2> read_source(TableReader&, ShapeNames&, WorldDescription<2>&);
+template Source<3> read_source(TableReader&, ShapeNames&, WorldDescription<3>&);
 
 }  // namespace talus

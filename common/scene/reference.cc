@@ -13,6 +13,7 @@
 #include "common/scene/read_motion.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_scene.h"
+#include "common/scene/read_source.h"
 #include "common/shape/catalogue.h"
 
 namespace talus {
@@ -113,7 +114,7 @@ std::string rows_of_shape() {
   const Key kind = {.name = "kind", .required = true, .meaning = "decides which of the keys below belong here"};
   std::string row = row_of(kind, "text", "");
   row.replace(row.find("|  |"), 4, fmt::format("| `\"{}\"` |", fmt::join(kinds, "\"`, `\"")));
-  return row + rows_of<Material>(density_field) + rows_of<Material>(surface_fields);
+  return row + rows_of<Material>(body_material_fields) + rows_of<Material>(surface_fields);
 }
 
 /// The first TOML block, each key with its default.
@@ -146,12 +147,17 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[shape.NAME] ball", rows_of<BallParams>(ball_fields)},
       {"[shape.NAME] capsule", rows_of<CapsuleParams>(capsule_fields)},
       {"[shape.NAME] cylinder", rows_of<CylinderParams>(cylinder_fields)},
+      {"[shape.NAME] cone", rows_of<ConeParams>(cone_fields)},
+      {"[shape.NAME] ellipse", rows_of<EllipseParams<3>>(ellipse_fields<3>)},
+      {"[shape.NAME] stone", rows_of<StoneParams>(stone_fields)},
       {"[shape.NAME] hull", rows_of<HullParams<3>>(hull_fields<3>)},
       {"[shape.NAME] polygon", rows_of<PolygonParams>(polygon_fields)},
       {"[shape.NAME] ring", rows_of<RingParams>(ring_fields)},
       {"[shape.NAME] mesh", rows_of<MeshParams>(mesh_fields)},
       {"[[body]]", rows_of<BodyParams<3>>(body_fields<3>)},
       {"[[source]]", rows_of<Source<3>>(source_fields<3>)},
+      {"[source.scale]", rows_of<ScaleParams>(scale_fields)},
+      {"[[event]]", rows_of<Event<3>>(event_fields<3>)},
       {"[[pile]]", rows_of<PileParams<3>>(pile_fields<3>)},
       {"[pile.boundary]", rows_of<BoundaryParams>(boundary_fields) + rows_of<Material>(surface_fields)},
       {"[policy]", rows_of<PolicyParams>(policy_fields)},

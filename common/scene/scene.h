@@ -1,6 +1,7 @@
 #pragma once
 // A scene as plain structs: what a TOML scene file says, in SI units and radians.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "common/pile/pile_params.h"
 #include "common/policy/adaptive/adaptive_params.h"
 #include "common/policy/paper_params.h"
+#include "common/scene/event.h"
 #include "common/world/motion.h"
 #include "common/world/world_description.h"
 
@@ -31,7 +33,9 @@ struct InitialBody {
 /// source_fields has the unit, range and effect of each field.
 template <int Dim>
 struct Source {
-  std::vector<int> shapes = {0};  // indices of WorldDescription::shapes, dropped in turn; not empty
+  /// Indices of WorldDescription::shapes, dropped in turn; not empty. With sizes: those of each size side by side.
+  std::vector<int> shapes = {0};
+  std::vector<double> shares = {};  // of each size, added up to 1; empty: one size
   int count = 400;
   double start = 0.0;
   double rate = 6.6;
@@ -47,6 +51,10 @@ struct Source {
   double sweep_period = 0.0;
   double ride_above = 0.0;
 
+  int shapes_of_a_size() const { return static_cast<int>(shapes.size() / std::max<std::size_t>(1, shares.size())); }
+  double share_of_size(int size) const {
+    return shares.empty() ? 1.0 : shares[size] - (size > 0 ? shares[size - 1] : 0.0);
+  }
   int bodies_at_once() const { return grid.prod(); }
   /// Overlap of bounding boxes [m] that still leaves a place free: bodies of a grid of one rotation may touch.
   double overlap_allowed() const { return orientation && bodies_at_once() > 1 ? 1e-4 : 0.0; }
@@ -93,6 +101,11 @@ inline constexpr auto source_fields = std::to_array<Field<Source<Dim>>>({
       .further_rule = "names of shapes",
       .default_text = "all shapes",
       .meaning = "shapes of the bodies, dropped in turn"}},
+    {{},
+     {.name = "scale",
+      .type = "table",
+      .default_text = "all of one size",
+      .meaning = "sizes of the bodies: `[source.scale]`"}},
     {&Source<Dim>::count,
      {.name = "count",
       .range = between(1.0, most_bodies),
@@ -201,6 +214,7 @@ struct RunParams {
   std::int64_t frames = 300;
   double frame_rate = 30.0;
   std::string until = std::string(until_frames);
+  double pace = 0.0;
 };
 
 /// Steps of a run: at 60 a second half a year, at a quarter of a microsecond for a world at rest four minutes.
@@ -222,7 +236,12 @@ inline constexpr auto run_fields = std::to_array<Field<RunParams>>({
      {.name = "until",
       .choices = run_ends,
       .meaning = "`rest`: the run ends before `frames` once all bodies have appeared, no obstacle is to move any more, "
-                 "and for 4 sqrt(`D`/g) no awake body has moved farther than 0.01 `D` and none woke"}},
+                 "and for 4 sqrt(`D`/g) no awake body has moved farther than 0.01 `D` and none woke; events that wait "
+                 "for a time or for rest happen first"}},
+    {&RunParams::pace,
+     {.name = "pace",
+      .range = between(0.0, 1e6),
+      .meaning = "simulated seconds per second at most: 1 is real time, to watch a run live. 0: as fast as it goes"}},
 });
 
 template <int Dim>
@@ -232,6 +251,8 @@ struct Scene {
   std::vector<InitialBody<Dim>> bodies;  // in the world from the start; those of sources are numbered after them
   std::vector<Source<Dim>> sources;
   std::vector<Mover<Dim>> movers;  // obstacles that move by plan
+  std::vector<ObstacleName> obstacle_names;
+  std::vector<Event<Dim>> events;  // in the order of the file
   std::vector<PileParams<Dim>> piles;
   PolicyParams policy;
   RunParams run;
@@ -266,6 +287,13 @@ inline constexpr auto scene_fields = std::to_array<Field<Scene<Dim>>>({
       .range = at_least(0.0),
       .further_rule = "below 2^63",
       .meaning = "all random numbers follow from it: the same seed, the same bodies, bit for bit"}},
+    {{},
+     {.name = "include",
+      .type = "text",
+      .further_rule = "in or below the scene's folder",
+      .default_text = "none",
+      .meaning = "a scene file whose values hold where this one gives none; a list of tables such as `[[source]]` "
+                 "replaces the whole list there"}},
     {{}, {.name = "world", .type = "table", .default_text = "see below", .meaning = "`[world]`"}},
     {{}, {.name = "ground", .type = "table", .default_text = "see below", .meaning = "`[ground]`"}},
     {{}, {.name = "shape", .required = true, .type = "tables by name", .meaning = "`[shape.NAME]`, one or more"}},
@@ -276,6 +304,7 @@ inline constexpr auto scene_fields = std::to_array<Field<Scene<Dim>>>({
       .meaning = "`[[source]]`; one, or a `[[body]]`, must be there"}},
     {{}, {.name = "body", .type = "tables", .default_text = "none", .meaning = "`[[body]]`"}},
     {{}, {.name = "obstacle", .type = "tables", .default_text = "none", .meaning = "`[[obstacle]]`"}},
+    {{}, {.name = "event", .type = "tables", .default_text = "none", .meaning = "`[[event]]`"}},
     {{}, {.name = "pile", .type = "tables", .default_text = "none", .meaning = "`[[pile]]`"}},
     {{}, {.name = "policy", .type = "table", .default_text = "see below", .meaning = "`[policy]`"}},
     {{}, {.name = "run", .type = "table", .default_text = "see below", .meaning = "`[run]`"}},

@@ -117,8 +117,10 @@ void TableReader::fill(std::string_view key, std::string_view toml) {
 
 TableReader::Location TableReader::locate(const toml::source_region& region) const {
   if (region.begin.line == 0) return location_;
-  if (region.path && *region.path != diagnostics_.file)
-    return {*region.path, 0, 0};  // a `--set`: line and column within its value would only confuse
+  const bool of_scene = !region.path || *region.path == diagnostics_.file;
+  if (!of_scene && diagnostics_.included.contains(*region.path))
+    return {*region.path, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+  if (!of_scene) return {*region.path, 0, 0};  // a `--set`: line and column within its value would only confuse
   return {diagnostics_.file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
@@ -160,6 +162,11 @@ bool TableReader::is_too_many(std::string_view key, const toml::node& node, std:
 }
 
 bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
+
+bool TableReader::is_array(std::string_view key) {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_array();
+}
 
 bool TableReader::has_old(std::string_view key) { return table_.contains(key) && has(key); }
 

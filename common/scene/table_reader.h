@@ -60,6 +60,8 @@ class TableReader {
   bool named_tables(std::string_view key, const NamedBody& body);
 
   bool has(std::string_view key);
+  /// Whether the key is given as an array.
+  bool is_array(std::string_view key);
   /// Whether a key of earlier versions is given; only then it is known.
   bool has_old(std::string_view key);
   /// Adds an error if the key is absent.

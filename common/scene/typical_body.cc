@@ -14,8 +14,9 @@ std::vector<double> bodies_of_piles(const Scene<Dim>& scene) {
   std::vector<double> dropped(scene.world.shapes.size(), scene.bodies_asked() == 0 ? 1.0 : 0.0);
   for (const InitialBody<Dim>& body : scene.bodies) dropped[body.def.shape] += 1.0;
   for (const Source<Dim>& source : scene.sources) {
-    const double each = static_cast<double>(source.count) / static_cast<double>(source.shapes.size());
-    for (const int shape : source.shapes) dropped[shape] += each;
+    const int shapes = source.shapes_of_a_size();
+    for (int i = 0; i < std::ssize(source.shapes); ++i)
+      dropped[source.shapes[i]] += source.count * source.share_of_size(i / shapes) / shapes;
   }
   const double most = dropped.empty() ? 0.0 : *std::max_element(dropped.begin(), dropped.end());
   for (double& count : dropped)

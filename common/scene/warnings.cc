@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
@@ -41,13 +44,18 @@ template <int Dim>
 void warn_of_sizes(const std::vector<Shape<Dim>>& shapes, Lines& lines) {
   constexpr double smallest = Dim == 2 ? 0.5 : 0.2;
   constexpr double largest = Dim == 2 ? 5.0 : 100.0;
+  std::map<std::string, std::pair<double, double>> widths;  // of all sizes and variants of a name [m]
   for (const Shape<Dim>& shape : shapes) {
     const Vec<Dim> sides = shape.bounds.sizes();
-    if (sides.minCoeff() < smallest || sides.maxCoeff() > largest) {
-      lines.push_back(fmt::format("shape.{}: {:.4g} to {:.4g} m wide; contacts are held best between {} and {} m",
-                                  shape.name, sides.minCoeff(), sides.maxCoeff(), smallest, largest));
-    }
+    if (sides.minCoeff() >= smallest && sides.maxCoeff() <= largest) continue;
+    const std::pair<double, double> own(sides.minCoeff(), sides.maxCoeff());
+    auto& [least, most] = widths.try_emplace(shape.name.substr(0, shape.name.find_first_of("#*")), own).first->second;
+    least = std::min(least, own.first);
+    most = std::max(most, own.second);
   }
+  for (const auto& [name, width] : widths)
+    lines.push_back(fmt::format("shape.{}: {:.4g} to {:.4g} m wide; contacts are held best between {} and {} m", name,
+                                width.first, width.second, smallest, largest));
 }
 
 // Largest over smallest value among shapes.
@@ -72,7 +80,7 @@ void warn_of_mixtures(const Scene<Dim>& scene, Lines& lines) {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i] > 0.0) of_piles.push_back(scene.world.shapes[i]);
   const double volumes = ratio(of_piles, &Shape<Dim>::bounding_volume);
-  if (volumes > 2.0) {
+  if (volumes > 2.0 && !scene.piles.empty()) {
     lines.push_back(
         fmt::format("shape: bounding boxes differ by a factor of {:.3g} in volume; a pile's layers are made "
                     "for the mean body, so above 2 their densities mean little",

@@ -1,9 +1,12 @@
 #include "common/shape/catalogue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 
+#include "common/math/random.h"
 #include "common/math/require.h"
 #include "common/shape/convex_hull.h"
 #include "common/shape/polygon.h"
@@ -59,6 +62,27 @@ Vec2 on_circle(double radius, double angle) { return radius * Vec2(std::cos(angl
 HullPiece<2> flat_part(const RingParams& ring, double from, double to) {
   return {{on_circle(ring.inner_radius, from), on_circle(ring.outer_radius, from), on_circle(ring.outer_radius, to),
            on_circle(ring.inner_radius, to)}};
+}
+
+/// Evenly spread over the unit sphere: on a spiral, each the same height above the one before (Fibonacci lattice).
+std::vector<Vec3> points_on_sphere(int count) {
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const Vec2 around = on_circle(std::sqrt(1.0 - z * z), golden_angle * i);
+    points.emplace_back(around.x(), around.y(), z);
+  }
+  return points;
+}
+
+/// Leaves out corners that are not convex, from the first on.
+void make_convex(std::vector<Vec2>& corners) {
+  while (corners.size() > 3) {
+    const std::optional<std::size_t> bad = non_convex_corner(corners);
+    if (!bad) return;
+    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(*bad));
+  }
 }
 
 // The section is a regular polygon with one side on the outer and one on the inner radius, stretched to the depth.
@@ -136,6 +160,67 @@ std::vector<Piece<Dim>> cylinder_pieces(const CylinderParams& params) {
 }
 
 template <int Dim>
+std::vector<Piece<Dim>> cone_pieces(const ConeParams& params) {
+  check_fields<ConeParams>(params, cone_fields, "cone");
+  const double half = params.height / 2.0;
+  if constexpr (Dim == 2) {
+    const std::vector<Vec2> corners = {{-params.radius, -half}, {params.radius, -half}, {0.0, half}};
+    return hull_pieces<2>(corners);
+  } else {
+    std::vector<Vec3> corners = {{0.0, 0.0, half}};
+    for (int i = 0; i < params.sides; ++i) {
+      const Vec2 at = on_circle(params.radius, 2.0 * std::numbers::pi * i / params.sides);
+      corners.emplace_back(at.x(), at.y(), -half);
+    }
+    return hull_pieces<3>(corners);
+  }
+}
+
+template <int Dim>
+std::vector<Piece<Dim>> ellipse_pieces(const EllipseParams<Dim>& params) {
+  check_fields<EllipseParams<Dim>>(params, ellipse_fields<Dim>, "ellipse");
+  const Vec<Dim> radii = params.size / 2.0;
+  if constexpr (Dim == 2) {
+    std::vector<Vec2> corners;
+    for (int i = 0; i < params.corners; ++i)
+      corners.emplace_back(radii.cwiseProduct(on_circle(1.0, 2.0 * std::numbers::pi * i / params.corners)));
+    return polygon_pieces<2>(corners);
+  } else {
+    std::vector<Vec3> corners = points_on_sphere(params.corners);
+    for (Vec3& corner : corners) corner = radii.cwiseProduct(corner);
+    return hull_pieces<3>(corners);
+  }
+}
+
+template <int Dim>
+std::vector<Piece<Dim>> stone_pieces(const StoneParams& params, std::mt19937_64& random) {
+  const int count = params.corners > 0 ? params.corners : (Dim == 2 ? 7 : 16);
+  require(Dim == 3 || count <= static_cast<int>(most_corners), "corners", count, "must be at most 8 in 2D");
+  const double across = 0.5 * params.size / std::pow(params.elongation, 1.0 / Dim);
+  Vec<Dim> radii = Vec<Dim>::Constant(across);
+  radii[0] = across * params.elongation;
+  const auto inwards = [&] { return 1.0 - params.roughness * uniform(random); };
+  if constexpr (Dim == 2) {
+    std::vector<Vec2> corners;
+    for (int i = 0; i < count; ++i) {
+      const Vec2 at = on_circle(inwards(), 2.0 * std::numbers::pi * (i + 0.6 * uniform(random)) / count);
+      corners.emplace_back(radii.cwiseProduct(at));
+    }
+    make_convex(corners);
+    return hull_pieces<2>(corners);
+  } else {
+    const Rotation<3> turn = uniform_rotation<3>(random);
+    const double jitter = 0.6 * std::sqrt(4.0 * std::numbers::pi / count);
+    std::vector<Vec3> corners;
+    for (const Vec3& even : points_on_sphere(count)) {
+      const Vec3 at = (turn * even + uniform_within<3>(Vec3::Constant(0.5 * jitter), random)).normalized();
+      corners.emplace_back(radii.cwiseProduct(inwards() * at));
+    }
+    return hull_pieces<3>(corners);
+  }
+}
+
+template <int Dim>
 std::vector<Piece<Dim>> hull_pieces(std::span<const Vec<Dim>> corners) {
   check_corner_count<Dim>(corners.size(), "hull.corners");
   if constexpr (Dim == 3) check_piece<3>(HullPiece<3>{{corners.begin(), corners.end()}}, "hull");
@@ -186,6 +271,12 @@ template std::vector<Piece<2>> capsule_pieces(double, double);
 template std::vector<Piece<3>> capsule_pieces(double, double);
 template std::vector<Piece<2>> cylinder_pieces(const CylinderParams&);
 template std::vector<Piece<3>> cylinder_pieces(const CylinderParams&);
+template std::vector<Piece<2>> cone_pieces(const ConeParams&);
+template std::vector<Piece<3>> cone_pieces(const ConeParams&);
+template std::vector<Piece<2>> ellipse_pieces(const EllipseParams<2>&);
+template std::vector<Piece<3>> ellipse_pieces(const EllipseParams<3>&);
+template std::vector<Piece<2>> stone_pieces(const StoneParams&, std::mt19937_64&);
+template std::vector<Piece<3>> stone_pieces(const StoneParams&, std::mt19937_64&);
 template std::vector<Piece<2>> hull_pieces(std::span<const Vec<2>>);
 template std::vector<Piece<3>> hull_pieces(std::span<const Vec<3>>);
 template std::vector<Piece<2>> polygon_pieces(std::span<const Vec2>, double);

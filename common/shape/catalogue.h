@@ -2,6 +2,7 @@
 // The shapes that scene files name. Each function returns the pieces for make_shape(); lengths in metres.
 
 #include <array>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -111,6 +112,90 @@ inline constexpr auto cylinder_fields = std::to_array<Field<CylinderParams>>({
           "that of the round cylinder"}},
 });
 
+/// An upright cone as a pyramid.
+struct ConeParams {
+  double height = 1.0;
+  double radius = 0.5;
+  int sides = 16;
+};
+
+inline constexpr auto cone_fields = std::to_array<Field<ConeParams>>({
+    {&ConeParams::height,
+     {.name = "height", .required = true, .unit = "m", .range = length_range, .meaning = "along z, the tip on top"}},
+    {&ConeParams::radius,
+     {.name = "radius",
+      .required = true,
+      .unit = "m",
+      .range = length_range,
+      .meaning = "of the circle on which the corners of the base lie; in 2D half the base of a triangle"}},
+    {&ConeParams::sides,
+     {.name = "sides",
+      .dimension = 3,
+      .range = between(3.0, 64.0),
+      .meaning = "flat sides around. Few: it does not roll; many: contacts cost more"}},
+});
+
+/// An ellipse, in 3D an ellipsoid, with flat sides.
+template <int Dim>
+struct EllipseParams {
+  Vec<Dim> size = Vec<Dim>::Ones();
+  int corners = Dim == 2 ? 16 : 42;
+};
+
+template <int Dim>
+inline constexpr auto ellipse_fields = std::to_array<Field<EllipseParams<Dim>>>({
+    {&EllipseParams<Dim>::size,
+     {.name = "size",
+      .required = true,
+      .type = "lengths",
+      .unit = "m",
+      .range = length_range,
+      .meaning = "full width along each axis of the ellipse, in 3D the ellipsoid, on which the corners lie"}},
+    {&EllipseParams<Dim>::corners,
+     {.name = "corners",
+      .range = between(6.0, 200.0),
+      .default_text = "16 in 2D, 42 in 3D",
+      .meaning = "Few: it does not roll; many: contacts cost more. In 2D each six of them are one more piece; 16 "
+                 "corners leave out 2.6 % of the area, 42 in 3D 14 % of the volume"}},
+});
+
+/// A random convex polygon or polyhedron.
+struct StoneParams {
+  double size = 1.0;
+  double elongation = 1.3;
+  double roughness = 0.2;
+  int corners = 0;  // 0: 7 in 2D, 16 in 3D
+  int variants = 8;
+};
+
+inline constexpr auto stone_fields = std::to_array<Field<StoneParams>>({
+    {&StoneParams::size,
+     {.name = "size",
+      .unit = "m",
+      .range = length_range,
+      .meaning = "diameter of the disc or ball of the area or volume of the ellipse or ellipsoid that it is cut from"}},
+    {&StoneParams::elongation,
+     {.name = "elongation",
+      .range = between(1.0, 5.0),
+      .meaning = "length over width of that ellipse or, with two equal short axes, ellipsoid"}},
+    {&StoneParams::roughness,
+     {.name = "roughness",
+      .range = between(0.0, 0.9),
+      .meaning = "each corner lies inwards by a random share of up to this. Corners that are not convex are left out"}},
+    {&StoneParams::corners,
+     {.name = "corners",
+      .range = between(5.0, 64.0),
+      .further_rule = "at most 8 in 2D",
+      .default_text = "7 in 2D, 16 in 3D",
+      .meaning = "random points on the ellipse or ellipsoid"}},
+    {&StoneParams::variants,
+     {.name = "variants",
+      .range = between(1.0, 100.0),
+      .meaning =
+          "different stones, which sources drop in turn. All follow from the scene's `seed`; a `[[body]]` and an "
+          "obstacle are the first of them"}},
+});
+
 template <int Dim>
 struct HullParams {
   std::vector<Vec<Dim>> corners;
@@ -204,6 +289,15 @@ std::vector<Piece<Dim>> capsule_pieces(double length, double radius);
 /// Upright prism of regular base around the origin; in 2D a rectangle.
 template <int Dim>
 std::vector<Piece<Dim>> cylinder_pieces(const CylinderParams& params);
+/// Upright pyramid of regular base around the origin, which halves its height; in 2D a triangle.
+template <int Dim>
+std::vector<Piece<Dim>> cone_pieces(const ConeParams& params);
+/// Corners on the ellipse or ellipsoid around the origin, evenly spaced; in 2D cut into convex pieces.
+template <int Dim>
+std::vector<Piece<Dim>> ellipse_pieces(const EllipseParams<Dim>& params);
+/// The long axis is x.
+template <int Dim>
+std::vector<Piece<Dim>> stone_pieces(const StoneParams& params, std::mt19937_64& random);
 /// 2D: corners of a convex polygon in order, either way round, 3 to 8. 3D: any points; their convex hull.
 /// A 2D polygon that is not convex is refused, never replaced by its hull.
 template <int Dim>

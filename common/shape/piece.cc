@@ -120,6 +120,18 @@ void translate(Piece<Dim>& piece, const Vec<Dim>& by) {
 }
 
 template <int Dim>
+void scale(Piece<Dim>& piece, double factor) {
+  if (auto* box = std::get_if<BoxPiece<Dim>>(&piece)) {
+    box->pose.position *= factor;
+    box->half *= factor;
+    return;
+  }
+  auto& hull = std::get<HullPiece<Dim>>(piece);
+  hull.radius *= factor;
+  for (Vec<Dim>& corner : hull.corners) corner *= factor;
+}
+
+template <int Dim>
 Box<Dim> bounds_of(const Piece<Dim>& piece, const Eigen::Matrix<double, Dim, Dim>& turn, const Vec<Dim>& position) {
   Box<Dim> bounds;
   if (const auto* box = std::get_if<BoxPiece<Dim>>(&piece)) {
@@ -176,6 +188,8 @@ template HullPiece<2> as_hull(const Piece<2>&);
 template HullPiece<3> as_hull(const Piece<3>&);
 template void translate(Piece<2>&, const Vec<2>&);
 template void translate(Piece<3>&, const Vec<3>&);
+template void scale<2>(Piece<2>&, double);
+template void scale<3>(Piece<3>&, double);
 template Box<2> bounds_of(const Piece<2>&, const Eigen::Matrix2d&, const Vec<2>&);
 template Box<3> bounds_of(const Piece<3>&, const Eigen::Matrix3d&, const Vec<3>&);
 template double reach_of(const Piece<2>&);

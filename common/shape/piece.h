@@ -41,6 +41,10 @@ HullPiece<Dim> as_hull(const Piece<Dim>& piece);
 template <int Dim>
 void translate(Piece<Dim>& piece, const Vec<Dim>& by);
 
+/// Makes the piece `factor` times as large, seen from the origin.
+template <int Dim>
+void scale(Piece<Dim>& piece, double factor);
+
 /// The smallest axis-aligned box around a piece that is turned about the origin, then moved [m].
 template <int Dim>
 Box<Dim> bounds_of(const Piece<Dim>& piece, const Eigen::Matrix<double, Dim, Dim>& turn, const Vec<Dim>& position);

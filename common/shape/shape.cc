@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/math/require.h"
 #include "common/shape/moments.h"
 
 namespace talus {
 
 void check_material(const Material& material, const std::string& field) {
-  check_fields(material, density_field, field);
+  check_fields(material, body_material_fields, field);
   check_fields(material, surface_fields, field);
 }
 
@@ -55,6 +57,27 @@ Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Ma
 }
 
 template <int Dim>
+Shape<Dim> scaled(const Shape<Dim>& shape, double factor, std::string name) {
+  std::vector<Piece<Dim>> pieces = shape.pieces;
+  for (Piece<Dim>& piece : pieces) scale(piece, factor);
+  const double volume = std::pow(factor, Dim) * shape.volume;
+  const MassProperties<Dim> masses{volume, Vec<Dim>::Zero(),
+                                   Inertia<Dim>(std::pow(factor, Dim + 2) / shape.material.density * shape.inertia)};
+  Shape<Dim> larger = make_shape<Dim>(std::move(name), std::move(pieces), shape.material, masses);
+  larger.reference = factor * shape.reference;
+  larger.filling = shape.filling;
+  return larger;
+}
+
+template <int Dim>
+double rolling_arm(const Shape<Dim>& shape) {
+  if (shape.material.rolling_friction == 0.0) return 0.0;
+  double width = smallest_width(shape.pieces.front());
+  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
+  return 0.5 * width * shape.material.rolling_friction;
+}
+
+template <int Dim>
 Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose) {
   const Eigen::Matrix<double, Dim, Dim> turn = pose.rotation.toRotationMatrix();
   Box<Dim> bounds;
@@ -75,6 +98,10 @@ template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&
 template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&, const MassProperties<2>&);
 template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&);
 template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&, const MassProperties<3>&);
+template Shape<2> scaled(const Shape<2>&, double, std::string);
+template Shape<3> scaled(const Shape<3>&, double, std::string);
+template double rolling_arm(const Shape<2>&);
+template double rolling_arm(const Shape<3>&);
 template Box<2> bounds_at(const Shape<2>&, const Pose<2>&);
 template Box<3> bounds_at(const Shape<3>&, const Pose<3>&);
 template double bounding_radius(const Shape<2>&);

@@ -65,11 +65,28 @@ bool Emitter<Dim>::due(const Spout& spout, double time) const {
   return spout.emitted < spout.source.count && time >= spout.source.due_time(spout.emitted);
 }
 
+/// The number of a size, drawn by the shares of the sizes.
+template <int Dim>
+int Emitter<Dim>::draw_size(Spout& spout) const {
+  const std::vector<double>& shares = spout.source.shares;
+  if (shares.empty()) return 0;
+  const auto found = std::ranges::upper_bound(shares, uniform(spout.random));
+  return static_cast<int>(std::min(found, shares.end() - 1) - shares.begin());
+}
+
+template <int Dim>
+void Emitter<Dim>::set_rate(int source, double rate, double time) {
+  Source<Dim>& changed = spouts_[source].source;
+  const int before_its_grid = spouts_[source].emitted - spouts_[source].emitted % changed.bodies_at_once();
+  changed.rate = rate;
+  changed.start = time - before_its_grid / rate;
+}
+
 template <int Dim>
 void Emitter<Dim>::draw(Spout& spout) const {
   const Source<Dim>& source = spout.source;
   BodyDef<Dim>& body = spout.next;
-  body.shape = source.shapes[spout.emitted % source.shapes.size()];
+  body.shape = source.shapes[draw_size(spout) * source.shapes_of_a_size() + spout.emitted % source.shapes_of_a_size()];
   body.pose.position = uniform_within<Dim>(source.spread, spout.random);
   body.pose.rotation = source.orientation ? *source.orientation : uniform_rotation<Dim>(spout.random);
   body.velocity = source.velocity + uniform_within<Dim>(source.velocity_spread, spout.random);

@@ -22,6 +22,10 @@ class Emitter {
   /// Adds all bodies that are due at `time` [s] and have room.
   void emit(World<Dim>& world, double time);
 
+  /// Another rate of a source from `time` [s] on; its next body is due at once.
+  void set_rate(int source, double rate, double time);
+  const Source<Dim>& source(int number) const { return spouts_[number].source; }
+
   bool finished() const { return emitted_ == total_; }
   int emitted() const { return emitted_; }
   int total() const { return total_; }
@@ -46,6 +50,7 @@ class Emitter {
 
   bool due(const Spout& spout, double time) const;
   void add_initial(World<Dim>& world);
+  int draw_size(Spout& spout) const;
   void draw(Spout& spout) const;
   Vec<Dim> place(const Spout& spout, double time) const;
   Vec<Dim> place_in_grid(const Spout& spout) const;

@@ -13,7 +13,7 @@ constexpr double rest_speed = 0.5;  // [m/s]; without gravity the only scale of 
 }  // namespace
 
 template <int Dim>
-EnergyLedger<Dim>::EnergyLedger(const WorldDescription<Dim>& world) {
+EnergyLedger<Dim>::EnergyLedger(const WorldDescription<Dim>& world) : down_(world.down) {
   for (const Shape<Dim>& shape : world.shapes) {
     const double weight = shape.mass * world.gravity;
     constants_.push_back({weight, weight * shape.extent + 0.5 * shape.mass * rest_speed * rest_speed});
@@ -60,7 +60,7 @@ double EnergyLedger<Dim>::tolerance() const {
 template <int Dim>
 double EnergyLedger<Dim>::energy(const World<Dim>& world, BodyIndex body, double kinetic) const {
   const Vec<Dim>& position = world.states().pose[body].position;
-  return kinetic + constants_of(world, body).weight * height<Dim>(position);
+  return kinetic - constants_of(world, body).weight * down_.dot(position);
 }
 
 template class EnergyLedger<2>;

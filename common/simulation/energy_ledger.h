@@ -11,7 +11,7 @@ namespace talus {
 ///
 /// A step of a rigid-body engine may lose energy (friction, impact, freezing) but must not create any. The ledger sums
 /// the changes that no source and no policy made. The sum never falls below 0, so it is the rise over the lowest
-/// energy so far: an early loss does not hide a late gain. Energies are relative to height 0, which cancels out in
+/// energy so far: an early loss does not hide a late gain. Energies are relative to the origin, which cancels out in
 /// every change.
 template <int Dim>
 class EnergyLedger {
@@ -50,6 +50,7 @@ class EnergyLedger {
     return constants_[world.states().shape[body]];
   }
 
+  Vec<Dim> down_;
   std::vector<Constants> constants_;  // by shape
   std::vector<double> last_;          // energy of each body when last noted [J]
   double change_ = 0.0;               // in this step [J], without what was put in

@@ -43,6 +43,7 @@ const std::vector<BodyIndex>& MovingObstacles<Dim>::move(World<Dim>& world, doub
 
 template <int Dim>
 void MovingObstacles<Dim>::move(World<Dim>& world, const Mover<Dim>& mover, int obstacle, double time) {
+  if (!world.has_obstacle(obstacle)) return;
   const Pose<Dim> from = world.obstacle_pose(obstacle);
   const Pose<Dim> to = mover.pose_at(time + dt_, obstacles_[obstacle].pose);
   if (same_pose(from, to)) return;
@@ -82,8 +83,10 @@ bool MovingObstacles<Dim>::touch(const World<Dim>& world, BodyIndex body) const 
 }
 
 template <int Dim>
-bool MovingObstacles<Dim>::moves_after(double time) const {
-  return std::ranges::any_of(movers_, [time](const Mover<Dim>& mover) { return mover.motion.moves_after(time); });
+bool MovingObstacles<Dim>::moves_after(const World<Dim>& world, double time) const {
+  return std::ranges::any_of(movers_, [&](const Mover<Dim>& mover) {
+    return world.has_obstacle(mover.first) && mover.motion.moves_after(time);
+  });
 }
 
 template class MovingObstacles<2>;

@@ -22,7 +22,7 @@ class MovingObstacles {
   /// Whether a body touches an obstacle that moved in the last step.
   bool touch(const World<Dim>& world, BodyIndex body) const;
 
-  bool moves_after(double time) const;
+  bool moves_after(const World<Dim>& world, double time) const;
 
  private:
   struct Piece {

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "common/scene/typical_body.h"
+#include "common/simulation/make_policy.h"
 #include "common/simulation/stopwatch.h"
 
 namespace talus {
@@ -43,8 +44,18 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       engine_sleep_(scene.world.engine_sleep),
       debug_(scene.world.debug),
       obstacles_(scene),
+      scene_events_(scene.events),
+      obstacle_names_(scene.obstacle_names),
+      event_clock_(scene.events),
+      ends_at_rest_(scene.run.until == until_rest),
       steps_(scene.steps()) {
-  if (scene.run.until == until_rest) rest_check_.emplace(scene);
+  if (ends_at_rest_ || event_clock_.waits_for_rest()) rest_check_.emplace(scene);
+  for (const Event<Dim>& event : scene.events) {
+    if (event.action != "policy") continue;
+    Scene<Dim> with_other = scene;
+    with_other.policy.kind = event.policy;
+    other_policies_[event.policy] = make_policy(with_other);
+  }
   for (std::size_t i = 0; policy_->decides() && i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
 }
@@ -63,6 +74,7 @@ void Simulation<Dim>::freeze_initial_bodies() {
 template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
+  do_due_events();
   emitter_.emit(*world_, time());
   if (!asleep_at_start_.empty()) freeze_initial_bodies();
   if (watched()) watchdog_.note_added(*world_, step_);
@@ -83,7 +95,8 @@ void Simulation<Dim>::step() {
   apply();
   phases_.apply = watch.lap();
   if (rest_check_)
-    at_rest_ = rest_check_->update(*world_, step_) && emitter_.finished() && !obstacles_.moves_after(time());
+    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !obstacles_.moves_after(*world_, time());
+  at_rest_ = ends_at_rest_ && rested_ && !event_clock_.waits();
   show();
   phases_.observe = watch.lap();
 }
@@ -204,14 +217,98 @@ void Simulation<Dim>::note_engine_sleep() {
 template <int Dim>
 void Simulation<Dim>::remove(BodyIndex body) {
   world_->remove(body);
-  const Box<Dim> bounds = world_->bounds_of(body);
-  // A body that rests on another one touches its box.
-  const Vec<Dim> reach = Vec<Dim>::Constant(0.05 * world_->shape_of(body).extent);
-  const Box<Dim> around(bounds.min() - reach, bounds.max() + reach);
   piles_.recount_body(world_->states(), body);
+  thaw_near(world_->bounds_of(body), 0.05 * world_->shape_of(body).extent);
+}
+
+/// A body that rests on another one touches its box.
+template <int Dim>
+void Simulation<Dim>::thaw_near(const Box<Dim>& bounds, double reach) {
+  const Vec<Dim> margin = Vec<Dim>::Constant(reach);
   std::vector<BodyIndex> neighbours;
-  world_->query_box(around, neighbours);
+  world_->query_box({bounds.min() - margin, bounds.max() + margin}, neighbours);
   thaw_now(neighbours, SleepCause::lost_support);
+}
+
+template <int Dim>
+void Simulation<Dim>::do_due_events() {
+  for (const int number : event_clock_.update(time(), emitter_.emitted(), rested_)) {
+    do_event(scene_events_[number]);
+    done_events_.push_back({number, time()});
+  }
+}
+
+template <int Dim>
+void Simulation<Dim>::do_event(const Event<Dim>& event) {
+  const std::string& action = event.action;
+  if (action == "remove" && event.obstacle)
+    remove_obstacle(*event.obstacle);
+  else if (action == "remove")
+    for (const BodyIndex body : bodies_meant(event)) remove(body);
+  else if (action == "wake")
+    thaw_now(bodies_meant(event), SleepCause::user);
+  else if (action == "kick")
+    kick(event);
+  else if (action == "policy")
+    switch_policy(event.policy);
+  if (action == "rate") {
+    emitter_.set_rate(event.source, event.rate, time());
+    watchdog_.note_source(event.source, emitter_.source(event.source));
+  }
+  if (action == "gravity") {
+    world_->set_gravity(event.gravity);
+    thaw_all();
+  }
+}
+
+template <int Dim>
+std::vector<BodyIndex> Simulation<Dim>::bodies_meant(const Event<Dim>& event) const {
+  const BodyStates<Dim>& states = world_->states();
+  const auto meant = [&](BodyIndex body) {
+    const Vec<Dim>& at = states.pose[body].position;
+    return states.removed[body] == 0 &&
+           (event.shapes.empty() || std::ranges::count(event.shapes, states.shape[body]) > 0) &&
+           (event.numbers.empty() || std::ranges::count(event.numbers, static_cast<double>(body)) > 0) &&
+           (event.box.empty() || Box<Dim>(event.box[0], event.box[1]).contains(at));
+  };
+  std::vector<BodyIndex> bodies;
+  for (BodyIndex body = 0; body < states.size(); ++body)
+    if (meant(body)) bodies.push_back(body);
+  return bodies;
+}
+
+/// The sum may be no faster than the engine allows.
+template <int Dim>
+void Simulation<Dim>::kick(const Event<Dim>& event) {
+  const std::vector<BodyIndex> bodies = bodies_meant(event);
+  thaw_now(bodies, SleepCause::user);
+  const BodyStates<Dim>& states = world_->states();
+  for (const BodyIndex body : bodies) {
+    Vec<Dim> velocity = states.velocity[body] + event.velocity;
+    Spin<Dim> spin = states.spin[body] + event.spin;
+    velocity *= std::min(1.0, fastest_speed<Dim>(dt_) / std::max(velocity.norm(), 1e-9));
+    spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
+    if (watched()) watchdog_.note_velocity(*world_, body, velocity, spin);
+    world_->set_velocity(body, velocity, spin);
+  }
+}
+
+template <int Dim>
+void Simulation<Dim>::remove_obstacle(int number) {
+  const ObstacleName& name = obstacle_names_[number];
+  for (int k = name.first; k < name.first + name.count; ++k) {
+    if (!world_->has_obstacle(k)) continue;
+    const Box<Dim> bounds = bounds_at(world_->obstacle_shape(k), world_->obstacle_pose(k));
+    world_->remove_obstacle(k);
+    thaw_near(bounds, 0.05 * piles_.typical_body().extent);
+  }
+}
+
+/// A policy knows nothing of bodies that another one has put to sleep.
+template <int Dim>
+void Simulation<Dim>::switch_policy(const std::string& kind) {
+  thaw_all();
+  std::swap(policy_, other_policies_.at(kind));
 }
 
 template <int Dim>

@@ -1,20 +1,29 @@
 #pragma once
 // The loop.
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/policy/sleep_policy.h"
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
+#include "common/simulation/event_clock.h"
 #include "common/simulation/moving_obstacles.h"
 #include "common/simulation/observer.h"
 #include "common/simulation/rest_check.h"
 #include "common/simulation/watchdog.h"
 
 namespace talus {
+
+/// An event of the scene that has happened.
+struct DoneEvent {
+  int number = 0;     // in Scene::events
+  double time = 0.0;  // [s]
+};
 
 /// One run of a scene in a world of its own.
 template <int Dim>
@@ -48,8 +57,16 @@ class Simulation {
 
   /// The last finished step.
   Frame<Dim> frame() const {
-    return {step_,        time(), *world_, piles_, events_, phases_, watchdog_.warnings(), watchdog_.bodies_asked(),
-            policy_.get()};
+    return {step_,
+            time(),
+            *world_,
+            piles_,
+            events_,
+            phases_,
+            watchdog_.warnings(),
+            watchdog_.bodies_asked(),
+            policy_.get(),
+            event_clock_.due()};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }
@@ -57,6 +74,8 @@ class Simulation {
   const Emitter<Dim>& emitter() const { return emitter_; }
   /// What observers were shown as Frame::warnings; after end() with the bodies that never appeared.
   std::span<const Warning> warnings() const { return watchdog_.warnings(); }
+  /// Events of the scene so far, in the order in which they happened.
+  std::span<const DoneEvent> done_events() const { return done_events_; }
   /// What the policy expects its sleeping bodies to move once woken; none from a policy that does not measure it,
   /// or has not yet.
   std::optional<DriftEstimate> drift_estimate() const { return policy_->drift_estimate(*world_); }
@@ -71,6 +90,13 @@ class Simulation {
   void freeze_initial_bodies();
   void move_obstacles();
   void keep_moved_awake();
+  void do_due_events();
+  void do_event(const Event<Dim>& event);
+  std::vector<BodyIndex> bodies_meant(const Event<Dim>& event) const;
+  void kick(const Event<Dim>& event);
+  void remove_obstacle(int number);
+  void switch_policy(const std::string& kind);
+  void thaw_near(const Box<Dim>& bounds, double reach);
   void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);
   void note_engine_sleep();
   bool watched() const { return !observers_.empty(); }
@@ -95,8 +121,15 @@ class Simulation {
   DebugOptions debug_;
   std::vector<BodyIndex> asleep_at_start_;
   MovingObstacles<Dim> obstacles_;
-  std::optional<RestCheck<Dim>> rest_check_;  // where the scene ends at rest
-  bool at_rest_ = false;
+  std::vector<Event<Dim>> scene_events_;
+  std::vector<ObstacleName> obstacle_names_;
+  EventClock<Dim> event_clock_;
+  std::vector<DoneEvent> done_events_;
+  std::map<std::string, std::unique_ptr<SleepPolicy<Dim>>> other_policies_;  // by name; that events switch to
+  std::optional<RestCheck<Dim>> rest_check_;  // where the scene ends at rest or an event waits for it
+  bool ends_at_rest_;
+  bool rested_ = false;   // after the last step
+  bool at_rest_ = false;  // and the run has ended so
   std::int64_t steps_;
 };
 

@@ -20,6 +20,11 @@ double lowest_centre(const Ground& ground) {
 }
 
 template <int Dim>
+bool changes_gravity(const Scene<Dim>& scene) {
+  return std::ranges::any_of(scene.events, [](const Event<Dim>& event) { return event.action == "gravity"; });
+}
+
+template <int Dim>
 double farthest(const Vec<Dim>& place) {
   return place.cwiseAbs().maxCoeff();
 }
@@ -34,7 +39,7 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
       lowest_(lowest_centre(scene.world.ground)),
       ground_(scene.world.ground.height),
       dt_(scene.world.dt),
-      driven_(!scene.movers.empty()),
+      driven_(!scene.movers.empty() || changes_gravity(scene)),
       speed_squared_(at_limit(limits.speed)),
       spin_squared_(at_limit(limits.spin)),
       bodies_asked_(static_cast<int>(scene.bodies_asked())) {}

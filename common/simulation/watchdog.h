@@ -25,6 +25,9 @@ class Watchdog {
     ledger_.note_velocity(world, body, velocity, spin);
   }
 
+  /// A source has another rate now.
+  void note_source(int number, const Source<Dim>& source) { sources_[number] = source; }
+
   /// After a step and the policy's decision. `events` are those of the step.
   void check(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step);
 
@@ -49,7 +52,7 @@ class Watchdog {
   double lowest_;         // height that no centre may lie below [m]
   double ground_;         // [m]
   double dt_;             // [s]
-  bool driven_;           // obstacles move by plan, so energy is put in
+  bool driven_;           // obstacles move by plan or gravity changes, so energy is put in
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
   int bodies_asked_;

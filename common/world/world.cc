@@ -49,8 +49,7 @@ void World<Dim>::step() {
 
 template <int Dim>
 void World<Dim>::move_obstacle(int number, const Pose<Dim>& to) {
-  require(number >= 0 && number < std::ssize(description_.obstacles), "obstacle", number,
-          "must be the number of an obstacle, from 0 on");
+  require_obstacle(number);
   require(description_.obstacles[number].moves, "obstacle", number, "must be one that may move");
   engine_move_obstacle(number, to);
   moves_.emplace_back(number, to);
@@ -59,6 +58,39 @@ void World<Dim>::move_obstacle(int number, const Pose<Dim>& to) {
 template <int Dim>
 void World<Dim>::engine_move_obstacle(int number, const Pose<Dim>& /*to*/) {
   require(false, "obstacle", number, "must stand still: this engine moves no obstacles");
+}
+
+template <int Dim>
+void World<Dim>::remove_obstacle(int number) {
+  require_obstacle(number);
+  engine_remove_obstacle(number);
+  removed_obstacles_.resize(description_.obstacles.size(), 0);
+  removed_obstacles_[number] = 1;
+}
+
+template <int Dim>
+void World<Dim>::engine_remove_obstacle(int number) {
+  require(false, "obstacle", number, "must stay: this engine removes no obstacles");
+}
+
+template <int Dim>
+void World<Dim>::set_gravity(const Vec<Dim>& gravity) {
+  require(gravity.allFinite(), "gravity", gravity.norm(), "must be finite");
+  engine_set_gravity(gravity);
+  description_.gravity = gravity.norm();
+  if (description_.gravity > 0.0) description_.down = gravity / description_.gravity;
+}
+
+template <int Dim>
+void World<Dim>::engine_set_gravity(const Vec<Dim>& gravity) {
+  require(false, "gravity", gravity.norm(), "must stay: this engine does not change it");
+}
+
+template <int Dim>
+void World<Dim>::require_obstacle(int number) const {
+  require(number >= 0 && number < std::ssize(description_.obstacles), "obstacle", number,
+          "must be the number of an obstacle, from 0 on");
+  require(has_obstacle(number), "obstacle", number, "must not have been removed");
 }
 
 template <int Dim>

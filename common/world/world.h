@@ -78,6 +78,15 @@ class World {
   /// Where an obstacle is.
   const Pose<Dim>& obstacle_pose(int number) const { return description_.obstacles[number].pose; }
 
+  /// Takes an obstacle out of the world. Sleeping bodies that rested on it stay asleep; the caller decides whether to
+  /// wake them.
+  void remove_obstacle(int number);
+  const Shape<Dim>& obstacle_shape(int number) const { return description_.obstacles[number].shape; }
+  bool has_obstacle(int number) const { return removed_obstacles_.empty() || removed_obstacles_[number] == 0; }
+
+  /// Gravity from the next step on [m/s^2]. Sleeping bodies stay asleep.
+  void set_gravity(const Vec<Dim>& gravity);
+
   /// Whether the steps from now on record their contacts, which takes 5 to 15 % of a step. Off in a new world.
   void record_contacts(bool record) { record_contacts_ = record; }
 
@@ -142,6 +151,10 @@ class World {
   /// After the step: puts it there, at rest.
   virtual void engine_place_obstacle(int /*number*/, const Pose<Dim>& /*at*/) {}
 
+  /// An engine that has no such functions throws.
+  virtual void engine_remove_obstacle(int number);
+  virtual void engine_set_gravity(const Vec<Dim>& gravity);
+
   /// Bodies that were awake; ascending, each once, at least one.
   virtual void engine_freeze(std::span<const BodyIndex> bodies) = 0;
   /// Bodies that were asleep; ascending, each once, at least one.
@@ -158,6 +171,7 @@ class World {
   virtual bool engine_awake(BodyIndex body) const = 0;
 
   void place_obstacles();
+  void require_obstacle(int number) const;
   void require_present(BodyIndex body) const;
   /// Those of `bodies` that are asleep, or those that are not: ascending, each once.
   void choose(std::span<const BodyIndex> bodies, bool asleep);
@@ -172,6 +186,7 @@ class World {
   std::vector<Contact<Dim>> contacts_;
   std::vector<BodyIndex> chosen_;                 // scratch
   std::vector<std::pair<int, Pose<Dim>>> moves_;  // of obstacles in the next step
+  std::vector<std::uint8_t> removed_obstacles_;   // by number; empty: none
   EngineTimes times_;
   std::int64_t steps_ = 0;
   std::optional<NonFiniteState> failure_;

@@ -2,7 +2,9 @@
 // All that an engine needs before the first body exists.
 
 #include <array>
+#include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "common/params/field.h"
@@ -69,26 +71,49 @@ struct Obstacle {
   bool moves = false;  // World::move_obstacle() may be called for it
 };
 
+/// The direction in which bodies fall by default.
+template <int Dim>
+Vec<Dim> straight_down() {
+  Vec<Dim> down = Vec<Dim>::Zero();
+  down[Dim - 1] = -1.0;
+  return down;
+}
+
 /// All that an engine is made from. world_fields has the unit, range and effect of gravity and time step.
 template <int Dim>
 struct WorldDescription {
   double gravity = 9.81;
-  double dt = 1.0 / 60.0;  // [s]
+  Vec<Dim> down = straight_down<Dim>();  // direction of gravity, unit
+  double dt = 1.0 / 60.0;                // [s]
   SolverParams solver;
   DebugOptions debug;
   bool engine_sleep = false;  // the engine's own sleeping, whole islands at a time
   Ground ground;
   std::vector<Obstacle<Dim>> obstacles;
   std::vector<Shape<Dim>> shapes;  // BodyDef::shape indexes these
+
+  /// [m/s^2]
+  Vec<Dim> gravity_vector() const { return gravity * down; }
 };
+
+/// Torque by which the contact of two bodies resists turning, over the normal force [m]: the geometric mean of the
+/// arms of both shapes. What is no body has none and leaves it to the other.
+inline double arm_of_pair(std::optional<double> a, std::optional<double> b) {
+  return a && b ? std::sqrt(*a * *b) : a.value_or(b.value_or(0.0));
+}
+
+inline constexpr Key gravity_vector_key = {.name = "gravity", .unit = "m/s^2", .range = between(-1e3, 1e3)};
 
 template <int Dim>
 inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>({
     {&WorldDescription<Dim>::gravity,
      {.name = "gravity",
+      .type = "number or vector",
       .unit = "m/s^2",
       .range = between(0.0, 1e3),
-      .meaning = "downwards. Large: bodies sink into the ground, see [limits](#limits-of-the-engines)"}},
+      .meaning = "downwards, or a vector: `[1.7, -9.66]` is the same as everything tilted by 10 degrees. Piles and the "
+                 "policies `paper` and `adaptive` take the last axis as up all the same. Large: bodies sink into the "
+                 "ground, see [limits](#limits-of-the-engines)"}},
     {&WorldDescription<Dim>::dt,
      {.name = "steps_per_second",
       .unit = "1/s",

@@ -1,0 +1,88 @@
+#include "common/scene/read_event.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+/// The keys that belong to each action, besides its condition.
+bool belongs(std::string_view key, std::string_view action) {
+  const bool of_bodies = action == "remove" || action == "wake" || action == "kick";
+  if (key == "shape" || key == "body" || key == "box") return of_bodies;
+  if (key == "obstacle") return action == "remove";
+  if (key == "velocity" || key == "spin") return action == "kick";
+  if (key == "source" || key == "rate") return action == "rate";
+  return key == action;  // policy, gravity
+}
+
+void check_keys(TableReader& table, std::string_view action) {
+  for (const std::string_view key :
+       {"shape", "body", "box", "obstacle", "velocity", "spin", "source", "rate", "policy", "gravity"})
+    if (!belongs(key, action)) table.forbid(key, fmt::format("means nothing for do = \"{}\"", action));
+  for (const std::string_view key : {"rate", "policy", "gravity"})
+    if (key == action) table.require(key);
+  if (table.has("obstacle"))
+    for (const std::string_view key : {"shape", "body", "box"}) table.forbid(key, "must not be given beside obstacle");
+}
+
+template <int Dim>
+void read_event_shapes(TableReader& table, const ShapeNames& shapes, Event<Dim>& event) {
+  std::vector<std::string> names;
+  if (shapes.names().empty())
+    table.has("shape");
+  else
+    table.read("shape", names, shapes.names());
+  for (const std::string& name : names)
+    for (const int variant : shapes.variants(name)) event.shapes.push_back(variant);
+}
+
+template <int Dim>
+void read_event_obstacle(TableReader& table, const Scene<Dim>& scene, Event<Dim>& event) {
+  std::vector<std::string> names;
+  for (const ObstacleName& each : scene.obstacle_names) names.push_back(each.name);
+  if (table.has("obstacle") && names.empty()) {
+    table.error("obstacle", "must be the name of an obstacle; none here has a name");
+    return;
+  }
+  std::string name;
+  table.read("obstacle", name, names);
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) event.obstacle = static_cast<int>(found - names.begin());
+}
+
+template <int Dim>
+void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& event) {
+  const int conditions = (table.has("time") ? 1 : 0) + (table.has("when") ? 1 : 0) + (table.has("bodies") ? 1 : 0);
+  if (conditions != 1) table.error("", "must have one of time, when and bodies");
+  if (!event.box.empty() && (event.box.size() != 2 || (event.box[0].array() > event.box[1].array()).any()))
+    table.error("box", "must be two corners, the lower one first");
+  if (std::ranges::any_of(event.numbers, [](double number) { return number != std::floor(number); }))
+    table.error("body", "must be whole numbers");
+  if (event.action == "rate" && event.source >= std::ssize(scene.sources))
+    table.error("source", fmt::format("must be the number of a source, of which there are {}", scene.sources.size()));
+  if (event.action == "policy" && scene.policy.kind == "engine")
+    table.error("do", "must not be policy where policy.kind is engine, whose sleeping is part of its world");
+  if (event.action == "kick" && event.velocity.norm() > fastest_speed<Dim>(scene.world.dt))
+    table.error("velocity", fmt::format("must be at most {:.6g} m/s", fastest_speed<Dim>(scene.world.dt)));
+}
+
+}  // namespace
+
+template <int Dim>
+Event<Dim> read_event(TableReader& table, const ShapeNames& shapes, const Scene<Dim>& scene) {
+  Event<Dim> event;
+  table.read_fields(event, event_fields<Dim>);
+  read_event_shapes(table, shapes, event);
+  read_event_obstacle(table, scene, event);
+  if (table.ok()) check_keys(table, event.action);
+  if (table.ok()) check_event(table, scene, event);
+  return event;
+}
+
+template Event<2> read_event(TableReader&, const ShapeNames&, const Scene<2>&);
+template Event<3> read_event(TableReader&, const ShapeNames&, const Scene<3>&);
+
+}  // namespace talus

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+namespace talus {
+
+/// Finds which events of a scene are due. Each happens once.
+template <int Dim>
+class EventClock {
+ public:
+  explicit EventClock(const std::vector<Event<Dim>>& events);
+
+  /// Before a step from `time` [s] on, with so many bodies in the world and at rest or not: those that are due, in the
+  /// order of the file; of those that wait for rest only the first.
+  std::span<const int> update(double time, int bodies, bool at_rest);
+  /// The same until the next update.
+  std::span<const int> due() const { return due_; }
+
+  /// Whether an event waits for rest, and whether one waits for that or for a time.
+  bool waits_for_rest() const;
+  bool waits() const;
+
+ private:
+  struct Condition {
+    int number = 0;
+    std::optional<double> time;
+    bool rest = false;
+    std::int64_t bodies = 0;
+  };
+  std::vector<Condition> waiting_;
+  std::vector<int> due_;
+};
+
+}  // namespace talus

@@ -1,0 +1,177 @@
+// Cones, ellipses, stones and sizes, as the reader of scene files makes them.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "common/scene/read_scene.h"
+#include "tests/common/temporary_folder.h"
+
+namespace talus::scene_shapes_and_sizes_test {
+namespace {
+
+template <int Dim>
+Scene<Dim> scene_of(const std::string& rest) {
+  return std::get<Scene<Dim>>(parse_scene(fmt::format("title = \"Shapes\"\ndimension = {}\n{}\n", Dim, rest), "text"));
+}
+
+/// The first error without its place; empty if there is none.
+std::string error_of(const std::string& rest) {
+  try {
+    scene_of<2>(rest);
+  } catch (const SceneErrors& errors) {
+    return fmt::format("{}: {}", errors.errors().front().field, errors.errors().front().rule);
+  }
+  return "";
+}
+
+template <int Dim>
+Shape<Dim> shape_of(const std::string& keys) {
+  return scene_of<Dim>(
+             fmt::format("shape.one = {{{}}}\nbody = [{{position = {}}}]", keys, Dim == 2 ? "[0, 9]" : "[0, 0, 9]"))
+      .world.shapes.at(0);
+}
+
+TEST(SceneShapes, OfAConeHaveItsVolumeButForTheFlatSides) {
+  EXPECT_NEAR(shape_of<2>("kind = \"cone\", height = 2, radius = 0.5").volume, 1.0, 1e-9);
+  const double round = std::numbers::pi * 0.25 * 2.0 / 3.0;
+  EXPECT_NEAR(shape_of<3>("kind = \"cone\", height = 2, radius = 0.5, sides = 32").volume, round, 0.01 * round);
+}
+
+TEST(SceneShapes, OfAnEllipseHaveItsSizeAndArea) {
+  const Shape<2> flat = shape_of<2>("kind = \"ellipse\", size = [2, 1], corners = 32");
+  EXPECT_NEAR(flat.bounds.sizes().x(), 2.0, 1e-9);
+  EXPECT_NEAR(flat.volume, std::numbers::pi * 0.5, 0.01 * flat.volume);
+  const Shape<3> solid = shape_of<3>("kind = \"ellipse\", size = [2, 1, 1], corners = 200");
+  const double volume = 4.0 / 3.0 * std::numbers::pi * 0.25;
+  EXPECT_NEAR(solid.volume, volume, 0.05 * volume);
+}
+
+template <int Dim>
+std::vector<double> volumes_of_stones(int seed, const std::string& more = "") {
+  const auto scene =
+      scene_of<Dim>(fmt::format("seed = {}\nshape.rock = {{kind = \"stone\"{}}}\nbody = [{{position = {}}}]", seed,
+                                more, Dim == 2 ? "[0, 9]" : "[0, 0, 9]"));
+  std::vector<double> volumes;
+  for (const Shape<Dim>& shape : scene.world.shapes) volumes.push_back(shape.volume);
+  return volumes;
+}
+
+TEST(SceneShapes, OfStonesFollowFromTheSeed) {
+  EXPECT_EQ(volumes_of_stones<2>(1), volumes_of_stones<2>(1));
+  EXPECT_NE(volumes_of_stones<2>(1), volumes_of_stones<2>(2));
+  EXPECT_EQ(volumes_of_stones<3>(1, ", variants = 3").size(), 3U);
+  EXPECT_NE(volumes_of_stones<3>(1)[0], volumes_of_stones<3>(1)[1]);
+}
+
+TEST(SceneShapes, OfRoughStonesAreMadeWithEachSeed) {
+  for (int seed = 1; seed <= 30; ++seed) {
+    for (const double volume : volumes_of_stones<2>(seed, ", roughness = 0.9")) EXPECT_GT(volume, 0.005);
+    for (const double volume : volumes_of_stones<3>(seed, ", roughness = 0.9, elongation = 3"))
+      EXPECT_GT(volume, 0.001);
+  }
+}
+
+constexpr const char* discs =
+    "shape.disc = {{kind = \"ball\", radius = 0.5}}\n"
+    "source = [{{position = [0, 20], scale = {{{}}}}}]";
+
+TEST(SceneSizes, OfAUniformDistributionAreItsQuantiles) {
+  const auto scene = scene_of<2>(fmt::format(fmt::runtime(discs), "uniform = [0.5, 1.5], classes = 4"));
+  ASSERT_EQ(scene.world.shapes.size(), 5U);
+  EXPECT_NEAR(scene.world.shapes[1].bounds.sizes().x(), 0.625, 1e-9);
+  EXPECT_NEAR(scene.world.shapes[1].mass, 0.625 * 0.625 * scene.world.shapes[0].mass, 1e-6);
+  EXPECT_NEAR(scene.world.shapes[1].inertia(0, 0), std::pow(0.625, 4) * scene.world.shapes[0].inertia(0, 0), 1e-6);
+  EXPECT_EQ(scene.sources[0].shapes, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(scene.sources[0].shares, (std::vector<double>{0.25, 0.5, 0.75, 1.0}));
+}
+
+TEST(SceneSizes, OfALognormalDistributionHaveAMedianOfOne) {
+  const auto scene = scene_of<2>(fmt::format(fmt::runtime(discs), "lognormal = 0.3, classes = 3"));
+  ASSERT_EQ(scene.world.shapes.size(), 4U);
+  EXPECT_NEAR(scene.world.shapes[2].bounds.sizes().x(), 1.0, 1e-6);
+  EXPECT_NEAR(scene.world.shapes[3].bounds.sizes().x(), std::exp(0.3 * 0.967422), 1e-5);  // 5/6 quantile of a normal
+}
+
+TEST(SceneSizes, OfAListHaveItsShares) {
+  const auto scene = scene_of<2>(fmt::format(fmt::runtime(discs), "factors = [0.5, 1], shares = [3, 1]"));
+  EXPECT_EQ(scene.sources[0].shares, (std::vector<double>{0.75, 1.0}));
+}
+
+TEST(SceneSizes, ThatMakeNoDistributionAreRefused) {
+  EXPECT_EQ(error_of(fmt::format(fmt::runtime(discs), "uniform = [1.5, 0.5]")),
+            "source[0].scale.uniform: must be two factors, the smaller first");
+  EXPECT_EQ(error_of(fmt::format(fmt::runtime(discs), "classes = 3")),
+            "source[0].scale: must have one of uniform, lognormal and factors");
+  EXPECT_EQ(error_of(fmt::format(fmt::runtime(discs), "factors = [1, 2], shares = [1]")),
+            "source[0].scale.shares: must be as many as factors");
+}
+
+TEST(SceneGravity, MayBeAVector) {
+  const auto scene = scene_of<2>(
+      "shape.disc = {kind = \"ball\", radius = 0.5}\nbody = [{position = [0, 9]}]\n"
+      "world.gravity = [3, -4]");
+  EXPECT_NEAR(scene.world.gravity, 5.0, 1e-12);
+  EXPECT_NEAR(scene.world.down.x(), 0.6, 1e-12);
+  EXPECT_NEAR(scene.world.down.y(), -0.8, 1e-12);
+}
+
+constexpr const char* gate =
+    "shape.disc = {{kind = \"ball\", radius = 0.5}}\nbody = [{{position = [0, 9]}}]\n"
+    "obstacle = [{{kind = \"box\", size = [1, 1], name = \"gate\"}}]\nevent = [{{{}}}]";
+
+TEST(SceneEventKeys, ThatMakeNoEventAreRefusedWithTheirRule) {
+  const auto error = [](const std::string& keys) { return error_of(fmt::format(fmt::runtime(gate), keys)); };
+  EXPECT_EQ(error("time = 1, do = \"remove\", obstacle = \"gate\""), "");
+  EXPECT_EQ(error("time = 1, when = \"rest\", do = \"wake\""), "event[0]: must have one of time, when and bodies");
+  EXPECT_EQ(error("time = 1, do = \"remove\", obstacle = \"gat\""), "event[0].obstacle: must be gate");
+  EXPECT_EQ(error("time = 1, do = \"wake\", rate = 3"), "event[0].rate: means nothing for do = \"wake\"");
+  EXPECT_EQ(error("time = 1, do = \"rate\", rate = 3"),
+            "event[0].source: must be the number of a source, of which there are 0");
+  EXPECT_EQ(error("time = 1, do = \"kick\", body = [0.5]"), "event[0].body: must be whole numbers");
+  EXPECT_EQ(error("time = 1, do = \"policy\""), "event[0].policy: must be given");
+}
+
+TEST(SceneInclude, ValuesHoldWhereTheSceneGivesNone) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "base.toml") << "title = \"Base\"\ndimension = 2\nseed = 7\n"
+                                                "shape.disc = {kind = \"ball\", radius = 0.5, friction = 0.1}\n"
+                                                "source = [{position = [0, 20]}, {position = [9, 20]}]\n";
+  std::ofstream(folder.path() / "scene.toml") << "include = \"base.toml\"\ntitle = \"Scene\"\n"
+                                                 "shape.disc.friction = 0.9\nsource = [{position = [0, 30]}]\n";
+  const auto scene = std::get<Scene<2>>(read_scene(folder.path() / "scene.toml"));
+  EXPECT_EQ(scene.title, "Scene");
+  EXPECT_EQ(scene.seed, 7U);
+  EXPECT_EQ(scene.world.shapes.at(0).material.friction, 0.9);
+  EXPECT_EQ(scene.sources.size(), 1U);
+  EXPECT_EQ(scene.toml.find("include"), std::string::npos) << "a run folder's scene stands alone";
+  EXPECT_EQ(std::get<Scene<2>>(parse_scene(scene.toml, "text")).seed, 7U);
+}
+
+TEST(SceneInclude, ErrorsHaveTheFileAndLineOfTheValue) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "base.toml") << "title = \"Base\"\ndimension = 2\n"
+                                                "shape.disc = {kind = \"ball\", radius = -1}\n";
+  std::ofstream(folder.path() / "scene.toml") << "include = \"base.toml\"\nsource = [{position = [0, 30]}]\n";
+  try {
+    read_scene(folder.path() / "scene.toml");
+    FAIL();
+  } catch (const SceneErrors& errors) {
+    EXPECT_TRUE(errors.errors().front().file.ends_with("base.toml")) << errors.what();
+    EXPECT_EQ(errors.errors().front().line, 3) << errors.what();
+  }
+}
+
+TEST(SceneInclude, OfItselfOrOfAFileElsewhereIsRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "scene.toml") << "include = \"scene.toml\"\ntitle = \"Loop\"\ndimension = 2\n";
+  EXPECT_THROW(read_scene(folder.path() / "scene.toml"), SceneErrors);
+  std::ofstream(folder.path() / "scene.toml") << "include = \"../base.toml\"\ntitle = \"Up\"\ndimension = 2\n";
+  EXPECT_THROW(read_scene(folder.path() / "scene.toml"), SceneErrors);
+}
+
+}  // namespace
+}  // namespace talus::scene_shapes_and_sizes_test
