@@ -38,6 +38,9 @@ void check(std::span<const Tile> tiles, const ContactSheetParams& params) {
     if (!holds) throw std::invalid_argument(fmt::format("contact_sheet.{} = {}: {}", field, value, rule));
   };
   require(!tiles.empty(), "tiles", tiles.size(), "must be at least 1");
+  for (const Tile& tile : tiles)
+    require(!params.one_scale || tile.pixels_per_metre > 0.0, "pixels_per_metre", tile.pixels_per_metre,
+            "must be known of each picture where all have one scale");
   require(params.columns >= 1 && params.columns <= 20, "columns", params.columns, "must be 1 to 20");
   require(params.tile_width >= 100 && params.tile_width <= 4000, "tile_width", params.tile_width,
           "must be 100 to 4000 px");
@@ -51,6 +54,12 @@ class Sheet {
       : title_(std::move(title)),
         params_(params),
         columns_(std::min(tiles.size(), static_cast<std::size_t>(params.columns))) {
+    for (const Tile& tile : tiles) {
+      if (!params.one_scale) break;
+      const double width = cairo_image_surface_get_width(read_png(tile.png).get());
+      const double metre = params.tile_width / width * tile.pixels_per_metre;
+      metre_ = metre_ == 0.0 ? metre : std::min(metre_, metre);
+    }
     height_ = params.gap + (title_.empty() ? 0.0 : 2.2 * title_style().size);
     for (std::size_t first = 0; first < tiles.size(); first += columns_)
       place_row(tiles.subspan(first, std::min(columns_, tiles.size() - first)));
@@ -92,9 +101,11 @@ class Sheet {
     const std::size_t first = placed_.size();
     for (std::size_t i = 0; i < tiles.size(); ++i) {
       PlacedTile tile{read_png(tiles[i].png), wrapped(tiles[i].caption, params_.tile_width, caption_style())};
-      tile.scale = static_cast<double>(params_.tile_width) / cairo_image_surface_get_width(tile.picture.get());
+      const double width = cairo_image_surface_get_width(tile.picture.get());
+      tile.scale = params_.one_scale ? metre_ / tiles[i].pixels_per_metre : params_.tile_width / width;
       tile.height = tile.scale * cairo_image_surface_get_height(tile.picture.get());
-      tile.left = params_.gap + static_cast<double>(i) * (params_.tile_width + params_.gap);
+      tile.left = params_.gap + static_cast<double>(i) * (params_.tile_width + params_.gap) +
+                  0.5 * (params_.tile_width - tile.scale * width);
       tallest = std::max(tallest, tile.height);
       lines = std::max(lines, tile.caption.size());
       placed_.push_back(std::move(tile));
@@ -107,6 +118,7 @@ class Sheet {
   const ContactSheetParams& params_;
   std::size_t columns_;
   std::vector<PlacedTile> placed_;
+  double metre_ = 0.0;  // on the sheet, where all pictures have one scale [px]
   double height_ = 0.0;
 };
 

@@ -12,13 +12,15 @@ namespace talus {
 /// One picture of a sheet.
 struct Tile {
   std::filesystem::path png;
-  std::string caption;  // below the picture, broken into lines as needed; may be empty
+  std::string caption;            // below the picture, broken into lines as needed; may be empty
+  double pixels_per_metre = 0.0;  // of the picture; 0: unknown
 };
 
 /// Lengths are pixels of the sheet.
 struct ContactSheetParams {
   int columns = 3;          // 1..20; fewer tiles than columns make a narrower sheet
   int tile_width = 640;     // [px] 100..4000; pictures are scaled to it
+  bool one_scale = false;   // a metre has the same length in all pictures, which then are smaller than tile_width
   double gap = 28.0;        // [px] >= 0 between tiles and around them
   double font_size = 20.0;  // [px] > 0
   Colour paper = {1.0, 1.0, 1.0};

@@ -25,8 +25,8 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
 }  // namespace
 
 template <int Dim>
-void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& input,
-               const PictureParams& params) {
+double draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& input,
+                 const PictureParams& params) {
   check(params);
   std::vector<Pile<Dim>> piles;
   for (const Pile<Dim>& pile : input.piles) piles.push_back(with_coarse_layers(pile, most_layers));
@@ -43,11 +43,12 @@ void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& pn
   };
   write_file(svg, svg_bytes(params.width, layout.height, paint));
   write_file(png, png_bytes(params.width, layout.height, paint));
+  return layout.projection.pixels_per_metre();
 }
 
-template void draw_pile<2>(const std::filesystem::path&, const std::filesystem::path&, const PictureInput<2>&,
-                           const PictureParams&);
-template void draw_pile<3>(const std::filesystem::path&, const std::filesystem::path&, const PictureInput<3>&,
-                           const PictureParams&);
+template double draw_pile<2>(const std::filesystem::path&, const std::filesystem::path&, const PictureInput<2>&,
+                             const PictureParams&);
+template double draw_pile<3>(const std::filesystem::path&, const std::filesystem::path&, const PictureInput<3>&,
+                             const PictureParams&);
 
 }  // namespace talus

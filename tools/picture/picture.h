@@ -28,9 +28,10 @@ struct PictureInput {
 /// translucent over them. In 2D all of the SVG is vectors, up to 20,000 bodies; in 3D the shaded bodies are an image
 /// within it, since no order of painting solves interlocked bodies and layers that bodies stick out of. Bodies far from
 /// all others are left out and counted in a note. The same input gives the same bytes on one machine. Needs no display.
-/// Throws std::invalid_argument on bad parameters, std::runtime_error naming the file that cannot be written.
+/// Returns the scale [pixels/m], in 3D that in the middle. Throws std::invalid_argument on bad parameters,
+/// std::runtime_error naming the file that cannot be written.
 template <int Dim>
-void draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& input,
-               const PictureParams& params = {});
+double draw_pile(const std::filesystem::path& svg, const std::filesystem::path& png, const PictureInput<Dim>& input,
+                 const PictureParams& params = {});
 
 }  // namespace talus

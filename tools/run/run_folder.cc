@@ -122,6 +122,14 @@ Json piles_json(const PileSet<Dim>& piles) {
   return list;
 }
 
+template <int Dim>
+Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
+  Json list = Json::array();
+  for (const DoneEvent& event : events)
+    list.push_back({{"number", event.number}, {"time_s", event.time}, {"do", scene.events[event.number].action}});
+  return list;
+}
+
 /// Null where the policy does not measure it.
 Json drift_estimate_json(const std::optional<DriftEstimate>& estimate, double typical_extent) {
   if (!estimate) return nullptr;
@@ -161,9 +169,11 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"bodies_appeared", simulation.emitter().emitted()},
                   {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
                   {"at_rest", simulation.at_rest()},
+                  {"events", events_json(scene, simulation.done_events())},
                   {"asleep_at_end", bodies - world.awake().size()},
                   {"warnings", warnings_json(simulation.warnings())},
                   {"emit_waits", input.emit_waits},
+                  {"picture_pixels_per_m", input.pixels_per_metre},
                   {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
   summary["shape"] = shape_json(scene, world, simulation.piles().typical_body().extent);

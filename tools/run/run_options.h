@@ -15,6 +15,7 @@ struct RunOptions {
   std::string policy;                 // empty: the scene's
   std::vector<std::string> settings;  // path=value, applied to the scene file before it is checked
   std::optional<std::int64_t> seed;   // not given: the scene's
+  std::optional<double> pace;         // simulated seconds per second; not given: the scene's
   std::filesystem::path out;          // run folder; empty: a new one under runs/
   std::string lcm_url;                // empty: LCM_DEFAULT_URL, else LCM's own default with ttl=0
   bool telemetry = true;              // live over LCM

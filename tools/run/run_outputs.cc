@@ -21,19 +21,62 @@
 
 namespace talus {
 
+namespace {
+
+/// Obstacles that are still there.
 template <int Dim>
-PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& scene,
-                                const Simulation<Dim>& simulation) {
-  const World<Dim>& world = simulation.world();
+std::vector<Obstacle<Dim>> present_obstacles(const Scene<Dim>& scene, const World<Dim>& world, double time) {
+  std::vector<Obstacle<Dim>> present;
+  const std::vector<Obstacle<Dim>> all = obstacles_at(scene.world.obstacles, scene.movers, time);
+  for (int k = 0; k < std::ssize(all); ++k)
+    if (world.has_obstacle(k)) present.push_back(all[k]);
+  return present;
+}
+
+template <int Dim>
+PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene, const Frame<Dim>& frame) {
+  const World<Dim>& world = frame.world;
   const auto bodies = world.states().shape.size();
   return {scene.world.shapes,
           world.states(),
-          simulation.piles().piles(),
-          obstacles_at(scene.world.obstacles, scene.movers, simulation.time()),
+          frame.piles.piles(),
+          present_obstacles(scene, world, frame.time),
           scene.world.ground,
           printable(scene.title),
-          fmt::format("{}, policy {}: {} bodies, {} asleep", summary.backend, scene.policy.kind, bodies,
+          fmt::format("{}, policy {}: {} bodies, {} asleep", backend, scene.policy.kind, bodies,
                       bodies - world.awake().size())};
+}
+
+/// Draws the pictures that events want, and prints a line for each event.
+template <int Dim>
+class EventWatch final : public Observer<Dim> {
+ public:
+  EventWatch(const Scene<Dim>& scene, std::string backend, std::filesystem::path folder, bool prints)
+      : scene_(scene), backend_(std::move(backend)), folder_(std::move(folder)), prints_(prints) {}
+
+  void on_frame(const Frame<Dim>& frame) override {
+    for (const int number : frame.scene_events) {
+      const std::string& action = scene_.events[number].action;
+      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, action);
+      const std::string name = fmt::format("event_{}", number);
+      if (action == "picture")
+        draw_pile(folder_ / (name + ".svg"), folder_ / (name + ".png"), picture_of(backend_, scene_, frame));
+    }
+  }
+
+ private:
+  const Scene<Dim>& scene_;
+  std::string backend_;
+  std::filesystem::path folder_;
+  bool prints_;
+};
+
+}  // namespace
+
+template <int Dim>
+PictureInput<Dim> picture_input(const SummaryInput& summary, const Scene<Dim>& scene,
+                                const Simulation<Dim>& simulation) {
+  return picture_of(summary.backend, scene, simulation.frame());
 }
 
 template <int Dim>
@@ -54,6 +97,8 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
     add(std::make_unique<Publisher<Dim>>(info, params), simulation);
   }
 #endif
+  if (!scene.events.empty())
+    add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, !options.hash_only), simulation);
   add(std::make_unique<WarningPrinter<Dim>>(), simulation);
   if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
 }
@@ -66,9 +111,11 @@ void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Di
 
 template <int Dim>
 void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
-  write_summary(folder_ / "summary.json", summary, scene, simulation, statistics_);
+  SummaryInput with_picture = summary;
+  with_picture.pixels_per_metre =
+      draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture_input(summary, scene, simulation));
+  write_summary(folder_ / "summary.json", with_picture, scene, simulation, statistics_);
   if (!avalanches_.records().empty()) write_avalanches(folder_ / "avalanches.csv", avalanches_.records());
-  draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture_input(summary, scene, simulation));
 }
 
 template PictureInput<2> picture_input(const SummaryInput&, const Scene<2>&, const Simulation<2>&);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <optional>
+#include <thread>
 
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
@@ -32,17 +34,22 @@ std::vector<Override> overrides(const RunOptions& options, const char* option, c
   std::vector<Override> list;
   for (const std::string& setting : options.settings) list.push_back({setting});
   if (!policy.empty()) list.push_back({"policy.kind=" + policy, fmt::format("{} {}", option, policy)});
+  if (options.pace)
+    list.push_back({fmt::format("run.pace={}", *options.pace), fmt::format("--pace {}", *options.pace)});
   if (options.seed) list.push_back({fmt::format("seed={}", *options.seed), fmt::format("--seed {}", *options.seed)});
   return list;
 }
 
-/// Steps to the end of the run, to Ctrl-C or to a failure; returns which.
+/// Steps to the end of the run, to Ctrl-C or to a failure; returns which. With a pace waits after each step for the
+/// time at which it is to be done.
 template <int Dim>
-std::string advance(Simulation<Dim>& simulation, const Interrupt& interrupt) {
+std::string advance(Simulation<Dim>& simulation, const Interrupt& interrupt, double pace) {
+  const auto start = std::chrono::steady_clock::now();
   try {
     while (!simulation.finished()) {
       if (interrupt.requested()) return "interrupted";
       simulation.step();
+      if (pace > 0.0) std::this_thread::sleep_until(start + std::chrono::duration<double>(simulation.time() / pace));
     }
   } catch (const NonFiniteState& error) {
     return error.what();
@@ -79,7 +86,7 @@ int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict) {
   Simulation<Dim> simulation = make_simulation(scene, backend);
   WarningPrinter<Dim> printer;
   if (strict) simulation.add_observer(printer);
-  const std::string reason = advance(simulation, interrupt);
+  const std::string reason = advance(simulation, interrupt, scene.run.pace);
   simulation.end(reason);
   return print_hash(simulation, reason, strict);
 }
@@ -92,7 +99,7 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
   RunOutputs<Dim> outputs(options, scene, name, backend, simulation);
   const Interrupt interrupt;
   Stopwatch watch;
-  const std::string reason = advance(simulation, interrupt);
+  const std::string reason = advance(simulation, interrupt, scene.run.pace);
   const SummaryInput summary{name, backend, reason, watch.lap(), simulation.emitter().waits()};
   simulation.end(reason);
   outputs.finish(summary, scene, simulation);
