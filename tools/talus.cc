@@ -10,6 +10,7 @@
 #include "common/scene/diagnostics.h"
 #include "common/text/printable.h"
 #include "tools/bench/bench_command.h"
+#include "tools/commands/command_line_text.h"
 #include "tools/commands/commands.h"
 #ifdef TALUS_BULLET
 #include "tools/mesh/decompose_command.h"
@@ -21,6 +22,7 @@
 #include "tools/run/huge_pages.h"
 #include "tools/run/version.h"
 #include "tools/stress/stress_command.h"
+#include "tools/sweep/sweep_command.h"
 
 namespace {
 
@@ -32,10 +34,12 @@ void send_log_to_standard_error() {
 
 void add_commands(CLI::App& app, int& exit_code) {
   talus::add_run_command(app, exit_code);
+  talus::add_new_command(app, exit_code);
   talus::add_list_command(app, exit_code);
   talus::add_check_command(app, exit_code);
   talus::add_bench_command(app, exit_code);
   talus::add_stress_command(app, exit_code);
+  talus::add_sweep_command(app, exit_code);
   talus::add_sheet_command(app, exit_code);
   talus::add_reference_command(app, exit_code);
   talus::add_view_command(app, exit_code);
@@ -52,6 +56,13 @@ void add_commands(CLI::App& app, int& exit_code) {
 #endif
 }
 
+/// The message about a word that is neither a sub-command nor an option.
+void print_unknown(const CLI::App& app, const std::string& word) {
+  const std::string nearest = talus::nearest_word(app, word);
+  talus::print_message("talus: {}: must be a sub-command or an option{}; see --help", word,
+                       nearest.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", nearest));
+}
+
 /// Reads and executes the command line; returns the exit code.
 int execute(int argc, char** argv) {
   CLI::App app("talus: piles of rigid bodies, simulated faster by freezing bodies at rest", "talus");
@@ -63,14 +74,12 @@ int execute(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();
-  } catch (const CLI::RequiredError& error) {
-    if (const std::vector<std::string> unknown = app.remaining(true); !unknown.empty()) {
-      talus::print_message("talus: {}: must be a sub-command or an option; see --help", unknown.front());
+  } catch (const CLI::ParseError& error) {
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (error.get_exit_code() != 0 && !unknown.empty()) {
+      print_unknown(app, unknown.front());
       return talus::exit_codes::bad_input;
     }
-    app.exit(error);
-    return talus::exit_codes::bad_input;
-  } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? talus::exit_codes::success : talus::exit_codes::bad_input;
   } catch (const talus::SceneErrors& errors) {
     talus::write_message(errors.what());

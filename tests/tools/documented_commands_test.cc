@@ -52,7 +52,8 @@ constexpr auto shortened = std::to_array<Shortened>({
 });
 
 /// Programs of other projects: their lines are not run.
-const std::set<std::string> others = {"export", "ip", "sysctl", "git", "build/release/docs/examples/first_pile"};
+const std::set<std::string> others = {"export", "sqlite3", "ip",
+                                      "sysctl", "git",     "build/release/docs/examples/first_pile"};
 
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream stream(line);

@@ -25,6 +25,7 @@ std::filesystem::path run_in(const TemporaryFolder& folder) {
          "source = [{shape = \"disc\", count = 3, rate = 10, position = [0, 3]},\n"
          "          {shape = \"disc\", count = 1, rate = 10, position = [9990, 5], velocity = [90, 0]}]\n"
          "pile = [{alpha_deg = 30, at = [0, 0]}]\n"
+         "event = [{time = 0.5, do = \"wake\"}]\n"
          "run = {frames = 60, frame_rate = 30}\n";
   const Outcome outcome = talus_command("run " + (folder / "scene.toml") + " --no-telemetry --out " + (folder / "run"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -47,6 +48,15 @@ Names split(const std::string& header) {
 TEST(DocumentedFiles, HaveAllColumnsOfFramesCsv) {
   const TemporaryFolder folder;
   expect_documented(split(header_of(run_in(folder) / "frames.csv")), "frames.csv");
+}
+
+TEST(DocumentedFiles, HaveAllColumnsOfSweepCsv) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command("sweep drop_in_a_pile_2d --set run.frames=2,3 --out " + (folder / "sweep"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  Names columns = split(header_of(folder.path() / "sweep" / "sweep.csv"));
+  columns.erase("run.frames");
+  expect_documented(columns, "sweep.csv");
 }
 
 TEST(DocumentedFiles, HaveAllColumnsOfAvalanchesCsv) {
@@ -98,7 +108,7 @@ TEST(DocumentedFiles, HaveAllKeysOfCompareAndWake) {
   const TemporaryFolder folder;
   record(folder / "full", "full");
   record(folder / "paper", "paper");
-  Names compared = keys_printed("compare " + (folder / "full") + " " + (folder / "paper"));
+  Names compared = keys_printed("compare --twins 1 " + (folder / "full") + " " + (folder / "paper"));
   compared.insert({"a.lost_steps[]", "b.lost_steps[]"});  // empty, since the records are whole
   expect_documented(compared, "talus compare --json");
   expect_documented(keys_printed("wake " + (folder / "paper") + " --seconds 0.1 --full " + (folder / "full")),

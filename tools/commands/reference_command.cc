@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/scene/reference.h"
+#include "tools/commands/command_line_text.h"
 #include "tools/commands/commands.h"
 #include "tools/output/output.h"
 
@@ -34,8 +35,17 @@ void add_reference_command(CLI::App& app, int& exit_code) {
   auto file = std::make_shared<std::string>();
   command->add_option("--update", *file, "Put the tables into this Markdown file, between its marks, as docs/scenes.md")
       ->check(not_empty());
-  command->callback([=, &exit_code] {
-    if (file->empty())
+  auto shell = std::make_shared<std::string>();
+  auto* completion = command->add_option("--completion", *shell, "Print a script that completes command lines instead")
+                         ->check(CLI::IsMember({"bash", "zsh"}));
+  auto man = std::make_shared<bool>(false);
+  command->add_flag("--man", *man, "Print the manual page instead")->excludes(completion);
+  command->callback([=, &app, &exit_code] {
+    if (*man)
+      print_text(man_page(app));
+    else if (!shell->empty())
+      print_text(*shell == "bash" ? bash_completion(app) : zsh_completion(app));
+    else if (file->empty())
       print_reference();
     else
       update(*file);

@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/measure/compare.h"
 #include "common/scene/setting_differences.h"
@@ -15,6 +18,7 @@
 #include "tools/record/recorded_run.h"
 #include "tools/report/json_text.h"
 #include "tools/report/table.h"
+#include "tools/run/make_simulation.h"
 
 namespace talus {
 namespace {
@@ -91,12 +95,103 @@ void check_comparable_runs(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b)
 }
 
 template <int Dim>
-Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
-  check_comparable_runs(a, b);
-  const auto bodies = placed_bodies<Dim>(a.scene.world.shapes, a.frames, last_common_frame(a.frames, b.frames));
+RunComparison<Dim> compare_frames(const RecordedRun<Dim>& a, const Trajectory<Dim>& b) {
+  const auto bodies = placed_bodies<Dim>(a.scene.world.shapes, a.frames, last_common_frame(a.frames, b));
   const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, a.scene.world.ground.height, typical_body(a.scene).extent);
-  const RunComparison<Dim> result =
-      compare_runs<Dim>(a.frames, b.frames, a.scene.world.shapes, a.scene.world.gravity, grid);
+  return compare_runs<Dim>(a.frames, b, a.scene.world.shapes, a.scene.world.gravity, grid);
+}
+
+/// All numbers that are 0 where the runs are equal; of the shape B's minus A's.
+template <int Dim>
+Json numbers_json(const RunComparison<Dim>& result) {
+  const Json shape_a = shape_json(result.shape_a);
+  Json shape = shape_json(result.shape_b);
+  for (auto& [name, value] : shape.items()) value = value.template get<double>() - shape_a[name].template get<double>();
+  return {{"motion", motion_json(result.motion_mean)},
+          {"distance_D",
+           {{"mean_at_end", result.position_mean[result.last]},
+            {"p95_at_end", result.position_p95},
+            {"max_at_end", result.position_max}}},
+          {"shape", shape},
+          {"profile_rms_D", result.profile_rms},
+          {"z", {{"ks", result.z.kolmogorov_smirnov}, {"w1_m", result.z.wasserstein}, {"energy_m", result.z.energy}}},
+          {"r", {{"ks", result.r.kolmogorov_smirnov}, {"w1_m", result.r.wasserstein}, {"energy_m", result.r.energy}}}};
+}
+
+/// Run A again, moved by `shift` [m] along x at its source or at its first body.
+template <int Dim>
+Trajectory<Dim> twin_of(const RecordedRun<Dim>& a, double shift) {
+  Scene<Dim> scene = a.scene;
+  if (!scene.sources.empty())
+    scene.sources.front().position[0] += shift;
+  else if (!scene.bodies.empty())
+    scene.bodies.front().def.pose.position[0] += shift;
+  Simulation<Dim> simulation = make_simulation(scene, a.backend);
+  TrajectoryRecorder<Dim> recorder(scene.world.dt, scene.steps_per_frame());
+  simulation.add_observer(recorder);
+  for (std::int64_t step = 0; step < a.last_step; ++step) simulation.step();
+  return recorder.trajectory();
+}
+
+/// Raises each number of `floor` to the size of that in `numbers`.
+void raise_floor(Json& floor, const Json& numbers) {
+  for (const auto& [name, value] : numbers.items())
+    if (value.is_object())
+      raise_floor(floor[name], value);
+    else if (value.is_number())
+      floor[name] = std::max(floor[name].is_number() ? floor[name].get<double>() : 0.0, std::abs(value.get<double>()));
+}
+
+/// The largest number of each kind that twins of A give: what chaos does to the same pile. Null without twins.
+template <int Dim>
+Json floor_json(const RecordedRun<Dim>& a, int twins) {
+  constexpr double shift = 1e-6;  // [m]
+  Json floor = nullptr;
+  for (int k = 1; k <= twins; ++k) {
+    if (floor.is_null()) floor = Json::object();
+    raise_floor(floor, numbers_json(compare_frames(a, twin_of(a, k * shift))));
+  }
+  return floor;
+}
+
+/// What B's shape differs from A's by, in percent of A's.
+std::string shape_words(const Json& json) {
+  std::string words;
+  const Json& floor = json["floor"];
+  for (const auto& [key, name] : {std::pair("centre_height_m", "centre of mass"), {"r50_m", "r50"}, {"r95_m", "r95"}}) {
+    const double of_a = json["shape_a"][key].get<double>();
+    if (of_a == 0.0) continue;
+    const double percent = 100.0 / std::abs(of_a);
+    words += fmt::format("{}{} {:+.1f} %", words.empty() ? "" : ", ", name,
+                         percent * (json["shape_b"][key].get<double>() - of_a));
+    if (!floor.is_null()) words += fmt::format(" (floor {:.1f} %)", percent * floor["shape"][key].get<double>());
+  }
+  return words;
+}
+
+/// Whether the three lengths of the shape differ by no more than those of twins.
+bool within_floor(const Json& json) {
+  const auto within = [&](const char* key) {
+    const double difference = json["shape_b"][key].get<double>() - json["shape_a"][key].get<double>();
+    return std::abs(difference) <= json["floor"]["shape"][key].get<double>();
+  };
+  return within("centre_height_m") && within("r50_m") && within("r95_m");
+}
+
+std::string verdict_of(const Json& json) {
+  const Json& settings = json["settings_that_differ"];
+  const bool other_scene = std::ranges::any_of(settings, [](const Json& one) { return one["of_scene"].get<bool>(); });
+  if (json["first_difference"].is_null()) return "The same run, bit for bit.";
+  const std::string words = shape_words(json);
+  if (other_scene) return fmt::format("Piles of different scenes: {}.", words);
+  if (json["floor"].is_null()) return fmt::format("{}; --twins 3 measures what is noise.", words);
+  return fmt::format("{}: {}.", within_floor(json) ? "The same pile within noise" : "Different piles", words);
+}
+
+template <int Dim>
+Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b, int twins) {
+  check_comparable_runs(a, b);
+  const RunComparison<Dim> result = compare_frames(a, b.frames);
   Json json = {{"a", head_json(a)},
                {"b", head_json(b)},
                {"settings_that_differ", settings_json(a, b)},
@@ -115,15 +210,12 @@ Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
                                           {"woke", event->woke},
                                           {"cause", std::string(to_string(event->cause))}};
   }
-  json["motion"] = motion_json(result.motion_mean);
-  json["distance_D"] = {{"mean_at_end", result.position_mean[result.last]},
-                        {"p95_at_end", result.position_p95},
-                        {"max_at_end", result.position_max}};
   json["shape_a"] = shape_json(result.shape_a);
   json["shape_b"] = shape_json(result.shape_b);
-  json["profile_rms_D"] = result.profile_rms;
-  json["z"] = {{"ks", result.z.kolmogorov_smirnov}, {"w1_m", result.z.wasserstein}, {"energy_m", result.z.energy}};
-  json["r"] = {{"ks", result.r.kolmogorov_smirnov}, {"w1_m", result.r.wasserstein}, {"energy_m", result.r.energy}};
+  const Json numbers = numbers_json(result);
+  for (const char* key : {"motion", "distance_D", "profile_rms_D", "z", "r"}) json[key] = numbers[key];
+  json["floor"] = floor_json(a, twins);
+  json["verdict"] = verdict_of(json);
   return json;
 }
 
@@ -170,34 +262,59 @@ void print_first_differences(const Json& json) {
                event["cause"].get<std::string>());
 }
 
+/// A table of numbers, beside each the floor where there is one.
+Table numbers_table(std::string title, std::vector<Column> columns, const Json& json) {
+  if (!json["floor"].is_null()) columns.push_back({"floor", true});
+  return {std::move(title), std::move(columns), {}};
+}
+
+void add_row(Table& table, const Json& json, std::vector<std::string> cells, const Json::json_pointer& in_floor) {
+  if (!json["floor"].is_null()) cells.push_back(number(json["floor"][in_floor]));
+  table.rows.push_back(std::move(cells));
+}
+
+void print_motion(const Json& json) {
+  Table table =
+      numbers_table("\nMotion, mean over frames, A in the role of the full run", {{"measure"}, {"value", true}}, json);
+  for (const char* group : {"motion", "distance_D"})
+    for (const auto& [name, value] : json[group].items())
+      add_row(table, json, {(group == std::string("motion") ? "" : "distance_D ") + name, number(value)},
+              Json::json_pointer(fmt::format("/{}/{}", group, name)));
+  print_text(text_of(table));
+}
+
+void print_shapes(const Json& json) {
+  Table shape =
+      numbers_table("\nShape at the last frame that both have", {{"measure"}, {"A", true}, {"B", true}}, json);
+  for (const auto& [name, value] : json["shape_a"].items())
+    add_row(shape, json, {name, number(value), number(json["shape_b"][name])}, Json::json_pointer("/shape/" + name));
+  print_text(text_of(shape));
+  Table between = numbers_table("\nBetween the shapes", {{"measure"}, {"value", true}}, json);
+  add_row(between, json, {"profile_rms_D", number(json["profile_rms_D"])}, Json::json_pointer("/profile_rms_D"));
+  for (const char* axis : {"z", "r"})
+    for (const auto& [name, value] : json[axis].items())
+      add_row(between, json, {fmt::format("{} {}", axis, name), number(value)},
+              Json::json_pointer(fmt::format("/{}/{}", axis, name)));
+  print_text(text_of(between));
+}
+
 void print_comparison(const Json& json) {
   print_head(json["a"], 'A');
   print_head(json["b"], 'B');
   print_settings(json["settings_that_differ"]);
   print_first_differences(json);
-  Table motion{"\nMotion, mean over frames, A in the role of the full run", {{"measure"}, {"value", true}}, {}};
-  for (const auto& [name, value] : json["motion"].items()) motion.rows.push_back({name, number(value)});
-  for (const auto& [name, value] : json["distance_D"].items())
-    motion.rows.push_back({"distance_D " + name, number(value)});
-  print_text(text_of(motion));
-  Table shape{"\nShape at the last frame that both have", {{"measure"}, {"A", true}, {"B", true}}, {}};
-  for (const auto& [name, value] : json["shape_a"].items())
-    shape.rows.push_back({name, number(value), number(json["shape_b"][name])});
-  print_text(text_of(shape));
-  Table between{
-      "\nBetween the shapes", {{"measure"}, {"value", true}}, {{"profile_rms_D", number(json["profile_rms_D"])}}};
-  for (const char* axis : {"z", "r"})
-    for (const auto& [name, value] : json[axis].items())
-      between.rows.push_back({fmt::format("{} {}", axis, name), number(value)});
-  print_text(text_of(between));
+  print_motion(json);
+  print_shapes(json);
+  print_result("\n{}\n", json["verdict"].get<std::string>());
 }
 
-int compare(const std::string& folder_a, const std::string& folder_b, bool as_json) {
+int compare(const std::string& folder_a, const std::string& folder_b, int twins, bool as_json) {
   const AnyRecordedRun a = read_run(folder_a);
   const AnyRecordedRun b = read_run(folder_b);
   if (a.index() != b.index()) throw std::invalid_argument("a run in 2D and one in 3D: must be of one dimension");
   const Json json = std::visit(
-      [&]<int Dim>(const RecordedRun<Dim>& one) { return comparison_json(one, std::get<RecordedRun<Dim>>(b)); }, a);
+      [&]<int Dim>(const RecordedRun<Dim>& one) { return comparison_json(one, std::get<RecordedRun<Dim>>(b), twins); },
+      a);
   if (as_json)
     print_result("{}\n", json_text(json, 2));
   else
@@ -215,13 +332,21 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   struct Options {
     std::string a;
     std::string b;
+    int twins = 0;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
   command->add_option("run_a", options->a, "Run folder, in the role of the full run")->required()->check(not_empty());
   command->add_option("run_b", options->b, "Run folder")->required()->check(not_empty());
+  command
+      ->add_option("--twins", options->twins,
+                   "Run A's scene so many times more, its source moved by 1e-6 m and multiples: what differs between "
+                   "these is noise, the floor of each number")
+      ->check(number_between(0, 100))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "As JSON");
-  command->callback([options, &exit_code] { exit_code = compare(options->a, options->b, options->json); });
+  command->callback(
+      [options, &exit_code] { exit_code = compare(options->a, options->b, options->twins, options->json); });
 }
 
 }  // namespace talus

@@ -1,0 +1,89 @@
+// `talus sweep` in a process of its own, and its plan.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/process/process.h"
+
+namespace talus::sweep_command_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A sweep of two frictions, two policies and two seeds of ten discs.
+class SweepCommand : public ::testing::Test {
+ protected:
+  SweepCommand() {
+    std::ofstream(folder_.path() / "scene.toml")
+        << "title = \"Ten discs\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\n"
+           "source = [{count = 10, rate = 10, position = [0, 8], velocity = [0, -7]}]\nrun = {frames = 60}\npile = "
+           "[{}]\n";
+  }
+  Outcome sweep(const std::string& more = "") const {
+    return talus_command("sweep " + (folder_ / "scene.toml") +
+                         " --set shape.disc.friction=0.2:0.6:0.4 --set policy.kind=full,adaptive --seeds 2 --jobs 2 "
+                         "--out " +
+                         (folder_ / "sweep") + more);
+  }
+  std::string file(const char* name) const { return contents(folder_.path() / "sweep" / name); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SweepCommand, RunsTheProductAndLeavesATableAndAPlot) {
+  const Outcome outcome = sweep();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("8 runs, 0 failed"), std::string::npos) << outcome.out;
+  const std::string table = file("sweep.csv");
+  EXPECT_TRUE(table.starts_with("run,shape.disc.friction,policy.kind,seed,reason,end_hash,")) << table;
+  EXPECT_EQ(std::ranges::count(table, '\n'), 9);
+  EXPECT_NE(table.find("\n0,0.2,full,1,finished,"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n7,0.6,adaptive,2,finished,"), std::string::npos) << table;
+  EXPECT_TRUE(file("sweep.sqlite").starts_with("SQLite format 3"));
+  EXPECT_NE(file("sweep.svg").find("policy.kind = adaptive"), std::string::npos);
+}
+
+TEST_F(SweepCommand, GivesTheBitsOfSingleRuns) {
+  ASSERT_EQ(sweep().exit_code, 0);
+  const Outcome single = talus_command("run " + (folder_ / "scene.toml") +
+                                       " --set shape.disc.friction=0.6 --set policy.kind=adaptive --seed 2 --hash");
+  const std::string hash = single.out.substr(0, 16);
+  EXPECT_NE(file("sweep.csv").find("7,0.6,adaptive,2,finished," + hash), std::string::npos) << hash;
+}
+
+TEST_F(SweepCommand, GoesOnWhereItWasStopped) {
+  ASSERT_EQ(sweep().exit_code, 0);
+  const std::string before = file("sweep.csv");
+  fs::remove(folder_.path() / "sweep" / "run_0003" / "summary.json");
+  const auto first = fs::last_write_time(folder_.path() / "sweep" / "run_0000" / "summary.json");
+  const Outcome outcome = sweep();
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("1 of 1: run_0003"), std::string::npos) << outcome.err;
+  EXPECT_EQ(fs::last_write_time(folder_.path() / "sweep" / "run_0000" / "summary.json"), first);
+  EXPECT_EQ(std::ranges::count(file("sweep.csv"), '\n'), std::ranges::count(before, '\n'));
+}
+
+TEST_F(SweepCommand, OfOtherValuesIsRefusedInTheSameFolder) {
+  ASSERT_EQ(sweep().exit_code, 0);
+  const Outcome outcome = sweep(" --set run.frames=30,60");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("must be new, empty, or of the same sweep"), std::string::npos) << outcome.err;
+}
+
+TEST_F(SweepCommand, WithAValueThatTheSceneRefusesEndsBeforeTheFirstRun) {
+  const Outcome outcome = sweep(" --set source[0].rate=1,-1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("source[0].rate"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "sweep"));
+}
+
+TEST_F(SweepCommand, WithARangeThatIsNoneIsRefused) {
+  const Outcome outcome = sweep(" --set source[0].rate=3:1:1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("LOW:HIGH:STEP"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace talus::sweep_command_test

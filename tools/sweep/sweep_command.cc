@@ -1,0 +1,213 @@
+#include "tools/sweep/sweep_command.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "common/scene/read_scene.h"
+#include "common/text/printable.h"
+#include "tools/bench/in_processes.h"
+#include "tools/commands/validators.h"
+#include "tools/output/output.h"
+#include "tools/run/find_scene.h"
+#include "tools/run/run_scene.h"
+#include "tools/sweep/sweep_plan.h"
+#include "tools/sweep/sweep_table.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  talus sweep drop_in_a_pile_2d --set shape.L.friction=0.2:1.0:0.2 --seeds 8 --out friction\n"
+    "  talus sweep scene.toml --set policy.kind=full,adaptive --set source[0].rate=2,4,8 --jobs 4 --out rates\n\n"
+    "Each run is what `talus run` gives with the same values: same bits, same folder. A sweep that was stopped goes "
+    "on\n"
+    "where it was when it is started again. sweep.csv, sweep.sqlite (table `runs`) and sweep.svg have the results.\n"
+    "Exit code: 0 all runs finished, 1 some did not, 2 bad input.";
+
+struct SweepOptions {
+  std::string scene;
+  std::vector<std::string> settings;
+  int seeds = 1;
+  std::string backend;
+  int jobs = 0;  // 0: one for each core
+  fs::path out;
+  std::string plot = "centre_height_m";
+};
+
+std::vector<SweepAxis> axes_of(const SweepOptions& options) {
+  std::vector<SweepAxis> axes;
+  for (const std::string& setting : options.settings) axes.push_back(sweep_axis(setting));
+  SweepAxis seeds{"seed", {}};
+  for (int seed = 1; seed <= options.seeds; ++seed) seeds.values.push_back(fmt::format("{}", seed));
+  if (options.seeds > 1) axes.push_back(seeds);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (axes[i].path == axes[k].path)
+        throw std::invalid_argument(fmt::format("--set {}: must be given once", axes[i].path));
+  return axes;
+}
+
+std::vector<std::string> settings_of(const std::vector<SweepAxis>& axes, const SweepRun& run) {
+  std::vector<std::string> settings;
+  for (std::size_t i = 0; i < axes.size(); ++i) settings.push_back(axes[i].path + "=" + run.values[i]);
+  return settings;
+}
+
+/// Each value must make a scene that can be read: all errors before the first run.
+void check_runs(const fs::path& scene, const std::vector<SweepAxis>& axes, const std::vector<SweepRun>& runs) {
+  for (const SweepRun& run : runs) {
+    std::vector<Override> overrides;
+    for (std::string& setting : settings_of(axes, run)) overrides.push_back({std::move(setting)});
+    read_scene(scene, overrides);
+  }
+}
+
+/// What makes a sweep the same when it is started again.
+std::string identity(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes) {
+  std::ifstream stream(scene, std::ios::binary);
+  nlohmann::json json = {{"scene", scene.stem().string()},
+                         {"text", std::string(std::istreambuf_iterator<char>(stream), {})},
+                         {"backend", options.backend},
+                         {"axes", nlohmann::json::array()}};
+  for (const SweepAxis& axis : axes) json["axes"].push_back({{"path", axis.path}, {"values", axis.values}});
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+/// Makes the folder, or finds there the sweep that was stopped.
+void enter_folder(const fs::path& folder, const std::string& same) {
+  const fs::path file = folder / "sweep.json";
+  std::error_code unused;
+  if (fs::is_directory(folder, unused) && !fs::is_empty(folder, unused)) {
+    std::ifstream stream(file, std::ios::binary);
+    if (std::string(std::istreambuf_iterator<char>(stream), {}) != same)
+      throw std::invalid_argument(
+          fmt::format("--out {}: must be new, empty, or of the same sweep of the same scene", folder.string()));
+    return;
+  }
+  fs::create_directories(folder);
+  std::ofstream out(file, std::ios::binary);
+  out << same;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+fs::path folder_of(const fs::path& sweep, int number) { return sweep / fmt::format("run_{:04}", number); }
+
+bool is_finished(const fs::path& folder) {
+  std::ifstream stream(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(stream, nullptr, false);
+  return summary.is_object() && summary.value("reason", "") == "finished";
+}
+
+/// In a process of its own, whose standard output nobody reads.
+std::string run_one(const SweepOptions& options, const fs::path& scene, std::vector<std::string> settings,
+                    const fs::path& folder) {
+  const int nowhere = open("/dev/null", O_WRONLY);
+  if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
+  fs::remove_all(folder);
+  RunOptions run;
+  run.scene = scene.string();
+  run.backend = options.backend;
+  run.settings = std::move(settings);
+  run.out = folder;
+  run.telemetry = false;
+  run.hash_only = true;
+  run_scene(run);
+  return {};
+}
+
+/// Runs all that are not finished; how many failed.
+int do_runs(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes,
+            const std::vector<SweepRun>& runs) {
+  std::vector<int> left;
+  for (int i = 0; i < std::ssize(runs); ++i)
+    if (!is_finished(folder_of(options.out, i))) left.push_back(i);
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int done = 0;
+  int failed = 0;
+  in_processes(
+      static_cast<int>(left.size()), options.jobs > 0 ? options.jobs : cores,
+      [&](int task) {
+        return run_one(options, scene, settings_of(axes, runs[left[task]]), folder_of(options.out, left[task]));
+      },
+      [&](int task, const TaskOutcome& outcome) {
+        const fs::path folder = folder_of(options.out, left[task]);
+        const bool good = !outcome.failed && is_finished(folder);
+        failed += good ? 0 : 1;
+        print_message("{} of {}: {} {}{}", ++done, left.size(), folder.filename().string(),
+                      fmt::join(settings_of(axes, runs[left[task]]), " "), good ? "" : ": failed " + outcome.text);
+      });
+  return failed;
+}
+
+std::string title_of_scene(const fs::path& scene) {
+  return std::visit([](const auto& read) { return printable(read.title); }, read_scene(scene));
+}
+
+int sweep(const SweepOptions& options) {
+  const fs::path scene = fs::absolute(find_scene(options.scene));
+  const std::vector<SweepAxis> axes = axes_of(options);
+  const std::vector<SweepRun> runs = sweep_runs(axes);
+  check_runs(scene, axes, runs);
+  enter_folder(options.out, identity(options, scene, axes));
+  const int failed = do_runs(options, scene, axes, runs);
+  std::vector<SweepRow> rows;
+  for (int i = 0; i < std::ssize(runs); ++i)
+    if (fs::exists(folder_of(options.out, i) / "summary.json"))
+      rows.push_back(sweep_row(i, runs[i], folder_of(options.out, i)));
+  write_sweep_csv(options.out / "sweep.csv", axes, rows);
+  write_sweep_sqlite(options.out / "sweep.sqlite", axes, rows);
+  const bool plotted = write_sweep_plot(options.out / "sweep.svg", title_of_scene(scene), axes, rows, options.plot);
+  print_result("{} runs, {} failed: {}/sweep.csv, sweep.sqlite{}\n", runs.size(), failed,
+               printable(options.out.string()), plotted ? ", sweep.svg" : "");
+  return failed == 0 ? exit_codes::success : exit_codes::failed;
+}
+
+std::vector<std::string> names_of_measures() {
+  std::vector<std::string> names;
+  for (const SweepMeasure& measure : sweep_measures()) names.emplace_back(measure.name);
+  return names;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("sweep", "Run a scene with all combinations of values, on all cores");
+  command->footer(footer);
+  auto options = std::make_shared<SweepOptions>();
+  command->add_option("scene", options->scene, "Scene file, or the name of a scene that `talus list` shows")
+      ->required()
+      ->check(not_empty());
+  command
+      ->add_option("-s,--set", options->settings,
+                   "Values of a key of the scene: PATH=LOW:HIGH:STEP or PATH=A,B,C; may be repeated")
+      ->type_name("PATH=VALUES")
+      ->allow_extra_args(false);
+  command->add_option("--seeds", options->seeds, "Each combination with this many seeds, from 1 on")
+      ->check(number_between(1, 100000))
+      ->capture_default_str();
+  command->add_option("-b,--backend", options->backend, "Engine, as for `talus run`")->check(not_empty());
+  command->add_option("-j,--jobs", options->jobs, "Runs at a time; without it one for each core")
+      ->check(number_between(1, 1000));
+  command->add_option("-o,--out", options->out, "Folder of the sweep: new, empty, or of the same sweep to go on with")
+      ->required()
+      ->check(not_empty());
+  command->add_option("--plot", options->plot, "Column of the table that sweep.svg shows")
+      ->check(CLI::IsMember(names_of_measures()))
+      ->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = sweep(*options); });
+}
+
+}  // namespace talus

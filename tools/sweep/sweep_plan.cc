@@ -1,0 +1,90 @@
+#include "tools/sweep/sweep_plan.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+namespace talus {
+namespace {
+
+constexpr double most_values = 10'000.0;
+
+std::vector<std::string> split_outside(std::string_view text, char separator) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  char quote = '\0';
+  for (const char letter : text) {
+    if (quote != '\0')
+      quote = letter == quote ? '\0' : quote;
+    else if (letter == '"' || letter == '\'')
+      quote = letter;
+    else if (letter == '[' || letter == '{')
+      ++depth;
+    else if (letter == ']' || letter == '}')
+      --depth;
+    if (letter == separator && depth == 0 && quote == '\0')
+      parts.emplace_back();
+    else
+      parts.back() += letter;
+  }
+  return parts;
+}
+
+std::optional<double> number_of(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+  return whole ? std::optional(number) : std::nullopt;
+}
+
+/// LOW, LOW + STEP, ... up to HIGH, rounded so that 0.2 + 0.2 + 0.2 is 0.6.
+std::vector<std::string> range_values(const std::vector<std::string>& parts, const std::string& text) {
+  const auto low = number_of(parts[0]);
+  const auto high = number_of(parts[1]);
+  const auto step = number_of(parts[2]);
+  if (!low || !high || !step || *step <= 0.0 || *high < *low || (*high - *low) / *step > most_values)
+    throw std::invalid_argument(fmt::format(
+        "--set {}: must be LOW:HIGH:STEP, three numbers, with at most {:g} steps upwards", text, most_values));
+  std::vector<std::string> values;
+  const int count = static_cast<int>(std::floor((*high - *low) / *step + 1e-9)) + 1;
+  for (int i = 0; i < count; ++i) values.push_back(fmt::format("{:.12g}", *low + i * *step));
+  return values;
+}
+
+}  // namespace
+
+SweepAxis sweep_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw std::invalid_argument(fmt::format("--set {}: must be PATH=VALUES, as in policy.tau=0.1:0.5:0.1", text));
+  SweepAxis axis{text.substr(0, equals), {}};
+  const std::string written = text.substr(equals + 1);
+  const std::vector<std::string> range = split_outside(written, ':');
+  axis.values = range.size() == 3 ? range_values(range, text) : split_outside(written, ',');
+  for (const std::string& value : axis.values)
+    if (value.empty()) throw std::invalid_argument(fmt::format("--set {}: must have no empty value", text));
+  return axis;
+}
+
+std::vector<SweepRun> sweep_runs(const std::vector<SweepAxis>& axes) {
+  std::vector<SweepRun> runs(1);
+  for (const SweepAxis& axis : axes) {
+    if (runs.size() * axis.values.size() > most_sweep_runs)
+      throw std::invalid_argument(fmt::format("sweep: must have at most {} runs", most_sweep_runs));
+    std::vector<SweepRun> longer;
+    for (const SweepRun& run : runs) {
+      for (const std::string& value : axis.values) {
+        longer.push_back(run);
+        longer.back().values.push_back(value);
+      }
+    }
+    runs = std::move(longer);
+  }
+  return runs;
+}
+
+}  // namespace talus

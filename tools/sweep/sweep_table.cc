@@ -1,0 +1,229 @@
+#include "tools/sweep/sweep_table.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "tools/plot/plot.h"
+
+namespace talus {
+namespace {
+
+constexpr std::size_t most_curves = 7;
+
+std::optional<double> number_in(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return quoted + "\"";
+}
+
+/// Names of all columns.
+std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes) {
+  std::vector<std::string> columns = {"run"};
+  for (const SweepAxis& axis : axes) columns.push_back(axis.path);
+  columns.insert(columns.end(), {"reason", "end_hash"});
+  for (const SweepMeasure& measure : sweep_measures()) columns.emplace_back(measure.name);
+  return columns;
+}
+
+using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close)>;
+using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
+
+void require_done(int code, int wanted, sqlite3* database, const std::filesystem::path& file) {
+  if (code != wanted)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), sqlite3_errmsg(database)));
+}
+
+void execute(sqlite3* database, const std::string& command, const std::filesystem::path& file) {
+  require_done(sqlite3_exec(database, command.c_str(), nullptr, nullptr, nullptr), SQLITE_OK, database, file);
+}
+
+std::string quoted_name(const std::string& name) {
+  std::string quoted = "\"";
+  for (const char letter : name) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return quoted + "\"";
+}
+
+void bind_text(sqlite3_stmt* statement, int place, const std::string& text) {
+  if (const std::optional<double> number = number_in(text))
+    sqlite3_bind_double(statement, place, *number);
+  else
+    sqlite3_bind_text(statement, place, text.c_str(), -1, SQLITE_TRANSIENT);
+}
+
+void bind_row(sqlite3_stmt* statement, const SweepRow& row) {
+  int place = 1;
+  sqlite3_bind_int(statement, place++, row.run);
+  for (const std::string& value : row.values) bind_text(statement, place++, value);
+  sqlite3_bind_text(statement, place++, row.reason.c_str(), -1, SQLITE_TRANSIENT);
+  sqlite3_bind_text(statement, place++, row.end_hash.c_str(), -1, SQLITE_TRANSIENT);
+  for (const std::optional<double>& number : row.numbers)
+    if (number)
+      sqlite3_bind_double(statement, place++, *number);
+    else
+      sqlite3_bind_null(statement, place++);
+}
+
+/// The values of one point of a curve.
+struct Sample {
+  double sum = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  double mean() const { return sum / count; }
+  double standard_error() const {
+    if (count < 2) return 0.0;
+    return std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1)) / count);
+  }
+};
+
+using Curves = std::map<std::string, std::map<double, Sample>>;
+
+/// The axis along which to plot: the first but `seed` with several values that are all numbers.
+std::optional<std::size_t> plotted_axis(const std::vector<SweepAxis>& axes) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const bool numbers =
+        std::ranges::all_of(axes[i].values, [](const auto& value) { return number_in(value).has_value(); });
+    if (numbers && axes[i].values.size() > 1 && axes[i].path != "seed") return i;
+  }
+  return std::nullopt;
+}
+
+/// The name of the curve that a run belongs to: its values of the other axes that vary.
+std::string curve_of(const std::vector<SweepAxis>& axes, const SweepRow& row, std::size_t plotted) {
+  std::string name;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (i != plotted && axes[i].path != "seed" && axes[i].values.size() > 1)
+      name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", axes[i].path, row.values[i]);
+  return name.empty() ? "mean" : name;
+}
+
+Series series_of(const std::string& name, const std::map<double, Sample>& points) {
+  Series series{.name = name, .x = {}, .y = {}, .style = SeriesStyle::line_and_points};
+  for (const auto& [x, sample] : points) {
+    series.x.push_back(x);
+    series.y.push_back(sample.mean());
+    series.low.push_back(sample.mean() - sample.standard_error());
+    series.high.push_back(sample.mean() + sample.standard_error());
+  }
+  return series;
+}
+
+}  // namespace
+
+std::vector<SweepMeasure> sweep_measures() {
+  return {{"bodies", "/bodies", "bodies"},
+          {"bodies_lost", "/bodies_lost", "bodies lost"},
+          {"steps", "/steps", "steps"},
+          {"mean_awake", "/mean_awake", "bodies awake in the mean"},
+          {"asleep_at_end", "/asleep_at_end", "bodies asleep at the end"},
+          {"work_skipped", "/work_skipped", "share of body-steps skipped"},
+          {"ms_per_step", "/ms_per_step", "time of a step [ms]"},
+          {"wall_s", "/wall_s", "time of the run [s]"},
+          {"height_m", "/shape/height_m", "height of the pile [m]"},
+          {"centre_height_m", "/shape/centre_height_m", "height of the centre of mass [m]"},
+          {"r50_m", "/shape/r50_m", "radius that holds half the bodies [m]"},
+          {"r95_m", "/shape/r95_m", "radius that holds 95 % of the bodies [m]"},
+          {"angle_of_repose_deg", "/shape/angle_of_repose_deg", "angle of repose [degrees]"},
+          {"packing", "/shape/packing", "packing density"},
+          {"drift_D", "/estimate/drift_D", "estimated drift [D]"}};
+}
+
+SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path& folder) {
+  std::ifstream stream(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(stream, nullptr, false);
+  if (!summary.is_object()) throw std::runtime_error(fmt::format("{}: has no summary.json", folder.string()));
+  SweepRow row{.run = number,
+               .values = run.values,
+               .numbers = {},
+               .reason = summary.value("reason", ""),
+               .end_hash = summary.value("end_hash", "")};
+  for (const SweepMeasure& measure : sweep_measures()) {
+    const nlohmann::json::json_pointer key{std::string(measure.key)};
+    const bool given = summary.contains(key) && summary.at(key).is_number();
+    row.numbers.push_back(given ? std::optional(summary.at(key).get<double>()) : std::nullopt);
+  }
+  return row;
+}
+
+void write_sweep_csv(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
+                     const std::vector<SweepRow>& rows) {
+  std::ofstream out(file, std::ios::binary);
+  std::vector<std::string> cells;
+  for (const std::string& column : columns_of(axes)) cells.push_back(csv_cell(column));
+  out << fmt::format("{}\n", fmt::join(cells, ","));
+  for (const SweepRow& row : rows) {
+    cells = {fmt::format("{}", row.run)};
+    for (const std::string& value : row.values) cells.push_back(csv_cell(value));
+    cells.insert(cells.end(), {csv_cell(row.reason), row.end_hash});
+    for (const std::optional<double>& number : row.numbers)
+      cells.push_back(number ? fmt::format("{:.9g}", *number) : "");
+    out << fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+void write_sweep_sqlite(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
+                        const std::vector<SweepRow>& rows) {
+  std::filesystem::remove(file);
+  sqlite3* opened = nullptr;
+  const int code = sqlite3_open(file.c_str(), &opened);
+  const Database database(opened, sqlite3_close);
+  require_done(code, SQLITE_OK, opened, file);
+  std::vector<std::string> names;
+  for (const std::string& column : columns_of(axes)) names.push_back(quoted_name(column));
+  execute(opened, fmt::format("CREATE TABLE runs ({}); BEGIN", fmt::join(names, ", ")), file);
+  sqlite3_stmt* prepared = nullptr;
+  const std::string insert =
+      fmt::format("INSERT INTO runs VALUES ({})", fmt::join(std::vector<std::string>(names.size(), "?"), ", "));
+  require_done(sqlite3_prepare_v2(opened, insert.c_str(), -1, &prepared, nullptr), SQLITE_OK, opened, file);
+  const Statement statement(prepared, sqlite3_finalize);
+  for (const SweepRow& row : rows) {
+    bind_row(prepared, row);
+    require_done(sqlite3_step(prepared), SQLITE_DONE, opened, file);
+    sqlite3_reset(prepared);
+  }
+  execute(opened, "COMMIT", file);
+}
+
+bool write_sweep_plot(const std::filesystem::path& file, const std::string& title, const std::vector<SweepAxis>& axes,
+                      const std::vector<SweepRow>& rows, std::string_view measure) {
+  const std::vector<SweepMeasure> measures = sweep_measures();
+  const auto which = std::ranges::find(measures, measure, &SweepMeasure::name);
+  const std::optional<std::size_t> along = plotted_axis(axes);
+  if (which == measures.end() || !along) return false;
+  Curves curves;
+  for (const SweepRow& row : rows) {
+    const std::optional<double> y = row.numbers[which - measures.begin()];
+    if (!y || row.reason != "finished") continue;
+    Sample& sample = curves[curve_of(axes, row, *along)][*number_in(row.values[*along])];
+    sample.sum += *y;
+    sample.squares += *y * *y;
+    ++sample.count;
+  }
+  if (curves.empty() || curves.size() > most_curves) return false;
+  Plot plot{.title = title, .x_label = axes[*along].path, .y_label = std::string(which->label), .series = {}};
+  for (const auto& [name, points] : curves) plot.series.push_back(series_of(name, points));
+  std::ofstream out(file, std::ios::binary);
+  out << svg_of(plot);
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  return true;
+}
+
+}  // namespace talus
