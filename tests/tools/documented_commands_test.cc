@@ -31,6 +31,8 @@ struct Shortened {
 
 constexpr auto shortened = std::to_array<Shortened>({
     {"talus monitor", "talus monitor --seconds 1"},
+    {"talus sweep public/hopper_2d --set shape.disc.radius=0.4,0.5,0.6,0.7,0.8 --seeds 8 --out hopper",
+     "talus sweep public/hopper_2d --set shape.disc.radius=0.4,0.5 --set run.frames=10 --out hopper"},
     {"talus view drop_in_a_pile_2d", "talus view drop_in_a_pile_2d --seconds 1"},
     {"talus view discs.toml", "talus view discs.toml --seconds 1"},
     {"talus view runs/pour", "talus view runs/pour --seconds 1"},
