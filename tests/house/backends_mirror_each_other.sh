@@ -9,7 +9,8 @@ continuous.h        Box2D sweeps each body against static ones, Bullet only bodi
 body_swap.h         Bullet keeps a body in its broadphase entry while it changes its form
 bodies.h            Bullet leaves the memory of its bodies to the caller
 engine.h            Bullet is a set of objects, Box2D one b2World
-friction_impulse.h  Bullet keeps friction in two directions of its own choice'
+friction_impulse.h  Bullet keeps friction in two directions of its own choice
+rolling_resistance.h  Box2D has no rolling friction, so joints make it; in Bullet it is in sim3d/bullet/rolling_solver.h'
 
 headers() {
   git ls-files "$1/*.h" | sed "s|^$1/||" | grep -v '^bullet/' | grep -vxF "$(echo "$exempt" | cut -d ' ' -f 1)" |
