@@ -27,6 +27,10 @@ std::vector<Sweep> pareto_sweeps(const BenchOptions& options) {
   for (const std::string& policy : policies_of(options)) {
     if (policy == "paper")
       sweeps.push_back({"paper, tau", "paper", "policy.tau", some({0.3, 0.5}, {0.1, 0.2, 0.3, 0.4, 0.5})});
+    if (policy == "adaptive") {
+      const std::vector<double> tolerances = some({0.05, 0.2}, {0.0, 0.01, 0.02, 0.05, 0.1, 0.2});
+      sweeps.push_back({"adaptive, tolerance", "adaptive", "policy.adaptive.tolerance", tolerances});
+    }
     sweeps.push_back({policy + ", iterations", policy, iterations, some({10}, {5, 10, 20, 40})});
   }
   return sweeps;
