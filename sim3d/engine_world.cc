@@ -183,6 +183,8 @@ void EngineWorld<Dim>::engine_place_obstacle(int number, const Pose<Dim>& at) {
 template <int Dim>
 void EngineWorld<Dim>::engine_remove_obstacle(int number) {
   btCollisionObject& object = obstacle(number);
+  swap_.forget(first_obstacle - number);
+  engine_.pairs.remove_pairs_of_obstacle(object.getBroadphaseHandle(), &engine_.dispatcher);
   engine_.broadphase.destroyProxy(object.getBroadphaseHandle(), &engine_.dispatcher);
   object.setBroadphaseHandle(nullptr);
   object.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);

@@ -125,7 +125,7 @@ void WarmStart::announce(btBroadphaseProxy& woken, const PairCache& pairs) {
 }
 
 void WarmStart::forget(BodyIndex body) {
-  if (body < std::ssize(first_)) {
+  if (body >= 0 && body < std::ssize(first_)) {
     std::int32_t& first = first_[body];
     while (first >= 0) {
       free_.push_back(first);

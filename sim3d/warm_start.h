@@ -27,7 +27,7 @@ class WarmStart {
   /// Puts them back, after the collision detection of the step that follows.
   void restore(PairCache& pairs, const btDispatcherInfo& info);
 
-  /// A body that leaves the world.
+  /// A body or an obstacle that leaves the world.
   void forget(BodyIndex body);
 
  private:

@@ -106,6 +106,15 @@ void PairCache::removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, 
     removeOverlappingPair(proxy, partners(proxy).front(), dispatcher);  // takes it off the list
 }
 
+void PairCache::remove_pairs_of_obstacle(const btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
+  const btBroadphasePairArray& pairs = getOverlappingPairArray();
+  for (int i = 0; i < pairs.size();)
+    if (pairs[i].m_pProxy0 == proxy || pairs[i].m_pProxy1 == proxy)
+      removeOverlappingPair(pairs[i].m_pProxy0, pairs[i].m_pProxy1, dispatcher);  // puts the last pair in its place
+    else
+      ++i;
+}
+
 void PairCache::cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
   for (btBroadphaseProxy* partner : partners(proxy)) cleanOverlappingPair(*findPair(proxy, partner), dispatcher);
 }

@@ -27,6 +27,8 @@ class PairCache final : public btHashedOverlappingPairCache {
   /// Called by the broadphase for a proxy that is about to go. Takes no memory: it is part of the end of a world that
   /// ran out of it.
   void removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
+  /// The same for an obstacle, which has no list. Costs O(pairs).
+  void remove_pairs_of_obstacle(const btBroadphaseProxy* proxy, btDispatcher* dispatcher);
   void cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
 
   /// Partners of a body that are static, in order of appearance; valid until the next call.
@@ -49,7 +51,7 @@ class PairCache final : public btHashedOverlappingPairCache {
   void remember(const btBroadphaseProxy* proxy, btBroadphaseProxy* partner);
   void forget(const btBroadphaseProxy* proxy, const btBroadphaseProxy* partner);
 
-  // Ground and obstacles, which meet all bodies and never leave, have no list; nor have sleepers far from all awake
+  // Ground and obstacles, which meet all bodies and seldom leave, have no list; nor have sleepers far from all awake
   // bodies.
   std::vector<std::vector<btBroadphaseProxy*>> lists_;
   std::vector<std::int32_t> free_;  // lists of no body
