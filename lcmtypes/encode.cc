@@ -30,6 +30,13 @@ std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
 }
 
+void renumber(std::span<std::uint8_t> bytes, std::int64_t seq) {
+  const auto place = bytes.subspan(header_bytes - 8, 8);
+  for (std::size_t i = 0; i < 8; ++i)
+    place[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(seq) >> (8 * (7 - i)));
+  put_checksum(bytes);
+}
+
 template <class Message>
 Packet MessageEncoder::encode(Message& message, const Stamp& stamp) {
   constexpr Channel channel = channel_of<Message>;

@@ -27,6 +27,9 @@ struct Stamp {
 /// CRC-32 of zlib, at most 4 GB.
 std::uint32_t checksum(std::span<const std::uint8_t> bytes);
 
+/// Gives an encoded message another number on its channel, and the checksum that follows.
+void renumber(std::span<std::uint8_t> bytes, std::int64_t seq);
+
 /// Gives each message of a run its header, its number on its channel and its checksum.
 class MessageEncoder {
  public:

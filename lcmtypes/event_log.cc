@@ -13,13 +13,17 @@ EventLog::EventLog(std::string path) : path_(std::move(path)), file_(std::make_u
 
 EventLog::~EventLog() = default;
 
-void EventLog::write(Packet& packet) {
+void EventLog::write(Packet& packet) { write(packet.utime, name_of(packet.channel), packet.bytes); }
+
+void EventLog::write(LogEvent& event) { write(event.timestamp, event.channel, event.data); }
+
+void EventLog::write(std::int64_t stamp, const std::string& channel, std::vector<std::uint8_t>& data) {
   if (broken_) return;
   lcm::LogEvent event{};
-  event.timestamp = packet.utime;
-  event.channel = name_of(packet.channel);
-  event.datalen = static_cast<std::int32_t>(packet.bytes.size());
-  event.data = packet.bytes.data();
+  event.timestamp = stamp;
+  event.channel = channel;
+  event.datalen = static_cast<std::int32_t>(data.size());
+  event.data = data.data();
   if (file_->writeEvent(&event) != 0) fail();
 }
 

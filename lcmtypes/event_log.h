@@ -3,8 +3,10 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lcmtypes/encode.h"
+#include "lcmtypes/log_reader.h"
 
 namespace lcm {
 class LogFile;
@@ -24,6 +26,8 @@ class EventLog {
   /// Appends. Throws std::system_error, also for what was written before and only now turns out not to fit the disk.
   /// Once it has thrown, it and flush() do nothing: what is in the file stays readable.
   void write(Packet& packet);
+  /// The same for an event of another log, with its stamp; its number is its place in this one.
+  void write(LogEvent& event);
 
   /// Hands all that was written to the operating system: then it outlives this process, whatever ends it.
   void flush();
@@ -32,6 +36,7 @@ class EventLog {
   void flush_after(double interval);
 
  private:
+  void write(std::int64_t stamp, const std::string& channel, std::vector<std::uint8_t>& data);
   [[noreturn]] void fail();
 
   std::string path_;

@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <lcm/lcm-cpp.hpp>
 #include <stdexcept>
 
@@ -14,12 +17,21 @@ using talus_lcm::talus_run_v1;
 
 namespace {
 
-constexpr std::array live_channels = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
+constexpr std::array live_channels = {Channel::run,   Channel::piles,  Channel::sleep,
+                                      Channel::stats, Channel::bodies, Channel::shapes};
+// Of wall time [s] within which the pose of each body is sent, also of those at rest, so that who comes late or missed
+// a message sees all of them; longer where they are more than fit one message each time.
+constexpr double turn_time = 2.0;
+constexpr BodyIndex most_in_turn = 1000;
+// Bodies of which the state at the end fits the queue.
+constexpr BodyIndex most_in_key_frame = 100'000;
 constexpr auto farewell_time = std::chrono::seconds(1);
 
 void check(const PublisherParams& params) {
   if (!(params.piles_rate >= 0.0))
     throw std::invalid_argument(fmt::format("piles_rate = {}: must be >= 0 per second", params.piles_rate));
+  if (!(params.bodies_rate >= 0.0))
+    throw std::invalid_argument(fmt::format("bodies_rate = {}: must be >= 0 per second", params.bodies_rate));
   if (params.queue_bytes < 1U << 20U)
     throw std::invalid_argument(fmt::format("queue_bytes = {}: must be >= 1 MiB", params.queue_bytes));
 }
@@ -51,7 +63,12 @@ void put(talus_lcm::talus_stats_v2& message, const PhaseTimes& sum, std::int64_t
 
 template <int Dim>
 Publisher<Dim>::Publisher(const RunInfo& info, const PublisherParams& params)
-    : info_(info), run_id_(live_id(info)), encoder_(run_id_), piles_pulse_(params.piles_rate) {
+    : info_(info),
+      run_id_(live_id(info)),
+      encoder_(run_id_),
+      piles_pulse_(params.piles_rate),
+      bodies_pulse_(params.bodies_rate),
+      bodies_rate_(params.bodies_rate) {
   check(params);
   queue_ = open_queue(params);
   begin();
@@ -59,7 +76,12 @@ Publisher<Dim>::Publisher(const RunInfo& info, const PublisherParams& params)
 
 template <int Dim>
 Publisher<Dim>::Publisher(const RunInfo& info, const PublisherParams& params, lcm::LCM& lcm)
-    : info_(info), run_id_(live_id(info)), encoder_(run_id_), piles_pulse_(params.piles_rate) {
+    : info_(info),
+      run_id_(live_id(info)),
+      encoder_(run_id_),
+      piles_pulse_(params.piles_rate),
+      bodies_pulse_(params.bodies_rate),
+      bodies_rate_(params.bodies_rate) {
   check(params);
   queue_ = std::make_unique<SendQueue>(lcm, params.queue_bytes);
   begin();
@@ -81,11 +103,62 @@ void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
   if (piles_pulse_.due(now)) send(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);
   if (stats_pulse_.due(now)) send_stats(frame, now);
   if (run_pulse_.due(now)) send_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
+  if (!sends_poses()) return;
+  if (shapes_pulse_.due(now)) send_shapes(frame);
+  for (const SleepEvent& event : frame.events)
+    if (!event.woke) fell_asleep_.push_back(event.body);
+  if (bodies_pulse_.due(now)) send_bodies(frame, now);
+}
+
+/// Poses of the bodies awake, of those that fell asleep since the last time, and of some of the others in turn.
+template <int Dim>
+void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now) {
+  const BodyStates<Dim>& states = frame.world.states();
+  std::vector<BodyIndex> bodies(frame.world.awake().begin(), frame.world.awake().end());
+  bodies.insert(bodies.end(), fell_asleep_.begin(), fell_asleep_.end());
+  fell_asleep_.clear();
+  const auto share = static_cast<BodyIndex>(std::ceil(states.size() / (bodies_rate_ * turn_time)));
+  for (BodyIndex left = std::min({share, most_in_turn, states.size()}); left > 0; --left) {
+    if (turn_ >= states.size()) turn_ = 0;
+    bodies.push_back(turn_++);
+  }
+  std::erase_if(bodies, [&](BodyIndex body) { return states.removed[body] != 0; });
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  auto messages = to_bodies<Dim>(states, bodies, false);
+  const auto bytes = static_cast<double>(max_message_bytes * messages.size());
+  bodies_pulse_.wait_until(now + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(bytes / bodies_bytes_per_second)));
+  send(std::move(messages), frame.step, frame.time);
+}
+
+/// A key frame, in which a body that is missing was removed.
+template <int Dim>
+void Publisher<Dim>::send_all_poses(const Frame<Dim>& frame) {
+  const BodyStates<Dim>& states = frame.world.states();
+  if (states.size() > most_in_key_frame) return;
+  std::vector<BodyIndex> bodies;
+  for (BodyIndex body = 0; body < states.size(); ++body)
+    if (states.removed[body] == 0) bodies.push_back(body);
+  send(to_bodies<Dim>(states, bodies, true), frame.step, frame.time);
+}
+
+/// Of obstacles that move the present pose.
+template <int Dim>
+void Publisher<Dim>::send_shapes(const Frame<Dim>& frame) {
+  for (talus_lcm::talus_shapes_v1& message : shapes_) {
+    if (message.obstacle != 0) set_pose<Dim>(frame.world.obstacle_pose(message.index), message);
+    send(message, frame.step, frame.time);
+  }
 }
 
 template <int Dim>
 void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   if (!queue_) return;
+  if (sends_poses()) {
+    send_shapes(last);
+    send_all_poses(last);
+  }
   send(to_piles<Dim>(last.piles.piles()), last.step, last.time);
   send_stats(last, Clock::now());
   send_run(talus_run_v1::END, reason, last.step, last.time);

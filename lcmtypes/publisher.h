@@ -11,6 +11,7 @@
 #include "common/simulation/observer.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/send_queue.h"
+#include "lcmtypes/translate.h"
 
 namespace talus {
 
@@ -18,11 +19,17 @@ struct PublisherParams {
   std::string url = {};        // LCM's address; empty: LCM_DEFAULT_URL, else multicast that stays on this machine
   bool allow_network = false;  // let packets leave this machine (ttl above 0); any machine there may then listen
   double piles_rate = 60.0;    // [1/s] of wall time, >= 0; 0: every step, which costs a fast simulation a few per cent
+  double bodies_rate = 30.0;   // [1/s] of wall time at which poses are sent, >= 0; 0: never. Less where a frame of the
+                               // awake bodies alone has more than bodies_bytes_per_second allow
   std::size_t queue_bytes = 8U << 20U;  // room for what waits to be sent, >= 1 MiB; small: an avalanche of 100,000
                                         // events is dropped in part
 };
 
-/// Comes due at most `rate` times a second of wall time.
+/// Poses take at most so many bytes a second of wall time: what a receiver at default settings of the kernel hears
+/// without loss.
+inline constexpr double bodies_bytes_per_second = 12e6;
+
+/// Comes due `rate` times a second of wall time, or as often as due() is called.
 class Pulse {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,9 +40,12 @@ class Pulse {
                            : Clock::duration::zero()) {}
   bool due(Clock::time_point now) {
     if (now < next_) return false;
-    next_ = now + period_;
+    next_ = std::max(next_ + period_, now);  // late by less than a period: made up for
+    if (next_ - now < period_ / 2) next_ = now + period_ / 2;
     return true;
   }
+  /// Not due before.
+  void wait_until(Clock::time_point time) { next_ = std::max(next_, time); }
 
  private:
   Clock::duration period_;
@@ -51,6 +61,9 @@ class Publisher final : public Observer<Dim> {
   explicit Publisher(const RunInfo& info, const PublisherParams& params = {});
   /// Sends through an `lcm` that lives longer than this object; the parameters' address means nothing.
   Publisher(const RunInfo& info, const PublisherParams& params, lcm::LCM& lcm);
+
+  /// Poses are sent only once the shapes are known. Throws std::invalid_argument on a shape too large for a message.
+  void set_world(const WorldDescription<Dim>& world) { shapes_ = to_shapes<Dim>(world); }
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
@@ -69,6 +82,10 @@ class Publisher final : public Observer<Dim> {
   void send(std::vector<Message> messages, std::int64_t step, double time);
   void send_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time);
   void send_stats(const Frame<Dim>& frame, Clock::time_point now);
+  bool sends_poses() const { return bodies_rate_ > 0.0 && !shapes_.empty(); }
+  void send_bodies(const Frame<Dim>& frame, Clock::time_point now);
+  void send_all_poses(const Frame<Dim>& frame);
+  void send_shapes(const Frame<Dim>& frame);
 
   RunInfo info_;
   std::int64_t run_id_;
@@ -76,7 +93,13 @@ class Publisher final : public Observer<Dim> {
   std::unique_ptr<SendQueue> queue_;
   Pulse run_pulse_{1.0};
   Pulse stats_pulse_{10.0};
+  Pulse shapes_pulse_{1.0};
   Pulse piles_pulse_;
+  Pulse bodies_pulse_;
+  double bodies_rate_;
+  std::vector<talus_lcm::talus_shapes_v1> shapes_;  // and obstacles; empty: not known
+  std::vector<BodyIndex> fell_asleep_;              // since poses were sent last
+  BodyIndex turn_ = 0;                              // the body from which on poses of resting ones are sent next
   // Since the last statistics:
   PhaseTimes sum_;
   std::int64_t summed_steps_ = 0;

@@ -5,7 +5,12 @@
 namespace talus {
 namespace {
 
+// Sent at once, with a pause after: more would overrun the receive buffers of listeners at default settings.
+constexpr std::size_t burst_bytes = 8192;
+constexpr int burst_packets = 8;
 constexpr auto pause = std::chrono::microseconds(100);
+// For which the thread lets packets gather. Each time that it wakes costs the run a few microseconds.
+constexpr auto gather_time = std::chrono::milliseconds(10);
 constexpr std::size_t max_packets = 4096;
 constexpr auto farewell = std::chrono::milliseconds(200);
 
@@ -34,16 +39,18 @@ void SendQueue::start() {
 }
 
 void SendQueue::push(Packet packet) {
+  bool first = false;
   {
     const std::lock_guard lock(state_->mutex);
     if (state_->closing || !has_room(*state_, packet)) {
       ++state_->dropped;
       return;
     }
+    first = state_->packets.empty();
     state_->bytes += packet.bytes.size();
     state_->packets.push_back(std::move(packet));
   }
-  state_->changed.notify_one();
+  if (first) state_->changed.notify_one();
 }
 
 bool SendQueue::has_room(const State& state, const Packet& packet) {
@@ -88,19 +95,31 @@ void SendQueue::send_all(State& state) {
   std::unique_lock lock(state.mutex);
   for (;;) {
     state.changed.wait(lock, [&] { return state.closing || !state.packets.empty(); });
+    state.changed.wait_for(lock, gather_time, [&] { return state.closing; });
     if (state.packets.empty()) break;
-    const Packet packet = std::move(state.packets.front());
-    state.packets.pop_front();
-    state.bytes -= packet.bytes.size();
-    lock.unlock();
-    const int failed = state.lcm->publish(name_of(packet.channel), packet.bytes.data(),
-                                          static_cast<unsigned int>(packet.bytes.size()));
-    std::this_thread::sleep_for(pause);
-    lock.lock();
-    if (failed != 0) ++state.dropped;
+    while (!state.packets.empty()) send_burst(state, lock);
   }
   state.done = true;
   state.changed.notify_all();
+}
+
+/// Sends without the lock; holds it before and after.
+void SendQueue::send_burst(State& state, std::unique_lock<std::mutex>& lock) {
+  std::size_t bytes = 0;
+  for (int sent = 0; sent < burst_packets && bytes < burst_bytes && !state.packets.empty(); ++sent) {
+    const Packet packet = std::move(state.packets.front());
+    state.packets.pop_front();
+    state.bytes -= packet.bytes.size();
+    bytes += packet.bytes.size();
+    lock.unlock();
+    const int failed = state.lcm->publish(name_of(packet.channel), packet.bytes.data(),
+                                          static_cast<unsigned int>(packet.bytes.size()));
+    lock.lock();
+    if (failed != 0) ++state.dropped;
+  }
+  lock.unlock();
+  std::this_thread::sleep_for(pause);
+  lock.lock();
 }
 
 }  // namespace talus

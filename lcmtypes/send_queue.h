@@ -13,8 +13,9 @@
 
 namespace talus {
 
-/// Sends messages from a thread of its own, in order, at least 0.1 ms apart (without this pause a burst overruns the
-/// receivers' buffers). push() never waits for the network: a message that finds the queue full is dropped and counted.
+/// Sends messages from a thread of its own, in order, eight or 8 KiB at a time and then none for 0.1 ms (a longer burst
+/// overruns the receivers' buffers), at most 10 ms late. push() never waits for the network: a message that finds the
+/// queue full is dropped and counted.
 class SendQueue {
  public:
   /// Holds at most `capacity` bytes, and at most so many packets that they can be sent within a second. The last eighth
@@ -52,6 +53,7 @@ class SendQueue {
   };
   static bool has_room(const State& state, const Packet& packet);
   static void send_all(State& state);
+  static void send_burst(State& state, std::unique_lock<std::mutex>& lock);
   void start();
 
   // Shared with the thread: one that hangs in the network is left behind rather than waited for.

@@ -299,13 +299,113 @@ std::vector<talus_shapes_v1> to_shapes(const WorldDescription<Dim>& world) {
     talus_shapes_v1& message =
         messages.emplace_back(to_message<Dim>(world.obstacles[i].shape, i, world.obstacles.size()));
     message.obstacle = 1;
-    std::vector<double> pose;
-    append<Dim>(world.obstacles[i].pose, pose);
-    std::copy(pose.begin(), pose.end(), message.pose);
+    set_pose<Dim>(world.obstacles[i].pose, message);
   }
   return messages;
 }
 
+template <int Dim>
+void set_pose(const Pose<Dim>& pose, talus_shapes_v1& message) {
+  std::vector<double> values;
+  append<Dim>(pose, values);
+  std::copy(values.begin(), values.end(), message.pose);
+}
+
+namespace {
+
+/// Takes values one after the other.
+template <int Dim>
+class ValueReader {
+ public:
+  explicit ValueReader(std::span<const double> values) : rest_(values) {}
+
+  double number() {
+    const double value = rest_.front();
+    rest_ = rest_.subspan(1);
+    return value;
+  }
+  Vec<Dim> point() {
+    Vec<Dim> point;
+    for (int axis = 0; axis < Dim; ++axis) point[axis] = number();
+    return point;
+  }
+  Pose<Dim> pose() {
+    Pose<Dim> pose;
+    pose.position = point();
+    if constexpr (Dim == 2)
+      pose.rotation = Rotation<2>(number());
+    else
+      for (double* part : {&pose.rotation.w(), &pose.rotation.x(), &pose.rotation.y(), &pose.rotation.z()})
+        *part = number();
+    return pose;
+  }
+  Piece<Dim> piece(std::int8_t kind) {
+    if (kind == talus_shapes_v1::BOX) {
+      const Pose<Dim> at = pose();
+      return BoxPiece<Dim>{at, point()};
+    }
+    HullPiece<Dim> hull;
+    while (rest_.size() >= Dim) hull.corners.push_back(point());
+    if (!rest_.empty()) hull.radius = number();
+    return hull;
+  }
+
+ private:
+  std::span<const double> rest_;
+};
+
+}  // namespace
+
+template <int Dim>
+Shape<Dim> to_shape(const talus_shapes_v1& message) {
+  std::vector<Piece<Dim>> pieces;
+  std::span<const double> values = message.values;
+  for (std::size_t i = 0; i < message.kind.size(); ++i) {
+    pieces.push_back(ValueReader<Dim>(values.first(message.length[i])).piece(message.kind[i]));
+    values = values.subspan(message.length[i]);
+  }
+  return make_shape<Dim>(
+      message.name, std::move(pieces),
+      {.density = message.density, .friction = message.friction, .restitution = message.restitution});
+}
+
+template <int Dim>
+Pose<Dim> pose_of(const talus_shapes_v1& message) {
+  return ValueReader<Dim>(message.pose).pose();
+}
+
+template <int Dim>
+Pile<Dim> to_pile(const talus_lcm::talus_pile_v1& message) {
+  Pile<Dim> pile;
+  if constexpr (Dim == 2)
+    pile.centre = {message.centre[0], message.centre[2]};
+  else
+    pile.centre = {message.centre[0], message.centre[1], message.centre[2]};
+  pile.alpha = message.alpha;
+  pile.structure_size = message.structure_size;
+  pile.lift = message.lift;
+  pile.height = message.height;
+  pile.radius = message.radius;
+  pile.merged_into = message.merged_into;
+  for (const talus_lcm::talus_layer_v1& layer : message.layers) {
+    pile.layers.push_back({.bottom = layer.bottom,
+                           .top = layer.top,
+                           .radius = layer.radius,
+                           .capacity = layer.capacity,
+                           .count = layer.count,
+                           .sleeping = layer.sleeping});
+  }
+  return pile;
+}
+
+template Pile<2> to_pile<2>(const talus_lcm::talus_pile_v1&);
+template Pile<3> to_pile<3>(const talus_lcm::talus_pile_v1&);
+template void set_pose(const Pose<2>&, talus_shapes_v1&);
+template void set_pose(const Pose<3>&, talus_shapes_v1&);
+template Shape<2> to_shape<2>(const talus_shapes_v1&);
+template Shape<3> to_shape<3>(const talus_shapes_v1&);
+template Pose<2> pose_of<2>(const talus_shapes_v1&);
+template Pose<3> pose_of<3>(const talus_shapes_v1&);
 template std::vector<talus_shapes_v1> to_shapes<2>(const WorldDescription<2>&);
 template std::vector<talus_shapes_v1> to_shapes<3>(const WorldDescription<3>&);
 

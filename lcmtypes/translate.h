@@ -42,4 +42,19 @@ std::vector<talus_lcm::talus_bodies_v1> to_bodies(const BodyStates<Dim>& states,
 template <int Dim>
 std::vector<talus_lcm::talus_shapes_v1> to_shapes(const WorldDescription<Dim>& world);
 
+/// The pile of a message that decode() took.
+template <int Dim>
+Pile<Dim> to_pile(const talus_lcm::talus_pile_v1& message);
+
+/// Puts an obstacle elsewhere.
+template <int Dim>
+void set_pose(const Pose<Dim>& pose, talus_lcm::talus_shapes_v1& message);
+
+/// The shape of a message that decode() took. Throws std::invalid_argument on what is no shape.
+template <int Dim>
+Shape<Dim> to_shape(const talus_lcm::talus_shapes_v1& message);
+/// The pose of its obstacle.
+template <int Dim>
+Pose<Dim> pose_of(const talus_lcm::talus_shapes_v1& message);
+
 }  // namespace talus

@@ -32,6 +32,16 @@ void send_log_to_standard_error() {
   spdlog::set_pattern("%l: %v");
 }
 
+#ifdef TALUS_LCM
+void add_log_commands(CLI::App& app, int& exit_code) {
+  talus::add_info_command(app, exit_code);
+  talus::add_cat_command(app, exit_code);
+  talus::add_cut_command(app, exit_code);
+  talus::add_repair_command(app, exit_code);
+  talus::add_diff_command(app, exit_code);
+}
+#endif
+
 void add_commands(CLI::App& app, int& exit_code) {
   talus::add_run_command(app, exit_code);
   talus::add_new_command(app, exit_code);
@@ -53,6 +63,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_film_command(app, exit_code);
   talus::add_replay_command(app, exit_code);
   talus::add_export_command(app, exit_code);
+  add_log_commands(app, exit_code);
 #endif
 }
 

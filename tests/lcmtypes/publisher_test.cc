@@ -4,6 +4,7 @@
 
 #include <lcm/lcm-cpp.hpp>
 #include <map>
+#include <set>
 
 #include "common/simulation/state_hash.h"
 #include "lcmtypes/decode.h"
@@ -12,8 +13,10 @@
 namespace talus::publisher_test {
 namespace {
 
+using talus_lcm::talus_bodies_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
+using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v2;
 
@@ -52,6 +55,7 @@ class PublishedRun {
   explicit PublishedRun(int steps, const PublisherParams& params = {.piles_rate = 0.0}) : ear(lcm_) {
     const Scene<Dim> scene = still_scene<Dim>();
     Publisher<Dim> publisher(run_info(scene, "still", "none"), params, lcm_);
+    publisher.set_world(scene.world);
     const auto run = still_run<Dim>(scene, 12);
     run->add_observer(publisher);
     for (int step = 0; step < steps; ++step) run->step();
@@ -77,7 +81,7 @@ TEST(Publisher, SaysWhoRunsWhatAndHowItEnded) {
   EXPECT_EQ(messages.front().phase, talus_run_v1::BEGIN);
   EXPECT_EQ(messages.front().scene, "still");
   EXPECT_EQ(messages.front().steps, 120);
-  EXPECT_EQ(messages.front().channels.size(), 4U);
+  EXPECT_EQ(messages.front().channels.size(), 6U);
   EXPECT_EQ(messages.back().phase, talus_run_v1::END);
   EXPECT_EQ(messages.back().reason, "finished");
   EXPECT_EQ(messages.back().sent[1], static_cast<std::int64_t>(run.ear.all<talus_piles_v1>().size()));
@@ -121,6 +125,28 @@ TEST(Publisher, SendsStatisticsWithWallTimes) {
   EXPECT_GT(stats.back().ms_observe, 0.0F);
 }
 
+TEST(Publisher, SendsPosesAtTheirRateAndAllOfThemWithinTwoSecondsAndAtTheEnd) {
+  PublishedRun<3> run(2000, {.piles_rate = 10.0, .bodies_rate = 1000.0});
+  const auto bodies = run.ear.all<talus_bodies_v1>();
+  ASSERT_GE(bodies.size(), 2U);
+  std::set<std::int32_t> named;
+  for (const auto& message : bodies) {
+    EXPECT_EQ(message.dimension, 3);
+    if (message.key_frame == 0) named.insert(message.body.begin(), message.body.end());
+  }
+  EXPECT_EQ(named.size(), 12U) << "bodies at rest come in turn";
+  EXPECT_EQ(bodies.back().key_frame, 1);
+  EXPECT_EQ(bodies.back().step, 2000);
+  EXPECT_EQ(bodies.back().body_count, 12);
+  EXPECT_GE(run.ear.all<talus_shapes_v1>().size(), 2U) << "at the first step, and at the end";
+}
+
+TEST(Publisher, SendsNoPosesAtRateZero) {
+  const PublishedRun<2> run(40, {.bodies_rate = 0.0});
+  EXPECT_TRUE(run.ear.all<talus_bodies_v1>().empty());
+  EXPECT_TRUE(run.ear.all<talus_shapes_v1>().empty());
+}
+
 TEST(Publisher, LeavesTheRunAsItIs) {
   const Scene<2> scene = still_scene<2>();
   const auto alone = still_run<2>(scene, 12);
@@ -141,6 +167,7 @@ TEST(Publisher, DropsRatherThanWaitsAndSaysSo) {
 TEST(Publisher, RefusesBadParameters) {
   EXPECT_THROW(PublishedRun<2>(1, {.piles_rate = -1.0}), std::invalid_argument);
   EXPECT_THROW(PublishedRun<2>(1, {.piles_rate = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(PublishedRun<2>(1, {.bodies_rate = -1.0}), std::invalid_argument);
   EXPECT_THROW(PublishedRun<2>(1, {.queue_bytes = 10}), std::invalid_argument);
 }
 

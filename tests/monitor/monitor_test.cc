@@ -17,6 +17,7 @@
 #include "tests/lcmtypes/still_run.h"
 #include "tools/monitor/json_view.h"
 #include "tools/monitor/receive.h"
+#include "tools/monitor/run_view.h"
 
 namespace talus::monitor_test {
 namespace {
@@ -37,7 +38,7 @@ void receive_run(const DatagramSender& sender, int steps) {
     for (int step = 0; step < steps; ++step) run->step();
     run->end("finished");
   });
-  receive(lcm, sender);
+  receive(lcm, heard_channels, sender);
 }
 
 void receive_nothing(const DatagramSender&) {

@@ -35,6 +35,7 @@ constexpr auto shortened = std::to_array<Shortened>({
      "talus sweep public/hopper_2d --set shape.disc.radius=0.4,0.5 --set run.frames=10 --out hopper"},
     {"talus view drop_in_a_pile_2d", "talus view drop_in_a_pile_2d --seconds 1"},
     {"talus view discs.toml", "talus view discs.toml --seconds 1"},
+    {"talus view --live", "talus view --live --seconds 1"},
     {"talus view runs/pour", "talus view runs/pour --seconds 1"},
     {"talus monitor --json", "talus monitor --json --seconds 1"},
     // It hears no run here, which is a loss.
@@ -211,8 +212,8 @@ TEST(ReadmeProgram, IsTheExampleThatIsCompiled) {
 }
 
 TEST(HelpTexts, NameSubCommandsOptionsAndScenesThatExist) {
-  for (const char* command : {"run", "check", "bench", "compare", "wake", "film", "replay", "export", "view", "sheet",
-                              "decompose", "monitor"}) {
+  for (const char* command : {"run", "check", "bench", "compare", "wake", "film", "replay", "export", "info", "cat",
+                              "cut", "repair", "diff", "view", "sheet", "decompose", "monitor"}) {
     std::istringstream help(talus_command(std::string(command) + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find("talus ");

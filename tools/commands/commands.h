@@ -19,8 +19,13 @@ void add_view_command(CLI::App& app, int& exit_code);
 
 // On recorded runs; where talus is built with LCM.
 void add_compare_command(CLI::App& app, int& exit_code);
+void add_cat_command(CLI::App& app, int& exit_code);
+void add_cut_command(CLI::App& app, int& exit_code);
+void add_diff_command(CLI::App& app, int& exit_code);
 void add_export_command(CLI::App& app, int& exit_code);
 void add_film_command(CLI::App& app, int& exit_code);
+void add_info_command(CLI::App& app, int& exit_code);
+void add_repair_command(CLI::App& app, int& exit_code);
 void add_replay_command(CLI::App& app, int& exit_code);
 void add_wake_command(CLI::App& app, int& exit_code);
 

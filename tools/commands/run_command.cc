@@ -45,6 +45,9 @@ void add_output_options(CLI::App& command, RunOptions& options) {
   command.add_option("--telemetry-hz", options.telemetry_hz, "Pile messages a second of wall time; 0: one a step")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
+  command.add_option("--bodies-hz", options.bodies_hz, "Poses of the awake bodies a second of wall time; 0: none")
+      ->check(number_between(0.0, 1e3))
+      ->capture_default_str();
   command.add_flag("!--no-telemetry", options.telemetry, "Publish nothing over LCM")->excludes(url);
   auto* against =
       command

@@ -7,7 +7,7 @@
 namespace talus {
 namespace {
 
-std::string base64(std::string_view bytes) {
+std::string base64_text(std::string_view bytes) {
   constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -26,7 +26,7 @@ std::string data_array(std::string_view type, std::string_view name, int compone
   block += bytes;
   return fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">{}</DataArray>)"
                      "\n",
-                     type, name, components, base64(block));
+                     type, name, components, base64_text(block));
 }
 
 std::string vtk_file(std::string_view piece) {

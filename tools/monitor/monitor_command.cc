@@ -14,6 +14,7 @@
 #include "tools/commands/validators.h"
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
+#include "tools/monitor/run_view.h"
 #include "tools/output/output.h"
 
 namespace talus {
@@ -36,7 +37,7 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
   ReceiverProcess receiver([&address](const DatagramSender& sender) {
     const LiveLink link = open_live_link(address);
     if (!link.lcm) throw std::runtime_error(link.problem);
-    receive(*link.lcm, sender);
+    receive(*link.lcm, heard_channels, sender);
     throw std::runtime_error("LCM stopped receiving");
   });
   std::signal(SIGINT, [](int) { interrupted = true; });

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tools/monitor/run_view.h"
-
 namespace talus {
 namespace {
 
@@ -25,10 +23,10 @@ struct Forwarder {
 
 }  // namespace
 
-void receive(lcm::LCM& lcm, const DatagramSender& sender) {
+void receive(lcm::LCM& lcm, std::span<const Channel> channels, const DatagramSender& sender) {
   std::vector<Forwarder> forwarders;
-  forwarders.reserve(heard_channels.size());  // LCM keeps their addresses
-  for (const Channel channel : heard_channels) {
+  forwarders.reserve(channels.size());  // LCM keeps their addresses
+  for (const Channel channel : channels) {
     forwarders.push_back({sender, channel});
     lcm::Subscription* subscription = lcm.subscribe(name_of(channel), &Forwarder::forward, &forwarders.back());
     if (subscription == nullptr) throw std::runtime_error("LCM does not subscribe");

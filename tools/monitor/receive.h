@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "tools/monitor/receiver_process.h"
 
 namespace lcm {
@@ -8,8 +10,8 @@ class LCM;
 
 namespace talus {
 
-/// Hands all messages on the channels that a monitor hears from `lcm` to `sender`. Returns when LCM stops receiving;
-/// throws std::runtime_error when it does not begin.
-void receive(lcm::LCM& lcm, const DatagramSender& sender);
+/// Hands all messages on `channels` from `lcm` to `sender`. Returns when LCM stops receiving; throws std::runtime_error
+/// when it does not begin.
+void receive(lcm::LCM& lcm, std::span<const Channel> channels, const DatagramSender& sender);
 
 }  // namespace talus

@@ -20,30 +20,6 @@
 namespace talus {
 namespace {
 
-template <int Dim>
-Pile<Dim> pile_of(const talus_lcm::talus_pile_v1& message) {
-  Pile<Dim> pile;
-  if constexpr (Dim == 2)
-    pile.centre = {message.centre[0], message.centre[2]};
-  else
-    pile.centre = {message.centre[0], message.centre[1], message.centre[2]};
-  pile.alpha = message.alpha;
-  pile.structure_size = message.structure_size;
-  pile.lift = message.lift;
-  pile.height = message.height;
-  pile.radius = message.radius;
-  pile.merged_into = message.merged_into;
-  for (const talus_lcm::talus_layer_v1& layer : message.layers) {
-    pile.layers.push_back({.bottom = layer.bottom,
-                           .top = layer.top,
-                           .radius = layer.radius,
-                           .capacity = layer.capacity,
-                           .count = layer.count,
-                           .sleeping = layer.sleeping});
-  }
-  return pile;
-}
-
 /// Messages of a record become blocks, one for each frame of output.
 template <int Dim>
 class RecordEncoder {
@@ -109,7 +85,7 @@ class RecordEncoder {
 
   void take(const talus_lcm::talus_piles_v1& message) {
     if (message.part == 0) piles_.clear();
-    for (const talus_lcm::talus_pile_v1& pile : message.piles) piles_.push_back(pile_of<Dim>(pile));
+    for (const talus_lcm::talus_pile_v1& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
   }
 
   void take(const talus_lcm::talus_stats_v2& message) {

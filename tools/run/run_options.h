@@ -20,6 +20,7 @@ struct RunOptions {
   std::string lcm_url;                // empty: LCM_DEFAULT_URL, else LCM's own default with ttl=0
   bool telemetry = true;              // live over LCM
   double telemetry_hz = 60.0;         // pile messages a second of wall time; 0: every step
+  double bodies_hz = 30.0;            // pose messages a second of wall time; 0: none
   std::string against;                // policy to time the run against; empty: none
   bool strict = false;                // exit code 1 when the run gave a warning
   bool hash_only = false;             // print the end hash and nothing else; write no folder unless `out` is given

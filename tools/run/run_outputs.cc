@@ -93,8 +93,11 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
   info.version = version_text();
   add(std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene), simulation);
   if (options.telemetry) {
-    const PublisherParams params{.url = options.lcm_url, .piles_rate = options.telemetry_hz};
-    add(std::make_unique<Publisher<Dim>>(info, params), simulation);
+    const PublisherParams params{
+        .url = options.lcm_url, .piles_rate = options.telemetry_hz, .bodies_rate = options.bodies_hz};
+    auto publisher = std::make_unique<Publisher<Dim>>(info, params);
+    publisher->set_world(scene.world);
+    add(std::move(publisher), simulation);
   }
 #endif
   if (!scene.events.empty())

@@ -120,7 +120,7 @@ struct ViewServer::Service {
   static void on_ready(mg_connection* connection, void* data) {
     auto page = std::make_unique<WebPage>(connection);
     page->number = of(data).hub->add(*page);
-    of(data).loop->greet(page->number);
+    if (of(data).loop != nullptr) of(data).loop->greet(page->number);
     mg_set_user_connection_data(connection, page.release());
   }
 
@@ -137,7 +137,7 @@ struct ViewServer::Service {
     const std::string command = std::exchange(page->command, "");
     if (command == "shown")
       of(data).hub->acknowledge(page->number);
-    else
+    else if (of(data).loop != nullptr)
       of(data).loop->command(page->number, command);
     return 1;
   }
@@ -180,7 +180,7 @@ ViewServer::ViewServer(int port, ServedFiles files, PageHub* hub, RunLoop* loop)
   mg_set_request_handler(service_->context, "/$", Service::on_page, service_.get());
   if (!service_->files.record.empty())
     mg_set_request_handler(service_->context, "/record$", Service::on_record, service_.get());
-  if (loop != nullptr)
+  if (hub != nullptr)
     mg_set_websocket_handler(service_->context, "/stream$", Service::on_connect, Service::on_ready, Service::on_message,
                              Service::on_close, service_.get());
 }

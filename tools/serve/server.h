@@ -19,7 +19,8 @@ struct ServedFiles {
 /// so neither other users nor other pages in the same browser see or steer the run.
 class ViewServer {
  public:
-  /// `port` 0: one that is free. `hub` and `loop`: of a run; null for a record. Throws std::runtime_error where the
+  /// `port` 0: one that is free. `hub`: of a run; null for a record. `loop`: what obeys the
+  /// pages; null where they only watch. Throws std::runtime_error where the
   /// port cannot be had.
   ViewServer(int port, ServedFiles files, PageHub* hub, RunLoop* loop);
   ~ViewServer();

@@ -8,57 +8,12 @@
 #include "tools/run/backends.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/version.h"
+#include "tools/serve/state_copy.h"
 #include "tools/view/frame_stream.h"
 #include "tools/view/run_head.h"
 
 namespace talus {
 namespace {
-
-template <int Dim>
-class StreamWriter final : public BlockWriter {
- public:
-  explicit StreamWriter(const Quantum& quantum) : encoder(quantum) {}
-  FrameEncoder<Dim> encoder;
-};
-
-template <int Dim>
-class StateCopy final : public Snapshot {
- public:
-  StateCopy(const Frame<Dim>& frame, const Quantum& quantum, std::shared_ptr<const std::string> head)
-      : quantum_(quantum),
-        head_(std::move(head)),
-        step_(frame.step),
-        piles_(frame.piles.piles().begin(), frame.piles.piles().end()),
-        warnings_(frame.warnings.begin(), frame.warnings.end()),
-        kinetic_energy_(kinetic_energy(frame.world)) {
-    const BodyStates<Dim>& states = frame.world.states();
-    states_.shape = states.shape;
-    states_.pose = states.pose;
-    states_.asleep = states.asleep;
-    states_.removed = states.removed;
-  }
-
-  std::shared_ptr<const std::string> head() const override { return head_; }
-  std::int64_t step() const override { return step_; }
-  std::unique_ptr<BlockWriter> make_writer() const override { return std::make_unique<StreamWriter<Dim>>(quantum_); }
-  std::string block(BlockWriter& writer, std::span<const SleepEvent> events) const override {
-    return dynamic_cast<StreamWriter<Dim>&>(writer).encoder.encode({.step = step_,
-                                                                    .states = states_,
-                                                                    .events = events,
-                                                                    .piles = piles_,
-                                                                    .warnings = warnings_,
-                                                                    .kinetic_energy = kinetic_energy_});
-  }
-
- private:
-  Quantum quantum_;
-  std::shared_ptr<const std::string> head_;
-  std::int64_t step_;
-  BodyStates<Dim> states_;  // without velocities
-  std::vector<Pile<Dim>> piles_;
-  std::vector<Warning> warnings_;
-  double kinetic_energy_;
-};
 
 /// Keeps the events of the last step; with an observer a simulation counts piles and looks for warnings.
 template <int Dim>
@@ -85,7 +40,13 @@ class SimulatedScene final : public ShownRun {
   double dt() const override { return dt_; }
   std::span<const SleepEvent> events() const override { return events_.events; }
   std::shared_ptr<const Snapshot> snapshot() const override {
-    return std::make_shared<StateCopy<Dim>>(simulation_.frame(), quantum_, head_);
+    const Frame<Dim> frame = simulation_.frame();
+    return std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = frame.step,
+                                                           .states = frame.world.states(),
+                                                           .piles = frame.piles.piles(),
+                                                           .warnings = frame.warnings,
+                                                           .kinetic_energy = kinetic_energy(frame.world)},
+                                            quantum_, head_);
   }
 
  private:

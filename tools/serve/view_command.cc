@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 #include "tools/commands/commands.h"
@@ -10,6 +12,7 @@
 #include "tools/output/output.h"
 #ifdef TALUS_LCM
 #include "tools/record/record_stream.h"
+#include "tools/serve/live_view.h"
 #endif
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
@@ -29,6 +32,8 @@ struct ViewOptions {
   double pace = 1.0;
   int port = 0;
   double seconds = 0.0;  // 0: until Ctrl-C
+  bool live = false;
+  std::string lcm_url;
 };
 
 RunChoice choice_of(const ViewOptions& options) {
@@ -41,15 +46,18 @@ RunChoice choice_of(const ViewOptions& options) {
   return choice;
 }
 
-/// Serves until Ctrl-C, or for the time of --seconds.
-void serve(const ViewOptions& options, const ViewServer& server) {
+/// Serves until Ctrl-C, or for the time of --seconds; `work` lasts a moment and is done again and again.
+void serve(const ViewOptions& options, const ViewServer& server, const std::function<void()>& work) {
   const Interrupt interrupt;
   print_result("{}\n", server.url());
   flush_results();
   print_message("Open this address in a browser of this machine; Ctrl-C ends.");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
-  while (!interrupt.requested() && (options.seconds == 0.0 || std::chrono::steady_clock::now() < end))
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  while (!interrupt.requested() && (options.seconds == 0.0 || std::chrono::steady_clock::now() < end)) work();
+}
+
+void serve(const ViewOptions& options, const ViewServer& server) {
+  serve(options, server, [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
 }
 
 void view_scene(const ViewOptions& options) {
@@ -59,8 +67,23 @@ void view_scene(const ViewOptions& options) {
   serve(options, server);
 }
 
-void view(const ViewOptions& options) {
 #ifdef TALUS_LCM
+void view_live(const ViewOptions& options) {
+  PageHub hub;
+  LiveView live(options.lcm_url, hub);  // before the threads of the server: it forks
+  const ViewServer server(options.port, {.page = page_of_server(PageSource::run), .record = ""}, &hub, nullptr);
+  serve(options, server, [&] { live.listen(std::chrono::milliseconds(50)); });
+}
+#endif
+
+void view(const ViewOptions& options) {
+  if (options.what.empty() != options.live)
+    throw std::invalid_argument("talus view: must have either a scene or run folder to show, or --live");
+#ifdef TALUS_LCM
+  if (options.live) {
+    view_live(options);
+    return;
+  }
   if (std::filesystem::is_directory(options.what)) {
     const ViewServer server(options.port,
                             {.page = page_of_server(PageSource::record), .record = record_stream(options.what)},
@@ -74,8 +97,14 @@ void view(const ViewOptions& options) {
 
 void add_options(CLI::App& command, ViewOptions& options) {
   command.add_option("what", options.what, "Run folder, scene file, or the name of a scene that `talus list` shows")
-      ->required()
       ->check(not_empty());
+#ifdef TALUS_LCM
+  command.add_flag("--live", options.live, "Show a run of another process, as it goes on");
+  command
+      .add_option("--lcm-url", options.lcm_url,
+                  "Of --live: where to listen; else LCM_DEFAULT_URL, else this machine's runs")
+      ->check(not_empty());
+#endif
   command.add_option("-b,--backend", options.backend, "Of a scene: engine, as in `talus run`")->check(not_empty());
   command.add_option("-p,--policy", options.policy, "Of a scene: which bodies may sleep")->check(not_empty());
   command.add_option("-s,--set", options.settings, "Of a scene: replace a value, as policy.tau=0.4; may be repeated")
@@ -98,7 +127,8 @@ void add_options(CLI::App& command, ViewOptions& options) {
 }  // namespace
 
 void add_view_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("view", "Show a scene or a recorded run in the browser");
+  CLI::App* command =
+      app.add_subcommand("view", "Show a scene, a run of another process or a recorded run in the browser");
   auto options = std::make_shared<ViewOptions>();
   add_options(*command, *options);
   command->footer(

@@ -13,6 +13,7 @@ interface Status {
   policies: string[];
   ms_per_step: number;
   real_time_factor: number;
+  live?: boolean; // a run of another process, which takes no commands
 }
 
 interface Fault {
@@ -108,6 +109,7 @@ class Live implements Simulation {
 
   private showStatus(status: Status): void {
     this.status = status;
+    if (status.live) this.hideCommands();
     element("run").textContent = status.running ? "Pause" : "Run";
     const stuck = status.finished || status.reason !== "";
     for (const id of ["run", "single"]) element<HTMLButtonElement>(id).disabled = stuck;
@@ -118,6 +120,13 @@ class Live implements Simulation {
     const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time`;
     element("speed").textContent = status.reason || (status.finished ? "finished" : status.running ? speed : "paused");
     this.player?.showPlaying();
+  }
+
+  private hideCommands(): void {
+    element("scene").hidden = true;
+    document.body.classList.remove("editing");
+    for (const id of ["run", "single", "restart"]) element(id).hidden = true;
+    for (const id of ["pace", "policy"]) element(id).parentElement!.hidden = true;
   }
 
   private showErrors(errors: Fault[]): void {

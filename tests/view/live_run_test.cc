@@ -1,0 +1,143 @@
+// A run of another process, put together from its messages for the pages.
+
+#ifdef TALUS_LCM
+
+#include "tools/serve/live_run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <lcm/lcm-cpp.hpp>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "lcmtypes/publisher.h"
+#include "tests/lcmtypes/still_run.h"
+
+namespace talus::live_run_test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// What a page is sent.
+class Socket final : public PageSocket {
+ public:
+  bool send_text(std::string_view text) override {
+    const std::lock_guard lock(mutex_);
+    texts_.push_back(Json::parse(text));
+    changed_.notify_all();
+    return true;
+  }
+  bool send_bytes(std::string_view bytes) override {
+    const std::lock_guard lock(mutex_);
+    blocks_.emplace_back(bytes);
+    changed_.notify_all();
+    return true;
+  }
+
+  /// The last text of a kind for which `holds`, within five seconds; else null.
+  template <class Holds>
+  Json text(const std::string& kind, const Holds& holds) {
+    std::unique_lock lock(mutex_);
+    Json found;
+    changed_.wait_for(lock, std::chrono::seconds(5), [&] {
+      const auto is_wanted = [&](const Json& text) { return text["kind"] == kind && holds(text); };
+      const auto last = std::find_if(texts_.rbegin(), texts_.rend(), is_wanted);
+      if (last != texts_.rend()) found = *last;
+      return last != texts_.rend();
+    });
+    return found;
+  }
+  bool has_block() {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(5), [&] { return !blocks_.empty(); });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Json> texts_;
+  std::vector<std::string> blocks_;
+};
+
+/// The messages of a run of so many steps.
+template <int Dim>
+std::vector<Datagram> messages_of_a_run(int steps) {
+  struct Ear {
+    std::vector<Datagram> heard;
+    void hear(const lcm::ReceiveBuffer* buffer, const std::string& name) {
+      const auto channel = std::find(channel_names.begin(), channel_names.end(), name) - channel_names.begin();
+      const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
+      heard.push_back({static_cast<Channel>(channel), {bytes, bytes + buffer->data_size}});
+    }
+  } ear;
+  lcm::LCM lcm("memq://");
+  lcm.subscribe("TALUS_.*", &Ear::hear, &ear);
+  const Scene<Dim> scene = still_scene<Dim>();
+  Publisher<Dim> publisher(run_info(scene, "still", "none"), {.piles_rate = 0.0, .bodies_rate = 1000.0}, lcm);
+  publisher.set_world(scene.world);
+  const auto run = still_run<Dim>(scene, 12);
+  run->add_observer(publisher);
+  for (int step = 0; step < steps; ++step) run->step();
+  run->end("finished");
+  while (lcm.handleTimeout(50) > 0) {
+  }
+  return ear.heard;
+}
+
+template <int Dim>
+void expect_shown() {
+  PageHub hub;
+  Socket socket;
+  LiveRun live(hub, "waiting for a run on nowhere");
+  hub.add(socket);
+  const auto any = [](const Json&) { return true; };
+  EXPECT_EQ(socket.text("status", any)["reason"], "waiting for a run on nowhere");
+  const std::vector<Datagram> messages = messages_of_a_run<Dim>(40);
+  for (const Datagram& message : messages) live.hear(message);
+  EXPECT_EQ(live.undecodable(), 0);
+  const Json head = socket.text("head", any);
+  ASSERT_FALSE(head.is_null());
+  EXPECT_EQ(head["title"], "still");
+  EXPECT_EQ(head["dimension"], Dim);
+  EXPECT_EQ(head["shapes"].size(), 2U);
+  EXPECT_EQ(head["obstacles"][0]["pose"][0], 7.0);
+  EXPECT_TRUE(socket.has_block());
+  const Json end = socket.text("status", [](const Json& status) { return status["finished"].get<bool>(); });
+  EXPECT_EQ(end["live"], true);
+  EXPECT_EQ(end["running"], false);
+}
+
+TEST(LiveRun, ShowsPagesTheShapesStatesAndEndOfARun) {
+  expect_shown<2>();
+  expect_shown<3>();
+}
+
+TEST(LiveRun, StartsLateWithTheShapesThatAreSentAgain) {
+  PageHub hub;
+  Socket socket;
+  LiveRun live(hub, "waiting");
+  hub.add(socket);
+  const std::vector<Datagram> messages = messages_of_a_run<3>(40);
+  // Who comes late has the identity of the run and what is sent at its end.
+  live.hear(messages.front());
+  for (std::size_t i = messages.size() / 2; i < messages.size(); ++i) live.hear(messages[i]);
+  EXPECT_TRUE(socket.has_block());
+}
+
+TEST(LiveRun, LeavesOutWhatIsDamaged) {
+  PageHub hub;
+  LiveRun live(hub, "waiting");
+  std::vector<Datagram> messages = messages_of_a_run<2>(40);
+  for (Datagram& message : messages) {
+    message.bytes[message.bytes.size() / 2] ^= 1;
+    live.hear(message);
+  }
+  EXPECT_EQ(live.undecodable(), static_cast<std::int64_t>(messages.size()));
+}
+
+}  // namespace
+}  // namespace talus::live_run_test
+
+#endif

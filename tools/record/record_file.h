@@ -1,0 +1,31 @@
+#pragma once
+// The file of a record, message by message.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "lcmtypes/log_reader.h"
+
+namespace talus {
+
+/// The log of a run folder, or the path itself where it is a file. Throws std::invalid_argument where it is neither.
+std::filesystem::path record_file(const std::filesystem::path& run);
+
+/// What every message begins with.
+struct MessageHeader {
+  std::int64_t step = 0;
+  double time = 0.0;  // [s] simulated
+  std::int64_t seq = 0;
+};
+/// Of an event on one of our channels.
+MessageHeader header_of(const LogEvent& event);
+
+/// Whether the event is on one of the channels of a run.
+bool is_of_run(const LogEvent& event);
+
+/// All fields of a message of a run; null where it is of no type that this version has.
+nlohmann::ordered_json message_json(const LogEvent& event);
+
+}  // namespace talus

@@ -1,0 +1,235 @@
+#include "tools/serve/live_run.h"
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/text/printable.h"
+#include "lcmtypes/decode.h"
+#include "lcmtypes/run_info.h"
+#include "lcmtypes/translate.h"
+#include "tools/monitor/sequence_tracker.h"
+#include "tools/picture/framing.h"
+#include "tools/record/state_reader.h"
+#include "tools/report/json_text.h"
+#include "tools/serve/state_copy.h"
+#include "tools/view/run_head.h"
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_run_v1;
+using talus_lcm::talus_shapes_v1;
+using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_stats_v2;
+
+constexpr int most_live_bodies = 1'000'000;  // bounds what a forged message costs
+constexpr auto silence = std::chrono::seconds(2);
+
+Json status_json(const std::string& reason, bool finished, const std::string& policy, double ms, double factor) {
+  return {{"kind", "status"},          {"live", true},         {"running", !finished && reason.empty()},
+          {"finished", finished},      {"reason", reason},     {"pace", 0},
+          {"policy", policy},          {"policies", {policy}}, {"ms_per_step", ms},
+          {"real_time_factor", factor}};
+}
+
+}  // namespace
+
+/// What has been heard of the run that is followed.
+class LiveRun::Assembly {
+ public:
+  Assembly(const talus_run_v1& run, PageHub& hub) : run_(run), hub_(hub) {}
+  virtual ~Assembly() = default;
+
+  bool is_of(std::int64_t run_id) const { return run_.run_id == run_id; }
+  bool ended() const { return run_.phase == talus_run_v1::END; }
+
+  void take(const talus_run_v1& message) {
+    run_ = message;
+    show_status();
+  }
+  void take(const talus_stats_v2& message) {
+    stats_ = message;
+    warnings_ = warnings_of(message);
+    show_status();
+  }
+  void take(const talus_sleep_v1& message) {
+    std::vector<SleepEvent> events;
+    for (std::size_t i = 0; i < message.body.size(); ++i) {
+      if (message.body[i] >= most_live_bodies) continue;
+      note_event(message.body[i]);
+      events.push_back({.step = message.step,
+                        .body = message.body[i],
+                        .pile = message.pile[i],
+                        .layer = message.layer[i],
+                        .woke = message.woke[i] != 0,
+                        .cause = static_cast<SleepCause>(message.cause[i]),
+                        .score = message.score[i]});
+    }
+    hub_.add_events(events);
+  }
+  virtual void take(const talus_shapes_v1& message) = 0;
+  virtual void take(const talus_piles_v1& message) = 0;
+  virtual void take(const talus_bodies_v1& message) = 0;
+
+ protected:
+  virtual void note_event(BodyIndex body) = 0;
+
+  void show_status() {
+    const std::string reason = ended() && run_.reason != "finished" ? printable(run_.reason) : "";
+    hub_.set_status(json_text(status_json(reason, ended(), printable(run_.policy), stats_.ms_step,
+                                          stats_.timed != 0 ? stats_.real_time_factor : 0.0)));
+  }
+
+  talus_run_v1 run_;
+  talus_stats_v2 stats_{};
+  std::vector<Warning> warnings_;
+  PageHub& hub_;
+};
+
+namespace {
+
+template <int Dim>
+class AssemblyOf final : public LiveRun::Assembly {
+ public:
+  using Assembly::Assembly;
+
+  /// A shape that is not known yet begins the picture again. Obstacles stay where they were at first.
+  void take(const talus_shapes_v1& message) override {
+    if (message.dimension != Dim) return;
+    auto& known = message.obstacle != 0 ? obstacles_ : shapes_;
+    const auto before = known.find(message.index);
+    const bool news = before == known.end() || before->second.values != message.values;
+    known[message.index] = message;
+    if (news) head_.reset();
+  }
+
+  void take(const talus_piles_v1& message) override {
+    if (message.part == 0) piles_.clear();
+    for (const talus_lcm::talus_pile_v1& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
+  }
+
+  void take(const talus_bodies_v1& message) override {
+    if (!states_ && !all_shapes()) return;
+    if (!states_) states_.emplace(most_live_bodies, shapes_.begin()->second.total);
+    if (!states_->take(message)) return;
+    const bool first = head_ == nullptr;
+    if (first && !begin()) return;
+    auto snapshot = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = states_->step(),
+                                                                    .states = states_->states(),
+                                                                    .piles = piles_,
+                                                                    .warnings = warnings_,
+                                                                    .kinetic_energy = stats_.kinetic_energy},
+                                                     quantum_, head_);
+    if (first)
+      hub_.begin(std::move(snapshot));
+    else
+      hub_.publish(std::move(snapshot));
+  }
+
+ private:
+  void note_event(BodyIndex body) override {
+    if (states_) states_->note_event(body);
+  }
+
+  static bool complete(const std::map<int, talus_shapes_v1>& known) {
+    return known.empty() || static_cast<int>(known.size()) == known.begin()->second.total;
+  }
+  bool all_shapes() const { return !shapes_.empty() && complete(shapes_) && complete(obstacles_); }
+
+  /// Makes the head; false where shapes are missing still.
+  bool begin() {
+    if (!all_shapes()) return false;
+    Scene<Dim> scene;
+    scene.title = printable(run_.scene);
+    scene.seed = static_cast<std::uint64_t>(run_.seed);
+    scene.world.dt = run_.dt;
+    scene.world.gravity = run_.gravity;
+    scene.world.ground.present = run_.ground != 0;
+    scene.world.ground.height = run_.ground_height;
+    for (const auto& [index, message] : shapes_) scene.world.shapes.push_back(to_shape<Dim>(message));
+    for (const auto& [index, message] : obstacles_)
+      scene.world.obstacles.push_back({to_shape<Dim>(message), pose_of<Dim>(message)});
+    quantum_ = quantum_of(scene);
+    const PictureInput<Dim> now = {
+        scene.world.shapes, states_->states(), piles_, scene.world.obstacles, scene.world.ground, "", ""};
+    const RunTexts texts = {.name = short_id(run_.run_id),
+                            .backend = printable(run_.backend),
+                            .policy = printable(run_.policy),
+                            .version = printable(run_.version),
+                            .seed = scene.seed};
+    Json head = run_head(scene, texts, quantum_, framing_of(now).box);
+    head["kind"] = "head";
+    head["steps"] = run_.steps;
+    head_ = std::make_shared<std::string>(json_text(head));
+    return true;
+  }
+
+  std::map<int, talus_shapes_v1> shapes_;     // by index
+  std::map<int, talus_shapes_v1> obstacles_;  // by index
+  std::vector<Pile<Dim>> piles_;
+  std::optional<StateReader<Dim>> states_;  // once the shapes are known
+  Quantum quantum_;
+  std::shared_ptr<const std::string> head_;
+};
+
+std::unique_ptr<LiveRun::Assembly> assemble(const talus_run_v1& run, PageHub& hub) {
+  if (run.dimension == 2) return std::make_unique<AssemblyOf<2>>(run, hub);
+  return std::make_unique<AssemblyOf<3>>(run, hub);
+}
+
+}  // namespace
+
+LiveRun::LiveRun(PageHub& hub, const std::string& waiting) : hub_(hub) {
+  hub_.set_status(json_text(status_json(waiting, false, "", 0.0, 0.0)));
+}
+
+LiveRun::~LiveRun() = default;
+
+template <class Message>
+void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
+  Message message;
+  if (!decode<Message>(datagram.bytes, message).empty()) {
+    ++undecodable_;
+    return;
+  }
+  const bool followed = assembly_ != nullptr && assembly_->is_of(message.run_id);
+  if constexpr (std::is_same_v<Message, talus_run_v1>) {
+    const bool free = assembly_ == nullptr || assembly_->ended() || now - heard_ > silence;
+    if (!followed && free && message.phase != talus_run_v1::END) assembly_ = assemble(message, hub_);
+  }
+  if (assembly_ == nullptr || !assembly_->is_of(message.run_id)) return;
+  heard_ = now;
+  try {
+    assembly_->take(message);
+  } catch (const std::invalid_argument&) {  // a body of a shape that is not there, a shape without a volume
+    ++undecodable_;
+  }
+}
+
+void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
+  switch (datagram.channel) {
+    case Channel::run:
+      return hear<talus_run_v1>(datagram, now);
+    case Channel::piles:
+      return hear<talus_piles_v1>(datagram, now);
+    case Channel::sleep:
+      return hear<talus_sleep_v1>(datagram, now);
+    case Channel::stats:
+      return hear<talus_stats_v2>(datagram, now);
+    case Channel::bodies:
+      return hear<talus_bodies_v1>(datagram, now);
+    case Channel::shapes:
+      return hear<talus_shapes_v1>(datagram, now);
+  }
+}
+
+}  // namespace talus

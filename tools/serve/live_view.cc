@@ -1,0 +1,49 @@
+#include "tools/serve/live_view.h"
+
+#include <algorithm>
+#include <array>
+#include <lcm/lcm-cpp.hpp>
+#include <stdexcept>
+
+#include "common/text/printable.h"
+#include "lcmtypes/live_link.h"
+#include "tools/monitor/receive.h"
+
+namespace talus {
+namespace {
+
+constexpr std::array shown_channels = {Channel::run,   Channel::piles,  Channel::sleep,
+                                       Channel::stats, Channel::bodies, Channel::shapes};
+
+/// The address to receive at, once it is known to work.
+std::string working_address(const std::string& url) {
+  check_url(url);
+  std::string address = receiving_url(url);
+  if (const LiveLink link = open_live_link(address); !link.lcm) throw std::runtime_error(link.problem);
+  return address;
+}
+
+ReceiverProcess::Body receive_at(const std::string& address) {
+  return [address](const DatagramSender& sender) {
+    const LiveLink link = open_live_link(address);
+    if (!link.lcm) throw std::runtime_error(link.problem);
+    receive(*link.lcm, shown_channels, sender);
+    throw std::runtime_error("LCM stopped receiving");
+  };
+}
+
+}  // namespace
+
+LiveView::LiveView(const std::string& url, PageHub& hub)
+    : receiver_(receive_at(working_address(url))), run_(hub, "waiting for a run on " + printable(effective_url(url))) {}
+
+void LiveView::listen(std::chrono::milliseconds time) {
+  using Clock = ReceiverProcess::Clock;
+  const auto end = Clock::now() + time;
+  for (auto now = Clock::now(); now < end; now = Clock::now()) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - now);
+    if (const auto datagram = receiver_.next(std::max(left, std::chrono::milliseconds(1)))) run_.hear(*datagram, now);
+  }
+}
+
+}  // namespace talus

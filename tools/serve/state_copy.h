@@ -1,0 +1,60 @@
+#pragma once
+// A state in memory of its own, as pages are sent it.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/serve/shown_run.h"
+#include "tools/view/frame_stream.h"
+
+namespace talus {
+
+template <int Dim>
+class StreamWriter final : public BlockWriter {
+ public:
+  explicit StreamWriter(const Quantum& quantum) : encoder(quantum) {}
+  FrameEncoder<Dim> encoder;
+};
+
+template <int Dim>
+class StateCopy final : public Snapshot {
+ public:
+  /// Copies all of `frame` but its events.
+  StateCopy(const ViewFrame<Dim>& frame, const Quantum& quantum, std::shared_ptr<const std::string> head)
+      : quantum_(quantum),
+        head_(std::move(head)),
+        step_(frame.step),
+        piles_(frame.piles.begin(), frame.piles.end()),
+        warnings_(frame.warnings.begin(), frame.warnings.end()),
+        kinetic_energy_(frame.kinetic_energy) {
+    states_.shape = frame.states.shape;
+    states_.pose = frame.states.pose;
+    states_.asleep = frame.states.asleep;
+    states_.removed = frame.states.removed;
+  }
+
+  std::shared_ptr<const std::string> head() const override { return head_; }
+  std::int64_t step() const override { return step_; }
+  std::unique_ptr<BlockWriter> make_writer() const override { return std::make_unique<StreamWriter<Dim>>(quantum_); }
+  std::string block(BlockWriter& writer, std::span<const SleepEvent> events) const override {
+    return dynamic_cast<StreamWriter<Dim>&>(writer).encoder.encode({.step = step_,
+                                                                    .states = states_,
+                                                                    .events = events,
+                                                                    .piles = piles_,
+                                                                    .warnings = warnings_,
+                                                                    .kinetic_energy = kinetic_energy_});
+  }
+
+ private:
+  Quantum quantum_;
+  std::shared_ptr<const std::string> head_;
+  std::int64_t step_;
+  BodyStates<Dim> states_;  // without velocities
+  std::vector<Pile<Dim>> piles_;
+  std::vector<Warning> warnings_;
+  double kinetic_energy_;
+};
+
+}  // namespace talus
