@@ -190,12 +190,12 @@ TYPED_TEST(Door, LetsInNoExtremeNumberThatTheEngineCannotRun) { try_each_number<
 TYPED_TEST(LongDoor, LetsInNoNumberThatTheEngineCannotRun) { try_each_number<TypeParam>(many); }
 
 TYPED_TEST(Door, IsTriedWithEveryNumberThatTheReaderLooksFor) {
-  const std::set<std::string> no_numbers = {"count_flying",  "kind",    "orientation", "control_slope",
-                                            "warm_friction", "present", "floor",       "shape",
-                                            "title",         "fixed",   "asleep",      "until"};
+  const std::set<std::string> no_numbers = {"count_flying", "kind",  "orientation", "control_slope", "warm_friction",
+                                            "present",      "floor", "shape",       "title",         "fixed",
+                                            "asleep",       "until", "include",     "name"};
   const std::set<std::string> tables = {
-      "world",    "world.solver", "ground",          "policy", "policy.adaptive",  "run", "debug", "source",
-      "obstacle", "pile",         "pile[].boundary", "body",   "obstacle[].motion"};
+      "world",    "world.solver", "ground",          "policy", "policy.adaptive",   "run",   "debug",         "source",
+      "obstacle", "pile",         "pile[].boundary", "body",   "obstacle[].motion", "event", "source[].scale"};
   std::set<std::string> tried;
   std::set<std::string> known;
   for (const FullScene& full : full_scenes<TypeParam::dim>()) {
