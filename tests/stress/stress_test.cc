@@ -95,6 +95,14 @@ TEST(StressAdvice, NamesTheCheapestSettingThatSufficesAndWhatTheScenesOwnWastes)
   EXPECT_NE(advice(rows, 0.001).find("No setting suffices"), std::string::npos);
 }
 
+TEST(StressAdvice, ADifferenceThatChanceExplainsLeavesTheVerdictOpen) {
+  AdviceRow row = setting(60, 10, 0.2, 1.0);
+  EXPECT_FALSE(row.is_open(0.1));
+  row.centre_error = 0.1;
+  EXPECT_TRUE(row.is_open(0.1));
+  EXPECT_FALSE(row.suffices(0.1));
+}
+
 TEST(StressAdvice, ASettingWithAWarningDoesNotSuffice) {
   AdviceRow row = setting(60, 10, 0.0, 1.0);
   EXPECT_TRUE(row.suffices(0.05));

@@ -157,7 +157,10 @@ Table advice_table(const std::vector<AdviceRow>& rows, double tolerance) {
                           fmt::format("{:.3f} ± {:.3f}", row.r50_off, row.r50_error),
                           fmt::format("{:.3f}", row.overlap), std::to_string(row.warnings),
                           fmt::format("{:.3g}", row.seconds),
-                          fmt::format("{}{}", row.suffices(tolerance) ? "suffices" : "does not suffice",
+                          fmt::format("{}{}",
+                                      row.suffices(tolerance)  ? "suffices"
+                                      : row.is_open(tolerance) ? "open"
+                                                               : "does not suffice",
                                       row.own ? ", the scene's own" : "")});
   }
   return table;
@@ -188,11 +191,20 @@ void advise_on(const Scene<Dim>& scene, const AdviceOptions& options) {
 
 }  // namespace
 
-bool AdviceRow::suffices(double tolerance) const {
-  const auto within = [&](double off, double error) { return std::abs(off) <= std::max(tolerance, 2.0 * error); };
-  return !failed && warnings == 0 && within(centre_off, centre_error) && within(r50_off, r50_error) &&
-         overlap <= tolerance;
+namespace {
+
+/// Whether nothing went wrong and heights and radii lie within the tolerance and so many standard errors.
+bool lies_within(const AdviceRow& row, double tolerance, double errors) {
+  return !row.failed && row.warnings == 0 && row.overlap <= tolerance &&
+         std::abs(row.centre_off) <= tolerance + errors * row.centre_error &&
+         std::abs(row.r50_off) <= tolerance + errors * row.r50_error;
 }
+
+}  // namespace
+
+bool AdviceRow::suffices(double tolerance) const { return lies_within(*this, tolerance, 0.0); }
+
+bool AdviceRow::is_open(double tolerance) const { return !suffices(tolerance) && lies_within(*this, tolerance, 2.0); }
 
 std::string advice(const std::vector<AdviceRow>& rows, double tolerance) {
   const AdviceRow* cheapest = nullptr;
@@ -211,7 +223,9 @@ std::string advice(const std::vector<AdviceRow>& rows, double tolerance) {
         tolerance);
   text = fmt::format("Cheapest that suffices for {:g} D: {}.", tolerance, setting_text(*cheapest));
   if (own != nullptr && own != cheapest)
-    if (!own->suffices(tolerance))
+    if (own->is_open(tolerance))
+      text += fmt::format(" Whether the scene's own, {}, suffice is open.", setting_text(*own));
+    else if (!own->suffices(tolerance))
       text += fmt::format(" The scene's own, {}, do not suffice.", setting_text(*own));
     else
       text += fmt::format(" The scene's own, {}, take {:.2g} times its time.", setting_text(*own),

@@ -36,6 +36,8 @@ struct AdviceRow {
 
   /// Whether the measures lie within the tolerance, and nothing went wrong.
   bool suffices(double tolerance) const;
+  /// Whether they lie beyond it by no more than chance explains: within two standard errors of it.
+  bool is_open(double tolerance) const;
 };
 
 /// The closing sentences: the cheapest setting that suffices, and what the scene's own is compared with it.
