@@ -55,7 +55,7 @@ void append_common(std::string& bytes, std::uint32_t crc, std::size_t name_lengt
 
 }  // namespace
 
-int NpzFile::declare(std::string_view name, std::string_view type, std::vector<std::uint64_t> shape) {
+int NpzFile::declare(std::string_view name, std::string_view type, const std::vector<std::uint64_t>& shape) {
   Member member;
   member.name = std::string(name) + ".npy";
   member.header = npy_header(type, shape);

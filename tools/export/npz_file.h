@@ -18,7 +18,7 @@ class NpzFile {
 
   /// Adds an array of so many rows in C order. `type` is of NumPy: "<f4" or
   /// "|i1" or "|S20". Returns its number.
-  int declare(std::string_view name, std::string_view type, std::vector<std::uint64_t> shape);
+  int declare(std::string_view name, std::string_view type, const std::vector<std::uint64_t>& shape);
 
   /// The next bytes of an array.
   void append(int array, std::string_view bytes);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/export/exporter.h"
 #include "tools/export/output_file.h"
@@ -48,7 +49,7 @@ class PlyExport final : public Exporter<Dim> {
         const Vec3 at = pose * corner;
         for (int axis = 0; axis < 3; ++axis) append_bytes(vertices_, static_cast<float>(at[axis]));
         for (const double part : {colour.red, colour.green, colour.blue})
-          vertices_ += static_cast<char>(std::clamp(static_cast<int>(part * 255.0 + 0.5), 0, 255));
+          vertices_ += static_cast<char>(std::clamp(std::lround(255.0 * part), 0L, 255L));
         append_bytes(faces_, static_cast<std::int32_t>(vertex_count_++));
       }
       append_bytes(faces_, static_cast<std::int32_t>(body));
