@@ -54,7 +54,7 @@ void RollingSolver::convertContacts(btPersistentManifold** manifolds, int count,
 }
 
 void RollingSolver::add(const btPersistentManifold& manifold, int contact) {
-  const btScalar arm = static_cast<btScalar>(arm_of_pair(arm_of(*manifold.getBody0()), arm_of(*manifold.getBody1())));
+  const auto arm = static_cast<btScalar>(arm_of_pair(arm_of(*manifold.getBody0()), arm_of(*manifold.getBody1())));
   if (arm == 0) return;
   const std::uint64_t pair = key_of(*manifold.getBody0(), *manifold.getBody1());
   const auto [place, is_new] = row_of_.try_emplace(pair, rows_.size());

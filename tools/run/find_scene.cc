@@ -34,7 +34,7 @@ fs::path find_scene(const std::string& scene) {
     if (file.stem() == scene) return file;
     names.push_back(file.stem());
   }
-  const fs::path below = scene_folder() / (scene + ".toml");  // as public/hopper_2d
+  fs::path below = scene_folder() / (scene + ".toml");  // as public/hopper_2d
   if (fs::is_regular_file(below, error)) return below;
   const std::string nearest = nearest_name(scene, names);
   throw std::invalid_argument(fmt::format("scene = {}: must be a file or the name of a scene that `talus list` shows{}",

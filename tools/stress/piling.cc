@@ -338,10 +338,7 @@ void add_metamorphic_cases(std::vector<StressCase>& cases) {
                            Scaled{}));
 }
 
-}  // namespace
-
-std::vector<StressCase> piling_cases() {
-  std::vector<StressCase> cases;
+void add_lost_support_cases(std::vector<StressCase>& cases) {
   const StressGate none_hangs = {"bodies that did not fall", "", 0.0, 0.0, "nothing carries them"};
   for (const int every : {1, 2}) {
     StressCase pulled = piling(every == 1 ? "row-pulled" : "bodies-pulled",
@@ -356,6 +353,13 @@ std::vector<StressCase> piling_cases() {
   cases.push_back(
       measured(piling("trapdoor", "36 boxes at rest in a bin whose floor slides away", {none_hangs, none_floats}, true),
                Trapdoor{}));
+}
+
+}  // namespace
+
+std::vector<StressCase> piling_cases() {
+  std::vector<StressCase> cases;
+  add_lost_support_cases(cases);
   cases.push_back(measured(piling("heavy-ball", "a ball of ten cubes' mass at 50 m/s into a sleeping wall of 4 by 5",
                                   {{"ways of the cubes, up to 1 m each, less those without sleep", "m", 0.0, 3.0,
                                     "a sleeping wall is no rock; three cubes of twenty for chaos"}},
