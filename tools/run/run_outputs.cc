@@ -129,7 +129,9 @@ template class RunOutputs<3>;
 /// What is known of the error that sleep has caused.
 template <int Dim>
 void print_estimate(const Simulation<Dim>& simulation, const AdaptiveParams& params) {
-  if (params.tolerance <= 0.0) return;
+  const auto& asleep = simulation.world().states().asleep;
+  const bool any_asleep = std::ranges::any_of(asleep, [](std::uint8_t is_asleep) { return is_asleep != 0; });
+  if (params.tolerance <= 0.0 || !any_asleep) return;
   const std::optional<DriftEstimate> estimate = simulation.drift_estimate();
   if (!estimate) {
     print_result("  no stability check yet: the error of the sleeping bodies is not known\n");
