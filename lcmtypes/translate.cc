@@ -155,6 +155,21 @@ std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
   return numbered(std::move(messages));
 }
 
+std::vector<SleepEvent> events_of(const talus_sleep_v1& message) {
+  std::vector<SleepEvent> events;
+  events.reserve(message.body.size());
+  for (std::size_t i = 0; i < message.body.size(); ++i) {
+    events.push_back({.step = message.step,
+                      .body = message.body[i],
+                      .pile = message.pile[i],
+                      .layer = message.layer[i],
+                      .woke = message.woke[i] != 0,
+                      .cause = static_cast<SleepCause>(message.cause[i]),
+                      .score = message.score[i]});
+  }
+  return events;
+}
+
 template <int Dim>
 talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();

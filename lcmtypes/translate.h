@@ -29,6 +29,9 @@ std::vector<talus_lcm::talus_sleep_v1> to_sleep(std::span<const SleepEvent> even
 template <int Dim>
 talus_lcm::talus_stats_v2 to_stats(const Frame<Dim>& frame);
 
+/// The events of a message that has passed decode().
+std::vector<SleepEvent> events_of(const talus_lcm::talus_sleep_v1& message);
+
 /// The warnings of a message.
 std::vector<Warning> warnings_of(const talus_lcm::talus_stats_v2& message);
 

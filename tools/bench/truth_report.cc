@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "common/measure/ensemble.h"
+#include "common/text/base64.h"
 #include "tools/output/output.h"
 #include "tools/picture/contact_sheet.h"
 #include "tools/report/json_text.h"
@@ -178,18 +179,6 @@ std::string in_short(const std::vector<TruthRow>& rows) {
 std::string file_bytes(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k < bytes.size() + 1 ? digits[three >> (18U - 6U * k) & 63U] : '=';
-  }
-  return text;
 }
 
 /// A PNG as a drawing; the size stands in the bytes 16 to 23 of the file.

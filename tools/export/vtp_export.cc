@@ -1,23 +1,12 @@
 #include <fmt/format.h>
 
+#include "common/text/base64.h"
 #include "tools/export/exporter.h"
 #include "tools/export/output_file.h"
 #include "tools/export/solid.h"
 
 namespace talus {
 namespace {
-
-std::string base64_text(std::string_view bytes) {
-  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8U | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : letters[group >> (18U - 6U * k) & 63U];
-  }
-  return text;
-}
 
 /// An array of VTK's XML: its length in bytes, then the bytes.
 std::string data_array(std::string_view type, std::string_view name, int components, std::string_view bytes) {
@@ -26,7 +15,7 @@ std::string data_array(std::string_view type, std::string_view name, int compone
   block += bytes;
   return fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">{}</DataArray>)"
                      "\n",
-                     type, name, components, base64_text(block));
+                     type, name, components, base64(block));
 }
 
 std::string vtk_file(std::string_view piece) {

@@ -71,15 +71,9 @@ class RecordEncoder {
   }
 
   void take(const talus_lcm::talus_sleep_v1& message) {
-    for (std::size_t i = 0; i < message.body.size(); ++i) {
-      states_.note_event(message.body[i]);
-      events_.push_back({.step = message.step,
-                         .body = message.body[i],
-                         .pile = message.pile[i],
-                         .layer = message.layer[i],
-                         .woke = message.woke[i] != 0,
-                         .cause = static_cast<SleepCause>(message.cause[i]),
-                         .score = message.score[i]});
+    for (const SleepEvent& event : events_of(message)) {
+      states_.note_event(event.body);
+      events_.push_back(event);
     }
   }
 

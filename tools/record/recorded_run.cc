@@ -9,6 +9,7 @@
 
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
+#include "lcmtypes/translate.h"
 #include "tools/monitor/sequence_tracker.h"
 #include "tools/record/state_reader.h"
 
@@ -67,15 +68,9 @@ class RunReader {
     const std::int64_t lost_before = sleep_numbers_.lost();
     sleep_numbers_.see(message.seq);
     if (sleep_numbers_.lost() > lost_before) states_.note_lost_events();
-    for (const BodyIndex body : message.body) states_.note_event(body);
-    for (std::size_t i = 0; i < message.body.size(); ++i) {
-      run_.events.push_back({.step = message.step,
-                             .body = message.body[i],
-                             .pile = message.pile[i],
-                             .layer = message.layer[i],
-                             .woke = message.woke[i] != 0,
-                             .cause = static_cast<SleepCause>(message.cause[i]),
-                             .score = message.score[i]});
+    for (const SleepEvent& event : events_of(message)) {
+      states_.note_event(event.body);
+      run_.events.push_back(event);
     }
   }
 

@@ -62,18 +62,9 @@ class LiveRun::Assembly {
     show_status();
   }
   void take(const talus_sleep_v1& message) {
-    std::vector<SleepEvent> events;
-    for (std::size_t i = 0; i < message.body.size(); ++i) {
-      if (message.body[i] >= most_live_bodies) continue;
-      note_event(message.body[i]);
-      events.push_back({.step = message.step,
-                        .body = message.body[i],
-                        .pile = message.pile[i],
-                        .layer = message.layer[i],
-                        .woke = message.woke[i] != 0,
-                        .cause = static_cast<SleepCause>(message.cause[i]),
-                        .score = message.score[i]});
-    }
+    std::vector<SleepEvent> events = events_of(message);
+    std::erase_if(events, [](const SleepEvent& event) { return event.body >= most_live_bodies; });
+    for (const SleepEvent& event : events) note_event(event.body);
     hub_.add_events(events);
   }
   virtual void take(const talus_shapes_v1& message) = 0;
