@@ -52,9 +52,14 @@ void PileSet<Dim>::place(const Vec<Dim>& landing, const BodyStates<Dim>& states)
 template <int Dim>
 void PileSet<Dim>::note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states) {
   has_touched_.resize(states.shape.size(), 0);
+  const auto note = [&](BodyIndex body) {
+    if (body < 0 || has_touched_[body] != 0) return;
+    has_touched_[body] = 1;
+    if (states.asleep[body] != 0) recount_body(states, body);  // update() recounts the awake bodies only
+  };
   for (const Contact<Dim>& contact : contacts) {
-    has_touched_[contact.a] = 1;
-    if (contact.b >= 0) has_touched_[contact.b] = 1;
+    note(contact.a);
+    note(contact.b);
   }
 }
 

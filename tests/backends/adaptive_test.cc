@@ -64,7 +64,7 @@ TYPED_TEST(AdaptiveTest, AStackAtRestFallsAsleepAndNothingWakesIt) {
   EXPECT_EQ(this->steps(simulation, 300), 0);
 }
 
-TYPED_TEST(AdaptiveTest, ALoadLaidDownGentlyWakesNobody) {
+TYPED_TEST(AdaptiveTest, ALoadLaidDownGentlyWakesNoBody) {
   Simulation<TypeParam::dim> simulation = this->stack();
   const double top = this->height_of(simulation.world(), 2) + 1.02;  // clear of the skins
   simulation.add(this->at(up<TypeParam::dim>(top)));
@@ -150,7 +150,7 @@ TYPED_TEST(AdaptiveTest, ABodyOnASteepSlopeSlidesOnceWhatHeldItIsTakenAway) {
   EXPECT_NEAR((this->pose(simulation.world(), 1).position - held).norm(), 0.5, 0.1);
 }
 
-TYPED_TEST(AdaptiveTest, APouredPileIsAllAsleepSoonAfterTheLastBodyStopsAndNobodyHangs) {
+TYPED_TEST(AdaptiveTest, APouredPileIsAllAsleepSoonAfterTheLastBodyStopsAndNoBodyHangs) {
   constexpr int dim = TypeParam::dim;
   const Scene<dim> poured = this->pour(40);
   Simulation<dim> simulation = this->simulate(poured);

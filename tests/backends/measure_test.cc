@@ -95,7 +95,7 @@ TYPED_TEST(MeasureTest, FindsTheContactsThatTheEngineHasAndTheirDepths) {
   EXPECT_LT(differences / both, 1e-3);
 }
 
-TYPED_TEST(MeasureTest, FindsNobodyFloatingInAHeapThatWasFrozenAtRest) {
+TYPED_TEST(MeasureTest, FindsNoBodyFloatingInAHeapThatWasFrozenAtRest) {
   const auto world = TestFixture::heap();
   const std::vector<BodyIndex> everybody(world->awake().begin(), world->awake().end());
   world->freeze(everybody);

@@ -20,7 +20,7 @@ TEST(Trajectory, KeepsPosesAsTheEnginesHaveThemInSinglePrecision) {
   EXPECT_EQ(run.step(0), 2);
 }
 
-TEST(Trajectory, KnowsWhoIsNotYetOrNoLongerThere) {
+TEST(Trajectory, KnowsWhichBodiesAreNotYetOrNoLongerThere) {
   Trajectory<2> run(0.01);
   run.append(states_at<2>({{0, 0}}), 1);
   run.append(states_at<2>({{0, 0}, {1, 0}}), 2);

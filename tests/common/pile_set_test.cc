@@ -139,7 +139,7 @@ TEST(PileCentre, StaysWithoutADriftRate) {
   EXPECT_EQ(piles.piles().front().centre.x(), 0.0);
 }
 
-TEST(PileCentre, StaysWhileNobodyIsAwake) {
+TEST(PileCentre, StaysWhileNoBodyIsAwake) {
   Bodies<2> bodies;
   bodies.add(Vec2(0.5, 0.1));
   PileParams<2> params;
@@ -151,7 +151,7 @@ TEST(PileCentre, StaysWhileNobodyIsAwake) {
   EXPECT_TRUE(piles.counts_match(bodies.states));
 }
 
-TEST(UnlocatedPile, BeginsWhereItIsToldAndCountsWhoIsThere) {
+TEST(UnlocatedPile, BeginsAtTheGivenPlaceAndCountsTheBodiesThere) {
   Bodies<3> bodies;
   bodies.add(Vec3(7.0, 1.0, 0.1));
   PileSet<3> piles({PileParams<3>{}}, body);
@@ -244,6 +244,25 @@ TEST(PileSet, CountsABodyInFlightOnlyWhereThePileSaysSo) {
     EXPECT_EQ(counts(piles).front(), count_flying ? 2 : 1);
     EXPECT_TRUE(piles.counts_match(bodies.states));
   }
+}
+
+// A body that is asleep from the start is not awake when another one first touches it.
+TEST(PileSet, CountsASleepingBodyOnceAnotherOneTouchesIt) {
+  Bodies<2> bodies;
+  PileParams<2> params;
+  params.alpha = 0.7;
+  params.at = Vec2::Zero();
+  params.count_flying = false;
+  PileSet<2> piles({params}, body);
+  bodies.add(Vec2(0.0, 0.3));
+  bodies.add(Vec2(0.0, 0.5));
+  bodies.states.asleep[0] = 1;
+  piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(counts(piles).front(), 0);
+  piles.note_contacts(std::vector<Contact<2>>{{.a = 0, .b = 1}}, bodies.states);
+  piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(counts(piles).front(), 2);
+  EXPECT_TRUE(piles.counts_match(bodies.states));
 }
 
 }  // namespace

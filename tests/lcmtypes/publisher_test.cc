@@ -74,7 +74,7 @@ class PublishedRun {
   std::uint64_t hash = 0;
 };
 
-TEST(Publisher, SaysWhoRunsWhatAndHowItEnded) {
+TEST(Publisher, SendsSceneStepsAndReasonOfTheEnd) {
   const PublishedRun<2> run(10);
   const auto messages = run.ear.all<talus_run_v1>();
   ASSERT_GE(messages.size(), 2U);
@@ -154,9 +154,10 @@ TEST(Publisher, LeavesTheRunAsItIs) {
   EXPECT_EQ(PublishedRun<2>(50).hash, state_hash(alone->world().states()));
 }
 
-// The thread sends at most one message in 0.1 ms, so a fast run without a limit on its rate fills the queue.
+// The thread sends at most one message in 0.1 ms, so a run with two messages a step and no limit on their rates fills
+// the queue.
 TEST(Publisher, DropsRatherThanWaitsAndSaysSo) {
-  const PublishedRun<2> run(20'000, {.piles_rate = 0.0, .queue_bytes = 1U << 20U});
+  const PublishedRun<2> run(20'000, {.piles_rate = 0.0, .bodies_rate = 1e6, .queue_bytes = 1U << 20U});
   EXPECT_GT(run.dropped, 0);
   const auto piles = run.ear.all<talus_piles_v1>();
   EXPECT_LT(piles.size(), 20'000U);

@@ -58,7 +58,7 @@ Record read(const std::string& path) {
   return record;
 }
 
-TEST(RunRecorder, WritesWhoRanWhatAndHowItEnded) {
+TEST(RunRecorder, WritesProgramSceneAndReasonOfTheEnd) {
   const ScratchFile file;
   record<2>(file.path(), 120);
   const auto runs = read(file.path()).all<talus_run_v1>();

@@ -61,7 +61,7 @@ TEST(Listener, KnowsTheNewestStateAndThatNothingWasLost) {
   EXPECT_EQ(wire.listener.undecodable(), 0);
 }
 
-TEST(Listener, WhoJoinsLateHasLostNothing) {
+TEST(Listener, CountsNothingAsLostThatWasSentBeforeItListened) {
   Wire wire;
   const auto packets = stream(50);
   for (std::size_t i = 77; i < packets.size(); ++i) wire.send(packets[i]);

@@ -76,7 +76,7 @@ void expect_sleeper_left_of_awake() {
   EXPECT_NE(plain_bottom.find("▒"), std::string::npos);
 }
 
-TEST(TerminalPicture, ShowsWhoSleepsWithAndWithoutColours) {
+TEST(TerminalPicture, ShowsSleepingBodiesWithAndWithoutColours) {
   expect_sleeper_left_of_awake<2>();
   expect_sleeper_left_of_awake<3>();
 }

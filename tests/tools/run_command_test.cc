@@ -154,8 +154,8 @@ TEST(RunCommand, SavesEverythingOnCtrlC) {
 
 TEST(RunCommand, TellsTheReasonWhereThereIsNoEndHash) {
   const Outcome outcome = shell(
-      "\"$TALUS\" run drop_in_a_pile_2d --policy full --set run.frames=100000 --hash & process=$!; sleep 0.3; kill "
-      "-INT $process; wait $process");
+      "\"$TALUS\" run drop_in_a_pile_2d --policy full --set run.frames=100000 --hash & process=$!; "
+      "while kill -INT $process 2>/dev/null; do sleep 0.3; done; wait $process");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_EQ(outcome.out, "");
   EXPECT_NE(outcome.err.find("no end hash: interrupted"), std::string::npos) << outcome.err;
