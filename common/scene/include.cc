@@ -14,7 +14,7 @@ void put_in(toml::table& table, toml::table& base) {
   for (auto&& [key, value] : base) {
     toml::node* own = table.get(key);
     if (own == nullptr)
-      value.visit([&](auto& typed) { table.insert(key, std::move(typed)); });
+      value.visit([&table, &key = key](auto& typed) { table.insert(key, std::move(typed)); });
     else if (own->is_table() && value.is_table())
       put_in(*own->as_table(), *value.as_table());
   }

@@ -155,7 +155,8 @@ TEST(RunCommand, SavesEverythingOnCtrlC) {
 TEST(RunCommand, TellsTheReasonWhereThereIsNoEndHash) {
   const Outcome outcome = shell(
       "\"$TALUS\" run drop_in_a_pile_2d --policy full --set run.frames=100000 --hash & process=$!; "
-      "while kill -INT $process 2>/dev/null; do sleep 0.3; done; wait $process");
+      "until grep -q '^SigCgt:.*[2367abef]$' /proc/$process/status; do sleep 0.02; done; "  // it catches SIGINT
+      "kill -INT $process; wait $process");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_EQ(outcome.out, "");
   EXPECT_NE(outcome.err.find("no end hash: interrupted"), std::string::npos) << outcome.err;
