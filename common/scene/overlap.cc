@@ -10,6 +10,14 @@
 namespace talus {
 namespace {
 
+/// The cell, of the given width [m], that holds a position.
+template <int Dim>
+std::array<int, Dim> cell_of(const Vec<Dim>& position, double width) {
+  std::array<int, Dim> cell;
+  for (int axis = 0; axis < Dim; ++axis) cell[axis] = static_cast<int>(std::floor(position[axis] / width));
+  return cell;
+}
+
 /// By how much two boxes overlap [m] along the axis where they do least; negative where they are apart.
 template <int Dim>
 double box_overlap(const Box<Dim>& a, const Box<Dim>& b) {
@@ -27,10 +35,7 @@ std::size_t OverlapCheck<Dim>::CellHash::operator()(const Cell& cell) const {
 
 template <int Dim>
 OverlapCheck<Dim>::OverlapCheck(const WorldDescription<Dim>& world) : world_(world) {
-  for (const Shape<Dim>& shape : world.shapes) {
-    shapes_.push_back(convex_pieces(shape));
-    width_ = std::max(width_, 2.0 * bounding_radius(shape));
-  }
+  for (const Shape<Dim>& shape : world.shapes) shapes_.push_back(convex_pieces(shape));
   for (const Obstacle<Dim>& obstacle : world.obstacles) {
     Solid solid = make_solid(obstacle.shape, convex_pieces(obstacle.shape), obstacle.pose);
     solid.name = static_cast<int>(names_.size());
@@ -46,13 +51,6 @@ typename OverlapCheck<Dim>::Solid OverlapCheck<Dim>::make_solid(const Shape<Dim>
   solid.pieces.reserve(pieces.size());
   for (const ConvexPiece<Dim>& piece : pieces) solid.pieces.push_back(moved(piece, pose));
   return solid;
-}
-
-template <int Dim>
-typename OverlapCheck<Dim>::Cell OverlapCheck<Dim>::cell_of(const Vec<Dim>& position) const {
-  Cell cell;
-  for (int axis = 0; axis < Dim; ++axis) cell[axis] = static_cast<int>(std::floor(position[axis] / width_));
-  return cell;
 }
 
 template <int Dim>
@@ -73,18 +71,42 @@ std::string OverlapCheck<Dim>::name_of(const Solid& solid) const {
   return solid.number < 0 ? names_[solid.name] : fmt::format("body {} of {}", solid.number, names_[solid.name]);
 }
 
-/// With the bodies in a cell and in those around it.
+/// With the bodies in the cells that the body reaches, or with all where these are more cells than bodies.
 template <int Dim>
-void OverlapCheck<Dim>::compare_near(const Solid& body, const Cell& cell, Overlap& deepest) const {
-  constexpr int beside = 3;
-  const int count = Dim == 2 ? beside * beside : beside * beside * beside;
-  for (int number = 0; number < count; ++number) {
-    Cell near = cell;
-    for (int axis = 0, rest = number; axis < Dim; ++axis, rest /= beside) near[axis] += rest % beside - 1;
-    const auto found = near_.find(near);
-    if (found == near_.end()) continue;
+void OverlapCheck<Dim>::compare_near(const Solid& body, const Level& level, Overlap& deepest) const {
+  const Vec<Dim> reach = Vec<Dim>::Constant(0.5 * level.width);
+  const Cell first = cell_of<Dim>(body.bounds.min() - reach, level.width);
+  const Cell last = cell_of<Dim>(body.bounds.max() + reach, level.width);
+  double cells = 1.0;
+  for (int axis = 0; axis < Dim; ++axis) cells *= last[axis] - first[axis] + 1.0;
+  if (cells > static_cast<double>(level.bodies.size())) {
+    for (const int other : level.bodies) compare(body, bodies_[other], deepest);
+    return;
+  }
+  for (int number = 0; number < static_cast<int>(cells); ++number) {
+    Cell near;
+    for (int axis = 0, rest = number; axis < Dim; ++axis) {
+      const int along = last[axis] - first[axis] + 1;
+      near[axis] = first[axis] + rest % along;
+      rest /= along;
+    }
+    const auto found = level.cells.find(near);
+    if (found == level.cells.end()) continue;
     for (const int other : found->second) compare(body, bodies_[other], deepest);
   }
+}
+
+template <int Dim>
+void OverlapCheck<Dim>::keep(Solid body, const Vec<Dim>& position, double width) {
+  const double least = std::exp2(std::ceil(std::log2(width)));
+  const auto is_its_own = [&](const Level& level) { return level.width == least && level.fixed == body.fixed; };
+  auto level = std::find_if(levels_.begin(), levels_.end(), is_its_own);
+  if (level == levels_.end())
+    level = levels_.insert(levels_.end(), {.width = least, .fixed = body.fixed, .bodies = {}, .cells = {}});
+  const int index = static_cast<int>(bodies_.size());
+  level->bodies.push_back(index);
+  level->cells[cell_of<Dim>(position, least)].push_back(index);
+  bodies_.push_back(std::move(body));
 }
 
 template <int Dim>
@@ -94,14 +116,14 @@ Overlap OverlapCheck<Dim>::add(int shape, const Pose<Dim>& pose, bool fixed, con
   Overlap deepest;
   const double in_ground = world_.ground.height - height<Dim>(body.bounds.min());
   if (!fixed && world_.ground.present && in_ground > most_overlap) deepest = {in_ground, "the ground"};
-  for (const Solid& obstacle : obstacles_) compare(body, obstacle, deepest);
-  const Cell cell = cell_of(pose.position);
-  compare_near(body, cell, deepest);
-  near_[cell].push_back(static_cast<int>(bodies_.size()));
+  if (!fixed)
+    for (const Solid& obstacle : obstacles_) compare(body, obstacle, deepest);
+  for (const Level& level : levels_)
+    if (!fixed || !level.fixed) compare_near(body, level, deepest);
   if (names_.empty() || names_.back() != path) names_.push_back(path);
   body.name = static_cast<int>(names_.size()) - 1;
   body.number = bodies_.empty() || bodies_.back().name != body.name ? 0 : bodies_.back().number + 1;
-  bodies_.push_back(std::move(body));
+  keep(std::move(body), pose.position, 2.0 * bounding_radius(world_.shapes[shape]));
   return deepest;
 }
 

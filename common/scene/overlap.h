@@ -21,7 +21,7 @@ struct Overlap {
   std::string other;   // as messages name it: "obstacle[2]", "body 5 of body[1]"
 };
 
-/// Finds overlaps of bodies by their true shapes. Each body costs a look at those near it and at all obstacles.
+/// Finds overlaps of bodies by their true shapes. Each body is compared with those near it and with all obstacles.
 template <int Dim>
 class OverlapCheck {
  public:
@@ -46,19 +46,26 @@ class OverlapCheck {
     int number = -1;  // among the bodies of this name; -1: none
   };
 
+  /// Bodies of like width, all fixed or none: small bodies near a large one are not compared with one another.
+  struct Level {
+    double width = 0.0;  // of a cell: no body is wider [m]
+    bool fixed = false;
+    std::vector<int> bodies;
+    std::unordered_map<Cell, std::vector<int>, CellHash> cells;  // bodies by the cell of their position; only looked up
+  };
+
   Solid make_solid(const Shape<Dim>& shape, const Pieces& pieces, const Pose<Dim>& pose) const;
   void compare(const Solid& body, const Solid& other, Overlap& deepest) const;
   std::string name_of(const Solid& solid) const;
-  void compare_near(const Solid& body, const Cell& cell, Overlap& deepest) const;
-  Cell cell_of(const Vec<Dim>& position) const;
+  void compare_near(const Solid& body, const Level& level, Overlap& deepest) const;
+  void keep(Solid body, const Vec<Dim>& position, double width);
 
   const WorldDescription<Dim>& world_;
-  double width_ = 1.0;          // of a cell: no body is wider [m]
   std::vector<Pieces> shapes_;  // of the world, in their own axes
   std::vector<Solid> obstacles_;
   std::vector<Solid> bodies_;
   std::vector<std::string> names_;
-  std::unordered_map<Cell, std::vector<int>, CellHash> near_;  // bodies by the cell of their centre; only looked up
+  std::vector<Level> levels_;
 };
 
 }  // namespace talus

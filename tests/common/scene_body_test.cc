@@ -121,6 +121,27 @@ TEST(SceneBodies, OverlapNeitherGroundNorObstacleNorEachOtherOfOneTable) {
             "body[0].step: must leave no overlap above 0.005 m: its body 1 is 0.1 m deep in body 0 of body[0]");
 }
 
+TEST(SceneBodies, AllInOnePlaceAreRefusedAtOnce) {
+  EXPECT_EQ(error_of(head_2d + std::string("position = [0, 5]\nrepeat = [300, 300]\nstep = [0, 0]\n")),
+            "body[0].step: must leave no overlap above 0.005 m: its body 1 is 0.5 m deep in body 0 of body[0]");
+}
+
+// Each small disc is near the large one, but near few of its like.
+TEST(SceneBodies, OfVeryDifferentSizesAreComparedWithThoseNearThem) {
+  const auto scene = [](double x) {
+    return fmt::format(
+        "title = \"Discs\"\ndimension = 2\nshape.small = {{kind = \"ball\", radius = 0.1}}\n"
+        "shape.large = {{kind = \"ball\", radius = 40, density = 0.0005}}\n[[body]]\nshape = \"large\"\nposition = [0, "
+        "40]\n"
+        "[[body]]\nshape = \"small\"\nposition = [0, 81]\nrepeat = [100, 200]\nstep = [0.2, 0.2]\n"
+        "[[body]]\nshape = \"small\"\nposition = [{}, 40]\n",
+        x);
+  };
+  EXPECT_EQ(error_of(scene(40.11)), "");
+  EXPECT_EQ(error_of(scene(40.0)),
+            "body[2].position: must leave no overlap above 0.005 m: it is 0.1 m deep in body 0 of body[0]");
+}
+
 TEST(SceneBodies, AreLimitedInNumberTogetherWithThoseOfTheSources) {
   EXPECT_EQ(error_of(std::string(head_2d) + "position = [0, 5]\nrepeat = [10000, 1000]\nstep = [1, 1]\n" +
                      "[[source]]\ncount = 1\n"),
