@@ -15,6 +15,7 @@ PageContent page_content(const PictureInput<Dim>& input) {
   for (std::size_t i = 0; i < input.states.removed.size(); ++i)
     if (input.states.removed[i] == 0) ++(input.states.asleep[i] != 0 ? content.asleep : content.awake);
   content.shapes = static_cast<int>(input.shapes.size());
+  content.colours = input.colours.legend;
   content.layers = !input.piles.empty();
   content.parallel = Dim == 2;
   return content;

@@ -103,10 +103,10 @@ struct FlatScene {
     const double line = many_bodies != nullptr && size < 2.0 ? 0.0 : std::clamp(0.03 * size, 0.15, 1.2);
     for (const BodyIndex body : framing.drawn) {
       const int shape = input.states.shape[body];
-      const bool asleep = input.states.asleep[body] != 0;
-      paint_pieces(canvas, shapes[shape], input.states.pose[body],
-                   asleep ? params.asleep : params.awake[shape % params.awake.size()],
-                   asleep ? params.asleep_outline : params.awake_outline, line);
+      const std::vector<Colour>& colours = input.colours.awake;
+      const BodyPaint paint =
+          body_paint(params, shape, input.states.asleep[body] != 0, colours.empty() ? nullptr : &colours[body]);
+      paint_pieces(canvas, shapes[shape], input.states.pose[body], paint.fill, paint.outline, line);
     }
   }
 

@@ -77,6 +77,12 @@ void Page::draw_title(cairo_t* canvas) const {
 
 void Page::draw_legend(cairo_t* canvas) const {
   double left = params_.margin;
+  if (!content_.colours.empty()) {
+    for (const LegendEntry& entry : content_.colours)
+      left = draw_entry(canvas, left, entry.fills, params_.awake_outline, entry.text);
+    draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, "asleep (darker)"));
+    return;
+  }
   left = draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, "asleep"));
   const auto colours = std::min(params_.awake.size(), static_cast<std::size_t>(std::max(1, content_.shapes)));
   const std::vector<Colour> awake(params_.awake.begin(), params_.awake.begin() + static_cast<std::ptrdiff_t>(colours));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/picture/body_colours.h"
 #include "tools/picture/canvas.h"
 #include "tools/picture/framing.h"
 #include "tools/picture/projection.h"
@@ -18,10 +19,11 @@ struct PageContent {
   std::string caption;  // lines separated by '\n'
   int asleep = 0;
   int awake = 0;
-  int outside = 0;       // bodies too far away to be drawn
-  int shapes = 1;        // how many colours awake bodies have
-  bool layers = false;   // whether piles are drawn
-  bool parallel = true;  // whether the scale bar holds all over the picture (2D), or in the middle only
+  int outside = 0;                     // bodies too far away to be drawn
+  int shapes = 1;                      // how many colours awake bodies have
+  bool layers = false;                 // whether piles are drawn
+  std::vector<LegendEntry> colours{};  // of the bodies, in place of awake and asleep
+  bool parallel = true;                // whether the scale bar holds all over the picture (2D), or in the middle only
 };
 
 /// A page of fixed width whose header and footer leave room for a scene between them.

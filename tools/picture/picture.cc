@@ -17,6 +17,7 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
     for (const BodyIndex body : *bodies) (input.states.asleep[body] != 0 ? content.asleep : content.awake) += 1;
   content.outside = static_cast<int>(framing.outside.size());
   content.shapes = static_cast<int>(input.shapes.size());
+  content.colours = input.colours.legend;
   content.layers = !input.piles.empty();
   content.parallel = Dim == 2;
   return content;

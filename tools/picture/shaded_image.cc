@@ -90,11 +90,12 @@ constexpr double crease = 0.85;  // cosine of the angle between two faces of one
 
 }  // namespace
 
-ShadedImage::Paint ShadedImage::paint_of(const Face& face, const PictureInput<3>& input) const {
+BodyPaint ShadedImage::paint_of(const Face& face, const PictureInput<3>& input) const {
   if (face.owner == ground_owner) return {params_.paper, params_.paper};
   if (is_obstacle(face)) return {params_.obstacle, params_.obstacle_outline};
-  if (input.states.asleep[face.owner] != 0) return {params_.asleep, params_.asleep_outline};
-  return {params_.awake[input.states.shape[face.owner] % params_.awake.size()], params_.awake_outline};
+  const std::vector<Colour>& colours = input.colours.awake;
+  return body_paint(params_, input.states.shape[face.owner], input.states.asleep[face.owner] != 0,
+                    colours.empty() ? nullptr : &colours[face.owner]);
 }
 
 double ShadedImage::outline_strength(int x, int y) const {
@@ -119,7 +120,7 @@ double ShadedImage::outline_strength(int x, int y) const {
 
 ShadedImage::Pixel ShadedImage::shaded(int x, int y, double light) const {
   const std::int32_t number = buffer_.face(x, y);
-  const Paint& paint = paints_[number];
+  const BodyPaint& paint = paints_[number];
   const bool ground = faces_[number].owner == ground_owner;
   const double line = ground ? 0.0 : outline_strength(x, y);
   const Colour colour = mix(paint.fill, paint.outline, line);

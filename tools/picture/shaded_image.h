@@ -24,10 +24,6 @@ class ShadedImage {
   const std::vector<Face>& glass() const { return glass_; }
 
  private:
-  struct Paint {
-    Colour fill;
-    Colour outline;
-  };
   struct Pixel {
     double red = 0.0;
     double green = 0.0;
@@ -39,7 +35,7 @@ class ShadedImage {
   };
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
   Pixel& pixel(int x, int y) { return pixels_[index(x, y)]; }
-  Paint paint_of(const Face& face, const PictureInput<3>& input) const;
+  BodyPaint paint_of(const Face& face, const PictureInput<3>& input) const;
   void enter(std::vector<Face> faces);
   bool hides_bodies(const Face& face) const;
   void shade(const Lighting& lighting);
@@ -56,7 +52,7 @@ class ShadedImage {
   double outline_limit_;      // share of an outline that is drawn; bodies of a few pixels would be all outline
   std::vector<Face> faces_;   // towards the eye, solid
   std::vector<Face> glass_;
-  std::vector<Paint> paints_;  // of faces_
+  std::vector<BodyPaint> paints_;  // of faces_
   ZBuffer buffer_;
   std::vector<Pixel> pixels_;
 };

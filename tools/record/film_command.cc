@@ -14,6 +14,7 @@
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/picture/film_file.h"
+#include "tools/record/film_colours.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {
@@ -33,6 +34,8 @@ struct FilmOptions {
   int width = 800;
   /// Of WebP; 100: without loss.
   int quality = 100;
+  /// One of `colour_words`.
+  std::string colour = "state";
 };
 
 void check(const FilmOptions& options) {
@@ -97,7 +100,8 @@ PictureParams params_of(const FilmOptions& options) {
 }
 
 template <int Dim>
-PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame) {
+PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame,
+                           const std::string& colour) {
   const double time = static_cast<double>(run.frames.step(frame)) * run.frames.step_time();
   return {run.scene.world.shapes,
           states,
@@ -105,7 +109,8 @@ PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& s
           obstacles_at(run.scene.world.obstacles, run.scene.movers, time),
           run.scene.world.ground,
           printable(run.scene.title),
-          printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time))};
+          printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time)),
+          colours_at(run, frame, colour)};
 }
 
 /// Calls make(i) for i from 0 to below `count`, on all cores, and take() here with the results in order.
@@ -125,12 +130,12 @@ template <int Dim>
 void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   const Cut cut = cut_of(options, run.frames);
   const BodyStates<Dim> end = states_at(run.frames, cut.last);
-  const FilmFrames<Dim> page(input_at(run, end, cut.last), params_of(options));
+  const FilmFrames<Dim> page(input_at(run, end, cut.last, options.colour), params_of(options));
   const auto draw = [&](int shown) {
     int frame = cut.frame(shown);
     while (frame > 0 && run.frames.lost(frame)) --frame;  // the record is damaged
     const BodyStates<Dim> states = states_at(run.frames, frame);
-    return page.draw(input_at(run, states, frame));
+    return page.draw(input_at(run, states, frame, options.colour));
   };
   const bool progress = isatty(STDERR_FILENO) != 0;
   std::unique_ptr<FilmFile> file;
@@ -170,6 +175,9 @@ void add_film_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--quality", options->quality, "Of a WebP film, 0 to 100; 100: without loss")
       ->check(number_between(0, 100))
+      ->capture_default_str();
+  command->add_option("--colour", options->colour, "What the bodies' colours show")
+      ->check(CLI::IsMember(std::vector<std::string>(colour_words.begin(), colour_words.end())))
       ->capture_default_str();
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
   command->callback([options, &exit_code] {
