@@ -9,11 +9,15 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <csignal>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
+#include <random>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "common/shape/catalogue.h"
 #include "common/simulation/make_policy.h"
@@ -60,6 +64,7 @@ void run(const Options& options) {
   std::unique_ptr<Publisher<2>> publisher;
   if (!options.silent) {
     publisher = std::make_unique<Publisher<2>>(info, PublisherParams{.url = options.url, .piles_rate = 0.0});
+    publisher->set_world(scene.world);
     simulation.add_observer(*publisher);
   }
   const auto begin = std::chrono::steady_clock::now();
@@ -117,6 +122,68 @@ void forge(int port, int pairs) {
   close(descriptor);
 }
 
+std::atomic<bool> interrupted = false;
+
+int socket_in_group(int port, sockaddr_in& group) {
+  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+  group = {};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(static_cast<std::uint16_t>(port));
+  inet_pton(AF_INET, "239.255.76.67", &group.sin_addr);
+  const int on = 1;
+  const int buffer = 4 << 20;
+  setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &buffer, sizeof buffer);
+  bind(descriptor, reinterpret_cast<const sockaddr*>(&group), sizeof group);
+  const ip_mreq membership{group.sin_addr, {htonl(INADDR_ANY)}};
+  setsockopt(descriptor, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership);
+  const timeval wait{0, 20'000};
+  setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
+  return descriptor;
+}
+
+/// Hands the packets of one port to another until SIGTERM: of a hundred one is dropped, two come twice, two come after
+/// the next one. TALUS_RUN is spared: the end of a run is said only once. Prints how many of each.
+void relay(int from, int to) {
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  sockaddr_in here{};
+  sockaddr_in there{};
+  const int descriptor = socket_in_group(from, here);
+  socket_in_group(to, there);
+  const int ttl = 0;
+  setsockopt(descriptor, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
+  const auto pass = [&](const Bytes& bytes) {
+    if (!bytes.empty())
+      sendto(descriptor, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&there), sizeof there);
+  };
+  std::map<std::string, int> counts;
+  std::mt19937 chance(1);  // NOLINT(cert-msc51-cpp): the same each time
+  Bytes held;
+  while (!interrupted) {
+    Bytes bytes(65'536);
+    const ssize_t size = recv(descriptor, bytes.data(), bytes.size(), 0);
+    bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto fate = text.find("TALUS_RUN") == std::string_view::npos ? chance() % 100 : 99U;
+    if (!bytes.empty() && fate == 0) {
+      ++counts["dropped"];
+      continue;
+    }
+    if (held.empty() && (fate == 3 || fate == 4)) {
+      held = std::move(bytes);
+      ++counts["late"];
+      continue;
+    }
+    pass(bytes);
+    if (fate == 1 || fate == 2) {
+      pass(bytes);
+      ++counts["doubled"];
+    }
+    pass(std::exchange(held, {}));
+  }
+  for (const auto& [what, number] : counts) fmt::print("{} {}\n", what, number);
+}
+
 /// Publishes statistics of so many runs that do not exist, one message each.
 void invent(const std::string& url, int runs) {
   const LiveLink link = open_live_link(url);
@@ -151,6 +218,11 @@ int main(int argc, char** argv) {
   forge->add_option("port", port)->required();
   forge->add_option("pairs", number);
   forge->callback([&] { talus::forge(port, number); });
+  int to = 0;
+  CLI::App* relay = app.add_subcommand("relay");
+  relay->add_option("from", port)->required();
+  relay->add_option("to", to)->required();
+  relay->callback([&] { talus::relay(port, to); });
   CLI::App* invent = app.add_subcommand("invent");
   invent->add_option("--lcm-url", options.url);
   invent->add_option("runs", number);

@@ -1,32 +1,7 @@
-# Live telemetry between processes, one part a call: live_test.sh PROGRAM PART. It runs in a network namespace of its
-# own, whose only route is that for multicast on the loopback device; where the system allows no namespace, on the
-# machine's network, at a port that nobody else uses.
+# Live telemetry between processes, one part a call: live_test.sh PROGRAM PART.
 set -euo pipefail
 program=$1 part=$2
-
-if [[ -z ${LIVE_TEST_INSIDE:-} ]]; then
-  export LIVE_TEST_INSIDE=plain
-  if unshare --map-root-user --net true 2>/dev/null; then
-    LIVE_TEST_INSIDE=namespace exec unshare --map-root-user --net bash "$0" "$@"
-  fi
-fi
-if [[ $LIVE_TEST_INSIDE == namespace ]]; then
-  ip link set lo up
-  [[ $part == no_route ]] || ip route add 224.0.0.0/4 dev lo
-fi
-
-folder=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
-cd "$folder"
-port=$((20000 + $$ % 20000))
-url="udpm://239.255.76.67:$port?ttl=0"
-
-fail() {
-  echo "live_test $part: $*" >&2
-  tail -n 3 ./*.json ./*.txt >&2 || true
-  exit 1
-}
-expect() { grep -q -- "$1" "$2" || fail "no $1 in $2"; } # PATTERN FILE
+source "$(dirname "$0")/network.sh"
 # The number of events that a log has on a channel.
 events() { "$program" count "$1" | sed -n "s/^$2 //p"; }
 # Starts a monitor and waits until it has joined the group: until then it hears nothing.
@@ -51,7 +26,7 @@ live) # a run, watched by a monitor and recorded by lcm-logger: nothing is lost,
   expect '"phase":"end","reason":"finished"' last.json
   expect '"step":180' last.json
   expect '"slept":[1-9]' last.json
-  expect '"lost":{"TALUS_RUN":0,"TALUS_PILES":0,"TALUS_SLEEP":0,"TALUS_STATS":0},"undecodable":0' last.json
+  expect '"lost":{"TALUS_RUN":0,"TALUS_PILES":0,"TALUS_SLEEP":0,"TALUS_STATS":0,"TALUS_BODIES":0,"TALUS_SHAPES":0},"undecodable":0' last.json
   [[ $(events heard.lcm TALUS_PILES) == 181 ]] || fail "lcm-logger: $("$program" count heard.lcm)"
   [[ $(events heard.lcm damaged) == 0 ]] || fail "lcm-logger: $("$program" count heard.lcm)"
   ;;

@@ -112,7 +112,7 @@ RC_GTEST_PROP(ListenerProperty, CountsRepeatedAndReorderedMessagesOnce, ()) {
     if (*rc::gen::inRange(0, 3) == 0) std::swap(packets[i], packets[i + 1]);
   for (const Packet& packet : packets) {
     wire.send(packet);
-    if (packet.channel != Channel::sleep && *rc::gen::inRange(0, 3) == 0) wire.send(packet);
+    if (*rc::gen::inRange(0, 3) == 0) wire.send(packet);
   }
   RC_ASSERT(wire.listener.runs().lost() == 0);
   RC_ASSERT(wire.run().received() == static_cast<std::int64_t>(packets.size()));
@@ -147,7 +147,7 @@ RC_GTEST_PROP(ListenerProperty, RefusesWhatWasCutOrChanged, ()) {
 RC_GTEST_PROP(ListenerProperty, SurvivesAnything, (const std::vector<std::uint8_t>& bytes)) {
   Wire wire;
   for (const Channel channel : heard_channels) wire.send(channel, bytes);
-  RC_ASSERT(wire.listener.undecodable() == 4);
+  RC_ASSERT(wire.listener.undecodable() == static_cast<std::int64_t>(heard_channels.size()));
   RC_ASSERT(wire.listener.runs().entries().empty());
 }
 

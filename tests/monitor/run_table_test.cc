@@ -18,7 +18,7 @@ struct Network {
     talus_lcm::talus_stats_v2 message{};
     message.run_id = run_id;
     message.seq = sent[run_id]++;
-    if (RunView* view = table.find(run_id, now)) view->take(message);
+    if (RunTable::Entry* entry = table.find(run_id, now)) entry->view.take(message);
   }
   bool shows(std::int64_t run_id) const { return table.entries().contains(run_id); }
 };

@@ -37,6 +37,7 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus view discs.toml", "talus view discs.toml --seconds 1"},
     {"talus view --live", "talus view --live --seconds 1"},
     {"talus view runs/pour", "talus view runs/pour --seconds 1"},
+    {"talus monitor --plain", "talus monitor --plain --seconds 1"},
     {"talus monitor --json", "talus monitor --json --seconds 1"},
     // It hears no run here, which is a loss.
     {"talus monitor --json --seconds 60 --fail-on-loss", "! talus monitor --json --seconds 1 --fail-on-loss"},

@@ -2,14 +2,17 @@
 
 #include <fmt/core.h>
 
+#include <numeric>
 #include <type_traits>
 
 #include "lcmtypes/decode.h"
 
 namespace talus {
 
+using talus_lcm::talus_bodies_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
+using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v2;
 
@@ -23,8 +26,10 @@ void Listener::hear(const Datagram& datagram, Clock::time_point now) {
       return hear<talus_sleep_v1>(datagram, now);
     case Channel::stats:
       return hear<talus_stats_v2>(datagram, now);
-    default:
-      return;
+    case Channel::bodies:
+      return hear<talus_bodies_v1>(datagram, now);
+    case Channel::shapes:
+      return hear<talus_shapes_v1>(datagram, now);
   }
 }
 
@@ -33,16 +38,22 @@ void Listener::hear(const Datagram& datagram, Clock::time_point now) {
   Message message{};
   const auto fault = decode(datagram.bytes, message);
   if (!fault.empty()) {
-    ++undecodable_;
+    ++undecodable_[static_cast<std::size_t>(datagram.channel)];
     last_fault_ = fmt::format("{}: {}", name_of(datagram.channel), fault);
     return;
   }
-  RunView* view = runs_.find(message.run_id, now);
-  if (view == nullptr) return;
+  RunTable::Entry* entry = runs_.find(message.run_id, now);
+  if (entry == nullptr) return;
+  entry->rates[static_cast<std::size_t>(datagram.channel)].add(datagram.bytes.size(), now);
+  RunView& view = entry->view;
   if constexpr (std::is_same_v<Message, talus_run_v1>) {
-    if (view->is_restart(message)) runs_.restart(message.run_id);
+    if (view.is_restart(message)) runs_.restart(message.run_id);
   }
-  view->take(message);
+  view.take(message);
+}
+
+std::int64_t Listener::undecodable() const {
+  return std::accumulate(undecodable_.begin(), undecodable_.end(), std::int64_t{0});
 }
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -20,7 +21,8 @@ class Listener {
   const RunTable& runs() const { return runs_; }
 
   /// Messages on the channels of a run that were of another kind or damaged, and what was wrong with the last one.
-  std::int64_t undecodable() const { return undecodable_; }
+  std::int64_t undecodable() const;
+  std::int64_t undecodable(Channel channel) const { return undecodable_[static_cast<std::size_t>(channel)]; }
   const std::string& last_fault() const { return last_fault_; }
 
  private:
@@ -28,7 +30,7 @@ class Listener {
   void hear(const Datagram& datagram, Clock::time_point now);
 
   RunTable runs_;
-  std::int64_t undecodable_ = 0;
+  std::array<std::int64_t, channel_names.size()> undecodable_{};
   std::string last_fault_;
 };
 

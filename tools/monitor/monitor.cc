@@ -6,11 +6,14 @@
 #include <chrono>
 #include <ostream>
 #include <stdexcept>
+#include <utility>
 
 #include "tools/monitor/faults.h"
 #include "tools/monitor/json_view.h"
 #include "tools/monitor/listener.h"
+#include "tools/monitor/pages.h"
 #include "tools/monitor/receiver_process.h"
+#include "tools/monitor/terminal_screen.h"
 #include "tools/monitor/text_view.h"
 
 namespace talus {
@@ -62,26 +65,91 @@ Milliseconds time_until(Clock::time_point then) {
   return std::clamp(std::chrono::duration_cast<Milliseconds>(then - Clock::now()), Milliseconds(0), longest);
 }
 
+bool time_is_up(const MonitorParams& params, Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count() >= params.seconds;
+}
+
+/// Takes what arrives until then, at most 100 ms.
+void hear_until(Clock::time_point then, ReceiverProcess& receiver, Listener& listener) {
+  if (const auto datagram = receiver.next(time_until(then))) listener.hear(*datagram);
+}
+
+/// Takes what had arrived when all was over.
+void hear_the_rest(ReceiverProcess& receiver, Listener& listener) {
+  const auto last_call = Clock::now() + Milliseconds(100);
+  while (Clock::now() < last_call) hear_until(last_call, receiver, listener);
+}
+
+/// Draws what was heard and obeys the keys.
+class Watch {
+ public:
+  Watch(TerminalScreen& screen, const Listener& listener, const ReceiverProcess& receiver, const std::string& address)
+      : screen_(screen), listener_(listener), receiver_(receiver), address_(address) {}
+
+  /// Draws where it is time to. False when the user quits.
+  bool update() {
+    const auto now = Clock::now();
+    bool redraw = now >= next_drawing_ && !choice_.held;
+    const Heard heard = {listener_, faults_of(listener_, receiver_), address_, now};
+    for (int key = TerminalScreen::key(); key != TerminalScreen::no_key; key = TerminalScreen::key()) {
+      redraw = true;
+      if (obey(key, heard, choice_) == Effect::quit) return false;
+    }
+    if (!redraw) return true;
+    Sheet sheet(TerminalScreen::rows(), TerminalScreen::columns());
+    draw(heard, choice_, sheet);
+    screen_.show(sheet);
+    next_drawing_ = now + between_drawings;
+    return true;
+  }
+
+ private:
+  static constexpr auto between_drawings = Milliseconds(200);
+
+  TerminalScreen& screen_;
+  const Listener& listener_;
+  const ReceiverProcess& receiver_;
+  const std::string& address_;
+  Choice choice_;
+  Clock::time_point next_drawing_{};
+};
+
 }  // namespace
 
 int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream& out, const std::atomic<bool>& stop) {
   check(params);
   Listener listener;
   Reporter reporter(listener, receiver, params, out);
-  const auto hear_until = [&](Clock::time_point then) {
-    if (const auto datagram = receiver.next(time_until(then))) listener.hear(*datagram);
-  };
   const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(params.interval));
   const auto begin = Clock::now();
   auto next_report = begin + interval;
-  while (!stop && out && std::chrono::duration<double>(Clock::now() - begin).count() < params.seconds) {
-    hear_until(next_report);
+  while (!stop && out && !time_is_up(params, begin)) {
+    hear_until(next_report, receiver, listener);
     if (Clock::now() < next_report) continue;
     reporter.report();
     next_report += interval;
   }
-  const auto last_call = Clock::now() + Milliseconds(100);  // for what had arrived by then
-  while (Clock::now() < last_call) hear_until(last_call);
+  hear_the_rest(receiver, listener);
+  reporter.report();
+  return params.fail_on_loss && !reporter.flawless() ? 1 : 0;
+}
+
+int watch_on_screen(ReceiverProcess& receiver, const MonitorParams& params, const std::string& address,
+                    std::unique_ptr<TerminalScreen> screen, std::ostream& out, const std::atomic<bool>& stop) {
+  check(params);
+  Listener listener;
+  Watch watch(*screen, listener, receiver, address);
+  const auto begin = Clock::now();
+  auto next_look = begin;  // at keys, and whether to draw
+  for (bool goes_on = true; goes_on && !stop && !time_is_up(params, begin);) {
+    hear_until(next_look, receiver, listener);
+    if (Clock::now() < next_look) continue;
+    goes_on = watch.update();
+    next_look = Clock::now() + Milliseconds(20);
+  }
+  screen.reset();
+  hear_the_rest(receiver, listener);
+  Reporter reporter(listener, receiver, params, out);
   reporter.report();
   return params.fail_on_loss && !reporter.flawless() ? 1 : 0;
 }

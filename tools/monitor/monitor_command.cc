@@ -15,6 +15,7 @@
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
 #include "tools/monitor/run_view.h"
+#include "tools/monitor/terminal_screen.h"
 #include "tools/output/output.h"
 
 namespace talus {
@@ -42,13 +43,16 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
   });
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
-  return monitor(receiver, params, std::cout, interrupted);
+  std::unique_ptr<TerminalScreen> screen = params.json || params.plain ? nullptr : TerminalScreen::open();
+  if (!screen) return monitor(receiver, params, std::cout, interrupted);
+  return watch_on_screen(receiver, params, effective_url(url), std::move(screen), std::cout, interrupted);
 }
 
 }  // namespace
 
 void add_monitor_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("monitor", "Watch running simulations over LCM, a line per second and run");
+  CLI::App* command = app.add_subcommand(
+      "monitor", "Watch running simulations over LCM: a full screen in a terminal, else a line per second and run");
   const auto params = std::make_shared<MonitorParams>();
   const auto url = std::make_shared<std::string>();
   command->add_option("--lcm-url", *url, "Where to listen; else LCM_DEFAULT_URL, else this machine's runs")
@@ -59,11 +63,14 @@ void add_monitor_command(CLI::App& app) {
       ->check(number_between(0.0, MonitorParams::longest_interval, Bound::left_out))
       ->capture_default_str();
   command->add_flag("--json", params->json, "One JSON object a line, for programs");
+  command->add_flag("--plain", params->plain, "A line of text per second and run, also in a terminal")
+      ->excludes("--json");
   command->add_flag("--fail-on-loss", params->fail_on_loss,
                     "Exit with 1 when anything sent could not be shown (messages lost or undecodable, runs\n"
                     "dropped, crashes of the receiver), or no run was heard");
   command->footer(
-      "A bar shows the density of a pile's layers, bottom first. \"lost\" counts messages that this monitor missed;\n"
+      "The keys of the screen: ? lists them. A bar of a line shows the density of a pile's layers, bottom first. "
+      "\"lost\" counts messages that this monitor missed;\n"
       "against that, as root: sysctl -w net.core.rmem_max=4194304, of which the monitor takes all. The record of the "
       "run is complete in any case.");
   command->callback([params, url] {

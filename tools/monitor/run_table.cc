@@ -11,7 +11,7 @@ constexpr std::size_t max_waiting = 65536;
 
 }  // namespace
 
-RunView* RunTable::find(std::int64_t run_id, Clock::time_point now) {
+RunTable::Entry* RunTable::find(std::int64_t run_id, Clock::time_point now) {
   auto entry = entries_.find(run_id);
   if (entry == entries_.end()) {
     if (entries_.size() >= max_runs && !make_room(run_id, now)) {
@@ -23,7 +23,7 @@ RunView* RunTable::find(std::int64_t run_id, Clock::time_point now) {
     entry->second.entered = now;
   }
   entry->second.heard = now;
-  return &entry->second.view;
+  return &entry->second;
 }
 
 bool RunTable::make_room(std::int64_t run_id, Clock::time_point now) {

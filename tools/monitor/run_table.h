@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -28,12 +29,13 @@ class RunTable {
   struct Entry {
     RunView view;
     Clock::time_point entered;
-    Clock::time_point heard;   // the last message
+    Clock::time_point heard;  // the last message
+    std::array<RateMeter, channel_names.size()> rates = {};
     std::int64_t printed = 0;  // messages received when it was last printed; 0: never
   };
 
-  /// The view of the run with this number, to which a message came at `now`; nullptr where it finds no room.
-  RunView* find(std::int64_t run_id, Clock::time_point now);
+  /// The run with this number, to which a message came at `now`; nullptr where it finds no room.
+  Entry* find(std::int64_t run_id, Clock::time_point now);
 
   std::map<std::int64_t, Entry>& entries() { return entries_; }
   const std::map<std::int64_t, Entry>& entries() const { return entries_; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lcmtypes/translate.h"
+
 namespace talus {
 
 using talus_lcm::talus_pile_v1;
@@ -15,6 +17,7 @@ namespace {
 // Forged messages can name any number of piles and layers: beyond these a pile is not kept.
 constexpr std::size_t max_piles = 1000;
 constexpr std::size_t max_layers_kept = 64 * max_layers;
+constexpr std::int64_t fewest_in_wave = 20;  // bodies that wake in one step, else a tenth of all
 
 }  // namespace
 
@@ -70,15 +73,25 @@ void RunView::keep(std::int32_t number, const talus_pile_v1& pile) {
 }
 
 void RunView::take(const talus_sleep_v1& message) {
+  const std::int64_t before = received(Channel::sleep);
   note(message);
+  if (received(Channel::sleep) == before) return;  // a duplicate
   const auto woken = std::count(message.woke.begin(), message.woke.end(), 1);
   woken_ += woken;
   slept_ += message.event_count - woken;
+  for (const SleepEvent& event : events_of(message)) sleep_.add(event);
 }
 
 void RunView::take(const talus_stats_v2& message) {
-  if (note(message)) stats_ = message;
+  if (!note(message)) return;
+  stats_ = message;
+  counts_.add({.time = message.sim_time, .awake = message.awake, .asleep = message.asleep});
+  sleep_.set_wave_size(std::max<std::int64_t>(fewest_in_wave, (std::int64_t{message.awake} + message.asleep) / 10));
 }
+
+void RunView::take(const talus_lcm::talus_bodies_v1& message) { note(message); }
+
+void RunView::take(const talus_lcm::talus_shapes_v1& message) { note(message); }
 
 bool RunView::is_restart(const talus_run_v1& message) const {
   return run_ && message.seq < run_->seq && (message.phase == talus_run_v1::BEGIN || ended());

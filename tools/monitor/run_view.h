@@ -7,21 +7,25 @@
 #include <optional>
 
 #include "lcmtypes/channels.h"
+#include "tools/monitor/run_history.h"
 #include "tools/monitor/sequence_tracker.h"
 
 namespace talus {
 
 /// What a monitor listens to.
-inline constexpr std::array heard_channels = {Channel::run, Channel::piles, Channel::sleep, Channel::stats};
+inline constexpr std::array heard_channels = {Channel::run,   Channel::piles,  Channel::sleep,
+                                              Channel::stats, Channel::bodies, Channel::shapes};
 
 /// What is known of one run: the newest message of each kind, and what was lost. Older messages than those known are
-/// counted but change nothing.
+/// counted but change nothing. Of poses and shapes it keeps only the count.
 class RunView {
  public:
   void take(const talus_lcm::talus_run_v1& message);
   void take(const talus_lcm::talus_piles_v1& message);
   void take(const talus_lcm::talus_sleep_v1& message);
   void take(const talus_lcm::talus_stats_v2& message);
+  void take(const talus_lcm::talus_bodies_v1& message);
+  void take(const talus_lcm::talus_shapes_v1& message);
 
   /// The run's number was used before; nothing of that is left. A record that is played twice does so.
   bool is_restart(const talus_lcm::talus_run_v1& message) const;
@@ -40,9 +44,12 @@ class RunView {
 
   std::int64_t lost(Channel channel) const { return trackers_[static_cast<std::size_t>(channel)].lost(); }
   std::int64_t lost() const;
+  std::int64_t received(Channel channel) const { return trackers_[static_cast<std::size_t>(channel)].received(); }
   std::int64_t received() const;
   std::int64_t slept() const { return slept_; }  // events, all so far
   std::int64_t woken() const { return woken_; }
+  const CountHistory& counts() const { return counts_; }
+  const SleepHistory& sleep() const { return sleep_; }
 
  private:
   /// Counts a message. Whether it is the newest of its channel.
@@ -62,6 +69,8 @@ class RunView {
   double sim_time_ = 0.0;
   std::int64_t slept_ = 0;
   std::int64_t woken_ = 0;
+  CountHistory counts_;
+  SleepHistory sleep_;
 };
 
 }  // namespace talus
