@@ -13,7 +13,7 @@ namespace {
 /// The cell, of the given width [m], that holds a position.
 template <int Dim>
 std::array<int, Dim> cell_of(const Vec<Dim>& position, double width) {
-  std::array<int, Dim> cell;
+  std::array<int, Dim> cell{};
   for (int axis = 0; axis < Dim; ++axis) cell[axis] = static_cast<int>(std::floor(position[axis] / width));
   return cell;
 }
@@ -84,7 +84,7 @@ void OverlapCheck<Dim>::compare_near(const Solid& body, const Level& level, Over
     return;
   }
   for (int number = 0; number < static_cast<int>(cells); ++number) {
-    Cell near;
+    Cell near{};
     for (int axis = 0, rest = number; axis < Dim; ++axis) {
       const int along = last[axis] - first[axis] + 1;
       near[axis] = first[axis] + rest % along;
