@@ -17,6 +17,7 @@
 #endif
 #ifdef TALUS_LCM
 #include "tools/monitor/monitor_command.h"
+#include "tools/monitor/record_command.h"
 #endif
 #include "tools/output/output.h"
 #include "tools/run/huge_pages.h"
@@ -58,6 +59,7 @@ void add_commands(CLI::App& app, int& exit_code) {
 #endif
 #ifdef TALUS_LCM
   talus::add_monitor_command(app);
+  talus::add_record_command(app);
   talus::add_compare_command(app, exit_code);
   talus::add_wake_command(app, exit_code);
   talus::add_film_command(app, exit_code);

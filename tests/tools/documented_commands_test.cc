@@ -38,6 +38,9 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus view --live", "talus view --live --seconds 1"},
     {"talus view runs/pour", "talus view runs/pour --seconds 1"},
     {"talus monitor --plain", "talus monitor --plain --seconds 1"},
+    {"talus record --out bus.lcm --seconds 60", "talus record --out bus.lcm --seconds 1"},
+    {"talus record --out bus.lcm --split-megabytes 100 --keep 10",
+     "talus record --out ring.lcm --split-megabytes 100 --keep 10 --seconds 1"},
     {"talus monitor --json", "talus monitor --json --seconds 1"},
     // It hears no run here, which is a loss.
     {"talus monitor --json --seconds 60 --fail-on-loss", "! talus monitor --json --seconds 1 --fail-on-loss"},
@@ -214,7 +217,7 @@ TEST(ReadmeProgram, IsTheExampleThatIsCompiled) {
 
 TEST(HelpTexts, NameSubCommandsOptionsAndScenesThatExist) {
   for (const char* command : {"run", "check", "bench", "compare", "wake", "film", "replay", "export", "info", "cat",
-                              "cut", "repair", "diff", "view", "sheet", "decompose", "monitor"}) {
+                              "cut", "repair", "diff", "view", "sheet", "decompose", "monitor", "record"}) {
     std::istringstream help(talus_command(std::string(command) + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find("talus ");

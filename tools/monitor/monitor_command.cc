@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <csignal>
 #include <iostream>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
@@ -15,15 +14,12 @@
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
 #include "tools/monitor/run_view.h"
+#include "tools/monitor/stop_signal.h"
 #include "tools/monitor/terminal_screen.h"
 #include "tools/output/output.h"
 
 namespace talus {
 namespace {
-
-// A signal handler reaches nothing but globals.
-std::atomic<bool> interrupted = false;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Why the address cannot be used; empty where it can.
 std::string problem_with(const std::string& url) { return open_live_link(url).problem; }
@@ -41,8 +37,7 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
     receive(*link.lcm, heard_channels, sender);
     throw std::runtime_error("LCM stopped receiving");
   });
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  const std::atomic<bool>& interrupted = stop_signal();
   std::unique_ptr<TerminalScreen> screen = params.json || params.plain ? nullptr : TerminalScreen::open();
   if (!screen) return monitor(receiver, params, std::cout, interrupted);
   return watch_on_screen(receiver, params, effective_url(url), std::move(screen), std::cout, interrupted);
