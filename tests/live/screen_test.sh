@@ -25,54 +25,55 @@ run() { "$program" run --record run.lcm --lcm-url "$url" --paced "$@" >hash.txt;
 case $part in
 pages) # from waiting to the end of a run; each page by its key; larger and smaller terminals
   terminal "$program" monitor --lcm-url "'$url'" --fail-on-loss
-  shown 3 "waiting on udpm://239.255.76.67:$port"
+  shown 15 "waiting on udpm://239.255.76.67:$port"
   run --frames 180 &
-  shown 3 'small_pile box2d adaptive'
-  shown 3 'step [1-9][0-9]* of [0-9]*  .* x real time'
-  shown 3 'pile 0: [0-9]* layers'
-  shown 3 'lost 0$'
-  shown 3 '[0-9] woke  [a-z]'
+  shown 15 'small_pile box2d adaptive'
+  shown 15 'step [1-9][0-9]* of [0-9]*  .* x real time'
+  shown 15 'pile 0: [0-9]* layers'
+  shown 15 'lost 0$'
+  shown 15 '[0-9] woke  [a-z]'
   expect 'TALUS_SLEEP *[1-9]' screen.txt
   expect 'ms per step: [0-9]' screen.txt
   [[ $(wc -l <screen.txt) == 24 && $(widest) -le 80 ]] || fail "the screen is not 80 x 24"
-  press e && shown 2 'cause *slept *woke'
-  press f && shown 2 'events: woke'
-  press l && shown 2 'layer dens'
-  press r && shown 2 'awake asleep x real'
-  press '?' && shown 2 'q, Ctrl-C   quit'
-  press Escape && shown 2 'ms per step'
+  press e && shown 15 'cause *slept *woke'
+  press f && shown 15 'events: woke'
+  press l && shown 15 'layer dens'
+  press r && shown 15 'awake asleep x real'
+  press '?' && shown 15 'q, Ctrl-C   quit'
+  press Escape && shown 15 'ms per step'
   tmux resize-window -x 132 -y 43
-  shown 2 'ms per step'
+  shown 15 'ms per step'
   sleep 0.3 && screen
   (($(widest) > 80 && $(awk '/ q quit|^q quit/ { print NR }' screen.txt) == 43)) || fail "the screen is not larger"
   tmux resize-window -x 80 -y 24
   sleep 0.5 && screen
   (($(widest) <= 80)) && expect '^q quit' screen.txt && expect 'ms per step' screen.txt
   tmux resize-window -x 30 -y 5
-  shown 2 'needs 40 x 8'
+  shown 15 'needs 40 x 8'
   tmux resize-window -x 80 -y 24
-  shown 5 'ended: finished'
+  shown 15 'ended: finished'
   press q
-  shown 2 'exit code 0'
+  shown 15 'exit code 0'
   expect 'small_pile box2d adaptive' screen.txt # what was last known stays in the terminal
   ;;
 
 without_colours) # a terminal of 1978, NO_COLOR, and a locale without UTF-8: neither colours nor blocks
   terminal env LC_ALL=C TERM=vt100 "$program" monitor --lcm-url "'$url'"
   run --frames 120 &
-  shown 4 'pile 0: [0-9]* layers'
-  shown 4 '##'
+  shown 15 'pile 0: [0-9]* layers'
+  shown 15 '##'
   screen -e
   ! grep -q $'\e\[3[0-7]' screen.txt || fail "there are colours"
   ! LC_ALL=C grep -q $'[\x80-\xff]' screen.txt || fail "there are characters beyond ASCII"
-  press q && shown 2 'exit code 0'
+  press q && shown 15 'exit code 0'
   tmux kill-server
+  TMUX_TMPDIR=$(mktemp -d -p "$folder") # the old server may not be gone yet
   terminal env TERM=screen-256color NO_COLOR=1 "$program" monitor --lcm-url "'$url'"
   run --frames 120 &
-  shown 4 'pile 0: [0-9]* layers'
+  shown 15 'pile 0: [0-9]* layers'
   screen -e
   ! grep -q $'\e\[3[0-7]' screen.txt || fail "NO_COLOR is not obeyed"
-  press q && shown 2 'exit code 0'
+  press q && shown 15 'exit code 0'
   ;;
 
 late) # all is there within two seconds of a start in the middle of a run
@@ -90,12 +91,12 @@ two_runs) # two runs at once: by key, and in a table
   terminal "$program" monitor --lcm-url "'$url'"
   run --frames 200 &
   "$program" run --record other.lcm --lcm-url "$url" --paced --frames 200 >other.txt &
-  shown 4 'run 1 of 2'
-  press Tab && shown 2 'run 2 of 2'
+  shown 15 'run 1 of 2'
+  press Tab && shown 15 'run 2 of 2'
   press r
-  shown 2 '^   1 .* adaptive  *box2d small_pile'
+  shown 15 '^   1 .* adaptive  *box2d small_pile'
   expect '^   2 .* box2d small_pile' screen.txt
-  press q && shown 2 'exit code 0'
+  press q && shown 15 'exit code 0'
   ;;
 
 relay) # a network that loses, doubles and reorders: the loss is counted exactly, and nothing hangs
@@ -107,15 +108,15 @@ relay) # a network that loses, doubles and reorders: the loss is counted exactly
   monitor=$!
   sleep 1
   run --frames 200
-  shown 3 'ended: finished'
+  shown 15 'ended: finished'
   kill -TERM $relay && wait $relay
   dropped=$(sed -n 's/^dropped //p' relay.txt)
   ((dropped >= 5)) || fail "the relay dropped only $dropped"
   expect '^doubled [1-9]' relay.txt
   expect '^late [1-9]' relay.txt
-  shown 1 " lost $dropped$"
-  press a && shown 2 "$dropped of [0-9]* messages lost"
-  press q && shown 2 'exit code 1'
+  shown 15 " lost $dropped$"
+  press a && shown 15 "$dropped of [0-9]* messages lost"
+  press q && shown 15 'exit code 1'
   kill -INT $monitor && wait $monitor
   lost=$(grep '"run"' seen.json | tail -n 1 | sed 's/.*"lost":{\([^}]*\)}.*/\1/' | tr ',' '\n' | awk -F: '{ sum += $2 } END { print sum }')
   [[ $lost == "$dropped" ]] || fail "the relay dropped $dropped, the monitor counts $lost"
