@@ -6,8 +6,27 @@
 
 namespace talus {
 
+/// The window in which an engine's results hold, from the runs of `talus stress` (docs/limits.md). Outside of it
+/// structures that stand by statics fall apart or bodies pass through each other. outside_window() applies it.
+struct Window {
+  /// Steps a second, at least [1/s].
+  double fewest_steps = 30.0;
+  /// world.solver.velocity_iterations, at least.
+  int fewest_iterations = 1;
+  /// Largest over smallest mass of bodies with fewer than `iterations_for_masses`.
+  double largest_mass_ratio = 100.0;
+  int iterations_for_masses = 50;
+  /// Least width of a body's bounding box in its own axes [m].
+  double narrowest_body = 0.0;
+  /// Longest side of an obstacle's part over its smallest width, at most.
+  double longest_obstacle = std::numeric_limits<double>::infinity();
+  /// policy.tau under the policy paper must be above it.
+  double tau_above = 0.0;
+};
+
 struct EngineTraits {
   std::string_view name;
+  Window window = {};
   double fastest_step = std::numeric_limits<double>::infinity();  // [m] a step: faster bodies are slowed down to it
   // Fall within one step, g dt^2, over the thinnest piece of a shape, above which bodies sink into the ground.
   double sinking_fall = std::numeric_limits<double>::infinity();

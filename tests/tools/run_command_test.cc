@@ -42,6 +42,39 @@ TEST(RunCommand, WarnsOfSizesTooDifferentForOnePile) {
       << outcome.err;
 }
 
+/// Outside of every engine's window.
+const std::string no_tau = "drop_in_a_pile_2d --policy paper --set policy.tau=0 --set run.frames=5 ";
+
+TEST(RunCommand, RefusesASceneOutsideOfTheWindowInWhichResultsHold) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command("run " + no_tau + "--no-telemetry --out " + (folder / "run"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("drop_in_a_pile_2d.toml: policy.tau = 0: must be above 0"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("--force runs it"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder.path() / "run"));
+  EXPECT_EQ(talus_command("check drop_in_a_pile_2d --set policy.kind=paper --set policy.tau=0").exit_code, 2);
+  EXPECT_EQ(talus_command("check drop_in_a_pile_2d --set policy.kind=paper --set policy.tau=0 --force").exit_code, 0);
+  EXPECT_EQ(talus_command("view " + no_tau + "--seconds 1").exit_code, 2);
+  EXPECT_EQ(talus_command("sweep drop_in_a_pile_2d --set policy.kind=paper --set policy.tau=0,0.4 --out " +
+                          (folder / "sweep"))
+                .exit_code,
+            2);
+}
+
+TEST(RunCommand, RunsASceneOutsideOfTheWindowByForceWithAWarningThatStays) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command("run " + no_tau + "--no-telemetry --force --out " + (folder / "run"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string warning = "warning: outside of the window in which results hold: ";
+  EXPECT_NE(outcome.err.find(warning), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find(warning), std::string::npos) << outcome.out;
+  const Json summary = Json::parse(contents(folder.path() / "run" / "summary.json"));
+  ASSERT_EQ(summary["outside_window"].size(), 1U);
+  EXPECT_EQ(summary["outside_window"][0]["field"], "policy.tau");
+  EXPECT_EQ(summary["outside_window"][0]["value"], "0");
+}
+
 TEST(SheetCommand, PutsPicturesOfRunsSideBySide) {
   const TemporaryFolder folder;
   talus_command("run " + short_scene + "--out " + (folder / "run"));

@@ -34,14 +34,17 @@ void print_report(const Scene<Dim>& scene) {
       print_result("  warning: {}: {}\n", backend, printable(warning));
 }
 
-/// Builds what a run would build on each engine of this build: `check` refuses what every one of them refuses.
+/// Builds what a run would build on each engine of this build, where the scene lies in the engine's window or `force`
+/// is given: `check` refuses what every one of them refuses.
 template <int Dim>
-void try_engines(const Scene<Dim>& scene, const std::string& file) {
+void try_engines(const Scene<Dim>& scene, const std::string& file, bool force) {
   const std::vector<std::string> engines = backends(Dim);
   std::string refusals;
   std::size_t refused = 0;
   for (const std::string& backend : engines) {
     try {
+      for (const SceneError& each : check_window(scene, backend, file, force))
+        print_message("warning: {}{}", outside_prefix, to_string(each));
       make_simulation(scene, backend);
     } catch (const std::invalid_argument& refusal) {
       refusals += fmt::format("{}{}: {}: {}", refused == 0 ? "" : "\n", file, backend, refusal.what());
@@ -52,12 +55,12 @@ void try_engines(const Scene<Dim>& scene, const std::string& file) {
   if (refused > 0) print_result("{}\n", refusals);
 }
 
-int check_scene(const std::string& name, const std::vector<std::string>& settings) {
+int check_scene(const std::string& name, const std::vector<std::string>& settings, bool force) {
   std::vector<Override> overrides;
   for (const std::string& setting : settings) overrides.push_back({setting});
   const std::filesystem::path file = find_scene(name);
   const AnyScene scene = read_scene(file, overrides);
-  std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string()); }, scene);
+  std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string(), force); }, scene);
   print_result("{}: OK\n", printable(file.string()));
   std::visit([](const auto& of_dimension) { print_report(of_dimension); }, scene);
   return exit_codes::success;
@@ -74,7 +77,10 @@ void add_check_command(CLI::App& app, int& exit_code) {
   command->add_option("-s,--set", *settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  command->callback([=, &exit_code] { exit_code = check_scene(*scene, *settings); });
+  auto force = std::make_shared<bool>(false);
+  command->add_flag("-f,--force", *force,
+                    "Accept the scene outside of the window in which results hold too, as `talus run` does");
+  command->callback([=, &exit_code] { exit_code = check_scene(*scene, *settings, *force); });
 }
 
 }  // namespace talus

@@ -30,6 +30,8 @@ void add_scene_options(CLI::App& command, RunOptions& options) {
       ->allow_extra_args(false);
   command.add_option("--seed", options.seed, "Seed of all that is random in the scene, 0 or more")
       ->check(whole_number());
+  command.add_flag("-f,--force", options.force,
+                   "Run the scene outside of the window in which results hold too: a warning instead of an error");
   command.add_option("--pace", options.pace, "Simulated seconds per second at most: 1 is real time; 0: no limit")
       ->check(number_between(0.0, 1e6));
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "common/scene/warnings.h"
+#include "common/scene/window.h"
 #include "common/simulation/make_policy.h"
 #include "tools/run/backends.h"
 
@@ -38,7 +39,17 @@ Simulation<Dim> make_simulation(const Scene<Dim>& scene, const std::string& back
   return Simulation<Dim>(scene, make_world<Dim>(backend, scene.world), make_policy(scene));
 }
 
+template <int Dim>
+std::vector<SceneError> check_window(const Scene<Dim>& scene, const std::string& backend,
+                                     const std::filesystem::path& file, bool force) {
+  std::vector<SceneError> outside = outside_window(scene, engine_traits<Dim>(backend), file.string());
+  if (!force) refuse_outside_window(outside);
+  return outside;
+}
+
 template Simulation<2> make_simulation(const Scene<2>&, const std::string&);
 template Simulation<3> make_simulation(const Scene<3>&, const std::string&);
+template std::vector<SceneError> check_window(const Scene<2>&, const std::string&, const std::filesystem::path&, bool);
+template std::vector<SceneError> check_window(const Scene<3>&, const std::string&, const std::filesystem::path&, bool);
 
 }  // namespace talus

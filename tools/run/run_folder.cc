@@ -110,6 +110,13 @@ Json warnings_json(std::span<const Warning> warnings) {
   return list;
 }
 
+Json outside_json(std::span<const SceneError> outside) {
+  Json list = Json::array();
+  for (const SceneError& each : outside)
+    list.push_back({{"field", each.field}, {"value", each.value}, {"rule", each.rule}});
+  return list;
+}
+
 template <int Dim>
 Json piles_json(const PileSet<Dim>& piles) {
   Json list = Json::array();
@@ -171,6 +178,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"at_rest", simulation.at_rest()},
                   {"events", events_json(scene, simulation.done_events())},
                   {"asleep_at_end", bodies - world.awake().size()},
+                  {"outside_window", outside_json(input.outside_window)},
                   {"warnings", warnings_json(simulation.warnings())},
                   {"emit_waits", input.emit_waits},
                   {"picture_pixels_per_m", input.pixels_per_metre},

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "common/scene/diagnostics.h"
 #include "common/simulation/simulation.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_statistics.h"
@@ -22,10 +24,11 @@ std::filesystem::path make_run_folder(const std::filesystem::path& wanted, const
 struct SummaryInput {
   std::string scene_name;
   std::string backend;
-  std::string reason;             // "finished", "interrupted", or what went wrong
-  double wall_seconds = 0.0;      // from the first step to the last, observers included
-  std::int64_t emit_waits = 0;    // steps at which a due body found no room
-  double pixels_per_metre = 0.0;  // of pile.png
+  std::string reason;                           // "finished", "interrupted", or what went wrong
+  double wall_seconds = 0.0;                    // from the first step to the last, observers included
+  std::int64_t emit_waits = 0;                  // steps at which a due body found no room
+  double pixels_per_metre = 0.0;                // of pile.png
+  std::vector<SceneError> outside_window = {};  // what of the scene lies outside of the engine's window
 };
 
 /// Writes summary.json.

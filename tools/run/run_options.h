@@ -23,6 +23,7 @@ struct RunOptions {
   double bodies_hz = 30.0;            // pose messages a second of wall time; 0: none
   std::string against;                // policy to time the run against; empty: none
   bool strict = false;                // exit code 1 when the run gave a warning
+  bool force = false;                 // run a scene outside of the engine's window, with warnings
   bool hash_only = false;             // print the end hash and nothing else; write no folder unless `out` is given
 };
 

@@ -12,6 +12,7 @@
 #include "tools/output/output.h"
 #include "tools/picture/terminal.h"
 #include "tools/run/csv_files.h"
+#include "tools/run/make_simulation.h"
 #include "tools/run/progress.h"
 #include "tools/run/version.h"
 #ifdef TALUS_LCM
@@ -158,6 +159,8 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                simulation.time() / summary.wall_seconds);
   if (scene.policy.kind == "adaptive") print_estimate(simulation, scene.policy.adaptive);
   if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
+  for (const SceneError& each : summary.outside_window)
+    print_result("  warning: {}{}\n", outside_prefix, printable(to_string(each)));
   for (const Warning& warning : simulation.warnings()) print_result("  warning: {}\n", account(warning));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());

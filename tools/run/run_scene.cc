@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
 #include <thread>
 
 #include "common/scene/read_scene.h"
@@ -64,7 +65,8 @@ int exit_code_of(std::string_view reason, bool strict, const Simulation<Dim>& si
 }
 
 template <int Dim>
-void warn(const Scene<Dim>& scene, const std::string& backend) {
+void warn(const Scene<Dim>& scene, const std::string& backend, std::span<const SceneError> outside) {
+  for (const SceneError& each : outside) print_message("warning: {}{}", outside_prefix, to_string(each));
   for (const std::string& warning : warnings(scene)) print_message("warning: {}", warning);
   for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
     print_message("warning: {}: {}", backend, warning);
@@ -93,14 +95,19 @@ int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict) {
 
 /// Runs, records and prints the result.
 template <int Dim>
-int record_run(const RunOptions& options, const std::string& name, const std::string& backend,
-               const Scene<Dim>& scene) {
+int record_run(const RunOptions& options, const std::string& name, const std::string& backend, const Scene<Dim>& scene,
+               const std::vector<SceneError>& outside) {
   Simulation<Dim> simulation = make_simulation(scene, backend);
   RunOutputs<Dim> outputs(options, scene, name, backend, simulation);
   const Interrupt interrupt;
   Stopwatch watch;
   const std::string reason = advance(simulation, interrupt, scene.run.pace);
-  const SummaryInput summary{name, backend, reason, watch.lap(), simulation.emitter().waits()};
+  const SummaryInput summary{.scene_name = name,
+                             .backend = backend,
+                             .reason = reason,
+                             .wall_seconds = watch.lap(),
+                             .emit_waits = simulation.emitter().waits(),
+                             .outside_window = outside};
   simulation.end(reason);
   outputs.finish(summary, scene, simulation);
   if (options.hash_only) return print_hash(simulation, reason, options.strict);
@@ -134,9 +141,11 @@ int run_scene(const RunOptions& options) {
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) {
         const std::string backend = backend_for(options, Dim);
+        const std::vector<SceneError> outside = check_window(of_dimension, backend, file, options.force);
+        if (other) check_window(std::get<Scene<Dim>>(*other), backend, file, options.force);
         if (options.hash_only && options.out.empty()) return hash_run(of_dimension, backend, options.strict);
-        if (!options.hash_only) warn(of_dimension, backend);
-        const int exit_code = record_run(options, file.stem().string(), backend, of_dimension);
+        if (!options.hash_only) warn(of_dimension, backend, outside);
+        const int exit_code = record_run(options, file.stem().string(), backend, of_dimension, outside);
         if (!other || exit_code != exit_codes::success) return exit_code;
         return tell_speed_up(of_dimension, std::get<Scene<Dim>>(*other), backend);
       },

@@ -41,10 +41,11 @@ RunLoop::RunLoop(const RunChoice& choice, PageHub& hub)
     : hub_(hub),
       file_(choice.file),
       backend_(choice.backend),
+      force_(choice.force),
       scene_(read_scene(choice.file, choice.overrides)),
       pace_(choice.pace) {
   text_ = toml_of(scene_);
-  run_ = show_run(scene_, backend_, file_.stem().string());
+  run_ = show_run(scene_, backend_, file_, force_);
   hub_.begin(run_->snapshot());
   hub_.set_status(status());
   thread_ = std::thread([this] { work(); });
@@ -180,7 +181,7 @@ void RunLoop::start() {
   std::string reason;
   run_.reset();
   try {
-    run_ = show_run(scene, backend_, file_.stem().string());
+    run_ = show_run(scene, backend_, file_, force_);
     hub_.begin(run_->snapshot());
     published_ = true;
   } catch (const std::exception& error) {

@@ -26,6 +26,7 @@ struct RunChoice {
   std::filesystem::path file;            // of the scene
   std::vector<Override> overrides = {};  // values that replace the scene's
   std::string backend;                   // empty: the first engine that can simulate the scene
+  bool force = false;                    // show it outside of the engine's window too
   double pace = 1.0;                     // simulated seconds per second, 0: as fast as possible
 };
 
@@ -71,6 +72,7 @@ class RunLoop {
   PageHub& hub_;
   std::filesystem::path file_;
   std::string backend_;
+  bool force_;
 
   // Of the loop's thread.
   std::unique_ptr<ShownRun> run_;

@@ -5,6 +5,7 @@
 #include "common/simulation/simulation.h"
 #include "common/text/printable.h"
 #include "common/world/energy.h"
+#include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/version.h"
@@ -71,12 +72,15 @@ class SimulatedScene final : public ShownRun {
 
 }  // namespace
 
-std::unique_ptr<ShownRun> show_run(const AnyScene& scene, const std::string& backend, const std::string& name) {
+std::unique_ptr<ShownRun> show_run(const AnyScene& scene, const std::string& backend, const std::filesystem::path& file,
+                                   bool force) {
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> std::unique_ptr<ShownRun> {
         const std::vector<std::string> engines = backends(Dim);
         const std::string& engine = backend.empty() && !engines.empty() ? engines.front() : backend;
-        return std::make_unique<SimulatedScene<Dim>>(of_dimension, engine, name);
+        for (const SceneError& each : check_window(of_dimension, engine, file, force))
+          print_message("warning: {}{}", outside_prefix, to_string(each));
+        return std::make_unique<SimulatedScene<Dim>>(of_dimension, engine, file.stem().string());
       },
       scene);
 }

@@ -2,6 +2,7 @@
 // A simulation for the browser: one step at a time, and what there is to see of it.
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -47,8 +48,10 @@ class ShownRun {
   virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
 };
 
-/// Starts the scene on the engine of that name; an empty name: the first that can simulate it. `name`: for readers.
-/// Throws as make_simulation() does.
-std::unique_ptr<ShownRun> show_run(const AnyScene& scene, const std::string& backend, const std::string& name);
+/// Starts the scene on the engine of that name; an empty name: the first that can simulate it. `file`: of the scene.
+/// Throws as make_simulation() does, and without `force` std::invalid_argument where the scene lies outside of the
+/// engine's window.
+std::unique_ptr<ShownRun> show_run(const AnyScene& scene, const std::string& backend, const std::filesystem::path& file,
+                                   bool force);
 
 }  // namespace talus

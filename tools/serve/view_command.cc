@@ -29,6 +29,7 @@ struct ViewOptions {
   std::string policy;
   std::vector<std::string> settings;
   std::optional<std::int64_t> seed;
+  bool force = false;
   double pace = 1.0;
   int port = 0;
   double seconds = 0.0;  // 0: until Ctrl-C
@@ -37,7 +38,8 @@ struct ViewOptions {
 };
 
 RunChoice choice_of(const ViewOptions& options) {
-  RunChoice choice = {.file = find_scene(options.what), .backend = options.backend, .pace = options.pace};
+  RunChoice choice = {
+      .file = find_scene(options.what), .backend = options.backend, .force = options.force, .pace = options.pace};
   for (const std::string& setting : options.settings) choice.overrides.push_back({setting});
   if (!options.policy.empty())
     choice.overrides.push_back({"policy.kind=" + options.policy, "--policy " + options.policy});
@@ -112,6 +114,7 @@ void add_options(CLI::App& command, ViewOptions& options) {
       ->allow_extra_args(false);
   command.add_option("--seed", options.seed, "Of a scene: seed of all that is random, 0 or more")
       ->check(whole_number());
+  command.add_flag("-f,--force", options.force, "Of a scene: show it outside of the window in which results hold too");
   command
       .add_option("--pace", options.pace,
                   "Of a scene: simulated seconds per second, 0.01 to 1000; 0: as fast as possible")

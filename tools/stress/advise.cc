@@ -11,6 +11,7 @@
 #include "common/measure/shape_statistics.h"
 #include "common/measure/support.h"
 #include "common/scene/read_scene.h"
+#include "common/scene/window.h"
 #include "tools/bench/in_processes.h"
 #include "tools/bench/recording.h"
 #include "tools/output/output.h"
@@ -38,29 +39,38 @@ AdviceSetting own_setting(const Scene<Dim>& scene) {
   return {1.0 / scene.world.dt, scene.world.solver.velocity_iterations};
 }
 
-/// Half, own and double of both; rates that the scene may not have, or that its frames do not divide, are left out.
 template <int Dim>
-std::vector<AdviceSetting> settings_around(const Scene<Dim>& scene) {
+Scene<Dim> with_setting(Scene<Dim> scene, const AdviceSetting& setting) {
+  scene.world.dt = 1.0 / setting.rate;
+  scene.world.solver.velocity_iterations = setting.iterations;
+  return scene;
+}
+
+/// Half, own and double of both; rates that the scene may not have, or that its frames do not divide, and settings
+/// outside of the engine's window are left out.
+template <int Dim>
+std::vector<AdviceSetting> settings_around(const Scene<Dim>& scene, const EngineTraits& engine) {
   const AdviceSetting own = own_setting(scene);
   std::vector<AdviceSetting> settings;
   for (const double factor : {0.5, 1.0, 2.0}) {
     const double rate = own.rate * factor;
     const double frame = rate / scene.run.frame_rate;
     if (rate < least_rate - 1e-6 || std::abs(frame - std::round(frame)) > 1e-6) continue;
-    for (const double share : {0.5, 1.0, 2.0})
-      settings.push_back({rate, std::max(1, static_cast<int>(std::lround(own.iterations * share)))});
+    for (const double share : {0.5, 1.0, 2.0}) {
+      const AdviceSetting setting{rate, std::max(1, static_cast<int>(std::lround(own.iterations * share)))};
+      if (outside_window(with_setting(scene, setting), engine, "").empty()) settings.push_back(setting);
+    }
   }
   return settings;
 }
 
 /// Runs the scene to its end; what counts as JSON.
 template <int Dim>
-std::string measure_setting(Scene<Dim> scene, const std::string& backend, const AdviceSetting& setting) {
+std::string measure_setting(const Scene<Dim>& plain, const std::string& backend, const AdviceSetting& setting) {
   struct Watcher : Observer<Dim> {
     void on_frame(const Frame<Dim>& /*frame*/) override {}
   };
-  scene.world.dt = 1.0 / setting.rate;
-  scene.world.solver.velocity_iterations = setting.iterations;
+  const Scene<Dim> scene = with_setting(plain, setting);
   Watcher watcher;
   Simulation<Dim> simulation = make_simulation(scene, backend);
   simulation.add_observer(watcher);
@@ -168,9 +178,13 @@ Table advice_table(const std::vector<AdviceRow>& rows, double tolerance) {
 
 template <int Dim>
 void advise_on(const Scene<Dim>& scene, const AdviceOptions& options) {
-  const std::vector<AdviceSetting> settings = settings_around(scene);
   const std::string backend = options.backend.empty() ? backends(Dim).at(0) : options.backend;
-  engine_traits<Dim>(backend);  // throws where there is no such engine
+  const std::vector<AdviceSetting> settings = settings_around(scene, engine_traits<Dim>(backend));
+  if (settings.empty())
+    throw std::invalid_argument(
+        fmt::format("{}: neither half, its own nor double steps and iterations lie in the window "
+                    "in which results on {} hold (docs/limits.md)",
+                    options.scene, backend));
   std::vector<AdviceSample> samples(settings.size());
   in_processes(
       static_cast<int>(settings.size()) * options.seeds, options.jobs,

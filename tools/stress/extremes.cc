@@ -256,12 +256,12 @@ StressCase long_wall_case(double length) {
 std::vector<StressCase> extreme_cases() {
   std::vector<StressCase> cases;
   for (const double rate : {15.0, 30.0, 40.0, 50.0, 60.0, 120.0, 240.0}) cases.push_back(rate_case(rate));
-  for (const int iterations : {4, 10, 20, 50, 100}) cases.push_back(iterations_case(iterations));
-  for (const double side : {0.001, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0, 5.0, 20.0, 100.0, 1000.0})
+  for (const int iterations : {4, 5, 6, 8, 10, 20, 50, 100}) cases.push_back(iterations_case(iterations));
+  for (const double side : {0.001, 0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.5, 1.0, 5.0, 20.0, 100.0, 1000.0})
     cases.push_back(size_case(side));
   for (const double x : {100.0, 1e3, 9e3, 1e5, 1e6}) cases.push_back(far_case(x));
   for (const double speed : {10.0, 100.0, 119.0, 400.0, 1000.0}) cases.push_back(wall_case(speed));
-  for (const double length : {40.0, 100.0, 200.0, 400.0, 1000.0}) cases.push_back(long_wall_case(length));
+  for (const double length : {40.0, 100.0, 150.0, 200.0, 400.0, 1000.0}) cases.push_back(long_wall_case(length));
   cases.push_back(measured({.group = "extremes",
                             .name = "overlap",
                             .setup = "sixteen cubes that begin half inside of each other, 5 s",

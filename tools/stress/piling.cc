@@ -308,7 +308,7 @@ void add_parameter_cases(std::vector<StressCase>& cases) {
   for (const double alpha : {1.0, 10.0, 45.0, 80.0, 89.0})
     cases.push_back(pour_with(fmt::format("alpha-{:g}", alpha),
                               fmt::format("50 boxes poured onto a pile of {:g} degrees", alpha), {.alpha_deg = alpha}));
-  for (const double tau : {0.0, 0.5, 0.99})
+  for (const double tau : {0.0, 0.1, 0.25, 0.5, 0.99})
     cases.push_back(
         pour_with(fmt::format("tau-{:g}", tau), fmt::format("50 boxes poured, tau {:g}", tau), {.tau = tau}));
 }

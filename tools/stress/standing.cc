@@ -156,20 +156,23 @@ struct Dominoes {
   }
 };
 
+/// A cube on another that is lighter, of less density or of less size.
 struct HeavyOnLight {
   double ratio = 10.0;
   int iterations = 10;
+  bool larger = false;
   template <int Dim>
   std::vector<double> operator()(const StressCell& cell) const {
     Stage<Dim> stage(cell);
     const int light = stage.cube(1.0);
-    const int heavy = stage.cube(1.0, {.density = 1000.0 * ratio});
+    const double side = larger ? std::pow(ratio, 1.0 / Dim) : 1.0;
+    const int heavy = stage.cube(side, {.density = larger ? 1000.0 : 1000.0 * ratio});
     stage.scene.world.solver.velocity_iterations = iterations;
     stage.body(light, place<Dim>(0.0, 0.5));
-    stage.body(heavy, place<Dim>(0.0, 1.5));
+    stage.body(heavy, place<Dim>(0.0, 1.0 + 0.5 * side));
     StressRun<Dim> run = stage.run();
     run.until(watched_until);
-    return {std::max(0.0, 1.5 - height<Dim>(run.at(1)))};
+    return {std::max(0.0, 1.0 + 0.5 * side - height<Dim>(run.at(1)))};
   }
 };
 
@@ -229,6 +232,16 @@ StressCase heavy_on_light(double ratio, int iterations) {
       HeavyOnLight{ratio, iterations});
 }
 
+StressCase large_on_small(double ratio) {
+  return measured({.group = "standing",
+                   .name = fmt::format("large-on-small-{:g}", ratio),
+                   .setup = fmt::format("a cube of the same matter and {:g} times the mass on another, 10 s", ratio),
+                   .gates = {{"sinking of the upper cube", "m", 0.0, 0.005, "the lower one is rigid"}},
+                   .policies = StressPolicies::all,
+                   .known = {{"bullet", "", sinks}, {"bullet-planar", "", sinks}}},
+                  HeavyOnLight{.ratio = ratio, .larger = true});
+}
+
 /// Structures with a number of iterations.
 void add_structures(std::vector<StressCase>& cases, int iterations) {
   const auto structure = [&](std::string name, const std::string& setup, double sideways) {
@@ -273,8 +286,10 @@ std::vector<StressCase> standing_cases() {
        .known = {{"", "adaptive",
                   "sleeping dominoes wake in the wave's way, which changes its speed by up to a fifth; all fall"}}},
       Dominoes{}));
+  for (const double ratio : {10.0, 20.0, 50.0}) cases.push_back(large_on_small(ratio));
   for (const int iterations : {10, 50})
-    for (const double ratio : {10.0, 20.0, 50.0, 100.0, 1000.0}) cases.push_back(heavy_on_light(ratio, iterations));
+    for (const double ratio : {10.0, 20.0, 30.0, 50.0, 100.0, 1000.0})
+      cases.push_back(heavy_on_light(ratio, iterations));
   return cases;
 }
 

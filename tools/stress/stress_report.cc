@@ -13,7 +13,9 @@
 #include <stdexcept>
 
 #include "common/scene/scene.h"
+#include "common/scene/window.h"
 #include "tools/plot/plot.h"
+#include "tools/run/backends.h"
 #include "tools/run/version.h"
 
 namespace talus {
@@ -301,11 +303,32 @@ Table cases_table(std::string_view group, const std::vector<StressRow>& rows) {
   return table;
 }
 
+/// The limits of each engine in this build.
+Table rules_table() {
+  Table table{"", {{"engine"}, {"field"}, {"rule"}}, {}};
+  const auto add = [&](const EngineTraits& engine) {
+    for (const WindowRule& rule : window_rules(engine))
+      table.rows.push_back({std::string(engine.name), fmt::format("`{}`", rule.field), rule.rule});
+  };
+  for (const std::string& backend : backends(2)) add(engine_traits<2>(backend));
+  for (const std::string& backend : backends(3)) add(engine_traits<3>(backend));
+  return table;
+}
+
 }  // namespace
 
 std::vector<Section> stress_sections(const std::vector<StressRow>& rows) {
   std::vector<Section> sections;
   sections.push_back({"In short", {Paragraph{in_short(rows) + "."}}});
+  sections.push_back(
+      {"The window",
+       {Paragraph{
+            "What `talus run`, `check`, `view` and `sweep` demand of a scene, from the cases below. Outside of the "
+            "window structures that stand by statics fall apart, or bodies pass through each other: the scene is "
+            "refused with exit code 2, and with `--force` it runs with warnings, which also stand in "
+            "[summary.json](files.md#summaryjson). Inside of it the [red cells](#red-cells) remain: they are "
+            "smaller, or depend on more than a scene's numbers."},
+        rules_table()}});
   sections.push_back(
       {"Where results hold",
        {Paragraph{"Of cases that differ in one number: the numbers at which all of their gates hold. What is left out "

@@ -17,7 +17,9 @@
 #include "tools/bench/in_processes.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
+#include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
+#include "tools/run/make_simulation.h"
 #include "tools/run/run_scene.h"
 #include "tools/sweep/sweep_plan.h"
 #include "tools/sweep/sweep_table.h"
@@ -41,6 +43,7 @@ struct SweepOptions {
   std::vector<std::string> settings;
   int seeds = 1;
   std::string backend;
+  bool force = false;
   int jobs = 0;  // 0: one for each core
   fs::path out;
   std::string plot = "centre_height_m";
@@ -65,12 +68,21 @@ std::vector<std::string> settings_of(const std::vector<SweepAxis>& axes, const S
   return settings;
 }
 
-/// Each value must make a scene that can be read: all errors before the first run.
-void check_runs(const fs::path& scene, const std::vector<SweepAxis>& axes, const std::vector<SweepRun>& runs) {
+template <int Dim>
+void check_run(const SweepOptions& options, const Scene<Dim>& scene, const fs::path& file) {
+  const std::vector<std::string> engines = backends(Dim);
+  const std::string& backend = options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
+  check_window(scene, backend, file, options.force);
+}
+
+/// Each value must make a scene that can be read and lies in the engine's window: all errors before the first run.
+void check_runs(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes,
+                const std::vector<SweepRun>& runs) {
   for (const SweepRun& run : runs) {
     std::vector<Override> overrides;
     for (std::string& setting : settings_of(axes, run)) overrides.push_back({std::move(setting)});
-    read_scene(scene, overrides);
+    const AnyScene read = read_scene(scene, overrides);
+    std::visit([&](const auto& of_dimension) { check_run(options, of_dimension, scene); }, read);
   }
 }
 
@@ -120,6 +132,7 @@ std::string run_one(const SweepOptions& options, const fs::path& scene, std::vec
   RunOptions run;
   run.scene = scene.string();
   run.backend = options.backend;
+  run.force = options.force;
   run.settings = std::move(settings);
   run.out = folder;
   run.telemetry = false;
@@ -160,7 +173,7 @@ int sweep(const SweepOptions& options) {
   const fs::path scene = fs::absolute(find_scene(options.scene));
   const std::vector<SweepAxis> axes = axes_of(options);
   const std::vector<SweepRun> runs = sweep_runs(axes);
-  check_runs(scene, axes, runs);
+  check_runs(options, scene, axes, runs);
   enter_folder(options.out, identity(options, scene, axes));
   const int failed = do_runs(options, scene, axes, runs);
   std::vector<SweepRow> rows;
@@ -199,6 +212,8 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
       ->check(number_between(1, 100000))
       ->capture_default_str();
   command->add_option("-b,--backend", options->backend, "Engine, as for `talus run`")->check(not_empty());
+  command->add_flag("-f,--force", options->force,
+                    "Run outside of the window in which results hold too, as `talus run`");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time; without it one for each core")
       ->check(number_between(1, 1000));
   command->add_option("-o,--out", options->out, "Folder of the sweep: new, empty, or of the same sweep to go on with")

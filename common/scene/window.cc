@@ -1,0 +1,176 @@
+#include "common/scene/window.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "common/shape/piece.h"
+
+namespace talus {
+namespace {
+
+std::string steps_rule(const EngineTraits& engine) {
+  return fmt::format("must be at least {:g} on {}: in longer steps bodies sink into each other and into the ground",
+                     engine.window.fewest_steps, engine.name);
+}
+
+std::string iterations_rule(const EngineTraits& engine) {
+  return fmt::format("must be at least {} on {}: with fewer, friction is too weak and stacks creep apart",
+                     engine.window.fewest_iterations, engine.name);
+}
+
+std::string masses_rule(const EngineTraits& engine) {
+  return fmt::format(
+      "must be at least {} on {} where masses of bodies differ by a factor of more than {:g}: with fewer, heavy "
+      "bodies sink into light ones",
+      engine.window.iterations_for_masses, engine.name, engine.window.largest_mass_ratio);
+}
+
+std::string width_rule(const EngineTraits& engine) {
+  return fmt::format(
+      "must be at least {:g} m wide on {}: the engine's contact margin does not shrink with the bodies, so smaller "
+      "ones "
+      "stand apart and stacks slide; larger units with as many times the gravity give the same pile",
+      engine.window.narrowest_body, engine.name);
+}
+
+std::string obstacle_rule(const EngineTraits& engine) {
+  return fmt::format(
+      "must be at most {:g} times as long as it is thick on {}: contacts with longer parts are missed; several shorter "
+      "obstacles side by side are safe",
+      engine.window.longest_obstacle, engine.name);
+}
+
+std::string tau_rule(const EngineTraits& engine) {
+  return fmt::format(
+      "must be above {:g} under the policy paper on {}: else bodies fall asleep in mid-air, at rest or not",
+      engine.window.tau_above, engine.name);
+}
+
+/// The shapes that bodies of the scene have.
+template <int Dim>
+std::vector<const Shape<Dim>*> shapes_of_bodies(const Scene<Dim>& scene) {
+  std::vector<bool> used(scene.world.shapes.size(), false);
+  for (const InitialBody<Dim>& body : scene.bodies) used[body.def.shape] = true;
+  for (const Source<Dim>& source : scene.sources)
+    for (const int shape : source.shapes) used[shape] = true;
+  std::vector<const Shape<Dim>*> shapes;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) shapes.push_back(&scene.world.shapes[i]);
+  return shapes;
+}
+
+/// Longest side of a box, else of the bounding box [m].
+template <int Dim>
+double length_of(const Piece<Dim>& piece) {
+  if (const auto* box = std::get_if<BoxPiece<Dim>>(&piece)) return 2.0 * box->half.maxCoeff();
+  return bounds_of<Dim>(piece, Eigen::Matrix<double, Dim, Dim>::Identity(), Vec<Dim>::Zero()).sizes().maxCoeff();
+}
+
+/// Collects what lies outside.
+class Finder {
+ public:
+  Finder(const EngineTraits& engine, const std::string& file) : engine_(engine), file_(file) {}
+
+  template <int Dim>
+  void look_at_settings(const Scene<Dim>& scene) {
+    const Window& window = engine_.window;
+    const double steps = 1.0 / scene.world.dt;
+    if (steps < window.fewest_steps * (1.0 - 1e-9))
+      add("world.steps_per_second", fmt::format("{:.4g}", steps), steps_rule(engine_));
+    const int iterations = scene.world.solver.velocity_iterations;
+    if (iterations < window.fewest_iterations)
+      add("world.solver.velocity_iterations", fmt::format("{}", iterations), iterations_rule(engine_));
+    if (scene.policy.kind == "paper" && scene.policy.paper.tau <= window.tau_above)
+      add("policy.tau", fmt::format("{:g}", scene.policy.paper.tau), tau_rule(engine_));
+  }
+
+  template <int Dim>
+  void look_at_bodies(const Scene<Dim>& scene) {
+    const Window& window = engine_.window;
+    const std::vector<const Shape<Dim>*> shapes = shapes_of_bodies(scene);
+    if (shapes.empty()) return;
+    const auto width = [](const Shape<Dim>* shape) { return shape->bounds.sizes().minCoeff(); };
+    const Shape<Dim>& narrowest = **std::ranges::min_element(shapes, {}, width);
+    if (width(&narrowest) < window.narrowest_body * (1.0 - 1e-9))
+      add(fmt::format("shape.{}", narrowest.name), fmt::format("{:.3g} m wide", width(&narrowest)),
+          width_rule(engine_));
+    const auto [light, heavy] = std::ranges::minmax_element(shapes, {}, [](const auto* each) { return each->mass; });
+    const double ratio = (*heavy)->mass / (*light)->mass;
+    const int iterations = scene.world.solver.velocity_iterations;
+    if (ratio > window.largest_mass_ratio * (1.0 + 1e-9) && iterations < window.iterations_for_masses)
+      add("world.solver.velocity_iterations",
+          fmt::format("{} with shape.{} of {:.3g} times the mass of shape.{}", iterations, (*heavy)->name, ratio,
+                      (*light)->name),
+          masses_rule(engine_));
+  }
+
+  /// The part that is longest beside its thickness.
+  template <int Dim>
+  void look_at_obstacles(const Scene<Dim>& scene) {
+    double worst = engine_.window.longest_obstacle * (1.0 + 1e-9);
+    std::string field;
+    std::string value;
+    for (const Obstacle<Dim>& obstacle : scene.world.obstacles) {
+      for (const Piece<Dim>& piece : obstacle.shape.pieces) {
+        const double length = length_of(piece);
+        const double thickness = smallest_width(piece);
+        if (length <= worst * thickness) continue;
+        worst = length / thickness;
+        field = obstacle.shape.name;
+        value = fmt::format("{:.4g} m long and {:.3g} m thick", length, thickness);
+      }
+    }
+    if (!value.empty()) add(field, value, obstacle_rule(engine_));
+  }
+
+  std::vector<SceneError> take() { return std::move(outside_); }
+
+ private:
+  void add(std::string field, std::string value, std::string rule) {
+    outside_.push_back({file_, 0, 0, std::move(field), std::move(value), std::move(rule), {}});
+  }
+
+  const EngineTraits& engine_;
+  const std::string& file_;
+  std::vector<SceneError> outside_;
+};
+
+}  // namespace
+
+std::vector<WindowRule> window_rules(const EngineTraits& engine) {
+  const Window& window = engine.window;
+  std::vector<WindowRule> rules = {{"world.steps_per_second", steps_rule(engine)}};
+  if (window.fewest_iterations > 1) rules.push_back({"world.solver.velocity_iterations", iterations_rule(engine)});
+  if (window.largest_mass_ratio < Window().largest_mass_ratio)
+    rules.push_back({"world.solver.velocity_iterations", masses_rule(engine)});
+  if (window.narrowest_body > 0.0) rules.push_back({"shape.*", width_rule(engine)});
+  if (std::isfinite(window.longest_obstacle)) rules.push_back({"obstacle", obstacle_rule(engine)});
+  rules.push_back({"policy.tau", tau_rule(engine)});
+  return rules;
+}
+
+template <int Dim>
+std::vector<SceneError> outside_window(const Scene<Dim>& scene, const EngineTraits& engine, const std::string& file) {
+  Finder finder(engine, file);
+  finder.look_at_settings(scene);
+  finder.look_at_bodies(scene);
+  finder.look_at_obstacles(scene);
+  return finder.take();
+}
+
+void refuse_outside_window(std::span<const SceneError> outside) {
+  if (outside.empty()) return;
+  std::string text = "the scene lies outside of the window in which results hold (docs/limits.md); --force runs it";
+  for (const SceneError& each : outside) text += fmt::format("\n{}", to_string(each));
+  throw std::invalid_argument(text);
+}
+
+template std::vector<SceneError> outside_window(const Scene<2>&, const EngineTraits&, const std::string&);
+template std::vector<SceneError> outside_window(const Scene<3>&, const EngineTraits&, const std::string&);
+
+}  // namespace talus
