@@ -50,6 +50,10 @@ constexpr auto shortened = std::to_array<Shortened>({
      "talus run drop_in_a_pile_2d --policy paper --out runs/paper --set run.frames=300"},
     {"talus bench table1 --quick",
      "talus bench table1 --quick --scene varying_drops_2d --share 0.02 --rounds 1 --no-errors"},
+    // Outside of the window.
+    {"talus run heavy.toml --out heavy", "! talus run heavy.toml --out heavy"},
+    {"talus run coarse.toml --out coarse", "! talus run coarse.toml --out coarse"},
+    {"talus run wall.toml --out wall", "! talus run wall.toml --out wall"},
     {"talus stress", "talus stress stack-5"},
     {"talus stress --advise drop_in_a_pile_2d --tolerance 0.1", "talus stress --help"},
     {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
