@@ -53,7 +53,7 @@ constexpr auto shortened = std::to_array<Shortened>({
     // Outside of the window.
     {"talus run heavy.toml --out heavy", "! talus run heavy.toml --out heavy"},
     {"talus run coarse.toml --out coarse", "! talus run coarse.toml --out coarse"},
-    {"talus run wall.toml --out wall", "! talus run wall.toml --out wall"},
+    {"talus run long_wall.toml --out long_wall", "! talus run long_wall.toml --out long_wall"},
     {"talus stress", "talus stress stack-5"},
     {"talus stress --advise drop_in_a_pile_2d --tolerance 0.1", "talus stress --help"},
     {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
