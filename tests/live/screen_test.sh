@@ -95,7 +95,7 @@ two_runs) # two runs at once: by key, and in a table
   press Tab && shown 15 'run 2 of 2'
   press r
   shown 15 '^   1 .* adaptive  *box2d small_pile'
-  expect '^   2 .* box2d small_pile' screen.txt
+  shown 15 '^   2 .* box2d small_pile'
   press q && shown 15 'exit code 0'
   ;;
 
