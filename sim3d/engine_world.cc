@@ -6,6 +6,7 @@
 
 #include "sim3d/bodies.h"
 #include "sim3d/body_template.h"
+#include "sim3d/bullet/rebound.h"
 #include "sim3d/bullet/rolling_solver.h"
 #include "sim3d/conversions.h"
 
@@ -46,6 +47,13 @@ bool has_rolling_friction(const WorldDescription<Dim>& description) {
                              [](const Shape<Dim>& shape) { return shape.material.rolling_friction > 0.0; });
 }
 
+/// Whether two surfaces may rebound from each other.
+template <int Dim>
+bool has_restitution(const WorldDescription<Dim>& description) {
+  return std::ranges::any_of(description.shapes,
+                             [](const Shape<Dim>& shape) { return shape.material.restitution > 0.0; });
+}
+
 template <int Dim>
 void give_velocity(btRigidBody& body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
   body.setLinearVelocity(to_bullet(velocity));
@@ -59,6 +67,7 @@ template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     : World<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
+      rebounds_(has_restitution(description)),
       engine_(gravity_of(description), description.solver, description.debug, has_rolling_friction(description)) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
@@ -69,6 +78,8 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
   engine_.world.set_after_collision([this] {
     swap_.restore_contacts();
     if (auto* rolling = dynamic_cast<RollingSolver*>(engine_.solver.get())) rolling->start_step();
+    if (rebounds_)
+      set_rebounds(engine_.dispatcher, engine_.world.getSolverInfo(), static_cast<btScalar>(this->description().dt));
   });
 }
 
