@@ -10,10 +10,10 @@
 namespace talus {
 
 /// One kind of message each.
-enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes };
+enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events };
 
-inline constexpr std::array<const char*, 6> channel_names = {"TALUS_RUN",   "TALUS_PILES",  "TALUS_SLEEP",
-                                                             "TALUS_STATS", "TALUS_BODIES", "TALUS_SHAPES"};
+inline constexpr std::array<const char*, 7> channel_names = {
+    "TALUS_RUN", "TALUS_PILES", "TALUS_SLEEP", "TALUS_STATS", "TALUS_BODIES", "TALUS_SHAPES", "TALUS_EVENTS"};
 
 inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
 
@@ -31,6 +31,8 @@ template <>
 inline constexpr Channel channel_of<talus_lcm::talus_bodies_v1> = Channel::bodies;
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_shapes_v1> = Channel::shapes;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_event_v1> = Channel::events;
 
 /// Largest encoded message [bytes]: what fits one datagram, since LCM 1.3.1 loses every message of several fragments
 /// when one of them is lost or late.

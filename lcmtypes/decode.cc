@@ -11,6 +11,7 @@ namespace talus {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_event_v1;
 using talus_lcm::talus_layer_v1;
 using talus_lcm::talus_pile_v1;
 using talus_lcm::talus_piles_v1;
@@ -106,6 +107,12 @@ std::string_view range_fault(const talus_sleep_v1& m) {
   if (!std::all_of(m.layer.begin(), m.layer.end(), is_index_or_none)) return "layer out of range";
   const auto known = [](std::int8_t cause) { return cause >= talus_sleep_v1::SCORE && cause <= talus_sleep_v1::CHECK; };
   if (!std::all_of(m.cause.begin(), m.cause.end(), known)) return "unknown cause";
+  return {};
+}
+
+std::string_view range_fault(const talus_event_v1& m) {
+  if (!header_holds(m)) return "header out of range";
+  if (m.number < 0) return "negative number";
   return {};
 }
 

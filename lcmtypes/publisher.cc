@@ -46,19 +46,6 @@ std::unique_ptr<SendQueue> open_queue(const PublisherParams& params) {
   return std::make_unique<SendQueue>(std::move(link.lcm), params.queue_bytes);
 }
 
-void put(talus_lcm::talus_stats_v2& message, const PhaseTimes& sum, std::int64_t steps) {
-  const auto mean = [&](double seconds) { return static_cast<float>(1e3 * seconds / static_cast<double>(steps)); };
-  message.ms_emit = mean(sum.emit);
-  message.ms_step = mean(sum.step);
-  message.ms_collide = mean(sum.collide);
-  message.ms_solve = mean(sum.solve);
-  message.ms_read = mean(sum.read);
-  message.ms_count = mean(sum.count);
-  message.ms_decide = mean(sum.decide);
-  message.ms_apply = mean(sum.apply);
-  message.ms_observe = mean(sum.observe);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -176,7 +163,7 @@ template <int Dim>
 void Publisher<Dim>::send_stats(const Frame<Dim>& frame, Clock::time_point now) {
   auto message = to_stats<Dim>(frame);
   message.timed = 1;
-  if (summed_steps_ > 0) put(message, sum_, summed_steps_);
+  if (summed_steps_ > 0) set_phase_times(sum_, summed_steps_, message);
   const std::chrono::duration<double> passed = now - stats_wall_;
   if (passed.count() > 0.0) message.real_time_factor = static_cast<float>((frame.time - stats_time_) / passed.count());
   message.queued_bytes = static_cast<std::int64_t>(queue_->queued_bytes());

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
+#include "common/scene/happened.h"
 #include "lcmtypes/translate.h"
 
 namespace talus {
@@ -15,8 +17,9 @@ using talus_lcm::talus_run_v1;
 
 namespace {
 
-constexpr std::array recorded_channels = {Channel::run,   Channel::piles,  Channel::sleep,
-                                          Channel::stats, Channel::bodies, Channel::shapes};
+/// The last one only in runs of scenes with events.
+constexpr std::array recorded_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
+                                          Channel::bodies, Channel::shapes, Channel::events};
 
 // Between the stamps of two messages [us]: lcm-logplayer then paces them so that no receive buffer runs over.
 constexpr std::int64_t pace = 100;
@@ -42,6 +45,10 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
       encoder_(record_id(info)) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
+  for (std::size_t i = 0; i < scene.events.size(); ++i) {
+    const std::string& action = scene.events[i].action;
+    scene_events_.push_back({action, event_text(scene, static_cast<int>(i)), action == "remove"});
+  }
   write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
   write(to_shapes<Dim>(scene.world), 0, 0.0);
   log_.flush();
@@ -49,13 +56,14 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
 
 template <int Dim>
 void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
+  write_scene_events(frame);
   write(to_sleep(frame.events), frame.step, frame.time);
   for (const SleepEvent& event : frame.events)
     if (!event.woke) fell_asleep_.push_back(event.body);
   if (frame.step % steps_per_frame_ == 0) {
     const bool due = frame.step % steps_per_key_frame_ == 0;
     if (due) write_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
-    write_output(frame, due && poses_since_key_frame_ >= frame.world.states().size());
+    write_output(frame, removed_ || (due && poses_since_key_frame_ >= frame.world.states().size()));
   }
   log_.flush_after(flush_interval_);
 }
@@ -77,11 +85,26 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   poses_since_key_frame_ += static_cast<std::int64_t>(bodies.size());
   if (key_frame) {
     poses_since_key_frame_ = 0;
+    removed_ = false;
     bodies.clear();
     for (BodyIndex body = 0; body < states.size(); ++body)
       if (states.removed[body] == 0) bodies.push_back(body);
   }
   write(to_bodies<Dim>(states, bodies, key_frame), frame.step, frame.time);
+}
+
+/// A key frame follows the removal of bodies: only it says which bodies there are.
+template <int Dim>
+void RunRecorder<Dim>::write_scene_events(const Frame<Dim>& frame) {
+  for (const int number : frame.scene_events) {
+    const EventText& event = scene_events_[number];
+    talus_lcm::talus_event_v1 message{};
+    message.number = number;
+    message.action = event.action;
+    message.text = event.text;
+    write(message, frame.step, frame.time);
+    removed_ = removed_ || event.removes;
+  }
 }
 
 /// Bodies awake, and those that came to rest since the last frame of output: their last pose is not recorded yet.
@@ -99,7 +122,8 @@ std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
 
 template <int Dim>
 void RunRecorder<Dim>::write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto message = to_run(info_, phase, reason, recorded_channels, encoder_);
+  const std::size_t channels = recorded_channels.size() - (scene_events_.empty() ? 1 : 0);
+  auto message = to_run(info_, phase, reason, std::span(recorded_channels).first(channels), encoder_);
   write(message, step, time);
 }
 

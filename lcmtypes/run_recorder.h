@@ -17,11 +17,11 @@ struct RecorderParams {
                                     // short: the file of a lively run doubles
 };
 
-/// Writes the record of a run: shapes at the start, sleep events of each step, piles, statistics and poses of each
-/// frame of output, key frames, and why it ended. Key frames come after at least as many poses of moving bodies, so
-/// together they take no more room than what moves, however many sleep. Stamps are simulated time and nothing in the
-/// file is from the wall clock, so the same run gives the same bytes. When the disk is full a call throws
-/// std::system_error, and later ones do nothing.
+/// Writes the record of a run: shapes at the start, events of the scene, sleep events of each step, piles, statistics
+/// and poses of each frame of output, key frames, and why it ended. Key frames come after at least as many poses of
+/// moving bodies, so together they take no more room than what moves, however many sleep. Stamps are simulated time and
+/// nothing in the file is from the wall clock, so the same run gives the same bytes. When the disk is full a call
+/// throws std::system_error, and later ones do nothing.
 template <int Dim>
 class RunRecorder final : public Observer<Dim> {
  public:
@@ -41,6 +41,7 @@ class RunRecorder final : public Observer<Dim> {
   void write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time);
   void write_output(const Frame<Dim>& frame, bool key_frame);
   std::vector<BodyIndex> moved(const Frame<Dim>& frame);
+  void write_scene_events(const Frame<Dim>& frame);
 
   RunInfo info_;
   std::int64_t steps_per_frame_;
@@ -51,6 +52,13 @@ class RunRecorder final : public Observer<Dim> {
   MessageEncoder encoder_;
   std::int64_t last_utime_ = -1;
   std::vector<BodyIndex> fell_asleep_;  // since the last frame of output
+  struct EventText {
+    std::string action;
+    std::string text;
+    bool removes = false;  // bodies
+  };
+  std::vector<EventText> scene_events_;  // of the scene
+  bool removed_ = false;                 // an event removed bodies since the last key frame
 };
 
 }  // namespace talus

@@ -155,6 +155,31 @@ std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
   return numbered(std::move(messages));
 }
 
+void set_phase_times(const PhaseTimes& sum, std::int64_t steps, talus_lcm::talus_stats_v2& message) {
+  const auto mean = [&](double seconds) { return static_cast<float>(1e3 * seconds / static_cast<double>(steps)); };
+  message.ms_emit = mean(sum.emit);
+  message.ms_step = mean(sum.step);
+  message.ms_collide = mean(sum.collide);
+  message.ms_solve = mean(sum.solve);
+  message.ms_read = mean(sum.read);
+  message.ms_count = mean(sum.count);
+  message.ms_decide = mean(sum.decide);
+  message.ms_apply = mean(sum.apply);
+  message.ms_observe = mean(sum.observe);
+}
+
+PhaseTimes phase_times_of(const talus_lcm::talus_stats_v2& message) {
+  return {.emit = message.ms_emit,
+          .step = message.ms_step,
+          .collide = message.ms_collide,
+          .solve = message.ms_solve,
+          .read = message.ms_read,
+          .count = message.ms_count,
+          .decide = message.ms_decide,
+          .apply = message.ms_apply,
+          .observe = message.ms_observe};
+}
+
 std::vector<SleepEvent> events_of(const talus_sleep_v1& message) {
   std::vector<SleepEvent> events;
   events.reserve(message.body.size());

@@ -29,6 +29,11 @@ std::vector<talus_lcm::talus_sleep_v1> to_sleep(std::span<const SleepEvent> even
 template <int Dim>
 talus_lcm::talus_stats_v2 to_stats(const Frame<Dim>& frame);
 
+/// Writes the mean times of `steps` > 0 steps, from their sum.
+void set_phase_times(const PhaseTimes& sum, std::int64_t steps, talus_lcm::talus_stats_v2& message);
+/// The times of one step that a message has [ms].
+PhaseTimes phase_times_of(const talus_lcm::talus_stats_v2& message);
+
 /// The events of a message that has passed decode().
 std::vector<SleepEvent> events_of(const talus_lcm::talus_sleep_v1& message);
 

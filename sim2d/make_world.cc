@@ -23,7 +23,7 @@ EngineTraits box2d_traits() {
   return {.name = "box2d",
           .window = {.narrowest_body = 0.1},
           .fastest_step = b2_maxTranslation,
-          .restitution_gain = 0.19,
+          .restitution_gain = 0.06,
           .awake_bytes = 1200.0,
           .sleeper_bytes = 700.0,
           .awake_seconds = 3e-6};

@@ -13,7 +13,8 @@
 namespace talus {
 
 inline constexpr std::string_view when_at_rest = "rest";
-inline constexpr std::array<std::string_view, 1> event_conditions = {when_at_rest};
+inline constexpr std::string_view when_layer_density = "layer_density";
+inline constexpr std::array<std::string_view, 2> event_conditions = {when_at_rest, when_layer_density};
 inline constexpr std::array<std::string_view, 7> event_actions = {"remove", "wake",    "kick",   "rate",
                                                                   "policy", "gravity", "picture"};
 /// Policies that a run may switch between: the engine's own sleeping is part of its world.
@@ -24,6 +25,8 @@ template <int Dim>
 struct Event {
   std::optional<double> time = {};
   std::string when = {};
+  double density = 0.0;  // of the densest layer of `pile`, with when_layer_density
+  int pile = 0;
   std::int64_t bodies = 0;  // 0: no such condition
   std::string action = {};
   std::vector<int> shapes = {};      // of the bodies that are meant; empty: of any
@@ -57,8 +60,17 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
      {.name = "when",
       .choices = event_conditions,
       .default_text = "none",
-      .meaning = "it happens once the world is at rest, as in `run.until`. Of several such events each waits for the "
-                 "rest after the one before it"}},
+      .meaning =
+          "`rest`: it happens once the world is at rest, as in `run.until`. Of several such events each waits "
+          "for the rest after the one before it. `layer_density`: once a layer of a pile is denser than `density`"}},
+    {&Event<Dim>::density,
+     {.name = "density",
+      .range = above(0.0, 1e3),
+      .default_text = "required for `layer_density`",
+      .meaning = "`layer_density`: number of bodies in the densest layer of the pile over the number that it has room "
+                 "for, see [layers](#where-piles-are-to-grow-pile)"}},
+    {&Event<Dim>::pile,
+     {.name = "pile", .range = between(0.0, 4095.0), .meaning = "`layer_density`: number of the pile, from 0 on"}},
     {&Event<Dim>::bodies,
      {.name = "bodies",
       .range = between(0.0, 1e7),

@@ -2,6 +2,7 @@
 // Whether bodies at given places overlap.
 
 #include <array>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -21,7 +22,7 @@ struct Overlap {
   std::string other;   // as messages name it: "obstacle[2]", "body 5 of body[1]"
 };
 
-/// Finds overlaps of bodies by their true shapes. Each body is compared with those near it and with all obstacles.
+/// Finds overlaps of bodies by their true shapes. Each body is compared with the bodies and obstacles near it.
 template <int Dim>
 class OverlapCheck {
  public:
@@ -38,32 +39,35 @@ class OverlapCheck {
   struct CellHash {
     std::size_t operator()(const Cell& cell) const;
   };
+  /// A body or an obstacle.
   struct Solid {
-    Pieces pieces;
+    int pieces = 0;  // index of shapes_; of an obstacle of obstacles_
+    Pose<Dim> pose;
     Box<Dim> bounds;
     bool fixed = false;
     int name = 0;     // index of names_
-    int number = -1;  // among the bodies of this name; -1: none
+    int number = -1;  // among the bodies of this name; -1: an obstacle
   };
 
-  /// Bodies of like width, all fixed or none: small bodies near a large one are not compared with one another.
+  /// Solids of like width, all fixed or none: small ones near a large one are not compared with one another.
   struct Level {
-    double width = 0.0;  // of a cell: no body is wider [m]
+    double width = 0.0;  // of a cell: no solid is wider [m]
     bool fixed = false;
-    std::vector<int> bodies;
-    std::unordered_map<Cell, std::vector<int>, CellHash> cells;  // bodies by the cell of their position; only looked up
+    std::vector<int> solids;
+    std::unordered_map<Cell, std::vector<int>, CellHash> cells;  // solids by the cell of their position; only looked up
   };
 
-  Solid make_solid(const Shape<Dim>& shape, const Pieces& pieces, const Pose<Dim>& pose) const;
+  /// At the solid's pose; `room` holds them where they are not kept.
+  std::span<const ConvexPiece<Dim>> pieces_of(const Solid& solid, Pieces& room) const;
   void compare(const Solid& body, const Solid& other, Overlap& deepest) const;
   std::string name_of(const Solid& solid) const;
   void compare_near(const Solid& body, const Level& level, Overlap& deepest) const;
-  void keep(Solid body, const Vec<Dim>& position, double width);
+  void keep(const Solid& solid, double width);
 
   const WorldDescription<Dim>& world_;
-  std::vector<Pieces> shapes_;  // of the world, in their own axes
-  std::vector<Solid> obstacles_;
-  std::vector<Solid> bodies_;
+  std::vector<Pieces> shapes_;     // of the world, in their own axes
+  std::vector<Pieces> obstacles_;  // at their poses
+  std::vector<Solid> solids_;
   std::vector<std::string> names_;
   std::vector<Level> levels_;
 };

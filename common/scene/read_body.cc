@@ -7,19 +7,23 @@
 namespace talus {
 namespace {
 
+/// Each is compared with those near it, some microseconds a body. More bodies come from sources.
+constexpr int most_placed_bodies = 100'000;
+
 /// The shape's number; nothing, with an error, if it is not clear which shape is meant.
 std::optional<int> read_shape_number(TableReader& table, const ShapeNames& shapes) {
   std::string name;
   const std::span<const std::string> names = shapes.names();
+  const std::vector<std::string> usual = shapes.names_of_bodies();
   const bool given = table.has("shape");
   if (names.empty()) return std::nullopt;  // without any shape every name would be wrong
-  if (!given && names.size() > 1) {
+  if (!given && usual.size() != 1) {
     table.error("shape", fmt::format("must be given, since there are {} shapes", names.size()));
     return std::nullopt;
   }
-  table.fill("shape", toml_text(names.front()));
+  if (!usual.empty()) table.fill("shape", toml_text(usual.front()));
   table.read("shape", name, names);
-  const std::vector<int> variants = shapes.variants(given ? name : names.front());
+  const std::vector<int> variants = shapes.variants(given ? name : usual.front());
   return variants.empty() ? std::nullopt : std::optional(variants.front());
 }
 
@@ -136,8 +140,9 @@ void read_body(TableReader& table, const ShapeNames& shapes, OverlapCheck<Dim>& 
   const Turn<Dim> turn = read_turn<Dim>(table).value_or(Turn<Dim>());
   check_params(table, params);
   if (!table.ok() || !shape || !shapes.complete()) return;
-  if (scene.bodies_asked() + bodies_in_all(params) > most_bodies) {
-    table.error("repeat", fmt::format("must leave at most {} bodies in all", most_bodies));
+  if (std::ssize(scene.bodies) + std::ssize(scene.world.obstacles) + bodies_in_all(params) > most_placed_bodies) {
+    table.error("repeat", fmt::format("must leave at most {} bodies and obstacles at the start; sources drop more",
+                                      most_placed_bodies));
     return;
   }
   const auto bodies = bodies_of(params, turn, *shape, scene.world.shapes[*shape]);

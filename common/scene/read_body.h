@@ -53,7 +53,8 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
     {&BodyParams<Dim>::repeat,
      {.name = "repeat",
       .range = between(1.0, 1e4),
-      .meaning = "bodies along each axis, around `position` and upwards from it; the last number is that of layers"}},
+      .meaning = "bodies along each axis, around `position` and upwards from it; the last number is that of layers; at "
+                 "most 100,000 bodies and obstacles in all"}},
     {&BodyParams<Dim>::step,
      {.name = "step", .unit = "m", .range = coordinate_range, .meaning = "from one body to the next along each axis"}},
     {&BodyParams<Dim>::stagger,

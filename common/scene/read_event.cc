@@ -35,8 +35,12 @@ void read_event_shapes(TableReader& table, const ShapeNames& shapes, Event<Dim>&
     table.has("shape");
   else
     table.read("shape", names, shapes.names());
-  for (const std::string& name : names)
-    for (const int variant : shapes.variants(name)) event.shapes.push_back(variant);
+  constexpr int no_shape = -1;  // of a part of compounds: an event that names it means no body
+  for (const std::string& name : names) {
+    const std::vector<int> variants = shapes.variants(name);
+    event.shapes.insert(event.shapes.end(), variants.begin(), variants.end());
+    if (variants.empty()) event.shapes.push_back(no_shape);
+  }
 }
 
 template <int Dim>
@@ -53,10 +57,24 @@ void read_event_obstacle(TableReader& table, const Scene<Dim>& scene, Event<Dim>
   if (found != names.end()) event.obstacle = static_cast<int>(found - names.begin());
 }
 
+/// The keys of a condition.
 template <int Dim>
-void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& event) {
+void check_condition(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& event) {
   const int conditions = (table.has("time") ? 1 : 0) + (table.has("when") ? 1 : 0) + (table.has("bodies") ? 1 : 0);
   if (conditions != 1) table.error("", "must have one of time, when and bodies");
+  if (event.when != when_layer_density) {
+    for (const std::string_view key : {"density", "pile"})
+      table.forbid(key, fmt::format("means nothing without when = \"{}\"", when_layer_density));
+    return;
+  }
+  table.require("density");
+  if (event.pile >= std::ssize(scene.piles))
+    table.error("pile", fmt::format("must be the number of a pile, of which there are {}", scene.piles.size()));
+}
+
+template <int Dim>
+void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& event) {
+  check_condition(table, scene, event);
   if (!event.box.empty() && (event.box.size() != 2 || (event.box[0].array() > event.box[1].array()).any()))
     table.error("box", "must be two corners, the lower one first");
   if (std::ranges::any_of(event.numbers, [](double number) { return number != std::floor(number); }))
@@ -65,6 +83,8 @@ void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& 
     table.error("source", fmt::format("must be the number of a source, of which there are {}", scene.sources.size()));
   if (event.action == "policy" && scene.policy.kind == "engine")
     table.error("do", "must not be policy where policy.kind is engine, whose sleeping is part of its world");
+  if (event.action == "gravity" && scene.gravity_motion)
+    table.error("do", "must not be gravity where world.gravity_motion is given");
   if (event.action == "kick" && event.velocity.norm() > fastest_speed<Dim>(scene.world.dt))
     table.error("velocity", fmt::format("must be at most {:.6g} m/s", fastest_speed<Dim>(scene.world.dt)));
 }

@@ -8,9 +8,9 @@ namespace talus {
 namespace {
 
 template <int Dim>
-void read_motion_axis(TableReader& table, Motion<Dim>& motion, bool required) {
+void read_motion_axis(TableReader& table, const Key& key, Motion<Dim>& motion, bool required) {
   if (required && Dim == 3) table.require("axis");
-  table.read(motion_axis_key, motion.axis);
+  table.read(key, motion.axis);
   if (motion.axis.norm() < 1e-6)
     table.error("axis", "must have a length, of any size");
   else
@@ -18,15 +18,30 @@ void read_motion_axis(TableReader& table, Motion<Dim>& motion, bool required) {
 }
 
 template <int Dim>
+void check_times(TableReader& table, const Motion<Dim>& motion) {
+  if (motion.times.size() < 2 || !std::ranges::is_sorted(motion.times, std::ranges::less_equal()))
+    table.error("times", "must be two or more, each later than the one before");
+}
+
+template <int Dim>
 void check_path(TableReader& table, const Motion<Dim>& motion) {
   if (!table.ok()) return;
   const std::size_t corners = motion.times.size();
-  if (corners < 2 || !std::ranges::is_sorted(motion.times, std::ranges::less_equal()))
-    table.error("times", "must be two or more, each later than the one before");
+  check_times(table, motion);
   if (motion.shifts.size() != corners || motion.shifts.front().norm() > 0.0)
     table.error("shifts", fmt::format("must be {}, as many as times, the first of them 0", corners));
   if (!motion.angles.empty() && (motion.angles.size() != corners || motion.angles.front() != 0.0))
     table.error("angles_deg", fmt::format("must be {}, as many as times, the first of them 0", corners));
+}
+
+template <int Dim>
+void check_gravity_path(TableReader& table, const Motion<Dim>& motion) {
+  if (!table.ok()) return;
+  check_times(table, motion);
+  if (table.has("gravity") == table.has("angles_deg")) table.error("", "must have one of gravity and angles_deg");
+  const std::string rule = fmt::format("must be {}, as many as times", motion.times.size());
+  if (table.has("gravity") && motion.shifts.size() != motion.times.size()) table.error("gravity", rule);
+  if (table.has("angles_deg") && motion.angles.size() != motion.times.size()) table.error("angles_deg", rule);
 }
 
 /// The engines' limits hold for obstacles too.
@@ -55,16 +70,37 @@ Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double rea
     table.read_fields(motion, sine_fields<Dim>);
   } else if (kind == "turn") {
     table.read_fields(motion, turn_fields<Dim>);
-    read_motion_axis(table, motion, true);
+    read_motion_axis(table, motion_axis_key, motion, true);
   } else if (kind == "path") {
     table.read_fields(motion, path_fields<Dim>);
-    read_motion_axis(table, motion, !motion.angles.empty());
+    read_motion_axis(table, motion_axis_key, motion, !motion.angles.empty());
     check_path(table, motion);
   }
   check_motion(table, motion, position, reach, dt);
   return motion;
 }
 
+template <int Dim>
+Motion<Dim> read_gravity_motion(TableReader& table, const Vec<Dim>& gravity) {
+  Motion<Dim> motion;
+  const std::string kind = read_kind(table, {motion_kinds.begin(), motion_kinds.end()});
+  if (kind == "sine") {
+    table.read_fields(motion, gravity_sine_fields<Dim>);
+  } else if (kind == "turn") {
+    table.read_fields(motion, gravity_turn_fields<Dim>);
+    read_motion_axis(table, gravity_motion_axis_key, motion, true);
+  } else if (kind == "path") {
+    table.read_fields(motion, gravity_path_fields<Dim>);
+    read_motion_axis(table, gravity_motion_axis_key, motion, !motion.angles.empty());
+    check_gravity_path(table, motion);
+  }
+  if (motion.end && *motion.end <= motion.start) table.error("end", "must be after start");
+  for (Vec<Dim>& value : motion.shifts) value -= gravity;
+  return motion;
+}
+
+template Motion<2> read_gravity_motion(TableReader&, const Vec<2>&);
+template Motion<3> read_gravity_motion(TableReader&, const Vec<3>&);
 template Motion<2> read_motion(TableReader&, const Vec<2>&, double, double);
 template Motion<3> read_motion(TableReader&, const Vec<3>&, double, double);
 

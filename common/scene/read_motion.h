@@ -26,7 +26,8 @@ inline constexpr Range time_range = between(0.0, 1e6);
 
 template <int Dim>
 inline constexpr Field<Motion<Dim>> motion_start_field = {
-    &Motion<Dim>::start, {.name = "start", .unit = "s", .range = time_range, .meaning = "until then it stands still"}};
+    &Motion<Dim>::start,
+    {.name = "start", .unit = "s", .range = time_range, .meaning = "until then it stays as it is"}};
 template <int Dim>
 inline constexpr Field<Motion<Dim>> motion_end_field = {&Motion<Dim>::end,
                                                         {.name = "end",
@@ -34,7 +35,7 @@ inline constexpr Field<Motion<Dim>> motion_end_field = {&Motion<Dim>::end,
                                                          .range = time_range,
                                                          .further_rule = "after `start`",
                                                          .default_text = "never",
-                                                         .meaning = "from then on it stays where it is"}};
+                                                         .meaning = "from then on it stays as it is"}};
 
 template <int Dim>
 inline constexpr auto sine_fields = std::to_array<Field<Motion<Dim>>>({
@@ -92,6 +93,74 @@ inline constexpr auto path_fields = std::to_array<Field<Motion<Dim>>>({
       .meaning = "turn about `position`, counter-clockwise"}},
     {{}, motion_axis_key},
 });
+
+inline constexpr Key gravity_motion_axis_key = {.name = "axis",
+                                                .dimension = 3,
+                                                .type = "vector",
+                                                .range = coordinate_range,
+                                                .further_rule = "not zero",
+                                                .default_text = "required for a turn",
+                                                .meaning = "axis of the turn, of any length"};
+template <int Dim>
+inline constexpr auto gravity_sine_fields = std::to_array<Field<Motion<Dim>>>({
+    {&Motion<Dim>::amplitude,
+     {.name = "amplitude",
+      .required = true,
+      .unit = "m/s^2",
+      .range = between(-1e3, 1e3),
+      .meaning = "this times a sine is added to `gravity`, which is what happens in a box that is shaken"}},
+    {&Motion<Dim>::frequency,
+     {.name = "frequency", .required = true, .unit = "1/s", .range = above(0.0, 1e3), .meaning = "of that"}},
+    motion_start_field<Dim>,
+    motion_end_field<Dim>,
+});
+
+template <int Dim>
+inline constexpr auto gravity_turn_fields = std::to_array<Field<Motion<Dim>>>({
+    {&Motion<Dim>::speed,
+     {.name = "speed_deg",
+      .required = true,
+      .unit = "degrees/s",
+      .stored = Stored::in_radians,
+      .range = between(-1e5, 1e5),
+      .meaning = "of a steady turn of `gravity`, counter-clockwise: a box that tilts clockwise"}},
+    {{}, gravity_motion_axis_key},
+    motion_start_field<Dim>,
+    motion_end_field<Dim>,
+});
+
+template <int Dim>
+inline constexpr auto gravity_path_fields = std::to_array<Field<Motion<Dim>>>({
+    {&Motion<Dim>::times,
+     {.name = "times",
+      .required = true,
+      .unit = "s",
+      .range = time_range,
+      .further_rule = "ascending, two or more",
+      .meaning = "when gravity has each of the values. Between two of them it changes steadily, before the first and "
+                 "after the last it stays"}},
+    {&Motion<Dim>::shifts,
+     {.name = "gravity",
+      .type = "vectors",
+      .unit = "m/s^2",
+      .range = between(-1e3, 1e3),
+      .further_rule = "as many as `times`",
+      .default_text = "none",
+      .meaning = "gravity itself, in the place of `world.gravity`. One of `gravity` and `angles_deg` is given"}},
+    {&Motion<Dim>::angles,
+     {.name = "angles_deg",
+      .unit = "degrees",
+      .stored = Stored::in_radians,
+      .range = between(-36000.0, 36000.0),
+      .further_rule = "as many as `times`",
+      .default_text = "none",
+      .meaning = "turn of `world.gravity`, counter-clockwise"}},
+    {{}, gravity_motion_axis_key},
+});
+
+/// `[world.gravity_motion]`; `gravity` [m/s^2] is that of the world.
+template <int Dim>
+Motion<Dim> read_gravity_motion(TableReader& table, const Vec<Dim>& gravity);
 
 /// `[obstacle.motion]` of an obstacle at `position` [m], no point of which is farther than `reach` [m] from there.
 template <int Dim>

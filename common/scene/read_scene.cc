@@ -7,12 +7,14 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <utility>
 
 #include "common/pile/angle_of_repose.h"
 #include "common/scene/include.h"
 #include "common/scene/read_body.h"
 #include "common/scene/read_event.h"
+#include "common/scene/read_motion.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_shape.h"
 #include "common/scene/read_source.h"
@@ -24,7 +26,8 @@ namespace talus {
 namespace {
 
 template <int Dim>
-void read_world(TableReader& table, WorldDescription<Dim>& world) {
+void read_world(TableReader& table, Scene<Dim>& scene) {
+  WorldDescription<Dim>& world = scene.world;
   table.forbid("dt", "must be given as its inverse, as in steps_per_second = 60");
   constexpr std::span<const Field<WorldDescription<Dim>>> fields = world_fields<Dim>;
   if (table.is_array("gravity")) {
@@ -36,6 +39,10 @@ void read_world(TableReader& table, WorldDescription<Dim>& world) {
   } else {
     table.read_fields(world, fields);
   }
+  if (table.has("gravity_motion"))
+    table.table("gravity_motion", [&](TableReader& own) {
+      scene.gravity_motion = read_gravity_motion<Dim>(own, world.gravity_vector());
+    });
   table.table("solver", [&](TableReader& solver) { solver.read_fields(world.solver, solver_fields); });
 }
 
@@ -47,11 +54,22 @@ void read_ground(TableReader& table, Ground& ground) {
 template <int Dim>
 void read_shapes(TableReader& root, ShapeNames& names, Scene<Dim>& scene) {
   std::vector<Shape<Dim>>& shapes = scene.world.shapes;
-  const bool well_formed = root.named_tables("shape", [&](const std::string& name, TableReader& table) {
-    const std::vector<Shape<Dim>> variants = read_body_shape<Dim>(table, name, scene.seed);
+  BodyShapes<Dim> all(root, scene.seed);
+  std::map<std::string, std::vector<Shape<Dim>>> read;
+  const bool well_formed = root.named_tables(
+      "shape", [&](const std::string& name, TableReader& table) { read[name] = all.read(name, table); });
+  std::vector<std::string> named = root.texts_in_tables("source", "shape");
+  for (std::string& name : root.texts_in_tables("body", "shape")) named.push_back(std::move(name));
+  for (const std::string& name : root.names_of_tables("shape")) {
+    const std::vector<Shape<Dim>>& variants = read[name];
+    if (all.is_part(name) && std::ranges::count(named, name) == 0) {
+      names.add_part(name);
+      continue;
+    }
     names.add(name, static_cast<int>(variants.size()));
+    if (all.is_part(name)) names.mark_part();
     shapes.insert(shapes.end(), variants.begin(), variants.end());
-  });
+  }
   if (well_formed && names.names().empty()) root.error("shape", "must be given: at least one [shape.NAME] to drop");
 }
 
@@ -171,7 +189,7 @@ Scene<Dim> read_root(TableReader& root) {
   root.read_fields(scene, scene_fields<Dim>);
   std::int64_t dimension = Dim;
   root.read(dimension_key, dimension);
-  root.table("world", [&](TableReader& table) { read_world(table, scene.world); });
+  root.table("world", [&](TableReader& table) { read_world(table, scene); });
   root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
   root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
   ShapeNames shapes;

@@ -8,7 +8,11 @@
 #include "common/mesh/mesh_file.h"
 #include "common/mesh/mesh_shape.h"
 #include "common/mesh/parts_volume.h"
+#include "common/scene/overlap.h"
 #include "common/shape/catalogue.h"
+#include "common/shape/colour.h"
+#include "common/shape/convex_distance.h"
+#include "common/shape/convex_piece.h"
 
 namespace talus {
 namespace {
@@ -185,13 +189,119 @@ std::vector<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, 
   return shapes;
 }
 
+namespace {
+
+std::string names_of_colours() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, colour] : named_colours) names.push_back(name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Depth [m] of the deepest overlap of the pieces of two parts.
 template <int Dim>
-std::vector<Shape<Dim>> read_body_shape(TableReader& table, const std::string& name, std::uint64_t seed) {
+double overlap_of(const CompoundPart<Dim>& a, const CompoundPart<Dim>& b) {
+  double deepest = 0.0;
+  for (const ConvexPiece<Dim>& one : convex_pieces(a.shape))
+    for (const ConvexPiece<Dim>& other : convex_pieces(b.shape))
+      deepest = std::max(deepest, -signed_distance(moved(one, a.pose), moved(other, b.pose), 0.0));
+  return deepest;
+}
+
+template <int Dim>
+void warn_of_overlap(TableReader& table, const std::vector<CompoundPart<Dim>>& parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double depth = overlap_of(parts[i], parts[j]);
+      if (depth > most_overlap)
+        table.warn(
+            fmt::format("parts[{}] and parts[{}] overlap by {:.3g} m, where the mass of both counts", j, i, depth));
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<CompoundPart<Dim>> BodyShapes<Dim>::read_part(TableReader& table) {
+  PartParams<Dim> params;
+  table.require("shape");
+  table.read("shape", params.shape, names_);
+  table.read_fields(params, part_fields<Dim>);
+  const Rotation<Dim> rotation = read_rotation<Dim>(table).value_or(identity_rotation<Dim>());
+  if (!table.ok()) return std::nullopt;
+  if (std::ranges::count(under_way_, params.shape) > 0) {
+    table.error("shape", fmt::format("must not have this shape as a part: {} has {}", fmt::join(under_way_, " has "),
+                                     params.shape));
+    return std::nullopt;
+  }
+  parts_.insert(params.shape);
+  root_.named_table("shape", params.shape, [&](TableReader& own) {
+    if (done_.contains(params.shape))
+      own.allow_unknown_keys();
+    else
+      read(params.shape, own);
+  });
+  const std::vector<Shape<Dim>>& variants = done_[params.shape];
+  if (variants.empty()) return std::nullopt;
+  return CompoundPart<Dim>{variants.front(), pose_of_centre(variants.front(), {params.position, rotation})};
+}
+
+template <int Dim>
+std::vector<Shape<Dim>> BodyShapes<Dim>::read_compound(const std::string& name, TableReader& table) {
+  Material surface;
+  constexpr std::span<const Field<Material>> fields = body_material_fields;
+  table.forbid("density", "means nothing for a compound: each part has its own");
+  table.read_fields(surface, fields.subspan(1));
+  table.read_fields(surface, surface_fields);
+  std::vector<CompoundPart<Dim>> parts;
+  bool complete = true;
+  table.require("parts");
+  table.tables("parts", [&](TableReader& own) {
+    std::optional<CompoundPart<Dim>> part = read_part(own);
+    complete = complete && part.has_value();
+    if (part) parts.push_back(std::move(*part));
+  });
+  if (table.ok() && parts.empty() && complete) table.error("parts", "must be one or more parts");
+  std::vector<Shape<Dim>> shapes;
+  if (!complete || !table.ok()) return shapes;
+  table.check([&] {
+    shapes = {make_compound(name, parts, surface)};
+    check_alone(shapes);
+  });
+  if (!table.ok()) return {};
+  warn_of_overlap(table, parts);
+  return shapes;
+}
+
+template <int Dim>
+std::vector<Shape<Dim>> BodyShapes<Dim>::read_anew(const std::string& name, TableReader& table) {
+  std::vector<std::string> kinds = names_of_shape_kinds<Dim>();
+  kinds.emplace_back(compound_kind);
+  const std::string kind = read_kind(table, kinds);
+  if (kind == compound_kind) return read_compound(name, table);
   Material material;
-  const std::string kind = read_kind(table, names_of_shape_kinds<Dim>());
   table.read_fields(material, body_material_fields);
   table.read_fields(material, surface_fields);
-  return read_shape<Dim>(table, kind, name, material, seed);
+  return read_shape<Dim>(table, kind, name, material, seed_);
+}
+
+template <int Dim>
+const std::vector<Shape<Dim>>& BodyShapes<Dim>::read(const std::string& name, TableReader& table) {
+  if (done_.contains(name)) {
+    table.allow_unknown_keys();
+    return done_[name];
+  }
+  under_way_.push_back(name);
+  std::optional<std::string> colour;
+  table.read(colour_key, colour);
+  std::vector<Shape<Dim>> shapes = read_anew(name, table);
+  under_way_.pop_back();
+  if (colour) {
+    const std::optional<std::string> text = colour_text(*colour);
+    if (!text) table.error("colour", "must be \"#rrggbb\" or one of " + names_of_colours());
+    for (Shape<Dim>& shape : shapes) shape.colour = text.value_or("");
+  }
+  return done_[name] = std::move(shapes);
 }
 
 template std::vector<ShapeKind<2>> shape_kinds<2>();
@@ -206,7 +316,7 @@ template std::vector<Shape<2>> read_shape(TableReader&, const std::string&, cons
                                           std::uint64_t);
 template std::vector<Shape<3>> read_shape(TableReader&, const std::string&, const std::string&, const Material&,
                                           std::uint64_t);
-template std::vector<Shape<2>> read_body_shape(TableReader&, const std::string&, std::uint64_t);
-template std::vector<Shape<3>> read_body_shape(TableReader&, const std::string&, std::uint64_t);
+template class BodyShapes<2>;
+template class BodyShapes<3>;
 
 }  // namespace talus

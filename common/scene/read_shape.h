@@ -1,9 +1,13 @@
 #pragma once
 // Shapes in scene files: the kinds, and the keys that obstacles and sources share with them.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,9 +78,73 @@ template <int Dim>
 std::vector<Shape<Dim>> read_shape(TableReader& table, const std::string& kind, const std::string& name,
                                    const Material& material, std::uint64_t seed);
 
-/// `[shape.NAME]`.
+inline constexpr Key colour_key = {
+    .name = "colour",
+    .type = "text",
+    .further_rule = "a name or `\"#rrggbb\"`",
+    .default_text = "by the shape's number",
+    .meaning =
+        "of the bodies in pictures, films and in `talus view`, asleep darker. Names: `black`, `blue`, `brown`, "
+        "`green`, `grey`, `orange`, `pink`, `purple`, `red`, `sky`, `white`, `yellow`"};
+inline constexpr std::string_view compound_kind = "compound";
+inline constexpr Key parts_key = {.name = "parts",
+                                  .required = true,
+                                  .type = "tables",
+                                  .further_rule = "one or more",
+                                  .meaning = "the shapes that it is made of: `[[shape.NAME.parts]]`"};
+
+/// A part of a compound as the file gives it.
 template <int Dim>
-std::vector<Shape<Dim>> read_body_shape(TableReader& table, const std::string& name, std::uint64_t seed);
+struct PartParams {
+  std::string shape;
+  Vec<Dim> position = Vec<Dim>::Zero();
+};
+
+template <int Dim>
+inline constexpr auto part_fields = std::to_array<Field<PartParams<Dim>>>({
+    {{},
+     {.name = "shape",
+      .required = true,
+      .type = "text",
+      .further_rule = "name of a shape that has not this one as a part",
+      .meaning = "which shape; of a `stone` the first of its variants"}},
+    {&PartParams<Dim>::position,
+     {.name = "position",
+      .type = "point",
+      .unit = "m",
+      .range = coordinate_range,
+      .default_text = "origin",
+      .meaning = "where the origin of the part's own axes goes, in those of the compound. Where parts overlap the mass "
+                 "of both counts; deeper than 0.005 m `talus check` warns"}},
+    {{}, angle_key},
+    {{}, axis_key},
+});
+
+/// `[shape.NAME]`, with all shapes that a compound refers to.
+template <int Dim>
+class BodyShapes {
+ public:
+  /// `root`: the table that has `[shape.NAME]`.
+  BodyShapes(TableReader& root, std::uint64_t seed) : root_(root), seed_(seed), names_(root.names_of_tables("shape")) {}
+
+  /// The shape of this name, of a stone all its variants, read once; none where it is wrong.
+  const std::vector<Shape<Dim>>& read(const std::string& name, TableReader& table);
+
+  /// Whether a compound has it as a part.
+  bool is_part(const std::string& name) const { return parts_.contains(name); }
+
+ private:
+  std::vector<Shape<Dim>> read_anew(const std::string& name, TableReader& table);
+  std::vector<Shape<Dim>> read_compound(const std::string& name, TableReader& table);
+  std::optional<CompoundPart<Dim>> read_part(TableReader& table);
+
+  TableReader& root_;
+  std::uint64_t seed_;
+  std::vector<std::string> names_;
+  std::map<std::string, std::vector<Shape<Dim>>> done_;
+  std::set<std::string> parts_;
+  std::vector<std::string> under_way_;  // compounds, each a part of the one before
+};
 
 /// All shapes that bodies may have, as scene files name them.
 class ShapeNames {
@@ -88,6 +156,22 @@ class ShapeNames {
     counts_.push_back(count);
     shapes_ += count;
     complete_ = complete_ && count > 0;
+  }
+  /// The last shape added is a part of compounds, so that bodies have it only where it is named.
+  void mark_part() { parts_.push_back(names_.back()); }
+  /// A shape that no body has, since it is only a part of compounds.
+  void add_part(const std::string& name) {
+    names_.push_back(name);
+    firsts_.push_back(shapes_);
+    counts_.push_back(0);
+    mark_part();
+  }
+  /// Those of names() that bodies have where none is named.
+  std::vector<std::string> names_of_bodies() const {
+    std::vector<std::string> names;
+    for (const std::string& name : names_)
+      if (std::ranges::count(parts_, name) == 0) names.push_back(name);
+    return names;
   }
   /// More shapes, which have no name.
   void add_unnamed(int count) { shapes_ += count; }
@@ -107,6 +191,7 @@ class ShapeNames {
   std::vector<std::string> names_;
   std::vector<int> firsts_;
   std::vector<int> counts_;
+  std::vector<std::string> parts_;
   int shapes_ = 0;
   bool complete_ = true;
 };

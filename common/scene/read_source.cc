@@ -21,11 +21,11 @@ void read_shapes(TableReader& table, const ShapeNames& shapes, Source<Dim>& sour
     return;
   }
   std::vector<std::string> all;
-  for (const std::string& name : shapes.names()) all.push_back(toml_text(name));
+  for (const std::string& name : shapes.names_of_bodies()) all.push_back(toml_text(name));
   table.fill("shape", toml_array(all));
   std::vector<std::string> names;
   table.read("shape", names, shapes.names());
-  if (names.empty()) names.assign(shapes.names().begin(), shapes.names().end());
+  if (names.empty()) names = shapes.names_of_bodies();
   for (const std::string& name : names)
     for (const int variant : shapes.variants(name)) source.shapes.push_back(variant);
 }

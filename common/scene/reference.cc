@@ -110,11 +110,13 @@ std::string rows_of(std::type_identity_t<Fields<S>> fields) {
 }
 
 std::string rows_of_shape() {
-  const std::vector<std::string> kinds = names_of_shape_kinds<3>();
+  std::vector<std::string> kinds = names_of_shape_kinds<3>();
+  kinds.emplace_back(compound_kind);
   const Key kind = {.name = "kind", .required = true, .meaning = "decides which of the keys below belong here"};
   std::string row = row_of(kind, "text", "");
   row.replace(row.find("|  |"), 4, fmt::format("| `\"{}\"` |", fmt::join(kinds, "\"`, `\"")));
-  return row + rows_of<Material>(body_material_fields) + rows_of<Material>(surface_fields);
+  return row + row_of(colour_key, "text", std::string(colour_key.default_text)) +
+         rows_of<Material>(body_material_fields) + rows_of<Material>(surface_fields);
 }
 
 /// The first TOML block, each key with its default.
@@ -126,21 +128,8 @@ std::string example_of(std::string_view document) {
   return fmt::format("```toml\n{}```\n", text.insert(text.find("\"\n"), ", every default written out"));
 }
 
-}  // namespace
-
-std::vector<std::pair<std::string, std::string>> key_tables() {
-  std::vector<std::pair<std::string, std::string>> rows = {
-      {"root", rows_of<Scene<3>>(scene_fields<3>)},
-      {"[world]", rows_of<WorldDescription<3>>(world_fields<3>)},
-      {"[world.solver]", rows_of<SolverParams>(solver_fields)},
-      {"[ground]", rows_of<Ground>(ground_fields) + rows_of<Material>(surface_fields)},
-      {"[[obstacle]]", rows_of<Pose<3>>(obstacle_fields<3>) + rows_of<Material>(surface_fields)},
-      {"[obstacle.motion]", row_of(motion_kind_key, "text", "")},
-      {"[obstacle.motion] sine", rows_of<Motion<3>>(sine_fields<3>)},
-      {"[obstacle.motion] turn", rows_of<Motion<3>>(turn_fields<3>)},
-      {"[obstacle.motion] path", rows_of<Motion<3>>(path_fields<3>)},
-      {"[[obstacle]] container", rows_of<ContainerParams<3>>(container_fields<3>)},
-      {"[[obstacle]] round container", rows_of<ConvexContainerParams>(convex_container_fields)},
+std::vector<std::pair<std::string, std::string>> tables_of_shapes() {
+  return {
       {"[shape.NAME]", rows_of_shape()},
       {"[shape.NAME] box", rows_of<BoxParams<3>>(box_fields<3>)},
       {"[shape.NAME] L", rows_of<LParams>(l_fields)},
@@ -154,6 +143,30 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[shape.NAME] polygon", rows_of<PolygonParams>(polygon_fields)},
       {"[shape.NAME] ring", rows_of<RingParams>(ring_fields)},
       {"[shape.NAME] mesh", rows_of<MeshParams>(mesh_fields)},
+      {"[shape.NAME] compound", row_of(parts_key, "tables", "")},
+      {"[[shape.NAME.parts]]", rows_of<PartParams<3>>(part_fields<3>)},
+  };
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> key_tables() {
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"root", rows_of<Scene<3>>(scene_fields<3>)},
+      {"[world]", rows_of<WorldDescription<3>>(world_fields<3>)},
+      {"[world.gravity_motion]", row_of(motion_kind_key, "text", "")},
+      {"[world.gravity_motion] sine", rows_of<Motion<3>>(gravity_sine_fields<3>)},
+      {"[world.gravity_motion] turn", rows_of<Motion<3>>(gravity_turn_fields<3>)},
+      {"[world.gravity_motion] path", rows_of<Motion<3>>(gravity_path_fields<3>)},
+      {"[world.solver]", rows_of<SolverParams>(solver_fields)},
+      {"[ground]", rows_of<Ground>(ground_fields) + rows_of<Material>(surface_fields)},
+      {"[[obstacle]]", rows_of<Pose<3>>(obstacle_fields<3>) + rows_of<Material>(surface_fields)},
+      {"[obstacle.motion]", row_of(motion_kind_key, "text", "")},
+      {"[obstacle.motion] sine", rows_of<Motion<3>>(sine_fields<3>)},
+      {"[obstacle.motion] turn", rows_of<Motion<3>>(turn_fields<3>)},
+      {"[obstacle.motion] path", rows_of<Motion<3>>(path_fields<3>)},
+      {"[[obstacle]] container", rows_of<ContainerParams<3>>(container_fields<3>)},
+      {"[[obstacle]] round container", rows_of<ConvexContainerParams>(convex_container_fields)},
       {"[[body]]", rows_of<BodyParams<3>>(body_fields<3>)},
       {"[[source]]", rows_of<Source<3>>(source_fields<3>)},
       {"[source.scale]", rows_of<ScaleParams>(scale_fields)},
@@ -166,6 +179,9 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[run]", rows_of<RunParams>(run_fields)},
       {"[debug]", rows_of<DebugOptions>(debug_fields)},
   };
+  const auto of_shapes = tables_of_shapes();
+  const auto bodies = std::ranges::find(rows, "[[body]]", [](const auto& row) { return row.first; });
+  rows.insert(bodies, of_shapes.begin(), of_shapes.end());
   for (auto& [name, text] : rows) text.insert(0, head);
   return rows;
 }

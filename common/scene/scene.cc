@@ -29,6 +29,12 @@ std::int64_t Scene<Dim>::bodies_asked() const {
   return asked;
 }
 
+template <int Dim>
+Vec<Dim> Scene<Dim>::gravity_at(double time) const {
+  if (!gravity_motion) return world.gravity_vector();
+  return gravity_motion->turn_at(time) * (world.gravity_vector() + gravity_motion->shift_at(time));
+}
+
 template struct Source<2>;
 template struct Source<3>;
 template struct Scene<2>;

@@ -250,7 +250,8 @@ struct Scene {
   WorldDescription<Dim> world;
   std::vector<InitialBody<Dim>> bodies;  // in the world from the start; those of sources are numbered after them
   std::vector<Source<Dim>> sources;
-  std::vector<Mover<Dim>> movers;  // obstacles that move by plan
+  std::vector<Mover<Dim>> movers;             // obstacles that move by plan
+  std::optional<Motion<Dim>> gravity_motion;  // shifts [m/s^2] and turns of gravity; none: it stays
   std::vector<ObstacleName> obstacle_names;
   std::vector<Event<Dim>> events;  // in the order of the file
   std::vector<PileParams<Dim>> piles;
@@ -267,6 +268,8 @@ struct Scene {
   std::int64_t steps() const { return run.frames * steps_per_frame(); }
   /// Bodies that are there from the start and that the sources drop.
   std::int64_t bodies_asked() const;
+  /// Gravity at a time [s] by plan, without events [m/s^2].
+  Vec<Dim> gravity_at(double time) const;
 };
 
 inline constexpr Key dimension_key = {

@@ -257,15 +257,46 @@ bool TableReader::named_tables(std::string_view key, const NamedBody& body) {
                fmt::format("NAME must be at most {} bytes", max_name));
       well_formed = false;
     } else if (child.is_table()) {
-      const std::string quoted = fmt::format("{}.{}", key, key_text(name));
-      read_child(child, {fmt::format("{}.{}", key, name), fmt::format("{}.*", key), quoted},
-                 [&](TableReader& reader) { body(name, reader); });
+      named_table(key, name, [&](TableReader& reader) { body(name, reader); });
     } else {
       error_at(child, fmt::format("{}.{}", field(key), name), rule);
       well_formed = false;
     }
   }
   return well_formed;
+}
+
+void TableReader::named_table(std::string_view key, const std::string& name, const Body& body) {
+  const toml::node* node = table_.get(key);
+  const toml::node* child = node == nullptr || !node->is_table() ? nullptr : node->as_table()->get(name);
+  const std::string quoted = fmt::format("{}.{}", key, key_text(name));
+  if (child != nullptr) read_child(*child, {fmt::format("{}.{}", key, name), fmt::format("{}.*", key), quoted}, body);
+}
+
+std::vector<std::string> TableReader::names_of_tables(std::string_view key) const {
+  std::vector<std::string> names;
+  const toml::node* node = table_.get(key);
+  if (node == nullptr || !node->is_table()) return names;
+  for (const auto& [name, child] : *node->as_table())
+    if (child.is_table()) names.emplace_back(name.str());
+  return names;
+}
+
+std::vector<std::string> TableReader::texts_in_tables(std::string_view tables, std::string_view key) const {
+  std::vector<std::string> texts;
+  const auto add = [&](const toml::node& node) {
+    if (const auto* text = node.as_string()) texts.push_back(**text);
+  };
+  const toml::node* array = table_.get(tables);
+  if (array == nullptr || !array->is_array()) return texts;
+  for (const toml::node& table : *array->as_array()) {
+    const toml::node* value = table.is_table() ? table.as_table()->get(key) : nullptr;
+    if (value == nullptr) continue;
+    add(*value);
+    if (value->is_array())
+      for (const toml::node& element : *value->as_array()) add(element);
+  }
+  return texts;
 }
 
 bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,

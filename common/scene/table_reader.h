@@ -59,6 +59,13 @@ class TableReader {
   /// The tables `[key.NAME]`, ordered by name. Whether it is such tables, or absent.
   bool named_tables(std::string_view key, const NamedBody& body);
 
+  /// The table `[key.NAME]` alone, if there is one.
+  void named_table(std::string_view key, const std::string& name, const Body& body);
+  /// The names of the tables `[key.NAME]`.
+  std::vector<std::string> names_of_tables(std::string_view key) const;
+  /// The texts that the tables `[[tables]]` have at `key`, each a text or an array of texts.
+  std::vector<std::string> texts_in_tables(std::string_view tables, std::string_view key) const;
+
   bool has(std::string_view key);
   /// Whether the key is given as an array.
   bool is_array(std::string_view key);

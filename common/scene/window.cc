@@ -45,10 +45,12 @@ std::string obstacle_rule(const EngineTraits& engine) {
       engine.window.longest_obstacle, engine.name);
 }
 
-std::string tau_rule(const EngineTraits& engine) {
-  return fmt::format(
-      "must be above {:g} under the policy paper on {}: else bodies fall asleep in mid-air, at rest or not",
-      engine.window.tau_above, engine.name);
+/// On all engines.
+constexpr double tau_above = 0.0;
+
+std::string tau_rule() {
+  return fmt::format("must be above {:g} under the policy paper: else bodies fall asleep in mid-air, at rest or not",
+                     tau_above);
 }
 
 /// The shapes that bodies of the scene have.
@@ -71,13 +73,13 @@ double length_of(const Piece<Dim>& piece) {
   return bounds_of<Dim>(piece, Eigen::Matrix<double, Dim, Dim>::Identity(), Vec<Dim>::Zero()).sizes().maxCoeff();
 }
 
-/// Collects what lies outside.
-class Finder {
+/// Compares a scene with each limit of a window.
+class WindowCheck {
  public:
-  Finder(const EngineTraits& engine, const std::string& file) : engine_(engine), file_(file) {}
+  WindowCheck(const EngineTraits& engine, const std::string& file) : engine_(engine), file_(file) {}
 
   template <int Dim>
-  void look_at_settings(const Scene<Dim>& scene) {
+  void check_settings(const Scene<Dim>& scene) {
     const Window& window = engine_.window;
     const double steps = 1.0 / scene.world.dt;
     if (steps < window.fewest_steps * (1.0 - 1e-9))
@@ -85,12 +87,12 @@ class Finder {
     const int iterations = scene.world.solver.velocity_iterations;
     if (iterations < window.fewest_iterations)
       add("world.solver.velocity_iterations", fmt::format("{}", iterations), iterations_rule(engine_));
-    if (scene.policy.kind == "paper" && scene.policy.paper.tau <= window.tau_above)
-      add("policy.tau", fmt::format("{:g}", scene.policy.paper.tau), tau_rule(engine_));
+    if (scene.policy.kind == "paper" && scene.policy.paper.tau <= tau_above)
+      add("policy.tau", fmt::format("{:g}", scene.policy.paper.tau), tau_rule());
   }
 
   template <int Dim>
-  void look_at_bodies(const Scene<Dim>& scene) {
+  void check_bodies(const Scene<Dim>& scene) {
     const Window& window = engine_.window;
     const std::vector<const Shape<Dim>*> shapes = shapes_of_bodies(scene);
     if (shapes.empty()) return;
@@ -111,7 +113,7 @@ class Finder {
 
   /// The part that is longest beside its thickness.
   template <int Dim>
-  void look_at_obstacles(const Scene<Dim>& scene) {
+  void check_obstacles(const Scene<Dim>& scene) {
     double worst = engine_.window.longest_obstacle * (1.0 + 1e-9);
     std::string field;
     std::string value;
@@ -146,21 +148,21 @@ std::vector<WindowRule> window_rules(const EngineTraits& engine) {
   const Window& window = engine.window;
   std::vector<WindowRule> rules = {{"world.steps_per_second", steps_rule(engine)}};
   if (window.fewest_iterations > 1) rules.push_back({"world.solver.velocity_iterations", iterations_rule(engine)});
-  if (window.largest_mass_ratio < Window().largest_mass_ratio)
+  if (window.largest_mass_ratio < largest_mass_ratio_of_all)
     rules.push_back({"world.solver.velocity_iterations", masses_rule(engine)});
   if (window.narrowest_body > 0.0) rules.push_back({"shape.*", width_rule(engine)});
   if (std::isfinite(window.longest_obstacle)) rules.push_back({"obstacle", obstacle_rule(engine)});
-  rules.push_back({"policy.tau", tau_rule(engine)});
+  rules.push_back({"policy.tau", tau_rule()});
   return rules;
 }
 
 template <int Dim>
 std::vector<SceneError> outside_window(const Scene<Dim>& scene, const EngineTraits& engine, const std::string& file) {
-  Finder finder(engine, file);
-  finder.look_at_settings(scene);
-  finder.look_at_bodies(scene);
-  finder.look_at_obstacles(scene);
-  return finder.take();
+  WindowCheck window(engine, file);
+  window.check_settings(scene);
+  window.check_bodies(scene);
+  window.check_obstacles(scene);
+  return window.take();
 }
 
 void refuse_outside_window(std::span<const SceneError> outside) {

@@ -120,6 +120,16 @@ void translate(Piece<Dim>& piece, const Vec<Dim>& by) {
 }
 
 template <int Dim>
+Piece<Dim> placed(const Piece<Dim>& piece, const Pose<Dim>& pose) {
+  Piece<Dim> result = piece;
+  if (auto* box = std::get_if<BoxPiece<Dim>>(&result))
+    box->pose = {pose * box->pose.position, pose.rotation * box->pose.rotation};
+  else
+    for (Vec<Dim>& corner : std::get<HullPiece<Dim>>(result).corners) corner = pose * corner;
+  return result;
+}
+
+template <int Dim>
 void scale(Piece<Dim>& piece, double factor) {
   if (auto* box = std::get_if<BoxPiece<Dim>>(&piece)) {
     box->pose.position *= factor;
@@ -188,6 +198,8 @@ template HullPiece<2> as_hull(const Piece<2>&);
 template HullPiece<3> as_hull(const Piece<3>&);
 template void translate(Piece<2>&, const Vec<2>&);
 template void translate(Piece<3>&, const Vec<3>&);
+template Piece<2> placed(const Piece<2>&, const Pose<2>&);
+template Piece<3> placed(const Piece<3>&, const Pose<3>&);
 template void scale<2>(Piece<2>&, double);
 template void scale<3>(Piece<3>&, double);
 template Box<2> bounds_of(const Piece<2>&, const Eigen::Matrix2d&, const Vec<2>&);

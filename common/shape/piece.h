@@ -41,6 +41,10 @@ HullPiece<Dim> as_hull(const Piece<Dim>& piece);
 template <int Dim>
 void translate(Piece<Dim>& piece, const Vec<Dim>& by);
 
+/// The piece as it is where the axes that it is described in come to `pose`.
+template <int Dim>
+Piece<Dim> placed(const Piece<Dim>& piece, const Pose<Dim>& pose);
+
 /// Makes the piece `factor` times as large, seen from the origin.
 template <int Dim>
 void scale(Piece<Dim>& piece, double factor);

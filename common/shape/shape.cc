@@ -66,7 +66,50 @@ Shape<Dim> scaled(const Shape<Dim>& shape, double factor, std::string name) {
   Shape<Dim> larger = make_shape<Dim>(std::move(name), std::move(pieces), shape.material, masses);
   larger.reference = factor * shape.reference;
   larger.filling = shape.filling;
+  larger.colour = shape.colour;
   return larger;
+}
+
+namespace {
+
+/// Inertia about a point `from` [m] away from the centre of mass.
+template <int Dim>
+Inertia<Dim> inertia_about(const Inertia<Dim>& inertia, double mass, const Vec<Dim>& from) {
+  if constexpr (Dim == 2)
+    return inertia + Inertia<2>(mass * from.squaredNorm());
+  else
+    return inertia + mass * (from.squaredNorm() * Inertia<3>::Identity() - from * from.transpose());
+}
+
+template <int Dim>
+Inertia<Dim> turned(const Inertia<Dim>& inertia, const Rotation<Dim>& rotation) {
+  if constexpr (Dim == 2)
+    return inertia;
+  else
+    return rotation.toRotationMatrix() * inertia * rotation.toRotationMatrix().transpose();
+}
+
+}  // namespace
+
+template <int Dim>
+Shape<Dim> make_compound(std::string name, const std::vector<CompoundPart<Dim>>& parts, const Material& surface) {
+  std::vector<Piece<Dim>> pieces;
+  double mass = 0.0;
+  MassProperties<Dim> whole;
+  for (const CompoundPart<Dim>& part : parts) {
+    for (const Piece<Dim>& piece : part.shape.pieces) pieces.push_back(placed(piece, part.pose));
+    mass += part.shape.mass;
+    whole.volume += part.shape.volume;
+    whole.centre += part.shape.mass * part.pose.position;
+  }
+  whole.centre /= mass;
+  for (const CompoundPart<Dim>& part : parts)
+    whole.inertia += inertia_about<Dim>(turned<Dim>(part.shape.inertia, part.pose.rotation), part.shape.mass,
+                                        part.pose.position - whole.centre);
+  Material material = surface;
+  material.density = mass / whole.volume;
+  whole.inertia /= material.density;
+  return make_shape<Dim>(std::move(name), std::move(pieces), material, whole);
 }
 
 template <int Dim>
@@ -98,6 +141,8 @@ template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&
 template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&, const MassProperties<2>&);
 template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&);
 template Shape<3> make_shape(std::string, std::vector<Piece<3>>, const Material&, const MassProperties<3>&);
+template Shape<2> make_compound(std::string, const std::vector<CompoundPart<2>>&, const Material&);
+template Shape<3> make_compound(std::string, const std::vector<CompoundPart<3>>&, const Material&);
 template Shape<2> scaled(const Shape<2>&, double, std::string);
 template Shape<3> scaled(const Shape<3>&, double, std::string);
 template double rolling_arm(const Shape<2>&);

@@ -73,6 +73,7 @@ struct Shape {
   double bounding_volume = 0.0;  // v_obj of section 3.1: volume of `bounds` [m^3], in 2D [m^2]
   double extent = 0.0;           // D of section 3.1: diagonal of `bounds` [m]
   double filling = 1.0;          // volume of the pieces' union over `volume`; not 1 where pieces stand in for a mesh
+  std::string colour;            // in pictures, "#rrggbb"; empty: one of the picture's own, by the shape's number
 };
 
 /// Volume, centre of mass and inertia (about that centre) of unit density.
@@ -97,6 +98,19 @@ Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Ma
 template <int Dim>
 Shape<Dim> make_shape(std::string name, std::vector<Piece<Dim>> pieces, const Material& material,
                       const MassProperties<Dim>& masses);
+
+/// A shape within a compound.
+template <int Dim>
+struct CompoundPart {
+  Shape<Dim> shape;
+  Pose<Dim> pose;  // of its centre of mass, in the axes of the compound
+};
+
+/// The shapes joined into one rigid body. Mass, centre and inertia are the sums of those of the parts, each of its own
+/// density; where parts overlap both count. `surface`: friction, restitution and rolling friction of the whole; its
+/// density means nothing. Throws as make_shape().
+template <int Dim>
+Shape<Dim> make_compound(std::string name, const std::vector<CompoundPart<Dim>>& parts, const Material& surface);
 
 /// The same shape, `factor` times as large, of the same material.
 template <int Dim>

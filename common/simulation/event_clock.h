@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "common/pile/pile.h"
 #include "common/scene/scene.h"
 
 namespace talus {
@@ -13,14 +14,15 @@ class EventClock {
  public:
   explicit EventClock(const std::vector<Event<Dim>>& events);
 
-  /// Before a step from `time` [s] on, with so many bodies in the world and at rest or not: those that are due, in the
-  /// order of the file; of those that wait for rest only the first.
-  std::span<const int> update(double time, int bodies, bool at_rest);
+  /// Before a step from `time` [s] on, with so many bodies in the world, at rest or not, and its piles: those that are
+  /// due, in the order of the file; of those that wait for rest only the first.
+  std::span<const int> update(double time, int bodies, bool at_rest, std::span<const Pile<Dim>> piles);
   /// The same until the next update.
   std::span<const int> due() const { return due_; }
 
-  /// Whether an event waits for rest, and whether one waits for that or for a time.
+  /// Whether an event waits for rest, for the density of a layer, and for rest or a time.
   bool waits_for_rest() const;
+  bool waits_for_layers() const;
   bool waits() const;
 
  private:
@@ -28,6 +30,8 @@ class EventClock {
     int number = 0;
     std::optional<double> time;
     bool rest = false;
+    std::optional<double> density = {};
+    int pile = 0;
     std::int64_t bodies = 0;
   };
   std::vector<Condition> waiting_;

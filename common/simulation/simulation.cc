@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
@@ -30,6 +31,32 @@ const Scene<Dim>& checked(const Scene<Dim>& scene) {
   return scene;
 }
 
+/// Change of gravity, as a share of it, that sleeping bodies do not notice: a tilt of 0.6 degrees.
+constexpr double gravity_tolerance = 0.01;
+
+/// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of the tolerance it has then
+/// moved by 0.02 D and is so fast that it counts as moving.
+constexpr double awake_after_gravity = 2.0;
+
+/// Gravity by plan, in a step that begins at `time` [s]; `still` before it changes.
+template <int Dim>
+Vec<Dim> planned_gravity(const Motion<Dim>& plan, const Vec<Dim>& still, double time) {
+  return plan.turn_at(time) * (still + plan.shift_at(time));
+}
+
+/// Whether gravity became `woken`, at which all bodies were woken, within the steps that are to be kept awake. It is
+/// the same number then, since it is computed in the same way.
+template <int Dim>
+bool woken_lately(const Motion<Dim>& plan, const Vec<Dim>& still, const Vec<Dim>& woken, std::int64_t step, double dt,
+                  double extent) {
+  constexpr double longest = 10.0;  // [s]; with little gravity
+  const double time = std::min(longest, awake_after_gravity * std::sqrt(extent / std::max(woken.norm(), 1e-9)));
+  const auto gravity = [&](std::int64_t at) { return planned_gravity(plan, still, static_cast<double>(at) * dt); };
+  for (std::int64_t at = step; at > 0 && static_cast<double>(step - at) * dt < time; --at)
+    if (gravity(at) == woken && gravity(at - 1) != woken) return true;
+  return false;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -44,6 +71,9 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       engine_sleep_(scene.world.engine_sleep),
       debug_(scene.world.debug),
       obstacles_(scene),
+      gravity_motion_(scene.gravity_motion),
+      gravity_(scene.world.gravity_vector()),
+      gravity_of_sleepers_(gravity_),
       scene_events_(scene.events),
       obstacle_names_(scene.obstacle_names),
       event_clock_(scene.events),
@@ -80,6 +110,7 @@ void Simulation<Dim>::step() {
   if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
   move_obstacles();
+  if (gravity_motion_) change_gravity();
   world_->record_contacts(needs_contacts());
   world_->step();
   ++step_;
@@ -95,7 +126,8 @@ void Simulation<Dim>::step() {
   apply();
   phases_.apply = watch.lap();
   if (rest_check_)
-    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !obstacles_.moves_after(*world_, time());
+    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !obstacles_.moves_after(*world_, time()) &&
+              !(gravity_motion_ && gravity_motion_->moves_after(time()));
   at_rest_ = ends_at_rest_ && rested_ && !event_clock_.waits();
   show();
   phases_.observe = watch.lap();
@@ -110,9 +142,23 @@ void Simulation<Dim>::move_obstacles() {
     thaw_now(sleepers, SleepCause::lost_support);
 }
 
-/// A body that touches an obstacle that moves must follow it.
+/// Sleeping bodies do not feel that gravity changes: once it has by more than the tolerance, all wake.
+template <int Dim>
+void Simulation<Dim>::change_gravity() {
+  const Vec<Dim> now = planned_gravity(*gravity_motion_, gravity_, time());
+  world_->set_gravity(now);
+  const double scale = std::max(now.norm(), gravity_of_sleepers_.norm());
+  if ((now - gravity_of_sleepers_).norm() <= gravity_tolerance * scale) return;
+  gravity_of_sleepers_ = now;
+  thaw_all();
+}
+
+/// A body that touches an obstacle that moves must follow it, and one that gravity woke gets time to begin to move.
 template <int Dim>
 void Simulation<Dim>::keep_moved_awake() {
+  if (gravity_motion_ && !decision_.freeze.empty() &&
+      woken_lately(*gravity_motion_, gravity_, gravity_of_sleepers_, step_ - 1, dt_, piles_.typical_body().extent))
+    decision_.freeze.clear();
   std::erase_if(decision_.freeze, [this](const SleepEvent& event) { return obstacles_.touch(*world_, event.body); });
 }
 
@@ -232,7 +278,7 @@ void Simulation<Dim>::thaw_near(const Box<Dim>& bounds, double reach) {
 
 template <int Dim>
 void Simulation<Dim>::do_due_events() {
-  for (const int number : event_clock_.update(time(), emitter_.emitted(), rested_)) {
+  for (const int number : event_clock_.update(time(), emitter_.emitted(), rested_, piles_.piles())) {
     do_event(scene_events_[number]);
     done_events_.push_back({number, time()});
   }

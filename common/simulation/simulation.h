@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/policy/sleep_policy.h"
+#include "common/scene/happened.h"
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
 #include "common/simulation/event_clock.h"
@@ -18,12 +19,6 @@
 #include "common/simulation/watchdog.h"
 
 namespace talus {
-
-/// An event of the scene that has happened.
-struct DoneEvent {
-  int number = 0;     // in Scene::events
-  double time = 0.0;  // [s]
-};
 
 /// One run of a scene in a world of its own.
 template <int Dim>
@@ -54,6 +49,8 @@ class Simulation {
   BodyIndex add(const BodyDef<Dim>& body) { return world_->add(body); }
   void remove(BodyIndex body);
   void thaw_all();
+  /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present.
+  void do_event(const Event<Dim>& event);
 
   /// The last finished step.
   Frame<Dim> frame() const {
@@ -82,16 +79,16 @@ class Simulation {
 
  private:
   bool needs_contacts() const;
-  bool counts_piles() const { return policy_->decides() || watched(); }
+  bool counts_piles() const { return policy_->decides() || watched() || event_clock_.waits_for_layers(); }
   void count_piles();
   void place_pile();
   void decide();
   void apply();
   void freeze_initial_bodies();
   void move_obstacles();
+  void change_gravity();
   void keep_moved_awake();
   void do_due_events();
-  void do_event(const Event<Dim>& event);
   std::vector<BodyIndex> bodies_meant(const Event<Dim>& event) const;
   void kick(const Event<Dim>& event);
   void remove_obstacle(int number);
@@ -121,6 +118,9 @@ class Simulation {
   DebugOptions debug_;
   std::vector<BodyIndex> asleep_at_start_;
   MovingObstacles<Dim> obstacles_;
+  std::optional<Motion<Dim>> gravity_motion_;
+  Vec<Dim> gravity_;              // before it changes by plan [m/s^2]
+  Vec<Dim> gravity_of_sleepers_;  // when all bodies were last woken for it
   std::vector<Event<Dim>> scene_events_;
   std::vector<ObstacleName> obstacle_names_;
   EventClock<Dim> event_clock_;

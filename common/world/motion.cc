@@ -40,6 +40,14 @@ double Motion<Dim>::angle_at(double time) const {
 }
 
 template <int Dim>
+Rotation<Dim> Motion<Dim>::turn_at(double time) const {
+  if constexpr (Dim == 2)
+    return Rotation<2>(angle_at(time));
+  else
+    return Rotation<3>(Eigen::AngleAxisd(angle_at(time), axis));
+}
+
+template <int Dim>
 bool Motion<Dim>::moves_after(double time) const {
   const bool goes_on = speed != 0.0 || frequency != 0.0;
   return (goes_on && (!end || time < *end)) || (!times.empty() && time < times.back());
@@ -63,11 +71,7 @@ double Motion<Dim>::fastest_turn() const {
 
 template <int Dim>
 Pose<Dim> Mover<Dim>::pose_at(double time, const Pose<Dim>& initial) const {
-  Rotation<Dim> turn = identity_rotation<Dim>();
-  if constexpr (Dim == 2)
-    turn = Rotation<2>(motion.angle_at(time));
-  else
-    turn = Rotation<3>(Eigen::AngleAxisd(motion.angle_at(time), motion.axis));
+  const Rotation<Dim> turn = motion.turn_at(time);
   return {pivot + motion.shift_at(time) + turn * (initial.position - pivot), turn * initial.rotation};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How an obstacle moves by plan.
+// How an obstacle moves by plan, or gravity changes.
 
 #include <optional>
 #include <vector>
@@ -25,6 +25,7 @@ struct Motion {
 
   Vec<Dim> shift_at(double time) const;
   double angle_at(double time) const;
+  Rotation<Dim> turn_at(double time) const;
   /// Whether it may move after this time [s].
   bool moves_after(double time) const;
   /// Upper bounds of the speed of the pivot [m/s] and of the turn [rad/s].

@@ -7,11 +7,11 @@
 
 #include "common/math/require.h"
 #include "common/shape/piece.h"
+#include "common/world/engine_traits.h"
 
 namespace talus {
 namespace {
 
-constexpr double largest_mass_ratio = 100.0;
 constexpr double least_mass = 1e-20;  // [kg], and of inertia [kg m^2]: single precision must hold products of inverses
 
 void require_within(double value, double low, double high, const std::string& field, std::string_view rule) {
@@ -62,9 +62,11 @@ void check_masses(const std::vector<Shape<Dim>>& shapes) {
   const auto lighter = [](const auto& a, const auto& b) { return a.mass < b.mass; };
   const auto [light, heavy] = std::minmax_element(shapes.begin(), shapes.end(), lighter);
   if (light != shapes.end()) {
-    require(heavy->mass <= largest_mass_ratio * light->mass,
+    require(heavy->mass <= largest_mass_ratio_of_all * light->mass,
             fmt::format("mass of shape '{}' over mass of shape '{}'", heavy->name, light->name),
-            heavy->mass / light->mass, "must be at most 100, better 10: a heavy body sinks through light ones");
+            heavy->mass / light->mass,
+            fmt::format("must be at most {:g}, better 10: a heavy body sinks through light ones",
+                        largest_mass_ratio_of_all));
   }
 }
 

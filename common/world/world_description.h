@@ -122,6 +122,11 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
       .meaning =
           "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m, below by a third of a "
           "metre; cost grows in proportion"}},
+    {{},
+     {.name = "gravity_motion",
+      .type = "table",
+      .default_text = "none",
+      .meaning = "how gravity changes by plan: `[world.gravity_motion]`"}},
     {{}, {.name = "solver", .type = "table", .default_text = "see below", .meaning = "`[world.solver]`"}},
 });
 

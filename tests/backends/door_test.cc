@@ -192,11 +192,25 @@ TYPED_TEST(LongDoor, LetsInNoNumberThatTheEngineCannotRun) { try_each_number<Typ
 TYPED_TEST(Door, IsTriedWithEveryNumberThatTheReaderLooksFor) {
   const std::set<std::string> no_numbers = {"count_flying", "kind",  "orientation", "control_slope", "warm_friction",
                                             "present",      "floor", "shape",       "title",         "fixed",
-                                            "asleep",       "until", "include",     "name"};
-  const std::set<std::string> tables = {
-      "world",    "world.solver", "ground",          "policy", "policy.adaptive",   "run",   "debug",         "source",
-      "obstacle", "pile",         "pile[].boundary", "body",   "obstacle[].motion", "event", "source[].scale"};
-  std::set<std::string> tried;
+                                            "asleep",       "until", "include",     "name",          "colour"};
+  const std::set<std::string> tables = {"world",
+                                        "world.solver",
+                                        "ground",
+                                        "policy",
+                                        "policy.adaptive",
+                                        "run",
+                                        "debug",
+                                        "source",
+                                        "obstacle",
+                                        "pile",
+                                        "pile[].boundary",
+                                        "body",
+                                        "obstacle[].motion",
+                                        "event",
+                                        "source[].scale",
+                                        "world.gravity_motion"};
+  // Not beside world.gravity_motion.gravity, which is tried.
+  std::set<std::string> tried = {"world.gravity_motion.angles_deg"};
   std::set<std::string> known;
   for (const FullScene& full : full_scenes<TypeParam::dim>()) {
     toml::table scene = toml::parse(full.text);

@@ -102,6 +102,29 @@ TYPED_TEST(SceneEvents, ChangeGravityForAllBodies) {
   EXPECT_NEAR(TestFixture::height_of(simulation, 2), 4.5 + 0.5 * 2.0, 0.1);
 }
 
+TYPED_TEST(SceneEvents, WaitForALayerToBeDense) {
+  constexpr int dim = TypeParam::dim;
+  const std::string more = fmt::format(
+      "[[source]]\nposition = {}\ncount = 40\nrate = 5\nvelocity = {}\n"
+      "[[event]]\nwhen = \"layer_density\"\ndensity = 0.3\ndo = \"wake\"\n"
+      "[[event]]\nwhen = \"layer_density\"\ndensity = 900\ndo = \"wake\"\n",
+      at<dim>(20, 12), at<dim>(0, -10));
+  for (const char* policy : {"full", "adaptive"}) {
+    SCOPED_TRACE(policy);
+    auto simulation = TestFixture::simulation(stack<dim>(more, policy));
+    double densest_before = 0.0;
+    while (simulation.done_events().empty() && simulation.time() < 12.0) {
+      densest_before = 0.0;
+      for (const auto& pile : simulation.piles().piles())
+        for (const Layer& layer : pile.layers) densest_before = std::max(densest_before, layer.density());
+      simulation.step();
+    }
+    ASSERT_EQ(simulation.done_events().size(), 1U);
+    EXPECT_EQ(simulation.done_events()[0].number, 0);
+    EXPECT_GT(densest_before, 0.3);
+  }
+}
+
 TYPED_TEST(SceneEvents, SwitchThePolicyAndBack) {
   constexpr int dim = TypeParam::dim;
   auto simulation =

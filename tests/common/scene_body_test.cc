@@ -145,7 +145,7 @@ TEST(SceneBodies, OfVeryDifferentSizesAreComparedWithThoseNearThem) {
 TEST(SceneBodies, AreLimitedInNumberTogetherWithThoseOfTheSources) {
   EXPECT_EQ(error_of(std::string(head_2d) + "position = [0, 5]\nrepeat = [10000, 1000]\nstep = [1, 1]\n" +
                      "[[source]]\ncount = 1\n"),
-            "body[0].repeat: must leave at most 10000000 bodies in all");
+            "body[0].repeat: must leave at most 100000 bodies and obstacles at the start; sources drop more");
 }
 
 TEST(SourceGrid, OfOneRotationIsSpacedByTheTrueShape) {

@@ -20,10 +20,11 @@ template <int Dim>
 void expect_example_one(const Scene<Dim>& scene) {
   ASSERT_EQ(scene.sources.size(), 1u);
   EXPECT_EQ(scene.sources[0].count, 400);
-  EXPECT_EQ(scene.run.frames, 1818);
+  EXPECT_EQ(scene.run.frames, 2418);
+  EXPECT_EQ(scene.run.until, until_rest);
   EXPECT_EQ(scene.world.dt, 1.0 / 60.0);
   EXPECT_EQ(scene.steps_per_frame(), 2);
-  EXPECT_EQ(scene.steps(), 3636);
+  EXPECT_EQ(scene.steps(), 4836);
   ASSERT_EQ(scene.piles.size(), 1u);
   EXPECT_DOUBLE_EQ(scene.piles[0].alpha.value(), std::numbers::pi / 4.0);
   EXPECT_FALSE(scene.piles[0].at.has_value());

@@ -57,6 +57,8 @@ std::string in_manual(const std::string& key) {
     head = "[obstacle.motion]";
   else if (head == "source[].scale")
     head = "[source.scale]";
+  else if (head == "shape.*.parts[]")
+    head = "[shape.NAME]";  // under one heading with it
   else if (head == "shape.*")
     head = "[shape.NAME]";
   else if (head.ends_with("[]"))
@@ -85,7 +87,11 @@ std::set<std::string> keys_of_the_reader() {
   text +=
       "pile = [{boundary = {kind = \"box\"}}, {boundary = {kind = \"cylinder\"}}, {boundary = {kind = \"convex\"}}]\n";
   text += shapes;
-  return keys_looked_for(text);
+  text += "[shape.compound]\nkind = \"compound\"\nparts = [{shape = \"ball\", angle_deg = 0}]\n";
+  std::set<std::string> keys = keys_looked_for(text);
+  for (const char* motion : {"sine", "turn", "path"})
+    keys.merge(keys_looked_for(fmt::format("dimension = {}\nworld.gravity_motion = {{kind = \"{}\"}}\n", Dim, motion)));
+  return keys;
 }
 
 std::set<std::string> keys_of_the_reader() {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "common/scene/read_scene.h"
@@ -92,6 +93,56 @@ TEST(SceneMotion, IsRefusedWhereItIsIncompleteOrTooFast) {
             "obstacle[0].motion: must move at most at 120 m/s, here 3142");
   EXPECT_EQ(error_of("kind = \"path\", times = [0, 1000], shifts = [[0, 0], [9999, 0]]"),
             "obstacle[0].motion: must stay within 10000 m of the origin");
+}
+
+Scene<2> scene_with_gravity(const std::string& motion) {
+  return std::get<Scene<2>>(
+      parse_scene(fmt::format("title = \"Gravity\"\ndimension = 2\nshape.ball = {{kind = \"ball\", radius = 0.5}}\n"
+                              "body = [{{position = [0, 9]}}]\nworld.gravity_motion = {{{}}}\n",
+                              motion),
+                  "text"));
+}
+
+std::string gravity_error(const std::string& motion) {
+  try {
+    scene_with_gravity(motion);
+  } catch (const SceneErrors& errors) {
+    return fmt::format("{}: {}", errors.errors().front().field, errors.errors().front().rule);
+  }
+  return "";
+}
+
+TEST(SceneGravity, TurnsByAnglesOrGoesFromVectorToVector) {
+  const Scene<2> tilt = scene_with_gravity("kind = \"path\", times = [1, 3], angles_deg = [0, 90]");
+  EXPECT_LT((tilt.gravity_at(0.5) - Vec2(0.0, -9.81)).norm(), 1e-12);
+  EXPECT_LT((tilt.gravity_at(2.0) - 9.81 * Vec2(std::sqrt(0.5), -std::sqrt(0.5))).norm(), 1e-12);
+  EXPECT_LT((tilt.gravity_at(9.0) - Vec2(9.81, 0.0)).norm(), 1e-12);
+  const Scene<2> path = scene_with_gravity("kind = \"path\", times = [1, 3], gravity = [[0, -4], [2, 0]]");
+  EXPECT_LT((path.gravity_at(0.0) - Vec2(0.0, -4.0)).norm(), 1e-12);
+  EXPECT_LT((path.gravity_at(2.0) - Vec2(1.0, -2.0)).norm(), 1e-12);
+}
+
+TEST(SceneGravity, SwingsAboutItsValue) {
+  const Scene<2> shaken = scene_with_gravity("kind = \"sine\", amplitude = [2, 0], frequency = 0.5, end = 1");
+  EXPECT_LT((shaken.gravity_at(0.5) - Vec2(2.0, -9.81)).norm(), 1e-12);
+  EXPECT_LT((shaken.gravity_at(5.0) - Vec2(0.0, -9.81)).norm(), 1e-12);
+}
+
+TEST(SceneGravity, NeedsOneKindOfValueForEachTime) {
+  EXPECT_EQ(gravity_error("kind = \"path\", times = [1, 3]"),
+            "world.gravity_motion: must have one of gravity and angles_deg");
+  EXPECT_EQ(gravity_error("kind = \"path\", times = [1, 3], gravity = [[0, 1]]"),
+            "world.gravity_motion.gravity: must be 2, as many as times");
+  EXPECT_EQ(gravity_error("kind = \"path\", times = [3, 1], angles_deg = [0, 1]"),
+            "world.gravity_motion.times: must be two or more, each later than the one before");
+  EXPECT_EQ(gravity_error("kind = \"turn\", speed_deg = 3, start = 2, end = 1"),
+            "world.gravity_motion.end: must be after start");
+}
+
+TEST(SceneGravity, IsChangedByPlanOrByEventsAndNotByBoth) {
+  EXPECT_EQ(gravity_error("kind = \"turn\", speed_deg = 3}\nevent = [{time = 1, do = \"gravity\", gravity = [0, 1]}]\n"
+                          "run = {frames = 3"),
+            "event[0].do: must not be gravity where world.gravity_motion is given");
 }
 
 }  // namespace

@@ -173,5 +173,91 @@ TEST(SceneInclude, OfItselfOrOfAFileElsewhereIsRefused) {
   EXPECT_THROW(read_scene(folder.path() / "scene.toml"), SceneErrors);
 }
 
+/// A dumbbell of two unit boxes on a rod, in 2D and in 3D.
+template <int Dim>
+Scene<Dim> dumbbell(const std::string& more = "") {
+  const bool flat = Dim == 2;
+  return scene_of<Dim>(fmt::format(
+      "shape.end = {{kind = \"box\", size = {}, density = 2000}}\nshape.rod = {{kind = \"box\", size = {}, density = "
+      "500}}\nbody = [{{position = {}}}]\n{}\n[shape.bell]\nkind = \"compound\"\nfriction = 0.7\ncolour = \"#0A0b0C\"\n"
+      "parts = [{{shape = \"rod\"}}, {{shape = \"end\", position = {}}}, {{shape = \"end\", position = {}, angle_deg = "
+      "90{}}}]",
+      flat ? "[1, 1]" : "[1, 1, 1]", flat ? "[2, 0.5]" : "[2, 0.5, 0.5]", flat ? "[0, 9]" : "[0, 0, 9]", more,
+      flat ? "[-1.5, 0]" : "[-1.5, 0, 0]", flat ? "[1.5, 0]" : "[1.5, 0, 0]", flat ? "" : ", axis = [0, 1, 0]"));
+}
+
+TEST(SceneShapes, OfACompoundHaveTheMassAndInertiaOfTheirParts) {
+  const Scene<2> flat = dumbbell<2>();
+  ASSERT_EQ(flat.world.shapes.size(), 1U);
+  const Shape<2>& bell = flat.world.shapes[0];
+  EXPECT_NEAR(bell.mass, 2.0 * 2000.0 + 500.0, 1e-9);
+  EXPECT_NEAR(bell.reference.norm(), 0.0, 1e-12);
+  EXPECT_NEAR(bell.inertia(0), 2.0 * 2000.0 * (2.0 / 12.0 + 2.25) + 500.0 * (4.0 + 0.25) / 12.0, 1e-6);
+  EXPECT_EQ(bell.pieces.size(), 3U);
+  EXPECT_EQ(bell.material.friction, 0.7);
+  const Shape<3> solid = dumbbell<3>().world.shapes.at(0);
+  EXPECT_NEAR(solid.mass, 2.0 * 2000.0 + 250.0, 1e-9);
+  EXPECT_NEAR(solid.inertia(0, 0), 2.0 * 2000.0 * 2.0 / 12.0 + 250.0 * 0.5 / 12.0, 1e-6);
+  EXPECT_NEAR(solid.inertia(1, 1), 2.0 * 2000.0 * (2.0 / 12.0 + 2.25) + 250.0 * 4.25 / 12.0, 1e-6);
+}
+
+TEST(SceneShapes, OfACompoundLieAboutTheCentreOfMassOfPartsOfDifferentDensity) {
+  const Scene<2> scene = scene_of<2>(
+      "shape.heavy = {kind = \"box\", size = [1, 1], density = 3000}\nshape.light = {kind = \"box\", size = [1, 1]}\n"
+      "shape.both = {kind = \"compound\", parts = [{shape = \"light\"}, {shape = \"heavy\", position = [0, 1]}]}\n"
+      "body = [{position = [0, 9]}]");
+  EXPECT_NEAR(scene.world.shapes.at(0).reference.y(), -0.75, 1e-12);
+  EXPECT_NEAR(scene.bodies.at(0).def.pose.position.y(), 9.75, 1e-12);
+}
+
+TEST(SceneShapes, OfACompoundAreDroppedAndTheirPartsOnlyWhereNamed) {
+  EXPECT_EQ(dumbbell<2>().world.shapes.at(0).name, "bell");
+  const Scene<2> scene = dumbbell<2>("source = [{position = [30, 9]}, {position = [60, 9], shape = \"end\"}]");
+  ASSERT_EQ(scene.world.shapes.size(), 2U);
+  EXPECT_EQ(scene.sources[0].shapes, std::vector<int>{0});
+  EXPECT_EQ(scene.world.shapes[scene.sources[1].shapes.at(0)].name, "end");
+}
+
+TEST(SceneShapes, OfACompoundMayBeCompoundsAndTheFirstStone) {
+  const Scene<2> scene = scene_of<2>(
+      "shape.b = {kind = \"compound\", parts = [{shape = \"z\"}, {shape = \"s\", position = [4, 0]}]}\n"
+      "shape.s = {kind = \"stone\"}\nshape.q = {kind = \"box\", size = [1, 1]}\n"
+      "shape.z = {kind = \"compound\", parts = [{shape = \"q\"}, {shape = \"q\", position = [1, 0]}]}\n"
+      "body = [{position = [0, 9]}, {position = [0, 19], shape = \"s\"}]");
+  const Shape<2>& whole = scene.world.shapes.at(0);
+  EXPECT_EQ(whole.name, "b");
+  EXPECT_NEAR(whole.mass, 2000.0 + scene.world.shapes.at(1).mass, 1e-6);
+}
+
+TEST(SceneShapes, OfACompoundThatCannotBeMadeAreRefusedWithTheField) {
+  const std::string box = "shape.box = {kind = \"box\", size = [1, 1]}\nbody = [{position = [0, 9], shape = \"c\"}]\n";
+  EXPECT_EQ(error_of(box + "shape.c = {kind = \"compound\", parts = [{shape = \"bix\"}]}"),
+            "shape.c.parts[0].shape: must be one of box, c");
+  EXPECT_EQ(error_of(box + "shape.c = {kind = \"compound\", parts = [{shape = \"d\"}]}\n"
+                           "shape.d = {kind = \"compound\", parts = [{shape = \"box\"}, {shape = \"c\"}]}"),
+            "shape.d.parts[1].shape: must not have this shape as a part: c has d has c");
+  EXPECT_EQ(error_of(box + "shape.c = {kind = \"compound\", parts = []}"), "shape.c.parts: must be one or more parts");
+  EXPECT_EQ(error_of(box + "shape.c = {kind = \"compound\", density = 3, parts = [{shape = \"box\"}]}"),
+            "shape.c.density: means nothing for a compound: each part has its own");
+  EXPECT_EQ(error_of(box + "shape.c = {kind = \"compound\"}"), "shape.c.parts: must be given");
+}
+
+TEST(SceneShapes, OfACompoundWithPartsInEachOtherAreWarnedOf) {
+  const Scene<2> scene = scene_of<2>(
+      "shape.box = {kind = \"box\", size = [1, 1]}\nbody = [{position = [0, 9]}]\n"
+      "shape.c = {kind = \"compound\", parts = [{shape = \"box\"}, {shape = \"box\", position = [0.9, 0]}]}");
+  ASSERT_EQ(scene.reader_warnings.size(), 1U);
+  EXPECT_NE(scene.reader_warnings[0].find("shape.c: parts[0] and parts[1] overlap by 0.1 m"), std::string::npos);
+}
+
+TEST(SceneShapes, HaveColoursByNameOrAsNumbers) {
+  EXPECT_EQ(dumbbell<2>().world.shapes.at(0).colour, "#0a0b0c");
+  EXPECT_EQ(shape_of<2>("kind = \"ball\", radius = 1, colour = \"white\"").colour, "#ffffff");
+  EXPECT_EQ(shape_of<2>("kind = \"ball\", radius = 1").colour, "");
+  EXPECT_EQ(error_of("shape.b = {kind = \"ball\", radius = 1, colour = \"#12345g\"}\nbody = [{position = [0, 9]}]"),
+            "shape.b.colour: must be \"#rrggbb\" or one of black, blue, brown, green, grey, orange, pink, purple, red, "
+            "sky, white, yellow");
+}
+
 }  // namespace
 }  // namespace talus::scene_shapes_and_sizes_test

@@ -25,6 +25,8 @@ void with_message_of(Channel channel, const Use& use) {
       return use(talus_lcm::talus_bodies_v1{});
     case Channel::shapes:
       return use(talus_lcm::talus_shapes_v1{});
+    case Channel::events:
+      return use(talus_lcm::talus_event_v1{});
   }
 }
 

@@ -6,10 +6,18 @@ set -euo pipefail
 talus=$(readlink -f "$1") jobs=${2-$(nproc)} pattern=${3-.}
 cd "$(dirname "${BASH_SOURCE[0]}")/../../scenes"
 
-# Scenes of hours are cut to this many frames.
+# Scenes of hours are cut to this many frames; those that end at rest, whenever that is, to the paper's.
 short_frames=600
 options_of() {
-  case $1 in million* | ten_thousand*) echo "--set run.frames=$short_frames" ;; esac
+  case $1 in
+    million* | ten_thousand*) echo "--set run.frames=$short_frames" ;;
+    drop_in_a_pile* | several_sizes*) echo "--set run.frames=1818 --set run.until=frames" ;;
+    varying_drops*) echo "--set run.frames=856 --set run.until=frames" ;;
+    multiple_piles*) echo "--set run.frames=2203 --set run.until=frames" ;;
+    bunny_matrices*) echo "--set run.frames=312 --set run.until=frames" ;;
+    drop_in_a_line*) echo "--set run.frames=928 --set run.until=frames" ;;
+    rings_in_a_box*) echo "--set run.frames=1061 --set run.until=frames" ;;
+  esac
 }
 line() { # SCENE BACKEND POLICY
   local hash

@@ -12,6 +12,7 @@ namespace talus::decode_test {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_event_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
@@ -40,6 +41,8 @@ std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
       return fault_of<talus_bodies_v1>(bytes);
     case Channel::shapes:
       return fault_of<talus_shapes_v1>(bytes);
+    case Channel::events:
+      return fault_of<talus_event_v1>(bytes);
   }
   return "no such channel";
 }

@@ -9,6 +9,7 @@ namespace talus::fingerprint_test {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
+using talus_lcm::talus_event_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
@@ -26,6 +27,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_stats_v2::getHash()), 0x774FD4401E2D01CFU);
   EXPECT_EQ(fingerprint(talus_bodies_v1::getHash()), 0xC6FA8471FD1162E7U);
   EXPECT_EQ(fingerprint(talus_shapes_v1::getHash()), 0x081800A341BF37D4U);
+  EXPECT_EQ(fingerprint(talus_event_v1::getHash()), 0x87134A84EDEA7967U);
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+#include "common/scene/happened.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/scene/toml_text.h"
+
+namespace talus {
+
+template <int Dim>
+std::string event_text(const Scene<Dim>& scene, int number) {
+  const Event<Dim>& event = scene.events[number];
+  const std::string& action = event.action;
+  if (event.obstacle) return fmt::format("remove obstacle {}", scene.obstacle_names[*event.obstacle].name);
+  if (action == "gravity") return fmt::format("gravity {}", field_text({}, event.gravity));
+  if (action == "policy") return fmt::format("policy {}", event.policy);
+  if (action == "rate") return fmt::format("rate {:g} of source {}", event.rate, event.source);
+  if (action == "picture") return action;
+  const bool some = !event.shapes.empty() || !event.numbers.empty() || !event.box.empty();
+  return fmt::format("{} {} bodies", action, some ? "some" : "all");
+}
+
+template <int Dim>
+WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
+  WorldDescription<Dim> world = scene.world;
+  world.obstacles = obstacles_at(scene.world.obstacles, scene.movers, time);
+  Vec<Dim> gravity = scene.gravity_at(time);
+  std::vector<std::uint8_t> removed(world.obstacles.size(), 0);
+  for (const DoneEvent& each : done) {
+    if (each.time > time) break;
+    const Event<Dim>& event = scene.events[each.number];
+    if (event.action == "gravity") gravity = event.gravity;
+    if (!event.obstacle) continue;
+    const ObstacleName& name = scene.obstacle_names[*event.obstacle];
+    std::fill_n(removed.begin() + name.first, name.count, std::uint8_t{1});
+  }
+  world.gravity = gravity.norm();
+  if (world.gravity > 0.0) world.down = gravity / world.gravity;
+  for (std::size_t k = removed.size(); k-- > 0;)
+    if (removed[k] != 0) world.obstacles.erase(world.obstacles.begin() + static_cast<std::ptrdiff_t>(k));
+  return world;
+}
+
+template std::string event_text(const Scene<2>&, int);
+template std::string event_text(const Scene<3>&, int);
+template WorldDescription<2> world_at(const Scene<2>&, std::span<const DoneEvent>, double);
+template WorldDescription<3> world_at(const Scene<3>&, std::span<const DoneEvent>, double);
+
+}  // namespace talus

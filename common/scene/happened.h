@@ -1,0 +1,26 @@
+#pragma once
+// What events of a scene have made of it.
+
+#include <span>
+#include <string>
+
+#include "common/scene/scene.h"
+
+namespace talus {
+
+/// An event of the scene that has happened.
+struct DoneEvent {
+  int number = 0;     // in Scene::events
+  double time = 0.0;  // [s]
+};
+
+/// One line, as "remove obstacle gate" or "gravity [0, -5]".
+template <int Dim>
+std::string event_text(const Scene<Dim>& scene, int number);
+
+/// The world as it is at a time [s], after events that happened by then: obstacles where they are, without those
+/// removed, and gravity.
+template <int Dim>
+WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
+
+}  // namespace talus
