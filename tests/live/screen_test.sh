@@ -1,7 +1,6 @@
 # The screen of the monitor in a terminal, as tmux shows it, one part a call: screen_test.sh PROGRAM PART.
 set -euo pipefail
 program=$1 part=$2
-command -v tmux >/dev/null || exit 77
 source "$(dirname "$0")/network.sh"
 export TMUX_TMPDIR=$folder LC_ALL=C.UTF-8
 unset TMUX NO_COLOR

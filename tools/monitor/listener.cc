@@ -30,6 +30,8 @@ void Listener::hear(const Datagram& datagram, Clock::time_point now) {
       return hear<talus_bodies_v1>(datagram, now);
     case Channel::shapes:
       return hear<talus_shapes_v1>(datagram, now);
+    case Channel::events:
+      return;  // in records only
   }
 }
 

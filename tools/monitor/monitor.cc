@@ -140,12 +140,12 @@ int watch_on_screen(ReceiverProcess& receiver, const MonitorParams& params, cons
   Listener listener;
   Watch watch(*screen, listener, receiver, address);
   const auto begin = Clock::now();
-  auto next_look = begin;  // at keys, and whether to draw
+  auto next_update = begin;
   for (bool goes_on = true; goes_on && !stop && !time_is_up(params, begin);) {
-    hear_until(next_look, receiver, listener);
-    if (Clock::now() < next_look) continue;
+    hear_until(next_update, receiver, listener);
+    if (Clock::now() < next_update) continue;
     goes_on = watch.update();
-    next_look = Clock::now() + Milliseconds(20);
+    next_update = Clock::now() + Milliseconds(20);
   }
   screen.reset();
   hear_the_rest(receiver, listener);

@@ -1,13 +1,9 @@
 #pragma once
 // What the full-screen monitor shows, as characters.
 
-#include <chrono>
 #include <cstdint>
-#include <string>
-#include <vector>
 
-#include "tools/monitor/faults.h"
-#include "tools/monitor/listener.h"
+#include "tools/monitor/heard.h"
 #include "tools/monitor/sheet.h"
 
 namespace talus {
@@ -21,15 +17,7 @@ struct Choice {
   int pile = 0;          // place among the piles of the run
   int filter = 0;        // of sleep events: 0 all, 1 woke, 2 fell asleep, from 3 on a cause
   int first_row = 0;     // of a page that is longer than the screen
-  bool held = false;     // the screen stands still
-};
-
-/// What there is to show.
-struct Heard {
-  const Listener& listener;
-  Faults faults;
-  std::string address;
-  std::chrono::steady_clock::time_point now;
+  bool held = false;     // the screen is not redrawn
 };
 
 /// What a key did.
@@ -47,8 +35,5 @@ Effect obey(int key, const Heard& heard, Choice& choice);
 
 /// The page that is chosen. Before a run is heard: the address that is listened to.
 void draw(const Heard& heard, const Choice& choice, Sheet& sheet);
-
-/// What deserves attention: warnings of a run, loss, many bodies that woke at once, silence, and faults of the network.
-std::vector<std::string> alerts_of(const Heard& heard);
 
 }  // namespace talus

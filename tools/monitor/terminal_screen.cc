@@ -26,20 +26,20 @@ wchar_t ascii_for(char32_t character) {
   return L'?';
 }
 
-struct Look {
+struct Appearance {
   Style style;
   short colour;         // of curses; -1: the terminal's own
   attr_t with_colours;  // attributes
   attr_t without_colours;
 };
 
-constexpr std::array<Look, 7> looks = {{{Style::plain, -1, A_NORMAL, A_NORMAL},
-                                        {Style::quiet, -1, A_DIM, A_NORMAL},
-                                        {Style::strong, -1, A_BOLD, A_BOLD},
-                                        {Style::awake, COLOR_YELLOW, A_NORMAL, A_NORMAL},
-                                        {Style::asleep, COLOR_CYAN, A_NORMAL, A_NORMAL},
-                                        {Style::good, COLOR_GREEN, A_NORMAL, A_NORMAL},
-                                        {Style::alert, COLOR_RED, A_BOLD, A_REVERSE}}};
+constexpr std::array<Appearance, 7> appearances = {{{Style::plain, -1, A_NORMAL, A_NORMAL},
+                                                    {Style::quiet, -1, A_DIM, A_NORMAL},
+                                                    {Style::strong, -1, A_BOLD, A_BOLD},
+                                                    {Style::awake, COLOR_YELLOW, A_NORMAL, A_NORMAL},
+                                                    {Style::asleep, COLOR_CYAN, A_NORMAL, A_NORMAL},
+                                                    {Style::good, COLOR_GREEN, A_NORMAL, A_NORMAL},
+                                                    {Style::alert, COLOR_RED, A_BOLD, A_REVERSE}}};
 
 bool wants_colours() {
   const char* no_color = std::getenv("NO_COLOR");
@@ -77,7 +77,8 @@ TerminalScreen::TerminalScreen() : state_(std::make_unique<State>()) {
   curs_set(0);
   if (has_colors() && wants_colours() && start_color() == OK && use_default_colors() == OK) {
     state_->colours = true;
-    for (const Look& look : looks) init_pair(static_cast<short>(static_cast<int>(look.style) + 1), look.colour, -1);
+    for (const Appearance& each : appearances)
+      init_pair(static_cast<short>(static_cast<int>(each.style) + 1), each.colour, -1);
   }
   state_->standard_error = dup(STDERR_FILENO);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -104,10 +105,10 @@ void TerminalScreen::show(const Sheet& sheet) {
       const Sheet::Cell& cell = sheet.at(row, column);
       if (cell.character == U' ') continue;
       const wchar_t text[] = {state_->utf8 ? static_cast<wchar_t>(cell.character) : ascii_for(cell.character), L'\0'};
-      const Look& look = looks[static_cast<std::size_t>(cell.style)];
+      const Appearance& appearance = appearances[static_cast<std::size_t>(cell.style)];
       const auto pair = static_cast<short>(state_->colours ? static_cast<int>(cell.style) + 1 : 0);
       cchar_t glyph;
-      setcchar(&glyph, text, state_->colours ? look.with_colours : look.without_colours, pair, nullptr);
+      setcchar(&glyph, text, state_->colours ? appearance.with_colours : appearance.without_colours, pair, nullptr);
       mvwadd_wch(stdscr, row, column, &glyph);
     }
   }

@@ -1,0 +1,14 @@
+#pragma once
+// What of the runs that a monitor hears deserves attention.
+
+#include <string>
+#include <vector>
+
+#include "tools/monitor/heard.h"
+
+namespace talus {
+
+/// Warnings of a run, loss, many bodies that woke at once, silence, and faults of the network; one line each.
+std::vector<std::string> alerts_of(const Heard& heard);
+
+}  // namespace talus

@@ -1,0 +1,43 @@
+#include "tools/monitor/cost_tables.h"
+
+#include <fmt/format.h>
+
+#include "common/policy/frame.h"
+#include "lcmtypes/translate.h"
+
+namespace talus {
+
+void draw_phases(const RunView& view, const Area& area) {
+  if (!view.stats() || view.stats()->timed == 0) {
+    area.put(0, 0, "ms per step: not measured", Style::strong);
+    return;
+  }
+  const PhaseTimes times = phase_times_of(*view.stats());
+  area.put(0, 0, fmt::format("ms per step: {:.3g}", times.total()), Style::strong);
+  int place = 0;
+  const int rows = 5;
+  for (const Phase& phase : all_phases) {
+    const bool part = phase.meaning.starts_with("of it");
+    area.put(1 + place % rows, place / rows * 19,
+             fmt::format("{}{:<{}} {:>7.3f}", part ? " " : "", phase.name, part ? 8 : 9, times.*phase.time));
+    ++place;
+  }
+}
+
+void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {
+  area.put(0, 0, "channel         /s   kB/s   lost   bad", Style::strong);
+  int row = 1;
+  for (const Channel channel : heard_channels) {
+    const RateMeter::Rate rate = run.entry->rates[static_cast<std::size_t>(channel)].rate(heard.now);
+    const std::int64_t lost = run.view().lost(channel);
+    const std::int64_t bad = heard.listener.undecodable(channel);
+    area.put(row, 0, fmt::format("{:<12} {:>5.1f} {:>6.1f}", talus::name_of(channel), rate.messages, rate.bytes / 1e3));
+    area.put(row, 25, fmt::format("{:>6}", count_text(static_cast<double>(lost))),
+             lost > 0 ? Style::alert : Style::good);
+    area.put(row, 32, fmt::format("{:>5}", count_text(static_cast<double>(bad), 5)),
+             bad > 0 ? Style::alert : Style::good);
+    ++row;
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,99 @@
+#include "tools/monitor/layer_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/monitor/heard.h"
+
+namespace talus {
+
+using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_pile_v1;
+
+namespace {
+
+/// Neighbouring layers in one row.
+struct LayerRow {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  double capacity = 0.0;
+  double count = 0.0;
+  std::int64_t sleeping = 0;
+};
+
+/// Bottom first, at most `rows`.
+std::vector<LayerRow> rows_of(std::span<const talus_layer_v1> layers, std::size_t rows) {
+  const std::size_t number = std::min(layers.size(), rows);
+  std::vector<LayerRow> result;
+  for (std::size_t i = 0; i < number; ++i) {
+    LayerRow row{.first = i * layers.size() / number, .last = (i + 1) * layers.size() / number - 1};
+    for (std::size_t layer = row.first; layer <= row.last; ++layer) {
+      row.capacity += layers[layer].capacity;
+      row.count += layers[layer].count;
+      row.sleeping += layers[layer].sleeping;
+    }
+    result.push_back(row);
+  }
+  return result;
+}
+
+/// A bar of so many cells for density 1, which a mark shows; longer where there is more.
+void put_density_bar(Area area, int row, int column, double density, bool asleep) {
+  const int full = area.columns() - column - 2;  // two cells for what is above 1
+  if (full < 2) return;
+  const int halves = std::clamp(static_cast<int>(std::lround(2.0 * full * density)), 0, 2 * full + 4);
+  area.put(row, column + full, "│", Style::quiet);
+  const Style style = asleep ? Style::asleep : Style::awake;
+  for (int cell = 0; 2 * cell < halves; ++cell)
+    area.put(row, column + cell, 2 * cell + 1 < halves ? "█" : "▌", halves > 2 * full ? Style::alert : style);
+}
+
+void draw_layer(const LayerRow& row, int number, const Area& area) {
+  const std::string name =
+      row.first == row.last ? fmt::format("{}", row.first) : fmt::format("{}-{}", row.first, row.last);
+  const double density = row.capacity > 0.0 ? row.count / row.capacity : 0.0;
+  const auto sleeping = static_cast<double>(row.sleeping);
+  const int end = area.put(number, 0,
+                           fmt::format("{:>5} {:4.2f} {:>4}/{:<4} {:>5}", name, density, count_text(row.count, 4),
+                                       count_text(row.capacity, 4), count_text(sleeping, 5)));
+  put_density_bar(area, number, end + 1, density, 2.0 * sleeping >= row.count);
+}
+
+/// Without the empty ones on top.
+std::span<const talus_layer_v1> filled_layers(const talus_pile_v1& pile) {
+  std::span<const talus_layer_v1> layers = pile.layers;
+  while (!layers.empty() && layers.back().count == 0) layers = layers.first(layers.size() - 1);
+  return layers;
+}
+
+std::string heading_of(std::int32_t number, int place, std::size_t piles, const talus_pile_v1& pile) {
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  const std::string among = piles > 1 ? fmt::format(" ({} of {})", place + 1, piles) : "";
+  return fmt::format("pile {}{}: {} layers, {:.0f} deg, {:.0f} %", number, among, pile.layer_total,
+                     degrees * pile.alpha, 100.0 * pile.occupation_ratio);
+}
+
+}  // namespace
+
+void draw_layers(const RunView& view, int pile_place, const Area& area) {
+  if (view.piles().empty()) {
+    area.put(0, 0, "no pile yet", Style::quiet);
+    return;
+  }
+  const int place = pile_place % static_cast<int>(view.piles().size());
+  const auto& [pile_number, pile] = *std::next(view.piles().begin(), place);
+  area.put(0, 0, heading_of(pile_number, place, view.piles().size(), pile), Style::strong);
+  area.put(1, 0, "layer dens.  bodies/cap sleep", Style::quiet);
+  const Area list = area.lower(2);
+  const auto rows = rows_of(filled_layers(pile), static_cast<std::size_t>(list.rows()));
+  int number = static_cast<int>(rows.size());
+  for (const LayerRow& row : rows) draw_layer(row, --number, list);
+}
+
+}  // namespace talus
