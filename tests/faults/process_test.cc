@@ -149,7 +149,7 @@ TEST(DiskFault, AFileThatMayNotGrowEndsARunWithAMessage) {
 TEST(DiskFault, FramesThatCannotBeWrittenEndARunWithAMessage) {
   const TemporaryFolder folder;
   const std::string run = R"("$TALUS" run drop_in_a_pile_2d --no-telemetry --set source[0].count=1 \
-  --set run.frame_rate=1 --set run.frames=20 --out )";
+  --set run.frame_rate=1 --set run.frames=20 --set run.until=frames --out )";
   const Outcome outcome = shell_in(folder,
                                    run + R"(whole >/dev/null && kilobytes=$(($(stat -c %s whole/frames.csv) / 1024))
 for limit in 64 $kilobytes; do

@@ -27,4 +27,24 @@ Outcome shell(const std::string& script) {
 
 Outcome talus_command(const std::string& arguments) { return shell("\"$TALUS\" " + arguments); }
 
+void record_with_event(const std::string& folder) {
+  const std::string scene = folder + ".toml";
+  std::ofstream(scene) << R"(
+title = "Ten discs that are woken"
+dimension = 2
+shape.disc = {kind = "ball", radius = 0.5}
+run = {frames = 60}
+[[source]]
+position = [0, 8]
+velocity = [0, -7]
+count = 10
+[[pile]]
+[[event]]
+time = 1.0
+do = "wake"
+)";
+  const Outcome outcome = talus_command("run " + scene + " --no-telemetry --out " + folder);
+  if (outcome.exit_code != 0) throw std::runtime_error(outcome.err);
+}
+
 }  // namespace talus

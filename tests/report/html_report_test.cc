@@ -41,6 +41,16 @@ TEST(HtmlReport, AsksForNothingFromElsewhere) {
     EXPECT_EQ(html.find(reference), std::string::npos) << reference;
 }
 
+TEST(HtmlReport, HoldsAnotherPageWithItsMarkupEscaped) {
+  const std::string html = html_of(Report{"t", "", {{"s", {EmbeddedPage{"<p class=\"a\">b & c</p>", "player"}}}}});
+  EXPECT_NE(html.find("srcdoc=\"&lt;p class=&quot;a&quot;&gt;b &amp; c&lt;/p&gt;\""), std::string::npos);
+}
+
+TEST(HtmlReport, KeepsTheLinesOfAListing) {
+  const std::string html = html_of(Report{"t", "", {{"s", {Listing{"a <\nb", "file"}}}}});
+  EXPECT_NE(html.find("<summary>file</summary><pre>a &lt;\nb</pre>"), std::string::npos);
+}
+
 TEST(HtmlReport, RefusesRaggedTablesAndFiguresThatAreNoSvg) {
   EXPECT_THROW(html_of(Report{"t", "", {{"s", {Table{"c", {{"a"}, {"b"}}, {{"1"}}}}}}}), std::invalid_argument);
   EXPECT_THROW(html_of(Report{"t", "", {{"s", {Figure{"no drawing", "c"}}}}}), std::invalid_argument);

@@ -36,6 +36,8 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus view drop_in_a_pile_2d", "talus view drop_in_a_pile_2d --seconds 1"},
     {"talus view discs.toml", "talus view discs.toml --seconds 1"},
     {"talus view --live", "talus view --live --seconds 1"},
+    {"talus view drop_in_a_pile_2d --against full", "talus view drop_in_a_pile_2d --against full --seconds 1"},
+    {"talus view runs/pour runs/full", "talus view runs/pour runs/pour --seconds 1"},
     {"talus view runs/pour", "talus view runs/pour --seconds 1"},
     {"talus monitor --plain", "talus monitor --plain --seconds 1"},
     {"talus record --out bus.lcm --seconds 60", "talus record --out bus.lcm --seconds 1"},
@@ -220,8 +222,8 @@ TEST(ReadmeProgram, IsTheExampleThatIsCompiled) {
 }
 
 TEST(HelpTexts, NameSubCommandsOptionsAndScenesThatExist) {
-  for (const char* command : {"run", "check", "bench", "compare", "wake", "film", "replay", "export", "info", "cat",
-                              "cut", "repair", "diff", "view", "sheet", "decompose", "monitor", "record"}) {
+  for (const char* command : {"run", "check", "bench", "compare", "wake", "film", "replay", "report", "export", "info",
+                              "cat", "cut", "repair", "diff", "view", "sheet", "decompose", "monitor", "record"}) {
     std::istringstream help(talus_command(std::string(command) + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find("talus ");

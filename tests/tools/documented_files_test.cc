@@ -114,8 +114,10 @@ TEST(DocumentedFiles, HaveAllKeysOfCompareAndWake) {
   Names compared = keys_printed("compare --twins 1 " + (folder / "full") + " " + (folder / "paper"));
   compared.insert({"a.lost_steps[]", "b.lost_steps[]"});  // empty, since the records are whole
   expect_documented(compared, "talus compare --json");
-  expect_documented(keys_printed("wake " + (folder / "paper") + " --seconds 0.1 --full " + (folder / "full")),
-                    "talus wake --json");
+  record_with_event(folder / "event");
+  Names woken = keys_printed("wake " + (folder / "paper") + " --seconds 0.1 --full " + (folder / "full"));
+  woken.merge(keys_printed("wake " + (folder / "event") + " --seconds 0.1"));
+  expect_documented(woken, "talus wake --json");
 }
 
 #endif

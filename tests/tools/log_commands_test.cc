@@ -63,8 +63,9 @@ TEST_F(LogCommand, InfoCountsWhatTheRunWrote) {
 }
 
 TEST_F(LogCommand, InfoWritesTheKeysThatAreDocumented) {
+  record_with_event(folder_ / "event");
   Names keys;
-  collect(info("run"), "", keys);
+  collect(info("event"), "", keys);
   expect_documented(keys, "talus info --json");
 }
 

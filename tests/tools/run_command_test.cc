@@ -188,7 +188,8 @@ TEST(RunCommand, SavesEverythingOnCtrlC) {
 TEST(RunCommand, TellsTheReasonWhereThereIsNoEndHash) {
   const Outcome outcome = shell(
       "\"$TALUS\" run drop_in_a_pile_2d --policy full --set run.frames=100000 --hash & process=$!; "
-      "until grep -q '^SigCgt:.*[2367abef]$' /proc/$process/status; do sleep 0.02; done; "  // it catches SIGINT
+      "until grep -q '^SigCgt:.*[2367abef]$' /proc/$process/status; do sleep 0.02; done; "  // until the handler is
+                                                                                            // installed
       "kill -INT $process; wait $process");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_EQ(outcome.out, "");

@@ -43,7 +43,10 @@ TEST(ViewCommand, RefusesBadInput) {
   refused("drop_in_a_pile_2d --backend bullet4d", "--backend = bullet4d");
   refused("drop_in_a_pile_2d --pace nan", "--pace");
   refused("drop_in_a_pile_2d --port 70000", "--port");
+  refused("drop_in_a_pile_2d drop_in_a_pile_3d", "must be two run folders");
+  refused("drop_in_a_pile_2d --against sleepy", "policy.kind");
 #ifdef TALUS_LCM
+  refused(folder.path().string() + " --against full", "--against: must be of a scene");
   refused(folder.path().string(), "must be a folder that `talus run` left");
 #endif
 }

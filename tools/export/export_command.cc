@@ -17,7 +17,7 @@ namespace {
 
 struct ExportOptions {
   std::string run;
-  std::array<std::string, 5> files;  // in the order of formats()
+  std::array<std::string, 6> files;  // in the order of formats()
   /// Simulated time that is exported [s].
   double from = 0.0;
   double to = std::numeric_limits<double>::infinity();
@@ -33,12 +33,13 @@ struct Format {
 };
 
 template <int Dim>
-std::array<Format<Dim>, 5> formats() {
+std::array<Format<Dim>, 6> formats() {
   return {{{make_csv_export<Dim>, ".csv"},
            {make_npz_export<Dim>, ".npz"},
            {make_ply_export<Dim>, ".ply"},
            {make_vtp_export<Dim>, ".pvd"},
-           {make_glb_export<Dim>, ".glb"}}};
+           {make_glb_export<Dim>, ".glb"},
+           {make_mcap_export<Dim>, ".mcap"}}};
 }
 
 constexpr int many_nodes = 2000;
@@ -64,13 +65,16 @@ WalkDamage walk_chosen(const Scene<Dim>& scene, const ExportOptions& options, co
   LogReader log((std::filesystem::path(options.run) / "run.lcm").string());
   FrameChoice choice(options);
   std::vector<SleepEvent> events;
-  return walk_record<Dim>(scene, log, [&](const RecordedFrame<Dim>& frame) {
+  const auto take = [&](const RecordedFrame<Dim>& frame) {
     events.insert(events.end(), frame.events.begin(), frame.events.end());
     if (frame.time < options.from) events.clear();
     if (!choice.takes(frame.time)) return;
-    visit(RecordedFrame<Dim>{frame.step, frame.time, frame.states, frame.unknown, frame.cause, events});
+    RecordedFrame<Dim> chosen = frame;
+    chosen.events = events;
+    visit(chosen);
     events.clear();
-  });
+  };
+  return walk_record<Dim>(scene, log, take).damage;
 }
 
 void report_damage(const WalkDamage& damage) {
@@ -122,12 +126,13 @@ void add_export_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("export", "Write a recorded run in the formats of other programs");
   auto options = std::make_shared<ExportOptions>();
   command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
-  constexpr std::array<std::array<const char*, 2>, 5> files = {
+  constexpr std::array<std::array<const char*, 2>, 6> files = {
       {{"--csv", "A row for each body and frame"},
        {"--npz", "Arrays of NumPy"},
        {"--ply", "The bodies of the last frame as one mesh"},
        {"--vtp", "A series for ParaView: FILE.pvd, with the folder FILE_vtp"},
-       {"--glb", "An animated scene for Blender and engines of games"}}};
+       {"--glb", "An animated scene for Blender and engines of games"},
+       {"--mcap", "A recording for Foxglove, Lichtblick and Rerun"}}};
   CLI::Option_group* group = command->add_option_group("formats", "Files to write, overwritten if there");
   for (std::size_t i = 0; i < files.size(); ++i)
     group->add_option(files[i][0], options->files[i], files[i][1])->check(in_a_folder());

@@ -46,5 +46,8 @@ std::unique_ptr<Exporter<Dim>> make_vtp_export(const ExportInput<Dim>& input);
 /// A node for each body, with keys only where it moves. In memory until finish().
 template <int Dim>
 std::unique_ptr<Exporter<Dim>> make_glb_export(const ExportInput<Dim>& input);
+/// Bodies, layers, counts, sleep events and warnings as messages with times. Frames pass through.
+template <int Dim>
+std::unique_ptr<Exporter<Dim>> make_mcap_export(const ExportInput<Dim>& input);
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -9,7 +10,7 @@
 #include "tools/export/exporter.h"
 #include "tools/export/output_file.h"
 #include "tools/export/solid.h"
-#include "tools/picture/picture_params.h"
+#include "tools/picture/body_colours.h"
 #include "tools/report/json_text.h"
 
 namespace talus {
@@ -188,10 +189,12 @@ class GlbExport final : public Exporter<Dim> {
   }
 
   int shape_material(std::size_t shape) {
-    const std::size_t number = shape % colours_.awake.size();
-    while (materials_.size() <= number)
-      materials_.push_back(material(fmt::format("body {}", materials_.size()), colours_.awake[materials_.size()]));
-    return static_cast<int>(number);
+    const std::string& own = scene_.world.shapes[shape].colour;
+    const std::string name =
+        own.empty() ? fmt::format("body {}", shape % colours_.awake.size()) : fmt::format("body {}", own);
+    const auto [found, is_new] = material_numbers_.emplace(name, static_cast<int>(materials_.size()));
+    if (is_new) materials_.push_back(material(name, body_paint(colours_, static_cast<int>(shape), own, false).fill));
+    return found->second;
   }
 
   void add_mesh(const Shape<Dim>& shape, int material_number) {
@@ -284,6 +287,7 @@ class GlbExport final : public Exporter<Dim> {
   std::optional<double> begin_;  // [s] of the first frame
   std::vector<Track> tracks_;    // of each body
   PictureParams colours_;
+  std::map<std::string, int> material_numbers_;  // of bodies, by name
   GlbWriter writer_;
   Json nodes_ = Json::array();
   Json meshes_ = Json::array();

@@ -6,7 +6,7 @@
 #include "tools/export/exporter.h"
 #include "tools/export/output_file.h"
 #include "tools/export/solid.h"
-#include "tools/picture/picture_params.h"
+#include "tools/picture/body_colours.h"
 
 namespace talus {
 namespace {
@@ -15,7 +15,10 @@ template <int Dim>
 class PlyExport final : public Exporter<Dim> {
  public:
   explicit PlyExport(const ExportInput<Dim>& input) : file_(input.file), frames_left_(input.frames) {
-    for (const Shape<Dim>& shape : input.scene.world.shapes) polygons_.push_back(polygons_in_space(shape));
+    for (const Shape<Dim>& shape : input.scene.world.shapes) {
+      polygons_.push_back(polygons_in_space(shape));
+      own_colours_.push_back(shape.colour);
+    }
   }
 
   void add(const RecordedFrame<Dim>& frame) override {
@@ -42,7 +45,8 @@ class PlyExport final : public Exporter<Dim> {
   void add_body(const RecordedFrame<Dim>& frame, BodyIndex body) {
     const Pose<3> pose = in_space(frame.states.pose[body]);
     const bool asleep = frame.states.asleep[body] != 0;
-    const Colour colour = asleep ? colours_.asleep : colours_.awake[frame.states.shape[body] % colours_.awake.size()];
+    const int shape = frame.states.shape[body];
+    const Colour colour = body_paint(colours_, shape, own_colours_[shape], asleep).fill;
     for (const Loop<3>& polygon : polygons_[frame.states.shape[body]]) {
       append_bytes(faces_, static_cast<std::int32_t>(polygon.size()));
       for (const Vec3& corner : polygon) {
@@ -61,6 +65,7 @@ class PlyExport final : public Exporter<Dim> {
   std::filesystem::path file_;
   int frames_left_;
   PictureParams colours_;
+  std::vector<std::string> own_colours_;        // of each shape
   std::vector<std::vector<Loop<3>>> polygons_;  // of each shape
   std::string vertices_;
   std::string faces_;

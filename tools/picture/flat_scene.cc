@@ -104,8 +104,8 @@ struct FlatScene {
     for (const BodyIndex body : framing.drawn) {
       const int shape = input.states.shape[body];
       const std::vector<Colour>& colours = input.colours.awake;
-      const BodyPaint paint =
-          body_paint(params, shape, input.states.asleep[body] != 0, colours.empty() ? nullptr : &colours[body]);
+      const BodyPaint paint = body_paint(params, shape, input.shapes[shape].colour, input.states.asleep[body] != 0,
+                                         colours.empty() ? nullptr : &colours[body]);
       paint_pieces(canvas, shapes[shape], input.states.pose[body], paint.fill, paint.outline, line);
     }
   }

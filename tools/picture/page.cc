@@ -83,10 +83,11 @@ void Page::draw_legend(cairo_t* canvas) const {
     draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, "asleep (darker)"));
     return;
   }
-  left = draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, "asleep"));
-  const auto colours = std::min(params_.awake.size(), static_cast<std::size_t>(std::max(1, content_.shapes)));
-  const std::vector<Colour> awake(params_.awake.begin(), params_.awake.begin() + static_cast<std::ptrdiff_t>(colours));
-  left = draw_entry(canvas, left, awake, params_.awake_outline, counted(content_.awake, "awake"));
+  const char* asleep = content_.shapes.empty() ? "asleep" : "asleep (darker)";
+  left = draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, asleep));
+  left = draw_entry(canvas, left, content_.awake_colours, params_.awake_outline, counted(content_.awake, "awake"));
+  for (const LegendEntry& entry : content_.shapes)
+    left = draw_entry(canvas, left, entry.fills, params_.awake_outline, entry.text);
   if (content_.layers)
     draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
 }

@@ -19,11 +19,12 @@ struct PageContent {
   std::string caption;  // lines separated by '\n'
   int asleep = 0;
   int awake = 0;
-  int outside = 0;                     // bodies too far away to be drawn
-  int shapes = 1;                      // how many colours awake bodies have
-  bool layers = false;                 // whether piles are drawn
-  std::vector<LegendEntry> colours{};  // of the bodies, in place of awake and asleep
-  bool parallel = true;                // whether the scale bar holds all over the picture (2D), or in the middle only
+  int outside = 0;                      // bodies too far away to be drawn
+  std::vector<Colour> awake_colours{};  // of awake bodies
+  std::vector<LegendEntry> shapes{};    // with colours of their own
+  bool layers = false;                  // whether piles are drawn
+  std::vector<LegendEntry> colours{};   // of the bodies, in place of awake and asleep
+  bool parallel = true;                 // whether the scale bar holds all over the picture (2D), or in the middle only
 };
 
 /// A page of fixed width whose header and footer leave room for a scene between them.

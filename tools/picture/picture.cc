@@ -11,12 +11,13 @@ namespace {
 constexpr int most_layers = 32;  // of a pile
 
 template <int Dim>
-PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& framing) {
+PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& framing, const PictureParams& params) {
   PageContent content = {.title = input.title, .caption = input.caption};
   for (const auto* bodies : {&framing.drawn, &framing.outside})
     for (const BodyIndex body : *bodies) (input.states.asleep[body] != 0 ? content.asleep : content.awake) += 1;
   content.outside = static_cast<int>(framing.outside.size());
-  content.shapes = static_cast<int>(input.shapes.size());
+  content.awake_colours = awake_colours(params, input.shapes);
+  content.shapes = legend_of_shapes(input.shapes);
   content.colours = input.colours.legend;
   content.layers = !input.piles.empty();
   content.parallel = Dim == 2;
@@ -34,7 +35,7 @@ double draw_pile(const std::filesystem::path& svg, const std::filesystem::path& 
   PictureInput<Dim> drawn = input;
   drawn.piles = piles;
   const Framing<Dim> framing = framing_of(drawn);
-  const Page page(content_of(drawn, framing), params);
+  const Page page(content_of(drawn, framing, params), params);
   const Layout<Dim> layout = lay_out(framing, page, params);
   const Painter scene = scene_painter(drawn, framing, layout.projection, params, params.width, layout.height);
   const Painter paint = [&](cairo_t* canvas) {

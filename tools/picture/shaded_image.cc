@@ -94,7 +94,8 @@ BodyPaint ShadedImage::paint_of(const Face& face, const PictureInput<3>& input) 
   if (face.owner == ground_owner) return {params_.paper, params_.paper};
   if (is_obstacle(face)) return {params_.obstacle, params_.obstacle_outline};
   const std::vector<Colour>& colours = input.colours.awake;
-  return body_paint(params_, input.states.shape[face.owner], input.states.asleep[face.owner] != 0,
+  const int shape = input.states.shape[face.owner];
+  return body_paint(params_, shape, input.shapes[shape].colour, input.states.asleep[face.owner] != 0,
                     colours.empty() ? nullptr : &colours[face.owner]);
 }
 

@@ -34,7 +34,7 @@ struct FilmOptions {
   int width = 800;
   /// Of WebP; 100: without loss.
   int quality = 100;
-  /// One of `colour_words`.
+  /// One of colour_words().
   std::string colour = "state";
 };
 
@@ -99,18 +99,28 @@ PictureParams params_of(const FilmOptions& options) {
   return params;
 }
 
+/// The scene's last event, in the two seconds after it.
+template <int Dim>
+std::string event_note(const RecordedRun<Dim>& run, double time) {
+  constexpr double shown = 2.0;  // [s]
+  std::string note;
+  for (const DoneEvent& event : run.done)
+    if (event.time <= time && time < event.time + shown) note = ": " + event_text(run.scene, event.number);
+  return note;
+}
+
 template <int Dim>
 PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame,
-                           const std::string& colour) {
+                           const FilmColours<Dim>& colours) {
   const double time = static_cast<double>(run.frames.step(frame)) * run.frames.step_time();
   return {run.scene.world.shapes,
           states,
           {},
-          obstacles_at(run.scene.world.obstacles, run.scene.movers, time),
+          world_at<Dim>(run.scene, run.done, time).obstacles,
           run.scene.world.ground,
           printable(run.scene.title),
-          printable(fmt::format("{}, policy {}, {:.1f} s", run.backend, run.policy, time)),
-          colours_at(run, frame, colour)};
+          printable(fmt::format("{}, policy {}, {:.1f} s{}", run.backend, run.policy, time, event_note(run, time))),
+          colours.at(frame)};
 }
 
 /// Calls make(i) for i from 0 to below `count`, on all cores, and take() here with the results in order.
@@ -130,12 +140,13 @@ template <int Dim>
 void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   const Cut cut = cut_of(options, run.frames);
   const BodyStates<Dim> end = states_at(run.frames, cut.last);
-  const FilmFrames<Dim> page(input_at(run, end, cut.last, options.colour), params_of(options));
+  const FilmColours<Dim> colours(run, options.colour);
+  const FilmFrames<Dim> page(input_at(run, end, cut.last, colours), params_of(options));
   const auto draw = [&](int shown) {
     int frame = cut.frame(shown);
     while (frame > 0 && run.frames.lost(frame)) --frame;  // the record is damaged
     const BodyStates<Dim> states = states_at(run.frames, frame);
-    return page.draw(input_at(run, states, frame, options.colour));
+    return page.draw(input_at(run, states, frame, colours));
   };
   const bool progress = isatty(STDERR_FILENO) != 0;
   std::unique_ptr<FilmFile> file;
@@ -177,7 +188,7 @@ void add_film_command(CLI::App& app, int& exit_code) {
       ->check(number_between(0, 100))
       ->capture_default_str();
   command->add_option("--colour", options->colour, "What the bodies' colours show")
-      ->check(CLI::IsMember(std::vector<std::string>(colour_words.begin(), colour_words.end())))
+      ->check(CLI::IsMember(colour_words()))
       ->capture_default_str();
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
   command->callback([options, &exit_code] {

@@ -46,6 +46,7 @@ class LogSummary {
     if (!begin_) begin_ = header.time;
     end_ = std::max(end_, header.time);
     if (talus_lcm::talus_run_v1 run; decode(event.data, run).empty()) take(run);
+    if (talus_lcm::talus_event_v1 done; decode(event.data, done).empty()) take(done);
     if (talus_lcm::talus_bodies_v1 bodies; decode(event.data, bodies).empty()) take(bodies);
   }
 
@@ -66,6 +67,7 @@ class LogSummary {
     json["bodies"] = bodies_;
     json["frames"] = frames_;
     json["key_frames"] = key_frames_;
+    json["events"] = events_;
     json["damaged_places"] = damage.places;
     json["damaged_bytes"] = damage.bytes;
     json["channels"] = Json::array();
@@ -85,6 +87,12 @@ class LogSummary {
     run_ = message;
   }
 
+  void take(const talus_lcm::talus_event_v1& message) {
+    constexpr std::size_t most = 1000;
+    if (events_.size() < most)
+      events_.push_back({{"number", message.number}, {"step", message.step}, {"text", message.text}});
+  }
+
   void take(const talus_lcm::talus_bodies_v1& message) {
     if (!message.body.empty()) bodies_ = std::max(bodies_, message.body.back() + 1);
     if (message.part != 0) return;
@@ -98,6 +106,7 @@ class LogSummary {
   std::optional<talus_lcm::talus_run_v1> run_;  // the last message about the run
   std::optional<double> begin_;                 // [s]
   double end_ = 0.0;                            // [s]
+  Json events_ = Json::array();                 // of the scene
   std::int32_t bodies_ = 0;
   std::int64_t frames_ = 0;
   std::int64_t key_frames_ = 0;
@@ -116,6 +125,9 @@ void print_info(const Json& json) {
                  text("reason").empty() ? "without an end" : "ended: " + text("reason"));
   print_result("{} bodies, {} frames of output, {} of them key frames\n", json["bodies"].get<int>(),
                json["frames"].get<std::int64_t>(), json["key_frames"].get<std::int64_t>());
+  for (const Json& event : json["events"])
+    print_result("  event {} before step {}: {}\n", event["number"].get<int>(), event["step"].get<std::int64_t>(),
+                 printable(event["text"].get<std::string>()));
   for (const Json& channel : json["channels"]) {
     print_result("  {:<14} {:>8} messages {:>12} bytes", printable(channel["name"].get<std::string>()),
                  channel["messages"].get<std::int64_t>(), channel["bytes"].get<std::int64_t>());

@@ -1,5 +1,6 @@
 #include "tools/record/record_walk.h"
 
+#include "common/text/printable.h"
 #include "lcmtypes/decode.h"
 #include "lcmtypes/translate.h"
 #include "tools/record/state_reader.h"
@@ -16,11 +17,16 @@ class Walk {
         visit_(visit) {}
 
   void take(const LogEvent& event) {
+    if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
     if (event.channel == name_of(Channel::sleep)) decode_and_take<talus_lcm::talus_sleep_v1>(event);
+    if (event.channel == name_of(Channel::piles)) decode_and_take<talus_lcm::talus_piles_v1>(event);
+    if (event.channel == name_of(Channel::stats)) decode_and_take<talus_lcm::talus_stats_v2>(event);
+    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v1>(event);
     if (event.channel == name_of(Channel::bodies)) decode_and_take<talus_lcm::talus_bodies_v1>(event);
   }
 
   std::int64_t undecodable() const { return undecodable_; }
+  const RecordedIdentity& run() const { return run_; }
 
  private:
   template <class Message>
@@ -32,11 +38,31 @@ class Walk {
       ++undecodable_;
   }
 
+  void take(const talus_lcm::talus_run_v1& message) {
+    run_ = {printable(message.backend), printable(message.policy), printable(message.version),
+            printable(message.reason)};
+  }
+
+  void take(const talus_lcm::talus_piles_v1& message) {
+    if (message.part == 0) piles_.clear();
+    for (const talus_lcm::talus_pile_v1& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
+  }
+
+  void take(const talus_lcm::talus_stats_v2& message) {
+    kinetic_energy_ = message.kinetic_energy;
+    drift_estimate_ = message.drift_estimate;
+    warnings_ = warnings_of(message);
+  }
+
   void take(const talus_lcm::talus_sleep_v1& message) {
     for (const SleepEvent& event : events_of(message)) {
       states_.note_event(event.body);
       events_.push_back(event);
     }
+  }
+
+  void take(const talus_lcm::talus_event_v1& message) {
+    scene_events_.push_back({message.number, message.sim_time - dt_});
   }
 
   void take(const talus_lcm::talus_bodies_v1& message) {
@@ -50,7 +76,12 @@ class Walk {
             .states = states_.states(),
             .unknown = states_.unknown(),
             .cause = cause_,
-            .events = events_});
+            .events = events_,
+            .piles = piles_,
+            .warnings = warnings_,
+            .kinetic_energy = kinetic_energy_,
+            .drift_estimate = drift_estimate_,
+            .scene_events = scene_events_});
     events_.clear();
   }
 
@@ -58,7 +89,13 @@ class Walk {
   StateReader<Dim> states_;
   const std::function<void(const RecordedFrame<Dim>&)>& visit_;
   std::vector<SleepEvent> events_;  // since the last frame
+  std::vector<DoneEvent> scene_events_;
   std::vector<std::int8_t> cause_;
+  RecordedIdentity run_;
+  std::vector<Pile<Dim>> piles_;
+  std::vector<Warning> warnings_;
+  double kinetic_energy_ = 0.0;
+  double drift_estimate_ = -1.0;
   std::int64_t last_step_ = 0;
   std::int64_t undecodable_ = 0;
 };
@@ -66,14 +103,14 @@ class Walk {
 }  // namespace
 
 template <int Dim>
-WalkDamage walk_record(const Scene<Dim>& scene, LogReader& log,
+WalkResult walk_record(const Scene<Dim>& scene, LogReader& log,
                        const std::function<void(const RecordedFrame<Dim>&)>& visit) {
   Walk<Dim> walk(scene, visit);
   for (LogEvent event; log.next(event);) walk.take(event);
-  return {log.damage().bytes, walk.undecodable()};
+  return {{log.damage().bytes, walk.undecodable()}, walk.run()};
 }
 
-template WalkDamage walk_record(const Scene<2>&, LogReader&, const std::function<void(const RecordedFrame<2>&)>&);
-template WalkDamage walk_record(const Scene<3>&, LogReader&, const std::function<void(const RecordedFrame<3>&)>&);
+template WalkResult walk_record(const Scene<2>&, LogReader&, const std::function<void(const RecordedFrame<2>&)>&);
+template WalkResult walk_record(const Scene<3>&, LogReader&, const std::function<void(const RecordedFrame<3>&)>&);
 
 }  // namespace talus

@@ -4,10 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "common/pile/pile.h"
 #include "common/policy/sleep_event.h"
+#include "common/scene/happened.h"
 #include "common/scene/scene.h"
+#include "common/world/warning.h"
 #include "lcmtypes/log_reader.h"
 
 namespace talus {
@@ -25,6 +29,14 @@ struct RecordedFrame {
   std::span<const std::int8_t> cause;
   /// Since the frame before.
   std::span<const SleepEvent> events;
+  std::span<const Pile<Dim>> piles = {};
+  /// All so far, one of each kind.
+  std::span<const Warning> warnings = {};
+  double kinetic_energy = 0.0;  // [J]
+  /// Mean distance that the sleeping bodies are expected to move once all are woken [D]; -1: not known.
+  double drift_estimate = -1.0;
+  /// Of the scene, all so far.
+  std::span<const DoneEvent> scene_events = {};
 
   /// Whether the body is in the world, at a known pose.
   bool shows(BodyIndex body) const { return states.removed[body] == 0 && unknown[body] == 0; }
@@ -38,9 +50,22 @@ struct WalkDamage {
   bool none() const { return bytes == 0 && undecodable == 0; }
 };
 
+/// What the record says of the run; printable. Empty where no message has it.
+struct RecordedIdentity {
+  std::string backend;
+  std::string policy;
+  std::string version;  // of talus that made the run
+  std::string reason;   // why it ended; empty: it was killed
+};
+
+struct WalkResult {
+  WalkDamage damage;
+  RecordedIdentity run;
+};
+
 /// Calls `visit` with each frame of output in order. Throws std::invalid_argument where the record is not of `scene`.
 template <int Dim>
-WalkDamage walk_record(const Scene<Dim>& scene, LogReader& log,
+WalkResult walk_record(const Scene<Dim>& scene, LogReader& log,
                        const std::function<void(const RecordedFrame<Dim>&)>& visit);
 
 }  // namespace talus

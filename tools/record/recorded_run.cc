@@ -33,6 +33,7 @@ class RunReader {
     if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
     if (event.channel == name_of(Channel::sleep)) decode_and_take<talus_lcm::talus_sleep_v1>(event);
     if (event.channel == name_of(Channel::bodies)) decode_and_take<talus_lcm::talus_bodies_v1>(event);
+    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v1>(event);
   }
 
   RecordedRun<Dim> finish() {
@@ -72,6 +73,13 @@ class RunReader {
       states_.note_event(event.body);
       run_.events.push_back(event);
     }
+  }
+
+  void take(const talus_lcm::talus_event_v1& message) {
+    if (message.number >= std::ssize(run_.scene.events))
+      throw std::invalid_argument(
+          fmt::format("run.lcm: event {}, but the scene has {} events", message.number, run_.scene.events.size()));
+    run_.done.push_back({message.number, message.sim_time - run_.scene.world.dt});
   }
 
   void take(const talus_lcm::talus_bodies_v1& message) {

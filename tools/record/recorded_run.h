@@ -9,6 +9,7 @@
 
 #include "common/measure/trajectory.h"
 #include "common/policy/sleep_event.h"
+#include "common/scene/happened.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/scene.h"
 #include "lcmtypes/log_reader.h"
@@ -44,6 +45,7 @@ struct RecordedRun {
                            // since the record before
   std::int64_t last_step = 0;
   std::vector<SleepEvent> events;  // in order
+  std::vector<DoneEvent> done;     // events of the scene, in order
   RecordDamage damage;
 };
 

@@ -2,18 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/measure/compare.h"
-#include "common/measure/ensemble.h"
 #include "common/measure/support.h"
-#include "common/measure/wake_test.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/record/recorded_run.h"
+#include "tools/record/wake_run.h"
 #include "tools/report/json_text.h"
 #include "tools/report/table.h"
-#include "tools/run/backends.h"
 
 namespace talus {
 namespace {
@@ -30,31 +27,6 @@ struct WakeOptions {
 constexpr double longest_wake = 3600.0;  // [s]
 constexpr double contact_reach = 0.05;   // [m], see touching_pairs()
 
-template <int Dim>
-WakeTest wake(const RecordedRun<Dim>& run, double seconds) {
-  const WorldMaker<Dim> maker = [&](const WorldDescription<Dim>& world) { return make_world<Dim>(run.backend, world); };
-  WakeTestParams params;
-  params.duration = seconds;
-  return wake_test<Dim>(maker, reference_settings(run.scene.world), run.last, params);
-}
-
-/// Lengths in D.
-Json wake_json(const WakeTest& test, double extent) {
-  return {{"drift_mean_D", test.mean / extent}, {"drift_p95_D", test.p95 / extent},
-          {"drift_max_D", test.max / extent},   {"share_above_0.1_D", test.share_far},
-          {"wake_energy_mgD", test.energy},     {"wake_energy_all_mgD", test.energy_all},
-          {"creep_per_minute", test.creep}};
-}
-
-/// D over the bodies there are.
-template <int Dim>
-double mean_extent(const RecordedRun<Dim>& run) {
-  const std::vector<double> extents = extents_of<Dim>(run.scene.world.shapes);
-  std::vector<double> all;
-  for (const int shape : run.last.shape) all.push_back(extents[shape]);
-  return mean(all);
-}
-
 /// What the last state lacks of a finished pile. The bodies that move are those faster than what counts as at rest in a
 /// run's summary.
 template <int Dim>
@@ -67,15 +39,23 @@ Json unfinished_json(const RecordedRun<Dim>& run) {
           {"reason", run.reason.empty() ? "killed, or its record is cut" : run.reason}};
 }
 
+/// Events of the scene that happened, in their order.
+template <int Dim>
+Json events_json(const RecordedRun<Dim>& run) {
+  Json events = Json::array();
+  for (const DoneEvent& event : run.done)
+    events.push_back({{"number", event.number}, {"time_s", event.time}, {"text", event_text(run.scene, event.number)}});
+  return events;
+}
+
 template <int Dim>
 Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
-  if (run.backend.empty())
-    throw std::invalid_argument(fmt::format("{}: no message is left that names the engine", options.run));
-  if (run.last.size() == 0) throw std::invalid_argument(fmt::format("{}: must hold a body", options.run));
+  const WakeTest test = wake(run, options.seconds, options.run);
   const double extent = mean_extent(run);
-  const std::vector<Touch> touches = touching_pairs<Dim>(run.scene.world, run.last, contact_reach);
+  const WorldDescription<Dim> world =
+      world_at<Dim>(run.scene, run.done, static_cast<double>(run.last_step) * run.scene.world.dt);
+  const std::vector<Touch> touches = touching_pairs<Dim>(world, run.last, contact_reach);
   const Penetration depth = penetration(touches);
-  const WakeTest test = wake(run, options.seconds);
   int asleep = 0;
   for (const std::uint8_t sleeps : run.last.asleep) asleep += sleeps;
   Json json = {
@@ -86,9 +66,10 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
       {"bodies", test.bodies},
       {"asleep", asleep},
       {"floating_sleepers", floating_sleepers<Dim>(run.last, touches).size()},
-      {"sunken_sleepers", sunken_sleepers<Dim>(run.scene.world, run.last).size()},
+      {"sunken_sleepers", sunken_sleepers<Dim>(world, run.last).size()},
       {"penetration_D", {{"mean", depth.mean / extent}, {"p99", depth.p99 / extent}, {"max", depth.max / extent}}},
       {"unfinished", unfinished_json(run)},
+      {"events", events_json(run)},
       {"damage", text_of(run.damage)},
       {"simulated_s", options.seconds},
       {"after_waking", wake_json(test, extent)}};
@@ -98,7 +79,7 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
   if (full == nullptr)
     throw std::invalid_argument(
         fmt::format("--full = {}: must be a run of the same dimension, {}D", options.full, Dim));
-  const WakeTest of_full = wake(*full, options.seconds);
+  const WakeTest of_full = wake(*full, options.seconds, options.full);
   json["full_run"] = wake_json(of_full, extent);
   json["beyond_full_run"] = wake_json(excess(test, of_full), extent);
   return json;
@@ -124,6 +105,10 @@ void print_wake(const Json& json) {
   if (const auto damage = json["damage"].get<std::string>(); !damage.empty())
     print_result("the record is damaged: {}\n", damage);
   print_unfinished(json["unfinished"]);
+  if (!json["events"].empty())
+    print_result(
+        "{} events of the scene have happened: obstacles and gravity are as they left them; no other happens\n",
+        json["events"].size());
   print_result("floating sleepers: {} (must be 0)\n", json["floating_sleepers"].get<int>());
   print_result("sleepers below ground: {} (must be 0)\n", json["sunken_sleepers"].get<int>());
   const Json& depth = json["penetration_D"];

@@ -68,6 +68,18 @@ std::string html_of(const Figure& figure) {
          escaped(figure.caption) + "</figcaption></figure>\n";
 }
 
+std::string html_of(const Listing& listing) {
+  return "<details><summary>" + escaped(listing.caption) + "</summary><pre>" + escaped(listing.text) +
+         "</pre></details>\n";
+}
+
+std::string html_of(const EmbeddedPage& page) {
+  return fmt::format(
+      R"(<figure class="page"><iframe title="{0}" srcdoc="{1}"></iframe><figcaption>{0}</figcaption></figure>)"
+      "\n",
+      escaped(page.caption), escaped(page.html));
+}
+
 }  // namespace
 
 std::string html_of(const Report& report) {

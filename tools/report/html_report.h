@@ -1,5 +1,5 @@
 #pragma once
-// A report as one HTML page that needs nothing else: no net, no other file.
+// A report as one HTML page that needs no network and no other file.
 
 #include <string>
 #include <variant>
@@ -20,7 +20,19 @@ struct Figure {
   std::string caption;
 };
 
-using Block = std::variant<Paragraph, Table, Figure>;
+/// A text with its lines, folded away under its caption.
+struct Listing {
+  std::string text;
+  std::string caption;
+};
+
+/// Another page, whole, in a frame of its own: its style and its scripts keep to it.
+struct EmbeddedPage {
+  std::string html;
+  std::string caption;
+};
+
+using Block = std::variant<Paragraph, Table, Figure, Listing, EmbeddedPage>;
 
 struct Section {
   std::string heading;

@@ -25,7 +25,12 @@ tbody tr:last-child td { border-bottom: 2px solid #666; }
 figure { margin: 1.5rem 0; }
 figure svg { display: block; width: 100%; height: auto; }
 figcaption { margin-top: 0.4rem; color: #666; font-size: 0.92rem; }
+figure.page { width: 94vw; position: relative; left: 50%; transform: translateX(-50%); }
+iframe { width: 100%; height: 88vh; min-height: 34rem; border: 1px solid #ccc; }
+summary { cursor: pointer; }
+pre { font-size: 0.85rem; line-height: 1.4; overflow-x: auto; background: #f7f7f8; padding: 0.8rem; }
 @media print {
+  .page { display: none; }
   body { font-size: 10.5pt; }
   main { max-width: none; padding: 0; }
   figure, tr { break-inside: avoid; }

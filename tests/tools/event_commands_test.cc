@@ -1,0 +1,88 @@
+// Events of a scene in its record and in what is made from that.
+
+#ifdef TALUS_LCM
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/common/temporary_folder.h"
+#include "tests/process/process.h"
+
+namespace talus::event_commands_test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Discs on a shelf; one of them, then the shelf, is removed, then gravity is halved.
+class EventCommands : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_.path() / "scene.toml")
+        << "title = \"shelf\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5, colour = \"blue\"}\n"
+           "run = {frames = 150}\nbody = [{position = [0, 2.5], repeat = [3, 1], step = [1.1, 0]}]\n"
+           "obstacle = [{kind = \"box\", size = [6, 1], position = [0, 1.5], name = \"shelf\"}]\n"
+           "event = [{time = 1, do = \"remove\", body = 1}, {time = 2, do = \"remove\", obstacle = \"shelf\"},\n"
+           "         {time = 4, do = \"gravity\", gravity = [0, -5]}]\n";
+    const Outcome outcome = talus_command("run " + (folder_ / "scene.toml") + " --no-telemetry --out " + run());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  std::string run() const { return folder_ / "run"; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(EventCommands, TheRecordHasEachEventAndInfoListsIt) {
+  const Outcome outcome = talus_command("info --json " + run());
+  const Json events = Json::parse(outcome.out)["events"];
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[0]["text"], "remove some bodies");
+  EXPECT_EQ(events[0]["step"], 61);
+  EXPECT_EQ(events[1]["text"], "remove obstacle shelf");
+  EXPECT_EQ(events[2]["text"], "gravity [0.0, -5.0]");
+  EXPECT_NE(talus_command("info " + run()).out.find("event 1 before step 121: remove obstacle shelf"),
+            std::string::npos);
+}
+
+TEST_F(EventCommands, ARemovedBodyIsGoneFromTheNextFrameOn) {
+  const Outcome outcome = talus_command("export --csv " + (folder_ / "run.csv") + " " + run());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::ifstream rows(folder_.path() / "run.csv");
+  std::int64_t last_of_removed = 0;
+  std::int64_t last_of_other = 0;
+  for (std::string row; std::getline(rows, row);) {
+    std::istringstream cells(row);
+    std::string step;
+    std::string time;
+    std::string body;
+    std::getline(std::getline(std::getline(cells, step, ','), time, ','), body, ',');
+    if (body == "1") last_of_removed = std::stoll(step);
+    if (body == "0") last_of_other = std::stoll(step);
+  }
+  EXPECT_EQ(last_of_removed, 60);
+  EXPECT_EQ(last_of_other, 300);
+}
+
+TEST_F(EventCommands, WakeTakesTheWorldAsEventsLeftItAndSaysSo) {
+  const Outcome outcome = talus_command("wake --seconds 1 " + run());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("3 events of the scene have happened"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("floating sleepers: 0"), std::string::npos) << outcome.out;
+}
+
+TEST_F(EventCommands, ARecordOfASceneWithoutEventsNamesNoSuchChannel) {
+  std::ofstream(folder_.path() / "plain.toml")
+      << "title = \"plain\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\nrun = {frames = 5}\n"
+         "body = [{position = [0, 2.5]}]\n";
+  talus_command("run " + (folder_ / "plain.toml") + " --no-telemetry --out " + (folder_ / "plain"));
+  EXPECT_EQ(contents(folder_.path() / "plain" / "run.lcm").find("TALUS_EVENTS"), std::string::npos);
+  EXPECT_NE(contents(folder_.path() / "run" / "run.lcm").find("TALUS_EVENTS"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace talus::event_commands_test
+
+#endif
