@@ -64,6 +64,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_wake_command(app, exit_code);
   talus::add_film_command(app, exit_code);
   talus::add_replay_command(app, exit_code);
+  talus::add_report_command(app, exit_code);
   talus::add_export_command(app, exit_code);
   add_log_commands(app, exit_code);
 #endif

@@ -83,6 +83,21 @@ for (const [name, { run, url }] of Object.entries({ flat, solid })) {
   });
 }
 
+test("the report of a run opens without a network, plays the record and has its plots", async () => {
+  const html = join(folder, "report.html");
+  talus("report", flat.run, "--html", html);
+  const page = await openPage(pathToFileURL(html), { offline: true, talus: false });
+  const player = page.frames()[1];
+  await player.waitForFunction(() => window.talus !== undefined);
+  await player.evaluate(() => (window.talus.pause(), window.talus.seek(400)));
+  const share = await colours(player);
+  assert.ok(share.orange > 0.001 && share.dark > 0.001, JSON.stringify(share));
+  for (const plot of await page.locator("figure > svg").all()) assert.ok((await plot.boundingBox()).height > 100);
+  assert.ok((await page.locator("figure > svg").count()) >= 5);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
 test("buttons, keys and the slider play, step and scrub", async () => {
   const page = await openAt(flat.url, 100);
   await page.click("#forward");

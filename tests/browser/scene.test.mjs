@@ -82,6 +82,73 @@ test("a scene of the other dimension can follow", async () => {
   child.kill();
 });
 
+test("a body is thrown by shift and drag, and removed by Delete", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8");
+  const page = await openPage(url);
+  await until(page, ({ asleep }) => asleep > 0, 60);
+  await page.click("#run");
+  await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
+  await page.waitForTimeout(500);
+  const before = await shown(page);
+  // The highest one that sleeps: nothing lies on it.
+  const body = await page.evaluate(() => {
+    const { state } = window.talus.timeline;
+    let best = null;
+    for (let i = 0; i < state.bodies; ++i) {
+      const [{ x, y }, height] = [window.talus.stage.placeOf(i), state.pose[3 * i + 1]];
+      if (state.asleep[i] !== 0 && window.talus.stage.bodyAt(x, y) === i && height > (best?.height ?? 0)) best = { i, x, y, height };
+    }
+    return best;
+  });
+  assert.ok(body);
+  const { x, y } = await page.locator("#bodies").boundingBox();
+  await page.keyboard.down("Shift");
+  await page.mouse.move(x + body.x, y + body.y);
+  await page.mouse.down();
+  await page.mouse.move(x + body.x, y + body.y - 60, { steps: 4 });
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  for (let i = 0; i < 12; ++i) await page.click("#single");
+  await until(page, ({ step }) => step >= before.step + 12);
+  const now = await page.evaluate((i) => ({ height: window.talus.timeline.state.pose[3 * i + 1], asleep: window.talus.timeline.state.asleep[i] }), body.i);
+  assert.equal(now.asleep, 0, "a thrown body wakes");
+  assert.ok(now.height > body.height + 500, `${now.height} from ${body.height} thousandths of a body`);
+  await page.keyboard.press("Delete");
+  await until(page, ({ bodies }) => bodies < before.bodies + 2 && bodies > 0);
+  await page.waitForFunction((i) => window.talus.timeline.state.removed[i] === 1, body.i);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+  child.kill();
+});
+
+test("commands for bodies that are not there are refused", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d");
+  const page = await openPage(url);
+  for (const command of [{ do: "remove", body: 1e6 }, { do: "kick", body: 0, velocity: [1] }, { do: "kick", body: 0.5, velocity: [1, 1] }, { do: "kick", body: -1, velocity: [1, 1] }]) {
+    await page.evaluate((text) => (document.getElementById("errors").replaceChildren(), window.talus.command(text)), command);
+    await page.waitForFunction(() => document.getElementById("errors").textContent !== "");
+  }
+  await page.close();
+  child.kill();
+});
+
+test("a slider changes a number of the scene, which runs again", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8");
+  const page = await openPage(url);
+  await until(page, ({ bodies }) => bodies > 5);
+  await page.selectOption("#number", "source[0].count");
+  assert.equal(await page.inputValue("#slider"), "400");
+  await page.locator("#slider").fill("7");
+  await page.waitForFunction(() => document.getElementById("text").value.includes("count = 7"));
+  await until(page, ({ bodies }) => bodies === 7, 60);
+  await page.locator("#value").fill("-3");
+  await page.locator("#value").press("Enter");
+  await page.waitForFunction(() => document.getElementById("errors").textContent.includes("count"));
+  assert.equal((await shown(page)).bodies, 7, "the run goes on as it was");
+  await page.close();
+  child.kill();
+});
+
 test("two pages show the same run", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8");
   const pages = [await openPage(url)];

@@ -24,6 +24,7 @@ struct Decoded {
   std::vector<std::vector<std::int64_t>> counts;
   float kinetic_energy = 0.0F;
   std::map<std::uint64_t, std::string> warnings;
+  std::vector<DoneEvent> scene_events;
 };
 
 template <int Dim>
@@ -56,6 +57,10 @@ class Decoder {
       const std::uint64_t size = number();
       state.warnings[kind] = block_.substr(at_, size);
       at_ += size;
+    }
+    for (std::uint64_t left = number(); left > 0; --left) {
+      const int event = static_cast<int>(number());
+      state.scene_events.push_back({event, real()});
     }
     EXPECT_EQ(at_, block_.size()) << "a block ends where its description says";
   }
@@ -207,6 +212,21 @@ TEST(FrameStream, SleepRemovalEventsAndWarningsArrive) {
   EXPECT_EQ(decoder.state.warnings.at(2), account(warnings[0]));
   decoder.take(encoder.encode({.step = 8, .states = states, .warnings = warnings}));
   EXPECT_TRUE(decoder.state.events.empty());
+}
+
+TEST(FrameStream, EventsOfTheSceneComeOnce) {
+  FrameEncoder<2> encoder({});
+  Decoder<2> decoder;
+  const BodyStates<2> states;
+  const std::vector<DoneEvent> done = {{2, 1.5}, {0, 2.0}};
+  decoder.take(encoder.encode({.step = 1, .states = states}));
+  EXPECT_TRUE(decoder.state.scene_events.empty());
+  decoder.take(encoder.encode({.step = 2, .states = states, .scene_events = std::span(done).first(1)}));
+  decoder.take(encoder.encode({.step = 3, .states = states, .scene_events = done}));
+  ASSERT_EQ(decoder.state.scene_events.size(), 2U);
+  EXPECT_EQ(decoder.state.scene_events[0].number, 2);
+  EXPECT_FLOAT_EQ(static_cast<float>(decoder.state.scene_events[0].time), 1.5F);
+  EXPECT_EQ(decoder.state.scene_events[1].number, 0);
 }
 
 TEST(FrameStream, LayersCountAsThePilesDo) {

@@ -27,6 +27,7 @@ void add_film_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
 void add_repair_command(CLI::App& app, int& exit_code);
 void add_replay_command(CLI::App& app, int& exit_code);
+void add_report_command(CLI::App& app, int& exit_code);
 void add_wake_command(CLI::App& app, int& exit_code);
 
 }  // namespace talus

@@ -220,6 +220,8 @@ void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
       return hear<talus_bodies_v1>(datagram, now);
     case Channel::shapes:
       return hear<talus_shapes_v1>(datagram, now);
+    case Channel::events:
+      return;  // in records only
   }
 }
 

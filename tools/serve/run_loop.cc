@@ -92,6 +92,8 @@ void RunLoop::obey(int page, const Json& command) {
     });
   } else if (what == "restart") {
     change([this] { restart_ = true; });
+  } else if (what == "kick" || what == "remove") {
+    queue_by_hand(page, command);
   } else if (what == "pace") {
     set_pace(page, value);
   } else if (what == "policy" && value.is_string()) {
@@ -99,8 +101,43 @@ void RunLoop::obey(int page, const Json& command) {
   } else if (what == "scene" && command.value("text", Json()).is_string()) {
     start_scene(page, command["text"].get<std::string>(), "");
   } else {
-    reply_errors(page, error_of("\"do\" must be run, pause, step, restart, pace, policy or scene, with its value"));
+    reply_errors(
+        page,
+        error_of("\"do\" must be run, pause, step, restart, pace, policy, scene, kick or remove, with its value"));
   }
+}
+
+void RunLoop::queue_by_hand(int page, const Json& command) {
+  constexpr std::size_t most = 1000;  // that wait
+  const Json body = command.value("body", Json());
+  const Json velocity = command.value("velocity", Json());
+  const bool kick = command["do"] == "kick";
+  const bool numbers =
+      velocity.is_array() && std::ranges::all_of(velocity, [](const Json& part) { return part.is_number(); });
+  if (!body.is_number_integer() || (kick && !numbers)) {
+    reply_errors(page, error_of("kick and remove: must have the number of a body, kick a list \"velocity\" too"));
+    return;
+  }
+  change([&] {
+    if (by_hand_.size() >= most) return;
+    by_hand_.push_back({page, body.get<std::int64_t>(), std::nullopt});
+    if (kick) by_hand_.back().velocity = velocity.get<std::vector<double>>();
+  });
+}
+
+void RunLoop::do_by_hand() {
+  std::vector<ByHand> all;
+  {
+    const std::lock_guard lock(mutex_);
+    all.swap(by_hand_);
+  }
+  for (const ByHand& each : all) {
+    const std::string wrong = !run_           ? "no run goes on"
+                              : each.velocity ? run_->kick(each.body, *each.velocity)
+                                              : run_->remove(each.body);
+    reply_errors(each.page, wrong.empty() ? Json::array() : error_of(wrong));
+  }
+  published_ = false;
 }
 
 void RunLoop::set_pace(int page, const Json& value) {
@@ -147,6 +184,9 @@ void RunLoop::work() {
       case Task::step:
         step();
         break;
+      case Task::by_hand:
+        do_by_hand();
+        break;
     }
   }
 }
@@ -157,6 +197,7 @@ RunLoop::Task RunLoop::next_task() {
   for (;;) {
     if (stop_) return Task::stop;
     if (std::exchange(restart_, false)) return Task::start;
+    if (!by_hand_.empty()) return Task::by_hand;
     if (can_step() && single_steps_ > 0) {
       --single_steps_;
       return Task::step;
@@ -164,7 +205,7 @@ RunLoop::Task RunLoop::next_task() {
     single_steps_ = 0;
     const bool goes = running_ && can_step();
     if (goes && (pace_ == 0.0 || Clock::now() >= due_)) return Task::step;
-    if (!published_) publish();
+    if (!published_ && run_) publish();
     if (goes)
       changed_.wait_until(lock, due_);
     else
@@ -179,6 +220,8 @@ void RunLoop::start() {
     scene = scene_;
   }
   std::string reason;
+  steps_of_run_ = 0;
+  seconds_of_run_ = 0.0;
   run_.reset();
   try {
     run_ = show_run(scene, backend_, file_, force_);
@@ -202,8 +245,11 @@ void RunLoop::step() {
   } catch (const NonFiniteState& error) {
     reason = error.what();
   }
-  seconds_in_steps_ += watch.lap();
+  const double seconds = watch.lap();
+  seconds_in_steps_ += seconds;
+  seconds_of_run_ += seconds;
   ++steps_since_;
+  ++steps_of_run_;
   published_ = false;
   if (reason.empty()) hub_.add_events(run_->events());
   if (hub_.wanted()) publish();
@@ -235,6 +281,7 @@ void RunLoop::note_speed() {
   if (now - noted_ < note_interval) return;
   const double passed = std::chrono::duration<double>(now - noted_).count();
   ms_per_step_ = 1e3 * seconds_in_steps_ / static_cast<double>(steps_since_);
+  mean_ms_per_step_ = 1e3 * seconds_of_run_ / static_cast<double>(std::max<std::int64_t>(1, steps_of_run_));
   real_time_factor_ = static_cast<double>(steps_since_) * run_->dt() / passed;
   noted_ = now;
   steps_since_ = 0;
@@ -251,6 +298,7 @@ std::string RunLoop::status() const {
                   {"policy", policy_.empty() ? policy_of(scene_) : policy_},
                   {"policies", policy_kinds},
                   {"ms_per_step", ms_per_step_},
+                  {"mean_ms_per_step", mean_ms_per_step_},
                   {"real_time_factor", real_time_factor_}});
 }
 

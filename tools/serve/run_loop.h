@@ -46,16 +46,25 @@ class RunLoop {
   /// A page came: it gets the scene's text.
   void greet(int page);
   /// A command of a page, as JSON: {"do": "run" | "pause" | "step" | "restart"}, {"do": "pace", "value": number},
-  /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}. What is wrong is replied to the page; then nothing
+  /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "kick", "body": number, "velocity": [m/s]},
+  /// {"do": "remove", "body": number}. What is wrong is replied to the page; then nothing
   /// changes.
   void command(int page, const std::string& text);
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum class Task : std::uint8_t { stop, start, step };
+  enum class Task : std::uint8_t { stop, start, step, by_hand };
+  /// A body that a page kicks or removes.
+  struct ByHand {
+    int page = 0;
+    std::int64_t body = 0;
+    std::optional<std::vector<double>> velocity;  // none: the body is removed
+  };
 
   void obey(int page, const nlohmann::ordered_json& command);
   void start_scene(int page, const std::string& text, const std::string& policy);
+  void queue_by_hand(int page, const nlohmann::ordered_json& command);
+  void do_by_hand();
   void set_pace(int page, const nlohmann::ordered_json& value);
   void reply_errors(int page, const nlohmann::ordered_json& errors);
   void change(const std::function<void()>& what);
@@ -81,6 +90,8 @@ class RunLoop {
   Clock::time_point noted_ = Clock::now();
   std::int64_t steps_since_ = 0;   // the last note of the speed
   double seconds_in_steps_ = 0.0;  // since then
+  std::int64_t steps_of_run_ = 0;
+  double seconds_of_run_ = 0.0;  // in its steps
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
@@ -92,10 +103,12 @@ class RunLoop {
   bool greeted_ = false;
   bool running_ = false;
   int single_steps_ = 0;
+  std::vector<ByHand> by_hand_;
   double pace_;
   bool finished_ = false;
   std::string reason_;  // why the run cannot go on; empty: it can
   double ms_per_step_ = 0.0;
+  double mean_ms_per_step_ = 0.0;  // since the start of the run
   double real_time_factor_ = 0.0;
   std::thread thread_;
 };

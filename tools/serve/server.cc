@@ -60,12 +60,10 @@ class WebPage final : public PageSocket {
 }  // namespace
 
 struct ViewServer::Service {
-  ServedFiles files;
-  PageHub* hub = nullptr;
-  RunLoop* loop = nullptr;
   std::string token = new_token();
   int port = 0;
   mg_context* context = nullptr;
+  std::vector<Mount> mounts;  // never grows once the server listens
 
   /// Whether a request is from a page of this server, or from a program that knows the token.
   bool allows(const mg_connection* connection) const {
@@ -96,36 +94,44 @@ struct ViewServer::Service {
               {"X-Content-Type-Options", "nosniff"},
               {"Content-Security-Policy",
                "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src 'self'; "
-               "base-uri 'none'; frame-ancestors 'none'"}}))
+               "base-uri 'none'; frame-src 'self'; frame-ancestors 'self'"}}))
       mg_response_header_add(connection, name, value.c_str(), -1);
     mg_response_header_send(connection);
     mg_write(connection, body.data(), body.size());
     return 200;
   }
+};
 
-  static Service& of(void* data) { return *static_cast<Service*>(data); }
+/// A page and the handlers of its requests; `data` is the mount.
+struct ViewServer::Mount {
+  ServedPage served;
+  Service* service = nullptr;
+
+  static Mount& of(void* data) { return *static_cast<Mount*>(data); }
 
   static int on_page(mg_connection* connection, void* data) {
-    return of(data).answer(connection, "text/html; charset=utf-8", of(data).files.page);
+    return of(data).service->answer(connection, "text/html; charset=utf-8", of(data).served.page);
   }
   static int on_record(mg_connection* connection, void* data) {
-    return of(data).answer(connection, "application/octet-stream", of(data).files.record);
+    return of(data).service->answer(connection, "application/octet-stream", of(data).served.record);
   }
 
   /// 0 accepts.
   static int on_connect(const mg_connection* connection, void* data) {
-    return of(data).allows(connection) && of(data).hub->pages() < PageHub::most_pages ? 0 : 1;
+    return of(data).service->allows(connection) && of(data).served.hub->pages() < PageHub::most_pages ? 0 : 1;
   }
 
   static void on_ready(mg_connection* connection, void* data) {
+    const ServedPage& served = of(data).served;
     auto page = std::make_unique<WebPage>(connection);
-    page->number = of(data).hub->add(*page);
-    if (of(data).loop != nullptr) of(data).loop->greet(page->number);
+    page->number = served.hub->add(*page);
+    if (served.loop != nullptr) served.loop->greet(page->number);
     mg_set_user_connection_data(connection, page.release());
   }
 
   /// 1 keeps the connection.
   static int on_message(mg_connection* connection, int bits, char* bytes, std::size_t size, void* data) {
+    const ServedPage& served = of(data).served;
     auto* page = static_cast<WebPage*>(mg_get_user_connection_data(connection));
     constexpr int kinds = 0xF;
     constexpr int last_part = 0x80;
@@ -136,23 +142,29 @@ struct ViewServer::Service {
     if ((bits & last_part) == 0) return 1;
     const std::string command = std::exchange(page->command, "");
     if (command == "shown")
-      of(data).hub->acknowledge(page->number);
-    else if (of(data).loop != nullptr)
-      of(data).loop->command(page->number, command);
+      served.hub->acknowledge(page->number);
+    else if (served.loop != nullptr)
+      served.loop->command(page->number, command);
     return 1;
   }
 
   static void on_close(const mg_connection* connection, void* data) {
     const std::unique_ptr<WebPage> page(static_cast<WebPage*>(mg_get_user_connection_data(connection)));
-    if (page != nullptr) of(data).hub->remove(page->number);
+    if (page != nullptr) of(data).served.hub->remove(page->number);
+  }
+
+  void listen() {
+    const std::string& path = served.path;
+    mg_set_request_handler(service->context, (path + "$").c_str(), on_page, this);
+    if (!served.record.empty()) mg_set_request_handler(service->context, (path + "record$").c_str(), on_record, this);
+    if (served.hub != nullptr)
+      mg_set_websocket_handler(service->context, (path + "stream$").c_str(), on_connect, on_ready, on_message, on_close,
+                               this);
   }
 };
 
-ViewServer::ViewServer(int port, ServedFiles files, PageHub* hub, RunLoop* loop)
-    : service_(std::make_unique<Service>()) {
-  service_->files = std::move(files);
-  service_->hub = hub;
-  service_->loop = loop;
+ViewServer::ViewServer(int port, std::vector<ServedPage> pages) : service_(std::make_unique<Service>()) {
+  for (ServedPage& page : pages) service_->mounts.push_back({std::move(page), service_.get()});
   mg_init_library(MG_FEATURES_WEBSOCKET);
   const std::string address = fmt::format("127.0.0.1:{}", port);
   // A page that is gone without a word is noticed by its missing answer to a ping.
@@ -177,12 +189,7 @@ ViewServer::ViewServer(int port, ServedFiles files, PageHub* hub, RunLoop* loop)
   std::array<mg_server_port, 1> ports{};
   mg_get_server_ports(service_->context, 1, ports.data());
   service_->port = ports[0].port;
-  mg_set_request_handler(service_->context, "/$", Service::on_page, service_.get());
-  if (!service_->files.record.empty())
-    mg_set_request_handler(service_->context, "/record$", Service::on_record, service_.get());
-  if (hub != nullptr)
-    mg_set_websocket_handler(service_->context, "/stream$", Service::on_connect, Service::on_ready, Service::on_message,
-                             Service::on_close, service_.get());
+  for (Mount& mount : service_->mounts) mount.listen();
 }
 
 ViewServer::~ViewServer() {
@@ -191,7 +198,8 @@ ViewServer::~ViewServer() {
 }
 
 std::string ViewServer::url() const {
-  return fmt::format("http://127.0.0.1:{}/?token={}", service_->port, service_->token);
+  return fmt::format("http://127.0.0.1:{}{}?token={}", service_->port, service_->mounts.front().served.path,
+                     service_->token);
 }
 
 }  // namespace talus

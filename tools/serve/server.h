@@ -2,27 +2,30 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tools/serve/page_hub.h"
 #include "tools/serve/run_loop.h"
 
 namespace talus {
 
-/// What the server sends.
-struct ServedFiles {
-  std::string page;
-  std::string record;  // what the page of a record fetches; empty: the page is of a run
+/// A page that the server sends, and what stands behind it.
+struct ServedPage {
+  std::string path;         // of its address: begins and ends with '/'
+  std::string page;         // HTML
+  std::string record = {};  // what the page of a record fetches; empty: the page has none
+  PageHub* hub = nullptr;   // of a run; null: the page shows none
+  RunLoop* loop = nullptr;  // what obeys the page; null where it only watches
 };
 
-/// Serves pages to browsers of this machine: HTTP on the loopback interface only. Whoever fetches anything must know
-/// the token in the address, and what a browser says of the page that it comes from (Origin, Host) must be this server:
-/// so neither other users nor other pages in the same browser see or steer the run.
+/// Serves pages to browsers of this machine: HTTP on the loopback interface only. Each request must have the token of
+/// the address, and a browser must name this server as the page that the request comes from (Origin, Host): so neither
+/// other users nor other pages in the same browser see or steer the run.
 class ViewServer {
  public:
-  /// `port` 0: one that is free. `hub`: of a run; null for a record. `loop`: what obeys the
-  /// pages; null where they only watch. Throws std::runtime_error where the
-  /// port cannot be had.
-  ViewServer(int port, ServedFiles files, PageHub* hub, RunLoop* loop);
+  /// `port` 0: one that is free. The first page is the one of url(). Throws std::runtime_error where the port cannot be
+  /// had.
+  ViewServer(int port, std::vector<ServedPage> pages);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
@@ -32,6 +35,7 @@ class ViewServer {
 
  private:
   struct Service;
+  struct Mount;
   std::unique_ptr<Service> service_;
 };
 

@@ -1,5 +1,9 @@
 #include "tools/serve/shown_run.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/simulation/simulation.h"
@@ -46,11 +50,38 @@ class SimulatedScene final : public ShownRun {
                                                            .states = frame.world.states(),
                                                            .piles = frame.piles.piles(),
                                                            .warnings = frame.warnings,
-                                                           .kinetic_energy = kinetic_energy(frame.world)},
+                                                           .kinetic_energy = kinetic_energy(frame.world),
+                                                           .scene_events = simulation_.done_events()},
                                             quantum_, head_);
   }
 
+  std::string kick(std::int64_t body, std::span<const double> velocity) override {
+    if (!present(body)) return no_body(body);
+    constexpr double fastest = 1000.0;  // [m/s]; the engine's own limit is lower
+    const auto allowed = [](double part) { return std::abs(part) <= fastest; };
+    if (velocity.size() != Dim || !std::ranges::all_of(velocity, allowed))
+      return fmt::format("velocity: must be {} numbers of -1000 to 1000", Dim);
+    Event<Dim> event;
+    event.action = "kick";
+    event.numbers = {static_cast<double>(body)};
+    for (int axis = 0; axis < Dim; ++axis) event.velocity[axis] = velocity[axis];
+    simulation_.do_event(event);
+    return {};
+  }
+
+  std::string remove(std::int64_t body) override {
+    if (!present(body)) return no_body(body);
+    simulation_.remove(static_cast<BodyIndex>(body));
+    return {};
+  }
+
  private:
+  bool present(std::int64_t body) const {
+    const BodyStates<Dim>& states = simulation_.world().states();
+    return body >= 0 && body < states.size() && states.removed[body] == 0;
+  }
+  static std::string no_body(std::int64_t body) { return fmt::format("body {}: is not in the world", body); }
+
   std::string head_of(const Scene<Dim>& scene, const std::string& backend, const std::string& name) const {
     const RunTexts texts = {.name = printable(name),
                             .backend = backend,

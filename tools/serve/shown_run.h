@@ -46,6 +46,10 @@ class ShownRun {
   /// Sleep events of the last step.
   virtual std::span<const SleepEvent> events() const = 0;
   virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
+  /// By hand between steps: wakes a body and adds `velocity` [m/s], an entry for each axis, to its own; or takes it out
+  /// of the world. The text returned says what is wrong; then nothing is done. Empty: done.
+  virtual std::string kick(std::int64_t body, std::span<const double> velocity) = 0;
+  virtual std::string remove(std::int64_t body) = 0;
 };
 
 /// Starts the scene on the engine of that name; an empty name: the first that can simulate it. `file`: of the scene.

@@ -28,7 +28,8 @@ class StateCopy final : public Snapshot {
         step_(frame.step),
         piles_(frame.piles.begin(), frame.piles.end()),
         warnings_(frame.warnings.begin(), frame.warnings.end()),
-        kinetic_energy_(frame.kinetic_energy) {
+        kinetic_energy_(frame.kinetic_energy),
+        scene_events_(frame.scene_events.begin(), frame.scene_events.end()) {
     states_.shape = frame.states.shape;
     states_.pose = frame.states.pose;
     states_.asleep = frame.states.asleep;
@@ -44,7 +45,8 @@ class StateCopy final : public Snapshot {
                                                                     .events = events,
                                                                     .piles = piles_,
                                                                     .warnings = warnings_,
-                                                                    .kinetic_energy = kinetic_energy_});
+                                                                    .kinetic_energy = kinetic_energy_,
+                                                                    .scene_events = scene_events_});
   }
 
  private:
@@ -55,6 +57,7 @@ class StateCopy final : public Snapshot {
   std::vector<Pile<Dim>> piles_;
   std::vector<Warning> warnings_;
   double kinetic_energy_;
+  std::vector<DoneEvent> scene_events_;
 };
 
 }  // namespace talus

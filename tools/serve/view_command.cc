@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
@@ -25,6 +27,8 @@ namespace {
 
 struct ViewOptions {
   std::string what;
+  std::string other;    // a second record; empty: none
+  std::string against;  // a second policy; empty: none
   std::string backend;
   std::string policy;
   std::vector<std::string> settings;
@@ -62,10 +66,29 @@ void serve(const ViewOptions& options, const ViewServer& server) {
   serve(options, server, [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
 }
 
+/// The page with two others in it, at /a/ and /b/.
+ServedPage pair_page(const PairTexts& texts) { return {.path = "/", .page = page_of_pair(texts)}; }
+
 void view_scene(const ViewOptions& options) {
   PageHub hub;
   RunLoop loop(choice_of(options), hub);
-  const ViewServer server(options.port, {.page = page_of_server(PageSource::run), .record = ""}, &hub, &loop);
+  const ViewServer server(options.port,
+                          {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub, .loop = &loop}});
+  serve(options, server);
+}
+
+/// The scene under its policy beside the same under another one.
+void view_policies(const ViewOptions& options) {
+  PageHub hub_a;
+  PageHub hub_b;
+  ViewOptions other = options;
+  other.policy = options.against;
+  RunLoop a(choice_of(options), hub_a);
+  RunLoop b(choice_of(other), hub_b);
+  const std::string page = page_of_server(PageSource::run);
+  const ViewServer server(options.port, {pair_page({.of_runs = true}),
+                                         {.path = "/a/", .page = page, .hub = &hub_a, .loop = &a},
+                                         {.path = "/b/", .page = page, .hub = &hub_b, .loop = &b}});
   serve(options, server);
 }
 
@@ -73,33 +96,53 @@ void view_scene(const ViewOptions& options) {
 void view_live(const ViewOptions& options) {
   PageHub hub;
   LiveView live(options.lcm_url, hub);  // before the threads of the server: it forks
-  const ViewServer server(options.port, {.page = page_of_server(PageSource::run), .record = ""}, &hub, nullptr);
+  const ViewServer server(options.port, {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub}});
   serve(options, server, [&] { live.listen(std::chrono::milliseconds(50)); });
+}
+
+/// Mean wall time of a step of a recorded run [ms]; 0: not known.
+double ms_per_step_of(const std::string& folder) {
+  std::ifstream in(std::filesystem::path(folder) / "summary.json");
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  const bool known = summary.is_object() && summary.contains("ms_per_step") && summary["ms_per_step"].is_number();
+  return known ? summary["ms_per_step"].get<double>() : 0.0;
+}
+
+void view_record(const ViewOptions& options) {
+  const std::string page = page_of_server(PageSource::record);
+  if (options.other.empty()) {
+    const ViewServer server(options.port, {{.path = "/", .page = page, .record = record_stream(options.what)}});
+    serve(options, server);
+    return;
+  }
+  const PairTexts texts = {.of_runs = false,
+                           .ms_per_step = {ms_per_step_of(options.what), ms_per_step_of(options.other)}};
+  const ViewServer server(options.port, {pair_page(texts),
+                                         {.path = "/a/", .page = page, .record = record_stream(options.what)},
+                                         {.path = "/b/", .page = page, .record = record_stream(options.other)}});
+  serve(options, server);
 }
 #endif
 
 void view(const ViewOptions& options) {
   if (options.what.empty() != options.live)
     throw std::invalid_argument("talus view: must have either a scene or run folder to show, or --live");
+  const bool record = !options.live && std::filesystem::is_directory(options.what);
+  if (!options.other.empty() && !(record && std::filesystem::is_directory(options.other)))
+    throw std::invalid_argument("talus view: what stands side by side must be two run folders");
+  if (!options.against.empty() && (record || options.live))
+    throw std::invalid_argument("--against: must be of a scene; two records are shown as `talus view RUN OTHER`");
 #ifdef TALUS_LCM
-  if (options.live) {
-    view_live(options);
-    return;
-  }
-  if (std::filesystem::is_directory(options.what)) {
-    const ViewServer server(options.port,
-                            {.page = page_of_server(PageSource::record), .record = record_stream(options.what)},
-                            nullptr, nullptr);
-    serve(options, server);
-    return;
-  }
+  if (options.live) return view_live(options);
+  if (record) return view_record(options);
 #endif
-  view_scene(options);
+  options.against.empty() ? view_scene(options) : view_policies(options);
 }
 
 void add_options(CLI::App& command, ViewOptions& options) {
   command.add_option("what", options.what, "Run folder, scene file, or the name of a scene that `talus list` shows")
       ->check(not_empty());
+  command.add_option("other", options.other, "Second run folder, shown beside the first in step")->check(not_empty());
 #ifdef TALUS_LCM
   command.add_flag("--live", options.live, "Show a run of another process, as it goes on");
   command
@@ -109,6 +152,8 @@ void add_options(CLI::App& command, ViewOptions& options) {
 #endif
   command.add_option("-b,--backend", options.backend, "Of a scene: engine, as in `talus run`")->check(not_empty());
   command.add_option("-p,--policy", options.policy, "Of a scene: which bodies may sleep")->check(not_empty());
+  command.add_option("--against", options.against, "Of a scene: another policy, shown beside the first")
+      ->check(not_empty());
   command.add_option("-s,--set", options.settings, "Of a scene: replace a value, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
@@ -135,7 +180,8 @@ void add_view_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   add_options(*command, *options);
   command->footer(
-      "Examples:\n  talus view drop_in_a_pile_2d\n  talus view drop_in_a_pile_3d --policy full --pace 4\n\n"
+      "Examples:\n  talus view drop_in_a_pile_2d\n  talus view drop_in_a_pile_3d --policy full --pace 4\n"
+      "  talus view drop_in_a_pile_2d --against full\n\n"
       "The page is for browsers of this machine and this user: its address holds a secret.");
   command->callback([options, &exit_code] {
     view(*options);

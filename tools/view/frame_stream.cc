@@ -57,6 +57,13 @@ std::string FrameEncoder<Dim>::encode(const ViewFrame<Dim>& frame) {
   write_piles(frame.piles);
   write_float(static_cast<float>(frame.kinetic_energy));
   write_warnings(frame.warnings);
+  const std::span<const DoneEvent> happened = frame.scene_events.subspan(known_scene_events_);
+  known_scene_events_ = frame.scene_events.size();
+  write_unsigned(happened.size());
+  for (const DoneEvent& event : happened) {
+    write_unsigned(event.number);
+    write_float(static_cast<float>(event.time));
+  }
   return block_;
 }
 

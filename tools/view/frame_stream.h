@@ -10,6 +10,7 @@
 
 #include "common/pile/pile.h"
 #include "common/policy/sleep_event.h"
+#include "common/scene/happened.h"
 #include "common/scene/scene.h"
 #include "common/world/body.h"
 #include "common/world/warning.h"
@@ -34,8 +35,9 @@ struct ViewFrame {
   const BodyStates<Dim>& states;
   std::span<const SleepEvent> events = {};  // since the frame before, in order
   std::span<const Pile<Dim>> piles = {};
-  std::span<const Warning> warnings = {};  // all so far
-  double kinetic_energy = 0.0;             // [J]
+  std::span<const Warning> warnings = {};        // all so far
+  double kinetic_energy = 0.0;                   // [J]
+  std::span<const DoneEvent> scene_events = {};  // all so far
 };
 
 /// Writes frames as differences from the frame before: only what changed takes room, a sleeping body none. The first
@@ -55,6 +57,7 @@ struct ViewFrame {
 ///         s change of the count and s of the sleepers of each layer
 ///     f kinetic energy
 ///     u number of warnings that changed; of each: u kind, u step of the first, u bytes of its text, the text
+///     u number of events of the scene since the frame before; of each: u number, f time
 template <int Dim>
 class FrameEncoder {
  public:
@@ -93,6 +96,7 @@ class FrameEncoder {
   std::vector<Known> known_;
   std::vector<KnownPile> known_piles_;
   std::map<WarningKind, std::string> known_warnings_;  // their texts
+  std::size_t known_scene_events_ = 0;
   std::string block_;
 };
 

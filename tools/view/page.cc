@@ -65,6 +65,13 @@ std::string page_with(std::string_view stream) {
   return page_of(R"(<script type="application/octet-stream" id="stream">)" + base64(stream) + "</script>");
 }
 
+std::string page_of_pair(const PairTexts& texts) {
+  std::string page = built_file("pair.html");
+  const nlohmann::ordered_json data = {{"of_runs", texts.of_runs}, {"ms_per_step", texts.ms_per_step}};
+  put(page, "<!-- data -->", R"(<script type="application/json" id="pair-data">)" + data.dump() + "</script>");
+  return page;
+}
+
 std::string page_of_server(PageSource source) {
   return page_of(fmt::format(R"(<script type="application/json" id="source">"{}"</script>)",
                              source == PageSource::run ? "run" : "record"));

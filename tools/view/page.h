@@ -1,6 +1,7 @@
 #pragma once
 // The browser page of tools/view/page, and what it reads.
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -17,6 +18,15 @@ std::string page_with(std::string_view stream);
 
 /// What a page of the server shows.
 enum class PageSource { record, run };
+
+/// What a page with two others side by side knows of them.
+struct PairTexts {
+  bool of_runs = false;                        // of scenes that are simulated; else of records
+  std::array<double, 2> ms_per_step = {0, 0};  // of records: mean wall time; 0: not known
+};
+
+/// The page with two pages of the server, at a/ and b/, which it plays in step.
+std::string page_of_pair(const PairTexts& texts);
 
 /// The page as the server sends it: it fetches what it shows.
 std::string page_of_server(PageSource source);

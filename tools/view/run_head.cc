@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "common/policy/sleep_event.h"
+#include "common/scene/happened.h"
 #include "common/shape/surface.h"
-#include "tools/picture/picture_params.h"
+#include "tools/picture/body_colours.h"
 
 namespace talus {
 namespace {
@@ -70,13 +71,27 @@ Json pieces_of(const Shape<Dim>& shape, int segments) {
 
 template <int Dim>
 Json shapes_of(const Scene<Dim>& scene) {
+  const PictureParams params;
   Json shapes = Json::array();
-  for (const Shape<Dim>& shape : scene.world.shapes)
+  for (const Shape<Dim>& shape : scene.world.shapes) {
+    const auto number = static_cast<int>(shapes.size());
     shapes.push_back({{"name", shape.name},
+                      {"awake", json_of(body_paint(params, number, shape.colour, false).fill)},
+                      {"asleep", json_of(body_paint(params, number, shape.colour, true).fill)},
                       {"mass", shape.mass},
                       {"extent", shape.extent},
                       {"pieces", pieces_of(shape, scene.bodies_asked() > many_bodies ? 12 : 24)}});
+  }
   return shapes;
+}
+
+/// Legend of the shapes with colours of their own.
+template <int Dim>
+Json coloured_shapes_of(const Scene<Dim>& scene) {
+  Json legend = Json::array();
+  for (const LegendEntry& entry : legend_of_shapes<Dim>(scene.world.shapes))
+    legend.push_back({{"name", entry.text}, {"colour", json_of(entry.fills.front())}});
+  return legend;
 }
 
 template <int Dim>
@@ -112,6 +127,19 @@ Json causes() {
     list[number] = {{"name", to_string(each.cause)}, {"slept", each.slept}, {"woke", each.woke}};
   }
   return list;
+}
+
+/// Texts of the scene's events, and the obstacles that they remove.
+template <int Dim>
+Json events_of(const Scene<Dim>& scene) {
+  Json events = Json::array();
+  for (const Event<Dim>& event : scene.events) {
+    Json removed = Json::array();
+    const ObstacleName name = event.obstacle ? scene.obstacle_names[*event.obstacle] : ObstacleName();
+    for (int k = name.first; k < name.first + name.count; ++k) removed.push_back(k);
+    events.push_back({{"text", event_text(scene, static_cast<int>(events.size()))}, {"removes", removed}});
+  }
+  return events;
 }
 
 Json colours() {
@@ -153,6 +181,8 @@ Json run_head(const Scene<Dim>& scene, const RunTexts& texts, const Quantum& qua
           {"camera", {{"azimuth", picture.azimuth}, {"elevation", picture.elevation}}},
           {"colours", colours()},
           {"causes", causes()},
+          {"events", events_of(scene)},
+          {"coloured_shapes", coloured_shapes_of(scene)},
           {"shapes", shapes_of(scene)},
           {"obstacles", obstacles_of(scene)}};
 }

@@ -87,11 +87,18 @@ export interface Warning {
 }
 
 /// What a block has beside the state.
+/// An event of the scene, by its number, with its time [s].
+export interface SceneEvent {
+  number: number;
+  time: number;
+}
+
 export interface News {
   /// Bodies whose pose or sleep changed.
   changed: number[];
   events: SleepEvent[];
   warnings: Warning[];
+  sceneEvents: SceneEvent[];
 }
 
 /// All bodies at one frame. Poses are in quanta.
@@ -155,8 +162,9 @@ export class State {
     const warnings: Warning[] = [];
     for (let left = reader.unsigned(); left > 0; --left)
       warnings.push({ kind: reader.unsigned(), step: reader.unsigned(), text: reader.text() });
+    const sceneEvents = Array.from({ length: reader.unsigned() }, () => ({ number: reader.unsigned(), time: reader.float() }));
     this.count();
-    return { changed, events, warnings };
+    return { changed, events, warnings, sceneEvents };
   }
 
   private grow(bodies: number): void {

@@ -10,6 +10,8 @@ export interface Piece {
 
 export interface ShapeHead {
   name: string;
+  awake: Rgb;
+  asleep: Rgb;
   mass: number;
   extent: number;
   pieces: Piece[];
@@ -57,6 +59,9 @@ export interface Head {
     ground: Rgb;
   };
   causes: (Cause | null)[];
+  /// The scene's events, with the numbers of the obstacles that they remove; none where the scene is not known.
+  events: { text: string; removes: number[] }[];
+  coloured_shapes: { name: string; colour: Rgb }[];
   shapes: ShapeHead[];
   obstacles: ObstacleHead[];
 }

@@ -1,6 +1,7 @@
 // A run that goes on in `talus view`: frames come over a WebSocket, commands go back (tools/view/run_loop.h).
 
 import type { Head } from "./head";
+import { numbersOf, rangeOf, withNumber, type SceneNumber } from "./numbers";
 import { element, Player, type Simulation } from "./player";
 
 interface Status {
@@ -12,6 +13,7 @@ interface Status {
   policy: string;
   policies: string[];
   ms_per_step: number;
+  mean_ms_per_step: number;
   real_time_factor: number;
   live?: boolean; // a run of another process, which takes no commands
 }
@@ -32,7 +34,7 @@ class Live implements Simulation {
   private readonly socket: WebSocket;
 
   constructor(private readonly ready: (player: Player) => void) {
-    this.socket = new WebSocket(`ws://${location.host}/stream${location.search}`);
+    this.socket = new WebSocket(`ws://${location.host}${location.pathname}stream${location.search}`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
       if (typeof event.data === "string") this.take(JSON.parse(event.data) as Message);
@@ -56,17 +58,55 @@ class Live implements Simulation {
     for (const pace of paces) element("pace").append(new Option(pace === 0 ? "as fast as possible" : `${pace}x`, String(pace)));
     element("pace").addEventListener("change", () => this.send({ do: "pace", value: Number(element<HTMLSelectElement>("pace").value) }));
     element("policy").addEventListener("change", () => this.send({ do: "policy", value: element<HTMLSelectElement>("policy").value }));
+    element("text").addEventListener("input", () => this.listNumbers());
+    element("number").addEventListener("change", () => this.showNumber());
+    element("slider").addEventListener("input", () => (element<HTMLInputElement>("value").value = element<HTMLInputElement>("slider").value));
+    for (const id of ["slider", "value"]) element(id).addEventListener("change", () => this.setNumber(Number(element<HTMLInputElement>(id).value)));
     element("text").addEventListener("keydown", (event) => {
       if (event.key === "Enter" && event.ctrlKey) this.apply();
     });
   }
 
-  private send(command: object): void {
+  send(command: object): void {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
   }
 
   private apply(): void {
     this.send({ do: "scene", text: element<HTMLTextAreaElement>("text").value });
+  }
+
+  private numbers: SceneNumber[] = [];
+
+  /// The numbers that the text has now; the one chosen stays chosen.
+  private listNumbers(): void {
+    const list = element<HTMLSelectElement>("number");
+    const chosen = list.value;
+    this.numbers = numbersOf(element<HTMLTextAreaElement>("text").value);
+    list.replaceChildren(...this.numbers.map(({ path }) => new Option(path)));
+    if (this.numbers.some(({ path }) => path === chosen)) list.value = chosen;
+    this.showNumber();
+  }
+
+  private chosenNumber(): SceneNumber | undefined {
+    return this.numbers[element<HTMLSelectElement>("number").selectedIndex];
+  }
+
+  private showNumber(): void {
+    const number = this.chosenNumber();
+    if (!number) return;
+    const { low, high, step } = rangeOf(number.value);
+    Object.assign(element<HTMLInputElement>("slider"), { min: String(low), max: String(high), step: String(step), value: String(number.value) });
+    element<HTMLInputElement>("value").value = String(number.value);
+  }
+
+  /// Writes the number into the text and runs the scene.
+  private setNumber(value: number): void {
+    const number = this.chosenNumber();
+    const area = element<HTMLTextAreaElement>("text");
+    if (!number || Number.isNaN(value)) return;
+    area.value = withNumber(area.value, number, value);
+    this.listNumbers();
+    this.apply();
   }
 
   private take(message: Message): void {
@@ -79,6 +119,7 @@ class Live implements Simulation {
         break;
       case "scene":
         element<HTMLTextAreaElement>("text").value = message.text;
+        this.listNumbers();
         break;
       case "errors":
         this.showErrors(message.errors);
@@ -123,7 +164,7 @@ class Live implements Simulation {
   }
 
   private hideCommands(): void {
-    element("scene").hidden = true;
+    element("scene").hidden = element("by-hand").hidden = true;
     document.body.classList.remove("editing");
     for (const id of ["run", "single", "restart"]) element(id).hidden = true;
     for (const id of ["pace", "policy"]) element(id).parentElement!.hidden = true;
@@ -154,8 +195,16 @@ class Live implements Simulation {
     this.send({ do: "restart" });
   }
 
+  steered(): boolean {
+    return this.status !== null && !this.status.live;
+  }
+
   running(): boolean {
     return this.status?.running ?? false;
+  }
+
+  msPerStep(): number {
+    return this.status?.mean_ms_per_step ?? 0;
   }
 }
 

@@ -18,6 +18,7 @@ function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
 
 /// A page that holds its record, else a page of the server: its address says what it shows.
 async function start(): Promise<void> {
+  document.body.classList.toggle("half", /^\/[ab]\/$/.test(location.pathname));
   const held = document.getElementById("stream")?.textContent;
   if (!held && JSON.parse(document.getElementById("source")!.textContent) === "run") {
     connect((player) => (window.talus = player));

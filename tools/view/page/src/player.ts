@@ -5,6 +5,7 @@ import { Plots } from "./plots";
 import { css, type Paint, Stage } from "./stage";
 import { Timeline } from "./timeline";
 
+const throwRate = 4; // [1/s] speed of a throw over the length of the drag
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
 /// Of sleeping and awake bodies by the number of the cause.
@@ -45,6 +46,12 @@ export interface Simulation {
   step(): void;
   restart(): void;
   running(): boolean;
+  /// Whether it takes commands.
+  steered(): boolean;
+  /// Mean time of a step since the start [ms].
+  msPerStep(): number;
+  /// Of tools/serve/run_loop.h.
+  send(command: object): void;
 }
 
 /// What a page shows, as numbers.
@@ -137,6 +144,7 @@ export class Player {
     for (const speed of speeds) element("rate").append(new Option(`${speed}x`, String(speed), false, speed === 1));
     document.addEventListener("keydown", (event) => this.key(event));
     this.listenToStage();
+    this.listenToThrows();
   }
 
   private listenToStage(): void {
@@ -148,9 +156,44 @@ export class Player {
     });
   }
 
+  /// Shift and drag on a body of a simulation throws it; the camera stands still meanwhile.
+  private listenToThrows(): void {
+    const area = element("stage");
+    let thrown: { body: number; x: number; y: number } | null = null;
+    area.addEventListener(
+      "pointerdown",
+      (event) => {
+        if (!event.shiftKey || !this.simulation?.steered()) return;
+        const body = this.stage.bodyAt(event.offsetX, event.offsetY);
+        if (body < 0) return;
+        event.stopPropagation();
+        thrown = { body, x: event.offsetX, y: event.offsetY };
+        this.select(body);
+      },
+      true,
+    );
+    area.addEventListener("pointermove", (event) => {
+      if (thrown) this.stage.arrow = [thrown.x, thrown.y, event.offsetX, event.offsetY];
+      if (thrown) this.stage.redraw();
+    });
+    window.addEventListener("pointerup", (event) => {
+      if (!thrown) return;
+      const velocity = this.stage.inWorld(thrown.body, event.offsetX - thrown.x, event.offsetY - thrown.y).map((way) => throwRate * way);
+      this.command({ do: "kick", body: thrown.body, velocity });
+      thrown = this.stage.arrow = null;
+      this.stage.redraw();
+    });
+  }
+
+  private removeBody(): void {
+    if (this.stage.selected < 0 || !this.simulation?.steered()) return;
+    this.command({ do: "remove", body: this.stage.selected });
+    this.select(-1);
+  }
+
   private key(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.altKey || event.metaKey || ["TEXTAREA", "SELECT"].includes(target.tagName)) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || ["TEXTAREA", "SELECT"].includes(target.tagName) || (target as HTMLInputElement).type === "number") return;
     const actions: Record<string, () => void> = {
       " ": () => this.toggle(),
       ".": () => this.stepBy(1),
@@ -159,6 +202,7 @@ export class Player {
       f: () => this.resetCamera(),
       r: () => (this.simulation ? this.simulation.restart() : this.seek(0)),
       l: () => element("loop").click(),
+      Delete: () => this.removeBody(),
       Home: () => this.seek(0),
       End: () => this.toEnd(),
     };
@@ -286,9 +330,9 @@ export class Player {
   }
 
   private paint(): Paint {
-    const { colours } = this.head;
+    const { shapes } = this.head;
     const { state } = this.timeline;
-    const plain: Paint = (body) => (state.asleep[body] !== 0 ? colours.asleep : colours.awake[state.shape[body] % colours.awake.length]);
+    const plain: Paint = (body) => (state.asleep[body] !== 0 ? shapes[state.shape[body]].asleep : shapes[state.shape[body]].awake);
     if (!this.byCause()) return plain;
     return (body) => {
       const { event } = this.timeline.since(body);
@@ -305,13 +349,17 @@ export class Player {
 
   private showCounts(): void {
     const { state } = this.timeline;
-    const { colours } = this.head;
-    element("time").textContent = `${(state.step * this.head.dt).toFixed(2)} s, step ${state.step}`;
-    const rows: [Rgb, number, string][] = this.byCause()
+    const { colours, coloured_shapes } = this.head;
+    const now = state.step * this.head.dt;
+    const last = this.timeline.happenedSoFar().at(-1);
+    const note = last && now - last.time < 2 ? `: ${this.timeline.textOf(last)}` : "";
+    element("time").textContent = `${now.toFixed(2)} s, step ${state.step}${note}`;
+    const rows: [Rgb, number | string, string][] = this.byCause()
       ? this.countsByCause()
       : [
           [colours.awake[0], state.awake, "awake"],
-          [colours.asleep, state.asleepCount, "asleep"],
+          [colours.asleep, state.asleepCount, coloured_shapes.length > 0 ? "asleep (darker)" : "asleep"],
+          ...coloured_shapes.map(({ name, colour }): [Rgb, string, string] => [colour, "", name]),
         ];
     element("counts").replaceChildren(
       ...rows.map(([colour, count, text]) => {
@@ -388,6 +436,32 @@ export class Player {
     element("warnings").hidden = warnings.size === 0;
     const lines = [...warnings.values()].map(({ text }) => Object.assign(document.createElement("li"), { textContent: text }));
     element("warnings").querySelector("ul")!.replaceChildren(...lines);
+  }
+
+  /// For a page that steers this one.
+  command(command: object): void {
+    this.simulation?.send(command);
+  }
+  simulates(): boolean {
+    return this.simulation?.running() ?? false;
+  }
+  msPerStep(): number {
+    return this.simulation?.msPerStep() ?? 0;
+  }
+
+  /// Mean and largest distance [m] from the places of the bodies in another player, both after `step` steps.
+  distanceTo(other: Player, step: number): [number, number] {
+    const [a, b] = [this.timeline.placesAt(step), other.timeline.placesAt(step)];
+    const axes = this.head.dimension;
+    let [sum, largest, count] = [0, 0, 0];
+    for (let body = 0; body * axes < Math.min(a.length, b.length); ++body) {
+      const distance = Math.hypot(...Array.from({ length: axes }, (_, i) => a[axes * body + i] - b[axes * body + i]));
+      if (Number.isNaN(distance)) continue;
+      sum += distance;
+      largest = Math.max(largest, distance);
+      ++count;
+    }
+    return [count > 0 ? sum / count : 0, largest];
   }
 
   shown(): Shown {

@@ -35,7 +35,7 @@ export class Plots {
         { label: "woken", stroke: css(head.colours.awake_outline), fill: css(head.colours.awake_outline, 0.6), paths: uPlot.paths.bars!({ size: [1, 3] }), points: { show: false } },
       ],
       "bodies",
-      {},
+      { draw: [(plot: uPlot) => this.drawEvents(plot)] },
     );
     this.densities = this.plot([this.series("", "transparent", 0)], "layers [m]", { drawAxes: [(plot: uPlot) => this.drawDensities(plot)] });
     this.heads = [this.counts, this.densities].map((plot) => {
@@ -103,6 +103,30 @@ export class Plots {
     if (timeline.shown < 0) return;
     const at = this.counts.valToPos(timeline.time(timeline.shown), "x");
     for (const line of this.heads) line.style.left = `${at}px`;
+  }
+
+  /// A line with its text where an event of the scene happened.
+  private drawEvents(plot: uPlot): void {
+    const paper = plot.ctx;
+    paper.save();
+    paper.strokeStyle = paper.fillStyle = css(this.head.colours.text);
+    paper.font = `${Math.round(11 * devicePixelRatio)}px system-ui`;
+    paper.textAlign = "left";
+    paper.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
+    let row = 0;
+    for (const event of this.timeline.happened) {
+      const text = this.timeline.textOf(event);
+      const left = plot.valToPos(event.time, "x", true);
+      if (left < plot.bbox.left || left > plot.bbox.left + plot.bbox.width) continue;
+      paper.beginPath();
+      paper.moveTo(left, plot.bbox.top);
+      paper.lineTo(left, plot.bbox.top + plot.bbox.height);
+      paper.stroke();
+      const width = paper.measureText(text).width + 8 * devicePixelRatio;
+      const fits = left + width < plot.bbox.left + plot.bbox.width;
+      paper.fillText(text, fits ? left + 4 * devicePixelRatio : left - width + 4 * devicePixelRatio, plot.bbox.top + (12 + 13 * (row++ % 3)) * devicePixelRatio);
+    }
+    paper.restore();
   }
 
   /// Time from left to right, layers from bottom to top, dark where dense.

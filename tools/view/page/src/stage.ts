@@ -148,6 +148,7 @@ export class Stage {
   private readonly labels: CanvasRenderingContext2D;
   private readonly shapes: Instances[] = [];
   private readonly place: number[] = [];
+  private readonly obstacles: Instances[] = [];
   private readonly layers = new Group();
   private readonly flat: boolean;
   private readonly gridLength: number;
@@ -158,6 +159,8 @@ export class Stage {
   /// Whether the layers of piles are drawn.
   showLayers = true;
   selected = -1;
+  /// From where to where a throw is drawn [CSS pixels].
+  arrow: [number, number, number, number] | null = null;
   /// Whether the camera moves back as the pile grows, until the user moves it.
   follows = false;
   private box: [Vector3, Vector3];
@@ -283,6 +286,7 @@ export class Stage {
     for (const obstacle of obstacles) {
       const instance = new Instances(geometryOf(obstacle.pieces), material, false, 1);
       instance.set(instance.add(0), this.matrixOf(obstacle.pose), colour(colours.obstacle), false);
+      this.obstacles.push(instance);
       this.scene.add(instance.mesh);
     }
     if (!this.flat) this.addLights();
@@ -387,6 +391,8 @@ export class Stage {
       this.shapes[shape].set(this.place[body], matrix, colour(tint), !gone && state.asleep[body] !== 0);
     }
     for (const shape of this.shapes) shape.upload();
+    const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => this.head.events[number]?.removes ?? []));
+    this.obstacles.forEach((obstacle, number) => (obstacle.mesh.visible = !removed.has(number)));
     if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
   }
@@ -472,6 +478,7 @@ export class Stage {
     paper.setTransform(ratio, 0, 0, ratio, 0, 0);
     paper.clearRect(0, 0, overlay.width, overlay.height);
     this.drawScale();
+    this.drawArrow();
     if (!this.showLayers || !this.timeline) return;
     paper.font = "12px system-ui, sans-serif";
     paper.textBaseline = "middle";
@@ -492,6 +499,21 @@ export class Stage {
         paper.fillText(value.toFixed(2), at.x + 5, at.y);
       }
     }
+  }
+
+  private drawArrow(): void {
+    if (!this.arrow) return;
+    const [x0, y0, x1, y1] = this.arrow;
+    const paper = this.labels;
+    paper.strokeStyle = paper.fillStyle = css(highlight);
+    paper.lineWidth = 2;
+    paper.beginPath();
+    paper.moveTo(x0, y0);
+    paper.lineTo(x1, y1);
+    paper.stroke();
+    paper.beginPath();
+    paper.arc(x1, y1, 4, 0, 2 * Math.PI);
+    paper.fill();
   }
 
   private drawScale(): void {
@@ -522,6 +544,19 @@ export class Stage {
     const hits = this.shapes.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, body: shape.bodies[hit.instanceId!] })));
     hits.sort((a, b) => a.distance - b.distance);
     return hits.find(({ body }) => body < this.timeline!.state.bodies)?.body ?? -1;
+  }
+
+  /// A way on the canvas [CSS pixels] at a body's distance as one in the world [m], in the plane of the screen.
+  inWorld(body: number, right: number, down: number): number[] {
+    const pose = this.poseOf(body);
+    const centre = new Vector3(pose[0], pose[1], this.flat ? 0 : pose[2]);
+    const along = (axis: Vector3, pixels: number): Vector3 => {
+      const unit = axis.applyQuaternion(this.camera.quaternion);
+      const scale = this.onScreen(centre.clone().add(unit)).distanceTo(this.onScreen(centre));
+      return unit.multiplyScalar(pixels / scale);
+    };
+    const way = along(new Vector3(1, 0, 0), right).add(along(new Vector3(0, 1, 0), -down));
+    return this.flat ? [way.x, way.y] : [way.x, way.y, way.z];
   }
 
   /// Where a body is on the canvas [CSS pixels].

@@ -1,6 +1,6 @@
 // All frames of a run so far, and the one that is shown.
 
-import { type Pile, Reader, type SleepEvent, State, type Warning } from "./frames";
+import { type Pile, Reader, type SceneEvent, type SleepEvent, State, type Warning } from "./frames";
 import type { Head } from "./head";
 
 /// Frames between two kept states: a step back costs at most as many blocks.
@@ -24,6 +24,8 @@ export class Timeline {
   readonly woken: number[] = [];
   readonly avalanches: number[] = [];
   readonly piles: Pile[][] = [];
+  /// The scene's events so far.
+  readonly happened: SceneEvent[] = [];
   /// The last text of each kind, by kind.
   readonly warnings = new Map<number, Warning>();
   /// The frame shown, -1 before the first.
@@ -59,7 +61,8 @@ export class Timeline {
   /// Takes the frame at the begin of `bytes`; returns its size.
   add(bytes: Uint8Array): number {
     const reader = new Reader(bytes);
-    const { events, warnings } = this.last.apply(reader);
+    const { events, warnings, sceneEvents } = this.last.apply(reader);
+    this.happened.push(...sceneEvents);
     this.blocks.push(bytes.subarray(0, reader.at));
     if (this.frames % keepEvery === 0) this.kept.push(this.last.copy());
     for (let body = this.born.length; body < this.last.bodies; ++body) {
@@ -105,6 +108,34 @@ export class Timeline {
       else high = middle;
     }
     return Math.max(0, low - 1);
+  }
+
+  /// Positions of all bodies [m] in the frame shown, moved on in a straight line to `step`, which must lie before the next
+  /// frame; NaN for removed ones.
+  placesAt(step: number): Float64Array {
+    const { dimension, quantum } = this.head;
+    const components = dimension === 2 ? 3 : 7;
+    const { state } = this;
+    const between = step > state.step && this.shown + 1 < this.frames;
+    const next = between ? state.copy() : state;
+    if (between) next.apply(new Reader(this.blocks[this.shown + 1]));
+    const share = between ? (step - state.step) / (next.step - state.step) : 0;
+    return Float64Array.from({ length: dimension * state.bodies }, (_, i) => {
+      const [body, axis] = [Math.floor(i / dimension), i % dimension];
+      if (state.removed[body] !== 0) return NaN;
+      const at = components * body + axis;
+      return quantum.position * (state.pose[at] + share * (next.pose[at] - state.pose[at]));
+    });
+  }
+
+  /// What happened until the frame shown, and its text.
+  happenedSoFar(): SceneEvent[] {
+    const now = this.state.step * this.head.dt;
+    return this.happened.filter(({ time }) => time < now - 1e-6);
+  }
+
+  textOf({ number }: SceneEvent): string {
+    return this.head.events[number]?.text ?? `event ${number}`;
   }
 
   /// Why a body is as it is in the frame shown.
