@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::array live_channels = {Channel::run,   Channel::piles,  Channel::sleep,
                                       Channel::stats, Channel::bodies, Channel::shapes};
-// Of wall time [s] within which the pose of each body is sent, also of those at rest, so that who comes late or missed
-// a message sees all of them; longer where they are more than fit one message each time.
+// Of wall time [s] within which the pose of each body is sent, also of those at rest, so that a receiver that starts
+// late or missed a message has all of them; longer where they are more than fit one message each time.
 constexpr double turn_time = 2.0;
 constexpr BodyIndex most_in_turn = 1000;
 // Bodies of which the state at the end fits the queue.

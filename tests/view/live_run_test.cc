@@ -88,8 +88,8 @@ std::vector<Datagram> messages_of_a_run(int steps) {
 
 template <int Dim>
 void expect_shown() {
+  Socket socket;  // must stay until the hub's threads have ended
   PageHub hub;
-  Socket socket;
   LiveRun live(hub, "waiting for a run on nowhere");
   hub.add(socket);
   const auto any = [](const Json&) { return true; };
@@ -115,8 +115,8 @@ TEST(LiveRun, ShowsPagesTheShapesStatesAndEndOfARun) {
 }
 
 TEST(LiveRun, StartsLateWithTheShapesThatAreSentAgain) {
+  Socket socket;  // must stay until the hub's threads have ended
   PageHub hub;
-  Socket socket;
   LiveRun live(hub, "waiting");
   hub.add(socket);
   const std::vector<Datagram> messages = messages_of_a_run<3>(40);
