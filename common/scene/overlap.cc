@@ -59,17 +59,18 @@ std::span<const ConvexPiece<Dim>> OverlapCheck<Dim>::pieces_of(const Solid& soli
 }
 
 template <int Dim>
-void OverlapCheck<Dim>::compare(const Solid& body, const Solid& other, Overlap& deepest) const {
+void OverlapCheck<Dim>::compare(Added& added, const Solid& other) const {
+  const auto& [body, pieces, deepest] = added;
   if (body.fixed && other.fixed) return;
   if (box_overlap(body.bounds, other.bounds) <= most_overlap) return;
+  if (pieces.empty()) pieces_of(body, added.pieces);
   Pieces room;
-  Pieces room_of_other;
-  const auto others = pieces_of(other, room_of_other);
-  for (const ConvexPiece<Dim>& a : pieces_of(body, room)) {
+  const auto others = pieces_of(other, room);
+  for (const ConvexPiece<Dim>& a : pieces) {
     for (const ConvexPiece<Dim>& b : others) {
       if (box_overlap(a.bounds(), b.bounds()) <= most_overlap) continue;
       const double depth = -signed_distance(a, b, -most_overlap);
-      if (depth > std::max(deepest.depth, most_overlap)) deepest = {depth, name_of(other)};
+      if (depth > std::max(deepest.depth, most_overlap)) added.deepest = {depth, name_of(other)};
     }
   }
 }
@@ -81,14 +82,15 @@ std::string OverlapCheck<Dim>::name_of(const Solid& solid) const {
 
 /// With the solids in the cells that the body reaches, or with all where these are more cells than solids.
 template <int Dim>
-void OverlapCheck<Dim>::compare_near(const Solid& body, const Level& level, Overlap& deepest) const {
+void OverlapCheck<Dim>::compare_near(Added& added, const Level& level) const {
+  const Solid& body = added.body;
   const Vec<Dim> reach = Vec<Dim>::Constant(0.5 * level.width);
   const Cell first = cell_of<Dim>(body.bounds.min() - reach, level.width);
   const Cell last = cell_of<Dim>(body.bounds.max() + reach, level.width);
   double cells = 1.0;
   for (int axis = 0; axis < Dim; ++axis) cells *= last[axis] - first[axis] + 1.0;
   if (cells > static_cast<double>(level.solids.size())) {
-    for (const int other : level.solids) compare(body, solids_[other], deepest);
+    for (const int other : level.solids) compare(added, solids_[other]);
     return;
   }
   for (int number = 0; number < static_cast<int>(cells); ++number) {
@@ -100,7 +102,7 @@ void OverlapCheck<Dim>::compare_near(const Solid& body, const Level& level, Over
     }
     const auto found = level.cells.find(near);
     if (found == level.cells.end()) continue;
-    for (const int other : found->second) compare(body, solids_[other], deepest);
+    for (const int other : found->second) compare(added, solids_[other]);
   }
 }
 
@@ -123,13 +125,13 @@ Overlap OverlapCheck<Dim>::add(int shape, const Pose<Dim>& pose, bool fixed, con
   if (names_.empty() || names_.back() != path) names_.push_back(path);
   body.name = static_cast<int>(names_.size()) - 1;
   body.number = solids_.empty() || solids_.back().name != body.name ? 0 : solids_.back().number + 1;
-  Overlap deepest;
+  Added added = {.body = body, .pieces = {}, .deepest = {}};
   const double in_ground = world_.ground.height - height<Dim>(body.bounds.min());
-  if (!fixed && world_.ground.present && in_ground > most_overlap) deepest = {in_ground, "the ground"};
+  if (!fixed && world_.ground.present && in_ground > most_overlap) added.deepest = {in_ground, "the ground"};
   for (const Level& level : levels_)
-    if (!fixed || !level.fixed) compare_near(body, level, deepest);
+    if (!fixed || !level.fixed) compare_near(added, level);
   keep(body, 2.0 * bounding_radius(world_.shapes[shape]));
-  return deepest;
+  return added.deepest;
 }
 
 template class OverlapCheck<2>;

@@ -57,11 +57,18 @@ class OverlapCheck {
     std::unordered_map<Cell, std::vector<int>, CellHash> cells;  // solids by the cell of their position; only looked up
   };
 
+  /// A body that is added, with its pieces at its pose once they are needed.
+  struct Added {
+    Solid body;
+    Pieces pieces;
+    Overlap deepest;
+  };
+
   /// At the solid's pose; `room` holds them where they are not kept.
   std::span<const ConvexPiece<Dim>> pieces_of(const Solid& solid, Pieces& room) const;
-  void compare(const Solid& body, const Solid& other, Overlap& deepest) const;
+  void compare(Added& added, const Solid& other) const;
   std::string name_of(const Solid& solid) const;
-  void compare_near(const Solid& body, const Level& level, Overlap& deepest) const;
+  void compare_near(Added& added, const Level& level) const;
   void keep(const Solid& solid, double width);
 
   const WorldDescription<Dim>& world_;

@@ -15,13 +15,18 @@ inline constexpr Key motion_kind_key = {.name = "kind",
                                         .type = "text",
                                         .choices = motion_kinds,
                                         .meaning = "decides which of the keys below belong here"};
-inline constexpr Key motion_axis_key = {.name = "axis",
-                                        .dimension = 3,
-                                        .type = "vector",
-                                        .range = coordinate_range,
-                                        .further_rule = "not zero",
-                                        .default_text = "required for a turn",
-                                        .meaning = "axis of the turn through the obstacle's `position`, of any length"};
+constexpr Key axis_of_turn(std::string_view meaning) {
+  return {.name = "axis",
+          .dimension = 3,
+          .type = "vector",
+          .range = coordinate_range,
+          .further_rule = "not zero",
+          .default_text = "required for a turn",
+          .meaning = meaning};
+}
+inline constexpr Key motion_axis_key =
+    axis_of_turn("axis of the turn through the obstacle's `position`, of any length");
+inline constexpr Key gravity_motion_axis_key = axis_of_turn("axis of the turn, of any length");
 inline constexpr Range time_range = between(0.0, 1e6);
 
 template <int Dim>
@@ -38,6 +43,36 @@ inline constexpr Field<Motion<Dim>> motion_end_field = {&Motion<Dim>::end,
                                                          .meaning = "from then on it stays as it is"}};
 
 template <int Dim>
+inline constexpr Field<Motion<Dim>> motion_frequency_field = {
+    &Motion<Dim>::frequency,
+    {.name = "frequency", .required = true, .unit = "1/s", .range = above(0.0, 1e3), .meaning = "of that"}};
+constexpr Key speed_of_turn(std::string_view meaning) {
+  return {.name = "speed_deg",
+          .required = true,
+          .unit = "degrees/s",
+          .stored = Stored::in_radians,
+          .range = between(-1e5, 1e5),
+          .meaning = meaning};
+}
+constexpr Key times_of_path(std::string_view meaning) {
+  return {.name = "times",
+          .required = true,
+          .unit = "s",
+          .range = time_range,
+          .further_rule = "ascending, two or more",
+          .meaning = meaning};
+}
+constexpr Key angles_of_path(std::string_view rule, std::string_view otherwise, std::string_view meaning) {
+  return {.name = "angles_deg",
+          .unit = "degrees",
+          .stored = Stored::in_radians,
+          .range = between(-36000.0, 36000.0),
+          .further_rule = rule,
+          .default_text = otherwise,
+          .meaning = meaning};
+}
+
+template <int Dim>
 inline constexpr auto sine_fields = std::to_array<Field<Motion<Dim>>>({
     {&Motion<Dim>::amplitude,
      {.name = "amplitude",
@@ -45,21 +80,14 @@ inline constexpr auto sine_fields = std::to_array<Field<Motion<Dim>>>({
       .unit = "m",
       .range = coordinate_range,
       .meaning = "the obstacle goes from its place to `amplitude`, back, to minus `amplitude`, and so on"}},
-    {&Motion<Dim>::frequency,
-     {.name = "frequency", .required = true, .unit = "1/s", .range = above(0.0, 1e3), .meaning = "of that"}},
+    motion_frequency_field<Dim>,
     motion_start_field<Dim>,
     motion_end_field<Dim>,
 });
 
 template <int Dim>
 inline constexpr auto turn_fields = std::to_array<Field<Motion<Dim>>>({
-    {&Motion<Dim>::speed,
-     {.name = "speed_deg",
-      .required = true,
-      .unit = "degrees/s",
-      .stored = Stored::in_radians,
-      .range = between(-1e5, 1e5),
-      .meaning = "of a steady turn about `position`, counter-clockwise"}},
+    {&Motion<Dim>::speed, speed_of_turn("of a steady turn about `position`, counter-clockwise")},
     {{}, motion_axis_key},
     motion_start_field<Dim>,
     motion_end_field<Dim>,
@@ -68,14 +96,9 @@ inline constexpr auto turn_fields = std::to_array<Field<Motion<Dim>>>({
 template <int Dim>
 inline constexpr auto path_fields = std::to_array<Field<Motion<Dim>>>({
     {&Motion<Dim>::times,
-     {.name = "times",
-      .required = true,
-      .unit = "s",
-      .range = time_range,
-      .further_rule = "ascending, two or more",
-      .meaning =
-          "when the obstacle is at each of the `shifts`. Between two of them it moves steadily, before the first "
-          "and after the last it stands still"}},
+     times_of_path(
+         "when the obstacle is at each of the `shifts`. Between two of them it moves steadily, before the first "
+         "and after the last it stands still")},
     {&Motion<Dim>::shifts,
      {.name = "shifts",
       .required = true,
@@ -84,23 +107,10 @@ inline constexpr auto path_fields = std::to_array<Field<Motion<Dim>>>({
       .further_rule = "as many as `times`, the first 0",
       .meaning = "from `position`"}},
     {&Motion<Dim>::angles,
-     {.name = "angles_deg",
-      .unit = "degrees",
-      .stored = Stored::in_radians,
-      .range = between(-36000.0, 36000.0),
-      .further_rule = "as many as `times`, the first 0",
-      .default_text = "no turn",
-      .meaning = "turn about `position`, counter-clockwise"}},
+     angles_of_path("as many as `times`, the first 0", "no turn", "turn about `position`, counter-clockwise")},
     {{}, motion_axis_key},
 });
 
-inline constexpr Key gravity_motion_axis_key = {.name = "axis",
-                                                .dimension = 3,
-                                                .type = "vector",
-                                                .range = coordinate_range,
-                                                .further_rule = "not zero",
-                                                .default_text = "required for a turn",
-                                                .meaning = "axis of the turn, of any length"};
 template <int Dim>
 inline constexpr auto gravity_sine_fields = std::to_array<Field<Motion<Dim>>>({
     {&Motion<Dim>::amplitude,
@@ -109,8 +119,7 @@ inline constexpr auto gravity_sine_fields = std::to_array<Field<Motion<Dim>>>({
       .unit = "m/s^2",
       .range = between(-1e3, 1e3),
       .meaning = "this times a sine is added to `gravity`, which is what happens in a box that is shaken"}},
-    {&Motion<Dim>::frequency,
-     {.name = "frequency", .required = true, .unit = "1/s", .range = above(0.0, 1e3), .meaning = "of that"}},
+    motion_frequency_field<Dim>,
     motion_start_field<Dim>,
     motion_end_field<Dim>,
 });
@@ -118,12 +127,7 @@ inline constexpr auto gravity_sine_fields = std::to_array<Field<Motion<Dim>>>({
 template <int Dim>
 inline constexpr auto gravity_turn_fields = std::to_array<Field<Motion<Dim>>>({
     {&Motion<Dim>::speed,
-     {.name = "speed_deg",
-      .required = true,
-      .unit = "degrees/s",
-      .stored = Stored::in_radians,
-      .range = between(-1e5, 1e5),
-      .meaning = "of a steady turn of `gravity`, counter-clockwise: a box that tilts clockwise"}},
+     speed_of_turn("of a steady turn of `gravity`, counter-clockwise: a box that tilts clockwise")},
     {{}, gravity_motion_axis_key},
     motion_start_field<Dim>,
     motion_end_field<Dim>,
@@ -132,13 +136,8 @@ inline constexpr auto gravity_turn_fields = std::to_array<Field<Motion<Dim>>>({
 template <int Dim>
 inline constexpr auto gravity_path_fields = std::to_array<Field<Motion<Dim>>>({
     {&Motion<Dim>::times,
-     {.name = "times",
-      .required = true,
-      .unit = "s",
-      .range = time_range,
-      .further_rule = "ascending, two or more",
-      .meaning = "when gravity has each of the values. Between two of them it changes steadily, before the first and "
-                 "after the last it stays"}},
+     times_of_path("when gravity has each of the values. Between two of them it changes steadily, before the first and "
+                   "after the last it stays")},
     {&Motion<Dim>::shifts,
      {.name = "gravity",
       .type = "vectors",
@@ -147,14 +146,7 @@ inline constexpr auto gravity_path_fields = std::to_array<Field<Motion<Dim>>>({
       .further_rule = "as many as `times`",
       .default_text = "none",
       .meaning = "gravity itself, in the place of `world.gravity`. One of `gravity` and `angles_deg` is given"}},
-    {&Motion<Dim>::angles,
-     {.name = "angles_deg",
-      .unit = "degrees",
-      .stored = Stored::in_radians,
-      .range = between(-36000.0, 36000.0),
-      .further_rule = "as many as `times`",
-      .default_text = "none",
-      .meaning = "turn of `world.gravity`, counter-clockwise"}},
+    {&Motion<Dim>::angles, angles_of_path("as many as `times`", "none", "turn of `world.gravity`, counter-clockwise")},
     {{}, gravity_motion_axis_key},
 });
 

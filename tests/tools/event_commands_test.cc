@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Discs on a shelf; one of them, then the shelf, is removed, then gravity is halved.
+/// Discs on a shelf: an event removes a disc, one the shelf, and one halves gravity.
 class EventCommands : public testing::Test {
  protected:
   void SetUp() override {

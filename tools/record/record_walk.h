@@ -50,7 +50,7 @@ struct WalkDamage {
   bool none() const { return bytes == 0 && undecodable == 0; }
 };
 
-/// What the record says of the run; printable. Empty where no message has it.
+/// The run's identity and end, from the record; printable. Empty where no message has it.
 struct RecordedIdentity {
   std::string backend;
   std::string policy;

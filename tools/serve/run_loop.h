@@ -54,7 +54,7 @@ class RunLoop {
  private:
   using Clock = std::chrono::steady_clock;
   enum class Task : std::uint8_t { stop, start, step, by_hand };
-  /// A body that a page kicks or removes.
+  /// A kick or the removal of a body, as a page sends it.
   struct ByHand {
     int page = 0;
     std::int64_t body = 0;

@@ -63,7 +63,7 @@ struct ViewServer::Service {
   std::string token = new_token();
   int port = 0;
   mg_context* context = nullptr;
-  std::vector<Mount> mounts;  // never grows once the server listens
+  std::vector<Mount> mounts;  // not changed while the server runs
 
   /// Whether a request is from a page of this server, or from a program that knows the token.
   bool allows(const mg_connection* connection) const {
