@@ -12,7 +12,7 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// Whether on_frame() reads the contacts of the step. Must not change.
+  /// Whether on_frame() reads the contacts of the next step.
   virtual bool needs_contacts() const { return false; }
 
   virtual void on_frame(const Frame<Dim>& frame) = 0;

@@ -165,7 +165,9 @@ void Simulation<Dim>::keep_moved_awake() {
 template <int Dim>
 bool Simulation<Dim>::needs_contacts() const {
   const bool for_piles = counts_piles() && (piles_.needs_contacts() || piles_.has_unplaced());
-  return for_piles || policy_->needs_contacts() || observers_need_contacts_ || debug_.gather_contacts;
+  const auto for_observer = [](const Observer<Dim>* observer) { return observer->needs_contacts(); };
+  return for_piles || policy_->needs_contacts() || std::ranges::any_of(observers_, for_observer) ||
+         debug_.gather_contacts;
 }
 
 /// Section 3.2. Without a policy and without observers piles are not counted.

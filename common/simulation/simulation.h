@@ -28,10 +28,7 @@ class Simulation {
   Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>> world, std::unique_ptr<SleepPolicy<Dim>> policy);
 
   /// Observers are called in the order added and must outlive the simulation. With none, nothing is prepared for them.
-  void add_observer(Observer<Dim>& observer) {
-    observers_.push_back(&observer);
-    observers_need_contacts_ = observers_need_contacts_ || observer.needs_contacts();
-  }
+  void add_observer(Observer<Dim>& observer) { observers_.push_back(&observer); }
 
   /// One step: emit due bodies, step the world, recount the piles, let the policy decide, apply its three lists.
   void step();
@@ -114,7 +111,6 @@ class Simulation {
   double dt_;
   std::int64_t step_ = 0;
   bool engine_sleep_;
-  bool observers_need_contacts_ = false;
   DebugOptions debug_;
   std::vector<BodyIndex> asleep_at_start_;
   MovingObstacles<Dim> obstacles_;

@@ -63,12 +63,13 @@ export async function colours(page) {
     const paper = canvas.getContext("2d");
     paper.drawImage(source, 0, 0);
     const { data } = paper.getImageData(0, 0, canvas.width, canvas.height);
-    const share = { orange: 0, dark: 0, white: 0 };
+    const share = { orange: 0, dark: 0, white: 0, contact: 0 };
     for (let i = 0; i < data.length; i += 4) {
       const [red, green, blue] = [data[i], data[i + 1], data[i + 2]];
       if (red > 1.4 * blue && red > green && red > 120) ++share.orange;
       else if (red < 90 && green < 90 && blue < 110) ++share.dark;
       else if (red > 250 && green > 250 && blue > 250) ++share.white;
+      else if ((red > 180 && green < 120 && blue > 100) || (green > 150 && red < 140 && blue > 140 && green >= blue)) ++share.contact;
     }
     for (const name of Object.keys(share)) share[name] /= data.length / 4;
     return share;

@@ -5,9 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <map>
 #include <random>
+
+#include "tests/view/stream_reader.h"
 
 namespace talus::frame_stream_test {
 namespace {
@@ -31,8 +32,7 @@ template <int Dim>
 class Decoder {
  public:
   void take(const std::string& block) {
-    block_ = block;
-    at_ = 0;
+    reader_ = StreamReader(block);
     state.step = number();
     for (std::uint64_t bodies = number(); state.shape.size() < bodies;) {
       state.shape.push_back(0);
@@ -54,15 +54,13 @@ class Decoder {
     for (std::uint64_t left = number(); left > 0; --left) {
       const std::uint64_t kind = number();
       number();
-      const std::uint64_t size = number();
-      state.warnings[kind] = block_.substr(at_, size);
-      at_ += size;
+      state.warnings[kind] = reader_.text(number());
     }
     for (std::uint64_t left = number(); left > 0; --left) {
       const int event = static_cast<int>(number());
       state.scene_events.push_back({event, real()});
     }
-    EXPECT_EQ(at_, block_.size()) << "a block ends where its description says";
+    EXPECT_TRUE(reader_.done()) << "a block ends where its description says";
   }
 
   Decoded<Dim> state;
@@ -98,26 +96,9 @@ class Decoder {
     }
   }
 
-  std::uint64_t number() {
-    std::uint64_t value = 0;
-    for (int shift = 0;; shift += 7) {
-      const auto byte = static_cast<unsigned char>(block_.at(at_++));
-      value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
-      if (byte < 0x80) return value;
-    }
-  }
-
-  std::int64_t difference() {
-    const std::uint64_t value = number();
-    return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
-  }
-
-  float real() {
-    std::uint32_t bits = 0;
-    for (int shift = 0; shift < 32; shift += 8)
-      bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(block_.at(at_++))) << shift;
-    return std::bit_cast<float>(bits);
-  }
+  std::uint64_t number() { return reader_.number(); }
+  std::int64_t difference() { return reader_.difference(); }
+  float real() { return reader_.real(); }
 
   std::vector<std::uint64_t> list() {
     std::vector<std::uint64_t> bodies(number());
@@ -126,8 +107,7 @@ class Decoder {
     return bodies;
   }
 
-  std::string block_;
-  std::size_t at_ = 0;
+  StreamReader reader_{""};
   std::vector<std::size_t> fresh_;
 };
 

@@ -91,6 +91,16 @@ void PageHub::acknowledge(int number) {
   changed_.notify_all();
 }
 
+void PageHub::want_contacts(int number, bool wanted) {
+  const std::lock_guard lock(mutex_);
+  if (Page* page = find(number)) page->contacts = wanted;
+}
+
+bool PageHub::contacts_wanted() const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(pages_, &Page::contacts);
+}
+
 void PageHub::reply(int number, const std::string& text) {
   const std::lock_guard lock(mutex_);
   if (Page* page = find(number)) page->replies.push_back(text);
@@ -128,6 +138,7 @@ PageHub::Parcel PageHub::take(Page& page) {
   if (page.status != status_) parcel.texts.push_back(page.status = status_);
   if (!due(page)) return parcel;
   parcel.new_run = page.sent == nullptr || page.sent->head() != newest_->head();
+  parcel.contacts = page.contacts;
   parcel.snapshot = page.sent = newest_;
   // Events of steps after the snapshot stay for the next one.
   const auto later = std::stable_partition(page.events.begin(), page.events.end(),
@@ -146,7 +157,9 @@ bool PageHub::send(const Parcel& parcel, PageSocket& socket, std::unique_ptr<Blo
     writer = parcel.snapshot->make_writer();
     if (!socket.send_text(*parcel.snapshot->head())) return false;
   }
-  return socket.send_bytes(parcel.snapshot->block(*writer, parcel.events));
+  std::string bytes = parcel.snapshot->block(*writer, parcel.events);
+  if (parcel.contacts) bytes += parcel.snapshot->contacts();
+  return socket.send_bytes(bytes);
 }
 
 }  // namespace talus

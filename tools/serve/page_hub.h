@@ -52,6 +52,10 @@ class PageHub {
   void remove(int number);
   /// The page has shown the last frame that it was sent.
   void acknowledge(int number);
+  /// Whether this page is sent contacts.
+  void want_contacts(int number, bool wanted);
+  /// Whether any page is.
+  bool contacts_wanted() const;
   /// A text for this page alone.
   void reply(int number, const std::string& text);
   std::size_t pages() const;
@@ -62,6 +66,7 @@ class PageHub {
     PageSocket* socket = nullptr;
     bool ready = true;  // for the next frame
     bool closing = false;
+    bool contacts = false;  // are sent to it
     std::vector<std::string> replies;
     std::vector<SleepEvent> events;  // since the last frame sent
     std::string status;              // sent last
@@ -74,6 +79,7 @@ class PageHub {
     std::shared_ptr<const Snapshot> snapshot;  // null: none is due
     std::vector<SleepEvent> events;
     bool new_run = false;
+    bool contacts = false;
   };
 
   void send(Page& page);

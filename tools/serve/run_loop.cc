@@ -1,8 +1,12 @@
 #include "tools/serve/run_loop.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 #include "common/simulation/stopwatch.h"
@@ -72,14 +76,22 @@ void RunLoop::greet(int page) {
 
 void RunLoop::command(int page, const std::string& text) {
   const Json command = Json::parse(text, nullptr, false);
-  if (command.is_object() && command.contains("do") && command["do"].is_string())
-    obey(page, command);
-  else
+  if (!command.is_object() || !command.contains("do") || !command["do"].is_string()) {
     reply_errors(page, error_of("a command must be an object with a text \"do\""));
+    return;
+  }
+  const std::string what = command["do"].get<std::string>();
+  try {
+    if (is_hand_command(what))
+      queue_by_hand(page, read_hand_command(command));
+    else
+      obey(page, what, command);
+  } catch (const std::invalid_argument& error) {
+    reply_errors(page, error_of(fmt::format("{}: {}", what, error.what())));
+  }
 }
 
-void RunLoop::obey(int page, const Json& command) {
-  const auto& what = command["do"].get_ref<const std::string&>();
+void RunLoop::obey(int page, const std::string& what, const Json& command) {
   const Json value = command.value("value", Json());
   if (what == "run") {
     change([this] { running_ = true; });
@@ -92,8 +104,12 @@ void RunLoop::obey(int page, const Json& command) {
     });
   } else if (what == "restart") {
     change([this] { restart_ = true; });
-  } else if (what == "kick" || what == "remove") {
-    queue_by_hand(page, command);
+  } else if (what == "contacts" && value.is_boolean()) {
+    hub_.want_contacts(page, value.get<bool>());
+    queue_by_hand(page, [this](ShownRun& run) {
+      run.show_contacts(hub_.contacts_wanted());
+      return std::string();
+    });
   } else if (what == "pace") {
     set_pace(page, value);
   } else if (what == "policy" && value.is_string()) {
@@ -101,27 +117,16 @@ void RunLoop::obey(int page, const Json& command) {
   } else if (what == "scene" && command.value("text", Json()).is_string()) {
     start_scene(page, command["text"].get<std::string>(), "");
   } else {
-    reply_errors(
-        page,
-        error_of("\"do\" must be run, pause, step, restart, pace, policy, scene, kick or remove, with its value"));
+    throw std::invalid_argument(
+        fmt::format("\"do\" must be run, pause, step, restart, pace, policy, scene, contacts, {}, with its value",
+                    fmt::join(hand_command_names(), ", ")));
   }
 }
 
-void RunLoop::queue_by_hand(int page, const Json& command) {
+void RunLoop::queue_by_hand(int page, const HandCommand& command) {
   constexpr std::size_t most = 1000;  // that wait
-  const Json body = command.value("body", Json());
-  const Json velocity = command.value("velocity", Json());
-  const bool kick = command["do"] == "kick";
-  const bool numbers =
-      velocity.is_array() && std::ranges::all_of(velocity, [](const Json& part) { return part.is_number(); });
-  if (!body.is_number_integer() || (kick && !numbers)) {
-    reply_errors(page, error_of("kick and remove: must have the number of a body, kick a list \"velocity\" too"));
-    return;
-  }
   change([&] {
-    if (by_hand_.size() >= most) return;
-    by_hand_.push_back({page, body.get<std::int64_t>(), std::nullopt});
-    if (kick) by_hand_.back().velocity = velocity.get<std::vector<double>>();
+    if (by_hand_.size() < most) by_hand_.push_back({page, command});
   });
 }
 
@@ -132,9 +137,7 @@ void RunLoop::do_by_hand() {
     all.swap(by_hand_);
   }
   for (const ByHand& each : all) {
-    const std::string wrong = !run_           ? "no run goes on"
-                              : each.velocity ? run_->kick(each.body, *each.velocity)
-                                              : run_->remove(each.body);
+    const std::string wrong = run_ ? each.command(*run_) : "no run goes on";
     reply_errors(each.page, wrong.empty() ? Json::array() : error_of(wrong));
   }
   published_ = false;
@@ -241,6 +244,7 @@ void RunLoop::step() {
   Stopwatch watch;
   std::string reason;
   try {
+    run_->show_contacts(hub_.contacts_wanted());
     run_->step();
   } catch (const NonFiniteState& error) {
     reason = error.what();

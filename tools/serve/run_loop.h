@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/scene/read_scene.h"
+#include "tools/serve/hand_command.h"
 #include "tools/serve/page_hub.h"
 #include "tools/serve/shown_run.h"
 
@@ -46,24 +47,22 @@ class RunLoop {
   /// A page came: it gets the scene's text.
   void greet(int page);
   /// A command of a page, as JSON: {"do": "run" | "pause" | "step" | "restart"}, {"do": "pace", "value": number},
-  /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "kick", "body": number, "velocity": [m/s]},
-  /// {"do": "remove", "body": number}. What is wrong is replied to the page; then nothing
-  /// changes.
+  /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "contacts", "value": whether this page is
+  /// sent them}, or one of hand_command.h. What is wrong is replied to the page; then nothing changes.
   void command(int page, const std::string& text);
 
  private:
   using Clock = std::chrono::steady_clock;
   enum class Task : std::uint8_t { stop, start, step, by_hand };
-  /// A kick or the removal of a body, as a page sends it.
+  /// A command, as a page sends it.
   struct ByHand {
     int page = 0;
-    std::int64_t body = 0;
-    std::optional<std::vector<double>> velocity;  // none: the body is removed
+    HandCommand command;
   };
 
-  void obey(int page, const nlohmann::ordered_json& command);
+  void obey(int page, const std::string& what, const nlohmann::ordered_json& command);
   void start_scene(int page, const std::string& text, const std::string& policy);
-  void queue_by_hand(int page, const nlohmann::ordered_json& command);
+  void queue_by_hand(int page, const HandCommand& command);
   void do_by_hand();
   void set_pace(int page, const nlohmann::ordered_json& value);
   void reply_errors(int page, const nlohmann::ordered_json& errors);

@@ -13,6 +13,7 @@
 #include "tools/run/backends.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/version.h"
+#include "tools/serve/contact_memory.h"
 #include "tools/serve/state_copy.h"
 #include "tools/view/frame_stream.h"
 #include "tools/view/run_head.h"
@@ -36,8 +37,10 @@ class SimulatedScene final : public ShownRun {
         steps_(scene.steps()),
         quantum_(quantum_of(scene)),
         head_(std::make_shared<std::string>(head_of(scene, backend, name))),
+        contacts_(scene.world.dt),
         simulation_(make_simulation(scene, backend)) {
     simulation_.add_observer(events_);
+    simulation_.add_observer(contacts_);
   }
 
   void step() override { simulation_.step(); }
@@ -46,14 +49,18 @@ class SimulatedScene final : public ShownRun {
   std::span<const SleepEvent> events() const override { return events_.events; }
   std::shared_ptr<const Snapshot> snapshot() const override {
     const Frame<Dim> frame = simulation_.frame();
-    return std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = frame.step,
-                                                           .states = frame.world.states(),
-                                                           .piles = frame.piles.piles(),
-                                                           .warnings = frame.warnings,
-                                                           .kinetic_energy = kinetic_energy(frame.world),
-                                                           .scene_events = simulation_.done_events()},
-                                            quantum_, head_);
+    auto copy = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = frame.step,
+                                                                .states = frame.world.states(),
+                                                                .piles = frame.piles.piles(),
+                                                                .warnings = frame.warnings,
+                                                                .kinetic_energy = kinetic_energy(frame.world),
+                                                                .scene_events = simulation_.done_events()},
+                                                 quantum_, head_);
+    if (contacts_.needs_contacts()) copy->set_contacts(contacts_.contacts(frame.world));
+    return copy;
   }
+
+  void show_contacts(bool show) override { contacts_.want(show, simulation_.world()); }
 
   std::string kick(std::int64_t body, std::span<const double> velocity) override {
     if (!present(body)) return no_body(body);
@@ -98,6 +105,7 @@ class SimulatedScene final : public ShownRun {
   Quantum quantum_;
   std::shared_ptr<const std::string> head_;
   LastEvents<Dim> events_;
+  ContactMemory<Dim> contacts_;
   Simulation<Dim> simulation_;
 };
 

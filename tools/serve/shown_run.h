@@ -32,6 +32,8 @@ class Snapshot {
   /// The block (frame_stream.h) of this state. `writer`: of a snapshot of the same run. `events`: since the page's last
   /// frame.
   virtual std::string block(BlockWriter& writer, std::span<const SleepEvent> events) const = 0;
+  /// Its contacts (contact_stream.h); none where the run does not show them.
+  virtual std::string contacts() const { return {}; }
 };
 
 /// A scene that is being simulated, in 2D or 3D.
@@ -46,6 +48,8 @@ class ShownRun {
   /// Sleep events of the last step.
   virtual std::span<const SleepEvent> events() const = 0;
   virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
+  /// Whether snapshots have contacts from now on. Costs nothing while false.
+  virtual void show_contacts(bool show) = 0;
   /// By hand between steps: wakes a body and adds `velocity` [m/s], an entry for each axis, to its own; or takes it out
   /// of the world. The text returned says what is wrong; then nothing is done. Empty: done.
   virtual std::string kick(std::int64_t body, std::span<const double> velocity) = 0;

@@ -2,11 +2,13 @@
 // A state in memory of its own, as pages are sent it.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tools/serve/shown_run.h"
+#include "tools/view/contact_stream.h"
 #include "tools/view/frame_stream.h"
 
 namespace talus {
@@ -38,6 +40,7 @@ class StateCopy final : public Snapshot {
 
   std::shared_ptr<const std::string> head() const override { return head_; }
   std::int64_t step() const override { return step_; }
+  void set_contacts(std::vector<ShownContact<Dim>> contacts) { contacts_ = std::move(contacts); }
   std::unique_ptr<BlockWriter> make_writer() const override { return std::make_unique<StreamWriter<Dim>>(quantum_); }
   std::string block(BlockWriter& writer, std::span<const SleepEvent> events) const override {
     return dynamic_cast<StreamWriter<Dim>&>(writer).encoder.encode({.step = step_,
@@ -47,6 +50,9 @@ class StateCopy final : public Snapshot {
                                                                     .warnings = warnings_,
                                                                     .kinetic_energy = kinetic_energy_,
                                                                     .scene_events = scene_events_});
+  }
+  std::string contacts() const override {
+    return contacts_ ? encode_contacts<Dim>(*contacts_, quantum_) : std::string();
   }
 
  private:
@@ -58,6 +64,7 @@ class StateCopy final : public Snapshot {
   std::vector<Warning> warnings_;
   double kinetic_energy_;
   std::vector<DoneEvent> scene_events_;
+  std::optional<std::vector<ShownContact<Dim>>> contacts_;
 };
 
 }  // namespace talus

@@ -1,19 +1,15 @@
 #include "tools/view/frame_stream.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "tools/view/stream_numbers.h"
+
 namespace talus {
 namespace {
-
-std::int32_t rounded(double value) {
-  constexpr double limit = 1 << 30;
-  return static_cast<std::int32_t>(std::lround(std::clamp(value, -limit, limit)));
-}
 
 /// All numbers of a pile but its counts.
 template <int Dim>
@@ -51,30 +47,30 @@ Quantum quantum_of(const Scene<Dim>& scene) {
 template <int Dim>
 std::string FrameEncoder<Dim>::encode(const ViewFrame<Dim>& frame) {
   block_.clear();
-  write_unsigned(frame.step);
+  write_unsigned(block_, frame.step);
   write_bodies(frame.states);
   write_events(frame);
   write_piles(frame.piles);
-  write_float(static_cast<float>(frame.kinetic_energy));
+  write_float(block_, static_cast<float>(frame.kinetic_energy));
   write_warnings(frame.warnings);
   const std::span<const DoneEvent> happened = frame.scene_events.subspan(known_scene_events_);
   known_scene_events_ = frame.scene_events.size();
-  write_unsigned(happened.size());
+  write_unsigned(block_, happened.size());
   for (const DoneEvent& event : happened) {
-    write_unsigned(event.number);
-    write_float(static_cast<float>(event.time));
+    write_unsigned(block_, event.number);
+    write_float(block_, static_cast<float>(event.time));
   }
   return block_;
 }
 
 template <int Dim>
 void FrameEncoder<Dim>::write_bodies(const BodyStates<Dim>& states) {
-  write_unsigned(states.size());
+  write_unsigned(block_, states.size());
   std::vector<BodyIndex> removed;
   std::vector<BodyIndex> flipped;
   for (auto body = static_cast<BodyIndex>(known_.size()); body < states.size(); ++body) {
     known_.emplace_back();
-    write_unsigned(states.shape[body]);
+    write_unsigned(block_, states.shape[body]);
   }
   for (BodyIndex body = 0; body < states.size(); ++body) {
     Known& known = known_[body];
@@ -103,37 +99,37 @@ void FrameEncoder<Dim>::write_poses(const BodyStates<Dim>& states) {
   }
   write_list(moved);
   for (int i = 0; i < components; ++i)
-    for (const Counts& change : changes) write_signed(change[i]);
+    for (const Counts& change : changes) write_signed(block_, change[i]);
 }
 
 /// In whole quanta. A rotation has many numbers: those nearest to the ones before are taken.
 template <int Dim>
 typename FrameEncoder<Dim>::Counts FrameEncoder<Dim>::counted(const Pose<Dim>& pose, const Counts& before) const {
   Counts counts;
-  for (int axis = 0; axis < Dim; ++axis) counts[axis] = rounded(pose.position[axis] / quantum_.position);
+  for (int axis = 0; axis < Dim; ++axis) counts[axis] = in_quanta(pose.position[axis], quantum_.position);
   if constexpr (Dim == 2) {
     const double turn = std::remainder(pose.rotation.angle() - before[2] * quantum_.angle, 2.0 * std::numbers::pi);
-    counts[2] = before[2] + rounded(turn / quantum_.angle);
+    counts[2] = before[2] + in_quanta(turn, quantum_.angle);
   } else {
     const Rotation<3>& q = pose.rotation;
     const double along = q.w() * before[3] + q.x() * before[4] + q.y() * before[5] + q.z() * before[6];
-    const double scale = (along < 0.0 ? -1.0 : 1.0) / quantum_.quaternion;
+    const double sign = along < 0.0 ? -1.0 : 1.0;
     int i = Dim;
-    for (const double part : {q.w(), q.x(), q.y(), q.z()}) counts[i++] = rounded(scale * part);
+    for (const double part : {q.w(), q.x(), q.y(), q.z()}) counts[i++] = in_quanta(sign * part, quantum_.quaternion);
   }
   return counts;
 }
 
 template <int Dim>
 void FrameEncoder<Dim>::write_events(const ViewFrame<Dim>& frame) {
-  write_unsigned(frame.events.size());
+  write_unsigned(block_, frame.events.size());
   for (const SleepEvent& event : frame.events) {
-    write_unsigned(event.body);
-    write_unsigned(std::max<std::int64_t>(0, frame.step - event.step));
-    write_unsigned(2 * static_cast<unsigned>(event.cause) + (event.woke ? 1 : 0));
-    write_unsigned(event.pile + 1);
-    write_unsigned(event.layer + 1);
-    write_float(static_cast<float>(event.score));
+    write_unsigned(block_, event.body);
+    write_unsigned(block_, std::max<std::int64_t>(0, frame.step - event.step));
+    write_unsigned(block_, 2 * static_cast<unsigned>(event.cause) + (event.woke ? 1 : 0));
+    write_unsigned(block_, event.pile + 1);
+    write_unsigned(block_, event.layer + 1);
+    write_float(block_, static_cast<float>(event.score));
   }
 }
 
@@ -144,8 +140,8 @@ void FrameEncoder<Dim>::write_piles(std::span<const Pile<Dim>> piles) {
   for (std::size_t i = 0; i < piles.size(); ++i)
     if (form_of(piles[i]) != known_piles_[i].form || counts_of(piles[i]) != known_piles_[i].counts)
       changed.push_back(static_cast<int>(i));
-  write_unsigned(piles.size());
-  write_unsigned(changed.size());
+  write_unsigned(block_, piles.size());
+  write_unsigned(block_, changed.size());
   for (const int number : changed) write_pile(number, piles[number], known_piles_[number]);
 }
 
@@ -153,18 +149,18 @@ template <int Dim>
 void FrameEncoder<Dim>::write_pile(int number, const Pile<Dim>& pile, KnownPile& known) {
   const std::vector<float> form = form_of(pile);
   const bool reshaped = form != known.form;
-  write_unsigned(number);
-  write_unsigned(reshaped ? 1 : 0);
+  write_unsigned(block_, number);
+  write_unsigned(block_, reshaped ? 1 : 0);
   if (reshaped) {
     constexpr std::ptrdiff_t before_layers = Dim + 4;
-    for (const float value : std::span(form).first(before_layers)) write_float(value);
-    write_unsigned(pile.layers.size());
-    for (const float value : std::span(form).subspan(before_layers)) write_float(value);
+    for (const float value : std::span(form).first(before_layers)) write_float(block_, value);
+    write_unsigned(block_, pile.layers.size());
+    for (const float value : std::span(form).subspan(before_layers)) write_float(block_, value);
     known.form = form;
   }
   const std::vector<std::int32_t> counts = counts_of(pile);
   known.counts.resize(counts.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) write_signed(counts[i] - known.counts[i]);
+  for (std::size_t i = 0; i < counts.size(); ++i) write_signed(block_, counts[i] - known.counts[i]);
   known.counts = counts;
 }
 
@@ -173,38 +169,21 @@ void FrameEncoder<Dim>::write_warnings(std::span<const Warning> warnings) {
   std::vector<const Warning*> changed;
   for (const Warning& warning : warnings)
     if (std::exchange(known_warnings_[warning.kind], account(warning)) != account(warning)) changed.push_back(&warning);
-  write_unsigned(changed.size());
+  write_unsigned(block_, changed.size());
   for (const Warning* warning : changed) {
     const std::string text = account(*warning);
-    write_unsigned(static_cast<unsigned>(warning->kind));
-    write_unsigned(warning->step);
-    write_unsigned(text.size());
+    write_unsigned(block_, static_cast<unsigned>(warning->kind));
+    write_unsigned(block_, warning->step);
+    write_unsigned(block_, text.size());
     block_ += text;
   }
 }
 
 template <int Dim>
 void FrameEncoder<Dim>::write_list(std::span<const BodyIndex> bodies) {
-  write_unsigned(bodies.size());
+  write_unsigned(block_, bodies.size());
   BodyIndex before = -1;
-  for (const BodyIndex body : bodies) write_unsigned(body - std::exchange(before, body));
-}
-
-template <int Dim>
-void FrameEncoder<Dim>::write_unsigned(std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) block_ += static_cast<char>((value & 0x7F) | 0x80);
-  block_ += static_cast<char>(value);
-}
-
-template <int Dim>
-void FrameEncoder<Dim>::write_signed(std::int64_t value) {
-  write_unsigned((static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63));
-}
-
-template <int Dim>
-void FrameEncoder<Dim>::write_float(float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  for (int shift = 0; shift < 32; shift += 8) block_ += static_cast<char>((bits >> shift) & 0xFF);
+  for (const BodyIndex body : bodies) write_unsigned(block_, body - std::exchange(before, body));
 }
 
 template Quantum quantum_of(const Scene<2>&);

@@ -88,9 +88,6 @@ class FrameEncoder {
   void write_warnings(std::span<const Warning> warnings);
 
   void write_list(std::span<const BodyIndex> bodies);
-  void write_unsigned(std::uint64_t value);
-  void write_signed(std::int64_t value);
-  void write_float(float value);
 
   Quantum quantum_;
   std::vector<Known> known_;

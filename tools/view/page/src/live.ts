@@ -1,8 +1,9 @@
 // A run that goes on in `talus view`: frames come over a WebSocket, commands go back (tools/view/run_loop.h).
 
+import { element } from "./element";
 import type { Head } from "./head";
 import { numbersOf, rangeOf, withNumber, type SceneNumber } from "./numbers";
-import { element, Player, type Simulation } from "./player";
+import { Player, type Simulation } from "./player";
 
 interface Status {
   kind: "status";
@@ -133,13 +134,18 @@ class Live implements Simulation {
     }
     this.player = new Player(head);
     this.player.attach(this);
+    if (this.steered()) this.player.steer();
     this.ready(this.player);
   }
 
   /// A frame. The next one is sent once this one has been drawn.
   private show(block: Uint8Array): void {
-    this.player?.timeline.add(block);
-    this.player?.grown();
+    const { player } = this;
+    if (player) {
+      const size = player.timeline.add(block);
+      player.contacts.add(player.timeline.frames - 1, block.subarray(size));
+      player.grown();
+    }
     const acknowledge = (): void => {
       if (this.socket.readyState === WebSocket.OPEN) this.socket.send("shown");
     };

@@ -1,8 +1,11 @@
 // What the user does with the frames of a run: play, step, scrub, choose a body.
 
+import { ContactPanel } from "./contact_panel";
+import { element } from "./element";
 import type { Head, Rgb } from "./head";
 import { Plots } from "./plots";
-import { css, type Paint, Stage } from "./stage";
+import { css, type Paint } from "./colours";
+import { Stage } from "./stage";
 import { Timeline } from "./timeline";
 
 const throwRate = 4; // [1/s] speed of a throw over the length of the drag
@@ -21,8 +24,6 @@ const causeColours: Rgb[] = [
   [0.95, 0.8, 0.2],
   [0.45, 0.7, 0.95],
 ];
-
-export const element = <T extends HTMLElement = HTMLElement>(id: string): T => document.getElementById(id) as T;
 
 function cell(text: string, name = ""): HTMLTableCellElement {
   const td = document.createElement("td");
@@ -69,6 +70,7 @@ export interface Shown {
 export class Player {
   timeline: Timeline;
   stage: Stage;
+  readonly contacts: ContactPanel;
   private plots: Plots;
   private simulation: Simulation | null = null;
   private playing = false;
@@ -78,6 +80,7 @@ export class Player {
 
   constructor(private head: Head) {
     this.timeline = new Timeline(head);
+    this.contacts = new ContactPanel(head);
     this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
     this.plots = this.show();
     this.listen();
@@ -89,6 +92,7 @@ export class Player {
     const dimension = this.head.dimension;
     this.head = head;
     this.timeline = new Timeline(head);
+    this.contacts.replace(head);
     this.pause();
     this.following = this.simulation !== null;
     if (head.dimension === dimension) {
@@ -296,6 +300,7 @@ export class Player {
     if (this.timeline.frames === 0) return;
     const changed = this.timeline.seek(Math.min(this.timeline.frames - 1, Math.max(0, frame)));
     this.stage.update(changed, this.paint());
+    this.contacts.show(this.timeline.shown, this.stage);
     element<HTMLInputElement>("scrub").value = String(this.timeline.shown);
     this.showCounts();
     this.showBody();
@@ -462,6 +467,14 @@ export class Player {
       ++count;
     }
     return [count > 0 ? sum / count : 0, largest];
+  }
+
+  /// The run takes commands.
+  steer(): void {
+    this.contacts.listen(
+      (wanted) => this.command({ do: "contacts", value: wanted }),
+      () => this.contacts.show(this.timeline.shown, this.stage),
+    );
   }
 
   shown(): Shown {

@@ -2,7 +2,7 @@
 
 import { density, type Pile } from "./frames";
 import type { Head } from "./head";
-import { css } from "./stage";
+import { css } from "./colours";
 import type { Timeline } from "./timeline";
 import { uPlot } from "./vendor";
 

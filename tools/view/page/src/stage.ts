@@ -1,26 +1,18 @@
-// The pile on the screen: bodies, obstacles, layers, ground, and the camera.
+// The pile on the screen, and the camera.
 
-import { density, type Pile } from "./frames";
+import { colour, css, type Paint } from "./colours";
 import type { Head, Rgb } from "./head";
+import type { Contact } from "./contacts";
+import { ContactMarks } from "./contact_marks";
+import { Instances, outlined } from "./instances";
+import { LayerView } from "./layer_view";
+import { matrixOf } from "./pose";
+import { niceLength } from "./scale";
 import { geometryOf } from "./shapes";
+import { Surroundings } from "./surroundings";
 import type { Changed, Timeline } from "./timeline";
 import {
-  AmbientLight,
-  BufferAttribute,
-  BufferGeometry,
-  Color,
-  CylinderGeometry,
-  DirectionalLight,
-  DoubleSide,
-  DynamicDrawUsage,
-  Group,
-  InstancedBufferAttribute,
-  InstancedMesh,
-  LineBasicMaterial,
-  LineSegments,
-  type Material,
   Matrix4,
-  Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
   MOUSE,
@@ -28,117 +20,15 @@ import {
   OrthographicCamera,
   PCFShadowMap,
   PerspectiveCamera,
-  PlaneGeometry,
-  Quaternion,
   Raycaster,
   Scene,
-  ShadowMaterial,
-  SRGBColorSpace,
   TOUCH,
   Vector2,
   Vector3,
   WebGLRenderer,
 } from "./vendor";
 
-const mostLayers = 32; // drawn of a pile; thinner ones would be lines only
 const highlight: Rgb = [0.1, 0.5, 0.95];
-
-export const colour = (rgb: Rgb): Color => new Color().setRGB(rgb[0], rgb[1], rgb[2], SRGBColorSpace);
-export const css = (rgb: Rgb, alpha = 1): string =>
-  `rgb(${rgb.map((part) => Math.round(255 * part)).join(" ")} / ${alpha})`;
-
-/// Colour of a body by its number.
-export type Paint = (body: number) => Rgb;
-
-/// The largest of 1, 2, 5 times a power of ten that is at most `limit`.
-export function niceLength(limit: number): number {
-  const power = 10 ** Math.floor(Math.log10(limit));
-  const share = limit / power;
-  return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
-}
-
-/// The bodies of one shape.
-class Instances {
-  mesh: InstancedMesh;
-  readonly bodies: number[] = [];
-  private sleeping: InstancedBufferAttribute;
-
-  constructor(
-    private readonly geometry: BufferGeometry,
-    private readonly material: Material,
-    private readonly shadows: boolean,
-    room: number,
-  ) {
-    [this.mesh, this.sleeping] = this.make(room);
-  }
-
-  private make(room: number): [InstancedMesh, InstancedBufferAttribute] {
-    const geometry = this.geometry.clone();
-    const sleeping = new InstancedBufferAttribute(new Float32Array(room), 1);
-    sleeping.setUsage(DynamicDrawUsage);
-    geometry.setAttribute("sleeping", sleeping);
-    const mesh = new InstancedMesh(geometry, this.material, room);
-    mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-    mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * room), 3);
-    mesh.instanceColor.setUsage(DynamicDrawUsage);
-    mesh.count = 0;
-    mesh.frustumCulled = false;
-    mesh.castShadow = mesh.receiveShadow = this.shadows;
-    return [mesh, sleeping];
-  }
-
-  /// Room for one body more; returns its place. The mesh may be another one afterwards.
-  add(body: number): number {
-    const room = this.sleeping.count;
-    if (this.bodies.length === room) {
-      const old = this.mesh;
-      [this.mesh, this.sleeping] = this.make(2 * room);
-      this.mesh.instanceMatrix.array.set(old.instanceMatrix.array);
-      this.mesh.instanceColor!.array.set(old.instanceColor!.array);
-      old.parent?.add(this.mesh);
-      old.removeFromParent();
-      old.dispose();
-      old.geometry.dispose();
-    }
-    this.bodies.push(body);
-    this.mesh.count = this.bodies.length;
-    return this.bodies.length - 1;
-  }
-
-  set(place: number, matrix: Matrix4, tint: Color, asleep: boolean): void {
-    this.mesh.setMatrixAt(place, matrix);
-    this.mesh.setColorAt(place, tint);
-    this.sleeping.setX(place, asleep ? 1 : 0);
-  }
-
-  upload(): void {
-    this.mesh.instanceMatrix.needsUpdate = true;
-    this.mesh.instanceColor!.needsUpdate = true;
-    this.sleeping.needsUpdate = true;
-    this.mesh.boundingSphere = null;
-  }
-}
-
-/// Draws outlines one and a half pixels wide, in one colour where `sleeping` is 0, in another where it is 1.
-function outlined(material: Material, awake: Rgb, asleep: Rgb): Material {
-  material.onBeforeCompile = (shader) => {
-    shader.uniforms.awakeOutline = { value: colour(awake) };
-    shader.uniforms.asleepOutline = { value: colour(asleep) };
-    shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", "#include <common>\nattribute float edge; attribute float sleeping; varying float vEdge; varying float vSleeping;")
-      .replace("#include <begin_vertex>", "#include <begin_vertex>\nvEdge = edge; vSleeping = sleeping;");
-    shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", "#include <common>\nuniform vec3 awakeOutline; uniform vec3 asleepOutline; varying float vEdge; varying float vSleeping;")
-      .replace(
-        "#include <color_fragment>",
-        `#include <color_fragment>
-        float pixel = fwidth(vEdge);
-        float line = smoothstep(1.0 - 1.6 * pixel, 1.0 - 0.6 * pixel, vEdge) * clamp(1.4 - 4.0 * pixel, 0.0, 1.0);
-        diffuseColor.rgb = mix(diffuseColor.rgb, vSleeping > 0.5 ? asleepOutline : awakeOutline, line);`,
-      );
-  };
-  return material;
-}
 
 export class Stage {
   private readonly scene = new Scene();
@@ -148,13 +38,12 @@ export class Stage {
   private readonly labels: CanvasRenderingContext2D;
   private readonly shapes: Instances[] = [];
   private readonly place: number[] = [];
-  private readonly obstacles: Instances[] = [];
-  private readonly layers = new Group();
+  private surroundings: Surroundings;
+  private contactMarks: ContactMarks;
+  private readonly layers: LayerView;
   private readonly flat: boolean;
-  private readonly gridLength: number;
   private head: Head;
   private timeline: Timeline | null = null;
-  private layersDrawn: Pile[] | null = null;
   private waiting = false;
   /// Whether the layers of piles are drawn.
   showLayers = true;
@@ -164,7 +53,6 @@ export class Stage {
   /// Whether the camera moves back as the pile grows, until the user moves it.
   follows = false;
   private box: [Vector3, Vector3];
-  private sun: DirectionalLight | null = null;
   /// Times at which frames were drawn [ms], the last few.
   readonly drawn: number[] = [];
 
@@ -180,13 +68,19 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.scene.background = colour(head.colours.paper);
     this.labels = overlay.getContext("2d")!;
-    this.gridLength = niceLength(Math.max(...this.boxSizes()) / 5);
     this.camera = this.flat ? new OrthographicCamera() : new PerspectiveCamera(26);
     this.controls = new OrbitControls(this.camera, canvas);
     this.prepareControls();
-    this.addSurroundings();
-    this.scene.add(this.layers);
-    this.layers.renderOrder = 10;
+    if (!this.flat) {
+      this.renderer.shadowMap.enabled = true;
+      this.renderer.shadowMap.type = PCFShadowMap;
+      this.renderer.shadowMap.autoUpdate = false;
+    }
+    this.surroundings = new Surroundings(head);
+    this.scene.add(this.surroundings.group);
+    this.contactMarks = new ContactMarks(head);
+    this.layers = new LayerView(head);
+    this.scene.add(this.layers.group);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
     this.fit();
@@ -239,7 +133,7 @@ export class Stage {
 
   /// Shows the whole box, from where the pictures do unless `turn` is false.
   fit(turn = true): void {
-    this.placeSun();
+    this.surroundings.placeSun(...this.box);
     const [low, high] = this.box;
     const middle = low.clone().add(high).multiplyScalar(0.5);
     if (this.camera instanceof PerspectiveCamera) {
@@ -275,84 +169,6 @@ export class Stage {
     return distance;
   }
 
-  private addSurroundings(): void {
-    const { colours, obstacles, ground } = this.head;
-    const size = Math.hypot(...this.boxSizes());
-    const material = outlined(
-      this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial({ transparent: true, opacity: 0.45, depthWrite: false, side: DoubleSide }),
-      colours.obstacle_outline,
-      colours.obstacle_outline,
-    );
-    for (const obstacle of obstacles) {
-      const instance = new Instances(geometryOf(obstacle.pieces), material, false, 1);
-      instance.set(instance.add(0), this.matrixOf(obstacle.pose), colour(colours.obstacle), false);
-      this.obstacles.push(instance);
-      this.scene.add(instance.mesh);
-    }
-    if (!this.flat) this.addLights();
-    if (ground.present) this.flat ? this.addGroundLine(size) : this.addGroundPlane(size);
-  }
-
-  private addLights(): void {
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
-    this.renderer.shadowMap.autoUpdate = false;
-    const sun = new DirectionalLight(0xffffff, 2.1);
-    sun.castShadow = true;
-    sun.shadow.mapSize.set(2048, 2048);
-    sun.shadow.radius = 4;
-    this.sun = sun;
-    this.scene.add(sun, sun.target, new AmbientLight(0xffffff, 1.7));
-  }
-
-  /// Light from the left of the eye at the start, with shadows of all that is in the box.
-  private placeSun(): void {
-    const { sun } = this;
-    if (!sun) return;
-    const size = this.box[0].distanceTo(this.box[1]);
-    const middle = this.box[0].clone().add(this.box[1]).multiplyScalar(0.5);
-    const azimuth = this.head.camera.azimuth - 0.9;
-    sun.position.copy(middle).add(new Vector3(Math.cos(azimuth), Math.sin(azimuth), 1.5).multiplyScalar(size));
-    sun.target.position.copy(middle);
-    sun.shadow.normalBias = 0.002 * size;
-    const eye = sun.shadow.camera;
-    [eye.left, eye.right, eye.bottom, eye.top, eye.near, eye.far] = [-size, size, -size, size, 0.1 * size, 5 * size];
-    eye.updateProjectionMatrix();
-  }
-
-  private addGroundLine(size: number): void {
-    const { colours, ground } = this.head;
-    const half = 100 * size;
-    const plane = new Mesh(new PlaneGeometry(2 * half, half), new MeshBasicMaterial({ color: colour(colours.ground), transparent: true, opacity: 0.14 }));
-    plane.position.set(0, ground.height - half / 2, -1);
-    const line = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array([-half, ground.height, 1, half, ground.height, 1]), 3));
-    this.scene.add(plane, new LineSegments(line, new LineBasicMaterial({ color: colour(colours.ground) })));
-  }
-
-  private addGroundPlane(size: number): void {
-    const { colours, ground, box } = this.head;
-    const shadow = new Mesh(new PlaneGeometry(20 * size, 20 * size), new ShadowMaterial({ opacity: 0.3 }));
-    shadow.position.set((box[0][0] + box[1][0]) / 2, (box[0][1] + box[1][1]) / 2, ground.height);
-    shadow.receiveShadow = true;
-    const points: number[] = [];
-    const reach = Math.ceil((3 * size) / this.gridLength);
-    const low = [0, 1].map((axis) => Math.round((box[0][axis] + box[1][axis]) / 2 / this.gridLength) - reach);
-    for (let i = 0; i <= 2 * reach; ++i) {
-      const [x, y] = low.map((first) => (first + i) * this.gridLength);
-      const [x0, y0, x1, y1] = [low[0], low[1], low[0] + 2 * reach, low[1] + 2 * reach].map((value) => value * this.gridLength);
-      points.push(x, y0, ground.height, x, y1, ground.height, x0, y, ground.height, x1, y, ground.height);
-    }
-    const lines = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
-    this.scene.add(shadow, new LineSegments(lines, new LineBasicMaterial({ color: colour(colours.ground), transparent: true, opacity: 0.16 })));
-  }
-
-  /// Of a pose in m and rad: x, z, angle or x, y, z, quaternion w, x, y, z.
-  private matrixOf(pose: ArrayLike<number>): Matrix4 {
-    const one = new Vector3(1, 1, 1);
-    if (this.flat) return new Matrix4().makeRotationZ(pose[2]).setPosition(pose[0], pose[1], 0);
-    return new Matrix4().compose(new Vector3(pose[0], pose[1], pose[2]), new Quaternion(pose[4], pose[5], pose[6], pose[3]).normalize(), one);
-  }
-
   /// The run whose frames are shown. Its head must be of the same scene's dimension.
   setRun(timeline: Timeline): void {
     for (const shape of this.shapes) shape.mesh.removeFromParent();
@@ -360,6 +176,12 @@ export class Stage {
     this.timeline = timeline;
     this.head = timeline.head;
     this.box = this.boxOf(this.head);
+    this.surroundings.group.removeFromParent();
+    this.surroundings = new Surroundings(this.head);
+    this.surroundings.placeSun(...this.box);
+    this.contactMarks.group.removeFromParent();
+    this.contactMarks = new ContactMarks(this.head);
+    this.scene.add(this.surroundings.group, this.contactMarks.group);
     const { awake_outline, asleep_outline } = this.head.colours;
     const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
     for (const shape of this.head.shapes) {
@@ -385,46 +207,29 @@ export class Stage {
     const bodies = changed === "all" ? Array.from(this.place.keys()) : changed;
     for (const body of bodies) {
       const gone = body >= state.bodies || state.removed[body] !== 0;
-      const matrix = gone ? nothing : this.matrixOf(this.poseOf(body));
+      const matrix = gone ? nothing : matrixOf(this.poseOf(body));
       const tint = body === this.selected ? highlight : gone ? this.head.colours.asleep : paint(body);
       const shape = this.shapeOf(body);
       this.shapes[shape].set(this.place[body], matrix, colour(tint), !gone && state.asleep[body] !== 0);
     }
     for (const shape of this.shapes) shape.upload();
     const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => this.head.events[number]?.removes ?? []));
-    this.obstacles.forEach((obstacle, number) => (obstacle.mesh.visible = !removed.has(number)));
+    this.surroundings.hideObstacles(removed);
     if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
+  }
+
+  /// Draws these; none: takes the marks away. The force [N] of a bar of so many metres.
+  showContacts(contacts: Contact[]): { force: number; length: number } {
+    this.contactMarks.show(contacts);
+    this.redraw();
+    return this.contactMarks;
   }
 
   /// A body keeps its shape where the frame shown is older than the body.
   private shapeOf(body: number): number {
     if (body < this.timeline!.state.bodies) return this.timeline!.state.shape[body];
     return this.shapes.findIndex((shape) => shape.bodies[this.place[body]] === body);
-  }
-
-  private updateLayers(piles: Pile[]): void {
-    if (this.layersDrawn === piles) return;
-    this.layersDrawn = piles;
-    for (const child of this.layers.children as Mesh[]) {
-      child.geometry.dispose();
-      (child.material as Material).dispose();
-    }
-    this.layers.clear();
-    for (const pile of this.showLayers ? piles : []) {
-      for (const { layer, bottom, top, value } of coarse(pile)) {
-        const { radius } = pile.layers[layer];
-        const opacity = 0.1 + 0.22 * Math.min(1, Math.max(0, value));
-        const material = new MeshBasicMaterial({ color: colour(this.head.colours.layer), transparent: true, opacity: (this.flat ? 1 : 0.5) * opacity, depthWrite: false, side: DoubleSide });
-        const mesh = this.flat
-          ? new Mesh(new PlaneGeometry(2 * radius, 0.97 * (top - bottom)), material)
-          : new Mesh(new CylinderGeometry(radius, radius, 0.97 * (top - bottom), 48, 1, true).rotateX(0.5 * Math.PI), material);
-        const height = (bottom + top) / 2;
-        if (this.flat) mesh.position.set(pile.centre[0], pile.centre[1] + height, 0.5);
-        else mesh.position.set(pile.centre[0], pile.centre[1], pile.centre[2] + height);
-        this.layers.add(mesh);
-      }
-    }
   }
 
   /// Draws when the browser has time for the next picture.
@@ -439,7 +244,7 @@ export class Stage {
 
   private draw(): void {
     const start = performance.now();
-    if (this.timeline) this.updateLayers(this.showLayers ? this.timeline.state.piles : []);
+    if (this.timeline) this.layers.update(this.showLayers ? this.timeline.state.piles : []);
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene, this.camera);
     this.drawLabels();
@@ -479,26 +284,7 @@ export class Stage {
     paper.clearRect(0, 0, overlay.width, overlay.height);
     this.drawScale();
     this.drawArrow();
-    if (!this.showLayers || !this.timeline) return;
-    paper.font = "12px system-ui, sans-serif";
-    paper.textBaseline = "middle";
-    const right = new Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion);
-    let above = Infinity;
-    for (const pile of this.timeline.state.piles) {
-      for (const { layer, bottom, top, value, count } of coarse(pile)) {
-        if (count === 0) continue;
-        const middle = new Vector3(...pile.centre, 0).setComponent(this.flat ? 1 : 2, pile.centre[this.flat ? 1 : 2] + (bottom + top) / 2);
-        if (this.flat) middle.z = 0;
-        const at = this.onScreen(middle.addScaledVector(right, pile.layers[layer].radius));
-        if (Math.abs(above - at.y) < 13) continue;
-        above = at.y;
-        paper.lineWidth = 3;
-        paper.strokeStyle = css(this.head.colours.paper, 0.85);
-        paper.fillStyle = css(this.head.colours.layer);
-        paper.strokeText(value.toFixed(2), at.x + 5, at.y);
-        paper.fillText(value.toFixed(2), at.x + 5, at.y);
-      }
-    }
+    if (this.showLayers && this.timeline) this.layers.drawLabels(paper, this.timeline.state.piles, this.camera, (point) => this.onScreen(point));
   }
 
   private drawArrow(): void {
@@ -523,7 +309,7 @@ export class Stage {
     paper.font = "12px system-ui, sans-serif";
     paper.textBaseline = "middle";
     if (!this.flat) {
-      paper.fillText(`squares of ${this.gridLength} m`, 14, bottom);
+      paper.fillText(`squares of ${this.surroundings.gridLength} m`, 14, bottom);
       return;
     }
     const pixelsPerMetre = this.onScreen(new Vector3(1, 0, 0)).x - this.onScreen(new Vector3(0, 0, 0)).x;
@@ -565,21 +351,4 @@ export class Stage {
     const { x, y } = this.onScreen(new Vector3(pose[0], pose[1], this.flat ? 0 : pose[2]));
     return { x, y };
   }
-}
-
-/// At most mostLayers slices of a pile, neighbours put together.
-function coarse(pile: Pile): { layer: number; bottom: number; top: number; value: number; count: number }[] {
-  const together = Math.max(1, Math.ceil(pile.layers.length / mostLayers));
-  const slices = [];
-  for (let layer = 0; layer < pile.layers.length; layer += together) {
-    const end = Math.min(pile.layers.length, layer + together);
-    let [count, capacity] = [0, 0];
-    for (let i = layer; i < end; ++i) {
-      count += pile.counts[2 * i];
-      capacity += pile.layers[i].capacity;
-    }
-    const value = together === 1 ? density(pile, layer) : capacity > 0 ? count / capacity : 0;
-    slices.push({ layer, bottom: pile.layers[layer].bottom, top: pile.layers[end - 1].top, value, count });
-  }
-  return slices;
 }

@@ -63,7 +63,7 @@ export class Timeline {
     const reader = new Reader(bytes);
     const { events, warnings, sceneEvents } = this.last.apply(reader);
     this.happened.push(...sceneEvents);
-    this.blocks.push(bytes.subarray(0, reader.at));
+    this.blocks.push(bytes.slice(0, reader.at)); // a copy: more may follow it in `bytes`, which is not kept
     if (this.frames % keepEvery === 0) this.kept.push(this.last.copy());
     for (let body = this.born.length; body < this.last.bodies; ++body) {
       this.born.push(this.last.step);

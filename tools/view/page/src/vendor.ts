@@ -32,6 +32,6 @@ export {
   Vector3,
   WebGLRenderer,
 } from "three";
-export type { Material } from "three";
+export type { Camera, Material } from "three";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";
 export { default as uPlot } from "uplot";

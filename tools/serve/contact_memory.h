@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/simulation/observer.h"
+#include "tools/view/contact_stream.h"
+
+namespace talus {
+
+/// Contacts to show, while they are wanted: of awake bodies those of the last step; between sleeping bodies, of which
+/// engines compute none, those of the last step before both slept.
+template <int Dim>
+class ContactMemory final : public Observer<Dim> {
+ public:
+  /// `dt`: length of a step [s].
+  explicit ContactMemory(double dt) : dt_(dt) {}
+
+  /// While false, steps do not record contacts for this, and nothing is kept. `world`: after its last step, whose
+  /// contacts count if it recorded any.
+  void want(bool wanted, const World<Dim>& world);
+
+  bool needs_contacts() const override { return wanted_; }
+  void on_frame(const Frame<Dim>& frame) override;
+
+  std::vector<ShownContact<Dim>> contacts(const World<Dim>& world) const;
+
+ private:
+  double dt_;
+  bool wanted_ = false;
+  std::vector<Contact<Dim>> last_;   // of the last step
+  std::vector<Contact<Dim>> kept_;   // of steps before, between bodies that sleep since
+  std::vector<std::uint8_t> moved_;  // scratch: by body, whether it fell asleep or woke in the step
+};
+
+}  // namespace talus

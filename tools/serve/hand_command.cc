@@ -1,0 +1,64 @@
+#include "tools/serve/hand_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::int64_t number_of(const Json& command, const char* key) {
+  const Json value = command.value(key, Json());
+  if (!value.is_number_integer()) throw std::invalid_argument(fmt::format("{}: must be a whole number", key));
+  return value.get<std::int64_t>();
+}
+
+std::vector<double> vector_of(const Json& command, const char* key) {
+  const Json value = command.value(key, Json());
+  const auto is_number = [](const Json& part) { return part.is_number(); };
+  if (!value.is_array() || !std::ranges::all_of(value, is_number))
+    throw std::invalid_argument(fmt::format("{}: must be a list of numbers", key));
+  return value.get<std::vector<double>>();
+}
+
+HandCommand kick(const Json& command) {
+  return [body = number_of(command, "body"), velocity = vector_of(command, "velocity")](ShownRun& run) {
+    return run.kick(body, velocity);
+  };
+}
+
+HandCommand remove(const Json& command) {
+  return [body = number_of(command, "body")](ShownRun& run) { return run.remove(body); };
+}
+
+struct Kind {
+  const char* name;
+  HandCommand (*read)(const Json&);
+};
+
+constexpr auto kinds = std::to_array<Kind>({{"kick", kick}, {"remove", remove}});
+
+}  // namespace
+
+std::vector<std::string> hand_command_names() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
+
+bool is_hand_command(const std::string& name) {
+  return std::ranges::any_of(kinds, [&](const Kind& kind) { return kind.name == name; });
+}
+
+HandCommand read_hand_command(const Json& command) {
+  const auto kind = std::ranges::find(kinds, command.at("do").get<std::string>(), &Kind::name);
+  return kind->read(command);
+}
+
+}  // namespace talus

@@ -1,0 +1,88 @@
+// Many bodies of one shape, drawn at once with their outlines.
+
+import { colour } from "./colours";
+import type { Rgb } from "./head";
+import { BufferGeometry, Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, type Material, type Matrix4 } from "./vendor";
+
+/// The bodies of one shape.
+export class Instances {
+  mesh: InstancedMesh;
+  readonly bodies: number[] = [];
+  private sleeping: InstancedBufferAttribute;
+
+  constructor(
+    private readonly geometry: BufferGeometry,
+    private readonly material: Material,
+    private readonly shadows: boolean,
+    room: number,
+  ) {
+    [this.mesh, this.sleeping] = this.make(room);
+  }
+
+  private make(room: number): [InstancedMesh, InstancedBufferAttribute] {
+    const geometry = this.geometry.clone();
+    const sleeping = new InstancedBufferAttribute(new Float32Array(room), 1);
+    sleeping.setUsage(DynamicDrawUsage);
+    geometry.setAttribute("sleeping", sleeping);
+    const mesh = new InstancedMesh(geometry, this.material, room);
+    mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+    mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * room), 3);
+    mesh.instanceColor.setUsage(DynamicDrawUsage);
+    mesh.count = 0;
+    mesh.frustumCulled = false;
+    mesh.castShadow = mesh.receiveShadow = this.shadows;
+    return [mesh, sleeping];
+  }
+
+  /// Room for one body more; returns its place. The mesh may be another one afterwards.
+  add(body: number): number {
+    const room = this.sleeping.count;
+    if (this.bodies.length === room) {
+      const old = this.mesh;
+      [this.mesh, this.sleeping] = this.make(2 * room);
+      this.mesh.instanceMatrix.array.set(old.instanceMatrix.array);
+      this.mesh.instanceColor!.array.set(old.instanceColor!.array);
+      old.parent?.add(this.mesh);
+      old.removeFromParent();
+      old.dispose();
+      old.geometry.dispose();
+    }
+    this.bodies.push(body);
+    this.mesh.count = this.bodies.length;
+    return this.bodies.length - 1;
+  }
+
+  set(place: number, matrix: Matrix4, tint: Color, asleep: boolean): void {
+    this.mesh.setMatrixAt(place, matrix);
+    this.mesh.setColorAt(place, tint);
+    this.sleeping.setX(place, asleep ? 1 : 0);
+  }
+
+  upload(): void {
+    this.mesh.instanceMatrix.needsUpdate = true;
+    this.mesh.instanceColor!.needsUpdate = true;
+    this.sleeping.needsUpdate = true;
+    this.mesh.boundingSphere = null;
+  }
+}
+
+/// Draws outlines one and a half pixels wide, in one colour where `sleeping` is 0, in another where it is 1.
+export function outlined(material: Material, awake: Rgb, asleep: Rgb): Material {
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.awakeOutline = { value: colour(awake) };
+    shader.uniforms.asleepOutline = { value: colour(asleep) };
+    shader.vertexShader = shader.vertexShader
+      .replace("#include <common>", "#include <common>\nattribute float edge; attribute float sleeping; varying float vEdge; varying float vSleeping;")
+      .replace("#include <begin_vertex>", "#include <begin_vertex>\nvEdge = edge; vSleeping = sleeping;");
+    shader.fragmentShader = shader.fragmentShader
+      .replace("#include <common>", "#include <common>\nuniform vec3 awakeOutline; uniform vec3 asleepOutline; varying float vEdge; varying float vSleeping;")
+      .replace(
+        "#include <color_fragment>",
+        `#include <color_fragment>
+        float pixel = fwidth(vEdge);
+        float line = smoothstep(1.0 - 1.6 * pixel, 1.0 - 0.6 * pixel, vEdge) * clamp(1.4 - 4.0 * pixel, 0.0, 1.0);
+        diffuseColor.rgb = mix(diffuseColor.rgb, vSleeping > 0.5 ? asleepOutline : awakeOutline, line);`,
+      );
+  };
+  return material;
+}

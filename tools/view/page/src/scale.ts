@@ -1,0 +1,15 @@
+// Round numbers and units for people.
+
+/// The largest of 1, 2, 5 times a power of ten that is at most `limit`.
+export function niceLength(limit: number): number {
+  const power = 10 ** Math.floor(Math.log10(limit));
+  const share = limit / power;
+  return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+}
+
+/// A quantity with three digits and a prefix of its unit.
+export function withUnit(value: number, unit: string): string {
+  const prefixes = ["\u00b5", "m", "", "k", "M", "G"];
+  const power = Math.min(3, Math.max(-2, Math.floor(Math.log10(Math.abs(value) || 1) / 3)));
+  return `${Number((value / 1000 ** power).toPrecision(3))} ${prefixes[power + 2]}${unit}`;
+}

@@ -1,0 +1,28 @@
+#include "tools/view/stream_numbers.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace talus {
+
+void write_unsigned(std::string& bytes, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) bytes += static_cast<char>((value & 0x7F) | 0x80);
+  bytes += static_cast<char>(value);
+}
+
+void write_signed(std::string& bytes, std::int64_t value) {
+  write_unsigned(bytes, (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63));
+}
+
+void write_float(std::string& bytes, float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((bits >> shift) & 0xFF);
+}
+
+std::int32_t in_quanta(double value, double quantum) {
+  constexpr double limit = 1 << 30;
+  return static_cast<std::int32_t>(std::lround(std::clamp(value / quantum, -limit, limit)));
+}
+
+}  // namespace talus
