@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/scene/read_scene.h"
 #include "tools/bench/truth_run.h"
 #include "tools/run/backends.h"
@@ -88,6 +90,51 @@ TEST(TruthRun, RunsToTenSecondsAfterThePour) {
   const auto cell = truth_cell_named("2d-f0.6-L-at_once-flat-g9.81", {20, 10});
   const auto run = truth_run(std::get<Scene<2>>(scene_of(*cell)), backends(2).front(), cell->geometry, {false, 0});
   EXPECT_EQ(run.values["steps"], 601.0) << "one step for the pour";
+}
+
+/// The gate lies on the ground, so that a body would be pushed out of it if it were back in the wake test.
+TEST(TruthRun, AnObstacleThatWasRemovedIsNotThereOnceAllAreWoken) {
+  constexpr const char* text = R"(
+title = "A box on a gate that vanishes"
+dimension = 2
+shape.box = {kind = "box", size = [1, 1]}
+run.frames = 150
+[[body]]
+position = [0, 1.0]
+[[obstacle]]
+name = "gate"
+kind = "box"
+size = [4, 0.5]
+position = [0, 0.25]
+[[event]]
+time = 2
+do = "remove"
+obstacle = "gate"
+)";
+  const auto scene = std::get<Scene<2>>(parse_scene(text, "gate.toml"));
+  const TruthRun<2> run = truth_run(scene, backends(2).front(), {}, {true, 8, true});
+  EXPECT_NEAR(run.values["centre"], 0.5, 0.02);
+  EXPECT_LT(run.values["drift_mean_D"], 0.005);
+  EXPECT_TRUE(std::isnan(run.values["moving_sampled"])) << "forks have the obstacles of the start";
+}
+
+TEST(TruthRun, DriftIsNotMeasuredWhileAnObstacleMoves) {
+  constexpr const char* text = R"(
+title = "A box on a plate that turns"
+dimension = 2
+shape.box = {kind = "box", size = [1, 1]}
+run.frames = 30
+[[body]]
+position = [0, 1.0]
+[[obstacle]]
+kind = "box"
+size = [4, 0.5]
+position = [0, 0.25]
+motion = {kind = "turn", speed_deg = 1}
+)";
+  const auto scene = std::get<Scene<2>>(parse_scene(text, "plate.toml"));
+  const TruthRun<2> run = truth_run(scene, backends(2).front(), {}, {true, 0, true});
+  EXPECT_TRUE(std::isnan(run.values["drift_mean_D"]));
 }
 
 }  // namespace

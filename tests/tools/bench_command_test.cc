@@ -234,6 +234,36 @@ TEST(BenchTruth, MeasuresACellAndGoesOnWhereItStopped) {
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
 }
 
+TEST(BenchTruth, MeasuresASceneFileForAsLongAsItsFramesTake) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "two_boxes.toml") << R"(
+title = "Two boxes"
+dimension = 2
+shape.box = {kind = "box", size = [1, 1]}
+run.frames = 90
+
+[[body]]
+position = [0, 0.5]
+repeat = [1, 2]
+step = [0, 1]
+)";
+  const Outcome outcome = talus_command("bench truth --quick --seeds 2 --scenes " + folder.path().string() + " --out " +
+                                        (folder / "truth"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(contents(folder.path() / "truth" / "results.json"));
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0]["cell"], "two_boxes");
+  EXPECT_EQ(json[0]["seeds"], 2);
+  EXPECT_NE(contents(folder.path() / "truth" / "rows.jsonl").find("\"steps\":180"), std::string::npos);
+}
+
+TEST(BenchTruth, WhatIsNoSceneIsRefused) {
+  const TemporaryFolder folder;
+  const Outcome outcome = talus_command("bench truth --scenes " + folder.path().string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("no .toml file in it"), std::string::npos) << outcome.err;
+}
+
 TEST(BenchTruth, TheNumberOfJobsDoesNotChangeTheResults) {
   const TemporaryFolder folder;
   std::vector<Json> results;

@@ -11,6 +11,8 @@ namespace talus {
 struct TruthOptions {
   /// Names or parts of names.
   std::vector<std::string> cells;
+  /// Scene files, folders of them and names of scenes; empty: the cells.
+  std::vector<std::string> scenes;
   std::vector<std::string> backends;
   /// path=value, for adaptive.
   std::vector<std::string> settings;
@@ -25,7 +27,7 @@ struct TruthOptions {
 };
 
 /// Measures the rows that are missing, writes report.html, results.md, results.csv and results.json, and prints the
-/// table, worst cells first. Throws std::invalid_argument where --cells fits no cell.
+/// table, worst cells first. Throws std::invalid_argument where --cells fits no cell or --scenes no scene.
 void bench_truth(const TruthOptions& options);
 
 }  // namespace talus

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "tools/bench/bench_case.h"
 #include "tools/bench/covering_design.h"
 #include "tools/bench/paper_figures.h"
+#include "tools/run/find_scene.h"
 
 namespace talus {
 namespace {
@@ -233,7 +235,7 @@ TruthCell truth_cell(const std::vector<int>& values, const TruthBodies& bodies) 
                       static_cast<CellGround>(values[4]),
                       gravities.at(value(5)),
                       rate > 0.0 && rate < 1.0 ? bodies.slow : bodies.most};
-  return {name, dimension, plan.friction, geometry_of(plan), scene_text(plan, name)};
+  return {name, dimension, plan.friction, geometry_of(plan), scene_text(plan, name), {}};
 }
 
 std::optional<TruthCell> truth_cell_named(std::string_view name, const TruthBodies& bodies) {
@@ -262,10 +264,33 @@ std::vector<TruthCell> truth_scenes() {
   std::vector<TruthCell> cells;
   for (const std::string& name : names) {
     for (const int dimension : {2, 3}) {
-      TruthCell cell{fmt::format("{}_{}d", name, dimension), dimension, 0.6, {}, ""};
+      TruthCell cell{fmt::format("{}_{}d", name, dimension), dimension, 0.6, {}, "", {}};
       if (name == "rings_in_a_box") cell.geometry.inside_half_width = dimension == 2 ? 10.0 : 3.0;
       cells.push_back(cell);
     }
+  }
+  return cells;
+}
+
+std::vector<TruthCell> truth_scene_files(const std::vector<std::string>& given) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& each : given) {
+    if (!std::filesystem::is_directory(each)) {
+      files.push_back(find_scene(each));
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (const auto& entry : std::filesystem::directory_iterator(each))
+      if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    if (files.size() == before) throw std::invalid_argument(fmt::format("--scenes {}: no .toml file in it", each));
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  }
+  std::vector<TruthCell> cells;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.stem().string();
+    if (std::ranges::find(cells, name, &TruthCell::name) != cells.end())
+      throw std::invalid_argument(fmt::format("--scenes {}: another scene is named {} too", file.string(), name));
+    cells.push_back({name, dimension_of(file.string()), 0.6, {}, "", file});
   }
   return cells;
 }

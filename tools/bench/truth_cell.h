@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -35,8 +36,10 @@ struct TruthCell {
   int dimension = 2;
   double friction = 0.6;
   TruthGeometry geometry;
-  /// The scene as TOML; empty: the scene of this name that comes with talus.
+  /// The scene as TOML; empty: that of `file`, or where this is empty too the scene of this name that comes with talus.
   std::string text;
+  /// A scene of the user's, which runs as long as its `[run]` frames take.
+  std::filesystem::path file;
 };
 
 /// The factors with the names of their values, as in a cell's name.
@@ -60,6 +63,10 @@ std::optional<TruthCell> truth_cell_named(std::string_view name, const TruthBodi
 
 /// The first `count` cells of the covering design of this seed (covering_design.h).
 std::vector<TruthCell> truth_design(std::uint64_t seed, int count, const TruthBodies& bodies);
+
+/// The scenes that `--scenes` names: files, names of scenes that come with talus, and folders, whose `.toml` files are
+/// taken in order of their names. Throws std::invalid_argument where there is none, or two have the same name.
+std::vector<TruthCell> truth_scene_files(const std::vector<std::string>& given);
 
 /// The scenes of the paper's Table 1 and the sizes of its video, in both dimensions.
 std::vector<TruthCell> truth_scenes();

@@ -21,8 +21,14 @@ constexpr const char* truth_footer =
 void add_truth_options(CLI::App& command, TruthOptions& options) {
   command.add_flag("-q,--quick", options.quick,
                    "Ten minutes on two cores: 60 bodies a cell, 4 seeds, one engine, not the scenes of the paper");
-  command.add_option("--cells", options.cells, "Cells whose name is or contains one of these; separated by commas")
-      ->delimiter(',');
+  CLI::Option* cells =
+      command.add_option("--cells", options.cells, "Cells whose name is or contains one of these; separated by commas")
+          ->delimiter(',');
+  command
+      .add_option("--scenes", options.scenes,
+                  "Scene files, folders of them or names, measured in place of cells; each runs as long as its frames")
+      ->type_name("FILE|FOLDER|NAME")
+      ->excludes(cells);
   command
       .add_option("--design", options.design,
                   "Seed of the covering design (1: 60 cells and the paper's scenes; others: 20)")

@@ -25,9 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// "+4.1 (2.3)": per cent, and standard errors in brackets.
+/// "+4.1 (2.3)": per cent, and standard errors in brackets. Twins of a scene where nothing is random hardly scatter.
 std::string shown_bias(const Bias& bias) {
   if (std::isnan(bias.percent)) return "-";
+  if (std::abs(bias.errors) > 100.0) return fmt::format("{:+.1f} (> 100)", bias.percent);
   return fmt::format("{:+.1f} ({:.1f})", bias.percent, std::abs(bias.errors));
 }
 

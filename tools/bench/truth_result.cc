@@ -78,7 +78,7 @@ Bias bias_of(std::span<const double> runs, std::span<const double> baseline) {
   }
   Bias bias;
   bias.difference = mean(own) - mean(others);
-  bias.percent = bias.difference == 0.0 ? 0.0 : 100.0 * bias.difference / mean(others);
+  bias.percent = bias.difference == 0.0 ? 0.0 : 100.0 * bias.difference / std::abs(mean(others));
   const double error = std::sqrt(variance_of_mean(own) + variance_of_mean(others));
   bias.errors = bias.difference == 0.0 ? 0.0 : bias.difference / error;
   return bias;

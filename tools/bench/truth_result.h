@@ -13,7 +13,7 @@ namespace talus {
 /// How far the mean of independent runs is from that of other independent runs.
 struct Bias {
   double difference = std::numeric_limits<double>::quiet_NaN();
-  /// Over the baseline's mean [%].
+  /// Over the baseline's mean, without its sign [%].
   double percent = std::numeric_limits<double>::quiet_NaN();
   /// Over its standard error, to which the scatter of both sides adds. Infinite where neither side scatters.
   double errors = std::numeric_limits<double>::quiet_NaN();

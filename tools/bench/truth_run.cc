@@ -10,6 +10,7 @@
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"
 #include "common/policy/adaptive/rest_criterion.h"
+#include "common/scene/happened.h"
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
@@ -87,15 +88,32 @@ void add_shape(const Scene<Dim>& scene, const BodyStates<Dim>& last, const Truth
   values["r95"] = quantile(distances, 0.95);
 }
 
+/// Whether obstacles or gravity change.
 template <int Dim>
-void add_last_state(const Scene<Dim>& scene, const std::string& backend, BodyStates<Dim> last, Values& values) {
+bool has_plan(const Scene<Dim>& scene) {
+  return !scene.movers.empty() || !scene.events.empty() || scene.gravity_motion.has_value();
+}
+
+/// Whether an obstacle or gravity is still to change by motion, not by events.
+template <int Dim>
+bool still_moves(const Scene<Dim>& scene, double time) {
+  const auto moves = [&](const Mover<Dim>& mover) { return mover.motion.moves_after(time); };
+  return std::ranges::any_of(scene.movers, moves) || (scene.gravity_motion && scene.gravity_motion->moves_after(time));
+}
+
+template <int Dim>
+void add_last_state(const Scene<Dim>& scene, const std::string& backend, const Simulation<Dim>& simulation,
+                    Values& values) {
   constexpr double reach = 0.05;  // [m], see touching_pairs()
-  const auto touches = touching_pairs<Dim>(scene.world, last, reach);
+  BodyStates<Dim> last = simulation.world().states();
+  const WorldDescription<Dim> world = world_at<Dim>(scene, simulation.done_events(), simulation.time());
+  const auto touches = touching_pairs<Dim>(world, last, reach);
   values["floating"] = static_cast<double>(floating_sleepers<Dim>(last, touches).size());
+  if (still_moves(scene, simulation.time())) return;
   for (std::size_t i = 0; i < last.shape.size(); ++i)
     if (last.velocity[i].norm() > fastest_of_pile) last.removed[i] = 1;
-  const WakeTest wake = wake_test<Dim>(world_maker<Dim>(backend), reference_settings(scene.world), last,
-                                       {.duration = 0.5 * calm_time(scene.world.gravity)});
+  const WakeTest wake = wake_test<Dim>(world_maker<Dim>(backend), reference_settings(world), last,
+                                       {.duration = 0.5 * calm_time(world.gravity)});
   if (wake.bodies > 0) values["drift_mean_D"] = wake.mean / typical_body(scene).extent;
 }
 
@@ -130,6 +148,13 @@ double length_of_pour(const Scene<Dim>& scene) {
   return length;
 }
 
+/// How long a run takes if nothing of its pour has to wait [s].
+template <int Dim>
+double length_of_run(const Scene<Dim>& scene, const TruthRunParams& params) {
+  if (params.to_end) return static_cast<double>(scene.steps()) * scene.world.dt;
+  return length_of_pour(scene) + calm_time(scene.world.gravity);
+}
+
 /// A simulation that counts its time, its awake bodies and what it needs for forks.
 template <int Dim>
 class TruthStepper {
@@ -137,8 +162,8 @@ class TruthStepper {
   TruthStepper(const Scene<Dim>& scene, const std::string& backend, const TruthRunParams& params)
       : scene_(scene),
         simulation_(scene, make_world<Dim>(backend, scene.world), make_policy(scene)),
-        between_((length_of_pour(scene) + calm_time(scene.world.gravity)) / std::max(1, params.moments)),
-        moments_(params.moments) {}
+        between_(length_of_run(scene, params) / std::max(1, params.moments)),
+        moments_(has_plan(scene) ? 0 : params.moments) {}
 
   const Simulation<Dim>& simulation() const { return simulation_; }
 
@@ -194,18 +219,19 @@ TruthRun<Dim> truth_run(const Scene<Dim>& scene, const std::string& backend, con
   TruthStepper<Dim> stepper(scene, backend, params);
   const Simulation<Dim>& simulation = stepper.simulation();
   TruthRun<Dim> run;
-  const double latest = 3.0 * length_of_pour(scene) + 60.0;
+  const double latest = params.to_end ? length_of_run(scene, params) : 3.0 * length_of_pour(scene) + 60.0;
   while (!simulation.emitter().finished() && simulation.time() < latest) stepper.step();
   run.values["poured_at"] = simulation.time();
   const auto poured = pile_of(scene, simulation.world().states(), geometry);
-  if (!poured.empty()) run.values["centre_poured"] = centre_of<Dim>(poured);
-  const auto steps = std::llround(calm_time(scene.world.gravity) / scene.world.dt);
+  if (!poured.empty() && !scene.sources.empty()) run.values["centre_poured"] = centre_of<Dim>(poured);
+  const double calm = params.to_end ? latest - simulation.time() : calm_time(scene.world.gravity);
+  const auto steps = std::llround(calm / scene.world.dt);
   for (std::int64_t step = 0; step < steps; ++step) stepper.step();
   stepper.add_work(backend, run.values);
   run.last = simulation.world().states();
   run.piles.assign(simulation.piles().piles().begin(), simulation.piles().piles().end());
   add_shape(scene, run.last, geometry, run.values);
-  if (params.last_state) add_last_state(scene, backend, run.last, run.values);
+  if (params.last_state) add_last_state(scene, backend, simulation, run.values);
   return run;
 }
 

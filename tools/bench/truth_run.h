@@ -16,9 +16,11 @@ struct TruthRunParams {
   bool last_state = true;
   /// Moments, evenly over the run, at which the awake bodies are compared with those that move; 0: none.
   int moments = 0;
+  /// The run lasts as long as the scene's frames; else to calm_time() after the pour's end.
+  bool to_end = false;
 };
 
-/// A run to the pour's end and `calm` seconds more.
+/// A run of a scene, measured.
 template <int Dim>
 struct TruthRun {
   Values values;
@@ -27,7 +29,8 @@ struct TruthRun {
 };
 
 /// Runs the scene without observers, so that its time is that of the simulation. A pour that has not ended after three
-/// times its length and a minute is cut off.
+/// times its length and a minute is cut off. What a plan makes meaningless is not measured: drift while obstacles still
+/// move, and the bodies that move in a scene with events, moving obstacles or changing gravity.
 template <int Dim>
 TruthRun<Dim> truth_run(const Scene<Dim>& scene, const std::string& backend, const TruthGeometry& geometry,
                         const TruthRunParams& params);
