@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "common/measure/support.h"
 #include "common/world/energy.h"
@@ -101,6 +102,7 @@ namespace {
 /// Calls `use` with the way of each body that is still there.
 template <int Dim, class Use>
 void for_each_shift(const BodyStates<Dim>& now, const BodyStates<Dim>& before, const Use& use) {
+  if (before.size() == 0) throw std::logic_error("the bodies are placed in the first step only");
   for (BodyIndex i = 0; i < before.size(); ++i)
     if (now.removed[i] == 0) use(Vec<Dim>(now.pose[i].position - before.pose[i].position));
 }
