@@ -99,7 +99,26 @@ TEST_F(SlopeControllerTest, DampingGrowsFromUpdateToUpdateWhileSlopeIsMissing) {
   const double first = damping(controller, 0);
   EXPECT_GT(first, 0.0);
   EXPECT_NEAR(damping(controller, 1), first, 1e-9);
-  EXPECT_NEAR(damping(controller, 30), 2.0 * first, 1e-9);
+  EXPECT_NEAR(damping(controller, 6), 2.0 * first, 1e-9);
+}
+
+// The body falls by 0.1 m between two measurements of a pile that is steep enough.
+TEST_F(SlopeControllerTest, APileThatSinksIsDampedBeforeItIsTooFlat) {
+  lay(2.0, 0.1);  // 58 degrees
+  const BodyIndex body = add_moving(Vec3(0.0, 0.0, 9.0));
+  SlopeController<3> controller(RuleParts{}.setup());
+  RuleOutput<3> before;
+  controller.update(in(0), before);
+  EXPECT_TRUE(before.velocities.empty());
+  world_.move(body, {.position = Vec3(0.0, 0.0, 5.0)});
+  EXPECT_GT(damping(controller, 6), 0.0);
+}
+
+// At rest it would be flat enough: the moving bodies at the foot are part of the pile.
+TEST_F(SlopeControllerTest, BodiesInContactThatStillMoveAreMeasuredToo) {
+  lay(1.0, 0.3);
+  for (int i = 0; i < 60; ++i) add_moving(Vec3(6.0 + 0.01 * i, 0.0, 0.5));
+  EXPECT_EQ(damped().size(), 60U);
 }
 
 TEST_F(SlopeControllerTest, TooFewBodiesLeaveTheIntegralAsItIs) {

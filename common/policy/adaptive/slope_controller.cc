@@ -9,9 +9,13 @@
 namespace talus {
 namespace {
 
-/// Bodies slower than after a free fall of this height [D] count as part of the slope. At 0.03 D the piles became 1 to
-/// 2 degrees too flat, with sleeping bodies alone 3 degrees too steep (docs/research/slope_control.md).
-constexpr double resting_fall = 0.0075;
+/// Time between two measurements of the slope [s]. A grid of bodies that lands as one sinks by several degrees in the
+/// half second of other slow updates.
+constexpr double measuring_interval = 0.1;
+
+/// How far ahead a pile's sinking is foreseen [sqrt(D/g)]. Grids that land as one become too flat with less, too steep
+/// at 35 degrees with twice as much (docs/research/slope_control.md).
+constexpr double foreseen = 2.7;
 
 /// Whether a body at `position` may be part of the pile: within its reach, not below its base (fallen off a table), and
 /// not higher than twice its height (in a hopper above it).
@@ -27,16 +31,17 @@ bool within_pile(const Pile<Dim>& pile, const Vec<Dim>& position) {
 template <int Dim>
 SlopeController<Dim>::SlopeController(const RuleSetup<Dim>& setup)
     : dt_(setup.world.dt),
-      resting_speed_(speed_to_rise(setup.world.gravity, resting_fall * setup.typical.extent)),
+      steps_between_(std::max<std::int64_t>(1, std::llround(measuring_interval / setup.world.dt))),
       proportional_(setup.params.slope_proportional_gain * std::sqrt(setup.world.gravity / setup.typical.extent)),
       integral_(setup.params.slope_integral_gain * setup.world.gravity / setup.typical.extent),
+      derivative_(foreseen * std::sqrt(setup.typical.extent / setup.world.gravity)),
       max_damping_(setup.params.slope_max_damping * std::sqrt(setup.world.gravity / setup.typical.extent)) {}
 
 template <int Dim>
 void SlopeController<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   if (std::ranges::none_of(in.piles, &Pile<Dim>::slope_controlled)) return;
   find_touching(in);
-  const bool due = in.step % steps_between_slow_updates(dt_) == 0 || in.piles.size() != controls_.size();
+  const bool due = in.step % steps_between_ == 0 || in.piles.size() != controls_.size();
   controls_.resize(in.piles.size());
   for (std::size_t p = 0; p < in.piles.size() && due; ++p)
     if (std::ranges::find(touching_, p, &Touching::pile) != touching_.end()) update_damping(in, p);
@@ -62,22 +67,29 @@ void SlopeController<Dim>::find_touching(const RuleInput<Dim>& in) {
   }
 }
 
-/// The integral part is needed because keeping a slope takes lasting damping. Too few bodies make no slope: they get
-/// the largest damping, and the integral stays as it is.
+/// The integral part is needed because keeping a slope takes lasting damping, the derivative part since damped bodies
+/// still sink. A slope that rises is that of bodies that are about to roll down: it counts as it is. Too few bodies
+/// make no slope: they get the largest damping, and the integral stays as it is.
 template <int Dim>
 void SlopeController<Dim>::update_damping(const RuleInput<Dim>& in, std::size_t pile) {
   Control& control = controls_[pile];
   collect_positions(in, pile);
   if (positions_.size() < min_bodies_for_slope) {
     control.damping = max_damping_;
+    control.slope.reset();
     return;
   }
-  const double missing = in.piles[pile].alpha - estimate_angle_of_repose<Dim>(positions_);
-  control.integral = std::clamp(control.integral + integral_ * slow_update_interval * missing, 0.0, max_damping_);
+  const double slope = estimate_angle_of_repose<Dim>(positions_);
+  const double interval = static_cast<double>(steps_between_) * dt_;
+  const double sinking = control.slope ? std::max(0.0, (*control.slope - slope) / interval) : 0.0;
+  control.slope = slope;
+  const double missing = in.piles[pile].alpha - slope + derivative_ * sinking;
+  control.integral = std::clamp(control.integral + integral_ * interval * missing, 0.0, max_damping_);
   control.damping = std::clamp(control.integral + proportional_ * missing, 0.0, max_damping_);
 }
 
-/// Of the pile's bodies at rest, asleep or awake: bodies that still come down the flank would change the slope.
+/// Of the pile's bodies, asleep or in contact. Those at rest alone are the core, up to ten degrees steeper than the
+/// pile where most of it still moves (docs/research/slope_control.md).
 template <int Dim>
 void SlopeController<Dim>::collect_positions(const RuleInput<Dim>& in, std::size_t pile) {
   const BodyStates<Dim>& states = in.states();
@@ -88,10 +100,8 @@ void SlopeController<Dim>::collect_positions(const RuleInput<Dim>& in, std::size
     if (nearest_pile(in.piles, position) == static_cast<int>(pile))
       positions_.push_back(position - in.piles[pile].centre);
   }
-  for (const Touching& touching : touching_) {
-    if (touching.pile != pile || states.velocity[touching.body].norm() >= resting_speed_) continue;
-    positions_.push_back(states.pose[touching.body].position - in.piles[pile].centre);
-  }
+  for (const Touching& touching : touching_)
+    if (touching.pile == pile) positions_.push_back(states.pose[touching.body].position - in.piles[pile].centre);
 }
 
 template <int Dim>

@@ -2,6 +2,7 @@
 // Control of a pile's slope by damping.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/policy/adaptive/rule.h"
@@ -10,25 +11,27 @@ namespace talus {
 
 /// Keeps each pile with `control_slope` at its slope alpha (section 3.1: "set by the user"). Friction cannot do
 /// that: bodies that fall on a steep pile knock it down, and what they knock off rolls away. So bodies in contact are
-/// damped, by a proportional-integral controller of the pile's measured slope:
+/// damped, by a proportional-integral-derivative controller of the pile's measured slope:
 ///
 ///     damping = clamp(k_p e + I, 0, max),  dI/dt = k_i e,  0 <= I <= max
 ///
-/// with e the slope that is missing. A pile steeper than alpha by more than I / k_p is not damped.
+/// with e the slope that will be missing if the pile sinks on for the time T at its present rate. A pile steeper than
+/// alpha by more than I / k_p that does not sink is not damped.
 template <int Dim>
 class SlopeController {
  public:
   explicit SlopeController(const RuleSetup<Dim>& setup);
 
-  /// Damps bodies for one step. A body belongs to its nearest pile. Costs O(contacts) and, each `slow_update_interval`,
-  /// O(all bodies); nothing without a controlled pile.
+  /// Damps bodies for one step. A body belongs to its nearest pile. Costs O(contacts) and, ten times a second, O(all
+  /// bodies); nothing without a controlled pile.
   void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
 
  private:
   /// The controller's state for one pile.
   struct Control {
-    double integral = 0.0;  // I [1/s]
-    double damping = 0.0;   // rate at which bodies lose velocity [1/s]
+    double integral = 0.0;        // I [1/s]
+    double damping = 0.0;         // rate at which bodies lose velocity [1/s]
+    std::optional<double> slope;  // as last measured [rad]
   };
   /// An awake body in contact that belongs to a controlled pile.
   struct Touching {
@@ -42,9 +45,10 @@ class SlopeController {
   void damp(const BodyStates<Dim>& states, RuleOutput<Dim>& out) const;
 
   double dt_;                        // [s]
-  double resting_speed_;             // bodies of the pile slower than this count as part of the slope [m/s]
+  std::int64_t steps_between_;       // two measurements
   double proportional_;              // k_p [1/(s rad)]
   double integral_;                  // k_i [1/(s^2 rad)]
+  double derivative_;                // T [s]
   double max_damping_;               // [1/s]
   std::vector<Control> controls_;    // [pile]
   std::vector<Touching> touching_;   // scratch, ascending
