@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "tests/process/process.h"
 
@@ -243,7 +245,45 @@ TEST(CheckCommand, TellsWhatASceneWillDoWithoutRunningIt) {
   EXPECT_NE(outcome.out.find("warning"), std::string::npos) << "60 a second is more than the spout can do";
 }
 
+/// Runs a box of 1 m; `world` is the rest of the scene after `[world]`.
+Outcome run_box(const std::string& backend, const std::string& world) {
+  const TemporaryFolder folder;
+  const bool flat = backend == "box2d";
+  std::ofstream(folder.path() / "box.toml")
+      << "title = \"box\"\ndimension = " << (flat ? 2 : 3)
+      << "\nrun = {frames = 2}\nshape.box = {kind = \"box\", size = " << (flat ? "[1, 1]" : "[1, 1, 1]")
+      << "}\nbody = [{position = " << (flat ? "[0, 0.5]" : "[0, 0, 0.5]") << "}]\n[world]\n"
+      << world;
+  return talus_command("run --hash --force --backend " + backend + " " + (folder / "box.toml"));
+}
+
+void expect_refused_gravity(const std::string& backend, const std::string& world, const std::string& gravity) {
+  const Outcome outcome = run_box(backend, world);
+  EXPECT_EQ(outcome.exit_code, 2) << world;
+  const std::string expected = "gravity changes by plan or event: world.gravity = " + gravity + ": must be at most";
+  EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err;
+}
+
+#ifdef TALUS_BOX2D
+// At 30 steps a second Box2D's 2 m a step are 1800 m/s^2.
+TEST(RunCommand, RefusesGravityThatBecomesTooLargeForBox2D) {
+  const std::string sine = "gravity = 1000\nsteps_per_second = 30\ngravity_motion = {kind = \"sine\", frequency = 1, ";
+  expect_refused_gravity("box2d", sine + "amplitude = [0, 900]}\n", "1900");
+  EXPECT_EQ(run_box("box2d", sine + "amplitude = [0, 700]}\n").exit_code, 0);
+}
+#endif
+
 #ifdef TALUS_BULLET
+// At 60 steps a second a cube of 1 m may fall by 0.2 m a step: 720 m/s^2.
+TEST(RunCommand, RefusesGravityThatBecomesTooLargeForBullet) {
+  expect_refused_gravity(
+      "bullet", "gravity = 10\ngravity_motion = {kind = \"sine\", frequency = 1, amplitude = [0, 0, 900]}\n", "910");
+  const std::string path = "gravity_motion = {kind = \"path\", times = [0, 1], gravity = [[0, 0, -10], [0, 0, ";
+  expect_refused_gravity("bullet", path + "-950]]}\n", "950");
+  expect_refused_gravity("bullet", "[[event]]\ntime = 1\ndo = \"gravity\"\ngravity = [0, 0, -950]\n", "950");
+  EXPECT_EQ(run_box("bullet", path + "-700]]}\n").exit_code, 0);
+}
+
 TEST(CheckCommand, RefusesWhatNoEngineOfTheDimensionRuns) {
   const std::string pressed = "drop_in_a_pile_3d --set world.gravity=1000";
   const std::string rule = "world.gravity = 1000: must be at most";

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <vector>
 
 #include "common/scene/warnings.h"
 #include "common/scene/window.h"
@@ -31,11 +33,44 @@ void check_memory(const Scene<Dim>& scene, const std::string& backend) {
                   need * 1e-9, memory() * 1e-9));
 }
 
+/// Upper bound of the magnitudes that gravity has after events and by plan [m/s^2]. A turn changes none, and between
+/// two corners of a path or within a sine it is no larger than at the ends.
+template <int Dim>
+double largest_gravity(const Scene<Dim>& scene) {
+  std::vector<Vec<Dim>> still = {scene.world.gravity_vector()};
+  for (const Event<Dim>& event : scene.events)
+    if (event.action == "gravity") still.push_back(event.gravity);
+  const Motion<Dim> plan = scene.gravity_motion.value_or(Motion<Dim>());
+  std::vector<Vec<Dim>> shifts = plan.shifts;
+  if (shifts.empty()) shifts.push_back(Vec<Dim>::Zero());
+  double largest = 0.0;
+  for (const Vec<Dim>& gravity : still)
+    for (const Vec<Dim>& shift : shifts)
+      for (const double sine : {-1.0, 1.0})
+        largest = std::max(largest, (gravity + shift + sine * plan.amplitude).norm());
+  return largest;
+}
+
+/// What an engine demands of gravity holds for all that it becomes.
+template <int Dim>
+void check_gravity(const Scene<Dim>& scene, const std::string& backend) {
+  WorldDescription<Dim> heaviest = scene.world;
+  heaviest.gravity = largest_gravity(scene);
+  if (heaviest.gravity <= scene.world.gravity) return;
+  heaviest.obstacles.clear();
+  try {
+    make_world<Dim>(backend, heaviest);
+  } catch (const std::invalid_argument& refusal) {
+    throw std::invalid_argument(fmt::format("gravity changes by plan or event: {}", refusal.what()));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 Simulation<Dim> make_simulation(const Scene<Dim>& scene, const std::string& backend) {
   check_memory(scene, backend);
+  check_gravity(scene, backend);
   return Simulation<Dim>(scene, make_world<Dim>(backend, scene.world), make_policy(scene));
 }
 
