@@ -7,16 +7,17 @@
 #include <numbers>
 
 namespace talus {
+namespace {
 
-double as_written(const Key& key, double kept) {
-  if (key.stored == Stored::as_written) return kept;
-  const double converted = key.stored == Stored::in_radians ? kept * 180.0 / std::numbers::pi : 1.0 / kept;
-  return std::strtod(fmt::format("{:.15g}", converted).c_str(), nullptr);
-}
-
-double as_kept(const Key& key, double written) {
-  if (key.stored == Stored::in_radians) return written * std::numbers::pi / 180.0;
-  return key.stored == Stored::as_inverse ? 1.0 / written : written;
+template <typename T>
+void add_numbers(const T& value, std::vector<double>& numbers) {
+  if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+    numbers.push_back(static_cast<double>(value));
+  } else if constexpr (requires { value.has_value(); }) {
+    if (value) add_numbers(*value, numbers);
+  } else if constexpr (!std::is_same_v<T, bool> && !std::is_same_v<T, std::string>) {
+    for (const auto& part : value) add_numbers(part, numbers);
+  }
 }
 
 void check_numbers(const Key& key, std::span<const double> kept, const Range& range, std::string_view path) {
@@ -31,6 +32,33 @@ void check_choice(const Key& key, const std::string& text, std::string_view path
   if (key.choices.empty()) return;
   require(std::ranges::find(key.choices, text) != key.choices.end(), fmt::format("{}.{}", path, key.name),
           fmt::format("\"{}\"", text), fmt::format("must be one of {}", fmt::join(key.choices, ", ")));
+}
+
+}  // namespace
+
+double as_written(const Key& key, double kept) {
+  if (key.stored == Stored::as_written) return kept;
+  const double converted = key.stored == Stored::in_radians ? kept * 180.0 / std::numbers::pi : 1.0 / kept;
+  return std::strtod(fmt::format("{:.15g}", converted).c_str(), nullptr);
+}
+
+double as_kept(const Key& key, double written) {
+  if (key.stored == Stored::in_radians) return written * std::numbers::pi / 180.0;
+  return key.stored == Stored::as_inverse ? 1.0 / written : written;
+}
+
+std::vector<double> numbers_of(const ConstValue& value) {
+  std::vector<double> numbers;
+  const auto add = [&](auto where) {
+    if constexpr (!std::is_same_v<decltype(where), std::monostate>) add_numbers(*where, numbers);
+  };
+  std::visit(add, value);
+  return numbers;
+}
+
+void check_value(const Key& key, const ConstValue& value, const Range& range, std::string_view path) {
+  check_numbers(key, numbers_of(value), range, path);
+  if (const auto* text = std::get_if<const std::string*>(&value)) check_choice(key, **text, path);
 }
 
 }  // namespace talus

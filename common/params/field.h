@@ -48,13 +48,30 @@ struct Key {
   std::string_view meaning = {};
 };
 
+/// One of the types that a value may have, or none; `Of<T>`: how it is referred to.
+template <template <typename> typename Of>
+using OneOf = std::variant<std::monostate, Of<double>, Of<int>, Of<std::int64_t>, Of<std::uint64_t>, Of<bool>,
+                           Of<std::string>, Of<std::vector<double>>, Of<std::optional<double>>, Of<std::optional<bool>>,
+                           Of<std::optional<std::string>>, Of<Vec<1>>, Of<Vec<2>>, Of<Vec<3>>, Of<Eigen::Vector2i>,
+                           Of<Eigen::Vector3i>, Of<std::optional<Vec<2>>>, Of<std::optional<Vec<3>>>,
+                           Of<std::vector<Vec<2>>>, Of<std::vector<Vec<3>>>>;
+
+template <typename T>
+using Pointer = T*;
+template <typename T>
+using ConstPointer = const T*;
+/// Where a value is. Of no struct in particular, so that what handles values is compiled once.
+using Value = OneOf<Pointer>;
+using ConstValue = OneOf<ConstPointer>;
+
+template <typename S>
+struct MemberOf {
+  template <typename T>
+  using Type = T S::*;
+};
 /// A member of a struct; none for a key that code of its own reads and that is declared for the manual only.
 template <typename S>
-using Member = std::variant<std::monostate, double S::*, int S::*, std::int64_t S::*, std::uint64_t S::*, bool S::*,
-                            std::string S::*, std::vector<double> S::*, std::optional<double> S::*,
-                            std::optional<bool> S::*, Vec<1> S::*, Vec<2> S::*, Vec<3> S::*, Eigen::Vector2i S::*,
-                            Eigen::Vector3i S::*, std::optional<Vec<2>> S::*, std::optional<Vec<3>> S::*,
-                            std::vector<Vec<2>> S::*, std::vector<Vec<3>> S::*>;
+using Member = OneOf<MemberOf<S>::template Type>;
 
 /// A member with its key.
 template <typename S>
@@ -67,15 +84,26 @@ struct Field {
 template <typename S>
 using Fields = std::span<const Field<S>>;
 
-/// Calls `visit(key, member)` for each field that has a member.
-template <typename S, typename Visitor>
-void for_each_field(S& params, std::type_identity_t<Fields<std::remove_const_t<S>>> fields, const Visitor& visit) {
-  for (const auto& field : fields) {
-    const auto with_member = [&](auto member) {
-      if constexpr (!std::is_same_v<decltype(member), std::monostate>) visit(field.key, params.*member);
-    };
-    std::visit(with_member, field.member);
-  }
+namespace detail {
+template <typename Where, typename S, typename... Members>
+Where locate(S& params, const std::variant<std::monostate, Members...>& member) {
+  Where where;
+  const auto try_one = [&](const auto* one) {
+    if (one != nullptr) where = &(params.**one);
+  };
+  (try_one(std::get_if<Members>(&member)), ...);
+  return where;
+}
+}  // namespace detail
+
+/// Where the member is; none where the field has none.
+template <typename S>
+Value value_of(S& params, const Field<S>& field) {
+  return detail::locate<Value>(params, field.member);
+}
+template <typename S>
+ConstValue value_of(const S& params, const Field<S>& field) {
+  return detail::locate<ConstValue>(params, field.member);
 }
 
 /// A number as it is written in a scene file, from the one that the struct keeps. A conversion is rounded to 15 digits,
@@ -86,44 +114,26 @@ double as_written(const Key& key, double kept);
 double as_kept(const Key& key, double written);
 
 /// The numbers of a value, as they are kept; none in a flag or a text.
-template <typename T>
-std::vector<double> numbers_of(const T& value) {
-  if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
-    return {};
-  } else if constexpr (std::is_arithmetic_v<T>) {
-    return {static_cast<double>(value)};
-  } else if constexpr (requires { value.has_value(); }) {
-    return value ? numbers_of(*value) : std::vector<double>();
-  } else {
-    std::vector<double> numbers;
-    for (const auto& part : value)
-      for (const double number : numbers_of(part)) numbers.push_back(number);
-    return numbers;
-  }
-}
+std::vector<double> numbers_of(const ConstValue& value);
 
 /// The range of a key; its lower end is the value of `not_below` where that is given.
 template <typename S>
 Range range_of(const Key& key, const S& params, std::type_identity_t<Fields<S>> fields) {
   Range range = key.range;
-  for_each_field(params, fields, [&](const Key& other, const auto& value) {
-    if (!key.not_below.empty() && other.name == key.not_below) range.low = numbers_of(value).front();
-  });
+  if (key.not_below.empty()) return range;
+  for (const Field<S>& other : fields)
+    if (other.key.name == key.not_below) range.low = numbers_of(value_of(params, other)).front();
   return range;
 }
 
-/// Throws InvalidValue unless each number is in the range.
-void check_numbers(const Key& key, std::span<const double> kept, const Range& range, std::string_view path);
-/// Throws InvalidValue unless the text is one of the key's choices.
-void check_choice(const Key& key, const std::string& text, std::string_view path);
+/// Throws InvalidValue unless each number is in the range and a text is one of the key's choices.
+void check_value(const Key& key, const ConstValue& value, const Range& range, std::string_view path);
 
 /// Throws InvalidValue, its field named `path`.KEY, for the first value outside of its range or choices.
 template <typename S>
 void check_fields(const S& params, std::type_identity_t<Fields<S>> fields, std::string_view path) {
-  for_each_field(params, fields, [&](const Key& key, const auto& value) {
-    check_numbers(key, numbers_of(value), range_of(key, params, fields), path);
-    if constexpr (std::is_same_v<decltype(value), const std::string&>) check_choice(key, value, path);
-  });
+  for (const Field<S>& field : fields)
+    check_value(field.key, value_of(params, field), range_of(field.key, params, fields), path);
 }
 
 }  // namespace talus

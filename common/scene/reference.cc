@@ -50,7 +50,7 @@ std::string number_text(double number) {
 template <typename T>
 std::string default_of(const Key& key, const T& value) {
   std::vector<std::string> parts;
-  for (const double number : numbers_of(value)) parts.push_back(number_text(as_written(key, number)));
+  for (const double number : numbers_of(&value)) parts.push_back(number_text(as_written(key, number)));
   const bool all_same = !parts.empty() && std::ranges::count(parts, parts.front()) == std::ssize(parts);
   if (all_same) return parts.front();
   return parts.empty() ? fmt::format("`{}`", field_text(key, value)) : fmt::format("[{}]", fmt::join(parts, ", "));
@@ -88,24 +88,25 @@ std::string row_of(const Key& key, std::string_view type, const std::string& sta
                      key.required ? "required" : standard, rules_of(key), meaning);
 }
 
+/// The row of a key whose value has this default; none of a key that code of its own reads.
+std::string row_of(const Key& key, const ConstValue& standard) {
+  const auto row = [&](auto where) {
+    if constexpr (std::is_same_v<decltype(where), std::monostate>) {
+      return row_of(key, key.choices.empty() ? "number" : "text", std::string(key.default_text));
+    } else {
+      const bool constant = key.default_text.empty() && !key.required;
+      return row_of(key, type_of<std::remove_cvref_t<decltype(*where)>>(),
+                    constant ? default_of(key, *where) : std::string(key.default_text));
+    }
+  };
+  return std::visit(row, standard);
+}
+
 template <typename S>
 std::string rows_of(std::type_identity_t<Fields<S>> fields) {
   const S defaults{};
   std::string rows;
-  for (const Field<S>& field : fields) {
-    const auto add = [&](auto member) {
-      if constexpr (std::is_same_v<decltype(member), std::monostate>) {
-        const std::string_view type = field.key.choices.empty() ? "number" : "text";
-        rows += row_of(field.key, type, std::string(field.key.default_text));
-      } else {
-        const auto& value = defaults.*member;
-        const bool constant = field.key.default_text.empty() && !field.key.required;
-        rows += row_of(field.key, type_of<std::remove_cvref_t<decltype(value)>>(),
-                       constant ? default_of(field.key, value) : std::string(field.key.default_text));
-      }
-    };
-    std::visit(add, field.member);
-  }
+  for (const Field<S>& field : fields) rows += row_of(field.key, value_of(defaults, field));
   return rows;
 }
 

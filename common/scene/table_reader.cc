@@ -384,6 +384,52 @@ bool TableReader::read_value(const toml::node& node, const std::string& name, co
   return read_array(node, name, key, range, values);
 }
 
+template <int Size>
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                             Eigen::Vector<double, Size>& value) {
+  return read_array(node, name, key, range, {value.data(), Size});
+}
+
+template <int Size>
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                             Eigen::Vector<int, Size>& value) {
+  Eigen::Vector<double, Size> numbers = value.template cast<double>();
+  if (!read_value(node, name, key, range, numbers) || !all_whole(node, name, {numbers.data(), Size})) return false;
+  value = numbers.template cast<int>();
+  return true;
+}
+
+template <int Size>
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                             std::vector<Eigen::Vector<double, Size>>& values) {
+  values.assign(count_of_points(node, name), Eigen::Vector<double, Size>::Zero());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    read_value((*node.as_array())[i], fmt::format("{}[{}]", name, i), key, range, values[i]);
+  return !values.empty();
+}
+
+template <typename T>
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
+                             std::optional<T>& value) {
+  return read_value(node, name, key, range, value.emplace());
+}
+
+void TableReader::read_field(const Key& key, const Value& value, const Range& range) {
+  const auto read_it = [&](auto where) {
+    if constexpr (!std::is_same_v<decltype(where), std::monostate>) {
+      if (!has_meaning(key)) return;
+      const toml::node* node = find(key);
+      if (node != nullptr) read_value(*node, field(key.name), key, range, *where);
+      if (!diagnostics_.fills) return;
+      if (node != nullptr)
+        fill(key.name, value_text(*node));
+      else if (in_range(key, numbers_of(where)))
+        fill(key.name, field_text(key, *where));
+    }
+  };
+  std::visit(read_it, value);
+}
+
 bool TableReader::read_array(const toml::node& node, const std::string& name, const Key& key, const Range& range,
                              std::span<double> values) {
   if (values.size() == 1 && node.is_number()) return read_value(node, name, key, range, values.front());

@@ -35,13 +35,13 @@ class TableReader {
   /// All fields of a struct, as they are declared.
   template <typename S>
   void read_fields(S& params, std::type_identity_t<Fields<S>> fields) {
-    for_each_field(params, fields,
-                   [&](const Key& key, auto& value) { read_field(key, value, range_of(key, params, fields)); });
+    for (const Field<S>& field : fields)
+      read_field(field.key, value_of(params, field), range_of(field.key, params, fields));
   }
   /// One key, as it is declared.
   template <typename T>
   void read(const Key& key, T& value) {
-    read_field(key, value, key.range);
+    read_field(key, &value, key.range);
   }
   /// One text or an array of texts, each one of `choices`.
   void read(std::string_view key, std::vector<std::string>& values, std::span<const std::string> choices);
@@ -101,17 +101,7 @@ class TableReader {
   };
   TableReader(const toml::table& table, int dimension, Location location, Diagnostics& diagnostics);
 
-  template <typename T>
-  void read_field(const Key& key, T& value, const Range& range) {
-    if (!has_meaning(key)) return;
-    const toml::node* node = find(key);
-    if (node != nullptr) read_value(*node, field(key.name), key, range, value);
-    if (!diagnostics_.fills) return;
-    if (node != nullptr)
-      fill(key.name, value_text(*node));
-    else if (in_range(key, numbers_of(value)))
-      fill(key.name, field_text(key, value));
-  }
+  void read_field(const Key& key, const Value& value, const Range& range);
 
   // The value of a node, whose name is for messages; whether it has the right type and range.
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range, double& value);
@@ -127,30 +117,16 @@ class TableReader {
                   std::vector<double>& values);
   template <int Size>
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
-                  Eigen::Vector<double, Size>& value) {
-    return read_array(node, name, key, range, {value.data(), Size});
-  }
+                  Eigen::Vector<double, Size>& value);
   template <int Size>
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
-                  Eigen::Vector<int, Size>& value) {
-    Eigen::Vector<double, Size> numbers = value.template cast<double>();
-    if (!read_value(node, name, key, range, numbers) || !all_whole(node, name, {numbers.data(), Size})) return false;
-    value = numbers.template cast<int>();
-    return true;
-  }
+                  Eigen::Vector<int, Size>& value);
   template <int Size>
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
-                  std::vector<Eigen::Vector<double, Size>>& values) {
-    values.assign(count_of_points(node, name), Eigen::Vector<double, Size>::Zero());
-    for (std::size_t i = 0; i < values.size(); ++i)
-      read_value((*node.as_array())[i], fmt::format("{}[{}]", name, i), key, range, values[i]);
-    return !values.empty();
-  }
+                  std::vector<Eigen::Vector<double, Size>>& values);
   template <typename T>
   bool read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
-                  std::optional<T>& value) {
-    return read_value(node, name, key, range, value.emplace());
-  }
+                  std::optional<T>& value);
 
   template <typename Number>
   bool read_whole(const toml::node& node, const std::string& name, const Range& range, Number& value);

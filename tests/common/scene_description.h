@@ -35,9 +35,13 @@ std::string description(const Shape<Dim>& shape) {
 template <typename S>
 std::string description(const S& params, std::type_identity_t<Fields<S>> fields) {
   std::string text;
-  for_each_field(params, fields, [&](const Key& key, const auto& value) {
-    text += fmt::format("{} = {}\n", key.name, field_text(key, value));
-  });
+  for (const Field<S>& field : fields) {
+    const auto add = [&](auto where) {
+      if constexpr (!std::is_same_v<decltype(where), std::monostate>)
+        text += fmt::format("{} = {}\n", field.key.name, field_text(field.key, *where));
+    };
+    std::visit(add, value_of(params, field));
+  }
   return text;
 }
 
