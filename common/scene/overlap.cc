@@ -102,7 +102,7 @@ void OverlapCheck<Dim>::compare_near(Added& added, const Level& level) const {
     }
     const auto found = level.cells.find(near);
     if (found == level.cells.end()) continue;
-    for (const int other : found->second) compare(added, solids_[other]);
+    for (int other = found->second.first; other >= 0; other = solids_[other].next) compare(added, solids_[other]);
   }
 }
 
@@ -115,7 +115,9 @@ void OverlapCheck<Dim>::keep(const Solid& solid, double width) {
     level = levels_.insert(levels_.end(), {.width = least, .fixed = solid.fixed, .solids = {}, .cells = {}});
   const int index = static_cast<int>(solids_.size());
   level->solids.push_back(index);
-  level->cells[cell_of<Dim>(solid.pose.position, least)].push_back(index);
+  Chain& chain = level->cells[cell_of<Dim>(solid.pose.position, least)];
+  (chain.first < 0 ? chain.first : solids_[chain.last].next) = index;
+  chain.last = index;
   solids_.push_back(solid);
 }
 

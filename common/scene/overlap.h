@@ -47,6 +47,12 @@ class OverlapCheck {
     bool fixed = false;
     int name = 0;     // index of names_
     int number = -1;  // among the bodies of this name; -1: an obstacle
+    int next = -1;    // solid in its cell; -1: the last
+  };
+  /// The solids whose position is in a cell.
+  struct Chain {
+    int first = -1;
+    int last = -1;
   };
 
   /// Solids of like width, all fixed or none: small ones near a large one are not compared with one another.
@@ -54,7 +60,7 @@ class OverlapCheck {
     double width = 0.0;  // of a cell: no solid is wider [m]
     bool fixed = false;
     std::vector<int> solids;
-    std::unordered_map<Cell, std::vector<int>, CellHash> cells;  // solids by the cell of their position; only looked up
+    std::unordered_map<Cell, Chain, CellHash> cells;  // only looked up
   };
 
   /// A body that is added, with its pieces at its pose once they are needed.
