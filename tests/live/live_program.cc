@@ -15,6 +15,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -229,5 +230,10 @@ int main(int argc, char** argv) {
   invent->add_option("--lcm-url", options.url);
   invent->add_option("runs", number);
   invent->callback([&] { talus::invent(options.url, number); });
-  CLI11_PARSE(app, argc, argv);
+  try {
+    CLI11_PARSE(app, argc, argv);
+  } catch (const std::invalid_argument& refused) {
+    fmt::print(stderr, "{}\n", refused.what());
+    return 2;
+  }
 }

@@ -3,9 +3,10 @@
 # machine's network, at a port that nobody else uses. Working directory is a scratch folder.
 if [[ -z ${LIVE_TEST_INSIDE:-} ]]; then
   export LIVE_TEST_INSIDE=plain
-  if unshare --map-root-user --net true 2>/dev/null; then
-    LIVE_TEST_INSIDE=namespace exec unshare --map-root-user --net bash "$0" "$@"
-  fi
+  for options in "--map-root-user --net" --net; do # root has the second in a chroot too
+    # shellcheck disable=SC2086
+    if unshare $options true 2>/dev/null; then LIVE_TEST_INSIDE=namespace exec unshare $options bash "$0" "$@"; fi
+  done
 fi
 if [[ $LIVE_TEST_INSIDE == namespace ]]; then
   ip link set lo up
