@@ -21,6 +21,13 @@ int layers_open_to_sleep(const Pile<Dim>& pile) {
   return open;
 }
 
+template <int Dim>
+std::vector<int> open_layers(std::span<const Pile<Dim>> piles) {
+  std::vector<int> open(piles.size());
+  std::transform(piles.begin(), piles.end(), open.begin(), layers_open_to_sleep<Dim>);
+  return open;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -97,23 +104,49 @@ void PaperPolicy<Dim>::wake(std::size_t pile, SleepCause cause, const Frame<Dim>
 /// Section 3.3. A body in several piles goes by the one that scores it highest.
 template <int Dim>
 void PaperPolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, Decision<Dim>& decision) const {
-  const BodyStates<Dim>& states = frame.world.states();
-  const auto piles = frame.piles.piles();
-  std::vector<int> open(piles.size());
-  std::transform(piles.begin(), piles.end(), open.begin(), layers_open_to_sleep<Dim>);
+  const std::vector<int> open = open_layers(frame.piles.piles());
   for (const BodyIndex body : frame.world.awake()) {
     if (frame.step < body_rests_from_[body]) continue;
-    SleepEvent best{.body = body, .cause = SleepCause::score, .score = params_.tau};
-    for (std::size_t p = 0; p < piles.size(); ++p) {
-      const int layer = frame.piles.layer_of(p, body);
-      if (layer < 0 || layer >= open[p]) continue;
-      const Layer& slice = piles[p].layers[layer];
-      const double closeness = piles[p].closeness(states.pose[body].position, slice);
-      const double score = sleep_score(slice.density(), closeness, states.velocity[body].norm());
-      if (score > best.score) best.pile = static_cast<int>(p), best.layer = layer, best.score = score;
-    }
-    if (best.pile >= 0) decision.freeze.push_back(best);
+    const SleepEvent best = best_score(frame, body, open);
+    if (best.pile >= 0 && best.score > params_.tau) decision.freeze.push_back(best);
   }
+}
+
+/// Of the piles in whose layers the body may sleep; without one, its pile is -1.
+template <int Dim>
+SleepEvent PaperPolicy<Dim>::best_score(const Frame<Dim>& frame, BodyIndex body, std::span<const int> open) const {
+  const BodyStates<Dim>& states = frame.world.states();
+  const auto piles = frame.piles.piles();
+  SleepEvent best{.body = body, .cause = SleepCause::score};
+  for (std::size_t p = 0; p < piles.size(); ++p) {
+    const int layer = frame.piles.layer_of(p, body);
+    if (layer < 0 || layer >= open[p]) continue;
+    const Layer& slice = piles[p].layers[layer];
+    const double closeness = piles[p].closeness(states.pose[body].position, slice);
+    const double score = sleep_score(slice.density(), closeness, states.velocity[body].norm());
+    if (best.pile < 0 || score > best.score) best.pile = static_cast<int>(p), best.layer = layer, best.score = score;
+  }
+  return best;
+}
+
+template <int Dim>
+std::vector<Reading> PaperPolicy<Dim>::readings(const Frame<Dim>& frame, BodyIndex body) const {
+  std::vector<Reading> readings;
+  const auto piles = frame.piles.piles();
+  if (frame.world.states().asleep[body] == 0) {
+    const SleepEvent best = best_score(frame, body, open_layers(piles));
+    if (best.pile >= 0) readings.push_back({"score now", best.score, params_.tau, "", "sleeps"});
+    const double until = body < std::ssize(body_rests_from_) ? static_cast<double>(body_rests_from_[body]) : 0.0;
+    const double left = until - static_cast<double>(frame.step);
+    if (left > 0.0) readings.push_back({"kept awake for", left, std::nullopt, "steps", "since it woke with its pile"});
+  }
+  for (std::size_t p = 0; p < piles.size(); ++p) {
+    const int layer = frame.piles.layer_of(p, body);
+    if (layer >= 0)
+      readings.push_back({"density of its layer", piles[p].layers[layer].density(), params_.avalanche_density_of(layer),
+                          "", "the pile wakes"});
+  }
+  return readings;
 }
 
 template class PaperPolicy<2>;

@@ -2,6 +2,7 @@
 // Sections 3.3 and 3.4 of "Piles of Objects" (Hsu and Keyser 2010), to the letter.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/policy/paper_params.h"
@@ -16,12 +17,14 @@ class PaperPolicy final : public SleepPolicy<Dim> {
  public:
   PaperPolicy(const PaperParams& params, const WorldDescription<Dim>& world);
 
+  std::vector<Reading> readings(const Frame<Dim>& frame, BodyIndex body) const override;
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
 
  private:
   void wake_hit_piles(const Frame<Dim>& frame, Decision<Dim>& decision);
   void wake_overfull_piles(const Frame<Dim>& frame, Decision<Dim>& decision);
   void wake(std::size_t pile, SleepCause cause, const Frame<Dim>& frame, Decision<Dim>& decision);
+  SleepEvent best_score(const Frame<Dim>& frame, BodyIndex body, std::span<const int> open) const;
   void choose_sleepers(const Frame<Dim>& frame, Decision<Dim>& decision) const;
   bool hits(const Frame<Dim>& frame, BodyIndex body);
 

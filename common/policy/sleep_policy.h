@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/policy/frame.h"
+#include "common/policy/reading.h"
 
 namespace talus {
 
@@ -48,6 +49,9 @@ class SleepPolicy {
 
   /// None from a policy that does not measure it, or has not yet. Costs O(bodies).
   virtual std::optional<DriftEstimate> drift_estimate(const World<Dim>& /*world*/) const { return std::nullopt; }
+
+  /// What the policy goes by for a body that is in the world, after a step. It leaves out what it does not have.
+  virtual std::vector<Reading> readings(const Frame<Dim>& /*frame*/, BodyIndex /*body*/) const { return {}; }
 
   /// Fills `decision` (empty on entry). Called once a step.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;

@@ -111,6 +111,8 @@ void Simulation<Dim>::step() {
   phases_.emit = watch.lap();
   move_obstacles();
   if (gravity_motion_) change_gravity();
+  pulled_.clear();
+  if (pull_) pull_body();
   world_->record_contacts(needs_contacts());
   world_->step();
   ++step_;
@@ -159,7 +161,29 @@ void Simulation<Dim>::keep_moved_awake() {
   if (gravity_motion_ && !decision_.freeze.empty() &&
       woken_lately(*gravity_motion_, gravity_, gravity_of_sleepers_, step_ - 1, dt_, piles_.typical_body().extent))
     decision_.freeze.clear();
-  std::erase_if(decision_.freeze, [this](const SleepEvent& event) { return obstacles_.touch(*world_, event.body); });
+  std::erase_if(decision_.freeze, [this](const SleepEvent& event) {
+    return obstacles_.touch(*world_, event.body) || std::ranges::binary_search(pulled_, event.body);
+  });
+}
+
+/// A sleeping body would not notice that its neighbour is pulled away, nor how slowly one is pushed against it.
+template <int Dim>
+void Simulation<Dim>::pull_body() {
+  const BodyIndex body = pull_->body;
+  if (world_->states().removed[body] != 0) {
+    release();
+    return;
+  }
+  const Box<Dim> bounds = world_->bounds_of(body);
+  const Vec<Dim> margin = Vec<Dim>::Constant(0.05 * world_->shape_of(body).extent);
+  world_->query_box({bounds.min() - margin, bounds.max() + margin}, pulled_);
+  if (engine_sleep_)
+    world_->thaw(pulled_);  // note_engine_sleep() makes the events
+  else
+    thaw_now(pulled_, SleepCause::user);
+  const VelocityChange<Dim> change = pulled(*world_, *pull_, gravity_.norm(), dt_);
+  if (watched()) watchdog_.note_velocity(*world_, body, change.velocity, change.spin);
+  world_->set_velocity(body, change.velocity, change.spin);
 }
 
 template <int Dim>

@@ -15,6 +15,7 @@
 #include "common/simulation/event_clock.h"
 #include "common/simulation/moving_obstacles.h"
 #include "common/simulation/observer.h"
+#include "common/simulation/pull.h"
 #include "common/simulation/rest_check.h"
 #include "common/simulation/watchdog.h"
 
@@ -46,6 +47,10 @@ class Simulation {
   BodyIndex add(const BodyDef<Dim>& body) { return world_->add(body); }
   void remove(BodyIndex body);
   void thaw_all();
+  /// Each step until release() pulls a body; it and what lies beside it stay awake meanwhile. The body must be in the
+  /// world; once it is removed, this ends.
+  void pull(const Pull<Dim>& pull) { pull_ = pull; }
+  void release() { pull_.reset(); }
   /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present.
   void do_event(const Event<Dim>& event);
 
@@ -85,6 +90,7 @@ class Simulation {
   void move_obstacles();
   void change_gravity();
   void keep_moved_awake();
+  void pull_body();
   void do_due_events();
   std::vector<BodyIndex> bodies_meant(const Event<Dim>& event) const;
   void kick(const Event<Dim>& event);
@@ -121,6 +127,8 @@ class Simulation {
   std::vector<ObstacleName> obstacle_names_;
   EventClock<Dim> event_clock_;
   std::vector<DoneEvent> done_events_;
+  std::optional<Pull<Dim>> pull_;
+  std::vector<BodyIndex> pulled_;  // in this step: the body and what lies beside it, ascending
   std::map<std::string, std::unique_ptr<SleepPolicy<Dim>>> other_policies_;  // by name; that events switch to
   std::optional<RestCheck<Dim>> rest_check_;  // where the scene ends at rest or an event waits for it
   bool ends_at_rest_;

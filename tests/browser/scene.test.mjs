@@ -83,9 +83,10 @@ test("a scene of the other dimension can follow", async () => {
 });
 
 test("a body is thrown by shift and drag, and removed by Delete", async () => {
-  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8");
+  // Few bodies, so that none falls onto the one thrown.
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--set", "source[0].count=12");
   const page = await openPage(url);
-  await until(page, ({ asleep }) => asleep > 0, 60);
+  await until(page, ({ bodies, asleep }) => bodies === 12 && asleep > 8, 60);
   await page.click("#run");
   await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
   await page.waitForTimeout(500);
@@ -120,6 +121,37 @@ test("a body is thrown by shift and drag, and removed by Delete", async () => {
   await page.close();
   child.kill();
 });
+
+for (const [policy, wanted] of [
+  ["adaptive", /Rests on .*At rest for|Rests on .*Asleep|Asleep.*Cause: rest.*Layer.*Rests on/s],
+  ["paper", /Asleep.*Cause: score.*Score [\d.]+ when it fell asleep, threshold 0\.5.*Rests on .*Density of its layer: [\d.e-]+ \(above 0\.8/s],
+]) {
+  test(`a click under policy ${policy} names cause, score, supports and thresholds`, async () => {
+    const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--policy", policy);
+    const page = await openPage(url);
+    await until(page, ({ asleep }) => asleep > 3, 60);
+    await page.click("#run");
+    await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
+    await page.waitForTimeout(500);
+    const place = await page.evaluate(() => {
+      const { state } = window.talus.timeline;
+      const { stage } = window.talus;
+      for (let i = 0; i < state.bodies; ++i) {
+        const { x, y } = stage.placeOf(i);
+        if (state.asleep[i] !== 0 && stage.bodyAt(x, y) === i) return { x, y };
+      }
+    });
+    const { x, y } = await page.locator("#bodies").boundingBox();
+    await page.mouse.click(x + place.x, y + place.y);
+    await page.waitForFunction(() => document.getElementById("body").textContent.includes("Rests on"));
+    assert.match((await page.locator("#body p").allTextContents()).join("\n"), wanted);
+    await page.click("#back");
+    assert.ok(!(await page.textContent("#body")).includes("Rests on"), "of an older frame this is not known");
+    assert.deepEqual(page.faults, []);
+    await page.close();
+    child.kill();
+  });
+}
 
 test("commands for bodies that are not there are refused", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d");

@@ -37,12 +37,33 @@ HandCommand remove(const Json& command) {
   return [body = number_of(command, "body")](ShownRun& run) { return run.remove(body); };
 }
 
+HandCommand pull(const Json& command) {
+  return [body = number_of(command, "body"), point = vector_of(command, "point"),
+          to = vector_of(command, "to")](ShownRun& run) { return run.pull(body, point, to); };
+}
+
+HandCommand release(const Json& /*command*/) {
+  return [](ShownRun& run) {
+    run.release();
+    return std::string();
+  };
+}
+
+HandCommand add(const Json& command) {
+  const Json shape = command.value("shape", Json());
+  if (!shape.is_string()) throw std::invalid_argument("shape: must be the name of a shape");
+  return [shape = shape.get<std::string>(), position = vector_of(command, "position")](ShownRun& run) {
+    return run.add(shape, position);
+  };
+}
+
 struct Kind {
   const char* name;
   HandCommand (*read)(const Json&);
 };
 
-constexpr auto kinds = std::to_array<Kind>({{"kick", kick}, {"remove", remove}});
+constexpr auto kinds =
+    std::to_array<Kind>({{"kick", kick}, {"remove", remove}, {"pull", pull}, {"release", release}, {"add", add}});
 
 }  // namespace
 

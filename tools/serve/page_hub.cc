@@ -25,7 +25,10 @@ PageHub::~PageHub() {
 void PageHub::begin(std::shared_ptr<const Snapshot> first) {
   const std::lock_guard lock(mutex_);
   last_events_.clear();
-  for (Page& page : pages_) page.events.clear();
+  for (Page& page : pages_) {
+    page.events.clear();
+    page.body = -1;
+  }
   newest_ = std::move(first);
   changed_.notify_all();
 }
@@ -101,6 +104,24 @@ bool PageHub::contacts_wanted() const {
   return std::ranges::any_of(pages_, &Page::contacts);
 }
 
+void PageHub::choose_body(int number, std::int64_t body) {
+  const std::lock_guard lock(mutex_);
+  if (Page* page = find(number)) page->body = body;
+}
+
+std::vector<std::pair<int, std::int64_t>> PageHub::chosen_bodies() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::pair<int, std::int64_t>> chosen;
+  for (const Page& page : pages_)
+    if (page.body >= 0) chosen.emplace_back(page.number, page.body);
+  return chosen;
+}
+
+void PageHub::set_account(int number, const std::string& account) {
+  const std::lock_guard lock(mutex_);
+  if (Page* page = find(number)) page->account = account;
+}
+
 void PageHub::reply(int number, const std::string& text) {
   const std::lock_guard lock(mutex_);
   if (Page* page = find(number)) page->replies.push_back(text);
@@ -138,6 +159,7 @@ PageHub::Parcel PageHub::take(Page& page) {
   if (page.status != status_) parcel.texts.push_back(page.status = status_);
   if (!due(page)) return parcel;
   parcel.new_run = page.sent == nullptr || page.sent->head() != newest_->head();
+  if (!page.account.empty()) parcel.texts.push_back(std::exchange(page.account, ""));
   parcel.contacts = page.contacts;
   parcel.snapshot = page.sent = newest_;
   // Events of steps after the snapshot stay for the next one.

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tools/serve/shown_run.h"
@@ -56,6 +57,12 @@ class PageHub {
   void want_contacts(int number, bool wanted);
   /// Whether any page is.
   bool contacts_wanted() const;
+  /// The body that a page wants an account of, below 0: none.
+  void choose_body(int number, std::int64_t body);
+  /// Pages with a body chosen, and the body.
+  std::vector<std::pair<int, std::int64_t>> chosen_bodies() const;
+  /// Sent to a page with its next frame, unless another one follows before.
+  void set_account(int number, const std::string& account);
   /// A text for this page alone.
   void reply(int number, const std::string& text);
   std::size_t pages() const;
@@ -66,7 +73,9 @@ class PageHub {
     PageSocket* socket = nullptr;
     bool ready = true;  // for the next frame
     bool closing = false;
-    bool contacts = false;  // are sent to it
+    bool contacts = false;   // are sent to it
+    std::int64_t body = -1;  // that it wants an account of
+    std::string account;     // of it; empty: sent
     std::vector<std::string> replies;
     std::vector<SleepEvent> events;  // since the last frame sent
     std::string status;              // sent last

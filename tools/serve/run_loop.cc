@@ -74,6 +74,10 @@ void RunLoop::greet(int page) {
   });
 }
 
+void RunLoop::leave(int page) {
+  if (pulling_ == page) queue_by_hand(page, read_hand_command({{"do", "release"}}));
+}
+
 void RunLoop::command(int page, const std::string& text) {
   const Json command = Json::parse(text, nullptr, false);
   if (!command.is_object() || !command.contains("do") || !command["do"].is_string()) {
@@ -82,6 +86,7 @@ void RunLoop::command(int page, const std::string& text) {
   }
   const std::string what = command["do"].get<std::string>();
   try {
+    if (what == "pull") pulling_ = page;
     if (is_hand_command(what))
       queue_by_hand(page, read_hand_command(command));
     else
@@ -110,6 +115,9 @@ void RunLoop::obey(int page, const std::string& what, const Json& command) {
       run.show_contacts(hub_.contacts_wanted());
       return std::string();
     });
+  } else if (what == "choose" && command.value("body", Json()).is_number_integer()) {
+    hub_.choose_body(page, command["body"].get<std::int64_t>());
+    queue_by_hand(page, [](ShownRun&) { return std::string(); });  // so that the page gets a frame with the account
   } else if (what == "pace") {
     set_pace(page, value);
   } else if (what == "policy" && value.is_string()) {
@@ -117,9 +125,9 @@ void RunLoop::obey(int page, const std::string& what, const Json& command) {
   } else if (what == "scene" && command.value("text", Json()).is_string()) {
     start_scene(page, command["text"].get<std::string>(), "");
   } else {
-    throw std::invalid_argument(
-        fmt::format("\"do\" must be run, pause, step, restart, pace, policy, scene, contacts, {}, with its value",
-                    fmt::join(hand_command_names(), ", ")));
+    throw std::invalid_argument(fmt::format(
+        "\"do\" must be run, pause, step, restart, pace, policy, scene, contacts, choose, {}, with its value",
+        fmt::join(hand_command_names(), ", ")));
   }
 }
 
@@ -268,6 +276,7 @@ void RunLoop::step() {
 }
 
 void RunLoop::publish() {
+  for (const auto& [page, body] : hub_.chosen_bodies()) hub_.set_account(page, run_->account(body));
   hub_.publish(run_->snapshot());
   published_ = true;
 }

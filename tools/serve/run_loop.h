@@ -1,6 +1,7 @@
 #pragma once
 // A simulation that pages steer.
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -46,9 +47,12 @@ class RunLoop {
 
   /// A page came: it gets the scene's text.
   void greet(int page);
+  /// A page has gone: what it pulls is let go.
+  void leave(int page);
   /// A command of a page, as JSON: {"do": "run" | "pause" | "step" | "restart"}, {"do": "pace", "value": number},
   /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "contacts", "value": whether this page is
-  /// sent them}, or one of hand_command.h. What is wrong is replied to the page; then nothing changes.
+  /// sent them}, {"do": "choose", "body": number to be told of with each frame, below 0: none}, or one of
+  /// hand_command.h. What is wrong is replied to the page; then nothing changes.
   void command(int page, const std::string& text);
 
  private:
@@ -103,6 +107,7 @@ class RunLoop {
   bool running_ = false;
   int single_steps_ = 0;
   std::vector<ByHand> by_hand_;
+  std::atomic<int> pulling_ = -1;  // page that pulled last
   double pace_;
   bool finished_ = false;
   std::string reason_;  // why the run cannot go on; empty: it can

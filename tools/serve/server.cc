@@ -150,7 +150,9 @@ struct ViewServer::Mount {
 
   static void on_close(const mg_connection* connection, void* data) {
     const std::unique_ptr<WebPage> page(static_cast<WebPage*>(mg_get_user_connection_data(connection)));
-    if (page != nullptr) of(data).served.hub->remove(page->number);
+    if (page == nullptr) return;
+    of(data).served.hub->remove(page->number);
+    if (of(data).served.loop != nullptr) of(data).served.loop->leave(page->number);
   }
 
   void listen() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "common/simulation/simulation.h"
@@ -13,7 +14,9 @@
 #include "tools/run/backends.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/version.h"
+#include "tools/serve/body_account.h"
 #include "tools/serve/contact_memory.h"
+#include "tools/serve/free_place.h"
 #include "tools/serve/state_copy.h"
 #include "tools/view/frame_stream.h"
 #include "tools/view/run_head.h"
@@ -33,7 +36,8 @@ template <int Dim>
 class SimulatedScene final : public ShownRun {
  public:
   SimulatedScene(const Scene<Dim>& scene, const std::string& backend, const std::string& name)
-      : dt_(scene.world.dt),
+      : scene_(scene),
+        dt_(scene.world.dt),
         steps_(scene.steps()),
         quantum_(quantum_of(scene)),
         head_(std::make_shared<std::string>(head_of(scene, backend, name))),
@@ -62,6 +66,12 @@ class SimulatedScene final : public ShownRun {
 
   void show_contacts(bool show) override { contacts_.want(show, simulation_.world()); }
 
+  std::string account(std::int64_t body) const override {
+    const std::vector<ShownContact<Dim>> contacts = contacts_.contacts(simulation_.world());
+    return body_account<Dim>(simulation_, scene_, contacts, body)
+        .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  }
+
   std::string kick(std::int64_t body, std::span<const double> velocity) override {
     if (!present(body)) return no_body(body);
     constexpr double fastest = 1000.0;  // [m/s]; the engine's own limit is lower
@@ -82,7 +92,41 @@ class SimulatedScene final : public ShownRun {
     return {};
   }
 
+  std::string pull(std::int64_t body, std::span<const double> point, std::span<const double> target) override {
+    if (!present(body)) return no_body(body);
+    const auto index = static_cast<BodyIndex>(body);
+    const double reach = bounding_radius(simulation_.world().shape_of(index));
+    const std::optional<Vec<Dim>> from = vector_of(point, 1.01 * reach);
+    const std::optional<Vec<Dim>> to = vector_of(target, farthest_place);
+    if (!from) return fmt::format("point: must be {} numbers, within the body", Dim);
+    if (!to) return fmt::format("to: must be {} numbers of -{} to {}", Dim, farthest_place, farthest_place);
+    simulation_.pull({.body = index, .point = *from, .target = *to});
+    return {};
+  }
+
+  void release() override { simulation_.release(); }
+
+  std::string add(const std::string& shape, std::span<const double> position) override {
+    const auto& shapes = scene_.world.shapes;
+    const auto found = std::ranges::find(shapes, shape, &Shape<Dim>::name);
+    if (found == shapes.end()) return fmt::format("shape: the scene has none named '{}'", printable(shape));
+    const std::optional<Vec<Dim>> at = vector_of(position, farthest_place);
+    if (!at) return fmt::format("position: must be {} numbers of -{} to {}", Dim, farthest_place, farthest_place);
+    const int number = static_cast<int>(found - shapes.begin());
+    const std::optional<Vec<Dim>> place = free_place(simulation_.world(), fixed_supports(scene_), number, *at);
+    if (!place) return "position: must have a free place above it";
+    simulation_.add({.shape = number, .pose = {.position = *place}});
+    return {};
+  }
+
  private:
+  /// None where these are not as many numbers as axes, each at most `limit` in size.
+  static std::optional<Vec<Dim>> vector_of(std::span<const double> numbers, double limit) {
+    const auto allowed = [&](double number) { return std::abs(number) <= limit; };
+    if (numbers.size() != Dim || !std::ranges::all_of(numbers, allowed)) return std::nullopt;
+    return Vec<Dim>(Eigen::Map<const Vec<Dim>>(numbers.data()));
+  }
+
   bool present(std::int64_t body) const {
     const BodyStates<Dim>& states = simulation_.world().states();
     return body >= 0 && body < states.size() && states.removed[body] == 0;
@@ -100,6 +144,7 @@ class SimulatedScene final : public ShownRun {
     return head.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
   }
 
+  Scene<Dim> scene_;
   double dt_;
   std::int64_t steps_;
   Quantum quantum_;

@@ -50,10 +50,18 @@ class ShownRun {
   virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
   /// Whether snapshots have contacts from now on. Costs nothing while false.
   virtual void show_contacts(bool show) = 0;
+  /// What is known of a body here only (body_account.h), as JSON.
+  virtual std::string account(std::int64_t body) const = 0;
   /// By hand between steps: wakes a body and adds `velocity` [m/s], an entry for each axis, to its own; or takes it out
   /// of the world. The text returned says what is wrong; then nothing is done. Empty: done.
   virtual std::string kick(std::int64_t body, std::span<const double> velocity) = 0;
   virtual std::string remove(std::int64_t body) = 0;
+  /// From the next step on pulls a body by `point` [m], in its own axes, to `target` [m], until release():
+  /// common/simulation/pull.h.
+  virtual std::string pull(std::int64_t body, std::span<const double> point, std::span<const double> target) = 0;
+  virtual void release() = 0;
+  /// Adds a body of a shape of the scene at rest, at the lowest free place from `position` [m] upwards.
+  virtual std::string add(const std::string& shape, std::span<const double> position) = 0;
 };
 
 /// Starts the scene on the engine of that name; an empty name: the first that can simulate it. `file`: of the scene.

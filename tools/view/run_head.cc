@@ -180,6 +180,7 @@ Json run_head(const Scene<Dim>& scene, const RunTexts& texts, const Quantum& qua
           {"box", {json_of<Dim>(box.min()), json_of<Dim>(box.max())}},
           {"camera", {{"azimuth", picture.azimuth}, {"elevation", picture.elevation}}},
           {"colours", colours()},
+          {"score_threshold", scene.policy.kind == "paper" ? Json(scene.policy.paper.tau) : Json()},
           {"causes", causes()},
           {"events", events_of(scene)},
           {"coloured_shapes", coloured_shapes_of(scene)},

@@ -90,9 +90,32 @@ template <int Dim>
 bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body) const {
   const double rested = rest_.time_at_rest(body);
   if (rested >= rest_time_woken_ && rest_.unmoved_since_wake(body)) return true;
-  if (rested < rest_time_deep_) return false;
+  return rested >= rest_time_deep_ && rested >= rest_time_needed(frame, body);
+}
+
+/// Of a body that moved since it woke [s].
+template <int Dim>
+double AdaptivePolicy<Dim>::rest_time_needed(const Frame<Dim>& frame, BodyIndex body) const {
   const double shortened = rest_time_surface_ - rest_time_deep_;
-  return rested >= rest_time_surface_ - shortened * placement(frame, body).score;
+  return rest_time_surface_ - shortened * placement(frame, body).score;
+}
+
+template <int Dim>
+std::vector<Reading> AdaptivePolicy<Dim>::readings(const Frame<Dim>& frame, BodyIndex body) const {
+  std::vector<Reading> readings;
+  if (frame.world.states().asleep[body] != 0) {
+    if (const auto creep = checks_.expected_motion(body))
+      readings.push_back(
+          {"creep measured by the last check", *creep, checks_.tolerance(), "m", "the check would have gone on"});
+    return readings;
+  }
+  if (checks_.holds(body)) readings.push_back({"held awake by a stability check", 1.0, std::nullopt, "", ""});
+  if (!rest_.watches(body)) return readings;
+  const bool unmoved = rest_.unmoved_since_wake(body);
+  const double needed =
+      unmoved ? std::min(rest_time_woken_, rest_time_needed(frame, body)) : rest_time_needed(frame, body);
+  readings.push_back({"at rest for", rest_.time_at_rest(body), needed, "s", "sleeps, if supported"});
+  return readings;
 }
 
 /// With the score of section 3.3 for a body at rest, at most 1.

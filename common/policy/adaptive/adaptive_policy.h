@@ -30,6 +30,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
 
   bool counts_flying() const override { return false; }
   bool needs_contacts() const override { return true; }
+  std::vector<Reading> readings(const Frame<Dim>& frame, BodyIndex body) const override;
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
     return checks_.drift_estimate(world);
@@ -46,6 +47,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   void limit_velocities();
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
+  double rest_time_needed(const Frame<Dim>& frame, BodyIndex body) const;
   bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 

@@ -65,6 +65,11 @@ double RestCriterion<Dim>::time_at_rest(BodyIndex body) const {
 }
 
 template <int Dim>
+bool RestCriterion<Dim>::watches(BodyIndex body) const {
+  return std::ranges::binary_search(references_, body, {}, &Reference::body);
+}
+
+template <int Dim>
 bool RestCriterion<Dim>::unmoved_since_wake(BodyIndex body) const {
   return reference_of(body).unmoved_since_wake;
 }

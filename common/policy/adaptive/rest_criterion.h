@@ -22,6 +22,9 @@ class RestCriterion {
   /// Bodies in `wakes` whose impact is still to come are not marked as unmoved when they wake.
   void expect_motion(const WakeList& wakes);
 
+  /// Whether the last update() found the body awake.
+  bool watches(BodyIndex body) const;
+
   /// Time since the rest of an awake body began [s]; 0 for a body that moves.
   double time_at_rest(BodyIndex body) const;
 

@@ -147,6 +147,12 @@ void StabilityChecks<Dim>::release(const RuleInput<Dim>& in, const Member& membe
 }
 
 template <int Dim>
+std::optional<double> StabilityChecks<Dim>::expected_motion(BodyIndex body) const {
+  if (body >= std::ssize(checked_) || !checked_[body]) return std::nullopt;
+  return checked_[body]->expected;
+}
+
+template <int Dim>
 std::optional<DriftEstimate> StabilityChecks<Dim>::drift_estimate(const World<Dim>& world) const {
   if (tolerance_ <= 0.0) return std::nullopt;
   const BodyStates<Dim>& states = world.states();

@@ -40,6 +40,12 @@ class StabilityChecks {
   /// Whether an awake body takes part in a check and must stay awake.
   bool holds(BodyIndex body) const;
 
+  /// Distance [m] that a sleeping body is expected to move once woken, from the motion around it at the end of the
+  /// check that left it; none where no check did.
+  std::optional<double> expected_motion(BodyIndex body) const;
+  /// [m]
+  double tolerance() const { return tolerance_; }
+
   /// Of a body that a check has left: the motion expected of it then. Of the others: the mean distance that bodies
   /// moved which a check woke, over the last few hundred. None without checks, and before the first. Costs O(bodies).
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const;

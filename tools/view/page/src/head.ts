@@ -58,6 +58,8 @@ export interface Head {
     obstacle_outline: Rgb;
     ground: Rgb;
   };
+  /// Of policy `paper`: the score above which a body sleeps; none of other policies.
+  score_threshold: number | null;
   causes: (Cause | null)[];
   /// The scene's events, with the numbers of the obstacles that they remove; none where the scene is not known.
   events: { text: string; removes: number[] }[];

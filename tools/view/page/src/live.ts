@@ -1,5 +1,6 @@
 // A run that goes on in `talus view`: frames come over a WebSocket, commands go back (tools/view/run_loop.h).
 
+import type { Account } from "./body_panel";
 import { element } from "./element";
 import type { Head } from "./head";
 import { numbersOf, rangeOf, withNumber, type SceneNumber } from "./numbers";
@@ -25,7 +26,7 @@ interface Fault {
   text: string;
 }
 
-type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] };
+type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | (Account & { kind: "body" });
 
 const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
 
@@ -121,6 +122,9 @@ class Live implements Simulation {
       case "scene":
         element<HTMLTextAreaElement>("text").value = message.text;
         this.listNumbers();
+        break;
+      case "body":
+        this.player?.takeAccount(message);
         break;
       case "errors":
         this.showErrors(message.errors);

@@ -1,14 +1,15 @@
 // What the user does with the frames of a run: play, step, scrub, choose a body.
 
+import { type Account, BodyPanel } from "./body_panel";
 import { ContactPanel } from "./contact_panel";
 import { element } from "./element";
 import type { Head, Rgb } from "./head";
 import { Plots } from "./plots";
 import { css, type Paint } from "./colours";
+import { PointerTools } from "./pointer_tools";
 import { Stage } from "./stage";
 import { Timeline } from "./timeline";
 
-const throwRate = 4; // [1/s] speed of a throw over the length of the drag
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
 /// Of sleeping and awake bodies by the number of the cause.
@@ -71,6 +72,8 @@ export class Player {
   timeline: Timeline;
   stage: Stage;
   readonly contacts: ContactPanel;
+  readonly body = new BodyPanel();
+  private readonly tools: PointerTools;
   private plots: Plots;
   private simulation: Simulation | null = null;
   private playing = false;
@@ -81,6 +84,12 @@ export class Player {
   constructor(private head: Head) {
     this.timeline = new Timeline(head);
     this.contacts = new ContactPanel(head);
+    this.tools = new PointerTools({
+      stage: () => this.stage,
+      steered: () => this.simulation?.steered() ?? false,
+      command: (command) => this.command(command),
+      select: (body) => this.select(body),
+    });
     this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
     this.plots = this.show();
     this.listen();
@@ -125,7 +134,8 @@ export class Player {
     element("subtitle").textContent = [head.name, head.backend, `policy ${head.policy}`, seed, head.version].filter((part) => part !== "").join(", ");
     element("status").textContent = head.damage;
     this.stage.setRun(this.timeline);
-    this.showBody();
+    this.tools.setShapes(head.shapes.map(({ name }) => name));
+    this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
     this.showWarnings();
     return new Plots(element("plots"), head, this.timeline, (time) => this.seekTime(time));
   }
@@ -148,7 +158,6 @@ export class Player {
     for (const speed of speeds) element("rate").append(new Option(`${speed}x`, String(speed), false, speed === 1));
     document.addEventListener("keydown", (event) => this.key(event));
     this.listenToStage();
-    this.listenToThrows();
   }
 
   private listenToStage(): void {
@@ -156,37 +165,14 @@ export class Player {
     let [downX, downY] = [0, 0];
     canvas.addEventListener("pointerdown", (event) => ([downX, downY] = [event.clientX, event.clientY]));
     canvas.addEventListener("pointerup", (event) => {
-      if (Math.hypot(event.clientX - downX, event.clientY - downY) < 4) this.select(this.stage.bodyAt(event.offsetX, event.offsetY));
+      if (Math.hypot(event.clientX - downX, event.clientY - downY) >= 4 || this.tools.click(event.offsetX, event.offsetY)) return;
+      this.select(this.stage.bodyAt(event.offsetX, event.offsetY));
     });
   }
 
-  /// Shift and drag on a body of a simulation throws it; the camera stands still meanwhile.
-  private listenToThrows(): void {
-    const area = element("stage");
-    let thrown: { body: number; x: number; y: number } | null = null;
-    area.addEventListener(
-      "pointerdown",
-      (event) => {
-        if (!event.shiftKey || !this.simulation?.steered()) return;
-        const body = this.stage.bodyAt(event.offsetX, event.offsetY);
-        if (body < 0) return;
-        event.stopPropagation();
-        thrown = { body, x: event.offsetX, y: event.offsetY };
-        this.select(body);
-      },
-      true,
-    );
-    area.addEventListener("pointermove", (event) => {
-      if (thrown) this.stage.arrow = [thrown.x, thrown.y, event.offsetX, event.offsetY];
-      if (thrown) this.stage.redraw();
-    });
-    window.addEventListener("pointerup", (event) => {
-      if (!thrown) return;
-      const velocity = this.stage.inWorld(thrown.body, event.offsetX - thrown.x, event.offsetY - thrown.y).map((way) => throwRate * way);
-      this.command({ do: "kick", body: thrown.body, velocity });
-      thrown = this.stage.arrow = null;
-      this.stage.redraw();
-    });
+  /// What the server says of a body.
+  takeAccount(account: Account): void {
+    this.body.account = account;
   }
 
   private removeBody(): void {
@@ -206,6 +192,9 @@ export class Player {
       f: () => this.resetCamera(),
       r: () => (this.simulation ? this.simulation.restart() : this.seek(0)),
       l: () => element("loop").click(),
+      c: () => this.tools.choose("camera"),
+      g: () => this.tools.choose("pull"),
+      a: () => this.tools.choose("add"),
       Delete: () => this.removeBody(),
       Home: () => this.seek(0),
       End: () => this.toEnd(),
@@ -303,7 +292,7 @@ export class Player {
     this.contacts.show(this.timeline.shown, this.stage);
     element<HTMLInputElement>("scrub").value = String(this.timeline.shown);
     this.showCounts();
-    this.showBody();
+    this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
     this.plots.showTime();
   }
 
@@ -347,9 +336,10 @@ export class Player {
 
   select(body: number): void {
     const before = this.stage.selected;
+    if (this.simulation?.steered()) this.command({ do: "choose", body });
     this.stage.selected = body;
     this.stage.update([before, body].filter((one) => one >= 0), this.paint());
-    this.showBody();
+    this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
   }
 
   private showCounts(): void {
@@ -389,51 +379,6 @@ export class Player {
       counts.set(named, row);
     }
     return [...counts.values()].sort((a, b) => a[2].localeCompare(b[2]));
-  }
-
-  private showBody(): void {
-    const body = this.stage.selected;
-    const { state } = this.timeline;
-    if (body < 0 || body >= state.bodies) {
-      const hint = Object.assign(document.createElement("p"), { className: "hint", textContent: body < 0 ? "Click a body to see why it sleeps." : `Body ${body} has not appeared yet.` });
-      element("body").replaceChildren(hint);
-      return;
-    }
-    const lines = this.describe(body).map((text) => Object.assign(document.createElement("p"), { textContent: text }));
-    element("body").replaceChildren(...lines);
-  }
-
-  /// Which body, since when it is as it is, and why.
-  describe(body: number): string[] {
-    const { state } = this.timeline;
-    const { step, event } = this.timeline.since(body);
-    const awake = state.asleep[body] === 0;
-    const since = `since ${(step * this.head.dt).toFixed(2)} s (step ${step})`;
-    const lines = [`Body ${body}, shape ${this.head.shapes[state.shape[body]]?.name ?? ""}`];
-    if (state.removed[body] !== 0) return [...lines, "removed"];
-    lines.push(`${awake ? "Awake" : "Asleep"} ${event ? since : `${since}, when it appeared`}`);
-    const cause = event ? this.head.causes[event.cause] : null;
-    if (event && cause) lines.push(`Cause: ${cause.name} (${event.woke ? cause.woke : cause.slept})`);
-    if (event && event.score > 0) lines.push(`Score ${event.score.toPrecision(3)}`);
-    const layer = this.layerOf(body);
-    lines.push(layer === null ? "In no layer" : `Layer ${layer.layer} from the bottom of pile ${layer.pile}, density ${layer.density.toFixed(2)}`);
-    return lines;
-  }
-
-  /// Layer in which the centre of a body lies; the first pile counts.
-  private layerOf(body: number): { pile: number; layer: number; density: number } | null {
-    const { state } = this.timeline;
-    const { position } = this.head.quantum;
-    const axes = this.head.dimension;
-    const components = axes === 2 ? 3 : 7;
-    const at = Array.from({ length: axes }, (_, i) => state.pose[components * body + i] * position);
-    for (const [pile, { centre, layers, counts }] of state.piles.entries()) {
-      const height = at[axes - 1] - centre[axes - 1];
-      const away = Math.hypot(...centre.slice(0, -1).map((value, i) => at[i] - value));
-      const layer = layers.findIndex(({ bottom, top, radius }) => height >= bottom && height < top && away <= radius);
-      if (layer >= 0) return { pile, layer, density: counts[2 * layer] / layers[layer].capacity };
-    }
-    return null;
   }
 
   private showWarnings(): void {

@@ -50,6 +50,8 @@ export class Stage {
   selected = -1;
   /// From where to where a throw is drawn [CSS pixels].
   arrow: [number, number, number, number] | null = null;
+  /// From which point of a body, in its own axes [m], to where a line is drawn [CSS pixels].
+  tether: { body: number; point: number[]; to: [number, number] } | null = null;
   /// Whether the camera moves back as the pile grows, until the user moves it.
   follows = false;
   private box: [Vector3, Vector3];
@@ -287,9 +289,17 @@ export class Stage {
     if (this.showLayers && this.timeline) this.layers.drawLabels(paper, this.timeline.state.piles, this.camera, (point) => this.onScreen(point));
   }
 
+  private tetherLine(): [number, number, number, number] | null {
+    if (!this.tether) return null;
+    const { body, point, to } = this.tether;
+    const from = this.onScreen(new Vector3(point[0], point[1], point[2] ?? 0).applyMatrix4(matrixOf(this.poseOf(body))));
+    return [from.x, from.y, ...to];
+  }
+
   private drawArrow(): void {
-    if (!this.arrow) return;
-    const [x0, y0, x1, y1] = this.arrow;
+    const line = this.arrow ?? this.tetherLine();
+    if (!line) return;
+    const [x0, y0, x1, y1] = line;
     const paper = this.labels;
     paper.strokeStyle = paper.fillStyle = css(highlight);
     paper.lineWidth = 2;
@@ -322,14 +332,58 @@ export class Stage {
     paper.fillText(`${length} m`, end + 7, bottom);
   }
 
+  private rayAt(x: number, y: number): Raycaster {
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
+    return ray;
+  }
+
+  private hitAt(x: number, y: number): { body: number; at: Vector3 } | null {
+    const ray = this.rayAt(x, y);
+    const hits = this.shapes.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, at: hit.point, body: shape.bodies[hit.instanceId!] })));
+    hits.sort((a, b) => a.distance - b.distance);
+    return hits.find(({ body }) => body < this.timeline!.state.bodies) ?? null;
+  }
+
   /// The body at a place of the canvas [CSS pixels], -1: none.
   bodyAt(x: number, y: number): number {
-    const ray = new Raycaster();
-    const place = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
-    ray.setFromCamera(place, this.camera);
-    const hits = this.shapes.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, body: shape.bodies[hit.instanceId!] })));
-    hits.sort((a, b) => a.distance - b.distance);
-    return hits.find(({ body }) => body < this.timeline!.state.bodies)?.body ?? -1;
+    return this.hitAt(x, y)?.body ?? -1;
+  }
+
+  /// The body there, with the point hit in its own axes and in the world's [m].
+  grabAt(x: number, y: number): { body: number; point: number[]; grabbed: number[] } | null {
+    const hit = this.hitAt(x, y);
+    if (!hit) return null;
+    const local = hit.at.clone().applyMatrix4(matrixOf(this.poseOf(hit.body)).invert());
+    const list = (point: Vector3): number[] => point.toArray().slice(0, this.head.dimension);
+    return { body: hit.body, point: list(local), grabbed: list(hit.at) };
+  }
+
+  /// The point of a ray through a place of the canvas on the plane with this normal through `through`; none behind the eye.
+  private onPlane(x: number, y: number, normal: Vector3, through: Vector3): number[] | null {
+    const { origin, direction } = this.rayAt(x, y).ray;
+    const distance = through.clone().sub(origin).dot(normal) / direction.dot(normal);
+    if (!Number.isFinite(distance) || distance < 0) return null;
+    return origin.clone().addScaledVector(direction, distance).toArray().slice(0, this.head.dimension);
+  }
+
+  private towardsEye(): Vector3 {
+    return new Vector3(0, 0, 1).applyQuaternion(this.camera.quaternion);
+  }
+
+  /// Where the pointer is [m] in the plane of the screen through a point.
+  across(through: number[], x: number, y: number): number[] {
+    return this.onPlane(x, y, this.towardsEye(), new Vector3(through[0], through[1], through[2] ?? 0)) ?? through;
+  }
+
+  /// Where a body may be put [m]: on the body there, else on the ground, else at the middle of the view.
+  placeAt(x: number, y: number): number[] | null {
+    if (this.flat) return this.onPlane(x, y, this.towardsEye(), new Vector3());
+    const hit = this.hitAt(x, y);
+    if (hit) return hit.at.toArray();
+    const { ground } = this.head;
+    const onGround = ground.present ? this.onPlane(x, y, new Vector3(0, 0, 1), new Vector3(0, 0, ground.height)) : null;
+    return onGround ?? this.onPlane(x, y, this.towardsEye(), this.controls.target);
   }
 
   /// A way on the canvas [CSS pixels] at a body's distance as one in the world [m], in the plane of the screen.
