@@ -13,13 +13,6 @@ constexpr double lowered_by = 1e-4;         // in lengths of the body
 /// Cosine between the vertical and the steepest normal that still carries: 84 degrees.
 constexpr double least_rise = 0.1;
 
-template <int Dim>
-std::vector<ConvexPiece<Dim>> pieces_at(const Shape<Dim>& shape, const Pose<Dim>& pose) {
-  std::vector<ConvexPiece<Dim>> pieces = convex_pieces(shape);
-  for (ConvexPiece<Dim>& piece : pieces) piece = moved(std::move(piece), pose);
-  return pieces;
-}
-
 /// Whether a piece of the one touches a piece of the other, and comes nearer once lowered.
 template <int Dim>
 bool rests_on(const std::vector<ConvexPiece<Dim>>& upper, const std::vector<ConvexPiece<Dim>>& lower, double extent) {
@@ -43,16 +36,16 @@ std::vector<BodyIndex> supports_of(const World<Dim>& world, const FixedSupports&
   const Vec<Dim> margin = Vec<Dim>::Constant(touching_distance * extent);
   const Box<Dim> bounds = world.bounds_of(body);
   const Box<Dim> place(bounds.min() - margin, bounds.max() + margin);
-  const std::vector<ConvexPiece<Dim>> own = pieces_at(world.shape_of(body), states.pose[body]);
+  const std::vector<ConvexPiece<Dim>> own = convex_pieces_at(world.shape_of(body), states.pose[body]);
   std::vector<BodyIndex> near;
   world.query_box(place, near);
   std::vector<BodyIndex> supports;
   for (const BodyIndex other : near)
-    if (other != body && rests_on(own, pieces_at(world.shape_of(other), states.pose[other]), extent))
+    if (other != body && rests_on(own, convex_pieces_at(world.shape_of(other), states.pose[other]), extent))
       supports.push_back(other);
   for (int k = 0; k < fixed.obstacles; ++k)
     if (world.has_obstacle(k) && bounds_at(world.obstacle_shape(k), world.obstacle_pose(k)).intersects(place) &&
-        rests_on(own, pieces_at(world.obstacle_shape(k), world.obstacle_pose(k)), extent))
+        rests_on(own, convex_pieces_at(world.obstacle_shape(k), world.obstacle_pose(k)), extent))
       supports.push_back(first_obstacle - k);
   if (fixed.ground && height<Dim>(place.min()) < fixed.ground_height) supports.push_back(ground_index);
   std::ranges::sort(supports);

@@ -43,9 +43,7 @@ OverlapCheck<Dim>::OverlapCheck(const WorldDescription<Dim>& world) : world_(wor
           .fixed = true,
           .name = static_cast<int>(names_.size())},
          2.0 * bounding_radius(obstacle.shape));
-    Pieces pieces = convex_pieces(obstacle.shape);
-    for (ConvexPiece<Dim>& piece : pieces) piece = moved(std::move(piece), obstacle.pose);
-    obstacles_.push_back(std::move(pieces));
+    obstacles_.push_back(convex_pieces_at(obstacle.shape, obstacle.pose));
     names_.push_back(obstacle.shape.name);
   }
 }

@@ -83,12 +83,21 @@ ConvexPiece<Dim> moved(ConvexPiece<Dim> piece, const Pose<Dim>& pose) {
   return piece;
 }
 
+template <int Dim>
+std::vector<ConvexPiece<Dim>> convex_pieces_at(const Shape<Dim>& shape, const Pose<Dim>& pose) {
+  std::vector<ConvexPiece<Dim>> pieces = convex_pieces(shape);
+  for (ConvexPiece<Dim>& piece : pieces) piece = moved(std::move(piece), pose);
+  return pieces;
+}
+
 template struct ConvexPiece<2>;
 template struct ConvexPiece<3>;
 template ConvexPiece<2> convex_piece(const Piece<2>&);
 template ConvexPiece<3> convex_piece(const Piece<3>&);
 template std::vector<ConvexPiece<2>> convex_pieces(const Shape<2>&);
 template std::vector<ConvexPiece<3>> convex_pieces(const Shape<3>&);
+template std::vector<ConvexPiece<2>> convex_pieces_at(const Shape<2>&, const Pose<2>&);
+template std::vector<ConvexPiece<3>> convex_pieces_at(const Shape<3>&, const Pose<3>&);
 template ConvexPiece<2> moved(ConvexPiece<2>, const Pose<2>&);
 template ConvexPiece<3> moved(ConvexPiece<3>, const Pose<3>&);
 

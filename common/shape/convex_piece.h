@@ -30,6 +30,9 @@ ConvexPiece<Dim> convex_piece(const Piece<Dim>& piece);
 /// All pieces of a shape.
 template <int Dim>
 std::vector<ConvexPiece<Dim>> convex_pieces(const Shape<Dim>& shape);
+/// The same with the shape at a pose.
+template <int Dim>
+std::vector<ConvexPiece<Dim>> convex_pieces_at(const Shape<Dim>& shape, const Pose<Dim>& pose);
 
 template <int Dim>
 ConvexPiece<Dim> moved(ConvexPiece<Dim> piece, const Pose<Dim>& pose);

@@ -9,17 +9,16 @@ namespace talus {
 namespace {
 
 template <int Dim>
-Vec<Dim> velocity_at(const Vec<Dim> &arm, const Vec<Dim> &velocity, const Spin<Dim> &spin) {
+Vec<Dim> velocity_at(const Vec<Dim>& arm, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
   if constexpr (Dim == 2)
     return velocity + spin[0] * Vec2(-arm[1], arm[0]);
   else
     return velocity + spin.cross(arm);
 }
 
-/// Column k: the velocity that a unit impulse along axis k at `point` gives
-/// this point.
+/// Column k: the velocity that a unit impulse along axis k at `point` gives this point.
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim> inverse_mass_at(const Shape<Dim> &shape, const Pose<Dim> &pose, const Vec<Dim> &point) {
+Eigen::Matrix<double, Dim, Dim> inverse_mass_at(const Shape<Dim>& shape, const Pose<Dim>& pose, const Vec<Dim>& point) {
   Eigen::Matrix<double, Dim, Dim> columns;
   for (int axis = 0; axis < Dim; ++axis) {
     Vec<Dim> velocity = Vec<Dim>::Zero();
@@ -31,17 +30,17 @@ Eigen::Matrix<double, Dim, Dim> inverse_mass_at(const Shape<Dim> &shape, const P
 }
 
 template <int Dim>
-Vec<Dim> at_most(const Vec<Dim> &vector, double length) {
+Vec<Dim> at_most(const Vec<Dim>& vector, double length) {
   return vector * std::min(1.0, length / std::max(vector.norm(), 1e-12));
 }
 
 }  // namespace
 
 template <int Dim>
-VelocityChange<Dim> pulled(const World<Dim> &world, const Pull<Dim> &pull, double gravity, double dt) {
-  const BodyStates<Dim> &states = world.states();
-  const Shape<Dim> &shape = world.shape_of(pull.body);
-  const Pose<Dim> &pose = states.pose[pull.body];
+VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, double gravity, double dt) {
+  const BodyStates<Dim>& states = world.states();
+  const Shape<Dim>& shape = world.shape_of(pull.body);
+  const Pose<Dim>& pose = states.pose[pull.body];
   VelocityChange<Dim> change{pull.body, states.velocity[pull.body], states.spin[pull.body]};
   const Vec<Dim> point = pose * pull.point;
   const Vec<Dim> stretch = at_most<Dim>(point - pull.target, shape.extent);
@@ -57,8 +56,7 @@ VelocityChange<Dim> pulled(const World<Dim> &world, const Pull<Dim> &pull, doubl
   inverse_mass.diagonal().array() += softness;
   const Vec<Dim> speed = velocity_at<Dim>(point - pose.position, change.velocity, change.spin);
   const Vec<Dim> impulse = -inverse_mass.inverse() * (speed + bias);
-  // Twice the force of the spring stretched to the full: what damps a body that
-  // something else has struck.
+  // Twice the force of the spring stretched to the full leaves damping for a body that is struck.
   apply_impulse<Dim>(shape, pose, point, at_most<Dim>(impulse, 2.0 * shape.mass * strength * dt), change.velocity,
                      change.spin);
   change.velocity = at_most<Dim>(change.velocity, fastest_speed<Dim>(dt));
@@ -66,7 +64,7 @@ VelocityChange<Dim> pulled(const World<Dim> &world, const Pull<Dim> &pull, doubl
   return change;
 }
 
-template VelocityChange<2> pulled(const World<2> &, const Pull<2> &, double, double);
-template VelocityChange<3> pulled(const World<3> &, const Pull<3> &, double, double);
+template VelocityChange<2> pulled(const World<2>&, const Pull<2>&, double, double);
+template VelocityChange<3> pulled(const World<3>&, const Pull<3>&, double, double);
 
 }  // namespace talus

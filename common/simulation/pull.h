@@ -14,17 +14,13 @@ struct Pull {
   Vec<Dim> target = Vec<Dim>::Zero();  // [m]
 };
 
-/// In weights of the body: force of the spring stretched by the body's extent.
-/// The most that it is stretched: a target farther away counts as one at that
-/// distance, so the body moves at 2.2 sqrt(g D) at most, as after a fall
-/// from 2.5 D.
+/// Force of the spring, in weights of the body, where it is stretched by the body's extent D. That is also the farthest
+/// that it stretches, so the body moves at 2.2 sqrt(g D) at most, as after a fall from 2.5 D.
 inline constexpr double pull_stiffness = 20.0;
 
-/// The velocity that a critically damped spring gives an awake body over the
-/// next `dt` [s], solved implicitly, so that it is stable at any step
-/// (Box2D 2.4.1, b2_mouse_joint.cpp). `gravity` [m/s^2], the spring's measure
-/// of force; 0 counts as 1.
+/// The velocity that a critically damped spring gives an awake body over the next `dt` [s], solved implicitly, so that
+/// it is stable at any step (Box2D 2.4.1, b2_mouse_joint.cpp). `gravity` [m/s^2] scales its force; 0 counts as 1.
 template <int Dim>
-VelocityChange<Dim> pulled(const World<Dim> &world, const Pull<Dim> &pull, double gravity, double dt);
+VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, double gravity, double dt);
 
 }  // namespace talus

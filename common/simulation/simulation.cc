@@ -166,7 +166,7 @@ void Simulation<Dim>::keep_moved_awake() {
   });
 }
 
-/// A sleeping body would not notice that its neighbour is pulled away, nor how slowly one is pushed against it.
+/// Sleeping neighbours are woken: neither the loss of a support nor a slow push wakes a body by itself.
 template <int Dim>
 void Simulation<Dim>::pull_body() {
   const BodyIndex body = pull_->body;

@@ -13,15 +13,8 @@ template <int Dim>
 using Pieces = std::vector<ConvexPiece<Dim>>;
 
 template <int Dim>
-Pieces<Dim> pieces_at(const Shape<Dim>& shape, const Pose<Dim>& pose) {
-  Pieces<Dim> pieces = convex_pieces(shape);
-  for (ConvexPiece<Dim>& piece : pieces) piece = moved(std::move(piece), pose);
-  return pieces;
-}
-
-template <int Dim>
 bool apart(const Pieces<Dim>& own, const Shape<Dim>& shape, const Pose<Dim>& pose, double gap) {
-  const Pieces<Dim> others = pieces_at(shape, pose);
+  const Pieces<Dim> others = convex_pieces_at(shape, pose);
   return std::ranges::all_of(own, [&](const ConvexPiece<Dim>& a) {
     return std::ranges::all_of(others,
                                [&](const ConvexPiece<Dim>& b) { return signed_distance(a, b, 2.0 * gap) > gap; });
@@ -34,7 +27,7 @@ bool is_free(const World<Dim>& world, const FixedSupports& fixed, const Shape<Di
   const Box<Dim> bounds = bounds_at(shape, pose);
   const Box<Dim> wide(bounds.min() - Vec<Dim>::Constant(gap), bounds.max() + Vec<Dim>::Constant(gap));
   if (fixed.ground && height<Dim>(wide.min()) < fixed.ground_height) return false;
-  const Pieces<Dim> own = pieces_at(shape, pose);
+  const Pieces<Dim> own = convex_pieces_at(shape, pose);
   for (int k = 0; k < fixed.obstacles; ++k)
     if (world.has_obstacle(k) && !apart(own, world.obstacle_shape(k), world.obstacle_pose(k), gap)) return false;
   std::vector<BodyIndex> near;
