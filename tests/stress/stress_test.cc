@@ -128,7 +128,16 @@ TEST(StressHistory, KeepsTheRowsOfOtherVersionsAndReplacesThoseOfThisOne) {
   EXPECT_EQ(history[0].version, "0.1.0 (old)");
   EXPECT_DOUBLE_EQ(history[0].row.measured, 0.01);
   EXPECT_DOUBLE_EQ(history[1].row.measured, 0.03);
-  EXPECT_EQ(history_figures(history).size(), 1U);
+  const std::vector<Figure> figures = history_figures(history);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_NE(figures.front().svg.find(">old</text>"), std::string::npos) << "the axis names the versions";
+}
+
+TEST(StressHistory, AValueThatDoesNotChangeIsTheSameNumberInEachVersion) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "stress.csv";
+  const auto history = append_history(file, {row("stack-5", "full", 1.0 / 3.0, StressOutcome::pass)});
+  EXPECT_EQ(history.front().row.measured, read_history(file).front().row.measured);
 }
 
 TEST(StressHistory, AnotherFileIsRefused) {

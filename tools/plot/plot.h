@@ -22,6 +22,8 @@ struct Plot {
   std::string title;
   std::string x_label;  // with the unit, as in "time [s]"
   std::string y_label;
+  /// Of 0, 1, 2, ... on the x axis, in the place of numbers; empty: numbers.
+  std::vector<std::string> x_names = {};
   bool log_x = false;
   bool log_y = false;
   bool from_zero =

@@ -246,18 +246,35 @@ std::vector<StressRecord> append_history(const fs::path& file, const std::vector
   std::ofstream out(file, std::ios::binary);
   out << csv_of(table);
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-  return history;
+  return read_history(file);  // all with the digits of the file, or a value that did not change would seem to
 }
 
-std::vector<Figure> history_figures(const std::vector<StressRecord>& history) {
+namespace {
+
+/// The commit alone, of "0.1.0 (0123abcd)"; the whole text where there is none.
+std::string name_of_version(const std::string& version) {
+  const std::size_t from = version.find('(');
+  const std::size_t to = version.find(')');
+  return from < to && to != std::string::npos ? version.substr(from + 1, to - from - 1) : version;
+}
+
+/// The newest versions of the history, in its order.
+std::vector<std::string> newest_versions(const std::vector<StressRecord>& history) {
   constexpr std::size_t most_versions = 50;
   std::vector<std::string> versions;
   for (const StressRecord& record : history)
     if (std::ranges::find(versions, record.version) == versions.end()) versions.push_back(record.version);
-  if (versions.size() < 2) return {};
   if (versions.size() > most_versions) versions.erase(versions.begin(), versions.end() - most_versions);
-  // By case and quantity, then by engine: at each version the value farthest from the reference.
-  std::map<std::pair<std::string, std::string>, std::map<std::string, std::map<double, double>>> curves;
+  return versions;
+}
+
+/// By engine: at each version, as its number, the value farthest from the reference.
+using Curves = std::map<std::string, std::map<double, double>>;
+
+/// By case and quantity.
+std::map<std::pair<std::string, std::string>, Curves> curves_of(const std::vector<StressRecord>& history,
+                                                                const std::vector<std::string>& versions) {
+  std::map<std::pair<std::string, std::string>, Curves> curves;
   for (const StressRecord& record : history) {
     const auto version = std::ranges::find(versions, record.version);
     if (version == versions.end() || !std::isfinite(record.row.measured)) continue;
@@ -267,9 +284,24 @@ std::vector<Figure> history_figures(const std::vector<StressRecord>& history) {
     if (std::abs(record.row.measured - record.row.reference) > std::abs(point->second - record.row.reference))
       point->second = record.row.measured;
   }
+  return curves;
+}
+
+}  // namespace
+
+std::vector<Figure> history_figures(const std::vector<StressRecord>& history) {
+  const std::vector<std::string> versions = newest_versions(history);
+  if (versions.size() < 2) return {};
+  std::vector<std::string> names;
+  std::ranges::transform(versions, std::back_inserter(names), name_of_version);
   std::vector<Figure> figures;
-  for (const auto& [key, engines] : curves) {
-    Plot plot{.title = key.first, .x_label = "version", .y_label = key.second, .from_zero = false, .series = {}};
+  for (const auto& [key, engines] : curves_of(history, versions)) {
+    Plot plot{.title = key.first,
+              .x_label = "version",
+              .y_label = key.second,
+              .x_names = names,
+              .from_zero = false,
+              .series = {}};
     for (const auto& [engine, points] : engines) {
       Series series{engine, {}, {}};
       series.style = SeriesStyle::line_and_points;
@@ -281,8 +313,7 @@ std::vector<Figure> history_figures(const std::vector<StressRecord>& history) {
     }
     if (plot.series.empty()) continue;
     figures.push_back(
-        {svg_of(plot), fmt::format("{}: {}, of all policies the value farthest from its reference, from {} "
-                                   "to {}.",
+        {svg_of(plot), fmt::format("{}: {}, of all policies the value farthest from its reference, from {} to {}.",
                                    key.first, key.second, versions.front(), versions.back())});
   }
   return figures;
