@@ -61,6 +61,7 @@ class ShownContacts : public ::testing::TestWithParam<EngineChoice> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Engines, ShownContacts, ::testing::ValuesIn(all_engines()), name_of_engine);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ShownContacts);  // in a build without engines
 
 TEST_P(ShownContacts, ForcesOnARestingBodyCarryItsWeight) {
   const auto shown = run("full");
