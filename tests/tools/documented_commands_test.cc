@@ -57,6 +57,7 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus run coarse.toml --out coarse", "! talus run coarse.toml --out coarse"},
     {"talus run long_wall.toml --out long_wall", "! talus run long_wall.toml --out long_wall"},
     {"talus stress", "talus stress stack-5"},
+    {"talus stress peers --long", "talus stress waking-forces simbenchmark-rolling"},
     {"talus stress --advise drop_in_a_pile_2d --tolerance 0.1", "talus stress --help"},
     {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
     {"talus stress --long --docs docs", "talus stress stack-5 --docs docs"},
