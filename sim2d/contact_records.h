@@ -10,7 +10,7 @@
 
 namespace talus::box2d {
 
-/// What only a listener sees of a contact within a step.
+/// Values of a contact within a step that only a b2ContactListener gets.
 struct ContactRecord {
   std::array<double, b2_maxManifoldPoints> approach{};  // [m/s]
   std::array<double, b2_maxManifoldPoints> normal{};    // [N s]

@@ -26,7 +26,7 @@ struct Decision {
   std::vector<VelocityChange<Dim>> velocities;  // applied once the bodies to thaw are awake
 };
 
-/// What a policy knows of the error that its sleeping bodies have.
+/// A policy's estimate of the error of its sleeping bodies.
 struct DriftEstimate {
   double drift = 0.0;          // mean distance that the sleeping bodies are expected to move once all are woken [m]
   double checked_share = 0.0;  // of the sleeping bodies, for which this was measured; for the others it is extrapolated

@@ -31,7 +31,7 @@ const Scene<Dim>& checked(const Scene<Dim>& scene) {
   return scene;
 }
 
-/// Change of gravity, as a share of it, that sleeping bodies do not notice: a tilt of 0.6 degrees.
+/// Change of gravity, as a share of it, up to which bodies stay asleep: a tilt of 0.6 degrees.
 constexpr double gravity_tolerance = 0.01;
 
 /// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of the tolerance it has then
@@ -376,7 +376,7 @@ void Simulation<Dim>::remove_obstacle(int number) {
   }
 }
 
-/// A policy knows nothing of bodies that another one has put to sleep.
+/// A policy has no state of bodies that another one froze.
 template <int Dim>
 void Simulation<Dim>::switch_policy(const std::string& kind) {
   thaw_all();

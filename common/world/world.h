@@ -73,7 +73,7 @@ class World {
   void thaw(std::span<const BodyIndex> bodies);
 
   /// Where an obstacle that may move goes within the next step, with the velocity that this takes; it pushes awake
-  /// bodies. Sleeping ones do not notice: the caller wakes them. `number` in WorldDescription::obstacles.
+  /// bodies. Sleeping ones stay asleep: the caller wakes them. `number` in WorldDescription::obstacles.
   void move_obstacle(int number, const Pose<Dim>& to);
   /// Where an obstacle is.
   const Pose<Dim>& obstacle_pose(int number) const { return description_.obstacles[number].pose; }

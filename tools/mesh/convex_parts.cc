@@ -101,7 +101,7 @@ void set_params(HACD::HACD& decomposition, const ConvexPartsParams& params) {
   decomposition.SetNClusters(params.parts);
   decomposition.SetConcavity(std::numeric_limits<double>::max());  // the number of parts alone decides when to stop
   decomposition.SetVolumeWeight(0.0);
-  // Without these further points it sees hollows at corners only, and joins what lies across them.
+  // Without these further points it finds hollows at corners only, and joins what lies across them.
   decomposition.SetAddExtraDistPoints(true);
   decomposition.SetAddNeighboursDistPoints(true);
   decomposition.SetAddFacesPoints(true);

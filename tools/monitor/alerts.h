@@ -1,5 +1,5 @@
 #pragma once
-// What of the runs that a monitor hears deserves attention.
+// Losses, faults and warnings of the runs that a monitor receives.
 
 #include <string>
 #include <vector>

@@ -57,7 +57,7 @@ class PageHub {
   void want_contacts(int number, bool wanted);
   /// Whether any page is.
   bool contacts_wanted() const;
-  /// The body that a page wants an account of, below 0: none.
+  /// The body of which a page is sent an account, below 0: none.
   void choose_body(int number, std::int64_t body);
   /// Pages with a body chosen, and the body.
   std::vector<std::pair<int, std::int64_t>> chosen_bodies() const;
@@ -74,7 +74,7 @@ class PageHub {
     bool ready = true;  // for the next frame
     bool closing = false;
     bool contacts = false;   // are sent to it
-    std::int64_t body = -1;  // that it wants an account of
+    std::int64_t body = -1;  // of which it is sent an account
     std::string account;     // of it; empty: sent
     std::vector<std::string> replies;
     std::vector<SleepEvent> events;  // since the last frame sent

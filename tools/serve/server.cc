@@ -65,7 +65,7 @@ struct ViewServer::Service {
   mg_context* context = nullptr;
   std::vector<Mount> mounts;  // not changed while the server runs
 
-  /// Whether a request is from a page of this server, or from a program that knows the token.
+  /// Whether a request is from a page of this server, or from a program that has the token.
   bool allows(const mg_connection* connection) const {
     const mg_request_info* request = mg_get_request_info(connection);
     const std::string_view query = request->query_string != nullptr ? request->query_string : "";
@@ -169,7 +169,7 @@ ViewServer::ViewServer(int port, std::vector<ServedPage> pages) : service_(std::
   for (ServedPage& page : pages) service_->mounts.push_back({std::move(page), service_.get()});
   mg_init_library(MG_FEATURES_WEBSOCKET);
   const std::string address = fmt::format("127.0.0.1:{}", port);
-  // A page that is gone without a word is noticed by its missing answer to a ping.
+  // A page that is gone without closing is found by the missing answer to a ping.
   const std::array<const char*, 13> options = {"listening_ports",
                                                address.c_str(),
                                                "num_threads",

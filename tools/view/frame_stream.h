@@ -68,7 +68,7 @@ class FrameEncoder {
  private:
   static constexpr int components = Dim == 2 ? 3 : 7;
   using Counts = std::array<std::int32_t, components>;
-  /// What the page knows of a body.
+  /// State of a body as the page has it.
   struct Known {
     Counts pose = {};
     std::uint8_t asleep = 0;

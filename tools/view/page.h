@@ -19,7 +19,7 @@ std::string page_with(std::string_view stream);
 /// What a page of the server shows.
 enum class PageSource { record, run };
 
-/// What a page with two others side by side knows of them.
+/// Texts for a page that shows two others side by side.
 struct PairTexts {
   bool of_runs = false;                        // of scenes that are simulated; else of records
   std::array<double, 2> ms_per_step = {0, 0};  // of records: mean wall time; 0: not known

@@ -1,5 +1,5 @@
 #pragma once
-// What the browser page knows of a run before its first frame.
+// Data of a run that the browser page gets before its first frame.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>

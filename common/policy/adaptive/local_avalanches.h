@@ -40,7 +40,7 @@ class LocalAvalanches {
     /// Sleeping bodies at the last check. The initial value is the least from which bodies make a heap (chosen, not
     /// measured): in a column 4 D wide fewer lie in about one layer.
     int last_checked = 8;
-    int sleepers = 0;  // as events count them; bodies that were removed are noticed at the next check
+    int sleepers = 0;  // as events count them; removed bodies are subtracted at the next check
 
     void note_check(std::size_t found) { last_checked = std::max(last_checked, static_cast<int>(found)); }
   };
