@@ -62,23 +62,23 @@ struct Kind {
   HandCommand (*read)(const Json&);
 };
 
-constexpr auto kinds =
+constexpr auto hand_commands =
     std::to_array<Kind>({{"kick", kick}, {"remove", remove}, {"pull", pull}, {"release", release}, {"add", add}});
 
 }  // namespace
 
 std::vector<std::string> hand_command_names() {
   std::vector<std::string> names;
-  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  for (const Kind& kind : hand_commands) names.emplace_back(kind.name);
   return names;
 }
 
 bool is_hand_command(const std::string& name) {
-  return std::ranges::any_of(kinds, [&](const Kind& kind) { return kind.name == name; });
+  return std::ranges::any_of(hand_commands, [&](const Kind& kind) { return kind.name == name; });
 }
 
 HandCommand read_hand_command(const Json& command) {
-  const auto kind = std::ranges::find(kinds, command.at("do").get<std::string>(), &Kind::name);
+  const auto kind = std::ranges::find(hand_commands, command.at("do").get<std::string>(), &Kind::name);
   return kind->read(command);
 }
 
