@@ -1,9 +1,9 @@
 // Box2D against Bullet held in a plane: the same scene must build the same pile, whichever engine moves it.
 //
-// What two runs of one scene may differ by, in twins of one engine (docs/benchmarks.md, example 1, eight runs each):
-// the centre's height by 5 % and the radius of half the bodies by 7 % in one deviation, so by 20 and 30 % between two
-// runs in three deviations of their difference. Between the engines comes what is theirs: Box2D keeps a skin of 15 mm
-// between shapes, 4 % of the thickness of an L's arm, and its bodies lie higher by about as much.
+// Compared are means over three seeds. The height of the centre scatters by 5 % over the seeds on either engine, so the
+// means differ by up to 13 % in three standard errors; the radius of half the bodies does so by about as much. Between
+// the engines comes what is theirs: without sleep piles on planar Bullet are 14 % lower and as much broader
+// (docs/results/engines.md), since its friction starts from zero in each step.
 #include "tests/backends/backend.h"
 
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
@@ -27,6 +27,8 @@ struct PileShape {
   double r50 = 0.0;     // half of the bodies lie nearer to their middle [m]
 };
 
+constexpr int seeds = 3;
+
 template <typename Backend>
 PileShape pile_of(const Scene<2>& scene) {
   Simulation<2> simulation(scene, Backend::make(scene.world), make_policy(scene));
@@ -40,14 +42,25 @@ PileShape pile_of(const Scene<2>& scene) {
   return {mean[1] - scene.world.ground.height, radii[radii.size() / 2]};
 }
 
+template <typename Backend>
+PileShape mean_pile_of(Scene<2> scene) {
+  PileShape mean;
+  for (int i = 0; i < seeds; ++i, scene.seed += 1000) {
+    const PileShape one = pile_of<Backend>(scene);
+    mean.centre += one.centre / seeds;
+    mean.r50 += one.r50 / seeds;
+  }
+  return mean;
+}
+
 class LongEngines : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LongEngines, BuildTheSamePile) {
   const auto scene =
       std::get<Scene<2>>(read_scene(fs::path(TALUS_SOURCE_DIR) / "scenes" / (std::string(GetParam()) + "_2d.toml")));
-  const PileShape box2d = pile_of<Box2d>(scene);
-  const PileShape planar = pile_of<BulletPlanar>(scene);
-  EXPECT_NEAR(box2d.centre, planar.centre, 0.25 * planar.centre);
+  const PileShape box2d = mean_pile_of<Box2d>(scene);
+  const PileShape planar = mean_pile_of<BulletPlanar>(scene);
+  EXPECT_NEAR(box2d.centre, planar.centre, 0.3 * planar.centre);
   EXPECT_NEAR(box2d.r50, planar.r50, 0.3 * planar.r50);
   RecordProperty("centre", fmt::format("{:.3f} {:.3f}", box2d.centre, planar.centre));
   RecordProperty("r50", fmt::format("{:.3f} {:.3f}", box2d.r50, planar.r50));

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 /// Starts a run that would take minutes, in the folder `run`, and waits until it records; its number is $process.
 const std::string long_run_begins = R"(
-env --default-signal=HUP "$TALUS" run drop_in_a_pile_2d --no-telemetry --policy full --set run.frames=100000 --out run &
+env --default-signal=HUP "$TALUS" run drop_in_a_pile_2d --no-telemetry --policy full --set run.until=frames --set run.frames=100000 --out run &
 process=$!
 until [ -e run/frames.csv ]; do sleep 0.01; done
 )";
