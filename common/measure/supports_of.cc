@@ -1,7 +1,6 @@
 #include "common/measure/supports_of.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "common/shape/convex_distance.h"
 

@@ -39,6 +39,9 @@ constexpr Range above(double low, double high) { return {.low = low, .high = hig
 /// From 0 on, without `high` itself.
 constexpr Range below(double high) { return {.low = 0.0, .high = high, .high_excluded = true}; }
 
+/// Of gravity and of each of its components [m/s^2].
+inline constexpr Range gravity_range = between(0.0, 1e3);
+inline constexpr Range gravity_component_range = between(-gravity_range.high, gravity_range.high);
 /// Beyond 10 km from the origin a single-precision engine places bodies a millimetre off.
 inline constexpr Range coordinate_range = between(-1e4, 1e4);
 /// Sizes that both engines can simulate; `talus check` warns of those for which contacts are inaccurate.

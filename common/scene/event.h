@@ -132,7 +132,7 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
     {&Event<Dim>::gravity,
      {.name = "gravity",
       .unit = "m/s^2",
-      .range = between(-1e3, 1e3),
+      .range = gravity_component_range,
       .default_text = "required for `gravity`",
       .meaning = "`gravity`: from now on"}},
 });

@@ -49,7 +49,7 @@ class OverlapCheck {
     int number = -1;  // among the bodies of this name; -1: an obstacle
     int next = -1;    // solid in its cell; -1: the last
   };
-  /// The solids whose position is in a cell.
+  /// The solids with their position in one cell.
   struct Chain {
     int first = -1;
     int last = -1;

@@ -201,9 +201,9 @@ std::string names_of_colours() {
 template <int Dim>
 double overlap_of(const CompoundPart<Dim>& a, const CompoundPart<Dim>& b) {
   double deepest = 0.0;
-  for (const ConvexPiece<Dim>& one : convex_pieces(a.shape))
-    for (const ConvexPiece<Dim>& other : convex_pieces(b.shape))
-      deepest = std::max(deepest, -signed_distance(moved(one, a.pose), moved(other, b.pose), 0.0));
+  const std::vector<ConvexPiece<Dim>> others = convex_pieces_at(b.shape, b.pose);
+  for (const ConvexPiece<Dim>& one : convex_pieces_at(a.shape, a.pose))
+    for (const ConvexPiece<Dim>& other : others) deepest = std::max(deepest, -signed_distance(one, other, 0.0));
   return deepest;
 }
 

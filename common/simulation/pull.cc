@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/policy/adaptive/rigid_impulse.h"
+#include "common/shape/rigid_impulse.h"
 
 namespace talus {
 namespace {

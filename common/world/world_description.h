@@ -102,7 +102,7 @@ inline double arm_of_pair(std::optional<double> a, std::optional<double> b) {
   return a && b ? std::sqrt(*a * *b) : a.value_or(b.value_or(0.0));
 }
 
-inline constexpr Key gravity_vector_key = {.name = "gravity", .unit = "m/s^2", .range = between(-1e3, 1e3)};
+inline constexpr Key gravity_vector_key = {.name = "gravity", .unit = "m/s^2", .range = gravity_component_range};
 
 template <int Dim>
 inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>({
@@ -110,7 +110,7 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
      {.name = "gravity",
       .type = "number or vector",
       .unit = "m/s^2",
-      .range = between(0.0, 1e3),
+      .range = gravity_range,
       .meaning = "downwards, or a vector: `[1.7, -9.66]` is the same as everything tilted by 10 degrees. Piles and the "
                  "policies `paper` and `adaptive` take the last axis as up all the same. Large: bodies sink into the "
                  "ground, see [limits](#limits-of-the-engines)"}},

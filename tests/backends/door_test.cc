@@ -209,7 +209,7 @@ TYPED_TEST(Door, IsTriedWithEveryNumberThatTheReaderLooksFor) {
                                         "event",
                                         "source[].scale",
                                         "world.gravity_motion"};
-  // Not beside world.gravity_motion.gravity, which is tried.
+  // A scene has either this or world.gravity_motion.gravity, and the latter is tried.
   std::set<std::string> tried = {"world.gravity_motion.angles_deg"};
   std::set<std::string> known;
   for (const FullScene& full : full_scenes<TypeParam::dim>()) {

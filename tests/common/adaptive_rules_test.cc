@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/policy/adaptive/impacts.h"
-#include "common/policy/adaptive/rigid_impulse.h"
 #include "common/policy/adaptive/support_criterion.h"
 #include "common/policy/adaptive/support_loss.h"
+#include "common/shape/rigid_impulse.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 

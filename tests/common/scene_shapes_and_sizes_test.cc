@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "common/scene/read_scene.h"
+#include "common/scene/read_shape.h"
+#include "common/shape/colour.h"
 #include "tests/common/temporary_folder.h"
 
 namespace talus::scene_shapes_and_sizes_test {
@@ -257,6 +259,11 @@ TEST(SceneShapes, HaveColoursByNameOrAsNumbers) {
   EXPECT_EQ(error_of("shape.b = {kind = \"ball\", radius = 1, colour = \"#12345g\"}\nbody = [{position = [0, 9]}]"),
             "shape.b.colour: must be \"#rrggbb\" or one of black, blue, brown, green, grey, orange, pink, purple, red, "
             "sky, white, yellow");
+}
+
+TEST(SceneColours, TheManualNamesEachColour) {
+  for (const auto& [name, colour] : named_colours)
+    EXPECT_NE(colour_key.meaning.find(fmt::format("`{}`", name)), std::string_view::npos) << name;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Outcome talus_command(const std::string& arguments);
 /// Runs a shell script in which $TALUS is the command.
 Outcome shell(const std::string& script);
 
-/// Records in the folder a pour of ten discs, all of which an event wakes after a second.
+/// Records a pour of ten discs in the folder; an event wakes all of them after a second.
 void record_with_event(const std::string& folder);
 
 /// The whole of a file.

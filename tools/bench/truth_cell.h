@@ -64,8 +64,8 @@ std::optional<TruthCell> truth_cell_named(std::string_view name, const TruthBodi
 /// The first `count` cells of the covering design of this seed (covering_design.h).
 std::vector<TruthCell> truth_design(std::uint64_t seed, int count, const TruthBodies& bodies);
 
-/// The scenes that `--scenes` names: files, names of scenes that come with talus, and folders, whose `.toml` files are
-/// taken in order of their names. Throws std::invalid_argument where there is none, or two have the same name.
+/// The scenes of `--scenes`: files, names of scenes that come with talus, and folders. Of a folder the `.toml` files
+/// are taken in order of their names. Throws std::invalid_argument where there is none, or two have the same name.
 std::vector<TruthCell> truth_scene_files(const std::vector<std::string>& given);
 
 /// The scenes of the paper's Table 1 and the sizes of its video, in both dimensions.

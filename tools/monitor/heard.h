@@ -19,7 +19,7 @@ struct Heard {
   std::chrono::steady_clock::time_point now;
 };
 
-/// A run that was heard.
+/// A run of which messages were received.
 struct HeardRun {
   std::int64_t id = 0;
   int number = 0;  // from 1, in the order in which the runs came

@@ -20,7 +20,7 @@ struct ShownContact {
   bool kept = false;                           // of bodies that sleep: as it was in the last step before
 };
 
-/// Numbers as in a block of FrameEncoder, whose block these bytes follow:
+/// Bytes that follow a block of FrameEncoder, with numbers written as there:
 ///
 ///     u number of points; of each: u body a; s b; u 1 where it is kept; s change of each coordinate from that of the
 ///     point before, in quanta; f each component of the normal force; f each component of the friction force

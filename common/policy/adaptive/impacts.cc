@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "common/policy/adaptive/rigid_impulse.h"
+#include "common/shape/rigid_impulse.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/pile/angle_of_repose.h"
-#include "common/policy/adaptive/rigid_impulse.h"
+#include "common/shape/rigid_impulse.h"
 
 namespace talus {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/rigid_impulse.h"
+#include "common/shape/rigid_impulse.h"
 
 namespace talus {
 namespace {
