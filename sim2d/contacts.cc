@@ -14,19 +14,6 @@ float skin(const b2Fixture& fixture) {
   return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
 }
 
-/// Whether the contact is reported under the body on the other side of `edge`.
-bool belongs_to_other(const b2ContactEdge& edge, BodyIndex index) {
-  return edge.other->GetType() == b2_dynamicBody && edge.other->IsAwake() &&
-         owner_of(*edge.other->GetFixtureList()) < index;
-}
-
-/// Order of a body's contacts: by the other's number, then by the pieces.
-auto rank(b2Contact& contact, BodyIndex index) {
-  const Tag a = tag_of(*contact.GetFixtureA());
-  const Tag b = tag_of(*contact.GetFixtureB());
-  return owner_of(a) == index ? std::tuple(owner_of(b), b, a) : std::tuple(owner_of(a), a, b);
-}
-
 }  // namespace
 
 ContactListener::ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start)
@@ -43,7 +30,7 @@ void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
   contact->GetWorldManifold(&world);
   const b2Body& a = *contact->GetFixtureA()->GetBody();
   const b2Body& b = *contact->GetFixtureB()->GetBody();
-  ContactRecord& record = records_[contact];
+  ContactRecord& record = records_[*contact];
   for (int i = 0; i < contact->GetManifold()->pointCount; ++i) {
     const b2Vec2 relative =
         a.GetLinearVelocityFromWorldPoint(world.points[i]) - b.GetLinearVelocityFromWorldPoint(world.points[i]);
@@ -55,7 +42,7 @@ void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
 void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   if (sleepers_) continuous_.leave_out_if_slow(*contact);
   if (!recording_) return;
-  ContactRecord& record = records_[contact];
+  ContactRecord& record = records_[*contact];
   for (int i = 0; i < impulse->count; ++i) {
     record.normal[i] += impulse->normalImpulses[i];
     record.tangent[i] += impulse->tangentImpulses[i];
@@ -68,37 +55,44 @@ void ContactListener::start_step(bool sleepers, bool recording) {
   records_.clear();
 }
 
-void ContactListener::gather(b2Body& body, BodyIndex index, std::vector<Contact<2>>& out) {
-  touching_.clear();
-  for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next)
-    if (edge->contact->IsTouching() && !belongs_to_other(*edge, index)) touching_.push_back(edge->contact);
-  std::ranges::sort(touching_, {}, [index](b2Contact* contact) { return rank(*contact, index); });
-  for (b2Contact* contact : touching_) append(*contact, index, out);
+void ContactListener::gather(std::span<const std::uint8_t> asleep, std::vector<Contact<2>>& out) {
+  const auto awake = [asleep](BodyIndex body) { return body >= 0 && asleep[body] == 0; };
+  touches_.clear();
+  for (const ContactRecord& record : records_.all()) {
+    if (!record.contact->IsTouching()) continue;
+    const BodyIndex first = owner_of(record.first);
+    const BodyIndex second = owner_of(record.second);
+    const bool swap = !awake(first) || (awake(second) && second < first);
+    touches_.push_back(swap ? Touch{record.second, record.first, &record}
+                            : Touch{record.first, record.second, &record});
+  }
+  std::ranges::sort(touches_, {}, [](const Touch& touch) {
+    return std::tuple(owner_of(touch.a), owner_of(touch.b), touch.b, touch.a);
+  });
+  for (const Touch& touch : touches_) append(touch, out);
 }
 
-void ContactListener::append(b2Contact& contact, BodyIndex a, std::vector<Contact<2>>& out) const {
-  b2Fixture& first = *contact.GetFixtureA();
-  b2Fixture& second = *contact.GetFixtureB();
-  const bool a_is_first = owner_of(first) == a;
-  const double sign = a_is_first ? -1.0 : 1.0;  // Box2D's normal points from its first fixture to its second
+void ContactListener::append(const Touch& touch, std::vector<Contact<2>>& out) {
+  const ContactRecord& record = *touch.record;
+  b2Contact& contact = *record.contact;
+  const float skin_a = skin(*contact.GetFixtureA());
+  const float skin_b = skin(*contact.GetFixtureB());
+  const double sign =
+      touch.a == record.first ? -1.0 : 1.0;  // Box2D's normal points from its first fixture to its second
   b2WorldManifold world;
   contact.GetWorldManifold(&world);
   const Vec2 normal = from_engine(world.normal);
   const Vec2 tangent = from_engine(b2Cross(world.normal, 1.0F));
-  const ContactRecord* record = records_.find(&contact);
   for (int i = 0; i < contact.GetManifold()->pointCount; ++i) {
-    const b2ManifoldPoint& point = contact.GetManifold()->points[i];
-    const bool known = record != nullptr;
-    Contact<2> c;
-    c.a = a;
-    c.b = owner_of(a_is_first ? second : first);
+    Contact<2>& c = out.emplace_back();
+    c.a = owner_of(touch.a);
+    c.b = owner_of(touch.b);
     c.point = from_engine(world.points[i]);
     c.normal = sign * normal;
-    c.normal_impulse = known ? record->normal[i] : static_cast<double>(point.normalImpulse);
-    c.friction_impulse = sign * (known ? record->tangent[i] : static_cast<double>(point.tangentImpulse)) * tangent;
-    c.approach_speed = known ? record->approach[i] : 0.0;
-    c.depth = -static_cast<double>(world.separations[i] + skin(first) + skin(second));
-    out.push_back(c);
+    c.normal_impulse = record.normal[i];
+    c.friction_impulse = sign * record.tangent[i] * tangent;
+    c.approach_speed = record.approach[i];
+    c.depth = -static_cast<double>(world.separations[i] + skin_a + skin_b);
   }
 }
 

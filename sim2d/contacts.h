@@ -3,6 +3,8 @@
 
 #include <box2d/box2d.h>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/world/body.h"
@@ -28,12 +30,18 @@ class ContactListener final : public b2ContactListener {
   /// record its contacts.
   void start_step(bool sleepers, bool recording);
 
-  /// Appends a body's touching contacts, sorted by their other side. Each contact is listed once: that of two awake
-  /// bodies under the one with the lower index.
-  void gather(b2Body& body, BodyIndex index, std::vector<Contact<2>>& out);
+  /// After a step that recorded: appends its touching contacts, sorted by their bodies and pieces. Each is listed once:
+  /// that of two awake bodies under the one with the lower index. `asleep`: by body.
+  void gather(std::span<const std::uint8_t> asleep, std::vector<Contact<2>>& out);
 
  private:
-  void append(b2Contact& contact, BodyIndex a, std::vector<Contact<2>>& out) const;
+  /// A contact, and its two sides in the order of the result.
+  struct Touch {
+    Tag a;
+    Tag b;
+    const ContactRecord* record;
+  };
+  static void append(const Touch& touch, std::vector<Contact<2>>& out);
 
   const WarmStart* warm_start_;
   ContinuousCollision continuous_;
@@ -41,7 +49,7 @@ class ContactListener final : public b2ContactListener {
   bool sleepers_ = false;
   bool recording_ = false;
   ContactRecords records_;
-  std::vector<b2Contact*> touching_;  // scratch
+  std::vector<Touch> touches_;  // scratch
 };
 
 }  // namespace talus::box2d

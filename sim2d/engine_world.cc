@@ -159,7 +159,7 @@ std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
 }
 
 void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
-  for (const BodyIndex body : awake()) listener_.gather(*at(body).body, body, contacts);
+  listener_.gather(states().asleep, contacts);
 }
 
 bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
