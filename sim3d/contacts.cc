@@ -18,12 +18,9 @@ bool is_awake_body(const btCollisionObject& object) { return object.isActive() &
 
 template <int Dim>
 void Contacts<Dim>::note_motion(std::span<btRigidBody* const> bodies) {
-  moving_.clear();
+  first_ = bodies.empty() ? 0 : bodies.front()->getWorldArrayIndex();
   motion_.clear();
-  for (const btRigidBody* body : bodies) {
-    moving_.push_back(body->getUserIndex());
-    motion_.push_back({body->getLinearVelocity(), body->getAngularVelocity()});
-  }
+  for (const btRigidBody* body : bodies) motion_.push_back({body->getLinearVelocity(), body->getAngularVelocity()});
 }
 
 template <int Dim>
@@ -75,11 +72,8 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
 
 template <int Dim>
 typename Contacts<Dim>::Motion Contacts<Dim>::motion_before(const btCollisionObject& object) const {
-  if (object.isStaticObject()) return {};
-  const BodyIndex index = object.getUserIndex();
-  const auto found = std::lower_bound(moving_.begin(), moving_.end(), index);
-  if (found == moving_.end() || *found != index) return {};
-  return motion_[found - moving_.begin()];
+  if (object.isStaticObject() || object.getUserIndex() < 0) return {};
+  return motion_[object.getWorldArrayIndex() - first_];
 }
 
 template class Contacts<2>;

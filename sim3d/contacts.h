@@ -20,7 +20,7 @@ class Contacts {
   explicit Contacts(double mass_scale) : impulse_unit_(1.0 / mass_scale) {}
 
   /// Before a step whose contacts will be gathered: notes the velocities, from which the approach speeds follow.
-  /// `bodies` are those in Bullet's lists, ascending.
+  /// `bodies` are those that stand one after the other in Bullet's list.
   void note_motion(std::span<btRigidBody* const> bodies);
 
   /// After a step: appends its contacts, see World::contacts().
@@ -46,10 +46,10 @@ class Contacts {
   void append(const Touch& touch, std::vector<Contact<Dim>>& contacts) const;
   Motion motion_before(const btCollisionObject& object) const;
 
-  std::vector<Touch> touches_;     // scratch
-  std::vector<Motion> motion_;     // before the step
-  std::vector<BodyIndex> moving_;  // the bodies of motion_, ascending
-  double impulse_unit_;            // [N s]
+  std::vector<Touch> touches_;  // scratch
+  std::vector<Motion> motion_;  // before the step
+  int first_ = 0;               // place of the first body of motion_ in Bullet's list
+  double impulse_unit_;         // [N s]
 };
 
 }  // namespace talus::bullet
