@@ -20,7 +20,9 @@ inline constexpr const char* name_of(Channel channel) { return channel_names[sta
 template <class Message>
 inline constexpr Channel channel_of = Channel::run;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_piles_v1> = Channel::piles;
+inline constexpr Channel channel_of<talus_lcm::talus_piles_v1> = Channel::piles;  // in old records
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_piles_v2> = Channel::piles;
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_sleep_v1> = Channel::sleep;
 template <>
@@ -32,7 +34,9 @@ inline constexpr Channel channel_of<talus_lcm::talus_bodies_v1> = Channel::bodie
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_shapes_v1> = Channel::shapes;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_event_v1> = Channel::events;
+inline constexpr Channel channel_of<talus_lcm::talus_event_v1> = Channel::events;  // in old records
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_event_v2> = Channel::events;
 
 /// Largest encoded message [bytes]: what fits one datagram, since LCM 1.3.1 loses every message of several fragments
 /// when one of them is lost or late.
@@ -43,7 +47,7 @@ inline constexpr std::size_t header_bytes = fingerprint_bytes + 5 * 8;
 /// Encoded size of the checksum that ends it.
 inline constexpr std::size_t checksum_bytes = 4;
 
-/// Most layers that talus_pile_v1 carries of one pile.
+/// Most layers that talus_pile_v2 carries of one pile.
 inline constexpr std::size_t max_layers = 1024;
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <type_traits>
 
 #include "lcmtypes/encode.h"
@@ -12,9 +13,13 @@ namespace {
 
 using talus_lcm::talus_bodies_v1;
 using talus_lcm::talus_event_v1;
+using talus_lcm::talus_event_v2;
 using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_layer_v2;
 using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_pile_v2;
 using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
@@ -39,12 +44,15 @@ bool parts_hold(const Message& m) {
   return m.part >= 0 && m.part < m.parts;
 }
 
-bool layer_holds(const talus_layer_v1& layer) {
-  return layer.bottom >= 0 && layer.top >= 0 && layer.radius >= 0 && layer.capacity >= 0 && layer.density >= 0 &&
+bool threshold_holds(double threshold) { return threshold >= 0.0 || threshold == -1.0; }
+
+bool layer_holds(const talus_layer_v2& layer) {
+  return threshold_holds(layer.sleep_density) && threshold_holds(layer.wake_density) && layer.bottom >= 0 &&
+         layer.top >= 0 && layer.radius >= 0 && layer.capacity >= 0 && layer.density >= 0 &&
          layer.density <= max_density && layer.sleeping >= 0 && layer.sleeping <= layer.count;
 }
 
-bool pile_holds(const talus_pile_v1& pile) {
+bool pile_holds(const talus_pile_v2& pile) {
   return pile.structure_size >= 0 && pile.lift >= 0 && pile.height >= 0 && pile.radius >= 0 &&
          pile.occupation_ratio >= 0 && pile.merged_into >= -1 && pile.layer_count <= pile.layer_total &&
          std::all_of(pile.layers.begin(), pile.layers.end(), layer_holds);
@@ -81,6 +89,117 @@ std::string_view stats_fault(const Message& m) {
   return {};
 }
 
+/// The header and the checksum.
+template <class Old, class Message>
+void take_frame(const Old& old, Message& message) {
+  message.utime = old.utime;
+  message.run_id = old.run_id;
+  message.step = old.step;
+  message.sim_time = old.sim_time;
+  message.seq = old.seq;
+  message.crc32 = old.crc32;
+}
+
+// newest(): what has the same name in both versions; the rest as not known.
+
+talus_stats_v2 newest(const talus_stats_v1& old) {
+  talus_stats_v2 stats{};
+  take_frame(old, stats);
+  stats.awake = old.awake;
+  stats.asleep = old.asleep;
+  stats.contacts = old.contacts;
+  stats.kinetic_energy = old.kinetic_energy;
+  stats.planned = -1;
+  stats.appeared = -1;
+  stats.drift_estimate = -1.0;
+  stats.timed = old.timed;
+  stats.ms_emit = old.ms_emit;
+  stats.ms_step = old.ms_step;
+  stats.ms_collide = old.ms_collide;
+  stats.ms_solve = old.ms_solve;
+  stats.ms_read = old.ms_read;
+  stats.ms_count = old.ms_count;
+  stats.ms_decide = old.ms_decide;
+  stats.ms_apply = old.ms_apply;
+  stats.ms_observe = old.ms_observe;
+  stats.real_time_factor = old.real_time_factor;
+  stats.queued_bytes = old.queued_bytes;
+  stats.dropped = old.dropped;
+  return stats;
+}
+
+talus_layer_v2 newest(const talus_layer_v1& old) {
+  talus_layer_v2 layer{};
+  layer.bottom = old.bottom;
+  layer.top = old.top;
+  layer.radius = old.radius;
+  layer.capacity = old.capacity;
+  layer.density = old.density;
+  layer.sleep_density = layer.wake_density = -1.0F;
+  layer.count = old.count;
+  layer.sleeping = old.sleeping;
+  return layer;
+}
+
+talus_pile_v2 newest(const talus_pile_v1& old) {
+  talus_pile_v2 pile{};
+  std::copy(std::begin(old.centre), std::end(old.centre), std::begin(pile.centre));
+  pile.alpha = old.alpha;
+  pile.structure_size = old.structure_size;
+  pile.lift = old.lift;
+  pile.height = old.height;
+  pile.radius = old.radius;
+  pile.occupation_ratio = old.occupation_ratio;
+  pile.merged_into = old.merged_into;
+  pile.layer_total = old.layer_total;
+  pile.layer_count = old.layer_count;
+  for (const talus_layer_v1& layer : old.layers) pile.layers.push_back(newest(layer));
+  return pile;
+}
+
+talus_piles_v2 newest(const talus_piles_v1& old) {
+  talus_piles_v2 piles{};
+  take_frame(old, piles);
+  piles.part = old.part;
+  piles.parts = old.parts;
+  piles.first_pile = old.first_pile;
+  piles.pile_total = old.pile_total;
+  piles.pile_count = old.pile_count;
+  for (const talus_pile_v1& pile : old.piles) piles.piles.push_back(newest(pile));
+  return piles;
+}
+
+/// An old message has the time at the end of the step before which the event happened.
+talus_event_v2 newest(const talus_event_v1& old) {
+  talus_event_v2 event{};
+  take_frame(old, event);
+  event.number = old.number;
+  event.total = -1;
+  event.happened_step = old.step;
+  event.happened_time = old.sim_time;
+  event.action = old.action;
+  event.text = old.text;
+  return event;
+}
+
+/// The version before; the type itself where there is none.
+template <class Message>
+struct VersionBefore {
+  using Type = Message;
+};
+template <>
+struct VersionBefore<talus_piles_v2> {
+  using Type = talus_piles_v1;
+};
+template <>
+struct VersionBefore<talus_stats_v2> {
+  using Type = talus_stats_v1;
+};
+template <>
+struct VersionBefore<talus_event_v2> {
+  using Type = talus_event_v1;
+};
+
 }  // namespace
 
 std::string_view range_fault(const talus_run_v1& m) {
@@ -93,7 +212,9 @@ std::string_view range_fault(const talus_run_v1& m) {
   return {};
 }
 
-std::string_view range_fault(const talus_piles_v1& m) {
+std::string_view range_fault(const talus_piles_v1& m) { return range_fault(newest(m)); }
+
+std::string_view range_fault(const talus_piles_v2& m) {
   if (!header_holds(m) || !parts_hold(m)) return "header out of range";
   if (m.first_pile < 0 || std::int64_t{m.first_pile} + m.pile_count > m.pile_total) return "piles out of range";
   if (!std::all_of(m.piles.begin(), m.piles.end(), pile_holds)) return "pile out of range";
@@ -110,9 +231,13 @@ std::string_view range_fault(const talus_sleep_v1& m) {
   return {};
 }
 
-std::string_view range_fault(const talus_event_v1& m) {
+std::string_view range_fault(const talus_event_v1& m) { return range_fault(newest(m)); }
+
+std::string_view range_fault(const talus_event_v2& m) {
   if (!header_holds(m)) return "header out of range";
-  if (m.number < 0) return "negative number";
+  if (m.number < 0 || m.total < -1) return "negative number";
+  if (m.happened_step < -1 || !(m.happened_time >= 0.0 || m.happened_time == -1.0)) return "time out of range";
+  if (std::any_of(m.removed.begin(), m.removed.end(), is_negative)) return "negative obstacle";
   return {};
 }
 
@@ -157,42 +282,7 @@ std::string_view range_fault(const talus_shapes_v1& m) {
   return {};
 }
 
-using talus_lcm::talus_stats_v1;
-using talus_lcm::talus_stats_v2;
-
 namespace {
-
-/// What has the same name in both versions; the rest as not known.
-talus_stats_v2 newest(const talus_stats_v1& old) {
-  talus_stats_v2 stats{};
-  stats.utime = old.utime;
-  stats.run_id = old.run_id;
-  stats.step = old.step;
-  stats.sim_time = old.sim_time;
-  stats.seq = old.seq;
-  stats.awake = old.awake;
-  stats.asleep = old.asleep;
-  stats.contacts = old.contacts;
-  stats.kinetic_energy = old.kinetic_energy;
-  stats.planned = -1;
-  stats.appeared = -1;
-  stats.drift_estimate = -1.0;
-  stats.timed = old.timed;
-  stats.ms_emit = old.ms_emit;
-  stats.ms_step = old.ms_step;
-  stats.ms_collide = old.ms_collide;
-  stats.ms_solve = old.ms_solve;
-  stats.ms_read = old.ms_read;
-  stats.ms_count = old.ms_count;
-  stats.ms_decide = old.ms_decide;
-  stats.ms_apply = old.ms_apply;
-  stats.ms_observe = old.ms_observe;
-  stats.real_time_factor = old.real_time_factor;
-  stats.queued_bytes = old.queued_bytes;
-  stats.dropped = old.dropped;
-  stats.crc32 = old.crc32;
-  return stats;
-}
 
 template <class Message>
 bool is_of_type(std::span<const std::uint8_t> bytes) {
@@ -210,9 +300,10 @@ template <class Message>
 std::string_view decode(std::span<const std::uint8_t> bytes, Message& message) {
   if (bytes.size() < header_bytes + checksum_bytes) return "too short";
   if (bytes.size() > max_message_bytes) return "too long";
-  if constexpr (std::is_same_v<Message, talus_stats_v2>) {
-    if (is_of_type<talus_stats_v1>(bytes)) {
-      talus_stats_v1 old{};
+  using Before = typename VersionBefore<Message>::Type;
+  if constexpr (!std::is_same_v<Message, Before>) {
+    if (is_of_type<Before>(bytes)) {
+      Before old{};
       const std::string_view fault = decode(bytes, old);
       if (fault.empty()) message = newest(old);
       return fault;

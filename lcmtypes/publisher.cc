@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <lcm/lcm-cpp.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "lcmtypes/translate.h"
@@ -17,12 +18,15 @@ using talus_lcm::talus_run_v1;
 
 namespace {
 
-constexpr std::array live_channels = {Channel::run,   Channel::piles,  Channel::sleep,
-                                      Channel::stats, Channel::bodies, Channel::shapes};
+/// The last one only in runs of scenes with events.
+constexpr std::array live_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
+                                      Channel::bodies, Channel::shapes, Channel::events};
 // Of wall time [s] within which the pose of each body is sent, also of those at rest, so that a receiver that starts
 // late or missed a message has all of them; longer where they are more than fit one message each time.
 constexpr double turn_time = 2.0;
 constexpr BodyIndex most_in_turn = 1000;
+// Events of the scene that are sent again each second.
+constexpr std::size_t most_events_again = 200;
 // Bodies of which the state at the end fits the queue.
 constexpr BodyIndex most_in_key_frame = 100'000;
 constexpr auto farewell_time = std::chrono::seconds(1);
@@ -86,8 +90,9 @@ void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
   const auto now = Clock::now();
   sum_ += frame.phases;
   ++summed_steps_;
+  send_events(frame);
   send(to_sleep(frame.events), frame.step, frame.time);
-  if (piles_pulse_.due(now)) send(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);
+  if (piles_pulse_.due(now)) send(to_piles<Dim>(frame.piles.piles(), frame.policy), frame.step, frame.time);
   if (stats_pulse_.due(now)) send_stats(frame, now);
   if (run_pulse_.due(now)) send_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
   if (!sends_poses()) return;
@@ -130,6 +135,22 @@ void Publisher<Dim>::send_all_poses(const Frame<Dim>& frame) {
   send(to_bodies<Dim>(states, bodies, true), frame.step, frame.time);
 }
 
+/// Those that happen, and each second those known, also before they happen: a receiver that starts late then has the
+/// texts of all before the first.
+template <int Dim>
+void Publisher<Dim>::send_events(const Frame<Dim>& frame) {
+  for (const int number : frame.scene_events) {
+    if (number >= std::ssize(events_)) continue;
+    set_happened(frame, info_.dt, events_[number]);
+    send(events_[number], frame.step, frame.time);
+  }
+  if (!events_pulse_.due(Clock::now())) return;
+  for (std::size_t left = std::min(most_events_again, events_.size()); left > 0; --left) {
+    if (event_turn_ >= events_.size()) event_turn_ = 0;
+    send(events_[event_turn_++], frame.step, frame.time);
+  }
+}
+
 /// Of obstacles that move the present pose.
 template <int Dim>
 void Publisher<Dim>::send_shapes(const Frame<Dim>& frame) {
@@ -146,7 +167,7 @@ void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
     send_shapes(last);
     send_all_poses(last);
   }
-  send(to_piles<Dim>(last.piles.piles()), last.step, last.time);
+  send(to_piles<Dim>(last.piles.piles(), last.policy), last.step, last.time);
   send_stats(last, Clock::now());
   send_run(talus_run_v1::END, reason, last.step, last.time);
   queue_->close(farewell_time);
@@ -155,7 +176,8 @@ void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
 
 template <int Dim>
 void Publisher<Dim>::send_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto message = to_run(info_, phase, reason, live_channels, encoder_);
+  const std::size_t channels = live_channels.size() - (events_.empty() ? 1 : 0);
+  auto message = to_run(info_, phase, reason, std::span(live_channels).first(channels), encoder_);
   send(message, step, time);
 }
 

@@ -64,6 +64,8 @@ class Publisher final : public Observer<Dim> {
 
   /// Poses are sent only once the shapes are known. Throws std::invalid_argument on a shape too large for a message.
   void set_world(const WorldDescription<Dim>& world) { shapes_ = to_shapes<Dim>(world); }
+  /// Those of the scene are sent too.
+  void set_events(const Scene<Dim>& scene) { events_ = to_events(scene); }
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
@@ -86,6 +88,7 @@ class Publisher final : public Observer<Dim> {
   void send_bodies(const Frame<Dim>& frame, Clock::time_point now);
   void send_all_poses(const Frame<Dim>& frame);
   void send_shapes(const Frame<Dim>& frame);
+  void send_events(const Frame<Dim>& frame);
 
   RunInfo info_;
   std::int64_t run_id_;
@@ -94,10 +97,13 @@ class Publisher final : public Observer<Dim> {
   Pulse run_pulse_{1.0};
   Pulse stats_pulse_{10.0};
   Pulse shapes_pulse_{1.0};
+  Pulse events_pulse_{1.0};
   Pulse piles_pulse_;
   Pulse bodies_pulse_;
   double bodies_rate_;
   std::vector<talus_lcm::talus_shapes_v1> shapes_;  // and obstacles; empty: not known
+  std::vector<talus_lcm::talus_event_v2> events_;   // of the scene, as far as they have happened
+  std::size_t event_turn_ = 0;                      // the one from which on they are sent again
   std::vector<BodyIndex> fell_asleep_;              // since poses were sent last
   BodyIndex turn_ = 0;                              // the body from which on poses of resting ones are sent next
   // Since the last statistics:

@@ -8,7 +8,6 @@
 #include <span>
 #include <stdexcept>
 
-#include "common/scene/happened.h"
 #include "lcmtypes/translate.h"
 
 namespace talus {
@@ -45,10 +44,7 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
       encoder_(record_id(info)) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
-  for (std::size_t i = 0; i < scene.events.size(); ++i) {
-    const std::string& action = scene.events[i].action;
-    scene_events_.push_back({action, event_text(scene, static_cast<int>(i)), action == "remove"});
-  }
+  scene_events_ = to_events(scene);
   write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
   write(to_shapes<Dim>(scene.world), 0, 0.0);
   log_.flush();
@@ -78,7 +74,7 @@ void RunRecorder<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
 template <int Dim>
 void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   const BodyStates<Dim>& states = frame.world.states();
-  write(to_piles<Dim>(frame.piles.piles()), frame.step, frame.time);
+  write(to_piles<Dim>(frame.piles.piles(), frame.policy), frame.step, frame.time);
   auto stats = to_stats<Dim>(frame);
   write(stats, frame.step, frame.time);
   std::vector<BodyIndex> bodies = moved(frame);
@@ -97,13 +93,10 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
 template <int Dim>
 void RunRecorder<Dim>::write_scene_events(const Frame<Dim>& frame) {
   for (const int number : frame.scene_events) {
-    const EventText& event = scene_events_[number];
-    talus_lcm::talus_event_v1 message{};
-    message.number = number;
-    message.action = event.action;
-    message.text = event.text;
+    talus_lcm::talus_event_v2& message = scene_events_[number];
+    set_happened(frame, info_.dt, message);
     write(message, frame.step, frame.time);
-    removed_ = removed_ || event.removes;
+    removed_ = removed_ || message.action == "remove";
   }
 }
 

@@ -52,13 +52,8 @@ class RunRecorder final : public Observer<Dim> {
   MessageEncoder encoder_;
   std::int64_t last_utime_ = -1;
   std::vector<BodyIndex> fell_asleep_;  // since the last frame of output
-  struct EventText {
-    std::string action;
-    std::string text;
-    bool removes = false;  // bodies
-  };
-  std::vector<EventText> scene_events_;  // of the scene
-  bool removed_ = false;                 // an event removed bodies since the last key frame
+  std::vector<talus_lcm::talus_event_v2> scene_events_;
+  bool removed_ = false;  // an event removed bodies since the last key frame
 };
 
 }  // namespace talus

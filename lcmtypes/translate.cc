@@ -8,29 +8,29 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "common/policy/sleep_policy.h"
+#include "common/scene/happened.h"
 #include "common/world/energy.h"
 
 namespace talus {
 
 using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_layer_v1;
-using talus_lcm::talus_pile_v1;
-using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_layer_v2;
+using talus_lcm::talus_pile_v2;
+using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v2;
 
 namespace {
 
-constexpr std::size_t layer_bytes = fixed_bytes(layout<talus_layer_v1>);
-constexpr std::size_t pile_bytes = fixed_bytes(layout<talus_pile_v1>);  // without its layers
+constexpr std::size_t layer_bytes = fixed_bytes(layout<talus_layer_v2>);
+constexpr std::size_t pile_bytes = fixed_bytes(layout<talus_pile_v2>);  // without its layers
 constexpr std::size_t event_bytes = bytes_per_entry(layout<talus_sleep_v1>, "event_count");
 
 /// Bytes that a message of fixed and counted fields has for the counted ones.
 template <class Message>
 constexpr std::size_t room = max_message_bytes - fingerprint_bytes - fixed_bytes(layout<Message>);
-static_assert(pile_bytes + max_layers * layer_bytes <= room<talus_piles_v1>);
+static_assert(pile_bytes + max_layers * layer_bytes <= room<talus_piles_v2>);
 
 template <int Dim>
 constexpr std::size_t pose_values = Dim == 2 ? 3 : 7;
@@ -48,21 +48,24 @@ std::vector<Message> numbered(std::vector<Message> messages) {
   return messages;
 }
 
-talus_layer_v1 to_layer(const Layer& layer) {
-  talus_layer_v1 message{};
+talus_layer_v2 to_layer(const Layer& layer) {
+  talus_layer_v2 message{};
   message.bottom = static_cast<float>(layer.bottom);
   message.top = static_cast<float>(layer.top);
   message.radius = static_cast<float>(std::max(0.0, layer.radius));
   message.capacity = static_cast<float>(layer.capacity);
   message.density = static_cast<float>(layer.density());
+  message.sleep_density = static_cast<float>(layer.thresholds.sleep);
+  message.wake_density = static_cast<float>(layer.thresholds.wake);
   message.count = layer.count;
   message.sleeping = layer.sleeping;
   return message;
 }
 
 template <int Dim>
-talus_pile_v1 to_pile(const Pile<Dim>& pile) {
-  talus_pile_v1 message{};
+talus_pile_v2 to_pile(Pile<Dim> pile, const SleepPolicy<Dim>* policy) {
+  if (policy != nullptr) set_thresholds(*policy, pile);
+  talus_pile_v2 message{};
   message.centre[0] = pile.centre[0];
   message.centre[1] = Dim == 2 ? 0.0 : pile.centre[1];
   message.centre[2] = height<Dim>(pile.centre);
@@ -118,20 +121,20 @@ talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view rea
 }
 
 template <int Dim>
-std::vector<talus_piles_v1> to_piles(std::span<const Pile<Dim>> piles) {
-  std::vector<talus_piles_v1> messages(1);
+std::vector<talus_piles_v2> to_piles(std::span<const Pile<Dim>> piles, const SleepPolicy<Dim>* policy) {
+  std::vector<talus_piles_v2> messages(1);
   std::size_t used = 0;
   for (std::size_t i = 0; i < piles.size(); ++i) {
-    talus_pile_v1 pile = to_pile(piles[i]);
+    talus_pile_v2 pile = to_pile(piles[i], policy);
     const std::size_t bytes = pile_bytes + pile.layers.size() * layer_bytes;
-    if (used + bytes > room<talus_piles_v1>) {
+    if (used + bytes > room<talus_piles_v2>) {
       messages.emplace_back().first_pile = static_cast<std::int32_t>(i);
       used = 0;
     }
     used += bytes;
     messages.back().piles.push_back(std::move(pile));
   }
-  for (talus_piles_v1& message : messages) {
+  for (talus_piles_v2& message : messages) {
     message.pile_total = static_cast<std::int32_t>(piles.size());
     message.pile_count = static_cast<std::int32_t>(message.piles.size());
   }
@@ -257,8 +260,8 @@ std::vector<talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<
   return numbered(std::move(messages));
 }
 
-template std::vector<talus_piles_v1> to_piles<2>(std::span<const Pile<2>>);
-template std::vector<talus_piles_v1> to_piles<3>(std::span<const Pile<3>>);
+template std::vector<talus_piles_v2> to_piles<2>(std::span<const Pile<2>>, const SleepPolicy<2>*);
+template std::vector<talus_piles_v2> to_piles<3>(std::span<const Pile<3>>, const SleepPolicy<3>*);
 template talus_stats_v2 to_stats<2>(const Frame<2>&);
 template talus_stats_v2 to_stats<3>(const Frame<3>&);
 template std::vector<talus_bodies_v1> to_bodies<2>(const BodyStates<2>&, std::span<const BodyIndex>, bool);
@@ -415,7 +418,7 @@ Pose<Dim> pose_of(const talus_shapes_v1& message) {
 }
 
 template <int Dim>
-Pile<Dim> to_pile(const talus_lcm::talus_pile_v1& message) {
+Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message) {
   Pile<Dim> pile;
   if constexpr (Dim == 2)
     pile.centre = {message.centre[0], message.centre[2]};
@@ -427,19 +430,50 @@ Pile<Dim> to_pile(const talus_lcm::talus_pile_v1& message) {
   pile.height = message.height;
   pile.radius = message.radius;
   pile.merged_into = message.merged_into;
-  for (const talus_lcm::talus_layer_v1& layer : message.layers) {
+  for (const talus_lcm::talus_layer_v2& layer : message.layers) {
     pile.layers.push_back({.bottom = layer.bottom,
                            .top = layer.top,
                            .radius = layer.radius,
                            .capacity = layer.capacity,
                            .count = layer.count,
-                           .sleeping = layer.sleeping});
+                           .sleeping = layer.sleeping,
+                           .thresholds = {.sleep = layer.sleep_density, .wake = layer.wake_density}});
   }
   return pile;
 }
 
-template Pile<2> to_pile<2>(const talus_lcm::talus_pile_v1&);
-template Pile<3> to_pile<3>(const talus_lcm::talus_pile_v1&);
+template <int Dim>
+std::vector<talus_lcm::talus_event_v2> to_events(const Scene<Dim>& scene) {
+  std::vector<talus_lcm::talus_event_v2> messages(scene.events.size());
+  for (std::size_t i = 0; i < scene.events.size(); ++i) {
+    const Event<Dim>& event = scene.events[i];
+    talus_lcm::talus_event_v2& message = messages[i];
+    message.number = static_cast<std::int32_t>(i);
+    message.total = static_cast<std::int32_t>(scene.events.size());
+    message.happened_step = -1;
+    message.happened_time = -1.0;
+    message.action = event.action;
+    message.text = clipped(event_text(scene, message.number));
+    const ObstacleName name = event.obstacle ? scene.obstacle_names[*event.obstacle] : ObstacleName();
+    const int most = static_cast<int>((max_message_bytes - 3000) / sizeof(std::int32_t));
+    for (int k = 0; k < std::min(name.count, most); ++k) message.removed.push_back(name.first + k);
+    message.removed_count = static_cast<std::int32_t>(message.removed.size());
+  }
+  return messages;
+}
+
+template <int Dim>
+void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event_v2& message) {
+  message.happened_step = frame.step;
+  message.happened_time = std::max(0.0, frame.time - dt);
+}
+
+template std::vector<talus_lcm::talus_event_v2> to_events(const Scene<2>&);
+template std::vector<talus_lcm::talus_event_v2> to_events(const Scene<3>&);
+template void set_happened(const Frame<2>&, double, talus_lcm::talus_event_v2&);
+template void set_happened(const Frame<3>&, double, talus_lcm::talus_event_v2&);
+template Pile<2> to_pile<2>(const talus_lcm::talus_pile_v2&);
+template Pile<3> to_pile<3>(const talus_lcm::talus_pile_v2&);
 template void set_pose(const Pose<2>&, talus_shapes_v1&);
 template void set_pose(const Pose<3>&, talus_shapes_v1&);
 template Shape<2> to_shape<2>(const talus_shapes_v1&);

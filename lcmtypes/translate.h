@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "common/policy/frame.h"
+#include "common/policy/sleep_policy.h"
+#include "common/scene/scene.h"
 #include "lcmtypes/encode.h"
 #include "lcmtypes/run_info.h"
 
@@ -17,9 +19,10 @@ namespace talus {
 talus_lcm::talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view reason,
                                std::span<const Channel> channels, const MessageEncoder& encoder);
 
-/// One message at least, also where there is no pile yet.
+/// One message at least, also where there is no pile yet. Layers have the thresholds of `policy`, if given.
 template <int Dim>
-std::vector<talus_lcm::talus_piles_v1> to_piles(std::span<const Pile<Dim>> piles);
+std::vector<talus_lcm::talus_piles_v2> to_piles(std::span<const Pile<Dim>> piles,
+                                                const SleepPolicy<Dim>* policy = nullptr);
 
 /// No message where there are no events.
 std::vector<talus_lcm::talus_sleep_v1> to_sleep(std::span<const SleepEvent> events);
@@ -50,9 +53,17 @@ std::vector<talus_lcm::talus_bodies_v1> to_bodies(const BodyStates<Dim>& states,
 template <int Dim>
 std::vector<talus_lcm::talus_shapes_v1> to_shapes(const WorldDescription<Dim>& world);
 
+/// All events of a scene, none of which has happened.
+template <int Dim>
+std::vector<talus_lcm::talus_event_v2> to_events(const Scene<Dim>& scene);
+
+/// Says that the event has happened, just before the frame's step of `dt` [s].
+template <int Dim>
+void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event_v2& message);
+
 /// The pile of a message that decode() took.
 template <int Dim>
-Pile<Dim> to_pile(const talus_lcm::talus_pile_v1& message);
+Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message);
 
 /// Puts an obstacle elsewhere.
 template <int Dim>

@@ -29,15 +29,22 @@ struct TypicalBody {
   double mass = 1.0;             // [kg]
 };
 
+/// Densities of a layer at which the run's policy changes what it does. Below 0: it has no such threshold.
+struct LayerThresholds {
+  double sleep = -1.0;  // up to it no body of the layer falls asleep
+  double wake = -1.0;   // above it the pile wakes
+};
+
 /// One slice, as thick as the largest extent of a body or thicker.
 struct Layer {
-  double bottom = 0.0;    // height above the pile's base [m]
-  double top = 0.0;       // [m]
-  double radius = 0.0;    // r_i: half-width at the bottom [m]; within walls, to the nearest point of the edge
-  double volume = 0.0;    // v_i [m^3], in 2D [m^2]
-  double capacity = 0.0;  // c_i = v_i / v_obj
-  int count = 0;          // m_i: bodies whose centre of mass lies within
-  int sleeping = 0;       // of these, asleep
+  double bottom = 0.0;              // height above the pile's base [m]
+  double top = 0.0;                 // [m]
+  double radius = 0.0;              // r_i: half-width at the bottom [m]; within walls, to the nearest point of the edge
+  double volume = 0.0;              // v_i [m^3], in 2D [m^2]
+  double capacity = 0.0;            // c_i = v_i / v_obj
+  int count = 0;                    // m_i: bodies whose centre of mass lies within
+  int sleeping = 0;                 // of these, asleep
+  LayerThresholds thresholds = {};  // in copies for pages and messages (set_thresholds() of the policy)
 
   double density() const { return capacity > 0.0 ? count / capacity : 0.0; }  // rho_i
 };

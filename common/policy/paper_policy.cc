@@ -80,8 +80,7 @@ void PaperPolicy<Dim>::wake_overfull_piles(const Frame<Dim>& frame, Decision<Dim
   for (std::size_t p = 0; p < piles.size(); ++p) {
     const std::vector<Layer>& layers = piles[p].layers;
     bool overfull = false;
-    for (std::size_t i = 0; i < layers.size() && !overfull; ++i)
-      overfull = layers[i].density() > params_.avalanche_density_of(i);
+    for (std::size_t i = 0; i < layers.size() && !overfull; ++i) overfull = layers[i].density() > thresholds(i).wake;
     if (overfull && frame.step >= pile_calm_from_[p]) wake(p, SleepCause::avalanche, frame, decision);
   }
 }
@@ -99,6 +98,12 @@ void PaperPolicy<Dim>::wake(std::size_t pile, SleepCause cause, const Frame<Dim>
     if (states.asleep[body] == 0) continue;
     decision.thaw.push_back({.body = body, .pile = static_cast<int>(pile), .layer = layer, .cause = cause});
   }
+}
+
+/// The other two factors of the score are at most 1, so that it exceeds tau only where the density does.
+template <int Dim>
+LayerThresholds PaperPolicy<Dim>::thresholds(std::size_t layer) const {
+  return {.sleep = params_.tau, .wake = params_.avalanche_density_of(layer)};
 }
 
 /// Section 3.3. A body in several piles goes by the one that scores it highest.
@@ -143,8 +148,8 @@ std::vector<Reading> PaperPolicy<Dim>::readings(const Frame<Dim>& frame, BodyInd
   for (std::size_t p = 0; p < piles.size(); ++p) {
     const int layer = frame.piles.layer_of(p, body);
     if (layer >= 0)
-      readings.push_back({"density of its layer", piles[p].layers[layer].density(), params_.avalanche_density_of(layer),
-                          "", "the pile wakes"});
+      readings.push_back(
+          {"density of its layer", piles[p].layers[layer].density(), thresholds(layer).wake, "", "the pile wakes"});
   }
   return readings;
 }

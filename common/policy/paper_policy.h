@@ -19,6 +19,7 @@ class PaperPolicy final : public SleepPolicy<Dim> {
 
   std::vector<Reading> readings(const Frame<Dim>& frame, BodyIndex body) const override;
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
+  LayerThresholds thresholds(std::size_t layer) const override;
 
  private:
   void wake_hit_piles(const Frame<Dim>& frame, Decision<Dim>& decision);

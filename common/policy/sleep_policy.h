@@ -53,9 +53,18 @@ class SleepPolicy {
   /// What the policy goes by for a body that is in the world, after a step. It leaves out what it does not have.
   virtual std::vector<Reading> readings(const Frame<Dim>& /*frame*/, BodyIndex /*body*/) const { return {}; }
 
+  /// Of a layer, counted from the bottom.
+  virtual LayerThresholds thresholds(std::size_t /*layer*/) const { return {}; }
+
   /// Fills `decision` (empty on entry). Called once a step.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
 };
+
+/// Writes the policy's thresholds into the layers.
+template <int Dim>
+void set_thresholds(const SleepPolicy<Dim>& policy, Pile<Dim>& pile) {
+  for (std::size_t i = 0; i < pile.layers.size(); ++i) pile.layers[i].thresholds = policy.thresholds(i);
+}
 
 /// Leaves all sleeping to the engine: policy `full` (the engine never sleeps) and `engine` (its own rule).
 template <int Dim>

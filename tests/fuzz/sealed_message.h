@@ -16,7 +16,7 @@ void with_message_of(Channel channel, const Use& use) {
     case Channel::run:
       return use(talus_lcm::talus_run_v1{});
     case Channel::piles:
-      return use(talus_lcm::talus_piles_v1{});
+      return use(talus_lcm::talus_piles_v2{});
     case Channel::sleep:
       return use(talus_lcm::talus_sleep_v1{});
     case Channel::stats:
@@ -26,7 +26,7 @@ void with_message_of(Channel channel, const Use& use) {
     case Channel::shapes:
       return use(talus_lcm::talus_shapes_v1{});
     case Channel::events:
-      return use(talus_lcm::talus_event_v1{});
+      return use(talus_lcm::talus_event_v2{});
   }
 }
 

@@ -12,8 +12,8 @@ namespace talus::decode_test {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_event_v1;
-using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_event_v2;
+using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
@@ -32,7 +32,7 @@ std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
     case Channel::run:
       return fault_of<talus_run_v1>(bytes);
     case Channel::piles:
-      return fault_of<talus_piles_v1>(bytes);
+      return fault_of<talus_piles_v2>(bytes);
     case Channel::sleep:
       return fault_of<talus_sleep_v1>(bytes);
     case Channel::stats:
@@ -42,7 +42,7 @@ std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
     case Channel::shapes:
       return fault_of<talus_shapes_v1>(bytes);
     case Channel::events:
-      return fault_of<talus_event_v1>(bytes);
+      return fault_of<talus_event_v2>(bytes);
   }
   return "no such channel";
 }
@@ -98,7 +98,7 @@ TEST(Decoder, RefusesBytesThatFollow) {
 
 TEST(Decoder, RefusesAnotherType) {
   for (const Packet& packet : samples<2>())
-    if (packet.channel != Channel::piles) EXPECT_EQ(fault_of<talus_piles_v1>(packet.bytes), "another type or version");
+    if (packet.channel != Channel::piles) EXPECT_EQ(fault_of<talus_piles_v2>(packet.bytes), "another type or version");
 }
 
 TEST(Decoder, AcceptsEachCauseOfASleepEventAndNoOther) {
@@ -128,11 +128,11 @@ TEST(Decoder, RefusesHugeAndNegativeCountsWithoutAllocating) {
 }
 
 TEST(Decoder, RefusesWhatIsNotFinite) {
-  talus_piles_v1 piles = to_piles<2>({}).front();
+  talus_piles_v2 piles = to_piles<2>({}).front();
   MessageEncoder encoder(1);
-  EXPECT_EQ(fault_of<talus_piles_v1>(encoder.encode(piles, {0, 1, 0.5}).bytes), "");
-  EXPECT_NE(fault_of<talus_piles_v1>(encoder.encode(piles, {0, 1, std::nan("")}).bytes), "");
-  EXPECT_NE(fault_of<talus_piles_v1>(encoder.encode(piles, {0, -1, 0.5}).bytes), "");
+  EXPECT_EQ(fault_of<talus_piles_v2>(encoder.encode(piles, {0, 1, 0.5}).bytes), "");
+  EXPECT_NE(fault_of<talus_piles_v2>(encoder.encode(piles, {0, 1, std::nan("")}).bytes), "");
+  EXPECT_NE(fault_of<talus_piles_v2>(encoder.encode(piles, {0, -1, 0.5}).bytes), "");
   talus_stats_v2 stats{};
   stats.kinetic_energy = std::numeric_limits<double>::infinity();
   EXPECT_NE(fault_of<talus_stats_v2>(encoder.encode(stats, {0, 1, 0.5}).bytes), "");
@@ -161,6 +161,47 @@ TEST(Decoder, ReadsStatisticsOfTheVersionBefore) {
   EXPECT_EQ(read.dropped, 9);
   packet.bytes[60] ^= 1U;
   EXPECT_EQ(decode(packet.bytes, read), "wrong checksum");
+}
+
+TEST(Decoder, ReadsPilesOfTheVersionBefore) {
+  talus_lcm::talus_piles_v1 old{};
+  old.parts = 1;
+  old.pile_total = old.pile_count = 1;
+  talus_lcm::talus_pile_v1& pile = old.piles.emplace_back();
+  pile.alpha = 0.75;
+  pile.merged_into = -1;
+  pile.layer_total = pile.layer_count = 1;
+  talus_lcm::talus_layer_v1& layer = pile.layers.emplace_back();
+  layer.capacity = 8.0F;
+  layer.count = 6;
+  layer.sleeping = 5;
+  MessageEncoder encoder(1);
+  const Packet packet = encoder.encode(old, {0, 6, 0.5});
+  talus_piles_v2 read;
+  ASSERT_EQ(decode(packet.bytes, read), "");
+  EXPECT_EQ(read.step, 6);
+  ASSERT_EQ(read.piles.size(), 1U);
+  EXPECT_EQ(read.piles[0].alpha, 0.75);
+  ASSERT_EQ(read.piles[0].layers.size(), 1U);
+  EXPECT_EQ(read.piles[0].layers[0].count, 6);
+  EXPECT_EQ(read.piles[0].layers[0].capacity, 8.0F);
+  EXPECT_EQ(read.piles[0].layers[0].wake_density, -1.0F);
+  EXPECT_EQ(read.piles[0].layers[0].sleep_density, -1.0F);
+}
+
+TEST(Decoder, ReadsEventsOfTheVersionBefore) {
+  talus_lcm::talus_event_v1 old{};
+  old.number = 2;
+  old.action = "remove";
+  old.text = "remove obstacle gate";
+  MessageEncoder encoder(1);
+  const Packet packet = encoder.encode(old, {0, 6, 0.5});
+  talus_event_v2 read;
+  ASSERT_EQ(decode(packet.bytes, read), "");
+  EXPECT_EQ(read.number, 2);
+  EXPECT_EQ(read.text, "remove obstacle gate");
+  EXPECT_EQ(read.happened_step, 6);
+  EXPECT_TRUE(read.removed.empty());
 }
 
 TEST(Decoder, RefusesWarningsThatNoRunGives) {

@@ -14,7 +14,7 @@ namespace talus::publisher_test {
 namespace {
 
 using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
@@ -84,12 +84,12 @@ TEST(Publisher, SendsSceneStepsAndReasonOfTheEnd) {
   EXPECT_EQ(messages.front().channels.size(), 6U);
   EXPECT_EQ(messages.back().phase, talus_run_v1::END);
   EXPECT_EQ(messages.back().reason, "finished");
-  EXPECT_EQ(messages.back().sent[1], static_cast<std::int64_t>(run.ear.all<talus_piles_v1>().size()));
+  EXPECT_EQ(messages.back().sent[1], static_cast<std::int64_t>(run.ear.all<talus_piles_v2>().size()));
 }
 
 TEST(Publisher, SendsPilesOfEveryStepWhenAsked) {
   const PublishedRun<3> run(40);
-  const auto piles = run.ear.all<talus_piles_v1>();
+  const auto piles = run.ear.all<talus_piles_v2>();
   ASSERT_EQ(piles.size(), 41U);  // and once more at the end
   for (std::size_t i = 0; i < 40; ++i) {
     EXPECT_EQ(piles[i].step, static_cast<std::int64_t>(i) + 1);
@@ -100,8 +100,8 @@ TEST(Publisher, SendsPilesOfEveryStepWhenAsked) {
 
 TEST(Publisher, KeepsToTheRateOfWallTime) {
   const PublishedRun<2> run(2000, {.piles_rate = 10.0});  // far more than 10 steps in a tenth of a second
-  EXPECT_LT(run.ear.all<talus_piles_v1>().size(), 200U);
-  EXPECT_GE(run.ear.all<talus_piles_v1>().size(), 2U);
+  EXPECT_LT(run.ear.all<talus_piles_v2>().size(), 200U);
+  EXPECT_GE(run.ear.all<talus_piles_v2>().size(), 2U);
 }
 
 TEST(Publisher, SendsEverySleepEvent) {
@@ -159,7 +159,7 @@ TEST(Publisher, LeavesTheRunAsItIs) {
 TEST(Publisher, DropsRatherThanWaitsAndSaysSo) {
   const PublishedRun<2> run(20'000, {.piles_rate = 0.0, .bodies_rate = 1e6, .queue_bytes = 1U << 20U});
   EXPECT_GT(run.dropped, 0);
-  const auto piles = run.ear.all<talus_piles_v1>();
+  const auto piles = run.ear.all<talus_piles_v2>();
   EXPECT_LT(piles.size(), 20'000U);
   const auto stats = run.ear.all<talus_stats_v2>();
   EXPECT_TRUE(std::any_of(stats.begin(), stats.end(), [](const auto& s) { return s.dropped > 0; }));

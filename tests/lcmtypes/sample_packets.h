@@ -36,7 +36,7 @@ std::vector<Packet> sample_packets(int bodies) {
   encode(std::vector{to_stats<Dim>(frame)});
   encode(to_bodies<Dim>(states, all, true));
   encode(to_shapes<Dim>(scene.world));
-  talus_lcm::talus_event_v1 event{};
+  talus_lcm::talus_event_v2 event{};
   event.number = 3;
   event.action = "remove";
   event.text = "remove all bodies";

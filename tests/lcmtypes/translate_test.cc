@@ -5,13 +5,14 @@
 
 #include <numeric>
 
+#include "common/policy/paper_policy.h"
 #include "lcmtypes/decode.h"
 #include "tests/lcmtypes/still_run.h"
 
 namespace talus::translate_test {
 namespace {
 
-using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_pile_v2;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v2;
@@ -37,7 +38,7 @@ TEST(PilesMessage, SaysWhatThePileHolds) {
   const auto messages = to_piles<2>(std::span(&pile, 1));
   ASSERT_EQ(messages.size(), 1U);
   ASSERT_EQ(messages[0].piles.size(), 1U);
-  const talus_pile_v1& told = messages[0].piles[0];
+  const talus_pile_v2& told = messages[0].piles[0];
   EXPECT_EQ(told.centre[0], 3.0);
   EXPECT_EQ(told.centre[1], 0.0);
   EXPECT_EQ(told.centre[2], 1.0);
@@ -48,6 +49,41 @@ TEST(PilesMessage, SaysWhatThePileHolds) {
   EXPECT_EQ(told.layers[0].count, 7);
   EXPECT_EQ(told.layers[0].sleeping, 5);
   EXPECT_EQ(told.layers[0].density, static_cast<float>(7.0 / pile.layers[0].capacity));
+}
+
+TEST(PilesMessage, HasTheThresholdsOfThePolicyForEachLayer) {
+  const Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
+  PaperParams params;
+  params.tau = 0.4;
+  params.avalanche_density = {0.75, 0.875};
+  const PaperPolicy<2> paper(params, {});
+  const auto of_paper = to_piles<2>(std::span(&pile, 1), &paper);
+  const auto& layers = of_paper[0].piles[0].layers;
+  ASSERT_GT(layers.size(), 2U);
+  EXPECT_EQ(layers[0].wake_density, 0.75F);
+  EXPECT_EQ(layers[2].wake_density, 0.875F) << "the last one holds for all above";
+  EXPECT_EQ(layers[1].sleep_density, 0.4F) << "the other factors of the score are at most 1";
+  EXPECT_EQ(to_pile<2>(of_paper[0].piles[0]).layers[2].thresholds.wake, 0.875);
+  const NoPolicy<2> none;
+  const auto of_none = to_piles<2>(std::span(&pile, 1), &none);
+  EXPECT_EQ(of_none[0].piles[0].layers[0].wake_density, -1.0F);
+}
+
+TEST(EventMessage, SaysWhatTheEventRemovesAndWhenItHappened) {
+  Scene<2> scene = still_scene<2>();
+  scene.obstacle_names = {{"gate", 0, 1}};
+  scene.events.resize(2);
+  scene.events[0].action = "wake";
+  scene.events[1].action = "remove";
+  scene.events[1].obstacle = 0;
+  const auto messages = to_events(scene);
+  ASSERT_EQ(messages.size(), 2U);
+  EXPECT_EQ(messages[1].number, 1);
+  EXPECT_EQ(messages[1].total, 2);
+  EXPECT_EQ(messages[1].text, "remove obstacle gate");
+  EXPECT_EQ(messages[1].removed, std::vector<std::int32_t>{0});
+  EXPECT_EQ(messages[1].happened_step, -1);
+  EXPECT_TRUE(messages[0].removed.empty());
 }
 
 TEST(PilesMessage, ComesInPartsWhenPilesAreMany) {

@@ -12,7 +12,7 @@
 namespace talus::listener_test {
 namespace {
 
-using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_layer_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_stats_v2;
 
@@ -173,7 +173,7 @@ TEST(Listener, KeepsABoundedNumberOfLayers) {
   Wire wire;
   MessageEncoder encoder(42);
   for (int first = 0; first < 200; ++first) {
-    talus_lcm::talus_piles_v1 message{};
+    talus_lcm::talus_piles_v2 message{};
     message.parts = 1;
     message.first_pile = first;
     message.pile_total = 1000;
@@ -190,11 +190,11 @@ TEST(Listener, KeepsABoundedNumberOfLayers) {
 }
 
 TEST(DensityBar, HasABlockPerLayerAndGroupsMany) {
-  std::vector<talus_layer_v1> layers(5);
+  std::vector<talus_layer_v2> layers(5);
   const std::vector<float> densities = {1.5F, 0.5F, 0.1F, 0.01F, 0.0F};
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].density = densities[i];
   EXPECT_EQ(density_bar(layers), "█▄▁▁ ");
-  layers.assign(100, talus_layer_v1{});
+  layers.assign(100, talus_layer_v2{});
   EXPECT_EQ(density_bar(layers).size(), 24U);  // 24 blanks
   EXPECT_EQ(density_bar({}), "");
 }

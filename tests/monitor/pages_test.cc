@@ -63,10 +63,15 @@ class Sender {
     stats.real_time_factor = 8.5F;
     send(stats);
   }
-  void pile(int layers) {
+  void pile(int layers, const LayerThresholds& thresholds = {}) {
     Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
-    pile.layers.assign(static_cast<std::size_t>(layers),
-                       {.bottom = 0.0, .top = 1.0, .radius = 3.0, .capacity = 10.0, .count = 9, .sleeping = 7});
+    pile.layers.assign(static_cast<std::size_t>(layers), {.bottom = 0.0,
+                                                          .top = 1.0,
+                                                          .radius = 3.0,
+                                                          .capacity = 10.0,
+                                                          .count = 9,
+                                                          .sleeping = 7,
+                                                          .thresholds = thresholds});
     for (auto& message : to_piles<2>(std::span(&pile, 1))) send(message);
   }
   void event(int body, SleepCause cause, bool woke) {
@@ -117,6 +122,16 @@ TEST(MonitorPages, JoinNeighbouringLayersThatDoNotFit) {
   EXPECT_TRUE(shows(screen.text(), "  0-5 0.90   54/60      42"));
   screen.press('l');
   EXPECT_TRUE(shows(screen.text(60), "   39 0.90    9/10       7"));
+}
+
+TEST(MonitorPages, ShowTheThresholdsOfThePolicyForEachLayer) {
+  Screen screen;
+  Sender run(screen, 42, "heap");
+  run.pile(3, {.sleep = 0.5, .wake = 0.8});
+  EXPECT_TRUE(shows(screen.text(), "layer dens bodies/cap sleep wake>"));
+  EXPECT_TRUE(shows(screen.text(), "    2 0.90    9/10       7  0.80"));
+  screen.press('l');
+  EXPECT_TRUE(shows(screen.text(60), "    2 0.90    9/10       7  0.80   0.50"));
 }
 
 TEST(MonitorPages, FilterEventsByKey) {

@@ -28,6 +28,7 @@ void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {
   area.put(0, 0, "channel         /s   kB/s   lost   bad", Style::strong);
   int row = 1;
   for (const Channel channel : heard_channels) {
+    if (row == area.rows()) break;  // the last one, which only scenes with events send on
     const RateMeter::Rate rate = run.entry->rates[static_cast<std::size_t>(channel)].rate(heard.now);
     const std::int64_t lost = run.view().lost(channel);
     const std::int64_t bad = heard.listener.undecodable(channel);

@@ -8,26 +8,36 @@
 
 namespace talus {
 
-using talus_lcm::talus_layer_v1;
-using talus_lcm::talus_pile_v1;
+using talus_lcm::talus_layer_v2;
+using talus_lcm::talus_pile_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_stats_v2;
 using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json of(const talus_pile_v1& pile) {
+Json of(const talus_pile_v2& pile) {
   Json counts = Json::array();
   Json sleeping = Json::array();
   Json densities = Json::array();
-  for (const talus_layer_v1& layer : pile.layers) {
+  Json capacities = Json::array();
+  Json sleep_thresholds = Json::array();
+  Json wake_thresholds = Json::array();
+  const auto threshold = [](float density) { return density >= 0.0F ? Json(density) : Json(); };
+  for (const talus_layer_v2& layer : pile.layers) {
     counts.push_back(layer.count);
     sleeping.push_back(layer.sleeping);
     densities.push_back(layer.density);
+    capacities.push_back(layer.capacity);
+    sleep_thresholds.push_back(threshold(layer.sleep_density));
+    wake_thresholds.push_back(threshold(layer.wake_density));
   }
   return {{"layers", pile.layer_total},
           {"occupation_ratio", pile.occupation_ratio},
           {"density", densities},
+          {"sleep_density", sleep_thresholds},
+          {"wake_density", wake_thresholds},
+          {"capacity", capacities},
           {"count", counts},
           {"sleeping", sleeping}};
 }

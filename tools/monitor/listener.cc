@@ -10,7 +10,8 @@
 namespace talus {
 
 using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_event_v2;
+using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
@@ -21,7 +22,7 @@ void Listener::hear(const Datagram& datagram, Clock::time_point now) {
     case Channel::run:
       return hear<talus_run_v1>(datagram, now);
     case Channel::piles:
-      return hear<talus_piles_v1>(datagram, now);
+      return hear<talus_piles_v2>(datagram, now);
     case Channel::sleep:
       return hear<talus_sleep_v1>(datagram, now);
     case Channel::stats:
@@ -31,7 +32,7 @@ void Listener::hear(const Datagram& datagram, Clock::time_point now) {
     case Channel::shapes:
       return hear<talus_shapes_v1>(datagram, now);
     case Channel::events:
-      return;  // in records only
+      return hear<talus_event_v2>(datagram, now);
   }
 }
 

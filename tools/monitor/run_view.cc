@@ -6,8 +6,8 @@
 
 namespace talus {
 
-using talus_lcm::talus_pile_v1;
-using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_pile_v2;
+using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v2;
@@ -41,12 +41,12 @@ void RunView::take(const talus_run_v1& message) {
   }
 }
 
-void RunView::take(const talus_piles_v1& message) {
+void RunView::take(const talus_piles_v2& message) {
   note(message);
   if (message.step < piles_step_) return;
   piles_step_ = message.step;
   for (std::int32_t i = 0; i < message.pile_count; ++i) {
-    const talus_pile_v1& pile = message.piles[i];
+    const talus_pile_v2& pile = message.piles[i];
     const std::int32_t number = message.first_pile + i;
     if (pile.merged_into >= 0)
       forget(number);
@@ -62,7 +62,7 @@ void RunView::forget(std::int32_t number) {
   piles_.erase(known);
 }
 
-void RunView::keep(std::int32_t number, const talus_pile_v1& pile) {
+void RunView::keep(std::int32_t number, const talus_pile_v2& pile) {
   forget(number);
   if (piles_.size() >= max_piles || layers_kept_ + pile.layers.size() > max_layers_kept) {
     ++piles_left_out_;
@@ -92,6 +92,8 @@ void RunView::take(const talus_stats_v2& message) {
 void RunView::take(const talus_lcm::talus_bodies_v1& message) { note(message); }
 
 void RunView::take(const talus_lcm::talus_shapes_v1& message) { note(message); }
+
+void RunView::take(const talus_lcm::talus_event_v2& message) { note(message); }
 
 bool RunView::is_restart(const talus_run_v1& message) const {
   return run_ && message.seq < run_->seq && (message.phase == talus_run_v1::BEGIN || ended());

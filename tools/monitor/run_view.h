@@ -13,19 +13,20 @@
 namespace talus {
 
 /// What a monitor listens to.
-inline constexpr std::array heard_channels = {Channel::run,   Channel::piles,  Channel::sleep,
-                                              Channel::stats, Channel::bodies, Channel::shapes};
+inline constexpr std::array heard_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
+                                              Channel::bodies, Channel::shapes, Channel::events};
 
 /// What is known of one run: the newest message of each kind, and what was lost. Older messages than those known are
-/// counted but change nothing. Of poses and shapes it keeps only the count.
+/// counted but change nothing. Of poses, shapes and events of the scene it keeps only the count.
 class RunView {
  public:
   void take(const talus_lcm::talus_run_v1& message);
-  void take(const talus_lcm::talus_piles_v1& message);
+  void take(const talus_lcm::talus_piles_v2& message);
   void take(const talus_lcm::talus_sleep_v1& message);
   void take(const talus_lcm::talus_stats_v2& message);
   void take(const talus_lcm::talus_bodies_v1& message);
   void take(const talus_lcm::talus_shapes_v1& message);
+  void take(const talus_lcm::talus_event_v2& message);
 
   /// The run's number was used before; nothing of that is left. A record that is played twice does so.
   bool is_restart(const talus_lcm::talus_run_v1& message) const;
@@ -33,7 +34,7 @@ class RunView {
   const std::optional<talus_lcm::talus_run_v1>& run() const { return run_; }
   const std::optional<talus_lcm::talus_stats_v2>& stats() const { return stats_; }
   /// By number, as last heard of; without those that became part of another.
-  const std::map<std::int32_t, talus_lcm::talus_pile_v1>& piles() const { return piles_; }
+  const std::map<std::int32_t, talus_lcm::talus_pile_v2>& piles() const { return piles_; }
 
   /// Piles received for which there is no room here; each message counts.
   std::int64_t piles_left_out() const { return piles_left_out_; }
@@ -56,12 +57,12 @@ class RunView {
   template <class Message>
   bool note(const Message& message);
   void forget(std::int32_t number);
-  void keep(std::int32_t number, const talus_lcm::talus_pile_v1& pile);
+  void keep(std::int32_t number, const talus_lcm::talus_pile_v2& pile);
 
   std::array<SequenceTracker, channel_names.size()> trackers_;
   std::optional<talus_lcm::talus_run_v1> run_;
   std::optional<talus_lcm::talus_stats_v2> stats_;
-  std::map<std::int32_t, talus_lcm::talus_pile_v1> piles_;
+  std::map<std::int32_t, talus_lcm::talus_pile_v2> piles_;
   std::size_t layers_kept_ = 0;  // of all piles_
   std::int64_t piles_left_out_ = 0;
   std::int64_t piles_step_ = -1;

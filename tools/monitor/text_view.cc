@@ -12,7 +12,7 @@
 
 namespace talus {
 
-using talus_lcm::talus_layer_v1;
+using talus_lcm::talus_layer_v2;
 using talus_lcm::talus_run_v1;
 
 namespace {
@@ -47,14 +47,14 @@ std::string name(const RunView& view) {
 
 }  // namespace
 
-std::string density_bar(std::span<const talus_layer_v1> layers) {
+std::string density_bar(std::span<const talus_layer_v2> layers) {
   const std::size_t number = std::min(layers.size(), max_blocks);
   std::string text;
   for (std::size_t i = 0; i < number; ++i) {
     const std::size_t begin = i * layers.size() / number;
     const std::size_t end = (i + 1) * layers.size() / number;
     double sum = 0.0;
-    for (const talus_layer_v1& layer : layers.subspan(begin, end - begin)) sum += layer.density;
+    for (const talus_layer_v2& layer : layers.subspan(begin, end - begin)) sum += layer.density;
     text += block(sum / static_cast<double>(end - begin));
   }
   return text;

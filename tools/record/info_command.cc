@@ -46,7 +46,7 @@ class LogSummary {
     if (!begin_) begin_ = header.time;
     end_ = std::max(end_, header.time);
     if (talus_lcm::talus_run_v1 run; decode(event.data, run).empty()) take(run);
-    if (talus_lcm::talus_event_v1 done; decode(event.data, done).empty()) take(done);
+    if (talus_lcm::talus_event_v2 done; decode(event.data, done).empty()) take(done);
     if (talus_lcm::talus_bodies_v1 bodies; decode(event.data, bodies).empty()) take(bodies);
   }
 
@@ -87,7 +87,7 @@ class LogSummary {
     run_ = message;
   }
 
-  void take(const talus_lcm::talus_event_v1& message) {
+  void take(const talus_lcm::talus_event_v2& message) {
     constexpr std::size_t most = 1000;
     if (events_.size() < most)
       events_.push_back({{"number", message.number}, {"step", message.step}, {"text", message.text}});

@@ -19,9 +19,9 @@ class Walk {
   void take(const LogEvent& event) {
     if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
     if (event.channel == name_of(Channel::sleep)) decode_and_take<talus_lcm::talus_sleep_v1>(event);
-    if (event.channel == name_of(Channel::piles)) decode_and_take<talus_lcm::talus_piles_v1>(event);
+    if (event.channel == name_of(Channel::piles)) decode_and_take<talus_lcm::talus_piles_v2>(event);
     if (event.channel == name_of(Channel::stats)) decode_and_take<talus_lcm::talus_stats_v2>(event);
-    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v1>(event);
+    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v2>(event);
     if (event.channel == name_of(Channel::bodies)) decode_and_take<talus_lcm::talus_bodies_v1>(event);
   }
 
@@ -43,9 +43,9 @@ class Walk {
             printable(message.reason)};
   }
 
-  void take(const talus_lcm::talus_piles_v1& message) {
+  void take(const talus_lcm::talus_piles_v2& message) {
     if (message.part == 0) piles_.clear();
-    for (const talus_lcm::talus_pile_v1& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
+    for (const talus_lcm::talus_pile_v2& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
   }
 
   void take(const talus_lcm::talus_stats_v2& message) {
@@ -61,7 +61,7 @@ class Walk {
     }
   }
 
-  void take(const talus_lcm::talus_event_v1& message) {
+  void take(const talus_lcm::talus_event_v2& message) {
     scene_events_.push_back({message.number, message.sim_time - dt_});
   }
 

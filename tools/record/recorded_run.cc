@@ -33,7 +33,7 @@ class RunReader {
     if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
     if (event.channel == name_of(Channel::sleep)) decode_and_take<talus_lcm::talus_sleep_v1>(event);
     if (event.channel == name_of(Channel::bodies)) decode_and_take<talus_lcm::talus_bodies_v1>(event);
-    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v1>(event);
+    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v2>(event);
   }
 
   RecordedRun<Dim> finish() {
@@ -75,7 +75,7 @@ class RunReader {
     }
   }
 
-  void take(const talus_lcm::talus_event_v1& message) {
+  void take(const talus_lcm::talus_event_v2& message) {
     if (message.number >= std::ssize(run_.scene.events))
       throw std::invalid_argument(
           fmt::format("run.lcm: event {}, but the scene has {} events", message.number, run_.scene.events.size()));
