@@ -100,16 +100,19 @@ void check_limits(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, c
   table.check([&] { check(farthest, world); });
 }
 
-/// Reports the deepest overlap of the first bodies that overlap: bodies that are all in one place would take hours.
+/// Reports the deepest overlap of the first bodies that overlap more than is allowed: bodies that are all in one place
+/// would take hours.
 template <int Dim>
-void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, bool fixed, OverlapCheck<Dim>& placed) {
+void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, const BodyParams<Dim>& params,
+                   OverlapCheck<Dim>& placed) {
   constexpr int enough = 20;
   Overlap deepest;
   std::size_t first = 0;
   int found = 0;
   for (std::size_t i = 0; i < bodies.size() && found < enough; ++i) {
-    const Overlap overlap = placed.add(bodies[i].shape, bodies[i].pose, fixed, table.path());
-    if (overlap.depth > 0.0) ++found;
+    const Overlap overlap = placed.add(bodies[i].shape, bodies[i].pose, params.fixed, table.path());
+    if (overlap.depth <= params.overlap) continue;
+    ++found;
     if (overlap.depth <= deepest.depth) continue;
     deepest = overlap;
     first = i;
@@ -118,7 +121,7 @@ void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, 
   const bool of_itself = deepest.other.ends_with(" of " + table.path());
   const std::string which = bodies.size() > 1 ? fmt::format("its body {} ", first) : "it ";
   table.error(of_itself ? "step" : "position", fmt::format("must leave no overlap above {} m: {}is {:.3g} m deep in {}",
-                                                           most_overlap, which, deepest.depth, deepest.other));
+                                                           params.overlap, which, deepest.depth, deepest.other));
 }
 
 template <int Dim>
@@ -147,7 +150,7 @@ void read_body(TableReader& table, const ShapeNames& shapes, OverlapCheck<Dim>& 
   }
   const auto bodies = bodies_of(params, turn, *shape, scene.world.shapes[*shape]);
   check_limits(table, bodies, scene.world);
-  if (table.ok()) check_overlap(table, bodies, params.fixed, placed);
+  if (table.ok()) check_overlap(table, bodies, params, placed);
   if (table.ok()) append(bodies, params, scene);
 }
 

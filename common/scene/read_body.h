@@ -24,6 +24,7 @@ struct BodyParams {
   Spin<Dim> spin = Spin<Dim>::Zero();
   bool fixed = false;
   bool asleep = false;
+  double overlap = most_overlap;
 };
 
 template <int Dim>
@@ -41,7 +42,7 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
       .range = coordinate_range,
       .default_text = "origin",
       .meaning = "where the origin of the shape's own axes goes, as for an [obstacle](#what-no-body-moves-obstacle). "
-                 "Bodies may touch each other, obstacles and ground; overlap deeper than 0.005 m is refused"}},
+                 "Bodies may touch each other, obstacles and ground; overlap deeper than `overlap` is refused"}},
     {{}, angle_key},
     {{}, axis_key},
     {&BodyParams<Dim>::angle_step,
@@ -86,6 +87,12 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
      {.name = "asleep",
       .meaning = "true: it sleeps from the start, and hangs in the air if nothing supports it, until something wakes "
                  "it. No effect with the policies `full` and `engine`"}},
+    {&BodyParams<Dim>::overlap,
+     {.name = "overlap",
+      .unit = "m",
+      .range = between(most_overlap, 10.0),
+      .meaning = "deepest overlap allowed. In a pile taken from a run, contacts are deeper than a body that is placed "
+                 "by hand may be: from much overlap an engine throws bodies apart"}},
 });
 
 /// One `[[body]]`: appends its bodies to the scene, fixed ones to the obstacles. Where

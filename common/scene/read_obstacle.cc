@@ -140,6 +140,7 @@ void read_obstacle(TableReader& table, Scene<Dim>& scene) {
   std::vector<Obstacle<Dim>>& obstacles = scene.world.obstacles;
   read_name(table, static_cast<int>(obstacles.size()), static_cast<int>(alone.obstacles.size()), scene.obstacle_names);
   obstacles.insert(obstacles.end(), alone.obstacles.begin(), alone.obstacles.end());
+  scene.obstacles_of_tables.push_back(static_cast<int>(alone.obstacles.size()));
 }
 
 template <int Dim>

@@ -253,7 +253,8 @@ struct Scene {
   std::vector<Mover<Dim>> movers;             // obstacles that move by plan
   std::optional<Motion<Dim>> gravity_motion;  // shifts [m/s^2] and turns of gravity; none: it stays
   std::vector<ObstacleName> obstacle_names;
-  std::vector<Event<Dim>> events;  // in the order of the file
+  std::vector<int> obstacles_of_tables;  // made by each [[obstacle]]; those of [pile.boundary] and fixed bodies follow
+  std::vector<Event<Dim>> events;        // in the order of the file
   std::vector<PileParams<Dim>> piles;
   PolicyParams policy;
   RunParams run;

@@ -28,6 +28,8 @@ class Emitter {
 
   bool finished() const { return emitted_ == total_; }
   int emitted() const { return emitted_; }
+  /// Of a source.
+  int emitted(int number) const { return spouts_[number].emitted; }
   int total() const { return total_; }
   /// Steps at which a due body had to wait, over all sources.
   std::int64_t waits() const { return waits_; }

@@ -368,12 +368,15 @@ void Simulation<Dim>::kick(const Event<Dim>& event) {
 template <int Dim>
 void Simulation<Dim>::remove_obstacle(int number) {
   const ObstacleName& name = obstacle_names_[number];
-  for (int k = name.first; k < name.first + name.count; ++k) {
-    if (!world_->has_obstacle(k)) continue;
-    const Box<Dim> bounds = bounds_at(world_->obstacle_shape(k), world_->obstacle_pose(k));
-    world_->remove_obstacle(k);
-    thaw_near(bounds, 0.05 * piles_.typical_body().extent);
-  }
+  for (int k = name.first; k < name.first + name.count; ++k)
+    if (world_->has_obstacle(k)) cut_obstacle(k);
+}
+
+template <int Dim>
+void Simulation<Dim>::cut_obstacle(int number) {
+  const Box<Dim> bounds = bounds_at(world_->obstacle_shape(number), world_->obstacle_pose(number));
+  world_->remove_obstacle(number);
+  thaw_near(bounds, 0.05 * piles_.typical_body().extent);
 }
 
 /// A policy has no state of bodies that another one froze.

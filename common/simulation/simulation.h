@@ -47,6 +47,8 @@ class Simulation {
   BodyIndex add(const BodyDef<Dim>& body) { return world_->add(body); }
   void remove(BodyIndex body);
   void thaw_all();
+  /// Takes an obstacle away that is there, by its number in WorldDescription::obstacles. Sleeping bodies near it wake.
+  void cut_obstacle(int number);
   /// Each step until release() pulls a body; it and what lies beside it stay awake meanwhile. The body must be in the
   /// world; once it is removed, this ends.
   void pull(const Pull<Dim>& pull) { pull_ = pull; }

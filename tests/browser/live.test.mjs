@@ -1,6 +1,7 @@
 // A run of another process that `talus view --live` shows, over real multicast on this machine.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { awakeBySteps, colours, openPage, serve, temporaryFolder, until } from "./browser.mjs";
@@ -26,6 +27,27 @@ test("a run that begins later is shown as it goes on, with the counts of its rec
   const share = await colours(page);
   assert.ok(share.orange + share.dark > 0.01, JSON.stringify(share));
   assert.deepEqual(page.faults, []);
+  await page.close();
+  child.kill();
+});
+
+test("events of the scene are shown on a page that comes after them", async () => {
+  const folder = temporaryFolder();
+  const scene = join(folder, "gate.toml");
+  writeFileSync(
+    scene,
+    `title = "gate"\ndimension = 2\nrun = {frames = 900}\nshape.disc = {kind = "ball", radius = 0.5}\n[[source]]\ncount = 20\n[[pile]]\n` +
+      `[[obstacle]]\nname = "gate"\nkind = "box"\nsize = [1, 4]\nposition = [6, 2]\n[[event]]\ntime = 1.0\ndo = "remove"\nobstacle = "gate"\n`,
+  );
+  const { url, child } = await serve("--live", "--lcm-url", bus);
+  const run = spawn(process.env.TALUS, ["run", scene, "--pace", "2", "--lcm-url", bus, "--out", join(folder, "run")]);
+  await new Promise((done) => setTimeout(done, 2500));
+  const page = await openPage(url);
+  await until(page, ({ bodies }) => bodies > 0);
+  await page.waitForFunction(() => window.talus.timeline.happened.length === 1);
+  assert.equal(await page.evaluate(() => window.talus.timeline.textOf(window.talus.timeline.happened[0])), "remove obstacle gate");
+  await page.waitForFunction(() => !window.talus.stage.surroundings.obstacles[0].mesh.visible);
+  run.kill();
   await page.close();
   child.kill();
 });

@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <random>
 
+#include "common/shape/catalogue.h"
 #include "tests/view/stream_reader.h"
+#include "tools/view/hidden_bodies.h"
 
 namespace talus::frame_stream_test {
 namespace {
@@ -21,9 +24,12 @@ struct Decoded {
   std::vector<std::uint64_t> shape;
   std::vector<int> asleep;
   std::vector<int> removed;
+  std::vector<int> hidden;
   std::vector<SleepEvent> events;  // of the last block
   std::vector<std::vector<std::int64_t>> counts;
   float kinetic_energy = 0.0F;
+  float drift_estimate = 0.0F;
+  float slope = 0.0F;
   std::map<std::uint64_t, std::string> warnings;
   std::vector<DoneEvent> scene_events;
 };
@@ -39,18 +45,22 @@ class Decoder {
       state.pose.emplace_back();
       state.asleep.push_back(0);
       state.removed.push_back(0);
+      state.hidden.push_back(0);
       fresh_.push_back(state.shape.size() - 1);
     }
     for (const std::size_t body : fresh_) state.shape[body] = number();
     fresh_.clear();
     for (const std::uint64_t body : list()) state.removed[body] ^= 1;
     for (const std::uint64_t body : list()) state.asleep[body] ^= 1;
+    for (const std::uint64_t body : list()) state.hidden[body] ^= 1;
     const std::vector<std::uint64_t> moved = list();
     for (int i = 0; i < Decoded<Dim>::components; ++i)
       for (const std::uint64_t body : moved) state.pose[body][i] += static_cast<double>(difference());
     take_events();
     take_piles();
     state.kinetic_energy = real();
+    state.drift_estimate = real();
+    state.slope = real();
     for (std::uint64_t left = number(); left > 0; --left) {
       const std::uint64_t kind = number();
       number();
@@ -89,7 +99,7 @@ class Decoder {
       if (number() == 1) {
         for (int i = 0; i < Dim + 4; ++i) real();
         const std::uint64_t layers = number();
-        for (std::uint64_t i = 0; i < 4 * layers; ++i) real();
+        for (std::uint64_t i = 0; i < 6 * layers; ++i) real();
         counts.resize(2 * layers);
       }
       for (std::int64_t& count : counts) count += difference();
@@ -123,7 +133,7 @@ void add_body(BodyStates<Dim>& states, const Pose<Dim>& pose) {
 
 TEST(FrameStream, PosesInThePlaneAreWithinHalfAQuantum) {
   const Quantum quantum;
-  FrameEncoder<2> encoder(quantum);
+  FrameEncoder<2> encoder(std::make_shared<FrameForm<2>>(FrameForm<2>{quantum}));
   Decoder<2> decoder;
   BodyStates<2> states;
   std::mt19937 random(1);
@@ -144,7 +154,7 @@ TEST(FrameStream, PosesInThePlaneAreWithinHalfAQuantum) {
 
 TEST(FrameStream, RotationsInSpaceAreWithinAQuantum) {
   const Quantum quantum;
-  FrameEncoder<3> encoder(quantum);
+  FrameEncoder<3> encoder(std::make_shared<FrameForm<3>>(FrameForm<3>{quantum}));
   Decoder<3> decoder;
   BodyStates<3> states;
   add_body<3>(states, {Vec3(1.0, 2.0, 3.0), Rotation<3>::Identity()});
@@ -160,15 +170,15 @@ TEST(FrameStream, RotationsInSpaceAreWithinAQuantum) {
 }
 
 TEST(FrameStream, WhatDoesNotChangeTakesNoRoom) {
-  FrameEncoder<2> encoder({});
+  FrameEncoder<2> encoder(std::make_shared<FrameForm<2>>());
   BodyStates<2> states;
   for (int i = 0; i < 1000; ++i) add_body<2>(states, {{0.1 * i, 1.0}, Rotation<2>(0.0)});
   EXPECT_GT(encoder.encode({.step = 1, .states = states}).size(), 1000U);
-  EXPECT_LT(encoder.encode({.step = 2, .states = states}).size(), 20U);
+  EXPECT_LT(encoder.encode({.step = 2, .states = states}).size(), 30U);
 }
 
 TEST(FrameStream, SleepRemovalEventsAndWarningsArrive) {
-  FrameEncoder<2> encoder({});
+  FrameEncoder<2> encoder(std::make_shared<FrameForm<2>>());
   Decoder<2> decoder;
   BodyStates<2> states;
   for (int i = 0; i < 3; ++i) add_body<2>(states, {{1.0 * i, 1.0}, Rotation<2>(0.0)});
@@ -195,7 +205,7 @@ TEST(FrameStream, SleepRemovalEventsAndWarningsArrive) {
 }
 
 TEST(FrameStream, EventsOfTheSceneComeOnce) {
-  FrameEncoder<2> encoder({});
+  FrameEncoder<2> encoder(std::make_shared<FrameForm<2>>());
   Decoder<2> decoder;
   const BodyStates<2> states;
   const std::vector<DoneEvent> done = {{2, 1.5}, {0, 2.0}};
@@ -210,7 +220,7 @@ TEST(FrameStream, EventsOfTheSceneComeOnce) {
 }
 
 TEST(FrameStream, LayersCountAsThePilesDo) {
-  FrameEncoder<2> encoder({});
+  FrameEncoder<2> encoder(std::make_shared<FrameForm<2>>());
   Decoder<2> decoder;
   const BodyStates<2> states;
   std::vector<Pile<2>> piles = {make_pile<2>(Vec2::Zero(), 0.6, 50.0, {.bounding_volume = 1.0, .extent = 1.4})};
@@ -226,6 +236,88 @@ TEST(FrameStream, LayersCountAsThePilesDo) {
       EXPECT_EQ(decoder.state.counts[0][2 * i + 1], piles[0].layers[i].sleeping);
     }
   }
+}
+
+/// A cube of cubes, `edge` along each axis, that all sleep.
+struct CubeOfCubes {
+  explicit CubeOfCubes(int edge) {
+    for (int i = 0; i < edge * edge * edge; ++i) {
+      add_body<3>(states, {.position = Vec3(i % edge, i / edge % edge, i / (edge * edge))});
+      states.shape.back() = 0;
+      states.asleep.back() = 1;
+    }
+    form->shapes = {make_shape<3>("cube", box_pieces<3>(Vec3::Ones()), {})};
+  }
+  BodyStates<3> states;
+  std::shared_ptr<FrameForm<3>> form = std::make_shared<FrameForm<3>>();
+};
+
+// A cell is sqrt(3) wide, so that a body may lie three cells from the outside with four bodies before it.
+TEST(HiddenBodies, AreThoseThatOthersEncloseOnAllSides) {
+  constexpr int edge = 30;
+  const CubeOfCubes pile(edge);
+  const std::vector<std::uint8_t> hidden = hidden_bodies<3>(pile.form->shapes, pile.states, std::nullopt);
+  int number = 0;
+  for (int body = 0; body < edge * edge * edge; ++body) {
+    const Vec3& at = pile.states.pose[body].position;
+    const double from_outside = std::min(at.minCoeff(), edge - 1 - at.maxCoeff());
+    if (from_outside < 3.0) EXPECT_EQ(hidden[body], 0) << "body " << body << " may be seen";
+    if (from_outside > 6.0) EXPECT_EQ(hidden[body], 1) << "body " << body << " is deep inside";
+    number += hidden[body];
+  }
+  EXPECT_GT(number, 17 * 17 * 17);
+}
+
+TEST(HiddenBodies, AreNoneAroundAHollowAndNoneThatAreAwake) {
+  constexpr int edge = 30;
+  CubeOfCubes pile(edge);
+  const Vec3 middle = Vec3::Constant(0.5 * (edge - 1));
+  for (BodyIndex body = 0; body < pile.states.size(); ++body)
+    if ((pile.states.pose[body].position - middle).cwiseAbs().maxCoeff() < 2.5) pile.states.removed[body] = 1;
+  for (BodyIndex body = 0; body < pile.states.size(); body += 1000) pile.states.asleep[body] = 0;
+  const std::vector<std::uint8_t> hidden = hidden_bodies<3>(pile.form->shapes, pile.states, std::nullopt);
+  for (BodyIndex body = 0; body < pile.states.size(); ++body) {
+    const double from_hollow = (pile.states.pose[body].position - middle).cwiseAbs().maxCoeff() - 2.5;
+    if (from_hollow < 3.0 || pile.states.asleep[body] == 0) EXPECT_EQ(hidden[body], 0) << "body " << body;
+  }
+  EXPECT_GT(std::count(hidden.begin(), hidden.end(), 1), 0);
+}
+
+TEST(HiddenBodies, AreThoseOnTheGroundTooWhereItIsOneBeneathThem) {
+  constexpr int edge = 30;
+  const CubeOfCubes pile(edge);
+  const int beneath = edge * 15 + 15;  // in the lowest layer
+  EXPECT_EQ(hidden_bodies<3>(pile.form->shapes, pile.states, std::nullopt)[beneath], 0);
+  const std::vector<std::uint8_t> hidden = hidden_bodies<3>(pile.form->shapes, pile.states, -0.5);
+  EXPECT_EQ(hidden[beneath], 1);
+  EXPECT_EQ(hidden[0], 0) << "in a corner";
+}
+
+TEST(HiddenBodies, AreNoneInSmallPilesAndInThePlane) {
+  const CubeOfCubes small(20);
+  EXPECT_EQ(std::ranges::count(hidden_bodies<3>(small.form->shapes, small.states, std::nullopt), 1), 0);
+  BodyStates<2> plane;
+  for (int i = 0; i < 40'000; ++i) add_body<2>(plane, {.position = Vec2(i % 200, i / 200)});
+  std::ranges::fill(plane.asleep, 1);
+  const std::vector shapes = {make_shape<2>("square", box_pieces<2>(Vec2::Ones()), {})};
+  EXPECT_EQ(std::ranges::count(hidden_bodies<2>(shapes, plane, std::nullopt), 1), 0);
+}
+
+TEST(FrameStream, SendsThePoseOfAHiddenBodyOnceItCanBeSeen) {
+  constexpr int edge = 30;
+  CubeOfCubes pile(edge);
+  const int inside = edge * edge * 15 + edge * 15 + 15;
+  FrameEncoder<3> encoder(pile.form);
+  Decoder<3> decoder;
+  decoder.take(encoder.encode({.step = 1, .states = pile.states}));
+  EXPECT_EQ(decoder.state.hidden[inside], 1);
+  EXPECT_EQ(decoder.state.asleep[inside], 1) << "it is counted";
+  EXPECT_EQ(decoder.state.pose[inside][0], 0.0) << "not sent";
+  EXPECT_EQ(decoder.state.hidden[0], 0);
+  pile.states.asleep[inside] = 0;
+  decoder.take(encoder.encode({.step = 2, .states = pile.states}));
+  EXPECT_EQ(decoder.state.hidden[inside], 0) << "at once, since it is awake";
+  EXPECT_EQ(decoder.state.pose[inside][0], 15000.0) << "in thousandths";
 }
 
 }  // namespace

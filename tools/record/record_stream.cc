@@ -27,8 +27,8 @@ RunTexts texts_of(const std::string& name, std::uint64_t seed, const WalkResult&
 template <int Dim>
 std::string stream_of(const Scene<Dim>& scene, const std::filesystem::path& folder) {
   LogReader log((folder / "run.lcm").string());
-  const Quantum quantum = quantum_of(scene);
-  FrameEncoder<Dim> encoder(quantum);
+  const auto form = frame_form(scene);
+  FrameEncoder<Dim> encoder(form);
   std::string blocks;
   BodyStates<Dim> last;
   std::vector<Pile<Dim>> piles;
@@ -39,14 +39,15 @@ std::string stream_of(const Scene<Dim>& scene, const std::filesystem::path& fold
                               .piles = frame.piles,
                               .warnings = frame.warnings,
                               .kinetic_energy = frame.kinetic_energy,
-                              .scene_events = frame.scene_events});
+                              .scene_events = frame.scene_events,
+                              .drift_estimate = frame.drift_estimate});
     last = frame.states;
     piles.assign(frame.piles.begin(), frame.piles.end());
   });
   if (blocks.empty()) throw no_frame(folder, walk.damage.bytes);
   const PictureInput<Dim> end = {scene.world.shapes, last, piles, scene.world.obstacles, scene.world.ground, "", ""};
   const RunTexts texts = texts_of(name_of_run(folder), scene.seed, walk);
-  return stream_bytes(run_head(scene, texts, quantum, framing_of(end).box), blocks);
+  return stream_bytes(run_head(scene, texts, form->quantum, framing_of(end).box), blocks);
 }
 
 }  // namespace

@@ -57,13 +57,17 @@ HandCommand add(const Json& command) {
   };
 }
 
+HandCommand cut(const Json& command) {
+  return [obstacle = number_of(command, "obstacle")](ShownRun& run) { return run.cut(obstacle); };
+}
+
 struct Kind {
   const char* name;
   HandCommand (*read)(const Json&);
 };
 
-constexpr auto hand_commands =
-    std::to_array<Kind>({{"kick", kick}, {"remove", remove}, {"pull", pull}, {"release", release}, {"add", add}});
+constexpr auto hand_commands = std::to_array<Kind>(
+    {{"kick", kick}, {"remove", remove}, {"pull", pull}, {"release", release}, {"add", add}, {"cut", cut}});
 
 }  // namespace
 

@@ -18,8 +18,8 @@ std::vector<std::string> hand_command_names();
 bool is_hand_command(const std::string& name);
 
 /// Reads {"do": "kick", "body": number, "velocity": [m/s]}, {"do": "remove", "body": number}, {"do": "pull", "body":
-/// number, "point": [m], "to": [m]}, {"do": "release"} or {"do": "add", "shape": name, "position": [m]}. Throws
-/// std::invalid_argument with what it must have.
+/// number, "point": [m], "to": [m]}, {"do": "release"}, {"do": "add", "shape": name, "position": [m]} or {"do": "cut",
+/// "obstacle": number}. Throws std::invalid_argument with what it must have.
 HandCommand read_hand_command(const nlohmann::ordered_json& command);
 
 }  // namespace talus

@@ -25,13 +25,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_piles_v1;
+using talus_lcm::talus_event_v2;
+using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v2;
 
-constexpr int most_live_bodies = 1'000'000;  // bounds what a forged message costs
+// These bound what a forged message costs.
+constexpr int most_live_bodies = 1'000'000;
+constexpr int most_live_events = 10'000;
 constexpr auto silence = std::chrono::seconds(2);
 
 Json status_json(const std::string& reason, bool finished, const std::string& policy, double ms, double factor) {
@@ -68,8 +71,9 @@ class LiveRun::Assembly {
     hub_.add_events(events);
   }
   virtual void take(const talus_shapes_v1& message) = 0;
-  virtual void take(const talus_piles_v1& message) = 0;
+  virtual void take(const talus_piles_v2& message) = 0;
   virtual void take(const talus_bodies_v1& message) = 0;
+  virtual void take(const talus_event_v2& message) = 0;
 
  protected:
   virtual void note_event(BodyIndex body) = 0;
@@ -103,9 +107,19 @@ class AssemblyOf final : public LiveRun::Assembly {
     if (news) head_.reset();
   }
 
-  void take(const talus_piles_v1& message) override {
+  void take(const talus_piles_v2& message) override {
     if (message.part == 0) piles_.clear();
-    for (const talus_lcm::talus_pile_v1& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
+    for (const talus_lcm::talus_pile_v2& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
+  }
+
+  /// All events are sent each second, so a text that comes late begins the picture again only where messages were lost.
+  void take(const talus_event_v2& message) override {
+    if (message.number >= most_live_events) return;
+    const auto [known, news] = events_.try_emplace(message.number, message);
+    if (news) head_.reset();
+    if (message.happened_step >= 0 && (news || known->second.happened_step < 0))
+      done_events_.push_back({message.number, message.happened_time});
+    known->second = message;
   }
 
   void take(const talus_bodies_v1& message) override {
@@ -118,8 +132,10 @@ class AssemblyOf final : public LiveRun::Assembly {
                                                                     .states = states_->states(),
                                                                     .piles = piles_,
                                                                     .warnings = warnings_,
-                                                                    .kinetic_energy = stats_.kinetic_energy},
-                                                     quantum_, head_);
+                                                                    .kinetic_energy = stats_.kinetic_energy,
+                                                                    .scene_events = done_events_,
+                                                                    .drift_estimate = drift_estimate()},
+                                                     form_, head_);
     if (first)
       hub_.begin(std::move(snapshot));
     else
@@ -130,6 +146,8 @@ class AssemblyOf final : public LiveRun::Assembly {
   void note_event(BodyIndex body) override {
     if (states_) states_->note_event(body);
   }
+
+  double drift_estimate() const { return stats_.run_id == run_.run_id ? stats_.drift_estimate : -1.0; }
 
   static bool complete(const std::map<int, talus_shapes_v1>& known) {
     return known.empty() || static_cast<int>(known.size()) == known.begin()->second.total;
@@ -149,7 +167,7 @@ class AssemblyOf final : public LiveRun::Assembly {
     for (const auto& [index, message] : shapes_) scene.world.shapes.push_back(to_shape<Dim>(message));
     for (const auto& [index, message] : obstacles_)
       scene.world.obstacles.push_back({to_shape<Dim>(message), pose_of<Dim>(message)});
-    quantum_ = quantum_of(scene);
+    form_ = frame_form(scene);
     const PictureInput<Dim> now = {
         scene.world.shapes, states_->states(), piles_, scene.world.obstacles, scene.world.ground, "", ""};
     const RunTexts texts = {.name = short_id(run_.run_id),
@@ -157,18 +175,32 @@ class AssemblyOf final : public LiveRun::Assembly {
                             .policy = printable(run_.policy),
                             .version = printable(run_.version),
                             .seed = scene.seed};
-    Json head = run_head(scene, texts, quantum_, framing_of(now).box);
+    Json head = run_head(scene, texts, form_->quantum, framing_of(now).box);
     head["kind"] = "head";
     head["steps"] = run_.steps;
+    head["events"] = events_json();
+    head["tolerance"] = nullptr;  // not in the messages
     head_ = std::make_shared<std::string>(json_text(head));
     return true;
   }
 
+  /// By number; those not heard of are null.
+  Json events_json() const {
+    Json events = Json::array();
+    for (const auto& [number, message] : events_) {
+      while (std::ssize(events) < number) events.push_back(nullptr);
+      events.push_back({{"text", printable(message.text)}, {"removes", message.removed}});
+    }
+    return events;
+  }
+
   std::map<int, talus_shapes_v1> shapes_;     // by index
   std::map<int, talus_shapes_v1> obstacles_;  // by index
+  std::map<int, talus_event_v2> events_;      // of the scene, by number
+  std::vector<DoneEvent> done_events_;        // as heard
   std::vector<Pile<Dim>> piles_;
   std::optional<StateReader<Dim>> states_;  // once the shapes are known
-  Quantum quantum_;
+  std::shared_ptr<const FrameForm<Dim>> form_;
   std::shared_ptr<const std::string> head_;
 };
 
@@ -211,7 +243,7 @@ void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
     case Channel::run:
       return hear<talus_run_v1>(datagram, now);
     case Channel::piles:
-      return hear<talus_piles_v1>(datagram, now);
+      return hear<talus_piles_v2>(datagram, now);
     case Channel::sleep:
       return hear<talus_sleep_v1>(datagram, now);
     case Channel::stats:
@@ -221,7 +253,7 @@ void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
     case Channel::shapes:
       return hear<talus_shapes_v1>(datagram, now);
     case Channel::events:
-      return;  // in records only
+      return hear<talus_event_v2>(datagram, now);
   }
 }
 

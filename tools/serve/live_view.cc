@@ -12,8 +12,8 @@
 namespace talus {
 namespace {
 
-constexpr std::array shown_channels = {Channel::run,   Channel::piles,  Channel::sleep,
-                                       Channel::stats, Channel::bodies, Channel::shapes};
+constexpr std::array shown_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
+                                       Channel::bodies, Channel::shapes, Channel::events};
 
 /// The address to receive at, once it is known to work.
 std::string working_address(const std::string& url) {

@@ -118,6 +118,8 @@ void RunLoop::obey(int page, const std::string& what, const Json& command) {
   } else if (what == "choose" && command.value("body", Json()).is_number_integer()) {
     hub_.choose_body(page, command["body"].get<std::int64_t>());
     queue_by_hand(page, [](ShownRun&) { return std::string(); });  // so that the page gets a frame with the account
+  } else if (what == "save") {
+    queue_by_hand(page, [this, page](ShownRun& run) { return save(page, run); });
   } else if (what == "pace") {
     set_pace(page, value);
   } else if (what == "policy" && value.is_string()) {
@@ -126,7 +128,7 @@ void RunLoop::obey(int page, const std::string& what, const Json& command) {
     start_scene(page, command["text"].get<std::string>(), "");
   } else {
     throw std::invalid_argument(fmt::format(
-        "\"do\" must be run, pause, step, restart, pace, policy, scene, contacts, choose, {}, with its value",
+        "\"do\" must be run, pause, step, restart, pace, policy, scene, save, contacts, choose, {}, with its value",
         fmt::join(hand_command_names(), ", ")));
   }
 }
@@ -149,6 +151,16 @@ void RunLoop::do_by_hand() {
     reply_errors(each.page, wrong.empty() ? Json::array() : error_of(wrong));
   }
   published_ = false;
+}
+
+/// Sends a page the present state as a scene file.
+std::string RunLoop::save(int page, const ShownRun& run) {
+  try {
+    hub_.reply(page, text_of({{"kind", "saved"}, {"name", file_.stem().string()}, {"text", run.saved()}}));
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return fmt::format("save: {}", error.what());
+  }
 }
 
 void RunLoop::set_pace(int page, const Json& value) {

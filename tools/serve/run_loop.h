@@ -50,9 +50,9 @@ class RunLoop {
   /// A page has gone: what it pulls is let go.
   void leave(int page);
   /// A command of a page, as JSON: {"do": "run" | "pause" | "step" | "restart"}, {"do": "pace", "value": number},
-  /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "contacts", "value": whether this page is
-  /// sent them}, {"do": "choose", "body": number to be told of with each frame, below 0: none}, or one of
-  /// hand_command.h. What is wrong is replied to the page; then nothing changes.
+  /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "save"}, {"do": "contacts", "value":
+  /// whether this page is sent them}, {"do": "choose", "body": number to be told of with each frame, below 0: none}, or
+  /// one of hand_command.h. What is wrong is replied to the page; then nothing changes.
   void command(int page, const std::string& text);
 
  private:
@@ -68,6 +68,7 @@ class RunLoop {
   void start_scene(int page, const std::string& text, const std::string& policy);
   void queue_by_hand(int page, const HandCommand& command);
   void do_by_hand();
+  std::string save(int page, const ShownRun& run);
   void set_pace(int page, const nlohmann::ordered_json& value);
   void reply_errors(int page, const nlohmann::ordered_json& errors);
   void change(const std::function<void()>& what);

@@ -61,6 +61,7 @@ class WebPage final : public PageSocket {
 
 struct ViewServer::Service {
   std::string token = new_token();
+  std::string address;
   int port = 0;
   mg_context* context = nullptr;
   std::vector<Mount> mounts;  // not changed while the server runs
@@ -73,7 +74,8 @@ struct ViewServer::Service {
     if (mg_get_var(query.data(), query.size(), "token", given.data(), given.size()) < 0) return false;
     if (!same_text(given.data(), token)) return false;
     const std::string_view host = header(connection, "Host");
-    if (host != fmt::format("127.0.0.1:{}", port) && host != fmt::format("localhost:{}", port)) return false;
+    const bool local = address == loopback && host == fmt::format("localhost:{}", port);
+    if (!local && host != fmt::format("{}:{}", address, port)) return false;
     const std::string_view origin = header(connection, "Origin");
     return origin.empty() || origin == fmt::format("http://{}", host);
   }
@@ -165,13 +167,15 @@ struct ViewServer::Mount {
   }
 };
 
-ViewServer::ViewServer(int port, std::vector<ServedPage> pages) : service_(std::make_unique<Service>()) {
+ViewServer::ViewServer(int port, std::vector<ServedPage> pages, const std::string& address)
+    : service_(std::make_unique<Service>()) {
+  service_->address = address;
   for (ServedPage& page : pages) service_->mounts.push_back({std::move(page), service_.get()});
   mg_init_library(MG_FEATURES_WEBSOCKET);
-  const std::string address = fmt::format("127.0.0.1:{}", port);
+  const std::string listened = fmt::format("{}:{}", address, port);
   // A page that is gone without closing is found by the missing answer to a ping.
   const std::array<const char*, 13> options = {"listening_ports",
-                                               address.c_str(),
+                                               listened.c_str(),
                                                "num_threads",
                                                "16",
                                                "request_timeout_ms",
@@ -187,7 +191,10 @@ ViewServer::ViewServer(int port, std::vector<ServedPage> pages) : service_(std::
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };
   service_->context = mg_start(&callbacks, service_.get(), const_cast<const char**>(options.data()));
   if (service_->context == nullptr)
-    throw std::runtime_error(fmt::format("--port = {}: cannot be listened on; another program may have it", port));
+    throw std::runtime_error(
+        fmt::format("--port = {}: cannot be listened on at {}; another program may have it, or no interface here has "
+                    "this address",
+                    port, address));
   std::array<mg_server_port, 1> ports{};
   mg_get_server_ports(service_->context, 1, ports.data());
   service_->port = ports[0].port;
@@ -200,7 +207,7 @@ ViewServer::~ViewServer() {
 }
 
 std::string ViewServer::url() const {
-  return fmt::format("http://127.0.0.1:{}{}?token={}", service_->port, service_->mounts.front().served.path,
+  return fmt::format("http://{}:{}{}?token={}", service_->address, service_->port, service_->mounts.front().served.path,
                      service_->token);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "common/simulation/simulation.h"
 #include "common/text/printable.h"
@@ -17,6 +18,7 @@
 #include "tools/serve/body_account.h"
 #include "tools/serve/contact_memory.h"
 #include "tools/serve/free_place.h"
+#include "tools/serve/saved_scene.h"
 #include "tools/serve/state_copy.h"
 #include "tools/view/frame_stream.h"
 #include "tools/view/run_head.h"
@@ -39,7 +41,7 @@ class SimulatedScene final : public ShownRun {
       : scene_(scene),
         dt_(scene.world.dt),
         steps_(scene.steps()),
-        quantum_(quantum_of(scene)),
+        form_(frame_form(scene)),
         head_(std::make_shared<std::string>(head_of(scene, backend, name))),
         contacts_(scene.world.dt),
         simulation_(make_simulation(scene, backend)) {
@@ -47,19 +49,26 @@ class SimulatedScene final : public ShownRun {
     simulation_.add_observer(contacts_);
   }
 
-  void step() override { simulation_.step(); }
+  void step() override {
+    simulation_.step();
+    for (const auto done = simulation_.done_events(); known_events_ < done.size(); ++known_events_)
+      happened_.push_back(done[known_events_]);
+  }
   bool finished() const override { return simulation_.frame().step >= steps_; }
   double dt() const override { return dt_; }
   std::span<const SleepEvent> events() const override { return events_.events; }
   std::shared_ptr<const Snapshot> snapshot() const override {
     const Frame<Dim> frame = simulation_.frame();
+    std::vector<Pile<Dim>> piles(frame.piles.piles().begin(), frame.piles.piles().end());
+    for (Pile<Dim>& pile : piles) set_thresholds(*frame.policy, pile);
     auto copy = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = frame.step,
                                                                 .states = frame.world.states(),
-                                                                .piles = frame.piles.piles(),
+                                                                .piles = piles,
                                                                 .warnings = frame.warnings,
                                                                 .kinetic_energy = kinetic_energy(frame.world),
-                                                                .scene_events = simulation_.done_events()},
-                                                 quantum_, head_);
+                                                                .scene_events = happened_,
+                                                                .drift_estimate = drift_estimate(frame)},
+                                                 form_, head_);
     if (contacts_.needs_contacts()) copy->set_contacts(contacts_.contacts(frame.world));
     return copy;
   }
@@ -119,12 +128,30 @@ class SimulatedScene final : public ShownRun {
     return {};
   }
 
+  /// Pages are told of it as of an event of the scene.
+  std::string cut(std::int64_t obstacle) override {
+    if (obstacle < 0 || obstacle >= std::ssize(scene_.world.obstacles) ||
+        !simulation_.world().has_obstacle(static_cast<int>(obstacle)))
+      return fmt::format("obstacle {}: is not in the world", obstacle);
+    simulation_.cut_obstacle(static_cast<int>(obstacle));
+    happened_.push_back({static_cast<int>(std::ssize(scene_.events) + obstacle), simulation_.time() - dt_});
+    return {};
+  }
+
+  std::string saved() const override { return saved_scene(scene_, simulation_); }
+
  private:
   /// None where these are not as many numbers as axes, each at most `limit` in size.
   static std::optional<Vec<Dim>> vector_of(std::span<const double> numbers, double limit) {
     const auto allowed = [&](double number) { return std::abs(number) <= limit; };
     if (numbers.size() != Dim || !std::ranges::all_of(numbers, allowed)) return std::nullopt;
     return Vec<Dim>(Eigen::Map<const Vec<Dim>>(numbers.data()));
+  }
+
+  /// [D]
+  double drift_estimate(const Frame<Dim>& frame) const {
+    const auto estimate = simulation_.drift_estimate();
+    return estimate ? estimate->drift / frame.piles.typical_body().extent : -1.0;
   }
 
   bool present(std::int64_t body) const {
@@ -139,17 +166,21 @@ class SimulatedScene final : public ShownRun {
                             .policy = scene.policy.kind,
                             .version = version_text(),
                             .seed = scene.seed};
-    nlohmann::ordered_json head = run_head(scene, texts, quantum_, box_of(scene));
+    nlohmann::ordered_json head = run_head(scene, texts, form_->quantum, box_of(scene));
     head["kind"] = "head";
+    for (std::size_t k = 0; k < scene.world.obstacles.size(); ++k)
+      head["events"].push_back({{"text", fmt::format("obstacle {} cut away by hand", k)}, {"removes", {k}}});
     return head.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
   }
 
   Scene<Dim> scene_;
   double dt_;
   std::int64_t steps_;
-  Quantum quantum_;
+  std::shared_ptr<const FrameForm<Dim>> form_;
   std::shared_ptr<const std::string> head_;
   LastEvents<Dim> events_;
+  std::vector<DoneEvent> happened_;  // events of the scene, and after their numbers obstacles that were cut
+  std::size_t known_events_ = 0;     // of the simulation
   ContactMemory<Dim> contacts_;
   Simulation<Dim> simulation_;
 };

@@ -62,6 +62,10 @@ class ShownRun {
   virtual void release() = 0;
   /// Adds a body of a shape of the scene at rest, at the lowest free place from `position` [m] upwards.
   virtual std::string add(const std::string& shape, std::span<const double> position) = 0;
+  /// Takes an obstacle away, by its number in the page's head.
+  virtual std::string cut(std::int64_t obstacle) = 0;
+  /// The present state as a scene file (saved_scene.h), which throws as that does.
+  virtual std::string saved() const = 0;
 };
 
 /// Starts the scene on the engine of that name; an empty name: the first that can simulate it. `file`: of the scene.

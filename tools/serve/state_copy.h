@@ -16,7 +16,7 @@ namespace talus {
 template <int Dim>
 class StreamWriter final : public BlockWriter {
  public:
-  explicit StreamWriter(const Quantum& quantum) : encoder(quantum) {}
+  explicit StreamWriter(std::shared_ptr<const FrameForm<Dim>> form) : encoder(std::move(form)) {}
   FrameEncoder<Dim> encoder;
 };
 
@@ -24,14 +24,16 @@ template <int Dim>
 class StateCopy final : public Snapshot {
  public:
   /// Copies all of `frame` but its events.
-  StateCopy(const ViewFrame<Dim>& frame, const Quantum& quantum, std::shared_ptr<const std::string> head)
-      : quantum_(quantum),
+  StateCopy(const ViewFrame<Dim>& frame, std::shared_ptr<const FrameForm<Dim>> form,
+            std::shared_ptr<const std::string> head)
+      : form_(std::move(form)),
         head_(std::move(head)),
         step_(frame.step),
         piles_(frame.piles.begin(), frame.piles.end()),
         warnings_(frame.warnings.begin(), frame.warnings.end()),
         kinetic_energy_(frame.kinetic_energy),
-        scene_events_(frame.scene_events.begin(), frame.scene_events.end()) {
+        scene_events_(frame.scene_events.begin(), frame.scene_events.end()),
+        drift_estimate_(frame.drift_estimate) {
     states_.shape = frame.states.shape;
     states_.pose = frame.states.pose;
     states_.asleep = frame.states.asleep;
@@ -41,7 +43,7 @@ class StateCopy final : public Snapshot {
   std::shared_ptr<const std::string> head() const override { return head_; }
   std::int64_t step() const override { return step_; }
   void set_contacts(std::vector<ShownContact<Dim>> contacts) { contacts_ = std::move(contacts); }
-  std::unique_ptr<BlockWriter> make_writer() const override { return std::make_unique<StreamWriter<Dim>>(quantum_); }
+  std::unique_ptr<BlockWriter> make_writer() const override { return std::make_unique<StreamWriter<Dim>>(form_); }
   std::string block(BlockWriter& writer, std::span<const SleepEvent> events) const override {
     return dynamic_cast<StreamWriter<Dim>&>(writer).encoder.encode({.step = step_,
                                                                     .states = states_,
@@ -49,14 +51,15 @@ class StateCopy final : public Snapshot {
                                                                     .piles = piles_,
                                                                     .warnings = warnings_,
                                                                     .kinetic_energy = kinetic_energy_,
-                                                                    .scene_events = scene_events_});
+                                                                    .scene_events = scene_events_,
+                                                                    .drift_estimate = drift_estimate_});
   }
   std::string contacts() const override {
-    return contacts_ ? encode_contacts<Dim>(*contacts_, quantum_) : std::string();
+    return contacts_ ? encode_contacts<Dim>(*contacts_, form_->quantum) : std::string();
   }
 
  private:
-  Quantum quantum_;
+  std::shared_ptr<const FrameForm<Dim>> form_;
   std::shared_ptr<const std::string> head_;
   std::int64_t step_;
   BodyStates<Dim> states_;  // without velocities
@@ -64,6 +67,7 @@ class StateCopy final : public Snapshot {
   std::vector<Warning> warnings_;
   double kinetic_energy_;
   std::vector<DoneEvent> scene_events_;
+  double drift_estimate_;
   std::optional<std::vector<ShownContact<Dim>>> contacts_;
 };
 

@@ -1,3 +1,4 @@
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -36,6 +37,7 @@ struct ViewOptions {
   bool force = false;
   double pace = 1.0;
   int port = 0;
+  std::string listen = std::string(loopback);
   double seconds = 0.0;  // 0: until Ctrl-C
   bool live = false;
   std::string lcm_url;
@@ -57,7 +59,15 @@ void serve(const ViewOptions& options, const ViewServer& server, const std::func
   const Interrupt interrupt;
   print_result("{}\n", server.url());
   flush_results();
-  print_message("Open this address in a browser of this machine; Ctrl-C ends.");
+  if (options.listen == loopback) {
+    print_message("Open this address in a browser of this machine; Ctrl-C ends.");
+  } else {
+    print_message(
+        "warning: --listen {}: other machines reach this page. Everyone who has the address can watch the run and "
+        "steer "
+        "it, and everyone on the way can read the address, since nothing is encrypted. Ctrl-C ends.",
+        options.listen);
+  }
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
   while (!interrupt.requested() && (options.seconds == 0.0 || std::chrono::steady_clock::now() < end)) work();
 }
@@ -73,7 +83,8 @@ void view_scene(const ViewOptions& options) {
   PageHub hub;
   RunLoop loop(choice_of(options), hub);
   const ViewServer server(options.port,
-                          {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub, .loop = &loop}});
+                          {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub, .loop = &loop}},
+                          options.listen);
   serve(options, server);
 }
 
@@ -86,9 +97,11 @@ void view_policies(const ViewOptions& options) {
   RunLoop a(choice_of(options), hub_a);
   RunLoop b(choice_of(other), hub_b);
   const std::string page = page_of_server(PageSource::run);
-  const ViewServer server(options.port, {pair_page({.of_runs = true}),
-                                         {.path = "/a/", .page = page, .hub = &hub_a, .loop = &a},
-                                         {.path = "/b/", .page = page, .hub = &hub_b, .loop = &b}});
+  const ViewServer server(options.port,
+                          {pair_page({.of_runs = true}),
+                           {.path = "/a/", .page = page, .hub = &hub_a, .loop = &a},
+                           {.path = "/b/", .page = page, .hub = &hub_b, .loop = &b}},
+                          options.listen);
   serve(options, server);
 }
 
@@ -96,7 +109,8 @@ void view_policies(const ViewOptions& options) {
 void view_live(const ViewOptions& options) {
   PageHub hub;
   LiveView live(options.lcm_url, hub);  // before the threads of the server: it forks
-  const ViewServer server(options.port, {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub}});
+  const ViewServer server(options.port, {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub}},
+                          options.listen);
   serve(options, server, [&] { live.listen(std::chrono::milliseconds(50)); });
 }
 
@@ -111,15 +125,18 @@ double ms_per_step_of(const std::string& folder) {
 void view_record(const ViewOptions& options) {
   const std::string page = page_of_server(PageSource::record);
   if (options.other.empty()) {
-    const ViewServer server(options.port, {{.path = "/", .page = page, .record = record_stream(options.what)}});
+    const ViewServer server(options.port, {{.path = "/", .page = page, .record = record_stream(options.what)}},
+                            options.listen);
     serve(options, server);
     return;
   }
   const PairTexts texts = {.of_runs = false,
                            .ms_per_step = {ms_per_step_of(options.what), ms_per_step_of(options.other)}};
-  const ViewServer server(options.port, {pair_page(texts),
-                                         {.path = "/a/", .page = page, .record = record_stream(options.what)},
-                                         {.path = "/b/", .page = page, .record = record_stream(options.other)}});
+  const ViewServer server(options.port,
+                          {pair_page(texts),
+                           {.path = "/a/", .page = page, .record = record_stream(options.what)},
+                           {.path = "/b/", .page = page, .record = record_stream(options.other)}},
+                          options.listen);
   serve(options, server);
 }
 #endif
@@ -137,6 +154,17 @@ void view(const ViewOptions& options) {
   if (record) return view_record(options);
 #endif
   options.against.empty() ? view_scene(options) : view_policies(options);
+}
+
+/// An address of one interface: the page's requests must name the same as their host.
+CLI::Validator one_interface() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        in_addr address{};
+        const bool holds = inet_pton(AF_INET, text.c_str(), &address) == 1 && address.s_addr != INADDR_ANY;
+        return holds ? std::string() : fmt::format("{}: must be the IPv4 address of one interface", text);
+      },
+      "IPV4");
 }
 
 void add_options(CLI::App& command, ViewOptions& options) {
@@ -165,7 +193,13 @@ void add_options(CLI::App& command, ViewOptions& options) {
                   "Of a scene: simulated seconds per second, 0.01 to 1000; 0: as fast as possible")
       ->check(number_between(0.0, RunLoop::fastest_pace))
       ->capture_default_str();
-  command.add_option("--port", options.port, "Port of the loopback interface; 0: one that is free")
+  command
+      .add_option("--listen", options.listen,
+                  "IPv4 address of an interface of this machine, on which other machines reach the page: who has its "
+                  "address watches and steers the run, and nothing is encrypted")
+      ->check(one_interface())
+      ->capture_default_str();
+  command.add_option("--port", options.port, "Port of the interface; 0: one that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command.add_option("--seconds", options.seconds, "Stop after so many seconds; else Ctrl-C stops")

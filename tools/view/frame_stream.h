@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +30,17 @@ struct Quantum {
 template <int Dim>
 Quantum quantum_of(const Scene<Dim>& scene);
 
+/// What of a scene frames are written from.
+template <int Dim>
+struct FrameForm {
+  Quantum quantum = {};
+  std::vector<Shape<Dim>> shapes = {};  // none: no slope is measured, and no body is hidden
+  std::optional<double> ground = {};    // its height [m]
+};
+
+template <int Dim>
+std::shared_ptr<const FrameForm<Dim>> frame_form(const Scene<Dim>& scene);
+
 /// One state to show. Everything referred to must outlive the call.
 template <int Dim>
 struct ViewFrame {
@@ -38,6 +51,7 @@ struct ViewFrame {
   std::span<const Warning> warnings = {};        // all so far
   double kinetic_energy = 0.0;                   // [J]
   std::span<const DoneEvent> scene_events = {};  // all so far
+  double drift_estimate = -1.0;                  // of the sleeping bodies [D]; -1: not known
 };
 
 /// Writes frames as differences from the frame before: only what changed takes room, a sleeping body none. The first
@@ -48,20 +62,23 @@ struct ViewFrame {
 /// the one before (u), counted from -1.
 ///
 ///     u step; u bodies added so far; u shape of each new body
-///     list of removed bodies; list of bodies that fell asleep or woke; list of bodies with another pose,
+///     list of removed bodies; list of bodies that fell asleep or woke; list of bodies that became hidden
+///     (hidden_bodies.h) or can be seen again; list of bodies with another pose, none of them hidden,
 ///     s change of each component of the pose, component by component
 ///         (2D: x, z, angle; 3D: x, y, z, quaternion w, x, y, z), in quanta
 ///     u number of events; of each: u body, u steps before this one, u cause * 2 + woke, u pile + 1, u layer + 1, f
 ///     score u number of piles; u number of those that changed; of each: u number, u 1 where its form follows:
-///         f centre, f slope, f lift, f height, f radius, u layers, of each f bottom, f top, f radius, f capacity;
+///         f centre, f slope, f lift, f height, f radius, u layers, of each f bottom, f top, f radius, f capacity,
+///         f density up to which no body falls asleep, f density above which the pile wakes, both below 0 where the
+///         policy has none;
 ///         s change of the count and s of the sleepers of each layer
-///     f kinetic energy
+///     f kinetic energy; f estimate of drift [D], f slope measured of the largest pile [rad], -1 where not known
 ///     u number of warnings that changed; of each: u kind, u step of the first, u bytes of its text, the text
 ///     u number of events of the scene since the frame before; of each: u number, f time
 template <int Dim>
 class FrameEncoder {
  public:
-  explicit FrameEncoder(const Quantum& quantum) : quantum_(quantum) {}
+  explicit FrameEncoder(std::shared_ptr<const FrameForm<Dim>> form) : form_(std::move(form)) {}
 
   std::string encode(const ViewFrame<Dim>& frame);
 
@@ -73,6 +90,7 @@ class FrameEncoder {
     Counts pose = {};
     std::uint8_t asleep = 0;
     std::uint8_t removed = 0;
+    std::uint8_t hidden = 0;
   };
   struct KnownPile {
     std::vector<float> form;
@@ -81,7 +99,10 @@ class FrameEncoder {
 
   Counts counted(const Pose<Dim>& pose, const Counts& before) const;
   void write_bodies(const BodyStates<Dim>& states);
+  void write_hidden(const BodyStates<Dim>& states);
   void write_poses(const BodyStates<Dim>& states);
+  bool rests(BodyIndex body, const Pose<Dim>& pose) const;
+  double slope_of(const ViewFrame<Dim>& frame) const;
   void write_events(const ViewFrame<Dim>& frame);
   void write_piles(std::span<const Pile<Dim>> piles);
   void write_pile(int number, const Pile<Dim>& pile, KnownPile& known);
@@ -89,7 +110,10 @@ class FrameEncoder {
 
   void write_list(std::span<const BodyIndex> bodies);
 
-  Quantum quantum_;
+  std::shared_ptr<const FrameForm<Dim>> form_;
+  std::int64_t frames_ = 0;
+  double slope_ = -1.0;             // measured last [rad]
+  BodyIndex bodies_at_update_ = 0;  // when it was last found what is hidden
   std::vector<Known> known_;
   std::vector<KnownPile> known_piles_;
   std::map<WarningKind, std::string> known_warnings_;  // their texts

@@ -65,7 +65,7 @@ export class BodyPanel {
       lines.push(`Score ${digits(event.score)} when it fell asleep${threshold}`);
     }
     const layer = layerOf(timeline, body);
-    lines.push(layer === null ? "In no layer" : `Layer ${layer.layer} from the bottom of pile ${layer.pile}, density ${layer.density.toFixed(2)}`);
+    lines.push(layer === null ? "In no layer" : `Layer ${layer.layer} from the bottom of pile ${layer.pile}, density ${layer.density.toFixed(2)}${layer.wake > 0 ? `, the pile wakes above ${layer.wake.toFixed(2)}` : ""}`);
     return lines;
   }
 
@@ -84,7 +84,7 @@ export class BodyPanel {
 }
 
 /// Layer in which the centre of a body lies; the first pile counts.
-function layerOf({ state, head }: Timeline, body: number): { pile: number; layer: number; density: number } | null {
+function layerOf({ state, head }: Timeline, body: number): { pile: number; layer: number; density: number; wake: number } | null {
   const { position } = head.quantum;
   const axes = head.dimension;
   const components = axes === 2 ? 3 : 7;
@@ -93,7 +93,7 @@ function layerOf({ state, head }: Timeline, body: number): { pile: number; layer
     const height = at[axes - 1] - centre[axes - 1];
     const away = Math.hypot(...centre.slice(0, -1).map((value, i) => at[i] - value));
     const layer = layers.findIndex(({ bottom, top, radius }) => height >= bottom && height < top && away <= radius);
-    if (layer >= 0) return { pile, layer, density: counts[2 * layer] / layers[layer].capacity };
+    if (layer >= 0) return { pile, layer, density: counts[2 * layer] / layers[layer].capacity, wake: layers[layer].wakeDensity };
   }
   return null;
 }

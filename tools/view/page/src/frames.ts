@@ -68,6 +68,10 @@ export interface Layer {
   top: number;
   radius: number;
   capacity: number;
+  /// Up to it no body of the layer falls asleep; below 0: the policy has no such threshold.
+  sleepDensity: number;
+  /// Above it the pile wakes; below 0: none.
+  wakeDensity: number;
 }
 
 export interface SleepEvent {
@@ -108,10 +112,16 @@ export class State {
   awake = 0;
   asleepCount = 0;
   kineticEnergy = 0;
+  /// Of the sleeping bodies [D], below 0: not known.
+  drift = -1;
+  /// Of the largest pile [rad], fitted to its bodies at rest; below 0: not measured.
+  measuredSlope = -1;
   piles: Pile[] = [];
   shape = new Uint16Array(64);
   asleep = new Uint8Array(64);
   removed = new Uint8Array(64);
+  /// Enclosed by sleeping bodies: neither sent nor drawn.
+  hidden = new Uint8Array(64);
   pose: Int32Array;
   private readonly components: number;
 
@@ -127,10 +137,13 @@ export class State {
     copy.awake = this.awake;
     copy.asleepCount = this.asleepCount;
     copy.kineticEnergy = this.kineticEnergy;
+    copy.drift = this.drift;
+    copy.measuredSlope = this.measuredSlope;
     copy.piles = this.piles;
     copy.shape = this.shape.slice(0, this.bodies);
     copy.asleep = this.asleep.slice(0, this.bodies);
     copy.removed = this.removed.slice(0, this.bodies);
+    copy.hidden = this.hidden.slice(0, this.bodies);
     copy.pose = this.pose.slice(0, this.bodies * this.components);
     return copy;
   }
@@ -152,6 +165,10 @@ export class State {
       this.asleep[body] ^= 1;
       changed.push(body);
     }
+    for (const body of reader.bodies()) {
+      this.hidden[body] ^= 1;
+      changed.push(body);
+    }
     const moved = reader.bodies();
     for (let i = 0; i < this.components; ++i)
       for (const body of moved) this.pose[body * this.components + i] += reader.signed();
@@ -159,6 +176,8 @@ export class State {
     const events = this.readEvents(reader);
     this.readPiles(reader);
     this.kineticEnergy = reader.float();
+    this.drift = reader.float();
+    this.measuredSlope = reader.float();
     const warnings: Warning[] = [];
     for (let left = reader.unsigned(); left > 0; --left)
       warnings.push({ kind: reader.unsigned(), step: reader.unsigned(), text: reader.text() });
@@ -175,6 +194,7 @@ export class State {
     this.shape = grown(new Uint16Array(room), this.shape);
     this.asleep = grown(new Uint8Array(room), this.asleep);
     this.removed = grown(new Uint8Array(room), this.removed);
+    this.hidden = grown(new Uint8Array(room), this.hidden);
     this.pose = grown(new Int32Array(room * this.components), this.pose);
   }
 
@@ -219,7 +239,7 @@ export class State {
     const [slope, lift, height, radius] = [reader.float(), reader.float(), reader.float(), reader.float()];
     const layers = Array.from({ length: reader.unsigned() }, () => {
       const [bottom, top] = [reader.float(), reader.float()];
-      return { bottom, top, radius: reader.float(), capacity: reader.float() };
+      return { bottom, top, radius: reader.float(), capacity: reader.float(), sleepDensity: reader.float(), wakeDensity: reader.float() };
     });
     return { centre, slope, lift, height, radius, layers, counts: new Int32Array() };
   }

@@ -60,6 +60,8 @@ export interface Head {
   };
   /// Of policy `paper`: the score above which a body sleeps; none of other policies.
   score_threshold: number | null;
+  /// Of policy `adaptive`: how far a sleeping body may move once it is woken [D]; none where it is not known.
+  tolerance: number | null;
   causes: (Cause | null)[];
   /// The scene's events, with the numbers of the obstacles that they remove; none where the scene is not known.
   events: { text: string; removes: number[] }[];

@@ -9,6 +9,7 @@ export class Instances {
   mesh: InstancedMesh;
   readonly bodies: number[] = [];
   private sleeping: InstancedBufferAttribute;
+  private changed = false;
 
   constructor(
     private readonly geometry: BufferGeometry,
@@ -52,13 +53,34 @@ export class Instances {
     return this.bodies.length - 1;
   }
 
+  /// Takes the body at a place out; returns the one that has this place now, the same where there is none.
+  remove(place: number): number {
+    const last = this.bodies.length - 1;
+    const moved = this.bodies[last];
+    if (place !== last) {
+      const { instanceMatrix, instanceColor } = this.mesh;
+      instanceMatrix.array.copyWithin(16 * place, 16 * last, 16 * last + 16);
+      instanceColor!.array.copyWithin(3 * place, 3 * last, 3 * last + 3);
+      this.sleeping.setX(place, this.sleeping.getX(last));
+      this.bodies[place] = moved;
+    }
+    this.bodies.pop();
+    this.mesh.count = this.bodies.length;
+    this.changed = true;
+    return moved;
+  }
+
   set(place: number, matrix: Matrix4, tint: Color, asleep: boolean): void {
     this.mesh.setMatrixAt(place, matrix);
     this.mesh.setColorAt(place, tint);
     this.sleeping.setX(place, asleep ? 1 : 0);
+    this.changed = true;
   }
 
+  /// Sends the graphics card what changed since the last time.
   upload(): void {
+    if (!this.changed) return;
+    this.changed = false;
     this.mesh.instanceMatrix.needsUpdate = true;
     this.mesh.instanceColor!.needsUpdate = true;
     this.sleeping.needsUpdate = true;

@@ -1,6 +1,6 @@
 // The layers of piles: translucent slices with their densities beside them.
 
-import { colour, css } from "./colours";
+import { colour, css, overfull } from "./colours";
 import { density, type Pile } from "./frames";
 import type { Head } from "./head";
 import { type Camera, CylinderGeometry, DoubleSide, Group, type Material, Mesh, MeshBasicMaterial, PlaneGeometry, type Vector2, Vector3 } from "./vendor";
@@ -50,7 +50,7 @@ export class LayerView {
     const up = this.head.dimension - 1;
     let above = Infinity;
     for (const pile of piles) {
-      for (const { layer, bottom, top, value, count } of coarse(pile)) {
+      for (const { layer, bottom, top, value, count, wakeDensity } of coarse(pile)) {
         if (count === 0) continue;
         const middle = new Vector3(...pile.centre, 0).setComponent(up, pile.centre[up] + (bottom + top) / 2);
         if (this.flat()) middle.z = 0;
@@ -60,8 +60,10 @@ export class LayerView {
         paper.lineWidth = 3;
         paper.strokeStyle = css(this.head.colours.paper, 0.85);
         paper.fillStyle = css(this.head.colours.layer);
-        paper.strokeText(value.toFixed(2), at.x + 5, at.y);
-        paper.fillText(value.toFixed(2), at.x + 5, at.y);
+        const text = wakeDensity >= 0 ? `${value.toFixed(2)} of ${wakeDensity.toFixed(2)}` : value.toFixed(2);
+        if (wakeDensity >= 0 && value > wakeDensity) paper.fillStyle = css(overfull);
+        paper.strokeText(text, at.x + 5, at.y);
+        paper.fillText(text, at.x + 5, at.y);
       }
     }
   }
@@ -73,6 +75,7 @@ interface Slice {
   top: number;
   value: number;
   count: number;
+  wakeDensity: number;
 }
 
 /// At most mostLayers slices of a pile, neighbours put together.
@@ -81,13 +84,14 @@ function coarse(pile: Pile): Slice[] {
   const slices = [];
   for (let layer = 0; layer < pile.layers.length; layer += together) {
     const end = Math.min(pile.layers.length, layer + together);
-    let [count, capacity] = [0, 0];
+    let [count, capacity, wakeDensity] = [0, 0, pile.layers[layer].wakeDensity];
     for (let i = layer; i < end; ++i) {
       count += pile.counts[2 * i];
       capacity += pile.layers[i].capacity;
+      wakeDensity = Math.min(wakeDensity, pile.layers[i].wakeDensity);
     }
     const value = together === 1 ? density(pile, layer) : capacity > 0 ? count / capacity : 0;
-    slices.push({ layer, bottom: pile.layers[layer].bottom, top: pile.layers[end - 1].top, value, count });
+    slices.push({ layer, bottom: pile.layers[layer].bottom, top: pile.layers[end - 1].top, value, count, wakeDensity });
   }
   return slices;
 }

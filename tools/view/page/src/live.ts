@@ -26,7 +26,7 @@ interface Fault {
   text: string;
 }
 
-type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | (Account & { kind: "body" });
+type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
 
 const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
 
@@ -44,7 +44,7 @@ class Live implements Simulation {
     };
     this.socket.onclose = () => {
       element("status").textContent = "The server has gone, or has too many pages. What came can still be played.";
-      for (const id of ["run", "single", "restart", "apply", "pace", "policy"]) element<HTMLButtonElement>(id).disabled = true;
+      for (const id of ["run", "single", "restart", "save", "apply", "pace", "policy"]) element<HTMLButtonElement>(id).disabled = true;
     };
     this.prepare();
   }
@@ -56,6 +56,7 @@ class Live implements Simulation {
     click("run", () => this.toggle());
     click("single", () => this.player?.stepSimulation());
     click("restart", () => this.restart());
+    click("save", () => this.send({ do: "save" }));
     click("apply", () => this.apply());
     for (const pace of paces) element("pace").append(new Option(pace === 0 ? "as fast as possible" : `${pace}x`, String(pace)));
     element("pace").addEventListener("change", () => this.send({ do: "pace", value: Number(element<HTMLSelectElement>("pace").value) }));
@@ -126,6 +127,9 @@ class Live implements Simulation {
       case "body":
         this.player?.takeAccount(message);
         break;
+      case "saved":
+        download(`${message.name}_step_${this.player?.shown().step ?? 0}.toml`, message.text);
+        break;
       case "errors":
         this.showErrors(message.errors);
     }
@@ -176,7 +180,7 @@ class Live implements Simulation {
   private hideCommands(): void {
     element("scene").hidden = element("by-hand").hidden = true;
     document.body.classList.remove("editing");
-    for (const id of ["run", "single", "restart"]) element(id).hidden = true;
+    for (const id of ["run", "single", "restart", "save"]) element(id).hidden = true;
     for (const id of ["pace", "policy"]) element(id).parentElement!.hidden = true;
   }
 
@@ -216,6 +220,13 @@ class Live implements Simulation {
   msPerStep(): number {
     return this.status?.mean_ms_per_step ?? 0;
   }
+}
+
+/// Gives the user a file.
+function download(name: string, text: string): void {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([text], { type: "application/toml" })), download: name });
+  link.click();
+  URL.revokeObjectURL(link.href);
 }
 
 /// Marks a line of the text, counted from 1, and brings it into sight.

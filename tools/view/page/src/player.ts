@@ -4,7 +4,7 @@ import { type Account, BodyPanel } from "./body_panel";
 import { ContactPanel } from "./contact_panel";
 import { element } from "./element";
 import type { Head, Rgb } from "./head";
-import { Plots } from "./plots";
+import { largest, Plots } from "./plots";
 import { css, type Paint } from "./colours";
 import { PointerTools } from "./pointer_tools";
 import { Stage } from "./stage";
@@ -147,7 +147,10 @@ export class Player {
     click("forward", () => this.stepBy(1));
     click("first", () => this.seek(0));
     click("last", () => this.toEnd());
-    click("wake", () => this.toNextWake());
+    click("wake", () => this.toNext(this.timeline.woken));
+    click("avalanche", () => this.toNext(this.timeline.avalanches));
+    click("warning", () => this.toNext(this.timeline.newWarnings));
+    element("follow").addEventListener("change", () => this.accompany());
     click("fit", () => this.resetCamera());
     element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
     element("paint").addEventListener("change", () => this.repaint());
@@ -188,7 +191,12 @@ export class Player {
       " ": () => this.toggle(),
       ".": () => this.stepBy(1),
       ",": () => this.stepBy(-1),
-      n: () => this.toNextWake(),
+      n: () => this.toNext(this.timeline.woken),
+      v: () => this.toNext(this.timeline.avalanches),
+      w: () => this.toNext(this.timeline.newWarnings),
+      t: () => element("follow").click(),
+      s: () => this.simulation?.steered() && this.command({ do: "save" }),
+      x: () => this.tools.choose("cut"),
       f: () => this.resetCamera(),
       r: () => (this.simulation ? this.simulation.restart() : this.seek(0)),
       l: () => element("loop").click(),
@@ -268,9 +276,14 @@ export class Player {
     this.pause();
   }
 
-  toNextWake(): void {
-    const next = this.timeline.woken.findIndex((woken, frame) => frame > this.timeline.shown && woken > 0);
+  /// To the next frame that has any of these.
+  private toNext(counts: number[]): void {
+    const next = counts.findIndex((count, frame) => frame > this.timeline.shown && count > 0);
     if (next >= 0) this.seek(next);
+  }
+
+  private accompany(): void {
+    this.stage.accompany(element<HTMLInputElement>("follow").checked ? this.stage.selected : -1);
   }
 
   seekTime(time: number): void {
@@ -338,6 +351,7 @@ export class Player {
     const before = this.stage.selected;
     if (this.simulation?.steered()) this.command({ do: "choose", body });
     this.stage.selected = body;
+    this.accompany();
     this.stage.update([before, body].filter((one) => one >= 0), this.paint());
     this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
   }
@@ -356,6 +370,7 @@ export class Player {
           [colours.asleep, state.asleepCount, coloured_shapes.length > 0 ? "asleep (darker)" : "asleep"],
           ...coloured_shapes.map(({ name, colour }): [Rgb, string, string] => [colour, "", name]),
         ];
+    this.showMeasured();
     element("counts").replaceChildren(
       ...rows.map(([colour, count, text]) => {
         const row = document.createElement("tr");
@@ -363,6 +378,21 @@ export class Player {
         return row;
       }),
     );
+  }
+
+  /// Slope and error as measured, beside what they should be.
+  private showMeasured(): void {
+    const { state } = this.timeline;
+    const degrees = (angle: number): string => `${((180 * angle) / Math.PI).toFixed(1)}\u00B0`;
+    const lines: string[] = [];
+    const pile = largest(state.piles);
+    if (pile) lines.push(`Slope ${state.measuredSlope < 0 ? "not measured yet" : `${degrees(state.measuredSlope)} measured`}, ${degrees(pile.slope)} of the layers (alpha)`);
+    const { tolerance } = this.head;
+    if (tolerance !== null || state.drift >= 0)
+      lines.push(`Drift estimated ${state.drift < 0 ? "not yet" : `${state.drift.toPrecision(2)} D`}${tolerance === null ? "" : `, tolerance ${tolerance} D`}`);
+    const hidden = state.hidden.subarray(0, state.bodies).reduce((sum, flag) => sum + flag, 0);
+    if (hidden > 0) lines.push(`${hidden} enclosed bodies not drawn`);
+    element("measured").replaceChildren(...lines.map((text) => Object.assign(document.createElement("p"), { className: "hint", textContent: text })));
   }
 
   private countsByCause(): [Rgb, number, string][] {

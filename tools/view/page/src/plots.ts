@@ -2,16 +2,21 @@
 
 import { density, type Pile } from "./frames";
 import type { Head } from "./head";
-import { css } from "./colours";
+import { css, overfull } from "./colours";
+import { element } from "./element";
 import type { Timeline } from "./timeline";
 import { uPlot } from "./vendor";
 
 const mostColumns = 800; // drawn of a density map
 
 /// The pile with the most bodies.
-function largest(piles: Pile[]): Pile | undefined {
+export function largest(piles: Pile[]): Pile | undefined {
   const bodies = (pile: Pile): number => pile.counts.reduce((sum, count, i) => (i % 2 === 0 ? sum + count : sum), 0);
   return piles.reduce<Pile | undefined>((best, pile) => (best === undefined || bodies(pile) > bodies(best) ? pile : best), undefined);
+}
+
+function shortened(text: string): string {
+  return text.length > 40 ? `${text.slice(0, 39)}\u2026` : text;
 }
 
 export class Plots {
@@ -94,7 +99,17 @@ export class Plots {
     });
     this.counts.setData([time, timeline.awake, timeline.asleep, timeline.woken]);
     this.densities.setData([time, top]);
+    this.showScale();
     this.showTime();
+  }
+
+  /// What red means in the map of densities.
+  private showScale(): void {
+    const { timeline } = this;
+    const layer = largest(timeline.piles[timeline.frames - 1] ?? [])?.layers[0];
+    const wakes = layer !== undefined && layer.wakeDensity > 0;
+    const thresholds = wakes ? `the threshold of ${layer.wakeDensity.toFixed(2)}, above which the pile wakes; up to ${layer.sleepDensity.toFixed(2)} no body of a layer falls asleep` : "";
+    element("density-scale").replaceChildren("blue", wakes ? ` up to ${thresholds}` : " up to 1");
   }
 
   /// Moves the line of the frame shown.
@@ -105,18 +120,20 @@ export class Plots {
     for (const line of this.heads) line.style.left = `${at}px`;
   }
 
-  /// A line with its text where an event of the scene happened.
+  /// A line with its text where an event of the scene happened or a warning came first.
   private drawEvents(plot: uPlot): void {
     const paper = plot.ctx;
     paper.save();
-    paper.strokeStyle = paper.fillStyle = css(this.head.colours.text);
     paper.font = `${Math.round(11 * devicePixelRatio)}px system-ui`;
     paper.textAlign = "left";
     paper.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
     let row = 0;
-    for (const event of this.timeline.happened) {
-      const text = this.timeline.textOf(event);
-      const left = plot.valToPos(event.time, "x", true);
+    const { timeline } = this;
+    const warnings = [...timeline.warnings.values()].map(({ step, text }) => ({ time: step * this.head.dt, text: shortened(text), warns: true }));
+    const events = timeline.happened.map((event) => ({ time: event.time, text: timeline.textOf(event), warns: false }));
+    for (const { time, text, warns } of [...events, ...warnings]) {
+      paper.strokeStyle = paper.fillStyle = css(warns ? overfull : this.head.colours.text);
+      const left = plot.valToPos(time, "x", true);
       if (left < plot.bbox.left || left > plot.bbox.left + plot.bbox.width) continue;
       paper.beginPath();
       paper.moveTo(left, plot.bbox.top);
@@ -148,7 +165,8 @@ export class Plots {
         const value = density(pile, i);
         if (value <= 0) return;
         const top = pixel(layer.top, "y");
-        paper.fillStyle = value > 1 ? css([0.8, 0.25, 0.15], Math.min(1, 0.4 + 0.5 * (value - 1))) : css(this.head.colours.layer, 0.9 * value);
+        const most = layer.wakeDensity > 0 ? layer.wakeDensity : 1;
+        paper.fillStyle = value > most ? css(overfull, Math.min(1, 0.4 + 0.5 * (value / most - 1))) : css(this.head.colours.layer, (0.9 * value) / most);
         paper.fillRect(left, top, Math.max(1, right - left), pixel(layer.bottom, "y") - top);
       });
     }

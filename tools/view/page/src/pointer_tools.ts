@@ -1,4 +1,4 @@
-// What the pointer does to the bodies of a simulation: it throws, pulls or adds them.
+// What the pointer does to the bodies of a simulation: it throws, pulls or adds them, and cuts walls away.
 
 import { element } from "./element";
 import type { Stage } from "./stage";
@@ -32,7 +32,7 @@ export class PointerTools {
     element("tool").addEventListener("change", () => this.showShapes());
   }
 
-  choose(tool: "camera" | "pull" | "add"): void {
+  choose(tool: "camera" | "pull" | "add" | "cut"): void {
     element<HTMLSelectElement>("tool").value = tool;
     this.showShapes();
   }
@@ -52,7 +52,13 @@ export class PointerTools {
 
   /// A click that is no drag; whether a tool has taken it.
   click(x: number, y: number): boolean {
-    if (this.tool() !== "add" || !this.hands.steered()) return false;
+    if (!this.hands.steered()) return false;
+    if (this.tool() === "cut") {
+      const obstacle = this.hands.stage().obstacleAt(x, y);
+      if (obstacle >= 0) this.hands.command({ do: "cut", obstacle });
+      return true;
+    }
+    if (this.tool() !== "add") return false;
     const position = this.hands.stage().placeAt(x, y);
     if (position) this.hands.command({ do: "add", shape: element<HTMLSelectElement>("shape").value, position });
     return true;

@@ -12,7 +12,6 @@ import { geometryOf } from "./shapes";
 import { Surroundings } from "./surroundings";
 import type { Changed, Timeline } from "./timeline";
 import {
-  Matrix4,
   MeshBasicMaterial,
   MeshLambertMaterial,
   MOUSE,
@@ -36,7 +35,10 @@ export class Stage {
   private readonly camera: PerspectiveCamera | OrthographicCamera;
   private readonly controls: OrbitControls;
   private readonly labels: CanvasRenderingContext2D;
+  /// Of each shape the awake bodies, then those that sleep.
   private readonly shapes: Instances[] = [];
+  /// Of each body its mesh and its place there; -1: it is not drawn.
+  private readonly mesh: number[] = [];
   private readonly place: number[] = [];
   private surroundings: Surroundings;
   private contactMarks: ContactMarks;
@@ -54,6 +56,8 @@ export class Stage {
   tether: { body: number; point: number[]; to: [number, number] } | null = null;
   /// Whether the camera moves back as the pile grows, until the user moves it.
   follows = false;
+  private accompanied = -1;
+  private accompaniedAt: Vector3 | null = null;
   private box: [Vector3, Vector3];
   /// Times at which frames were drawn [ms], the last few.
   readonly drawn: number[] = [];
@@ -174,7 +178,7 @@ export class Stage {
   /// The run whose frames are shown. Its head must be of the same scene's dimension.
   setRun(timeline: Timeline): void {
     for (const shape of this.shapes) shape.mesh.removeFromParent();
-    this.shapes.length = this.place.length = 0;
+    this.shapes.length = this.mesh.length = this.place.length = 0;
     this.timeline = timeline;
     this.head = timeline.head;
     this.box = this.boxOf(this.head);
@@ -187,9 +191,12 @@ export class Stage {
     const { awake_outline, asleep_outline } = this.head.colours;
     const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
     for (const shape of this.head.shapes) {
-      const instances = new Instances(geometryOf(shape.pieces), material, !this.flat, 64);
-      this.shapes.push(instances);
-      this.scene.add(instances.mesh);
+      const geometry = geometryOf(shape.pieces);
+      for (let kind = 0; kind < 2; ++kind) {
+        const instances = new Instances(geometry, material, !this.flat, 64);
+        this.shapes.push(instances);
+        this.scene.add(instances.mesh);
+      }
     }
     this.redraw();
   }
@@ -201,24 +208,51 @@ export class Stage {
     return Array.from({ length: 7 }, (_, i) => pose[7 * body + i] * (i < 3 ? position : quaternion));
   }
 
-  /// Brings bodies to where the timeline's state has them.
+  /// Brings bodies to where the timeline's state has them. Those that sleep are drawn apart from those that are awake, so
+  /// that only the latter are sent to the graphics card at each frame.
   update(changed: Changed, paint: Paint): void {
     const state = this.timeline!.state;
-    const nothing = new Matrix4().makeScale(0, 0, 0);
-    for (let body = this.place.length; body < state.bodies; ++body) this.place.push(this.shapes[state.shape[body]].add(body));
+    while (this.place.length < state.bodies) {
+      this.place.push(-1);
+      this.mesh.push(-1);
+    }
     const bodies = changed === "all" ? Array.from(this.place.keys()) : changed;
     for (const body of bodies) {
-      const gone = body >= state.bodies || state.removed[body] !== 0;
-      const matrix = gone ? nothing : matrixOf(this.poseOf(body));
-      const tint = body === this.selected ? highlight : gone ? this.head.colours.asleep : paint(body);
-      const shape = this.shapeOf(body);
-      this.shapes[shape].set(this.place[body], matrix, colour(tint), !gone && state.asleep[body] !== 0);
+      const gone = body >= state.bodies || state.removed[body] !== 0 || state.hidden[body] !== 0;
+      const asleep = !gone && state.asleep[body] !== 0;
+      const mesh = gone ? -1 : 2 * state.shape[body] + (asleep ? 1 : 0);
+      if (mesh !== this.mesh[body]) this.putInto(mesh, body);
+      if (gone) continue;
+      const tint = body === this.selected ? highlight : paint(body);
+      this.shapes[mesh].set(this.place[body], matrixOf(this.poseOf(body)), colour(tint), asleep);
     }
     for (const shape of this.shapes) shape.upload();
     const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => this.head.events[number]?.removes ?? []));
     this.surroundings.hideObstacles(removed);
-    if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
+    if (this.accompanied >= 0) this.goAlong();
+    else if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
+  }
+
+  /// Moves the camera along with a body from now on, none below 0.
+  accompany(body: number): void {
+    this.accompanied = body;
+    this.accompaniedAt = null;
+    this.goAlong();
+  }
+
+  private goAlong(): void {
+    const { state } = this.timeline!;
+    if (this.accompanied < 0 || this.accompanied >= state.bodies || state.removed[this.accompanied] !== 0) return;
+    const [x, y, z] = this.poseOf(this.accompanied);
+    const at = new Vector3(x, y, this.flat ? 0 : z);
+    if (this.accompaniedAt) {
+      const way = at.clone().sub(this.accompaniedAt);
+      this.camera.position.add(way);
+      this.controls.target.add(way);
+      this.controls.update();
+    }
+    this.accompaniedAt = at;
   }
 
   /// Draws these; none: takes the marks away. The force [N] of a bar of so many metres.
@@ -228,10 +262,15 @@ export class Stage {
     return this.contactMarks;
   }
 
-  /// A body keeps its shape where the frame shown is older than the body.
-  private shapeOf(body: number): number {
-    if (body < this.timeline!.state.bodies) return this.timeline!.state.shape[body];
-    return this.shapes.findIndex((shape) => shape.bodies[this.place[body]] === body);
+  /// Moves a body from one mesh to another, -1: none.
+  private putInto(mesh: number, body: number): void {
+    const [before, place] = [this.mesh[body], this.place[body]];
+    if (before >= 0) {
+      const moved = this.shapes[before].remove(place);
+      this.place[moved] = place;
+    }
+    this.mesh[body] = mesh;
+    this.place[body] = mesh < 0 ? -1 : this.shapes[mesh].add(body);
   }
 
   /// Draws when the browser has time for the next picture.
@@ -343,6 +382,11 @@ export class Stage {
     const hits = this.shapes.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, at: hit.point, body: shape.bodies[hit.instanceId!] })));
     hits.sort((a, b) => a.distance - b.distance);
     return hits.find(({ body }) => body < this.timeline!.state.bodies) ?? null;
+  }
+
+  /// The obstacle at a place of the canvas [CSS pixels], -1: none.
+  obstacleAt(x: number, y: number): number {
+    return this.surroundings.obstacleOn(this.rayAt(x, y));
   }
 
   /// The body at a place of the canvas [CSS pixels], -1: none.

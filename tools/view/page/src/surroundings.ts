@@ -19,6 +19,7 @@ import {
   MeshBasicMaterial,
   MeshLambertMaterial,
   PlaneGeometry,
+  type Raycaster,
   ShadowMaterial,
   Vector3,
 } from "./vendor";
@@ -59,6 +60,13 @@ export class Surroundings {
       this.obstacles.push(instance);
       this.group.add(instance.mesh);
     }
+  }
+
+  /// The nearest obstacle that a ray meets, -1: none.
+  obstacleOn(ray: Raycaster): number {
+    const hits = this.obstacles.flatMap(({ mesh }, number) => (mesh.visible ? ray.intersectObject(mesh).map(({ distance }) => ({ distance, number })) : []));
+    hits.sort((a, b) => a.distance - b.distance);
+    return hits[0]?.number ?? -1;
   }
 
   hideObstacles(removed: Set<number>): void {

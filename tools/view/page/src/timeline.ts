@@ -23,6 +23,8 @@ export class Timeline {
   readonly asleep: number[] = [];
   readonly woken: number[] = [];
   readonly avalanches: number[] = [];
+  /// Kinds of warning that appeared first in it.
+  readonly newWarnings: number[] = [];
   readonly piles: Pile[][] = [];
   /// The scene's events so far.
   readonly happened: SceneEvent[] = [];
@@ -70,6 +72,7 @@ export class Timeline {
       this.events.push([]);
     }
     for (const event of events) this.events[event.body]?.push(event);
+    this.newWarnings.push(warnings.filter(({ kind }) => !this.warnings.has(kind)).length);
     for (const warning of warnings) this.warnings.set(warning.kind, warning);
     const woken = events.filter((event) => event.woke);
     this.step.push(this.last.step);
