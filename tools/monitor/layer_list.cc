@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/pile/pile.h"
 #include "tools/monitor/heard.h"
 
 namespace talus {

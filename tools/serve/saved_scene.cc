@@ -24,7 +24,7 @@ namespace {
 class Renumbering {
  public:
   template <int Dim>
-  explicit Renumbering(const BodyStates<Dim>& states) : bodies_(states.size()), present_(0) {
+  explicit Renumbering(const BodyStates<Dim>& states) : bodies_(states.size()) {
     for (BodyIndex body = 0; body < states.size(); ++body)
       numbers_.push_back(states.removed[body] != 0 ? -1 : present_++);
   }
@@ -34,7 +34,7 @@ class Renumbering {
 
  private:
   std::int64_t bodies_;
-  std::int64_t present_;
+  std::int64_t present_ = 0;
   std::vector<std::int64_t> numbers_;
 };
 
@@ -46,11 +46,8 @@ class Saving {
         simulation_(simulation),
         world_(simulation.world()),
         root_(toml::parse(scene.toml)),
-        numbers_(world_.states()) {
-    // Rounded to what is far below a pixel and below the depth that contacts have.
-    for (const Shape<Dim>& shape : scene.world.shapes) extent_ = std::min(extent_, shape.extent);
-    resolution_ = std::pow(10.0, std::floor(std::log10(1e-6 * extent_)));
-  }
+        numbers_(world_.states()),
+        resolution_(std::pow(10.0, std::floor(std::log10(1e-6 * smallest(scene.world.shapes))))) {}
 
   std::string text() {
     if (numbers_.present() > most_saved)
@@ -75,7 +72,13 @@ class Saving {
  private:
   static constexpr std::int64_t most_saved = 100'000;
 
-  std::string rounded(double value) const { return toml_text(std::round(value / resolution_) * resolution_); }
+  /// Extent [m].
+  static double smallest(const std::vector<Shape<Dim>>& shapes) {
+    double extent = 1e3;
+    for (const Shape<Dim>& shape : shapes) extent = std::min(extent, shape.extent);
+    return extent;
+  }
+
   /// As few digits as the resolution has.
   std::string number(double value) const {
     const int digits = std::max(0, static_cast<int>(std::lround(-std::log10(resolution_))));

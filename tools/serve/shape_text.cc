@@ -31,7 +31,7 @@ std::string kind_text(const Piece<Dim>& piece, Pose<Dim>& at) {
     at = box->pose;
     return fmt::format("kind = \"box\"\nsize = {}\n", point_text<Dim>(2.0 * box->half));
   }
-  const HullPiece<Dim>& hull = std::get<HullPiece<Dim>>(piece);
+  const auto& hull = std::get<HullPiece<Dim>>(piece);
   if (hull.corners.size() == 1) {
     at.position = hull.corners[0];
     return fmt::format("kind = \"ball\"\nradius = {}\n", toml_text(hull.radius));
