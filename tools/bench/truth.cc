@@ -253,7 +253,8 @@ std::vector<std::string> notes_of(const TruthOptions& options) {
                   "with one of the rarest pairs of values and add the values whose pairs are rarest.",
                   options.count, options.design),
       "In 3D triangles are tetrahedra, discs balls, and a slope, bin or hopper has the same section along both axes "
-      "(a slope along one). Discs and balls have no rolling friction. Scenes of the paper have their own bodies."};
+      "(a slope along one). The rolling friction of discs and balls is 0.8 of their friction. Scenes of the paper have "
+      "their own bodies."};
 }
 
 /// Measures the same again; folder and number of jobs are left out.

@@ -172,14 +172,23 @@ std::string source_text(const CellPlan& plan) {
   return text;
 }
 
+/// The friction of bodies. A slope is 0.7 of the friction angle steep, so balls with this rolling friction stay on it.
+std::string friction_text(const CellPlan& plan) {
+  constexpr double rolling = 0.8;  // over friction
+  std::string text = fmt::format("friction = {}\n", plan.friction);
+  if (plan.shape.keys.find("ball") != std::string_view::npos)
+    text += fmt::format("rolling_friction = {:.6g}\n", rolling * plan.friction);
+  return text;
+}
+
 std::string scene_text(const CellPlan& plan, const std::string& name) {
   std::string text =
       fmt::format("title = \"{}\"\ndimension = {}\n\n[world]\ngravity = {}\n", name, plan.dimension, plan.gravity);
   if (plan.dimension == 3) text += "\n[world.solver]\nwarm_friction = true\n";
   text += ground_text(plan);
-  text += fmt::format("\n[shape.body]\n{}friction = {}\n", plan.shape.keys, plan.friction);
+  text += fmt::format("\n[shape.body]\n{}{}", plan.shape.keys, friction_text(plan));
   if (!plan.shape.further.empty())
-    text += fmt::format("\n[shape.large]\n{}friction = {}\n", plan.shape.further, plan.friction);
+    text += fmt::format("\n[shape.large]\n{}{}", plan.shape.further, friction_text(plan));
   const double end = (plan.rate > 0.0 ? plan.bodies / plan.rate : 0.0) + calm_time(plan.gravity);
   return text + source_text(plan) + fmt::format("\n[run]\nframes = {}\n", std::llround(30.0 * end));
 }
