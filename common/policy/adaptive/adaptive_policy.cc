@@ -25,7 +25,7 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       max_spin_(max_turn_per_step / world.dt),
       rest_({params, typical, world}),
       support_({params, typical, world}),
-      heavy_impacts_({params, typical, world}),
+      impacts_ahead_({params, typical, world}),
       impacts_({params, typical, world}),
       support_loss_({params, typical, world}),
       avalanches_({params, typical, world}),
@@ -38,7 +38,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
   output_.clear();
   rest_.update(in);
-  heavy_impacts_.update(in, output_);
+  impacts_ahead_.update(in, output_);
   impacts_.update(in, output_);
   support_loss_.update(in, output_);
   avalanches_.update(in, output_);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/policy/adaptive/adaptive_params.h"
-#include "common/policy/adaptive/heavy_impacts.h"
 #include "common/policy/adaptive/impacts.h"
+#include "common/policy/adaptive/impacts_ahead.h"
 #include "common/policy/adaptive/local_avalanches.h"
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/adaptive/slope_controller.h"
@@ -59,7 +59,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   double max_spin_;           // [rad/s]
   RestCriterion<Dim> rest_;
   SupportCriterion<Dim> support_;
-  HeavyImpacts<Dim> heavy_impacts_;
+  ImpactsAhead<Dim> impacts_ahead_;
   Impacts<Dim> impacts_;
   SupportLoss<Dim> support_loss_;
   LocalAvalanches<Dim> avalanches_;

@@ -1,0 +1,101 @@
+#include "common/policy/adaptive/impacts_ahead.h"
+
+#include "common/policy/adaptive/impacts.h"
+
+namespace talus {
+namespace {
+
+constexpr Wake before_impact{.cause = SleepCause::momentum, .before_impact = true};
+
+/// Whether `other` lies less than 45 degrees below the body: what lies below has supports that take up the impact.
+template <int Dim>
+bool is_aside(const RuleInput<Dim>& in, BodyIndex body, BodyIndex other) {
+  const Vec<Dim> to = in.pose_of(other).position - in.pose_of(body).position;
+  return height<Dim>(to) > -horizontal<Dim>(to).norm();
+}
+
+/// Largest speed of a point of the body to the side [m/s].
+template <int Dim>
+double speed_aside(const RuleInput<Dim>& in, BodyIndex body) {
+  const double reach = 0.5 * in.shape_of(body).extent;
+  return horizontal<Dim>(in.states().velocity[body]).norm() + reach * in.states().spin[body].norm();
+}
+
+}  // namespace
+
+template <int Dim>
+ImpactsAhead<Dim>::ImpactsAhead(const RuleSetup<Dim>& setup)
+    : wake_speed_(wake_speed(setup)),
+      heavy_mass_(setup.params.heavy_impact * setup.typical.mass),
+      dt_(setup.world.dt) {}
+
+template <int Dim>
+void ImpactsAhead<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
+  if (in.world.awake().size() == in.states().shape.size()) return;
+  mark_pushed(in, 1);
+  for (const BodyIndex body : in.world.awake()) {
+    const double mass = in.shape_of(body).mass;
+    const double momentum = mass * in.states().velocity[body].norm();
+    // Of two equal bodies the one that is hit gets half of the speed.
+    if (momentum > wake_speed_ * (mass + heavy_mass_))
+      wake_driven(in, body, out);
+    else if (pushed_[body] != 0 && 0.5 * speed_aside(in, body) > wake_speed_)
+      wake_path(in, body, out);
+  }
+  mark_pushed(in, 0);
+}
+
+template <int Dim>
+void ImpactsAhead<Dim>::mark_pushed(const RuleInput<Dim>& in, std::uint8_t mark) {
+  pushed_.resize(in.states().asleep.size(), 0);
+  for (const Contact<Dim>& contact : in.contacts)
+    if (contact.b >= 0 && !in.asleep(contact.b)) pushed_[contact.a] = pushed_[contact.b] = mark;
+}
+
+/// The path is two steps long: a decision takes effect in the next step, and bodies reached during that step must be
+/// awake when it begins.
+template <int Dim>
+void ImpactsAhead<Dim>::find_path(const RuleInput<Dim>& in, BodyIndex body) {
+  Box<Dim> path = in.world.bounds_of(body);
+  path.extend(Box<Dim>(path).translate(2.0 * dt_ * in.states().velocity[body]));
+  path_.clear();
+  in.world.query_box(path, path_);
+}
+
+template <int Dim>
+void ImpactsAhead<Dim>::wake_path(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out) {
+  find_path(in, body);
+  for (const BodyIndex other : path_)
+    if (in.asleep(other) && is_aside(in, body, other)) out.wakes.add(other, before_impact);
+}
+
+/// Wakes ring by ring around the bodies in the path, until the woken bodies are together too heavy to reach the wake
+/// speed.
+template <int Dim>
+void ImpactsAhead<Dim>::wake_driven(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out) {
+  double mass = in.shape_of(body).mass;
+  const double momentum = mass * in.states().velocity[body].norm();
+  reached_.resize(in.states().asleep.size(), 0);
+  woken_.clear();
+  find_path(in, body);
+  while (!path_.empty() && momentum > wake_speed_ * mass) {
+    next_ring_.clear();
+    for (const BodyIndex other : path_) {
+      if (!in.asleep(other) || reached_[other] != 0) continue;
+      reached_[other] = 1;
+      woken_.push_back(other);
+      mass += in.shape_of(other).mass;
+      in.world.query_box(in.world.bounds_of(other), next_ring_);
+    }
+    path_.swap(next_ring_);
+  }
+  for (const BodyIndex other : woken_) {
+    reached_[other] = 0;
+    out.wakes.add(other, before_impact);
+  }
+}
+
+template class ImpactsAhead<2>;
+template class ImpactsAhead<3>;
+
+}  // namespace talus

@@ -1,0 +1,41 @@
+#pragma once
+// Sleeping bodies that wake before an impact reaches them.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/policy/adaptive/rule.h"
+
+namespace talus {
+
+/// The rule for impacts takes effect one step late, and one body at a time. That does where supports take up most of an
+/// impact, which is from above. It does not where a body drives many others before it, or where bodies that lean on
+/// each other push on: there the sleeping body stops them all as a rock would. So two kinds of bodies wake the sleeping
+/// bodies in their path before they arrive: one with the momentum to drive many others, which also wakes around these
+/// as many as it could set in motion; and one that touches other awake bodies and moves sideways so fast that a body
+/// like it would wake when hit.
+template <int Dim>
+class ImpactsAhead {
+ public:
+  explicit ImpactsAhead(const RuleSetup<Dim>& setup);
+
+  /// Costs O(awake + contacts), and a box query or a few for each body that is fast enough.
+  void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
+
+ private:
+  void mark_pushed(const RuleInput<Dim>& in, std::uint8_t mark);
+  void find_path(const RuleInput<Dim>& in, BodyIndex body);
+  void wake_path(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out);
+  void wake_driven(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out);
+
+  double wake_speed_;                  // [m/s]
+  double heavy_mass_;                  // that an impact must be able to move [kg]
+  double dt_;                          // [s]
+  std::vector<std::uint8_t> pushed_;   // [body] scratch, all 0 between calls: whether it touches another awake body
+  std::vector<BodyIndex> path_;        // scratch
+  std::vector<BodyIndex> next_ring_;   // scratch
+  std::vector<BodyIndex> woken_;       // scratch
+  std::vector<std::uint8_t> reached_;  // [body] scratch, all 0 between calls
+};
+
+}  // namespace talus
