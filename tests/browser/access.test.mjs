@@ -40,3 +40,12 @@ test("only the loopback interface listens", async () => {
   const others = Object.values(networkInterfaces()).flat().filter(({ internal, family }) => !internal && family === "IPv4");
   for (const { address } of others) await assert.rejects(statusOf(`http://${address}:${url.port}/?token=${token}`), address);
 });
+
+test("another interface listens where it is named, and only under its own address", async () => {
+  const { url: elsewhere, child } = await serve("drop_in_a_pile_2d", "--listen", "127.0.0.2");
+  assert.equal(elsewhere.hostname, "127.0.0.2");
+  assert.equal(await statusOf(elsewhere), 200);
+  for (const host of ["localhost", "127.0.0.1", "example.com"]) assert.equal(await statusOf(elsewhere, { Host: `${host}:${elsewhere.port}` }), 403, host);
+  assert.equal(await statusOf(new URL("/", elsewhere)), 403, "without its token");
+  child.kill();
+});
