@@ -37,7 +37,7 @@ Vec<Dim> at_most(const Vec<Dim>& vector, double length) {
 }  // namespace
 
 template <int Dim>
-VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, double gravity, double dt) {
+VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, double dt) {
   const BodyStates<Dim>& states = world.states();
   const Shape<Dim>& shape = world.shape_of(pull.body);
   const Pose<Dim>& pose = states.pose[pull.body];
@@ -45,6 +45,7 @@ VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, doubl
   const Vec<Dim> point = pose * pull.point;
   const Vec<Dim> stretch = at_most<Dim>(point - pull.target, shape.extent);
 
+  const double gravity = world.gravity().norm();
   const double strength = pull_stiffness * (gravity > 0.0 ? gravity : 1.0);  // [m/s^2]
   const double rate = std::sqrt(strength / shape.extent);                    // [1/s]
   const double stiffness = shape.mass * rate * rate;                         // [N/m]
@@ -64,7 +65,7 @@ VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, doubl
   return change;
 }
 
-template VelocityChange<2> pulled(const World<2>&, const Pull<2>&, double, double);
-template VelocityChange<3> pulled(const World<3>&, const Pull<3>&, double, double);
+template VelocityChange<2> pulled(const World<2>&, const Pull<2>&, double);
+template VelocityChange<3> pulled(const World<3>&, const Pull<3>&, double);
 
 }  // namespace talus

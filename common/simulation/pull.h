@@ -19,8 +19,8 @@ struct Pull {
 inline constexpr double pull_stiffness = 20.0;
 
 /// The velocity that a critically damped spring gives an awake body over the next `dt` [s], solved implicitly, so that
-/// it is stable at any step (Box2D 2.4.1, b2_mouse_joint.cpp). `gravity` [m/s^2] scales its force; 0 counts as 1.
+/// it is stable at any step (Box2D 2.4.1, b2_mouse_joint.cpp). The world's gravity scales its force; 0 counts as 1.
 template <int Dim>
-VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, double gravity, double dt);
+VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, double dt);
 
 }  // namespace talus

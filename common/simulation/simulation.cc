@@ -181,7 +181,7 @@ void Simulation<Dim>::pull_body() {
     world_->thaw(pulled_);  // note_engine_sleep() makes the events
   else
     thaw_now(pulled_, SleepCause::user);
-  const VelocityChange<Dim> change = pulled(*world_, *pull_, gravity_.norm(), dt_);
+  const VelocityChange<Dim> change = pulled(*world_, *pull_, dt_);
   if (watched()) watchdog_.note_velocity(*world_, body, change.velocity, change.spin);
   world_->set_velocity(body, change.velocity, change.spin);
 }

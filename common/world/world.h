@@ -86,6 +86,7 @@ class World {
 
   /// Gravity from the next step on [m/s^2]. Sleeping bodies stay asleep.
   void set_gravity(const Vec<Dim>& gravity);
+  Vec<Dim> gravity() const { return description_.gravity_vector(); }
 
   /// Whether the steps from now on record their contacts, which takes 5 to 15 % of a step. Off in a new world.
   void record_contacts(bool record) { record_contacts_ = record; }

@@ -20,7 +20,8 @@ class Hand : public ::testing::TestWithParam<EngineChoice> {
   static constexpr double gravity = 10.0;
 
   /// Unit cubes at these heights, one above the other, on the ground.
-  AnyScene cubes(const std::string& policy, const std::vector<double>& heights, double g = gravity) const {
+  AnyScene cubes(const std::string& policy, const std::vector<double>& heights, double g = gravity,
+                 const std::string& more = "") const {
     const bool flat = GetParam().first == 2;
     std::string text = fmt::format(
         "title = \"cubes\"\ndimension = {}\nshape.cube = {{kind = \"box\", size = {}}}\nshape.ball = {{kind = "
@@ -29,7 +30,7 @@ class Hand : public ::testing::TestWithParam<EngineChoice> {
         GetParam().first, flat ? "[1, 1]" : "[1, 1, 1]", policy, g);
     for (const double height : heights)
       text += fmt::format("[[body]]\nshape = \"cube\"\nposition = [{}{}]\n", flat ? "0, " : "0, 0, ", height);
-    return parse_scene(text, "cubes.toml", {});
+    return parse_scene(text + more, "cubes.toml", {});
   }
 
   /// Calls `test` with a simulation of the scene and its dimension.
@@ -84,6 +85,21 @@ TEST_P(Hand, PulledBodyHangsFromItsPointAndFallsOnceReleased) {
     simulation.release();
     for (int step = 0; step < 300; ++step) simulation.step();
     EXPECT_NEAR(height<Dim>(simulation.world().states().pose[0].position), 0.5, 0.03);
+  });
+}
+
+TEST_P(Hand, PulledBodyHangsAsFarBelowTheTargetOnceGravityHasChanged) {
+  const double less = gravity / 4.0;
+  const std::string event = fmt::format("[[event]]\ndo = \"gravity\"\ntime = 0.5\ngravity = [{}{}]\n",
+                                        GetParam().first == 2 ? "0, " : "0, 0, ", -less);
+  simulate(cubes("full", {0.5}, gravity, event), [less]<int Dim>(Simulation<Dim>& simulation) {
+    for (int step = 0; step < 60; ++step) simulation.step();
+    simulation.pull({.body = 0, .point = Vec<Dim>::Zero(), .target = place<Dim>(0.0, 4.0)});
+    for (int step = 0; step < 900; ++step) simulation.step();
+    const double extent = simulation.world().shape_of(0).extent;
+    const double longer = 1.0 + std::sqrt(pull_stiffness * less / extent) / 60.0;
+    EXPECT_NEAR(height<Dim>(simulation.world().states().pose[0].position),
+                4.0 - extent / pull_stiffness * longer * longer, 0.005);
   });
 }
 

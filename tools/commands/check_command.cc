@@ -10,6 +10,10 @@
 #include "tools/run/find_scene.h"
 #include "tools/run/make_simulation.h"
 
+#ifdef TALUS_LCM
+#include "lcmtypes/translate.h"
+#endif
+
 namespace talus {
 namespace {
 
@@ -55,12 +59,27 @@ void try_engines(const Scene<Dim>& scene, const std::string& file, bool force) {
   if (refused > 0) print_result("{}\n", refusals);
 }
 
+#ifdef TALUS_LCM
+/// A run records and sends its shapes: refuses one that no message can hold.
+template <int Dim>
+void try_messages(const Scene<Dim>& scene, const std::string& file) {
+  try {
+    to_shapes<Dim>(scene.world);
+  } catch (const std::invalid_argument& refusal) {
+    throw std::invalid_argument(fmt::format("{}: {}", file, refusal.what()));
+  }
+}
+#endif
+
 int check_scene(const std::string& name, const std::vector<std::string>& settings, bool force) {
   std::vector<Override> overrides;
   for (const std::string& setting : settings) overrides.push_back({setting});
   const std::filesystem::path file = find_scene(name);
   const AnyScene scene = read_scene(file, overrides);
   std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string(), force); }, scene);
+#ifdef TALUS_LCM
+  std::visit([&](const auto& of_dimension) { try_messages(of_dimension, file.string()); }, scene);
+#endif
   print_result("{}: OK\n", printable(file.string()));
   std::visit([](const auto& of_dimension) { print_report(of_dimension); }, scene);
   return exit_codes::success;
