@@ -158,9 +158,7 @@ std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
   return std::nullopt;
 }
 
-void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
-  listener_.gather(states().asleep, contacts);
-}
+void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) { listener_.gather(states().asleep, contacts); }
 
 bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
 
