@@ -43,6 +43,20 @@ test("run, pause, step, restart, pace and policy steer the simulation", async ()
   child.kill();
 });
 
+test("the wall time of a step is drawn over time, and how far the page lies behind the run is told", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "16");
+  const page = await openPage(url);
+  await until(page, ({ bodies }) => bodies > 30);
+  await page.waitForFunction(() => /ms a step, .* x real time, this page \d+ steps behind/.test(document.getElementById("speed").textContent));
+  const { times, frames } = await page.evaluate(() => ({ times: window.talus.timeline.msPerStep, frames: window.talus.timeline.frames }));
+  assert.equal(times.length, frames, "one for each frame");
+  assert.ok(times.some((time) => time > 0), JSON.stringify(times));
+  const inside = await page.evaluate(() => [...document.querySelectorAll(".playhead")].every((line) => line.offsetLeft <= line.parentElement.clientWidth));
+  assert.ok(inside, "the time shown is marked inside of the plots");
+  await page.close();
+  child.kill();
+});
+
 test("the scene's text is checked and run again", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d");
   const page = await openPage(url);

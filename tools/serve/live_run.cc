@@ -37,10 +37,18 @@ constexpr int most_live_bodies = 1'000'000;
 constexpr int most_live_events = 10'000;
 constexpr auto silence = std::chrono::seconds(2);
 
-Json status_json(const std::string& reason, bool finished, const std::string& policy, double ms, double factor) {
-  return {{"kind", "status"},          {"live", true},         {"running", !finished && reason.empty()},
-          {"finished", finished},      {"reason", reason},     {"pace", 0},
-          {"policy", policy},          {"policies", {policy}}, {"ms_per_step", ms},
+Json status_json(const std::string& reason, bool finished, const std::string& policy, std::int64_t step, double ms,
+                 double factor) {
+  return {{"kind", "status"},
+          {"live", true},
+          {"running", !finished && reason.empty()},
+          {"finished", finished},
+          {"reason", reason},
+          {"pace", 0},
+          {"policy", policy},
+          {"policies", {policy}},
+          {"step", step},
+          {"ms_per_step", ms},
           {"real_time_factor", factor}};
 }
 
@@ -80,7 +88,7 @@ class LiveRun::Assembly {
 
   void show_status() {
     const std::string reason = ended() && run_.reason != "finished" ? printable(run_.reason) : "";
-    hub_.set_status(json_text(status_json(reason, ended(), printable(run_.policy), stats_.ms_step,
+    hub_.set_status(json_text(status_json(reason, ended(), printable(run_.policy), stats_.step, stats_.ms_step,
                                           stats_.timed != 0 ? stats_.real_time_factor : 0.0)));
   }
 
@@ -212,7 +220,7 @@ std::unique_ptr<LiveRun::Assembly> assemble(const talus_run_v1& run, PageHub& hu
 }  // namespace
 
 LiveRun::LiveRun(PageHub& hub, const std::string& waiting) : hub_(hub) {
-  hub_.set_status(json_text(status_json(waiting, false, "", 0.0, 0.0)));
+  hub_.set_status(json_text(status_json(waiting, false, "", 0, 0.0, 0.0)));
 }
 
 LiveRun::~LiveRun() = default;

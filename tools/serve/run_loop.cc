@@ -322,6 +322,7 @@ std::string RunLoop::status() const {
                   {"pace", pace_},
                   {"policy", policy_.empty() ? policy_of(scene_) : policy_},
                   {"policies", policy_kinds},
+                  {"step", steps_of_run_},
                   {"ms_per_step", ms_per_step_},
                   {"mean_ms_per_step", mean_ms_per_step_},
                   {"real_time_factor", real_time_factor_}});

@@ -14,6 +14,7 @@ interface Status {
   pace: number;
   policy: string;
   policies: string[];
+  step: number; // of the run
   ms_per_step: number;
   mean_ms_per_step: number;
   real_time_factor: number;
@@ -33,6 +34,7 @@ const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
 class Live implements Simulation {
   private player: Player | null = null;
   private status: Status | null = null;
+  private behind = 0; // steps that the newest frame here lay behind the run when the last status came
   private readonly socket: WebSocket;
 
   constructor(private readonly ready: (player: Player) => void) {
@@ -151,6 +153,7 @@ class Live implements Simulation {
     const { player } = this;
     if (player) {
       const size = player.timeline.add(block);
+      player.timeline.msPerStep.push(this.status?.ms_per_step ?? null);
       player.contacts.add(player.timeline.frames - 1, block.subarray(size));
       player.grown();
     }
@@ -164,6 +167,8 @@ class Live implements Simulation {
 
   private showStatus(status: Status): void {
     this.status = status;
+    const steps = this.player?.timeline.step ?? [];
+    this.behind = Math.max(0, status.step - (steps.at(-1) ?? 0));
     if (status.live) this.hideCommands();
     element("run").textContent = status.running ? "Pause" : "Run";
     const stuck = status.finished || status.reason !== "";
@@ -172,7 +177,7 @@ class Live implements Simulation {
     if (policies.options.length === 0) policies.append(...status.policies.map((name) => new Option(name)));
     policies.value = status.policy;
     element<HTMLSelectElement>("pace").value = String(status.pace);
-    const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time`;
+    const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time, this page ${this.behind} steps behind`;
     element("speed").textContent = status.reason || (status.finished ? "finished" : status.running ? speed : "paused");
     this.player?.showPlaying();
   }

@@ -122,6 +122,8 @@ export class Player {
     this.simulation = simulation;
     this.following = this.stage.follows = true;
     element("loop-label").hidden = true;
+    element("timed").hidden = false;
+    this.plots = this.show();
   }
 
   private show(): Plots {
@@ -137,7 +139,7 @@ export class Player {
     this.tools.setShapes(head.shapes.map(({ name }) => name));
     this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
     this.showWarnings();
-    return new Plots(element("plots"), head, this.timeline, (time) => this.seekTime(time));
+    return new Plots(element("plots"), head, this.timeline, this.simulation !== null, (time) => this.seekTime(time));
   }
 
   private listen(): void {

@@ -25,19 +25,22 @@ export class Plots {
   private readonly heads: HTMLElement[];
   private frames = 0;
 
-  /// `seek` is called with a time where the user clicks.
+  /// `timed`: the frames come with the wall time of a step. `seek` is called with a time where the user clicks.
   constructor(
     private readonly parent: HTMLElement,
     private readonly head: Head,
     private readonly timeline: Timeline,
+    private readonly timed: boolean,
     seek: (time: number) => void,
   ) {
     parent.replaceChildren();
+    const speed: uPlot.Series = { ...this.series("ms a step", css(head.colours.layer), 1), scale: "ms" };
     this.counts = this.plot(
       [
         this.series("awake", css(head.colours.awake[1]), 2),
         this.series("asleep", css(head.colours.asleep), 1.5),
         { label: "woken", stroke: css(head.colours.awake_outline), fill: css(head.colours.awake_outline, 0.6), paths: uPlot.paths.bars!({ size: [1, 3] }), points: { show: false } },
+        ...(timed ? [speed] : []),
       ],
       "bodies",
       { draw: [(plot: uPlot) => this.drawEvents(plot)] },
@@ -63,14 +66,20 @@ export class Plots {
   }
 
   private plot(series: uPlot.Series[], label: string, hooks: uPlot.Hooks.Arrays): uPlot {
+    const speed = series.some(({ scale }) => scale === "ms");
     const axis = { stroke: css(this.head.colours.quiet_text), grid: { stroke: "#0001" }, font: "11px system-ui", labelFont: "11px system-ui" };
     return new uPlot(
       {
         width: 400,
         height: 120,
         series: [{ label: "s" }, ...series],
-        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(1, high)] } },
-        axes: [{ ...axis, size: 26 }, { ...axis, label, labelSize: 16, size: 40 }],
+        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(1, high)] }, ms: { range: (_, __, high) => [0, high > 0 ? high : 1] } },
+        axes: [
+          { ...axis, size: 26 },
+          { ...axis, label, labelSize: 16, size: 40 },
+          ...(speed ? [{ ...axis, scale: "ms", side: 1 as const, grid: { show: false }, label: "ms a step", labelSize: 16, size: 44 }] : []),
+        ],
+        padding: [null, this.timed && !speed ? 60 : null, null, null], // both plots have the same time line
         legend: { show: false },
         cursor: { sync: { key: "talus" }, points: { show: false }, drag: { x: true, y: false } },
         hooks,
@@ -97,10 +106,10 @@ export class Plots {
       const pile = largest(piles);
       return pile ? (pile.layers.at(-1)?.top ?? 0) : 0;
     });
-    this.counts.setData([time, timeline.awake, timeline.asleep, timeline.woken]);
+    this.counts.setData([time, timeline.awake, timeline.asleep, timeline.woken, ...(this.timed ? [timeline.msPerStep] : [])]);
     this.densities.setData([time, top]);
     this.showScale();
-    this.showTime();
+    queueMicrotask(() => this.showTime()); // uPlot takes the new range over in a microtask of its own
   }
 
   /// What red means in the map of densities.
@@ -116,7 +125,7 @@ export class Plots {
   showTime(): void {
     const { timeline } = this;
     if (timeline.shown < 0) return;
-    const at = this.counts.valToPos(timeline.time(timeline.shown), "x");
+    const at = Math.min(this.counts.over.clientWidth, this.counts.valToPos(timeline.time(timeline.shown), "x"));
     for (const line of this.heads) line.style.left = `${at}px`;
   }
 

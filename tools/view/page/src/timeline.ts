@@ -26,6 +26,8 @@ export class Timeline {
   /// Kinds of warning that appeared first in it.
   readonly newWarnings: number[] = [];
   readonly piles: Pile[][] = [];
+  /// Wall time of a step when the frame came [ms]; empty for a record, which has none.
+  readonly msPerStep: (number | null)[] = [];
   /// The scene's events so far.
   readonly happened: SceneEvent[] = [];
   /// The last text of each kind, by kind.
