@@ -13,8 +13,8 @@
 
 namespace talus {
 
-/// Sends messages from a thread of its own, in order, eight or 8 KiB at a time and then none for 0.1 ms (a longer burst
-/// overruns the receivers' buffers), at most 10 ms late. push() never waits for the network: a message that finds the
+/// Sends messages from a thread of its own, in order, eight or 8 KiB at a time and then none for 0.5 ms, or 0.1 ms while
+/// the queue is more than half full (a longer burst overruns the receivers' buffers). Messages gather for at most 10 ms. push() never waits for the network: a message that finds the
 /// queue full is dropped and counted.
 class SendQueue {
  public:

@@ -30,7 +30,7 @@ TEST(SendQueue, AtTheEndSaysHowItWentThoughMoreIsQueuedThanPatienceLasts) {
   lcm::LCM lcm("memq://");
   Counter counter(lcm);
   SendQueue queue(lcm, 8U << 20U);
-  constexpr int many = 3000;  // at most eight are sent in 0.1 ms: 0.04 s
+  constexpr int many = 3000;  // at most eight are sent in 0.1 ms, so these take 0.04 s or longer
   for (int i = 0; i < many; ++i) queue.push({.channel = Channel::piles, .bytes = {1, 2, 3}});
   queue.push({.channel = Channel::stats, .bytes = {4}});
   queue.push({.channel = Channel::run, .bytes = {5}});
