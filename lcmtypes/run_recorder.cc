@@ -41,10 +41,10 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
       steps_per_key_frame_(std::max<std::int64_t>(1, std::llround(checked(params).key_frame_interval / info.dt))),
       flush_interval_(params.flush_interval),
       log_(path),
-      encoder_(record_id(info)) {
+      encoder_(record_id(info)),
+      scene_events_(to_events(scene)) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
-  scene_events_ = to_events(scene);
   write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
   write(to_shapes<Dim>(scene.world), 0, 0.0);
   log_.flush();

@@ -14,19 +14,19 @@ constexpr int cover = 2;  // full cells around a hidden one
 using Cell = std::uint64_t;
 using Cells = std::unordered_set<Cell>;
 
-constexpr int bits = 21;
-constexpr double most = 1 << (bits - 1);
+constexpr int axis_bits = 21;
+constexpr double most = 1 << (axis_bits - 1);
 
 Cell cell_at(const Vec3& point, double width) {
   Cell cell = 0;
   for (const double part : point) {
     const double place = std::clamp(std::floor(part / width), 2.0 * cover - most, most - 2.0 * cover);
-    cell = cell << bits | static_cast<Cell>(place + most);
+    cell = cell << axis_bits | static_cast<Cell>(place + most);
   }
   return cell;
 }
 
-constexpr Cell height_of(Cell cell) { return cell & ((Cell{1} << bits) - 1); }
+constexpr Cell height_of(Cell cell) { return cell & ((Cell{1} << axis_bits) - 1); }
 
 /// The cells whose neighbours along one axis are all there, or lie below the height `ground`.
 Cells eroded(const Cells& cells, Cell step, Cell ground) {
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> hidden_bodies(std::span<const Shape<Dim>> shapes, cons
     for (BodyIndex body = 0; body < states.size(); ++body)
       if (sleeps(body)) cells.insert(cell_at(states.pose[body].position - origin, width));
     const Cell lowest = ground ? height_of(cell_at(Vec3::Zero(), width)) : 0;
-    for (int axis = 0; axis < 3; ++axis) cells = eroded(cells, Cell{1} << (axis * bits), lowest);
+    for (int axis = 0; axis < 3; ++axis) cells = eroded(cells, Cell{1} << (axis * axis_bits), lowest);
     for (BodyIndex body = 0; body < states.size(); ++body)
       if (sleeps(body) && cells.contains(cell_at(states.pose[body].position - origin, width))) hidden[body] = 1;
   }
