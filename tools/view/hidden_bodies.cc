@@ -15,13 +15,13 @@ using Cell = std::uint64_t;
 using Cells = std::unordered_set<Cell>;
 
 constexpr int axis_bits = 21;
-constexpr double most = 1 << (axis_bits - 1);
+constexpr double half_range = 1 << (axis_bits - 1);
 
 Cell cell_at(const Vec3& point, double width) {
   Cell cell = 0;
   for (const double part : point) {
-    const double place = std::clamp(std::floor(part / width), 2.0 * cover - most, most - 2.0 * cover);
-    cell = cell << axis_bits | static_cast<Cell>(place + most);
+    const double place = std::clamp(std::floor(part / width), 2.0 * cover - half_range, half_range - 2.0 * cover);
+    cell = cell << axis_bits | static_cast<Cell>(place + half_range);
   }
   return cell;
 }
