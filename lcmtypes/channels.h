@@ -1,9 +1,12 @@
 #pragma once
 // The channels, their message types, and the largest size of a message.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "talus_lcm/layouts.h"
 
@@ -16,6 +19,12 @@ inline constexpr std::array<const char*, 7> channel_names = {
     "TALUS_RUN", "TALUS_PILES", "TALUS_SLEEP", "TALUS_STATS", "TALUS_BODIES", "TALUS_SHAPES", "TALUS_EVENTS"};
 
 inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
+
+inline std::optional<Channel> channel_named(std::string_view name) {
+  const auto found = std::find(channel_names.begin(), channel_names.end(), name);
+  if (found == channel_names.end()) return std::nullopt;
+  return static_cast<Channel>(found - channel_names.begin());
+}
 
 template <class Message>
 inline constexpr Channel channel_of = Channel::run;
@@ -37,6 +46,27 @@ template <>
 inline constexpr Channel channel_of<talus_lcm::talus_event_v1> = Channel::events;  // in old records
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_event_v2> = Channel::events;
+
+/// Calls `use` with a default message of the type that the channel carries now.
+template <class Use>
+void with_message_of(Channel channel, const Use& use) {
+  switch (channel) {
+    case Channel::run:
+      return use(talus_lcm::talus_run_v1{});
+    case Channel::piles:
+      return use(talus_lcm::talus_piles_v2{});
+    case Channel::sleep:
+      return use(talus_lcm::talus_sleep_v1{});
+    case Channel::stats:
+      return use(talus_lcm::talus_stats_v2{});
+    case Channel::bodies:
+      return use(talus_lcm::talus_bodies_v1{});
+    case Channel::shapes:
+      return use(talus_lcm::talus_shapes_v1{});
+    case Channel::events:
+      return use(talus_lcm::talus_event_v2{});
+  }
+}
 
 /// Largest encoded message [bytes]: what fits one datagram, since LCM 1.3.1 loses every message of several fragments
 /// when one of them is lost or late.

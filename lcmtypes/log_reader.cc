@@ -25,9 +25,7 @@ bool is_sync(std::span<const std::uint8_t> bytes) {
   return std::equal(std::begin(sync_word), std::end(sync_word), bytes.begin());
 }
 
-bool is_ours(std::string_view channel) {
-  return std::find(channel_names.begin(), channel_names.end(), channel) != channel_names.end();
-}
+bool is_ours(std::string_view channel) { return channel_named(channel).has_value(); }
 
 bool is_name(std::string_view channel) {
   return std::all_of(channel.begin(), channel.end(), [](char letter) { return letter > ' ' && letter <= '~'; });

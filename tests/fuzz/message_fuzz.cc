@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span input(data, size);
   const auto channel = static_cast<Channel>(input[0] % channel_names.size());
   const std::vector<std::uint8_t> bytes = fuzz::sealed_message(channel, input.subspan(1));
-  fuzz::with_message_of(channel, [&](auto message) {
+  with_message_of(channel, [&](auto message) {
     if (decode(bytes, message).empty()) show(message);
     (void)decode(input, message);
   });

@@ -28,23 +28,9 @@ std::string fault_of(std::span<const std::uint8_t> bytes) {
 }
 
 std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
-  switch (channel) {
-    case Channel::run:
-      return fault_of<talus_run_v1>(bytes);
-    case Channel::piles:
-      return fault_of<talus_piles_v2>(bytes);
-    case Channel::sleep:
-      return fault_of<talus_sleep_v1>(bytes);
-    case Channel::stats:
-      return fault_of<talus_stats_v2>(bytes);
-    case Channel::bodies:
-      return fault_of<talus_bodies_v1>(bytes);
-    case Channel::shapes:
-      return fault_of<talus_shapes_v1>(bytes);
-    case Channel::events:
-      return fault_of<talus_event_v2>(bytes);
-  }
-  return "no such channel";
+  std::string fault;
+  with_message_of(channel, [&]<class Message>(const Message&) { fault = fault_of<Message>(bytes); });
+  return fault;
 }
 
 /// What somebody sends who gets the checksum right but not the rest.

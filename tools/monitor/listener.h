@@ -27,7 +27,7 @@ class Listener {
 
  private:
   template <class Message>
-  void hear(const Datagram& datagram, Clock::time_point now);
+  void hear(const Datagram& datagram, Message& message, Clock::time_point now);
 
   RunTable runs_;
   std::array<std::int64_t, channel_names.size()> undecodable_{};

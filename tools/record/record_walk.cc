@@ -17,12 +17,8 @@ class Walk {
         visit_(visit) {}
 
   void take(const LogEvent& event) {
-    if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
-    if (event.channel == name_of(Channel::sleep)) decode_and_take<talus_lcm::talus_sleep_v1>(event);
-    if (event.channel == name_of(Channel::piles)) decode_and_take<talus_lcm::talus_piles_v2>(event);
-    if (event.channel == name_of(Channel::stats)) decode_and_take<talus_lcm::talus_stats_v2>(event);
-    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v2>(event);
-    if (event.channel == name_of(Channel::bodies)) decode_and_take<talus_lcm::talus_bodies_v1>(event);
+    if (const auto channel = channel_named(event.channel))
+      with_message_of(*channel, [&](auto message) { decode_and_take(event, message); });
   }
 
   std::int64_t undecodable() const { return undecodable_; }
@@ -30,12 +26,13 @@ class Walk {
 
  private:
   template <class Message>
-  void decode_and_take(const LogEvent& event) {
-    Message message;
-    if (decode<Message>(event.data, message).empty())
-      take(message);
-    else
-      ++undecodable_;
+  void decode_and_take(const LogEvent& event, Message& message) {
+    if constexpr (requires { this->take(message); }) {
+      if (decode(event.data, message).empty())
+        take(message);
+      else
+        ++undecodable_;
+    }
   }
 
   void take(const talus_lcm::talus_run_v1& message) {

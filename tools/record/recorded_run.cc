@@ -30,10 +30,8 @@ class RunReader {
   }
 
   void take(const LogEvent& event) {
-    if (event.channel == name_of(Channel::run)) decode_and_take<talus_lcm::talus_run_v1>(event);
-    if (event.channel == name_of(Channel::sleep)) decode_and_take<talus_lcm::talus_sleep_v1>(event);
-    if (event.channel == name_of(Channel::bodies)) decode_and_take<talus_lcm::talus_bodies_v1>(event);
-    if (event.channel == name_of(Channel::events)) decode_and_take<talus_lcm::talus_event_v2>(event);
+    if (const auto channel = channel_named(event.channel))
+      with_message_of(*channel, [&](auto message) { decode_and_take(event, message); });
   }
 
   RecordedRun<Dim> finish() {
@@ -47,12 +45,13 @@ class RunReader {
 
  private:
   template <class Message>
-  void decode_and_take(const LogEvent& event) {
-    Message message;
-    if (decode<Message>(event.data, message).empty())
-      take(message);
-    else
-      ++run_.damage.undecodable;
+  void decode_and_take(const LogEvent& event, Message& message) {
+    if constexpr (requires { this->take(message); }) {
+      if (decode(event.data, message).empty())
+        take(message);
+      else
+        ++run_.damage.undecodable;
+    }
   }
 
   void take(const talus_lcm::talus_run_v1& message) {

@@ -226,9 +226,8 @@ LiveRun::LiveRun(PageHub& hub, const std::string& waiting) : hub_(hub) {
 LiveRun::~LiveRun() = default;
 
 template <class Message>
-void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
-  Message message;
-  if (!decode<Message>(datagram.bytes, message).empty()) {
+void LiveRun::hear(const Datagram& datagram, Message& message, Clock::time_point now) {
+  if (!decode(datagram.bytes, message).empty()) {
     ++undecodable_;
     return;
   }
@@ -247,22 +246,7 @@ void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
 }
 
 void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
-  switch (datagram.channel) {
-    case Channel::run:
-      return hear<talus_run_v1>(datagram, now);
-    case Channel::piles:
-      return hear<talus_piles_v2>(datagram, now);
-    case Channel::sleep:
-      return hear<talus_sleep_v1>(datagram, now);
-    case Channel::stats:
-      return hear<talus_stats_v2>(datagram, now);
-    case Channel::bodies:
-      return hear<talus_bodies_v1>(datagram, now);
-    case Channel::shapes:
-      return hear<talus_shapes_v1>(datagram, now);
-    case Channel::events:
-      return hear<talus_event_v2>(datagram, now);
-  }
+  with_message_of(datagram.channel, [&](auto message) { hear(datagram, message, now); });
 }
 
 }  // namespace talus

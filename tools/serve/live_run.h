@@ -30,7 +30,7 @@ class LiveRun {
 
  private:
   template <class Message>
-  void hear(const Datagram& datagram, Clock::time_point now);
+  void hear(const Datagram& datagram, Message& message, Clock::time_point now);
 
   PageHub& hub_;
   std::unique_ptr<Assembly> assembly_;
