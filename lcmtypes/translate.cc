@@ -207,7 +207,7 @@ talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   message.asleep = states.size() - message.awake - static_cast<std::int32_t>(removed);
   message.contacts = -1;
   message.kinetic_energy = kinetic_energy(frame.world);
-  message.planned = frame.bodies_asked;
+  message.planned = frame.bodies_planned;
   message.appeared = states.size();
   const auto estimate = frame.policy == nullptr ? std::nullopt : frame.policy->drift_estimate(frame.world);
   message.drift_estimate = estimate ? estimate->drift / frame.piles.typical_body().extent : -1.0;

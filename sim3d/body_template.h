@@ -48,9 +48,9 @@ struct Surface {
 
 /// All that a body of one Shape needs from it; made once and shared by its bodies.
 ///
-/// Bullet wants a diagonal inertia, so it keeps each body in its principal axes; `frame` turns those into the shape's
-/// own. Boxes, balls and capsules are exact. A convex hull keeps its corners and is `hull_margin` thicker against
-/// ground, balls and capsules; hulls and boxes meet at their true faces (polyhedral clipping).
+/// Bullet requires a diagonal inertia, so it keeps each body in its principal axes; `frame` turns those into the
+/// shape's own. Boxes, balls and capsules are exact. A convex hull keeps its corners and is `hull_margin` thicker
+/// against ground, balls and capsules; hulls and boxes meet at their true faces (polyhedral clipping).
 struct BodyTemplate {
   btCollisionShape* whole = nullptr;  // the last of `parts`
   std::vector<std::unique_ptr<btCollisionShape>> parts;

@@ -65,7 +65,7 @@ struct Frame {
   std::span<const SleepEvent> events;  // of this step, by body; empty while a policy decides
   PhaseTimes phases;
   std::span<const Warning> warnings = {};    // one of each kind that the run has shown so far, if it is observed
-  int bodies_asked = 0;                      // of the scene in all
+  int bodies_planned = 0;                    // of the scene in all
   const SleepPolicy<Dim>* policy = nullptr;  // that of the run, for its estimate of the drift
   std::span<const int> scene_events = {};    // numbers of Scene::events that happened just before this step
 };

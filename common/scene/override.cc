@@ -16,7 +16,7 @@ toml::table read_value(const std::string& text, const std::string& origin) {
     toml::table parsed = toml::parse("value = " + text, origin);
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
-    // Taken for a text without quotes; if the scene wants no text here, its reader says so.
+    // Taken for a text without quotes; if the scene takes no text here, its reader says so.
   }
   toml::table quoted = toml::parse("value = ''", origin);
   **quoted.get_as<std::string>("value") = text;

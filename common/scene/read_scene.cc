@@ -77,7 +77,7 @@ template <int Dim>
 void read_sources(TableReader& root, ShapeNames& shapes, Scene<Dim>& scene) {
   root.tables("source",
               [&](TableReader& table) { scene.sources.push_back(read_source<Dim>(table, shapes, scene.world)); });
-  if (scene.bodies_asked() > most_bodies)
+  if (scene.bodies_planned() > most_bodies)
     root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
 }
 

@@ -23,10 +23,10 @@ std::int64_t Scene<Dim>::steps_per_frame() const {
 }
 
 template <int Dim>
-std::int64_t Scene<Dim>::bodies_asked() const {
-  auto asked = static_cast<std::int64_t>(bodies.size());
-  for (const Source<Dim>& source : sources) asked += source.count;
-  return asked;
+std::int64_t Scene<Dim>::bodies_planned() const {
+  auto planned = static_cast<std::int64_t>(bodies.size());
+  for (const Source<Dim>& source : sources) planned += source.count;
+  return planned;
 }
 
 template <int Dim>

@@ -268,7 +268,7 @@ struct Scene {
   std::int64_t steps_per_frame() const;
   std::int64_t steps() const { return run.frames * steps_per_frame(); }
   /// Bodies that are there from the start and that the sources drop.
-  std::int64_t bodies_asked() const;
+  std::int64_t bodies_planned() const;
   /// Gravity at a time [s] by plan, without events [m/s^2].
   Vec<Dim> gravity_at(double time) const;
 };

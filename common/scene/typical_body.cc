@@ -11,7 +11,7 @@ constexpr double rare = 0.02;  // for each body of the most frequent shape
 
 template <int Dim>
 std::vector<double> bodies_of_piles(const Scene<Dim>& scene) {
-  std::vector<double> dropped(scene.world.shapes.size(), scene.bodies_asked() == 0 ? 1.0 : 0.0);
+  std::vector<double> dropped(scene.world.shapes.size(), scene.bodies_planned() == 0 ? 1.0 : 0.0);
   for (const InitialBody<Dim>& body : scene.bodies) dropped[body.def.shape] += 1.0;
   for (const Source<Dim>& source : scene.sources) {
     const int shapes = source.shapes_of_a_size();

@@ -25,7 +25,7 @@ void warn_of_sources(const Scene<Dim>& scene, Lines& lines) {
     const double reachable = reachable_rate(source, scene.world);
     if (reachable < source.rate) {
       lines.push_back(fmt::format(
-          "source[{}]: asks for {:.4g} bodies a second, but its place is sure to be free only {:.4g} times a "
+          "source[{}]: is to make {:.4g} bodies a second, but its place is sure to be free only {:.4g} times a "
           "second: bodies may wait; a higher velocity or less spread along it helps",
           i, source.rate, reachable));
     }
@@ -188,7 +188,7 @@ void warn_of_demand(const Scene<Dim>& scene, const EngineTraits& engine, EngineL
 
 template <int Dim>
 Demand demand(const Scene<Dim>& scene, const EngineTraits& engine) {
-  const auto bodies = static_cast<double>(scene.bodies_asked());
+  const auto bodies = static_cast<double>(scene.bodies_planned());
   auto at_once = static_cast<double>(std::ranges::count(scene.bodies, false, &InitialBody<Dim>::asleep));
   for (const Source<Dim>& source : scene.sources) at_once += std::min(source.count, source.bodies_at_once());
   Demand need;

@@ -15,7 +15,7 @@ constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight 
 template <int Dim>
 Emitter<Dim>::Emitter(const Scene<Dim>& scene)
     : slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0),
-      total_(static_cast<int>(scene.bodies_asked())) {
+      total_(static_cast<int>(scene.bodies_planned())) {
   for (const InitialBody<Dim>& body : scene.bodies) initial_.push_back(body.def);
   if (scene.world.ground.present) ground_ = scene.world.ground.height;
   for (const Obstacle<Dim>& obstacle : scene.world.obstacles)

@@ -65,7 +65,7 @@ class Simulation {
             events_,
             phases_,
             watchdog_.warnings(),
-            watchdog_.bodies_asked(),
+            watchdog_.bodies_planned(),
             policy_.get(),
             event_clock_.due()};
   }

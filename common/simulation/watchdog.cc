@@ -43,7 +43,7 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
       driven_(!scene.movers.empty() || changes_gravity(scene)),
       speed_squared_(at_limit(limits.speed)),
       spin_squared_(at_limit(limits.spin)),
-      bodies_asked_(static_cast<int>(scene.bodies_asked())) {}
+      bodies_planned_(static_cast<int>(scene.bodies_planned())) {}
 
 template <int Dim>
 void Watchdog<Dim>::note_added(const World<Dim>& world, std::int64_t step) {
@@ -130,7 +130,7 @@ void Watchdog<Dim>::finish(const World<Dim>& world, std::int64_t step) {
   const int appeared = world.states().size();
   const double last_emission = static_cast<double>(step - 1) * dt_;
   const int due_long_ago = due_by(last_emission - patience);
-  const bool over = due_long_ago == bodies_asked_;
+  const bool over = due_long_ago == bodies_planned_;
   const bool stalled = due_long_ago > appeared && static_cast<double>(step - last_appearance_) * dt_ > patience;
   const int missing = due_by(last_emission) - appeared;
   if (missing <= 0 || !(over || stalled)) return;

@@ -37,7 +37,7 @@ class Watchdog {
   /// One of each kind that was seen, in the order of first sight.
   std::span<const Warning> warnings() const { return warnings_; }
   /// Bodies of the scene in all.
-  int bodies_asked() const { return bodies_asked_; }
+  int bodies_planned() const { return bodies_planned_; }
 
  private:
   int due_by(double time) const;
@@ -55,7 +55,7 @@ class Watchdog {
   bool driven_;           // obstacles move by plan or gravity changes, so energy is put in
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
-  int bodies_asked_;
+  int bodies_planned_;
   BodyIndex appeared_ = 0;
   std::int64_t last_appearance_ = 0;  // [steps]
   std::vector<Warning> warnings_;

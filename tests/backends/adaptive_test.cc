@@ -147,7 +147,7 @@ TYPED_TEST(AdaptiveTest, ABodyTakenAwayByHandLetsTheUpperOnesFall) {
   EXPECT_NEAR(this->height_of(simulation.world(), 2), top - 1.0, 0.05);
 }
 
-/// A question that asks for too much too soon would find it where it was, and put it to sleep again and again.
+/// A rule that lets it sleep too soon would find it where it was, and put it to sleep again and again.
 TYPED_TEST(AdaptiveTest, ABodyOnASteepSlopeSlidesOnceWhatHeldItIsTakenAway) {
   constexpr int dim = TypeParam::dim;
   const Material material{.friction = 0.2};

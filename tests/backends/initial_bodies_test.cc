@@ -56,7 +56,7 @@ TYPED_TEST(InitialBodies, OfAWallStandWhereTheyWerePut) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       EXPECT_LT((states.pose[i].position - scene.bodies[i].def.pose.position).norm(), 0.12) << i;
     EXPECT_TRUE(simulation.emitter().finished());
-    EXPECT_EQ(simulation.frame().bodies_asked, std::ssize(scene.bodies));
+    EXPECT_EQ(simulation.frame().bodies_planned, std::ssize(scene.bodies));
     EXPECT_TRUE(simulation.warnings().empty());
   }
 }

@@ -164,7 +164,7 @@ TYPED_TEST(MeasureTest, WakesTheSleepersWhenAPiledRunIsReplayed) {
       EXPECT_FALSE(run.asleep(2, body));
     }
   }
-  EXPECT_GT(asleep, 0) << "nobody ever slept: the test shows nothing";
+  EXPECT_GT(asleep, 0) << "no body ever slept: the test shows nothing";
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(SceneBodies, NeedNoSource) {
   EXPECT_EQ(body.velocity, Vec2(2.0, 3.0));
   EXPECT_EQ(body.spin[0], 0.5);
   EXPECT_NEAR(body.pose.rotation.angle(), 1.5707963, 1e-6);
-  EXPECT_EQ(scene.bodies_asked(), 1);
+  EXPECT_EQ(scene.bodies_planned(), 1);
   EXPECT_DOUBLE_EQ(typical_body(scene).mass, 500.0);
 }
 

@@ -25,7 +25,7 @@ void expect_one(const std::string& lines, const std::string& part) {
 TEST(Warnings, AreNoneForASoundScene) { EXPECT_EQ(warnings_with({}), ""); }
 
 TEST(Warnings, TellOfASpoutThatCannotKeepUp) {
-  expect_one(warnings_with({{"source[0].rate=5"}}), "source[0]: asks for 5 bodies a second, but");
+  expect_one(warnings_with({{"source[0].rate=5"}}), "source[0]: is to make 5 bodies a second, but");
 }
 
 TEST(Warnings, TellOfBodiesThatAreDueAfterTheEnd) {

@@ -131,20 +131,20 @@ TEST(Watchdog, SeesABodyAtTheSpinLimit) {
   EXPECT_EQ(watch.warnings()[0].kind, WarningKind::spin_limit);
 }
 
-/// Ten bodies are asked for, two a second; one appears at once and one after `second` steps.
+/// Ten bodies are planned, two a second; one appears at once and one after `second` steps.
 std::vector<Warning> warnings_of_a_pour(std::int64_t second, std::int64_t end) {
-  Scene<2> asked = scene<2>();
-  asked.sources.resize(1);
-  asked.sources[0].count = 10;
-  asked.sources[0].rate = 2.0;
-  Watchdog<2> dog(asked, {});
-  FallingWorld<2> world(asked.world);
+  Scene<2> planned = scene<2>();
+  planned.sources.resize(1);
+  planned.sources[0].count = 10;
+  planned.sources[0].rate = 2.0;
+  Watchdog<2> dog(planned, {});
+  FallingWorld<2> world(planned.world);
   world.add({});
   dog.note_added(world, 0);
   world.add({});
   dog.note_added(world, second);
   dog.finish(world, end);
-  EXPECT_EQ(dog.bodies_asked(), 10);
+  EXPECT_EQ(dog.bodies_planned(), 10);
   return {dog.warnings().begin(), dog.warnings().end()};
 }
 
@@ -164,10 +164,10 @@ TEST(Watchdog, CountsBodiesThatWereAllDueLongBeforeTheEnd) {
 }
 
 TEST(Watchdog, IsSilentAboutBodiesThatAreNotYetDue) {
-  Scene<2> asked = scene<2>();
-  asked.sources.resize(1);
-  Watchdog<2> dog(asked, {});
-  FallingWorld<2> world(asked.world);
+  Scene<2> planned = scene<2>();
+  planned.sources.resize(1);
+  Watchdog<2> dog(planned, {});
+  FallingWorld<2> world(planned.world);
   world.add({});
   dog.finish(world, 5);
   EXPECT_TRUE(dog.warnings().empty());

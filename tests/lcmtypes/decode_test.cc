@@ -33,7 +33,7 @@ std::string fault_of(Channel channel, std::span<const std::uint8_t> bytes) {
   return fault;
 }
 
-/// What somebody sends who gets the checksum right but not the rest.
+/// A packet with the right checksum, whatever the rest is.
 void seal_again(Bytes& bytes) {
   const std::uint32_t sum = checksum(std::span(bytes).first(bytes.size() - checksum_bytes));
   for (std::size_t i = 0; i < checksum_bytes; ++i)

@@ -143,7 +143,7 @@ TEST(LogReader, PassesOverChannelsThatAreNotOurs) {
   const ScratchFile file;
   {
     lcm::LogFile log(file.path(), "w");
-    char text[] = "somebody else's";
+    char text[] = "of another log";
     for (int i = 0; i < 3; ++i) {
       lcm::LogEvent event{};
       event.channel = "OTHER";

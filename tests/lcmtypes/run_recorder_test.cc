@@ -102,7 +102,7 @@ TEST(RunRecorder, TellsTheLastPoseOfABodyThatFellAsleep) {
 }
 
 // 12 bodies, all awake for the first four of every eight steps: each second brings 15 times as many poses as there are
-// bodies, so a key frame is due at each; with nobody awake there is nothing that a key frame could tell.
+// bodies, so a key frame is due at each; with no body awake a key frame has nothing to tell.
 TEST(RunRecorder, WritesAKeyFrameOnlyAfterAsManyPosesOfMovingBodies) {
   const ScratchFile lively;
   record<2>(lively.path(), 180);

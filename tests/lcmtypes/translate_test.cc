@@ -198,7 +198,7 @@ TEST(StatsMessage, CarriesEveryWarningThereAndBack) {
       {.kind = WarningKind::energy, .step = 7, .body = 3, .bodies = 12, .value = 1.5},
       {.kind = WarningKind::not_appeared, .step = 9, .body = -1, .bodies = 4, .value = 4.0}};
   auto stats = to_stats<2>(
-      Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .warnings = warnings, .bodies_asked = 5});
+      Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .warnings = warnings, .bodies_planned = 5});
   MessageEncoder encoder(1);
   talus_stats_v2 decoded;
   ASSERT_EQ(decode(encoder.encode(stats, {}).bytes, decoded), "");

@@ -47,7 +47,7 @@ double gap(const PlacedBox& a, const PlacedBox& b, BoxAxis axis) {
   return std::max(first.low - second.high, second.low - first.high);
 }
 
-// Extents are at most 4 m, and 1e-4 of them may be asked for as clearance.
+// Extents are at most 4 m, and a clearance is 1e-4 of them at most.
 RC_GTEST_PROP(SeparatingAxis, IsOneWhereTheShadowsAreApart, ()) {
   const PlacedBox a;
   const PlacedBox b;

@@ -55,7 +55,7 @@ TEST(CompareCommand, NamesTheStepOfTheFirstSleepDecisionAndTheDifferenceSoonAfte
   const Json json = answer("compare " + (folder / "full") + " " + (folder / "piled"));
   const int decision = json["first_other_sleep_decision"]["step"];
   EXPECT_FALSE(json["first_other_sleep_decision"]["woke"].get<bool>());
-  EXPECT_LE(json["first_difference"]["after_step"], decision) << "nothing differs before somebody is put to sleep";
+  EXPECT_LE(json["first_difference"]["after_step"], decision) << "nothing differs before a body is put to sleep";
   EXPECT_LE(decision, json["first_difference"]["by_step"].get<int>());
   EXPECT_GT(json["motion"]["R"], 0.0);
   EXPECT_LT(json["motion"]["S"], 1.0);

@@ -89,7 +89,7 @@ TEST_P(SavedScene, PlacesTheBodiesWhereTheyAre) {
   save(columns(), 150, nothing, []<int Dim>(const Scene<Dim>& saved, const Simulation<Dim>& run) {
     ASSERT_GT(run.world().states().size(), 10);
     expect_bodies(saved, run);
-    EXPECT_EQ(saved.bodies_asked(), 16) << "with those still to come";
+    EXPECT_EQ(saved.bodies_planned(), 16) << "with those still to come";
     EXPECT_EQ(saved.run.frames, 300 - 75);
   });
 }

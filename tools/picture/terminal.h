@@ -33,7 +33,7 @@ Dots dots_of(const PictureInput<Dim>& input, const Framing<Dim>& framing, const 
              int height);
 
 /// How large the text may be, and whether the terminal shows colours: the caller can find out what it writes to and
-/// whether the user wants any (isatty, NO_COLOR).
+/// whether the user allows any (isatty, NO_COLOR).
 struct TerminalParams {
   int columns = 72;     // 48..400
   int rows = 24;        // 6..200, at most; a flat pile needs fewer

@@ -13,7 +13,7 @@ class Walk {
  public:
   Walk(const Scene<Dim>& scene, const std::function<void(const RecordedFrame<Dim>&)>& visit)
       : dt_(scene.world.dt),
-        states_(static_cast<int>(scene.bodies_asked()), static_cast<int>(scene.world.shapes.size())),
+        states_(static_cast<int>(scene.bodies_planned()), static_cast<int>(scene.world.shapes.size())),
         visit_(visit) {}
 
   void take(const LogEvent& event) {

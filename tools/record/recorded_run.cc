@@ -25,7 +25,7 @@ template <int Dim>
 class RunReader {
  public:
   explicit RunReader(const Scene<Dim>& scene)
-      : run_(scene), states_(static_cast<int>(scene.bodies_asked()), static_cast<int>(scene.world.shapes.size())) {
+      : run_(scene), states_(static_cast<int>(scene.bodies_planned()), static_cast<int>(scene.world.shapes.size())) {
     sleep_numbers_.expect(0);
   }
 

@@ -34,7 +34,7 @@ Json unfinished_json(const RecordedRun<Dim>& run) {
   constexpr double still = 1.0;  // [m/s]
   int moving = 0;
   for (const Vec<Dim>& velocity : run.last.velocity) moving += velocity.norm() > still ? 1 : 0;
-  return {{"bodies_to_come", run.scene.bodies_asked() - run.last.size()},
+  return {{"bodies_to_come", run.scene.bodies_planned() - run.last.size()},
           {"moving", moving},
           {"reason", run.reason.empty() ? "killed, or its record is cut" : run.reason}};
 }

@@ -80,7 +80,7 @@ Json shapes_of(const Scene<Dim>& scene) {
                       {"asleep", json_of(body_paint(params, number, shape.colour, true).fill)},
                       {"mass", shape.mass},
                       {"extent", shape.extent},
-                      {"pieces", pieces_of(shape, scene.bodies_asked() > many_bodies ? 12 : 24)}});
+                      {"pieces", pieces_of(shape, scene.bodies_planned() > many_bodies ? 12 : 24)}});
   }
   return shapes;
 }
