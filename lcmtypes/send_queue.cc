@@ -1,17 +1,20 @@
 #include "lcmtypes/send_queue.h"
 
+#include <algorithm>
 #include <lcm/lcm-cpp.hpp>
 
 namespace talus {
 namespace {
 
-// Sent at once, with a pause after: more would overrun the receive buffers of listeners at default settings, which hold
-// some 180 kB. At 16 MB/s a listener that is kept from running for 10 ms loses nothing; a queue that is half full is sent
-// faster, so that it need not drop.
+// Sent at once, with a pause after. The receive buffers of listeners at default settings hold some 180 kB or 100 small
+// packets, so the pauses spread what is queued over `spread_time`: a listener that is kept from running for some tens
+// of milliseconds loses nothing, and the fuller the queue is, the faster it is sent.
 constexpr std::size_t burst_bytes = 8192;
 constexpr int burst_packets = 8;
-constexpr auto pause = std::chrono::microseconds(500);
-constexpr auto short_pause = std::chrono::microseconds(100);
+constexpr auto spread_time = std::chrono::microseconds(100'000);
+constexpr auto longest_pause =
+    std::chrono::microseconds(2000);  // longer, the end of a run would wait for the last ones
+constexpr auto shortest_pause = std::chrono::microseconds(100);
 // For which the thread lets packets gather. Each time that it wakes costs the run a few microseconds.
 constexpr auto gather_time = std::chrono::milliseconds(10);
 constexpr std::size_t max_packets = 4096;
@@ -120,9 +123,9 @@ void SendQueue::send_burst(State& state, std::unique_lock<std::mutex>& lock) {
     lock.lock();
     if (failed != 0) ++state.dropped;
   }
-  const bool half_full = state.bytes > state.capacity / 2 || state.packets.size() > max_packets / 2;
+  const auto left = static_cast<long>(1 + std::max(state.packets.size() / burst_packets, state.bytes / burst_bytes));
   lock.unlock();
-  std::this_thread::sleep_for(half_full ? short_pause : pause);
+  std::this_thread::sleep_for(std::clamp(spread_time / left, shortest_pause, longest_pause));
   lock.lock();
 }
 

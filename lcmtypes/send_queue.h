@@ -13,9 +13,9 @@
 
 namespace talus {
 
-/// Sends messages from a thread of its own, in order, eight or 8 KiB at a time and then none for 0.5 ms, or 0.1 ms while
-/// the queue is more than half full (a longer burst overruns the receivers' buffers). Messages gather for at most 10 ms. push() never waits for the network: a message that finds the
-/// queue full is dropped and counted.
+/// Sends messages from a thread of its own, in order, eight or 8 KiB at a time (a longer burst overruns the receivers'
+/// buffers) and then none for 2 ms, less the more is queued, down to 0.1 ms. Messages gather for at most 10 ms. push()
+/// never waits for the network: a message that finds the queue full is dropped and counted.
 class SendQueue {
  public:
   /// Holds at most `capacity` bytes, and at most so many packets that they can be sent within a second. The last eighth
