@@ -20,7 +20,7 @@ export function temporaryFolder() {
 
 /// Runs `talus ARGUMENTS` to its end; what it printed.
 export function talus(...args) {
-  const outcome = spawnSync(process.env.TALUS, args, { encoding: "utf8" });
+  const outcome = spawnSync(process.env.TALUS, args, { encoding: "utf8", maxBuffer: 64e6 });
   if (outcome.status !== 0) throw new Error(`talus ${args.join(" ")}: ${outcome.stderr}`);
   return outcome.stdout;
 }
@@ -40,9 +40,9 @@ let browser;
 after(() => browser?.close());
 
 /// A new page, of talus unless `talus` is false; what goes wrong in it is in `faults`.
-export async function openPage(url, { offline = false, talus = true } = {}) {
+export async function openPage(url, { offline = false, talus = true, viewport = { width: 900, height: 640 } } = {}) {
   browser ??= await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", ...software, ...quiet] });
-  const context = await browser.newContext({ viewport: { width: 900, height: 640 }, offline });
+  const context = await browser.newContext({ viewport, offline });
   const page = await context.newPage();
   page.faults = [];
   page.on("pageerror", (error) => page.faults.push(error.message));

@@ -13,7 +13,7 @@
 #include "lcmtypes/decode.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/translate.h"
-#include "tools/monitor/sequence_tracker.h"
+#include "tools/monitor/run_view.h"
 #include "tools/picture/framing.h"
 #include "tools/record/state_reader.h"
 #include "tools/report/json_text.h"
@@ -37,6 +37,15 @@ constexpr int most_live_bodies = 1'000'000;
 constexpr int most_live_events = 10'000;
 constexpr auto silence = std::chrono::seconds(2);
 
+/// Of each channel on which messages came or were lost: its name, how many came, how many were lost.
+Json channels_json(const RunView& heard) {
+  Json channels = Json::array();
+  for (const Channel channel : heard_channels)
+    if (heard.received(channel) > 0 || heard.lost(channel) > 0)
+      channels.push_back({name_of(channel), heard.received(channel), heard.lost(channel)});
+  return channels;
+}
+
 Json status_json(const std::string& reason, bool finished, const std::string& policy, std::int64_t step, double ms,
                  double factor) {
   return {{"kind", "status"},
@@ -57,11 +66,18 @@ Json status_json(const std::string& reason, bool finished, const std::string& po
 /// What has been heard of the run that is followed.
 class LiveRun::Assembly {
  public:
-  Assembly(const talus_run_v1& run, PageHub& hub) : run_(run), hub_(hub) {}
+  Assembly(const talus_run_v1& run, PageHub& hub, const std::int64_t& undecodable)
+      : run_(run), hub_(hub), undecodable_(undecodable) {}
   virtual ~Assembly() = default;
 
   bool is_of(std::int64_t run_id) const { return run_.run_id == run_id; }
   bool ended() const { return run_.phase == talus_run_v1::END; }
+
+  /// Counts a message. Each must be counted before it is taken.
+  template <class Message>
+  void count(const Message& message) {
+    heard_.take(message);
+  }
 
   void take(const talus_run_v1& message) {
     run_ = message;
@@ -88,14 +104,23 @@ class LiveRun::Assembly {
 
   void show_status() {
     const std::string reason = ended() && run_.reason != "finished" ? printable(run_.reason) : "";
-    hub_.set_status(json_text(status_json(reason, ended(), printable(run_.policy), stats_.step, stats_.ms_step,
-                                          stats_.timed != 0 ? stats_.real_time_factor : 0.0)));
+    Json status = status_json(reason, ended(), printable(run_.policy), stats_.step, stats_.ms_step,
+                              stats_.timed != 0 ? stats_.real_time_factor : 0.0);
+    status["channels"] = channels_json(heard_);
+    status["undecodable"] = undecodable_;
+    status["slept"] = heard_.slept();
+    status["woken"] = heard_.woken();
+    hub_.set_status(json_text(status));
   }
 
   talus_run_v1 run_;
   talus_stats_v2 stats_{};
   std::vector<Warning> warnings_;
   PageHub& hub_;
+
+ private:
+  RunView heard_;
+  const std::int64_t& undecodable_;  // messages of all runs
 };
 
 namespace {
@@ -212,9 +237,9 @@ class AssemblyOf final : public LiveRun::Assembly {
   std::shared_ptr<const std::string> head_;
 };
 
-std::unique_ptr<LiveRun::Assembly> assemble(const talus_run_v1& run, PageHub& hub) {
-  if (run.dimension == 2) return std::make_unique<AssemblyOf<2>>(run, hub);
-  return std::make_unique<AssemblyOf<3>>(run, hub);
+std::unique_ptr<LiveRun::Assembly> assemble(const talus_run_v1& run, PageHub& hub, const std::int64_t& undecodable) {
+  if (run.dimension == 2) return std::make_unique<AssemblyOf<2>>(run, hub, undecodable);
+  return std::make_unique<AssemblyOf<3>>(run, hub, undecodable);
 }
 
 }  // namespace
@@ -234,10 +259,11 @@ void LiveRun::hear(const Datagram& datagram, Message& message, Clock::time_point
   const bool followed = assembly_ != nullptr && assembly_->is_of(message.run_id);
   if constexpr (std::is_same_v<Message, talus_run_v1>) {
     const bool free = assembly_ == nullptr || assembly_->ended() || now - heard_ > silence;
-    if (!followed && free && message.phase != talus_run_v1::END) assembly_ = assemble(message, hub_);
+    if (!followed && free && message.phase != talus_run_v1::END) assembly_ = assemble(message, hub_, undecodable_);
   }
   if (assembly_ == nullptr || !assembly_->is_of(message.run_id)) return;
   heard_ = now;
+  assembly_->count(message);
   try {
     assembly_->take(message);
   } catch (const std::invalid_argument&) {  // a body of a shape that is not there, a shape without a volume

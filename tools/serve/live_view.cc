@@ -1,19 +1,16 @@
 #include "tools/serve/live_view.h"
 
 #include <algorithm>
-#include <array>
 #include <lcm/lcm-cpp.hpp>
 #include <stdexcept>
 
 #include "common/text/printable.h"
 #include "lcmtypes/live_link.h"
 #include "tools/monitor/receive.h"
+#include "tools/monitor/run_view.h"
 
 namespace talus {
 namespace {
-
-constexpr std::array shown_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
-                                       Channel::bodies, Channel::shapes, Channel::events};
 
 /// The address to receive at, once it is known to work.
 std::string working_address(const std::string& url) {
@@ -27,7 +24,7 @@ ReceiverProcess::Body receive_at(const std::string& address) {
   return [address](const DatagramSender& sender) {
     const LiveLink link = open_live_link(address);
     if (!link.lcm) throw std::runtime_error(link.problem);
-    receive(*link.lcm, shown_channels, sender);
+    receive(*link.lcm, heard_channels, sender);
     throw std::runtime_error("LCM stopped receiving");
   };
 }

@@ -19,6 +19,11 @@ interface Status {
   mean_ms_per_step: number;
   real_time_factor: number;
   live?: boolean; // a run of another process, which takes no commands
+  // Of such a run:
+  channels?: [string, number, number][]; // name, messages that came, messages lost
+  undecodable?: number; // messages of all runs
+  slept?: number; // times that a body fell asleep
+  woken?: number;
 }
 
 interface Fault {
@@ -170,6 +175,7 @@ class Live implements Simulation {
     const steps = this.player?.timeline.step ?? [];
     this.behind = Math.max(0, status.step - (steps.at(-1) ?? 0));
     if (status.live) this.hideCommands();
+    if (status.channels) showMessages(status.channels, status);
     element("run").textContent = status.running ? "Pause" : "Run";
     const stuck = status.finished || status.reason !== "";
     for (const id of ["run", "single"]) element<HTMLButtonElement>(id).disabled = stuck;
@@ -225,6 +231,25 @@ class Live implements Simulation {
   msPerStep(): number {
     return this.status?.mean_ms_per_step ?? 0;
   }
+}
+
+/// What came of a run of another process, and what was lost.
+function showMessages(channels: [string, number, number][], { undecodable = 0, slept = 0, woken = 0 }: Status): void {
+  const section = element("messages");
+  section.hidden = false;
+  section.querySelector("table")!.replaceChildren(
+    ...[["channel", "came", "lost"], ...channels].map((cells, row) => {
+      const line = document.createElement("tr");
+      line.append(...cells.map((text, i) => Object.assign(document.createElement(row > 0 ? "td" : "th"), { textContent: String(text), className: i > 0 ? "count" : "" })));
+      if (row > 0 && Number(cells[2]) > 0) line.lastElementChild!.classList.add("fault");
+      return line;
+    }),
+  );
+  const lost = channels.some(([, , count]) => count > 0);
+  const lines = [`Bodies fell asleep ${slept} times and woke ${woken} times.`];
+  if (undecodable > 0) lines.push(`${undecodable} messages could not be decoded.`);
+  if (lost) lines.push("Against loss, as root: sysctl -w net.core.rmem_max=4194304");
+  section.querySelector("p")!.textContent = lines.join(" ");
 }
 
 /// Gives the user a file.

@@ -38,6 +38,7 @@ export class Timeline {
 
   private readonly blocks: Uint8Array[] = [];
   private readonly kept: State[] = [];
+  /// By body; of a run that goes on an event may come before the frame in which its body appears.
   private readonly events: SleepEvent[][] = [];
   private readonly born: number[] = [];
   private readonly last: State;
@@ -69,11 +70,8 @@ export class Timeline {
     this.happened.push(...sceneEvents);
     this.blocks.push(bytes.slice(0, reader.at)); // a copy: more may follow it in `bytes`, which is not kept
     if (this.frames % keepEvery === 0) this.kept.push(this.last.copy());
-    for (let body = this.born.length; body < this.last.bodies; ++body) {
-      this.born.push(this.last.step);
-      this.events.push([]);
-    }
-    for (const event of events) this.events[event.body]?.push(event);
+    for (let body = this.born.length; body < this.last.bodies; ++body) this.born.push(this.last.step);
+    for (const event of events) (this.events[event.body] ??= []).push(event);
     this.newWarnings.push(warnings.filter(({ kind }) => !this.warnings.has(kind)).length);
     for (const warning of warnings) this.warnings.set(warning.kind, warning);
     const woken = events.filter((event) => event.woke);
