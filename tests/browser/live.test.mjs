@@ -1,6 +1,7 @@
 // A run of another process that `talus view --live` shows, over real multicast on this machine.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
+import { once } from "node:events";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -48,6 +49,7 @@ test("events of the scene are shown on a page that comes after them", async () =
   assert.equal(await page.evaluate(() => window.talus.timeline.textOf(window.talus.timeline.happened[0])), "remove obstacle gate");
   await page.waitForFunction(() => !window.talus.stage.surroundings.obstacles[0].mesh.visible);
   run.kill();
+  await once(run, "exit"); // it still writes into the folder
   await page.close();
   child.kill();
 });
