@@ -25,11 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// "+4.1 (2.3)": per cent, and standard errors in brackets. Twins of a scene where nothing is random hardly scatter.
-std::string shown_bias(const Bias& bias) {
-  if (std::isnan(bias.percent)) return "-";
-  if (std::abs(bias.errors) > 100.0) return fmt::format("{:+.1f} (> 100)", bias.percent);
-  return fmt::format("{:+.1f} ({:.1f})", bias.percent, std::abs(bias.errors));
+/// "+4.1 (2.3)": the bias, and standard errors in brackets. Twins of a scene where nothing is random hardly scatter.
+std::string shown_bias(double value, double errors) {
+  if (std::isnan(value)) return "-";
+  if (std::abs(errors) > 100.0) return fmt::format("{:+.1f} (> 100)", value);
+  return fmt::format("{:+.1f} ({:.1f})", value, std::abs(errors));
 }
 
 /// A number of a cell: key of the files, heading of the tables, how it is shown, and its value.
@@ -46,19 +46,21 @@ TruthColumn number_column(const std::string& key, const std::string& heading,
           [=](const TruthRow& row) { return number(row.result); }};
 }
 
-TruthColumn bias_column(const std::string& key, const std::string& heading, Bias TruthResult::*bias) {
-  return {key, heading + " % (σ)", [=](const TruthRow& row) { return shown_bias(row.result.*bias); },
-          [=](const TruthRow& row) { return (row.result.*bias).percent; }};
+TruthColumn bias_column(const std::string& key, const std::string& heading, Bias TruthResult::*bias,
+                        double Bias::*value = &Bias::percent) {
+  return {key, heading + " (σ)",
+          [=](const TruthRow& row) { return shown_bias(row.result.*bias.*value, (row.result.*bias).errors); },
+          [=](const TruthRow& row) { return row.result.*bias.*value; }};
 }
 
 std::vector<TruthColumn> truth_columns() {
   using R = TruthResult;
-  return {bias_column("centre_percent", "centre", &R::centre),
-          bias_column("centre_from_full_percent", "from full", &R::centre_from_full),
-          bias_column("poured_percent", "poured", &R::poured),
-          bias_column("r50_percent", "r50", &R::r50),
-          bias_column("r95_percent", "r95", &R::r95),
-          bias_column("spill_percent", "spill", &R::spill),
+  return {bias_column("centre_percent", "centre %", &R::centre),
+          bias_column("centre_from_full_percent", "from full %", &R::centre_from_full),
+          bias_column("poured_percent", "poured %", &R::poured),
+          bias_column("r50_percent", "r50 %", &R::r50),
+          bias_column("r95_percent", "r95 %", &R::r95),
+          bias_column("spill_difference", "spill", &R::spill, &Bias::difference),
           number_column(
               "drift_D", "drift/D", [](const R& r) { return r.drift; }, 2),
           number_column(
@@ -222,12 +224,12 @@ void write_text(const fs::path& file, const std::string& text) {
 }
 
 constexpr const char* how_to_read =
-    "Centre, r50, r95 and spill: adaptive less the converged reference in per cent of it, in brackets the same in "
-    "standard errors of both ensembles. Poured: centre when the last body appears. Drift: mean distance in D that "
-    "bodies move when all are woken at the end, less full's; 95 %: the runs' quantile. Asleep: runs in which all sleep "
-    "at the end. Awake: mean over the run; /moving: over the bodies of which a point moves by more than 0.05 D within "
-    "half a second with all awake, at the same moments. Speed-ups are medians of ratios of processor time, seed by "
-    "seed.";
+    "Centre, r50 and r95: adaptive less the converged reference in per cent of it, spill in bodies; in brackets the "
+    "same in standard errors of both ensembles. From full: against full. Poured: centre when the last body appears. "
+    "Drift: mean distance in D that bodies move when all are woken at the end, less full's; 95 %: the runs' quantile. "
+    "Asleep: runs in which all sleep at the end. Awake: mean over the run; /moving: over the bodies of which a point "
+    "moves by more than 0.05 D within half a second with all awake, at the same moments. Speed-ups are medians of "
+    "ratios of processor time, seed by seed.";
 
 }  // namespace
 
