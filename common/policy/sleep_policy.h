@@ -47,7 +47,8 @@ class SleepPolicy {
   /// record them.
   virtual bool needs_contacts() const { return false; }
 
-  /// None from a policy that does not measure it, or has not yet. Costs O(bodies).
+  /// None from a policy that does not measure it, has not yet, or cannot while many bodies move. Costs O(bodies +
+  /// contacts).
   virtual std::optional<DriftEstimate> drift_estimate(const World<Dim>& /*world*/) const { return std::nullopt; }
 
   /// What the policy goes by for a body that is in the world, after a step. It leaves out what it does not have.

@@ -78,7 +78,7 @@ class Simulation {
   /// Events of the scene so far, in the order in which they happened.
   std::span<const DoneEvent> done_events() const { return done_events_; }
   /// What the policy expects its sleeping bodies to move once woken; none from a policy that does not measure it,
-  /// or has not yet.
+  /// has not yet, or cannot while many bodies move.
   std::optional<DriftEstimate> drift_estimate() const { return policy_->drift_estimate(*world_); }
 
  private:

@@ -258,6 +258,27 @@ TEST_F(StabilityChecksTest, EstimateTheDriftOfUncheckedBodiesFromTheMotionOfThos
   EXPECT_NEAR(checks_.drift_estimate(world_)->drift, moved, 1e-9);
 }
 
+TEST_F(StabilityChecksTest, EstimateNothingWhileMoreThanATwentiethOfTheBodiesIsAwakeInContact) {
+  std::vector<BodyIndex> heap;
+  for (int i = 0; i < 20; ++i) heap.push_back(add(0.1 + 0.1 * i));
+  put_to_sleep(heap);
+  steps(sample_time + check_time);
+  put_to_sleep(heap);
+  const BodyIndex first = add(1.0, 1.5);
+  const BodyIndex second = add(2.0, 1.5);
+  world_.record_contacts(true);
+  world_.step();
+  EXPECT_TRUE(checks_.drift_estimate(world_)) << "both are in flight";
+  world_.touching = {contact(0, first, Vec3(1.0, 2.0, 1.0), -Vec3::UnitZ(), 0.1)};
+  world_.step();
+  EXPECT_TRUE(checks_.drift_estimate(world_)) << "one of 21 bodies is awake in contact";
+  world_.touching.push_back(contact(0, second, Vec3(2.0, 2.0, 1.0), -Vec3::UnitZ(), 0.1));
+  world_.step();
+  EXPECT_FALSE(checks_.drift_estimate(world_)) << "two of 22 are";
+  put_to_sleep({second});
+  EXPECT_TRUE(checks_.drift_estimate(world_)) << "one of them sleeps";
+}
+
 TEST(StabilityChecks, AreOffWithoutATolerance) {
   StillWorld<3> world(cubes());
   RuleParts parts;

@@ -135,6 +135,10 @@ void print_estimate(const Simulation<Dim>& simulation, const AdaptiveParams& par
   const bool any_asleep = std::ranges::any_of(asleep, [](std::uint8_t is_asleep) { return is_asleep != 0; });
   if (params.tolerance <= 0.0 || !any_asleep) return;
   const std::optional<DriftEstimate> estimate = simulation.drift_estimate();
+  if (const auto awake = simulation.world().awake().size(); !estimate && awake > 0) {
+    print_result("  not at rest, {} bodies are awake: the error of the sleeping bodies is not known\n", awake);
+    return;
+  }
   if (!estimate) {
     print_result("  no stability check yet: the error of the sleeping bodies is not known\n");
     return;

@@ -18,14 +18,28 @@ constexpr double arrival_time = 8.0;      // without arrivals after which a chec
 constexpr double rest_time = 0.4;         // at rest, after which an awake body no longer counts as moving
 
 constexpr double slowing = 0.7;  // of the displacement of the sample before: less means that the motion slows down
-constexpr double moving_share = 0.15;          // of the bodies of a region that may move when its check begins
-constexpr double unchecked_share = 0.2;        // of its sleeping bodies for which a check is worth its cost
-constexpr double block_width = 2.5;            // [D]
-constexpr std::int64_t averaged_bodies = 300;  // over which found_ averages
+constexpr double moving_share = 0.15;           // of the bodies of a region that may move when its check begins
+constexpr double unchecked_share = 0.2;         // of its sleeping bodies for which a check is worth its cost
+constexpr double block_width = 2.5;             // [D]
+constexpr double moving_share_estimate = 0.05;  // of the bodies that may be awake in contact when drift is estimated
+constexpr std::int64_t averaged_bodies = 300;   // over which found_ averages
 
 // Contacts of a body in a step.
 constexpr std::uint8_t touches = 1;
 constexpr std::uint8_t touches_body = 2;
+
+/// Bodies that are awake and touch anything.
+template <int Dim>
+int awake_in_contact(const World<Dim>& world) {
+  const BodyStates<Dim>& states = world.states();
+  std::vector<std::uint8_t> found(states.asleep.size(), 0);
+  const auto add = [&](BodyIndex body) { found[body] = states.asleep[body] == 0 && states.removed[body] == 0 ? 1 : 0; };
+  for (const Contact<Dim>& contact : world.contacts()) {
+    add(contact.a);
+    if (contact.b >= 0) add(contact.b);
+  }
+  return static_cast<int>(std::ranges::count(found, 1));
+}
 
 }  // namespace
 
@@ -166,6 +180,8 @@ std::optional<DriftEstimate> StabilityChecks<Dim>::drift_estimate(const World<Di
     checked += is_checked ? 1 : 0;
     drift += is_checked ? checked_[body]->expected : found_;
   }
+  const int moving = awake_in_contact(world);
+  if (moving > moving_share_estimate * (sleeping + moving)) return std::nullopt;
   if (sleeping == 0) return DriftEstimate{.drift = 0.0, .checked_share = 1.0};
   if (checked < sleeping && found_count_ == 0) return std::nullopt;
   return DriftEstimate{.drift = drift / sleeping, .checked_share = static_cast<double>(checked) / sleeping};

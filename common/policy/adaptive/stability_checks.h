@@ -47,7 +47,9 @@ class StabilityChecks {
   double tolerance() const { return tolerance_; }
 
   /// Of a body that a check has left: the motion expected of it then. Of the others: the mean distance that bodies
-  /// moved which a check woke, over the last few hundred. None without checks, and before the first. Costs O(bodies).
+  /// moved which a check woke, over the last few hundred. None without checks, before the first, and while more than a
+  /// twentieth of the bodies are awake in contact, since the sleeping ones beside them may follow. Costs
+  /// O(bodies + contacts).
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const;
 
   /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a
