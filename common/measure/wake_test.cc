@@ -67,6 +67,8 @@ class Observation {
 
 }  // namespace
 
+double wake_time(double gravity) { return 5.0 * std::sqrt(9.81 / gravity); }
+
 template <int Dim>
 WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
                    const BodyStates<Dim>& states, const WakeTestParams& params) {
@@ -78,6 +80,7 @@ WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim
   Observation<Dim> observation(description, states);
   const int steps = static_cast<int>(std::ceil(params.duration / description.dt - 1e-9));
   for (int step = 1; step <= steps; ++step) {
+    if (params.stop && params.stop()) break;
     world->step();
     if (step * description.dt <= params.energy_window + 1e-9) observation.note_energy(world->states());
   }

@@ -1,16 +1,23 @@
 #pragma once
 // Were the sleepers right to sleep? Wake them all and see whether the pile moves.
 
+#include <functional>
 #include <vector>
 
 #include "common/measure/rebuild.h"
 
 namespace talus {
 
+/// For how long a pile is simulated after waking: 5 s at 9.81 m/s^2, in other gravity [m/s^2] as long as takes the same
+/// motion there [s].
+double wake_time(double gravity);
+
 struct WakeTestParams {
   double duration = 5.0;       // [s] > 0 simulated after waking; short: slow topples are not seen to the end
   double energy_window = 0.5;  // [s] > 0 in which the wake energy is measured
   double far = 0.1;            // displacement, in D of the body, that counts as moved, > 0
+  /// Called before each step; where it returns true the test ends there, and its result means nothing. Empty: never.
+  std::function<bool()> stop = {};
 };
 
 /// Motion of a pile after all of its bodies were woken.

@@ -8,6 +8,24 @@
 
 namespace talus {
 
+namespace {
+
+/// By obstacle: whether an event that happened by a time [s] has removed it.
+template <int Dim>
+std::vector<std::uint8_t> removed_obstacles(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
+  std::vector<std::uint8_t> removed(scene.world.obstacles.size(), 0);
+  for (const DoneEvent& each : done) {
+    if (each.time > time) break;
+    const Event<Dim>& event = scene.events[each.number];
+    if (!event.obstacle) continue;
+    const ObstacleName& name = scene.obstacle_names[*event.obstacle];
+    std::fill_n(removed.begin() + name.first, name.count, std::uint8_t{1});
+  }
+  return removed;
+}
+
+}  // namespace
+
 template <int Dim>
 std::string event_text(const Scene<Dim>& scene, int number) {
   const Event<Dim>& event = scene.events[number];
@@ -26,25 +44,33 @@ WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEven
   WorldDescription<Dim> world = scene.world;
   world.obstacles = obstacles_at(scene.world.obstacles, scene.movers, time);
   Vec<Dim> gravity = scene.gravity_at(time);
-  std::vector<std::uint8_t> removed(world.obstacles.size(), 0);
   for (const DoneEvent& each : done) {
     if (each.time > time) break;
     const Event<Dim>& event = scene.events[each.number];
     if (event.action == "gravity") gravity = event.gravity;
-    if (!event.obstacle) continue;
-    const ObstacleName& name = scene.obstacle_names[*event.obstacle];
-    std::fill_n(removed.begin() + name.first, name.count, std::uint8_t{1});
   }
   world.gravity = gravity.norm();
   if (world.gravity > 0.0) world.down = gravity / world.gravity;
+  const std::vector<std::uint8_t> removed = removed_obstacles(scene, done, time);
   for (std::size_t k = removed.size(); k-- > 0;)
     if (removed[k] != 0) world.obstacles.erase(world.obstacles.begin() + static_cast<std::ptrdiff_t>(k));
   return world;
+}
+
+template <int Dim>
+bool still_moves(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
+  const std::vector<std::uint8_t> removed = removed_obstacles(scene, done, time);
+  const auto moves = [&](const Mover<Dim>& mover) {
+    return removed[mover.first] == 0 && mover.motion.moves_after(time);
+  };
+  return std::ranges::any_of(scene.movers, moves) || (scene.gravity_motion && scene.gravity_motion->moves_after(time));
 }
 
 template std::string event_text(const Scene<2>&, int);
 template std::string event_text(const Scene<3>&, int);
 template WorldDescription<2> world_at(const Scene<2>&, std::span<const DoneEvent>, double);
 template WorldDescription<3> world_at(const Scene<3>&, std::span<const DoneEvent>, double);
+template bool still_moves(const Scene<2>&, std::span<const DoneEvent>, double);
+template bool still_moves(const Scene<3>&, std::span<const DoneEvent>, double);
 
 }  // namespace talus

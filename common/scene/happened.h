@@ -23,4 +23,8 @@ std::string event_text(const Scene<Dim>& scene, int number);
 template <int Dim>
 WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
 
+/// Whether gravity, or an obstacle that events have left there, moves by plan after a time [s].
+template <int Dim>
+bool still_moves(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
+
 }  // namespace talus

@@ -7,8 +7,8 @@
 namespace talus {
 namespace {
 
-constexpr std::array<std::string_view, 6> kind_names = {"below_ground", "outside_world", "energy",
-                                                        "speed_limit",  "spin_limit",    "not_appeared"};
+constexpr std::array<std::string_view, 7> kind_names = {"below_ground", "outside_world", "energy", "speed_limit",
+                                                        "spin_limit",   "not_appeared",  "drift"};
 
 /// What is the case, with the value.
 std::string finding(const Warning& warning) {
@@ -25,6 +25,9 @@ std::string finding(const Warning& warning) {
       return fmt::format("the spin is {:.4g} rad/s, at the engine's limit", warning.value);
     case WarningKind::not_appeared:
       return fmt::format("{:.0f} bodies that were due never appeared: their source found no free place", warning.value);
+    case WarningKind::drift:
+      return fmt::format("once woken, the sleeping bodies move by {:.2g} D on average, farther than the tolerance",
+                         warning.value);
   }
   return {};
 }
@@ -43,6 +46,8 @@ std::string_view remedy(WarningKind kind) {
       return "raise world.steps_per_second or the size of the bodies";
     case WarningKind::not_appeared:
       return "raise the source's position or spread, or set ride_above";
+    case WarningKind::drift:
+      return "lower policy.adaptive.tolerance, or simulate for longer so that the bodies come to rest";
   }
   return {};
 }
@@ -57,7 +62,7 @@ std::string advice(const Warning& warning) {
 }
 
 std::string account(const Warning& warning) {
-  if (warning.kind == WarningKind::not_appeared) return finding(warning);
+  if (warning.kind == WarningKind::not_appeared || warning.kind == WarningKind::drift) return finding(warning);
   if (warning.kind == WarningKind::energy) return fmt::format("since step {} {}", warning.step, finding(warning));
   return fmt::format("{} {} since step {}, at worst {}", warning.bodies, warning.bodies == 1 ? "body" : "bodies",
                      warning.step, finding(warning));

@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// A kind of state that a correct run does not reach.
+/// A kind of state that a correct run does not reach. TALUS_STATS has all but `drift`, which is measured after the run.
 enum class WarningKind : std::uint8_t {
   below_ground,   // a centre of mass below the ground plane
   outside_world,  // a centre of mass beyond the coordinates that positions are resolved at
@@ -16,6 +16,7 @@ enum class WarningKind : std::uint8_t {
   speed_limit,    // a body as fast as the engine moves one
   spin_limit,     // a body that turns as fast as the engine turns one
   not_appeared,   // bodies that were due and found no free place until the end
+  drift,          // sleeping bodies that move farther than the tolerance once woken, where that is measured
 };
 
 /// The name in files: "below_ground", ...
@@ -28,7 +29,7 @@ struct Warning {
   BodyIndex body = -1;      // the first; of `energy` the one with the most kinetic energy then; -1: none
   std::int64_t bodies = 0;  // different ones so far; of `energy` those awake at the first step
   double value = 0.0;  // the largest so far: depth of the centre [m], coordinate [m], energy gained [J], speed [m/s],
-                       // spin [rad/s], number of bodies
+                       // spin [rad/s], number of bodies, mean drift [D]
 };
 
 /// First step, body, value, and what to change in the scene; one line without end.

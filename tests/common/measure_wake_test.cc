@@ -40,6 +40,19 @@ TEST(WakeTest, FindsTheBodyThatHungInTheAir) {
   EXPECT_NEAR(test.creep, 0.1 / 0.6 * 12.0, 1e-9);
 }
 
+TEST(WakeTest, LastsAsLongAsTheSameMotionTakesInOtherGravity) {
+  EXPECT_DOUBLE_EQ(wake_time(9.81), 5.0);
+  EXPECT_DOUBLE_EQ(wake_time(9.81 / 4.0), 10.0);
+}
+
+TEST(WakeTest, EndsWhenToldTo) {
+  int calls = 0;
+  const WakeTestParams params{.stop = [&] { return ++calls > 2; }};
+  const WakeTest test = wake_test<3>(make_falling_world<3>, cube_world<3>(), one_hangs<3>(), params);
+  EXPECT_EQ(calls, 3);
+  EXPECT_LT(test.max, 0.01) << "two steps of 1/128 s";
+}
+
 TEST(WakeTest, WakeEnergyIsThatOfTheFall) {
   const WakeTest test = wake_test<3>(make_falling_world<3>, cube_world<3>(), one_hangs<3>());
   // Energy of the fall by 0.2 m over that of a fall by D = sqrt 3; before the last step it is up to g v dt = 8 % less.

@@ -30,6 +30,18 @@ TEST(SceneHappened, WorldHasObstaclesAndGravityAsEventsLeftThem) {
   EXPECT_DOUBLE_EQ(world_at<2>(scene, done, 4.1).gravity, 5.0);
 }
 
+TEST(SceneHappened, MovesUntilThePlansOfWhatIsLeftHaveEnded) {
+  EXPECT_TRUE(still_moves<2>(shelf(), {}, 3.9));
+  EXPECT_FALSE(still_moves<2>(shelf(), {}, 4.1));
+  Scene<2> scene = shelf();
+  scene.movers.front().first = 0;  // the shelf moves, and is removed at 2 s
+  const std::vector<DoneEvent> done = {{0, 2.0}};
+  EXPECT_TRUE(still_moves<2>(scene, done, 1.9));
+  EXPECT_FALSE(still_moves<2>(scene, done, 2.1));
+  scene.gravity_motion = Motion<2>{.speed = 1.0};
+  EXPECT_TRUE(still_moves<2>(scene, done, 2.1));
+}
+
 TEST(SceneHappened, EventsHaveATextOfAFewWords) {
   const Scene<2> scene = shelf();
   EXPECT_EQ(event_text(scene, 0), "remove obstacle shelf");

@@ -22,15 +22,15 @@ std::filesystem::path run_in(const TemporaryFolder& folder) {
   std::ofstream(folder.path() / "scene.toml")
       << "title = \"three discs and one that is lost\"\n"
          "dimension = 2\n"
-         "shape.disc = {kind = \"ball\", radius = 0.5}\n"
+         "shape.disc = {kind = \"ball\", radius = 0.5, rolling_friction = 0.3}\n"
          "shape.small = {kind = \"ball\", radius = 0.014, density = 1e6}\n"
          "source = [{shape = \"disc\", count = 3, rate = 10, position = [0, 3]},\n"
          "          {shape = \"small\", count = 1, rate = 10, position = [9990, 5], velocity = [90, 0]}]\n"
          "pile = [{alpha_deg = 30, at = [0, 0]}]\n"
-         "event = [{time = 0.5, do = \"wake\"}]\n"
-         "run = {frames = 60, frame_rate = 30}\n";
-  const Outcome outcome =
-      talus_command("run " + (folder / "scene.toml") + " --no-telemetry --force --out " + (folder / "run"));
+         "event = [{time = 0.5, do = \"wake\"}, {time = 1.9, do = \"remove\", shape = \"small\"}]\n"
+         "run = {frames = 120, frame_rate = 30}\n";
+  const Outcome outcome = talus_command("run " + (folder / "scene.toml") +
+                                        " --no-telemetry --force --measure-drift --out " + (folder / "run"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   return folder.path() / "run";
 }

@@ -26,7 +26,7 @@ struct TruthGeometry {
 };
 
 /// Time [s] in which a heap must have come to rest: 10 s at 9.81 m/s^2, in other gravity as long as takes the same
-/// motion there. The wake test lasts half as long.
+/// motion there.
 double calm_time(double gravity);
 
 /// A scene to be measured.

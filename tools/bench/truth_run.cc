@@ -15,6 +15,7 @@
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tools/run/backends.h"
+#include "tools/run/measured_drift.h"
 #include "tools/run/processor_watch.h"
 
 namespace talus {
@@ -94,13 +95,6 @@ bool has_plan(const Scene<Dim>& scene) {
   return !scene.movers.empty() || !scene.events.empty() || scene.gravity_motion.has_value();
 }
 
-/// Whether an obstacle or gravity is still to change by motion, not by events.
-template <int Dim>
-bool still_moves(const Scene<Dim>& scene, double time) {
-  const auto moves = [&](const Mover<Dim>& mover) { return mover.motion.moves_after(time); };
-  return std::ranges::any_of(scene.movers, moves) || (scene.gravity_motion && scene.gravity_motion->moves_after(time));
-}
-
 template <int Dim>
 void add_last_state(const Scene<Dim>& scene, const std::string& backend, const Simulation<Dim>& simulation,
                     Values& values) {
@@ -109,11 +103,10 @@ void add_last_state(const Scene<Dim>& scene, const std::string& backend, const S
   const WorldDescription<Dim> world = world_at<Dim>(scene, simulation.done_events(), simulation.time());
   const auto touches = touching_pairs<Dim>(world, last, reach);
   values["floating"] = static_cast<double>(floating_sleepers<Dim>(last, touches).size());
-  if (still_moves(scene, simulation.time())) return;
+  if (still_moves(scene, simulation.done_events(), simulation.time())) return;
   for (std::size_t i = 0; i < last.shape.size(); ++i)
     if (last.velocity[i].norm() > fastest_of_pile) last.removed[i] = 1;
-  const WakeTest wake = wake_test<Dim>(world_maker<Dim>(backend), reference_settings(world), last,
-                                       {.duration = 0.5 * calm_time(world.gravity)});
+  const WakeTest wake = wake_all<Dim>(world, backend, last, {.duration = wake_time(world.gravity)});
   if (wake.bodies > 0) values["drift_mean_D"] = wake.mean / typical_body(scene).extent;
 }
 

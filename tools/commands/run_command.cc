@@ -58,8 +58,13 @@ void add_output_options(CLI::App& command, RunOptions& options) {
                       "how many times faster the run is: median and range")
           ->check(not_empty());
   command.add_flag("--strict", options.strict, "Exit with 1 when a body was lost or the run gave any other warning");
+  auto* measure = command.add_flag(
+      "--measure-drift", options.measure_drift,
+      "At the end wake all bodies in a copy of the world and measure how far the sleeping ones move; warn above the "
+      "tolerance");
   command.add_flag("--hash", options.hash_only, "Print the end hash and nothing else; no folder unless --out")
-      ->excludes(against);
+      ->excludes(against)
+      ->excludes(measure);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "tools/record/wake_run.h"
 #include "tools/report/html_report.h"
 #include "tools/report/json_text.h"
+#include "tools/run/measured_drift.h"
 #include "tools/view/page.h"
 
 namespace talus {
@@ -39,7 +40,6 @@ struct ReportOptions {
 };
 
 constexpr std::size_t most_points = 600;  // of a curve; more are not seen
-constexpr double seconds_of_wake = 5.0;   // as `talus wake` has by default
 
 std::string contents_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -230,26 +230,46 @@ Section result_of(const Json& summary) {
   return section;
 }
 
-Section error_of(const RunHistory& history, const ReportOptions& options) {
+/// Mean drift as it was estimated and measured, beside the tolerance; the latter two where there are any.
+std::string drift_text(double estimate, const Json& summary, double tolerance) {
+  std::string text = "Mean distance that the sleeping bodies move once all are woken: ";
+  text += std::isnan(estimate) ? "no estimate at the end" : fmt::format("estimated {:.2g} D", estimate);
+  const Json measured = summary.is_null() ? Json() : summary.value("measured", Json());
+  if (measured.is_object() && measured.value("drift_mean_D", Json()).is_number())
+    text += fmt::format(", measured {:.2g} D", measured["drift_mean_D"].get<double>());
+  else if (measured.is_object())
+    text += fmt::format(", not measured ({})", printable(measured.value("missing", "")));
+  if (tolerance > 0.0) text += fmt::format(", tolerance {:g} D", tolerance);
+  return text + ".";
+}
+
+Section error_of(const RunHistory& history, const Json& summary, double tolerance, const ReportOptions& options) {
   Section section{"Error", {}};
-  const double estimate = history.drift_estimate.back();
-  section.blocks.emplace_back(Paragraph{
-      std::isnan(estimate)
-          ? std::string("The policy has no estimate of drift at the end.")
-          : fmt::format("Estimate at the end: the sleeping bodies move by {:.3g} D on average once all are woken.",
-                        estimate)});
+  section.blocks.emplace_back(Paragraph{drift_text(history.drift_estimate.back(), summary, tolerance)});
   if (!options.wake) {
     section.blocks.emplace_back(
         Paragraph{"The report was made without --wake, which wakes all bodies and measures how far they move."});
     return section;
   }
-  const Json measured =
-      std::visit([&](const auto& run) { return wake_json(wake(run, seconds_of_wake, options.run), mean_extent(run)); },
-                 read_run(options.run));
-  section.blocks.emplace_back(table_of(
-      fmt::format("Measured: all woken at the end and simulated for {:g} s at the reference settings", seconds_of_wake),
-      measured));
+  const auto measure = [&](const auto& run) {
+    const double seconds = wake_time(world_at_end(run).gravity);
+    section.blocks.emplace_back(table_of(
+        fmt::format("Measured: all woken at the end and simulated for {:.3g} s at the reference settings", seconds),
+        wake_json(wake(run, seconds, options.run), mean_extent(run))));
+  };
+  std::visit(measure, read_run(options.run));
   return section;
+}
+
+/// The warning that only the summary has, since it was measured after the record's end.
+void add_drift_warning(const Json& summary, std::vector<Warning>& warnings) {
+  if (summary.is_null()) return;
+  for (const Json& warning : summary.value("warnings", Json::array()))
+    if (warning.value("kind", "") == to_string(WarningKind::drift))
+      warnings.push_back({.kind = WarningKind::drift,
+                          .step = warning.value("step", std::int64_t{0}),
+                          .bodies = warning.value("bodies", std::int64_t{0}),
+                          .value = warning.value("value", 0.0)});
 }
 
 Section warnings_of(const RunHistory& history, double dt) {
@@ -285,8 +305,9 @@ template <int Dim>
 Report report_of(const Scene<Dim>& scene, const ReportOptions& options) {
   const fs::path folder = options.run;
   const double dt = scene.world.dt;
-  const RunHistory history = history_of(scene, folder);
+  RunHistory history = history_of(scene, folder);
   const Json summary = summary_of(folder);
+  add_drift_warning(summary, history.warnings);
   const RecordedIdentity& run = history.walk.run;
   const std::string end = run.reason.empty() ? "killed, or its record is cut" : run.reason;
   Section player{"Replay", {}};
@@ -295,7 +316,8 @@ Report report_of(const Scene<Dim>& scene, const ReportOptions& options) {
   return {printable(scene.title),
           fmt::format("{}: {}, policy {}, seed {}, {:.2f} s; {}; talus {}", name_of_run(folder), run.backend,
                       run.policy, scene.seed, history.time.back(), end, run.version),
-          {player, result_of(summary), warnings_of(history, dt), error_of(history, options),
+          {player, result_of(summary), warnings_of(history, dt),
+           error_of(history, summary, tolerance_of(scene.policy), options),
            plots_of(history, columns_of(folder / "frames.csv"), summary, dt), settings_of(summary, folder)}};
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "common/measure/support.h"
 #include "common/text/printable.h"
@@ -19,8 +20,8 @@ using Json = nlohmann::ordered_json;
 
 struct WakeOptions {
   std::string run;
-  std::string full;  // empty: none
-  double seconds = 5.0;
+  std::string full;               // empty: none
+  std::optional<double> seconds;  // not given: wake_time()
   bool json = false;
 };
 
@@ -50,10 +51,10 @@ Json events_json(const RecordedRun<Dim>& run) {
 
 template <int Dim>
 Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
-  const WakeTest test = wake(run, options.seconds, options.run);
+  const WorldDescription<Dim> world = world_at_end(run);
+  const double seconds = options.seconds.value_or(wake_time(world.gravity));
+  const WakeTest test = wake(run, seconds, options.run);
   const double extent = mean_extent(run);
-  const WorldDescription<Dim> world =
-      world_at<Dim>(run.scene, run.done, static_cast<double>(run.last_step) * run.scene.world.dt);
   const std::vector<Touch> touches = touching_pairs<Dim>(world, run.last, contact_reach);
   const Penetration depth = penetration(touches);
   int asleep = 0;
@@ -71,7 +72,7 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
       {"unfinished", unfinished_json(run)},
       {"events", events_json(run)},
       {"damage", text_of(run.damage)},
-      {"simulated_s", options.seconds},
+      {"simulated_s", seconds},
       {"after_waking", wake_json(test, extent)}};
   if (options.full.empty()) return json;
   const AnyRecordedRun other = read_run(options.full);
@@ -79,7 +80,7 @@ Json result_of(const RecordedRun<Dim>& run, const WakeOptions& options) {
   if (full == nullptr)
     throw std::invalid_argument(
         fmt::format("--full = {}: must be a run of the same dimension, {}D", options.full, Dim));
-  const WakeTest of_full = wake(*full, options.seconds, options.full);
+  const WakeTest of_full = wake(*full, seconds, options.full);
   json["full_run"] = wake_json(of_full, extent);
   json["beyond_full_run"] = wake_json(excess(test, of_full), extent);
   return json;
@@ -150,9 +151,11 @@ void add_wake_command(CLI::App& app, int& exit_code) {
   command->add_option("run", options->run, "Run folder")->required()->check(not_empty());
   command->add_option("--full", options->full, "Run folder of the full run, whose own drift is taken off")
       ->check(not_empty());
-  command->add_option("--seconds", options->seconds, "Simulated after waking")
-      ->check(number_between(0.0, longest_wake, Bound::left_out))
-      ->capture_default_str();
+  command
+      ->add_option(
+          "--seconds", options->seconds,
+          "Simulated after waking; default: 5 at 9.81 m/s^2, in other gravity as long as takes the same motion")
+      ->check(number_between(0.0, longest_wake, Bound::left_out));
   command->add_flag("--json", options->json, "As JSON");
   command->callback([options, &exit_code] { exit_code = wake_command(*options); });
 }

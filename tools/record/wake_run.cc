@@ -4,20 +4,21 @@
 
 #include "common/measure/compare.h"
 #include "common/measure/ensemble.h"
-#include "tools/run/backends.h"
+#include "tools/run/measured_drift.h"
 
 namespace talus {
+
+template <int Dim>
+WorldDescription<Dim> world_at_end(const RecordedRun<Dim>& run) {
+  return world_at<Dim>(run.scene, run.done, static_cast<double>(run.last_step) * run.scene.world.dt);
+}
 
 template <int Dim>
 WakeTest wake(const RecordedRun<Dim>& run, double seconds, const std::string& folder) {
   if (run.backend.empty())
     throw std::invalid_argument(fmt::format("{}: no message is left that names the engine", folder));
   if (run.last.size() == 0) throw std::invalid_argument(fmt::format("{}: must hold a body", folder));
-  const WorldMaker<Dim> maker = [&](const WorldDescription<Dim>& world) { return make_world<Dim>(run.backend, world); };
-  WakeTestParams params;
-  params.duration = seconds;
-  const double time = static_cast<double>(run.last_step) * run.scene.world.dt;
-  return wake_test<Dim>(maker, reference_settings(world_at<Dim>(run.scene, run.done, time)), run.last, params);
+  return wake_all<Dim>(world_at_end(run), run.backend, run.last, {.duration = seconds});
 }
 
 template <int Dim>
@@ -35,6 +36,8 @@ nlohmann::ordered_json wake_json(const WakeTest& test, double extent) {
           {"creep_per_minute", test.creep}};
 }
 
+template WorldDescription<2> world_at_end(const RecordedRun<2>&);
+template WorldDescription<3> world_at_end(const RecordedRun<3>&);
 template WakeTest wake(const RecordedRun<2>&, double, const std::string&);
 template WakeTest wake(const RecordedRun<3>&, double, const std::string&);
 template double mean_extent(const RecordedRun<2>&);

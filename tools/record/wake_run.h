@@ -8,6 +8,10 @@
 
 namespace talus {
 
+/// The world at the end of the record.
+template <int Dim>
+WorldDescription<Dim> world_at_end(const RecordedRun<Dim>& run);
+
 /// Wakes all bodies of the last state and simulates on at the reference settings. Throws std::invalid_argument where
 /// the record has no engine or no body; `folder` is for messages.
 template <int Dim>

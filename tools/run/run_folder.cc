@@ -143,6 +143,19 @@ Json drift_estimate_json(const std::optional<DriftEstimate>& estimate, double ty
   return {{"drift_D", estimate->drift / typical_extent}, {"checked_share", estimate->checked_share}};
 }
 
+/// Null where it was not measured; without numbers where it could not be.
+Json measured_json(const std::optional<MeasuredDrift>& drift, double typical_extent) {
+  if (!drift) return nullptr;
+  const bool known = drift->missing.empty();
+  const auto in_extents = [&](double length) { return known ? Json(length / typical_extent) : Json(); };
+  return {{"missing", drift->missing},
+          {"bodies", drift->bodies},
+          {"simulated_s", drift->seconds},
+          {"drift_mean_D", in_extents(drift->mean)},
+          {"drift_p95_D", in_extents(drift->p95)},
+          {"drift_max_D", in_extents(drift->max)}};
+}
+
 template <int Dim>
 Json statistics_json(const RunStatistics<Dim>& statistics) {
   return {{"steps", statistics.steps()},
@@ -179,13 +192,14 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"events", events_json(scene, simulation.done_events())},
                   {"asleep_at_end", bodies - world.awake().size()},
                   {"outside_window", outside_json(input.outside_window)},
-                  {"warnings", warnings_json(simulation.warnings())},
+                  {"warnings", warnings_json(input.warnings)},
                   {"emit_waits", input.emit_waits},
                   {"picture_pixels_per_m", input.pixels_per_metre},
                   {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
   summary["shape"] = shape_json(scene, world, simulation.piles().typical_body().extent);
   summary["estimate"] = drift_estimate_json(simulation.drift_estimate(), simulation.piles().typical_body().extent);
+  summary["measured"] = measured_json(input.measured, simulation.piles().typical_body().extent);
   summary["piles"] = piles_json(simulation.piles());
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
   std::ofstream out(file);

@@ -2,11 +2,13 @@
 // The folder that a run leaves behind.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/scene/diagnostics.h"
 #include "common/simulation/simulation.h"
+#include "tools/run/measured_drift.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_statistics.h"
 
@@ -29,6 +31,8 @@ struct SummaryInput {
   std::int64_t emit_waits = 0;                  // steps at which a due body found no room
   double pixels_per_metre = 0.0;                // of pile.png
   std::vector<SceneError> outside_window = {};  // what of the scene lies outside of the engine's window
+  std::optional<MeasuredDrift> measured = {};   // none: not asked for
+  std::vector<Warning> warnings = {};           // of the run and of what was measured after it
 };
 
 /// Writes summary.json.

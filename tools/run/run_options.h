@@ -24,6 +24,7 @@ struct RunOptions {
   std::string against;                // policy to time the run against; empty: none
   bool strict = false;                // exit code 1 when the run gave a warning
   bool force = false;                 // run a scene outside of the engine's window, with warnings
+  bool measure_drift = false;         // at the end wake all bodies and measure how far the sleeping ones move
   bool hash_only = false;             // print the end hash and nothing else; write no folder unless `out` is given
 };
 

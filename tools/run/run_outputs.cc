@@ -136,7 +136,7 @@ void print_estimate(const Simulation<Dim>& simulation, const AdaptiveParams& par
   if (params.tolerance <= 0.0 || !any_asleep) return;
   const std::optional<DriftEstimate> estimate = simulation.drift_estimate();
   if (const auto awake = simulation.world().awake().size(); !estimate && awake > 0) {
-    print_result("  not at rest, {} bodies are awake: the error of the sleeping bodies is not known\n", awake);
+    print_result("  not at rest, {} awake: the error of the sleeping bodies is not known\n", awake);
     return;
   }
   if (!estimate) {
@@ -145,6 +145,19 @@ void print_estimate(const Simulation<Dim>& simulation, const AdaptiveParams& par
   }
   print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
                estimate->drift / simulation.piles().typical_body().extent, 100.0 * estimate->checked_share);
+}
+
+/// `tolerance` and `extent` are D's and metres; 0: no tolerance.
+void print_measured(const MeasuredDrift& drift, double extent, double tolerance) {
+  if (!drift.missing.empty()) {
+    print_result("  drift not measured: {}\n", drift.missing);
+    return;
+  }
+  print_result(
+      "  measured: the {} sleeping bodies move by {:.2g} D on average, 95 % by at most {:.2g} D, the farthest by "
+      "{:.2g} D{}\n",
+      drift.bodies, drift.mean / extent, drift.p95 / extent, drift.max / extent,
+      tolerance > 0.0 ? fmt::format("; tolerance {:g} D", tolerance) : "");
 }
 
 template <int Dim>
@@ -163,10 +176,12 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
   if (scene.policy.kind == "adaptive") print_estimate(simulation, scene.policy.adaptive);
+  if (summary.measured)
+    print_measured(*summary.measured, simulation.piles().typical_body().extent, tolerance_of(scene.policy));
   if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
   for (const SceneError& each : summary.outside_window)
     print_result("  warning: {}{}\n", outside_prefix, printable(to_string(each)));
-  for (const Warning& warning : simulation.warnings()) print_result("  warning: {}\n", account(warning));
+  for (const Warning& warning : summary.warnings) print_result("  warning: {}\n", account(warning));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
   if (summary.emit_waits > 0) {

@@ -22,6 +22,7 @@
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
+#include "tools/run/measured_drift.h"
 #include "tools/run/progress.h"
 #include "tools/run/run_outputs.h"
 #include "tools/run/speed_up.h"
@@ -58,9 +59,8 @@ std::string advance(Simulation<Dim>& simulation, const Interrupt& interrupt, dou
   return "finished";
 }
 
-template <int Dim>
-int exit_code_of(std::string_view reason, bool strict, const Simulation<Dim>& simulation) {
-  if (reason == "finished") return strict && !simulation.warnings().empty() ? exit_codes::failed : exit_codes::success;
+int exit_code_of(std::string_view reason, bool strict, std::span<const Warning> warnings) {
+  if (reason == "finished") return strict && !warnings.empty() ? exit_codes::failed : exit_codes::success;
   return reason == "interrupted" ? exit_codes::interrupted : exit_codes::failed;
 }
 
@@ -79,7 +79,7 @@ int print_hash(const Simulation<Dim>& simulation, const std::string& reason, boo
     print_result("{:016x}\n", state_hash(simulation.world().states()));
   else
     print_message("talus: no end hash: {}", reason);
-  return exit_code_of(reason, strict, simulation);
+  return exit_code_of(reason, strict, simulation.warnings());
 }
 
 template <int Dim>
@@ -93,6 +93,27 @@ int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict) {
   return print_hash(simulation, reason, strict);
 }
 
+/// What --measure-drift adds to the summary of a run that has ended.
+template <int Dim>
+void add_measured_drift(SummaryInput& summary, const Scene<Dim>& scene, const Simulation<Dim>& simulation,
+                        const Interrupt& interrupt) {
+  if (summary.reason != "finished") {
+    summary.measured = MeasuredDrift{.missing = "the run did not finish"};
+    return;
+  }
+  const auto stop = [&interrupt] { return interrupt.requested(); };
+  try {
+    summary.measured = measure_drift<Dim>(simulation, scene, summary.backend, stop);
+  } catch (const std::exception& error) {  // of the copy: the run itself is whole
+    summary.measured = MeasuredDrift{.missing = error.what()};
+  }
+  const auto warning =
+      warning_of(*summary.measured, scene, simulation.piles().typical_body().extent, simulation.frame().step);
+  if (!warning) return;
+  print_message("warning: {}", advice(*warning));
+  summary.warnings.push_back(*warning);
+}
+
 /// Runs, records and prints the result.
 template <int Dim>
 int record_run(const RunOptions& options, const std::string& name, const std::string& backend, const Scene<Dim>& scene,
@@ -102,17 +123,19 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
   const Interrupt interrupt;
   Stopwatch watch;
   const std::string reason = advance(simulation, interrupt, scene.run.pace);
-  const SummaryInput summary{.scene_name = name,
-                             .backend = backend,
-                             .reason = reason,
-                             .wall_seconds = watch.lap(),
-                             .emit_waits = simulation.emitter().waits(),
-                             .outside_window = outside};
+  SummaryInput summary{.scene_name = name,
+                       .backend = backend,
+                       .reason = reason,
+                       .wall_seconds = watch.lap(),
+                       .emit_waits = simulation.emitter().waits(),
+                       .outside_window = outside};
   simulation.end(reason);
+  summary.warnings.assign(simulation.warnings().begin(), simulation.warnings().end());
+  if (options.measure_drift) add_measured_drift(summary, scene, simulation, interrupt);
   outputs.finish(summary, scene, simulation);
   if (options.hash_only) return print_hash(simulation, reason, options.strict);
   print_run(summary, scene, simulation, outputs);
-  return exit_code_of(reason, options.strict, simulation);
+  return exit_code_of(reason, options.strict, summary.warnings);
 }
 
 #ifdef TALUS_LCM
@@ -143,6 +166,7 @@ int run_scene(const RunOptions& options) {
         const std::string backend = backend_for(options, Dim);
         const std::vector<SceneError> outside = check_window(of_dimension, backend, file, options.force);
         if (other) check_window(std::get<Scene<Dim>>(*other), backend, file, options.force);
+        if (options.measure_drift) require_measurable_drift(of_dimension);
         if (options.hash_only && options.out.empty()) return hash_run(of_dimension, backend, options.strict);
         if (!options.hash_only) warn(of_dimension, backend, outside);
         const int exit_code = record_run(options, file.stem().string(), backend, of_dimension, outside);

@@ -20,6 +20,7 @@
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/make_simulation.h"
+#include "tools/run/measured_drift.h"
 #include "tools/run/run_scene.h"
 #include "tools/sweep/sweep_plan.h"
 #include "tools/sweep/sweep_table.h"
@@ -44,6 +45,7 @@ struct SweepOptions {
   int seeds = 1;
   std::string backend;
   bool force = false;
+  bool measure_drift = false;
   int jobs = 0;  // 0: one for each core
   fs::path out;
   std::string plot = "centre_height_m";
@@ -73,6 +75,7 @@ void check_run(const SweepOptions& options, const Scene<Dim>& scene, const fs::p
   const std::vector<std::string> engines = backends(Dim);
   const std::string& backend = options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
   check_window(scene, backend, file, options.force);
+  if (options.measure_drift) require_measurable_drift(scene);
 }
 
 /// Each value must make a scene that can be read and lies in the engine's window: all errors before the first run.
@@ -92,6 +95,7 @@ std::string identity(const SweepOptions& options, const fs::path& scene, const s
   nlohmann::json json = {{"scene", scene.stem().string()},
                          {"text", std::string(std::istreambuf_iterator<char>(stream), {})},
                          {"backend", options.backend},
+                         {"measure_drift", options.measure_drift},
                          {"axes", nlohmann::json::array()}};
   for (const SweepAxis& axis : axes) json["axes"].push_back({{"path", axis.path}, {"values", axis.values}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -133,6 +137,7 @@ std::string run_one(const SweepOptions& options, const fs::path& scene, std::vec
   run.scene = scene.string();
   run.backend = options.backend;
   run.force = options.force;
+  run.measure_drift = options.measure_drift;
   run.settings = std::move(settings);
   run.out = folder;
   run.telemetry = false;
@@ -214,6 +219,8 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   command->add_option("-b,--backend", options->backend, "Engine, as for `talus run`")->check(not_empty());
   command->add_flag("-f,--force", options->force,
                     "Run outside of the window in which results hold too, as `talus run`");
+  command->add_flag("--measure-drift", options->measure_drift,
+                    "Measure at the end of each run how far the sleeping bodies move, as `talus run`");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time; without it one for each core")
       ->check(number_between(1, 1000));
   command->add_option("-o,--out", options->out, "Folder of the sweep: new, empty, or of the same sweep to go on with")

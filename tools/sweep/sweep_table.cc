@@ -140,7 +140,8 @@ std::vector<SweepMeasure> sweep_measures() {
           {"r95_m", "/shape/r95_m", "radius that holds 95 % of the bodies [m]"},
           {"angle_of_repose_deg", "/shape/angle_of_repose_deg", "angle of repose [degrees]"},
           {"packing", "/shape/packing", "packing density"},
-          {"drift_D", "/estimate/drift_D", "estimated drift [D]"}};
+          {"drift_D", "/estimate/drift_D", "estimated drift [D]"},
+          {"measured_drift_D", "/measured/drift_mean_D", "measured drift [D]"}};
 }
 
 SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path& folder) {

@@ -1,0 +1,47 @@
+#pragma once
+// How far the sleeping bodies of a run move once all bodies are woken at its end.
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/measure/wake_test.h"
+#include "common/simulation/simulation.h"
+
+namespace talus {
+
+/// The displacements of the bodies that slept at the end of the run.
+struct MeasuredDrift {
+  std::string missing;   // why there are no numbers; empty: there are
+  int bodies = 0;        // that slept
+  double seconds = 0.0;  // simulated after waking
+  double mean = 0.0;     // [m]
+  double p95 = 0.0;      // [m]
+  double max = 0.0;      // [m]
+};
+
+/// Wakes all bodies of a state and simulates on at the reference settings; `world` as world_at() gives it.
+template <int Dim>
+WakeTest wake_all(const WorldDescription<Dim>& world, const std::string& backend, const BodyStates<Dim>& states,
+                  const WakeTestParams& params);
+
+/// Throws std::invalid_argument where obstacles or gravity still move when the scene ends, or there is no gravity then,
+/// whatever its events do. What events decide shows only at the end of the run.
+template <int Dim>
+void require_measurable_drift(const Scene<Dim>& scene);
+
+/// Wakes all bodies of a copy of the last state. What still falls, moves in the copy too, but counts only by what it
+/// does to the sleeping bodies. `stop` as in WakeTestParams.
+template <int Dim>
+MeasuredDrift measure_drift(const Simulation<Dim>& simulation, const Scene<Dim>& scene, const std::string& backend,
+                            const std::function<bool()>& stop);
+
+/// Of the drift [D]; 0 where the policy has none.
+double tolerance_of(const PolicyParams& policy);
+
+/// A warning where the mean is above the tolerance of the policy `adaptive`; `extent` is D [m].
+template <int Dim>
+std::optional<Warning> warning_of(const MeasuredDrift& drift, const Scene<Dim>& scene, double extent,
+                                  std::int64_t step);
+
+}  // namespace talus
