@@ -7,16 +7,18 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "talus_lcm/layouts.h"
 
 namespace talus {
 
 /// One kind of message each.
-enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events };
+enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events, obstacles };
 
-inline constexpr std::array<const char*, 7> channel_names = {
-    "TALUS_RUN", "TALUS_PILES", "TALUS_SLEEP", "TALUS_STATS", "TALUS_BODIES", "TALUS_SHAPES", "TALUS_EVENTS"};
+inline constexpr std::array<const char*, 8> channel_names = {"TALUS_RUN",    "TALUS_PILES",    "TALUS_SLEEP",
+                                                             "TALUS_STATS",  "TALUS_BODIES",   "TALUS_SHAPES",
+                                                             "TALUS_EVENTS", "TALUS_OBSTACLES"};
 
 inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
 
@@ -46,6 +48,8 @@ template <>
 inline constexpr Channel channel_of<talus_lcm::talus_event_v1> = Channel::events;  // in old records
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_event_v2> = Channel::events;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_obstacles_v1> = Channel::obstacles;
 
 /// Calls `use` with a default message of the type that the channel carries now.
 template <class Use>
@@ -65,7 +69,18 @@ void with_message_of(Channel channel, const Use& use) {
       return use(talus_lcm::talus_shapes_v1{});
     case Channel::events:
       return use(talus_lcm::talus_event_v2{});
+    case Channel::obstacles:
+      return use(talus_lcm::talus_obstacles_v1{});
   }
+}
+
+/// The channels that a run sends and records on: the last two only where its scene has events, or obstacles that move.
+inline std::vector<Channel> channels_of_run(bool events, bool moving_obstacles) {
+  std::vector channels = {Channel::run,   Channel::piles,  Channel::sleep,
+                          Channel::stats, Channel::bodies, Channel::shapes};
+  if (events) channels.push_back(Channel::events);
+  if (moving_obstacles) channels.push_back(Channel::obstacles);
+  return channels;
 }
 
 /// Largest encoded message [bytes]: what fits one datagram, since LCM 1.3.1 loses every message of several fragments

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <type_traits>
+#include <vector>
 
 #include "lcmtypes/encode.h"
 #include "lcmtypes/layout.h"
@@ -16,6 +18,7 @@ using talus_lcm::talus_event_v1;
 using talus_lcm::talus_event_v2;
 using talus_lcm::talus_layer_v1;
 using talus_lcm::talus_layer_v2;
+using talus_lcm::talus_obstacles_v1;
 using talus_lcm::talus_pile_v1;
 using talus_lcm::talus_pile_v2;
 using talus_lcm::talus_piles_v1;
@@ -32,6 +35,10 @@ constexpr float max_density = 1e9F;
 constexpr auto is_index_or_none = [](std::int32_t value) { return value >= -1; };
 
 constexpr auto is_negative = [](auto value) { return value < 0; };
+
+bool ascend(const std::vector<std::int32_t>& numbers) {
+  return std::ranges::adjacent_find(numbers, std::greater_equal()) == numbers.end();
+}
 
 /// What all messages have.
 template <class Message>
@@ -262,10 +269,18 @@ std::string_view range_fault(const talus_bodies_v1& m) {
   if (!header_holds(m) || !parts_hold(m)) return "header out of range";
   if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
   if (m.value_count != m.body_count * (m.dimension == 2 ? 3 : 7)) return "values do not match bodies";
-  const auto not_ascending = [](auto before, auto after) { return before >= after; };
-  if (std::adjacent_find(m.body.begin(), m.body.end(), not_ascending) != m.body.end()) return "bodies not ascending";
+  if (!ascend(m.body)) return "bodies not ascending";
   if (m.body_count > 0 && m.body.front() < 0) return "negative body";
   if (std::any_of(m.shape.begin(), m.shape.end(), is_negative)) return "negative shape";
+  return {};
+}
+
+std::string_view range_fault(const talus_obstacles_v1& m) {
+  if (!header_holds(m)) return "header out of range";
+  if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
+  if (m.value_count != m.obstacle_count * (m.dimension == 2 ? 3 : 7)) return "values do not match obstacles";
+  if (!ascend(m.obstacle)) return "obstacles not ascending";
+  if (m.obstacle_count > 0 && m.obstacle.front() < 0) return "negative obstacle";
   return {};
 }
 

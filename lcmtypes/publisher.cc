@@ -18,9 +18,6 @@ using talus_lcm::talus_run_v1;
 
 namespace {
 
-/// The last one only in runs of scenes with events.
-constexpr std::array live_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
-                                      Channel::bodies, Channel::shapes, Channel::events};
 // Of wall time [s] within which the pose of each body is sent, also of those at rest, so that a receiver that starts
 // late or missed a message has all of them; longer where they are more than fit one message each time.
 constexpr double turn_time = 2.0;
@@ -117,6 +114,7 @@ void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now)
   std::erase_if(bodies, [&](BodyIndex body) { return states.removed[body] != 0; });
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  send_obstacles(frame);
   auto messages = to_bodies<Dim>(states, bodies, false);
   const auto bytes = static_cast<double>(max_message_bytes * messages.size());
   bodies_pulse_.wait_until(now + std::chrono::duration_cast<Clock::duration>(
@@ -124,10 +122,19 @@ void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now)
   send(std::move(messages), frame.step, frame.time);
 }
 
+/// Unless they are where they were the last time. Before the bodies of the same step, which are shown with them.
+template <int Dim>
+void Publisher<Dim>::send_obstacles(const Frame<Dim>& frame) {
+  if (!any_moves_after<Dim>(movers_, obstacles_time_)) return;
+  obstacles_time_ = frame.time;
+  send(to_obstacles<Dim>(moving_poses(obstacles_, movers_, frame.time)), frame.step, frame.time);
+}
+
 /// A key frame, in which a body that is missing was removed.
 template <int Dim>
 void Publisher<Dim>::send_all_poses(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();
+  send_obstacles(frame);
   if (states.size() > most_in_key_frame) return;
   std::vector<BodyIndex> bodies;
   for (BodyIndex body = 0; body < states.size(); ++body)
@@ -176,8 +183,8 @@ void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
 
 template <int Dim>
 void Publisher<Dim>::send_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  const std::size_t channels = live_channels.size() - (events_.empty() ? 1 : 0);
-  auto message = to_run(info_, phase, reason, std::span(live_channels).first(channels), encoder_);
+  const auto channels = channels_of_run(!events_.empty(), !movers_.empty());
+  auto message = to_run(info_, phase, reason, channels, encoder_);
   send(message, step, time);
 }
 

@@ -64,8 +64,12 @@ class Publisher final : public Observer<Dim> {
 
   /// Poses are sent only once the shapes are known. Throws std::invalid_argument on a shape too large for a message.
   void set_world(const WorldDescription<Dim>& world) { shapes_ = to_shapes<Dim>(world); }
-  /// Those of the scene are sent too.
-  void set_events(const Scene<Dim>& scene) { events_ = to_events(scene); }
+  /// The scene's events and the poses of its obstacles that move are sent too.
+  void set_scene(const Scene<Dim>& scene) {
+    events_ = to_events(scene);
+    movers_ = scene.movers;
+    obstacles_ = scene.world.obstacles;
+  }
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
@@ -87,6 +91,7 @@ class Publisher final : public Observer<Dim> {
   bool sends_poses() const { return bodies_rate_ > 0.0 && !shapes_.empty(); }
   void send_bodies(const Frame<Dim>& frame, Clock::time_point now);
   void send_all_poses(const Frame<Dim>& frame);
+  void send_obstacles(const Frame<Dim>& frame);
   void send_shapes(const Frame<Dim>& frame);
   void send_events(const Frame<Dim>& frame);
 
@@ -104,8 +109,11 @@ class Publisher final : public Observer<Dim> {
   std::vector<talus_lcm::talus_shapes_v1> shapes_;  // and obstacles; empty: not known
   std::vector<talus_lcm::talus_event_v2> events_;   // of the scene, as far as they have happened
   std::size_t event_turn_ = 0;                      // the one from which on they are sent again
-  std::vector<BodyIndex> fell_asleep_;              // since poses were sent last
-  BodyIndex turn_ = 0;                              // the body from which on poses of resting ones are sent next
+  std::vector<Mover<Dim>> movers_;
+  std::vector<Obstacle<Dim>> obstacles_;  // before they moved
+  double obstacles_time_ = -1.0;          // when their poses were sent last [s]; below 0: never
+  std::vector<BodyIndex> fell_asleep_;    // since poses were sent last
+  BodyIndex turn_ = 0;                    // the body from which on poses of resting ones are sent next
   // Since the last statistics:
   PhaseTimes sum_;
   std::int64_t summed_steps_ = 0;

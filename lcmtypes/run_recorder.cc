@@ -16,10 +16,6 @@ using talus_lcm::talus_run_v1;
 
 namespace {
 
-/// The last one only in runs of scenes with events.
-constexpr std::array recorded_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
-                                          Channel::bodies, Channel::shapes, Channel::events};
-
 // Between the stamps of two messages [us]: lcm-logplayer then paces them so that no receive buffer runs over.
 constexpr std::int64_t pace = 100;
 
@@ -42,7 +38,9 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
       flush_interval_(params.flush_interval),
       log_(path),
       encoder_(record_id(info)),
-      scene_events_(to_events(scene)) {
+      scene_events_(to_events(scene)),
+      movers_(scene.movers),
+      obstacles_(scene.world.obstacles) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
   write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
@@ -86,6 +84,10 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
     for (BodyIndex body = 0; body < states.size(); ++body)
       if (states.removed[body] == 0) bodies.push_back(body);
   }
+  if (key_frame || any_moves_after<Dim>(movers_, obstacles_time_)) {
+    obstacles_time_ = frame.time;
+    write(to_obstacles<Dim>(moving_poses(obstacles_, movers_, frame.time)), frame.step, frame.time);
+  }
   write(to_bodies<Dim>(states, bodies, key_frame), frame.step, frame.time);
 }
 
@@ -115,8 +117,8 @@ std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
 
 template <int Dim>
 void RunRecorder<Dim>::write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  const std::size_t channels = recorded_channels.size() - (scene_events_.empty() ? 1 : 0);
-  auto message = to_run(info_, phase, reason, std::span(recorded_channels).first(channels), encoder_);
+  const auto channels = channels_of_run(!scene_events_.empty(), !movers_.empty());
+  auto message = to_run(info_, phase, reason, channels, encoder_);
   write(message, step, time);
 }
 

@@ -18,10 +18,10 @@ struct RecorderParams {
 };
 
 /// Writes the record of a run: shapes at the start, events of the scene, sleep events of each step, piles, statistics
-/// and poses of each frame of output, key frames, and why it ended. Key frames come after at least as many poses of
-/// moving bodies, so together they take no more room than what moves, however many sleep. Stamps are simulated time and
-/// nothing in the file is from the wall clock, so the same run gives the same bytes. When the disk is full a call
-/// throws std::system_error, and later ones do nothing.
+/// and poses of each frame of output, of obstacles that move too, key frames, and why it ended. Key frames come after
+/// at least as many poses of moving bodies, so together they take no more room than what moves, however many sleep.
+/// Stamps are simulated time and nothing in the file is from the wall clock, so the same run gives the same bytes. When
+/// the disk is full a call throws std::system_error, and later ones do nothing.
 template <int Dim>
 class RunRecorder final : public Observer<Dim> {
  public:
@@ -53,7 +53,10 @@ class RunRecorder final : public Observer<Dim> {
   std::int64_t last_utime_ = -1;
   std::vector<BodyIndex> fell_asleep_;  // since the last frame of output
   std::vector<talus_lcm::talus_event_v2> scene_events_;
-  bool removed_ = false;  // an event removed bodies since the last key frame
+  std::vector<Mover<Dim>> movers_;
+  std::vector<Obstacle<Dim>> obstacles_;  // before they moved
+  double obstacles_time_ = -1.0;          // when their poses were written last [s]; below 0: never
+  bool removed_ = false;                  // an event removed bodies since the last key frame
 };
 
 }  // namespace talus

@@ -15,6 +15,7 @@ namespace talus {
 
 using talus_lcm::talus_bodies_v1;
 using talus_lcm::talus_layer_v2;
+using talus_lcm::talus_obstacles_v1;
 using talus_lcm::talus_pile_v2;
 using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
@@ -468,6 +469,40 @@ void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event_v2&
   message.happened_time = std::max(0.0, frame.time - dt);
 }
 
+template <int Dim>
+std::vector<talus_obstacles_v1> to_obstacles(std::span<const ObstaclePose<Dim>> poses) {
+  constexpr std::span fields = layout<talus_obstacles_v1>;
+  constexpr std::size_t at_most =
+      room<talus_obstacles_v1> /
+      (bytes_per_entry(fields, "obstacle_count") + pose_values<Dim> * bytes_per_entry(fields, "value_count"));
+  std::vector<talus_obstacles_v1> messages;
+  for (; !poses.empty(); poses = poses.subspan(messages.back().obstacle.size())) {
+    talus_obstacles_v1& message = messages.emplace_back();
+    message.dimension = Dim;
+    for (const ObstaclePose<Dim>& each : poses.first(std::min(poses.size(), at_most))) {
+      message.obstacle.push_back(each.obstacle);
+      append<Dim>(each.pose, message.poses);
+    }
+    message.obstacle_count = static_cast<std::int32_t>(message.obstacle.size());
+    message.value_count = static_cast<std::int32_t>(message.poses.size());
+  }
+  return messages;
+}
+
+template <int Dim>
+std::vector<ObstaclePose<Dim>> poses_of(const talus_obstacles_v1& message) {
+  std::vector<ObstaclePose<Dim>> poses;
+  if (message.dimension != Dim) return poses;
+  const std::vector<double> values(message.poses.begin(), message.poses.end());
+  ValueReader<Dim> reader(values);
+  for (const std::int32_t obstacle : message.obstacle) poses.push_back({obstacle, reader.pose()});
+  return poses;
+}
+
+template std::vector<talus_obstacles_v1> to_obstacles<2>(std::span<const ObstaclePose<2>>);
+template std::vector<talus_obstacles_v1> to_obstacles<3>(std::span<const ObstaclePose<3>>);
+template std::vector<ObstaclePose<2>> poses_of(const talus_obstacles_v1&);
+template std::vector<ObstaclePose<3>> poses_of(const talus_obstacles_v1&);
 template std::vector<talus_lcm::talus_event_v2> to_events(const Scene<2>&);
 template std::vector<talus_lcm::talus_event_v2> to_events(const Scene<3>&);
 template void set_happened(const Frame<2>&, double, talus_lcm::talus_event_v2&);

@@ -10,6 +10,7 @@
 #include "common/policy/frame.h"
 #include "common/policy/sleep_policy.h"
 #include "common/scene/scene.h"
+#include "common/world/motion.h"
 #include "lcmtypes/encode.h"
 #include "lcmtypes/run_info.h"
 
@@ -64,6 +65,14 @@ void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event_v2&
 /// The pile of a message that decode() took.
 template <int Dim>
 Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message);
+
+/// No message where there are no poses.
+template <int Dim>
+std::vector<talus_lcm::talus_obstacles_v1> to_obstacles(std::span<const ObstaclePose<Dim>> poses);
+
+/// The poses of a message that decode() took; none of a message of another dimension.
+template <int Dim>
+std::vector<ObstaclePose<Dim>> poses_of(const talus_lcm::talus_obstacles_v1& message);
 
 /// Puts an obstacle elsewhere.
 template <int Dim>

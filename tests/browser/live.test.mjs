@@ -5,7 +5,7 @@ import { once } from "node:events";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { awakeBySteps, colours, openPage, serve, temporaryFolder, until } from "./browser.mjs";
+import { awakeBySteps, colours, openPage, serve, talus, temporaryFolder, until } from "./browser.mjs";
 
 const bus = "udpm://239.255.76.67:7669?ttl=0";
 
@@ -30,6 +30,58 @@ test("a run that begins later is shown as it goes on, with the counts of its rec
   assert.deepEqual(page.faults, []);
   await page.close();
   child.kill();
+});
+
+/// Places of the obstacles as drawn [m].
+const obstacles = (page) =>
+  page.evaluate(() => window.talus.stage.surroundings.obstacles.map(({ mesh }) => [...mesh.instanceMatrix.array.slice(12, 14)]));
+
+test("obstacles that move are shown where they are, on the page of a live run, of a scene and of a record", async () => {
+  const folder = temporaryFolder();
+  const scene = join(folder, "moving.toml");
+  writeFileSync(
+    scene,
+    `title = "moving"\ndimension = 2\nrun = {frames = 600}\nshape.disc = {kind = "ball", radius = 0.5}\n[[source]]\ncount = 20\n[[pile]]\n` +
+      `[[obstacle]]\nkind = "box"\nsize = [1, 4]\nposition = [-20, 2]\n` +
+      `[[obstacle]]\nkind = "box"\nsize = [1, 4]\nposition = [6, 2]\nmotion = {kind = "path", times = [1, 3], shifts = [[0, 0], [4, 1]]}\n`,
+  );
+  const { url, child } = await serve("--live", "--lcm-url", bus);
+  const run = spawn(process.env.TALUS, ["run", scene, "--pace", "2", "--lcm-url", bus, "--out", join(folder, "run")]);
+  const ended = once(run, "exit");
+  const live = await openPage(url);
+  await until(live, ({ time }) => time > 3.2);
+  assert.deepEqual((await obstacles(live))[0], [-20, 2]);
+  const moved = async (page) => {
+    const [x, z] = (await obstacles(page))[1];
+    assert.ok(Math.abs(x - 10) < 0.002 && Math.abs(z - 3) < 0.002, `${x}, ${z}`);
+  };
+  await moved(live);
+  await live.click("#first"); // what came can be scrubbed
+  const { time } = await until(live, ({ frame }) => frame === 0);
+  const [x] = (await obstacles(live))[1];
+  const expected = 6 + Math.min(4, Math.max(0, 2 * (time - 1)));
+  assert.ok(Math.abs(x - expected) < 0.05, `${x} at ${time} s, not ${expected}`);
+  await live.close();
+  child.kill();
+  run.kill();
+  await ended;
+
+  const simulated = await serve(scene, "--pace", "8");
+  const page = await openPage(simulated.url);
+  await until(page, ({ time }) => time > 3.2);
+  await moved(page);
+  await page.close();
+  simulated.child.kill();
+
+  talus("run", scene, "--no-telemetry", "--out", join(folder, "record"));
+  const recorded = await serve(join(folder, "record"));
+  const record = await openPage(recorded.url);
+  assert.deepEqual((await obstacles(record)).map((place) => place.map((part) => Math.round(100 * part) / 100)), [[-20, 2], [6, 2]]);
+  await record.click("#last");
+  await moved(record);
+  assert.deepEqual(record.faults, []);
+  await record.close();
+  recorded.child.kill();
 });
 
 test("events of the scene are shown on a page that comes after them", async () => {

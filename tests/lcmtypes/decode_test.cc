@@ -190,6 +190,25 @@ TEST(Decoder, ReadsEventsOfTheVersionBefore) {
   EXPECT_TRUE(read.removed.empty());
 }
 
+TEST(Decoder, RefusesObstaclesThatNoRunGives) {
+  MessageEncoder encoder(1);
+  const auto fault = [&](int dimension, std::vector<std::int32_t> obstacles, std::size_t values) {
+    talus_lcm::talus_obstacles_v1 message{};
+    message.dimension = dimension;
+    message.obstacle_count = static_cast<std::int32_t>(obstacles.size());
+    message.obstacle = std::move(obstacles);
+    message.value_count = static_cast<std::int32_t>(values);
+    message.poses.assign(values, 0.5F);
+    return fault_of<talus_lcm::talus_obstacles_v1>(encoder.encode(message, {0, 1, 0.5}).bytes);
+  };
+  EXPECT_EQ(fault(2, {0, 5}, 6), "");
+  EXPECT_EQ(fault(3, {0, 5}, 14), "");
+  EXPECT_NE(fault(4, {0, 5}, 6), "");
+  EXPECT_NE(fault(2, {0, 5}, 5), "");
+  EXPECT_NE(fault(2, {5, 5}, 6), "");
+  EXPECT_NE(fault(2, {-1, 5}, 6), "");
+}
+
 TEST(Decoder, RefusesWarningsThatNoRunGives) {
   MessageEncoder encoder(1);
   const auto fault = [&](std::int8_t kind, std::int64_t step, double value, std::size_t number) {

@@ -11,6 +11,7 @@ namespace {
 using talus_lcm::talus_bodies_v1;
 using talus_lcm::talus_event_v1;
 using talus_lcm::talus_event_v2;
+using talus_lcm::talus_obstacles_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
@@ -32,6 +33,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_shapes_v1::getHash()), 0x081800A341BF37D4U);
   EXPECT_EQ(fingerprint(talus_event_v1::getHash()), 0x87134A84EDEA7967U);
   EXPECT_EQ(fingerprint(talus_event_v2::getHash()), 0x08CAFE02AB0A6093U);
+  EXPECT_EQ(fingerprint(talus_obstacles_v1::getHash()), 0x00D92F75D07931CFU);
 }
 
 }  // namespace

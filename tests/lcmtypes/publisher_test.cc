@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <set>
@@ -139,6 +140,33 @@ TEST(Publisher, SendsPosesAtTheirRateAndAllOfThemWithinTwoSecondsAndAtTheEnd) {
   EXPECT_EQ(bodies.back().step, 2000);
   EXPECT_EQ(bodies.back().body_count, 12);
   EXPECT_GE(run.ear.all<talus_shapes_v1>().size(), 2U) << "at the first step, and at the end";
+}
+
+TEST(Publisher, SendsWhereObstaclesAreAsLongAsTheyMove) {
+  lcm::LCM lcm("memq://");
+  Ear ear(lcm);
+  Scene<2> scene = still_scene<2>();
+  scene.world.obstacles[0].moves = true;
+  const double end = 10.5 * scene.world.dt;
+  scene.movers = {{.first = 0, .count = 1, .motion = {.times = {0.0, end}, .shifts = {{0.0, 0.0}, {end, 0.0}}}}};
+  Publisher<2> publisher(run_info(scene, "still", "none"), {.piles_rate = 0.0, .bodies_rate = 1e6}, lcm);
+  publisher.set_world(scene.world);
+  publisher.set_scene(scene);
+  const auto run = still_run<2>(scene, 3);
+  run->add_observer(publisher);
+  for (int step = 0; step < 30; ++step) run->step();
+  run->end("finished");
+  ear.listen();
+  const auto messages = ear.all<talus_lcm::talus_obstacles_v1>();
+  ASSERT_FALSE(messages.empty());
+  EXPECT_GE(messages.back().step, 11);
+  for (const auto& message : messages) {
+    ASSERT_EQ(message.obstacle, std::vector<std::int32_t>{0});
+    EXPECT_NEAR(message.poses[0], 7.0 + std::min(end, message.sim_time), 1e-6);
+  }
+  EXPECT_LE(std::count_if(messages.begin(), messages.end(), [](const auto& message) { return message.step > 11; }), 1);
+  const std::vector<std::string> channels = ear.all<talus_run_v1>().back().channels;
+  EXPECT_NE(std::find(channels.begin(), channels.end(), "TALUS_OBSTACLES"), channels.end());
 }
 
 TEST(Publisher, SendsNoPosesAtRateZero) {

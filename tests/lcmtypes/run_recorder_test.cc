@@ -22,8 +22,8 @@ using talus_lcm::talus_stats_v2;
 
 /// Records `steps` steps of 12 bodies.
 template <int Dim>
-void record(const std::string& path, int steps, const RecorderParams& params = {}) {
-  const Scene<Dim> scene = still_scene<Dim>();
+void record(const std::string& path, int steps, const RecorderParams& params = {},
+            const Scene<Dim>& scene = still_scene<Dim>()) {
   RunRecorder<Dim> recorder(path, run_info(scene, "still", "none"), scene, params);
   const auto run = still_run<Dim>(scene, 12);
   run->add_observer(recorder);
@@ -87,6 +87,23 @@ TEST(RunRecorder, WritesEachFrameOfOutputAndEachStepsEvents) {
     EXPECT_DOUBLE_EQ(sleep.sim_time, static_cast<double>(sleep.step) / 60.0);
     EXPECT_EQ(sleep.woke[0], sleep.step % 8 == 0 ? 1 : 0);
   }
+}
+
+TEST(RunRecorder, TellsWhereObstaclesAreInEachFrameInWhichTheyMove) {
+  const ScratchFile file;
+  Scene<3> scene = still_scene<3>();
+  scene.world.obstacles[0].moves = true;
+  scene.movers = {{.first = 0, .count = 1, .motion = {.times = {0.0, 0.5}, .shifts = {Vec3::Zero(), Vec3::UnitZ()}}}};
+  record<3>(file.path(), 120, {}, scene);
+  const auto messages = read(file.path()).all<talus_lcm::talus_obstacles_v1>();
+  std::int64_t step = 0;
+  for (const auto& message : messages) {
+    ASSERT_EQ(message.obstacle, std::vector<std::int32_t>{0});
+    if (message.step <= 30) EXPECT_EQ(message.step, step += 2) << "two steps a frame";
+    EXPECT_NEAR(message.poses[2], 7.0 + std::min(1.0, 2.0 * message.sim_time), 1e-6);
+  }
+  EXPECT_EQ(step, 30);
+  EXPECT_LT(messages.size(), 20U) << "later only with key frames";
 }
 
 TEST(RunRecorder, TellsTheLastPoseOfABodyThatFellAsleep) {

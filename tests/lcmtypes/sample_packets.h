@@ -41,6 +41,8 @@ std::vector<Packet> sample_packets(int bodies) {
   event.action = "remove";
   event.text = "remove all bodies";
   encode(std::vector{event});
+  const std::vector<ObstaclePose<Dim>> moved = {{0, scene.world.obstacles[0].pose}};
+  encode(to_obstacles<Dim>(moved));
   return packets;
 }
 

@@ -265,6 +265,25 @@ TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {
   EXPECT_EQ(messages[2].pose[0], 7.0);
 }
 
+TEST(ObstaclesMessage, CarriesPosesThereAndBack) {
+  std::vector<ObstaclePose<3>> poses;
+  for (int k = 0; k < 5000; ++k)
+    poses.push_back({2 * k, {{0.5 * k, -1.0, 2.0}, Rotation<3>(Eigen::AngleAxisd(0.001 * k, Vec3::UnitY()))}});
+  std::vector<ObstaclePose<3>> read;
+  MessageEncoder encoder(1);
+  for (talus_lcm::talus_obstacles_v1& message : to_obstacles<3>(poses)) {
+    talus_lcm::talus_obstacles_v1 decoded;
+    EXPECT_EQ(decode(encoder.encode(message, {0, 6, 0.5}).bytes, decoded), "");
+    EXPECT_TRUE(poses_of<2>(decoded).empty());
+    for (const ObstaclePose<3>& each : poses_of<3>(decoded)) read.push_back(each);
+  }
+  ASSERT_EQ(read.size(), poses.size());
+  EXPECT_EQ(read[4999].obstacle, 9998);
+  EXPECT_EQ(read[4999].pose.position, poses[4999].pose.position);
+  EXPECT_NEAR(read[4999].pose.rotation.angularDistance(poses[4999].pose.rotation), 0.0, 1e-3);
+  EXPECT_TRUE(to_obstacles<3>({}).empty());
+}
+
 TEST(ShapesMessage, RefusesAShapeTooLargeForAMessage) {
   WorldDescription<2> world;
   world.shapes.resize(1);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numbers>
 #include <random>
 
 #include "common/shape/catalogue.h"
@@ -32,6 +33,7 @@ struct Decoded {
   float slope = 0.0F;
   std::map<std::uint64_t, std::string> warnings;
   std::vector<DoneEvent> scene_events;
+  std::map<std::uint64_t, std::array<double, components>> obstacles;  // their poses, in quanta
 };
 
 template <int Dim>
@@ -70,6 +72,10 @@ class Decoder {
       const int event = static_cast<int>(number());
       state.scene_events.push_back({event, real()});
     }
+    const std::vector<std::uint64_t> moved_obstacles = list();
+    for (int i = 0; i < Decoded<Dim>::components; ++i)
+      for (const std::uint64_t obstacle : moved_obstacles)
+        state.obstacles[obstacle][i] += static_cast<double>(difference());
     EXPECT_TRUE(reader_.done()) << "a block ends where its description says";
   }
 
@@ -217,6 +223,25 @@ TEST(FrameStream, EventsOfTheSceneComeOnce) {
   EXPECT_EQ(decoder.state.scene_events[0].number, 2);
   EXPECT_FLOAT_EQ(static_cast<float>(decoder.state.scene_events[0].time), 1.5F);
   EXPECT_EQ(decoder.state.scene_events[1].number, 0);
+}
+
+TEST(FrameStream, ObstaclesThatMoveArriveAndThoseThatStandTakeNoRoom) {
+  Decoder<2> decoder;
+  const auto form = std::make_shared<FrameForm<2>>();
+  FrameEncoder<2> encoder(form);
+  std::vector<ObstaclePose<2>> obstacles = {{3, {{1.0, -2.0}, Rotation<2>(0.5)}}, {7, {{0.0, 0.0}, Rotation<2>(0.0)}}};
+  const BodyStates<2> none;
+  decoder.take(encoder.encode({.step = 1, .states = none, .obstacles = obstacles}));
+  EXPECT_EQ(decoder.state.obstacles.size(), 2U);
+  const std::size_t still = encoder.encode({.step = 2, .states = none, .obstacles = obstacles}).size();
+  obstacles[0].pose = {{1.5, -2.0}, Rotation<2>(0.5 + 4.0 * std::numbers::pi)};
+  const std::string block = encoder.encode({.step = 3, .states = none, .obstacles = obstacles});
+  EXPECT_GT(block.size(), still);
+  decoder.take(block);
+  const auto& seen = decoder.state.obstacles.at(3);
+  EXPECT_NEAR(seen[0] * form->quantum.position, 1.5, form->quantum.position);
+  EXPECT_NEAR(seen[1] * form->quantum.position, -2.0, form->quantum.position);
+  EXPECT_NEAR(seen[2] * form->quantum.angle, 0.5, form->quantum.angle) << "whole turns are left out";
 }
 
 TEST(FrameStream, LayersCountAsThePilesDo) {

@@ -84,7 +84,7 @@ std::vector<Datagram> messages_of_a_run(int steps) {
   scene.events[1].time = 1e3;
   Publisher<Dim> publisher(run_info(scene, "still", "none"), {.piles_rate = 0.0, .bodies_rate = 1000.0}, lcm);
   publisher.set_world(scene.world);
-  publisher.set_events(scene);
+  publisher.set_scene(scene);
   const auto run = still_run<Dim>(scene, 12);
   run->add_observer(publisher);
   for (int step = 0; step < steps; ++step) run->step();

@@ -24,11 +24,14 @@ void draw_phases(const RunView& view, const Area& area) {
   }
 }
 
+std::vector<Channel> channels_of(const RunView& view) {
+  return channels_of_run(view.received(Channel::events) > 0, view.received(Channel::obstacles) > 0);
+}
+
 void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {
   area.put(0, 0, "channel         /s   kB/s   lost   bad", Style::strong);
   int row = 1;
-  for (const Channel channel : heard_channels) {
-    if (row == area.rows()) break;  // the last one, which only scenes with events send on
+  for (const Channel channel : channels_of(run.view())) {
     const RateMeter::Rate rate = run.entry->rates[static_cast<std::size_t>(channel)].rate(heard.now);
     const std::int64_t lost = run.view().lost(channel);
     const std::int64_t bad = heard.listener.undecodable(channel);

@@ -88,8 +88,7 @@ Halves halves_of(const Area& area) {
 }
 
 void draw_overview(const Heard& heard, const HeardRun& run, const Choice& choice, const Area& area) {
-  const bool has_events = run.view().received(Channel::events) > 0;
-  const int low = has_events ? 8 : 7;  // rows of phases and channels
+  const int low = 1 + static_cast<int>(channels_of(run.view()).size());  // rows of phases and channels
   const int graph = std::clamp(area.rows() / 5, 2, 8);
   const bool has_low = area.rows() >= graph + 5 + low;
   draw_counts(run.view(), area.upper(graph));

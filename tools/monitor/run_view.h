@@ -13,8 +13,8 @@
 namespace talus {
 
 /// What a monitor listens to.
-inline constexpr std::array heard_channels = {Channel::run,    Channel::piles,  Channel::sleep, Channel::stats,
-                                              Channel::bodies, Channel::shapes, Channel::events};
+inline constexpr std::array heard_channels = {Channel::run,    Channel::piles,  Channel::sleep,  Channel::stats,
+                                              Channel::bodies, Channel::shapes, Channel::events, Channel::obstacles};
 
 /// What is known of one run: the newest message of each kind, and what was lost. Older messages than those known are
 /// counted but change nothing. Of poses, shapes and events of the scene it keeps only the count.
@@ -27,6 +27,7 @@ class RunView {
   void take(const talus_lcm::talus_bodies_v1& message);
   void take(const talus_lcm::talus_shapes_v1& message);
   void take(const talus_lcm::talus_event_v2& message);
+  void take(const talus_lcm::talus_obstacles_v1& message);
 
   /// The run's number was used before; nothing of that is left. A record that is played twice does so.
   bool is_restart(const talus_lcm::talus_run_v1& message) const;

@@ -33,6 +33,7 @@ std::string stream_of(const Scene<Dim>& scene, const std::filesystem::path& fold
   BodyStates<Dim> last;
   std::vector<Pile<Dim>> piles;
   const WalkResult walk = walk_record<Dim>(scene, log, [&](const RecordedFrame<Dim>& frame) {
+    const auto obstacles = moving_poses(scene.world.obstacles, scene.movers, frame.time);
     blocks += encoder.encode({.step = frame.step,
                               .states = frame.states,
                               .events = frame.events,
@@ -40,7 +41,8 @@ std::string stream_of(const Scene<Dim>& scene, const std::filesystem::path& fold
                               .warnings = frame.warnings,
                               .kinetic_energy = frame.kinetic_energy,
                               .scene_events = frame.scene_events,
-                              .drift_estimate = frame.drift_estimate});
+                              .drift_estimate = frame.drift_estimate,
+                              .obstacles = obstacles});
     last = frame.states;
     piles.assign(frame.piles.begin(), frame.piles.end());
   });

@@ -98,7 +98,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
         .url = options.lcm_url, .piles_rate = options.telemetry_hz, .bodies_rate = options.bodies_hz};
     auto publisher = std::make_unique<Publisher<Dim>>(info, params);
     publisher->set_world(scene.world);
-    publisher->set_events(scene);
+    publisher->set_scene(scene);
     add(std::move(publisher), simulation);
   }
 #endif

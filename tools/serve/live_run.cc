@@ -1,5 +1,6 @@
 #include "tools/serve/live_run.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using talus_lcm::talus_bodies_v1;
 using talus_lcm::talus_event_v2;
+using talus_lcm::talus_obstacles_v1;
 using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
 using talus_lcm::talus_shapes_v1;
@@ -98,6 +100,7 @@ class LiveRun::Assembly {
   virtual void take(const talus_piles_v2& message) = 0;
   virtual void take(const talus_bodies_v1& message) = 0;
   virtual void take(const talus_event_v2& message) = 0;
+  virtual void take(const talus_obstacles_v1& message) = 0;
 
  protected:
   virtual void note_event(BodyIndex body) = 0;
@@ -130,14 +133,23 @@ class AssemblyOf final : public LiveRun::Assembly {
  public:
   using Assembly::Assembly;
 
-  /// A shape that is not known yet begins the picture again. Obstacles stay where they were at first.
+  /// A shape that is not known yet begins the picture again. Of an obstacle that moves the message has the present
+  /// pose.
   void take(const talus_shapes_v1& message) override {
     if (message.dimension != Dim) return;
     auto& known = message.obstacle != 0 ? obstacles_ : shapes_;
     const auto before = known.find(message.index);
     const bool news = before == known.end() || before->second.values != message.values;
+    if (!news && message.obstacle != 0 && !std::ranges::equal(message.pose, before->second.pose))
+      moved_[message.index] = pose_of<Dim>(message);
     known[message.index] = message;
     if (news) head_.reset();
+  }
+
+  /// Only of obstacles that are known: a forged message can name any number of others.
+  void take(const talus_obstacles_v1& message) override {
+    for (const ObstaclePose<Dim>& each : poses_of<Dim>(message))
+      if (obstacles_.contains(each.obstacle)) moved_[each.obstacle] = each.pose;
   }
 
   void take(const talus_piles_v2& message) override {
@@ -161,13 +173,16 @@ class AssemblyOf final : public LiveRun::Assembly {
     if (!states_->take(message)) return;
     const bool first = head_ == nullptr;
     if (first && !begin()) return;
+    std::vector<ObstaclePose<Dim>> moved;
+    for (const auto& [obstacle, pose] : moved_) moved.push_back({obstacle, pose});
     auto snapshot = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = states_->step(),
                                                                     .states = states_->states(),
                                                                     .piles = piles_,
                                                                     .warnings = warnings_,
                                                                     .kinetic_energy = stats_.kinetic_energy,
                                                                     .scene_events = done_events_,
-                                                                    .drift_estimate = drift_estimate()},
+                                                                    .drift_estimate = drift_estimate(),
+                                                                    .obstacles = moved},
                                                      form_, head_);
     if (first)
       hub_.begin(std::move(snapshot));
@@ -229,6 +244,7 @@ class AssemblyOf final : public LiveRun::Assembly {
 
   std::map<int, talus_shapes_v1> shapes_;     // by index
   std::map<int, talus_shapes_v1> obstacles_;  // by index
+  std::map<int, Pose<Dim>> moved_;            // the last poses of those that have moved
   std::map<int, talus_event_v2> events_;      // of the scene, by number
   std::vector<DoneEvent> done_events_;        // as heard
   std::vector<Pile<Dim>> piles_;

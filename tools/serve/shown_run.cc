@@ -61,13 +61,15 @@ class SimulatedScene final : public ShownRun {
     const Frame<Dim> frame = simulation_.frame();
     std::vector<Pile<Dim>> piles(frame.piles.piles().begin(), frame.piles.piles().end());
     for (Pile<Dim>& pile : piles) set_thresholds(*frame.policy, pile);
+    const auto obstacles = moving_poses(scene_.world.obstacles, scene_.movers, frame.time);
     auto copy = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = frame.step,
                                                                 .states = frame.world.states(),
                                                                 .piles = piles,
                                                                 .warnings = frame.warnings,
                                                                 .kinetic_energy = kinetic_energy(frame.world),
                                                                 .scene_events = happened_,
-                                                                .drift_estimate = drift_estimate(frame)},
+                                                                .drift_estimate = drift_estimate(frame),
+                                                                .obstacles = obstacles},
                                                  form_, head_);
     if (contacts_.needs_contacts()) copy->set_contacts(contacts_.contacts(frame.world));
     return copy;

@@ -33,7 +33,8 @@ class StateCopy final : public Snapshot {
         warnings_(frame.warnings.begin(), frame.warnings.end()),
         kinetic_energy_(frame.kinetic_energy),
         scene_events_(frame.scene_events.begin(), frame.scene_events.end()),
-        drift_estimate_(frame.drift_estimate) {
+        drift_estimate_(frame.drift_estimate),
+        obstacles_(frame.obstacles.begin(), frame.obstacles.end()) {
     states_.shape = frame.states.shape;
     states_.pose = frame.states.pose;
     states_.asleep = frame.states.asleep;
@@ -52,7 +53,8 @@ class StateCopy final : public Snapshot {
                                                                     .warnings = warnings_,
                                                                     .kinetic_energy = kinetic_energy_,
                                                                     .scene_events = scene_events_,
-                                                                    .drift_estimate = drift_estimate_});
+                                                                    .drift_estimate = drift_estimate_,
+                                                                    .obstacles = obstacles_});
   }
   std::string contacts() const override {
     return contacts_ ? encode_contacts<Dim>(*contacts_, form_->quantum) : std::string();
@@ -68,6 +70,7 @@ class StateCopy final : public Snapshot {
   double kinetic_energy_;
   std::vector<DoneEvent> scene_events_;
   double drift_estimate_;
+  std::vector<ObstaclePose<Dim>> obstacles_;
   std::optional<std::vector<ShownContact<Dim>>> contacts_;
 };
 

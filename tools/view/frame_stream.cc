@@ -78,6 +78,7 @@ std::string FrameEncoder<Dim>::encode(const ViewFrame<Dim>& frame) {
     write_unsigned(block_, event.number);
     write_float(block_, static_cast<float>(event.time));
   }
+  write_obstacles(frame.obstacles);
   ++frames_;
   return block_;
 }
@@ -167,7 +168,28 @@ void FrameEncoder<Dim>::write_poses(const BodyStates<Dim>& states) {
     for (int i = 0; i < components; ++i) change[i] = now[i] - before[i];
     before = now;
   }
-  write_list(moved);
+  write_changes(moved, changes);
+}
+
+template <int Dim>
+void FrameEncoder<Dim>::write_obstacles(std::span<const ObstaclePose<Dim>> obstacles) {
+  std::vector<int> moved;
+  std::vector<Counts> changes;
+  for (const ObstaclePose<Dim>& each : obstacles) {
+    const auto [known, first] = known_obstacles_.try_emplace(each.obstacle, Counts{});
+    const Counts now = counted(each.pose, known->second);
+    if (now == known->second && !first) continue;
+    moved.push_back(each.obstacle);
+    Counts& change = changes.emplace_back();
+    for (int i = 0; i < components; ++i) change[i] = now[i] - known->second[i];
+    known->second = now;
+  }
+  write_changes(moved, changes);
+}
+
+template <int Dim>
+void FrameEncoder<Dim>::write_changes(std::span<const int> numbers, std::span<const Counts> changes) {
+  write_list(numbers);
   for (int i = 0; i < components; ++i)
     for (const Counts& change : changes) write_signed(block_, change[i]);
 }
@@ -252,10 +274,10 @@ void FrameEncoder<Dim>::write_warnings(std::span<const Warning> warnings) {
 }
 
 template <int Dim>
-void FrameEncoder<Dim>::write_list(std::span<const BodyIndex> bodies) {
-  write_unsigned(block_, bodies.size());
-  BodyIndex before = -1;
-  for (const BodyIndex body : bodies) write_unsigned(block_, body - std::exchange(before, body));
+void FrameEncoder<Dim>::write_list(std::span<const int> numbers) {
+  write_unsigned(block_, numbers.size());
+  int before = -1;
+  for (const int number : numbers) write_unsigned(block_, number - std::exchange(before, number));
 }
 
 template Quantum quantum_of(const Scene<2>&);

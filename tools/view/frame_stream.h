@@ -15,6 +15,7 @@
 #include "common/scene/happened.h"
 #include "common/scene/scene.h"
 #include "common/world/body.h"
+#include "common/world/motion.h"
 #include "common/world/warning.h"
 
 namespace talus {
@@ -48,10 +49,11 @@ struct ViewFrame {
   const BodyStates<Dim>& states;
   std::span<const SleepEvent> events = {};  // since the frame before, in order
   std::span<const Pile<Dim>> piles = {};
-  std::span<const Warning> warnings = {};        // all so far
-  double kinetic_energy = 0.0;                   // [J]
-  std::span<const DoneEvent> scene_events = {};  // all so far
-  double drift_estimate = -1.0;                  // of the sleeping bodies [D]; -1: not known
+  std::span<const Warning> warnings = {};             // all so far
+  double kinetic_energy = 0.0;                        // [J]
+  std::span<const DoneEvent> scene_events = {};       // all so far
+  double drift_estimate = -1.0;                       // of the sleeping bodies [D]; -1: not known
+  std::span<const ObstaclePose<Dim>> obstacles = {};  // of those that move, all
 };
 
 /// Writes frames as differences from the frame before: only what changed takes room, a sleeping body none. The first
@@ -75,6 +77,8 @@ struct ViewFrame {
 ///     f kinetic energy; f estimate of drift [D], f slope measured of the largest pile [rad], -1 where not known
 ///     u number of warnings that changed; of each: u kind, u step of the first, u bytes of its text, the text
 ///     u number of events of the scene since the frame before; of each: u number, f time
+///     list of obstacles with another pose, s change of each component, component by component, as of bodies; an
+///     obstacle that is not named before is where the head has it, and changes from a pose of zeros
 template <int Dim>
 class FrameEncoder {
  public:
@@ -108,7 +112,10 @@ class FrameEncoder {
   void write_pile(int number, const Pile<Dim>& pile, KnownPile& known);
   void write_warnings(std::span<const Warning> warnings);
 
-  void write_list(std::span<const BodyIndex> bodies);
+  void write_obstacles(std::span<const ObstaclePose<Dim>> obstacles);
+
+  void write_changes(std::span<const int> numbers, std::span<const Counts> changes);
+  void write_list(std::span<const int> numbers);
 
   std::shared_ptr<const FrameForm<Dim>> form_;
   std::int64_t frames_ = 0;
@@ -118,6 +125,7 @@ class FrameEncoder {
   std::vector<KnownPile> known_piles_;
   std::map<WarningKind, std::string> known_warnings_;  // their texts
   std::size_t known_scene_events_ = 0;
+  std::map<int, Counts> known_obstacles_;  // their poses, by number
   std::string block_;
 };
 

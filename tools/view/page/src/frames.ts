@@ -123,6 +123,8 @@ export class State {
   /// Enclosed by sleeping bodies: neither sent nor drawn.
   hidden = new Uint8Array(64);
   pose: Int32Array;
+  /// Poses of the obstacles that move, by number.
+  obstacles = new Map<number, number[]>();
   private readonly components: number;
 
   constructor(private readonly dimension: 2 | 3) {
@@ -145,6 +147,7 @@ export class State {
     copy.removed = this.removed.slice(0, this.bodies);
     copy.hidden = this.hidden.slice(0, this.bodies);
     copy.pose = this.pose.slice(0, this.bodies * this.components);
+    for (const [obstacle, pose] of this.obstacles) copy.obstacles.set(obstacle, [...pose]);
     return copy;
   }
 
@@ -182,8 +185,15 @@ export class State {
     for (let left = reader.unsigned(); left > 0; --left)
       warnings.push({ kind: reader.unsigned(), step: reader.unsigned(), text: reader.text() });
     const sceneEvents = Array.from({ length: reader.unsigned() }, () => ({ number: reader.unsigned(), time: reader.float() }));
+    this.readObstacles(reader);
     this.count();
     return { changed, events, warnings, sceneEvents };
+  }
+
+  private readObstacles(reader: Reader): void {
+    const moved = reader.bodies();
+    for (const obstacle of moved) if (!this.obstacles.has(obstacle)) this.obstacles.set(obstacle, new Array<number>(this.components).fill(0));
+    for (let i = 0; i < this.components; ++i) for (const obstacle of moved) this.obstacles.get(obstacle)![i] += reader.signed();
   }
 
   private grow(bodies: number): void {

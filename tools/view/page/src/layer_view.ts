@@ -62,8 +62,9 @@ export class LayerView {
         paper.fillStyle = css(this.head.colours.layer);
         const text = wakeDensity >= 0 ? `${value.toFixed(2)} of ${wakeDensity.toFixed(2)}` : value.toFixed(2);
         if (wakeDensity >= 0 && value > wakeDensity) paper.fillStyle = css(overfull);
-        paper.strokeText(text, at.x + 5, at.y);
-        paper.fillText(text, at.x + 5, at.y);
+        const x = Math.min(at.x + 5, paper.canvas.clientWidth - paper.measureText(text).width - 4);
+        paper.strokeText(text, x, at.y);
+        paper.fillText(text, x, at.y);
       }
     }
   }

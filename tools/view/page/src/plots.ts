@@ -39,7 +39,7 @@ export class Plots {
       [
         this.series("awake", css(head.colours.awake[1]), 2),
         this.series("asleep", css(head.colours.asleep), 1.5),
-        { label: "woken", stroke: css(head.colours.awake_outline), fill: css(head.colours.awake_outline, 0.6), paths: uPlot.paths.bars!({ size: [1, 3] }), points: { show: false } },
+        { label: "woken", auto: false, stroke: css(head.colours.awake_outline), fill: css(head.colours.awake_outline, 0.6), paths: uPlot.paths.bars!({ size: [1, 3] }), points: { show: false } },
         ...(timed ? [speed] : []),
       ],
       "bodies",

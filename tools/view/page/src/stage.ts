@@ -202,10 +202,14 @@ export class Stage {
   }
 
   private poseOf(body: number): number[] {
-    const { pose } = this.timeline!.state;
+    return this.inMetres(this.timeline!.state.pose, (this.flat ? 3 : 7) * body);
+  }
+
+  /// The pose that begins at a place of these counts of quanta.
+  private inMetres(counts: ArrayLike<number>, at: number): number[] {
     const { position, angle, quaternion } = this.head.quantum;
-    if (this.flat) return [pose[3 * body] * position, pose[3 * body + 1] * position, pose[3 * body + 2] * angle];
-    return Array.from({ length: 7 }, (_, i) => pose[7 * body + i] * (i < 3 ? position : quaternion));
+    if (this.flat) return [counts[at] * position, counts[at + 1] * position, counts[at + 2] * angle];
+    return Array.from({ length: 7 }, (_, i) => counts[at + i] * (i < 3 ? position : quaternion));
   }
 
   /// Brings bodies to where the timeline's state has them. Those that sleep are drawn apart from those that are awake, so
@@ -229,6 +233,7 @@ export class Stage {
     for (const shape of this.shapes) shape.upload();
     const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => this.head.events[number]?.removes ?? []));
     this.surroundings.hideObstacles(removed);
+    for (const [obstacle, counts] of state.obstacles) this.surroundings.placeObstacle(obstacle, this.inMetres(counts, 0));
     if (this.accompanied >= 0) this.goAlong();
     else if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
@@ -364,6 +369,10 @@ export class Stage {
     const pixelsPerMetre = this.onScreen(new Vector3(1, 0, 0)).x - this.onScreen(new Vector3(0, 0, 0)).x;
     const length = niceLength(this.canvas.clientWidth / 6 / pixelsPerMetre);
     const end = 14 + length * pixelsPerMetre;
+    paper.save();
+    paper.fillStyle = css(this.head.colours.paper, 0.8);
+    paper.fillRect(8, bottom - 9, end + 7 + paper.measureText(`${length} m`).width, 18);
+    paper.restore();
     paper.lineWidth = 1.5;
     paper.beginPath();
     for (const [x, y] of [[14, bottom - 4], [14, bottom + 4], [14, bottom], [end, bottom], [end, bottom - 4], [end, bottom + 4]]) paper.lineTo(x, y);

@@ -56,10 +56,18 @@ export class Surroundings {
     );
     for (const obstacle of obstacles) {
       const instance = new Instances(geometryOf(obstacle.pieces), material, false, 1);
-      instance.set(instance.add(0), matrixOf(obstacle.pose), colour(colours.obstacle), false);
+      instance.add(0);
       this.obstacles.push(instance);
       this.group.add(instance.mesh);
     }
+    obstacles.forEach(({ pose }, number) => this.placeObstacle(number, pose));
+  }
+
+  /// `pose` in m and rad.
+  placeObstacle(number: number, pose: number[]): void {
+    const instance = this.obstacles[number];
+    instance?.set(0, matrixOf(pose), colour(this.head.colours.obstacle), false);
+    instance?.upload();
   }
 
   /// The nearest obstacle that a ray meets, -1: none.
