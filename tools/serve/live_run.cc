@@ -288,7 +288,7 @@ void LiveRun::hear(const Datagram& datagram, Message& message, Clock::time_point
 }
 
 void LiveRun::hear(const Datagram& datagram, Clock::time_point now) {
-  with_message_of(datagram.channel, [&](auto message) { hear(datagram, message, now); });
+  with_message_of(datagram.channel, [&](auto message) { this->hear(datagram, message, now); });
 }
 
 }  // namespace talus
