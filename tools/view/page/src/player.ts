@@ -391,7 +391,7 @@ export class Player {
     if (pile) lines.push(`Slope ${state.measuredSlope < 0 ? "not measured yet" : `${degrees(state.measuredSlope)} measured`}, ${degrees(pile.slope)} of the layers (alpha)`);
     const { tolerance } = this.head;
     if (tolerance !== null || state.drift >= 0)
-      lines.push(`Drift estimated ${state.drift < 0 ? "not yet" : `${state.drift.toPrecision(2)} D`}${tolerance === null ? "" : `, tolerance ${tolerance} D`}`);
+      lines.push(`Drift ${state.drift < 0 ? "not estimated until bodies rest" : `estimated ${state.drift.toPrecision(2)} D`}${tolerance === null ? "" : `, tolerance ${tolerance} D`}`);
     const hidden = state.hidden.subarray(0, state.bodies).reduce((sum, flag) => sum + flag, 0);
     if (hidden > 0) lines.push(`${hidden} enclosed bodies not drawn`);
     element("measured").replaceChildren(...lines.map((text) => Object.assign(document.createElement("p"), { className: "hint", textContent: text })));
