@@ -10,7 +10,7 @@
 namespace talus {
 
 void Listener::hear(const Datagram& datagram, Clock::time_point now) {
-  with_message_of(datagram.channel, [&](auto message) { hear(datagram, message, now); });
+  with_message_of(datagram.channel, [&](auto message) { this->hear(datagram, message, now); });
 }
 
 template <class Message>
