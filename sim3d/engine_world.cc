@@ -123,6 +123,8 @@ Pose<Dim> EngineWorld<Dim>::engine_add(BodyIndex body, const BodyDef<Dim>& def) 
   listed_.push_back(body);
   rigid_.push_back(made.get());
   objects_.push_back(std::move(made));
+  // Bullet has listed the body behind the frozen ones, but bodies stand together in its list.
+  if (this->description().debug.keep_sleepers) update_lists();
   return def.pose;
 }
 
