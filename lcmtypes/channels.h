@@ -22,6 +22,12 @@ inline constexpr std::array<const char*, 8> channel_names = {"TALUS_RUN",    "TA
 
 inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
 
+inline constexpr auto all_channels = [] {
+  std::array<Channel, channel_names.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Channel>(i);
+  return all;
+}();
+
 inline std::optional<Channel> channel_named(std::string_view name) {
   const auto found = std::find(channel_names.begin(), channel_names.end(), name);
   if (found == channel_names.end()) return std::nullopt;

@@ -7,8 +7,8 @@ namespace talus {
 namespace {
 
 // Sent at once, with a pause after. The receive buffers of listeners at default settings hold some 180 kB or 100 small
-// packets, so the pauses spread what is queued over `spread_time`: a listener that is kept from running for some tens
-// of milliseconds loses nothing, and the fuller the queue is, the faster it is sent.
+// packets, so the pauses spread what is queued over `spread_time`: a receiver that gets no processor time for some tens
+// of milliseconds loses nothing. The fuller the queue, the shorter the pauses.
 constexpr std::size_t burst_bytes = 8192;
 constexpr int burst_packets = 8;
 constexpr auto spread_time = std::chrono::microseconds(100'000);

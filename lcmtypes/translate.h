@@ -66,7 +66,7 @@ void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event_v2&
 template <int Dim>
 Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message);
 
-/// No message where there are no poses.
+/// Empty if there are no poses.
 template <int Dim>
 std::vector<talus_lcm::talus_obstacles_v1> to_obstacles(std::span<const ObstaclePose<Dim>> poses);
 

@@ -38,7 +38,7 @@ void receive_run(const DatagramSender& sender, int steps) {
     for (int step = 0; step < steps; ++step) run->step();
     run->end("finished");
   });
-  receive(lcm, heard_channels, sender);
+  receive(lcm, all_channels, sender);
 }
 
 void receive_nothing(const DatagramSender&) {

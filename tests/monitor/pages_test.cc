@@ -48,7 +48,7 @@ class Sender {
     lose_ = std::max(lose_ - 1, 0);
   }
   void run(std::int8_t phase, const std::string& reason = {}) {
-    send(to_run(info_, phase, reason, heard_channels, encoder_));
+    send(to_run(info_, phase, reason, all_channels, encoder_));
   }
   void stats(int awake, int asleep) {
     ++step_;

@@ -32,7 +32,7 @@ std::vector<Engine> engines() {
   return all;
 }
 
-/// Cubes of 1 m whose undersides are at these heights [D], 5 m apart; four steps. What more the scene has is in `rest`.
+/// Cubes of 1 m whose undersides are at these heights [D], 5 m apart; four steps. `rest`: further tables of the scene.
 void write_cubes(const std::string& file, int dimension, const std::vector<double>& heights, const std::string& body,
                  const std::string& rest = "") {
   std::ofstream out(file);

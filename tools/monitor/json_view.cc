@@ -93,7 +93,7 @@ std::string json_line(std::int64_t run_id, const RunView& view, const Faults& fa
   object["slept"] = view.slept();
   object["woken"] = view.woken();
   object["received"] = view.received();
-  for (const Channel channel : heard_channels) object["lost"][name_of(channel)] = view.lost(channel);
+  for (const Channel channel : all_channels) object["lost"][name_of(channel)] = view.lost(channel);
   object["undecodable"] = faults.undecodable;
   object["receiver_crashes"] = faults.receiver_crashes;
   object["dropped_runs"] = faults.dropped_runs;

@@ -34,7 +34,7 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
   ReceiverProcess receiver([&address](const DatagramSender& sender) {
     const LiveLink link = open_live_link(address);
     if (!link.lcm) throw std::runtime_error(link.problem);
-    receive(*link.lcm, heard_channels, sender);
+    receive(*link.lcm, all_channels, sender);
     throw std::runtime_error("LCM stopped receiving");
   });
   const std::atomic<bool>& interrupted = stop_signal();

@@ -34,7 +34,7 @@ bool RunView::note(const Message& message) {
 void RunView::take(const talus_run_v1& message) {
   if (!note(message)) return;
   run_ = message;
-  for (const Channel channel : heard_channels) {
+  for (const Channel channel : all_channels) {
     const auto named = std::find(message.channels.begin(), message.channels.end(), name_of(channel));
     if (channel == Channel::run || named == message.channels.end()) continue;
     trackers_[static_cast<std::size_t>(channel)].expect(message.sent[named - message.channels.begin()]);

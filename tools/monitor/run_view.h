@@ -12,10 +12,6 @@
 
 namespace talus {
 
-/// What a monitor listens to.
-inline constexpr std::array heard_channels = {Channel::run,    Channel::piles,  Channel::sleep,  Channel::stats,
-                                              Channel::bodies, Channel::shapes, Channel::events, Channel::obstacles};
-
 /// What is known of one run: the newest message of each kind, and what was lost. Older messages than those known are
 /// counted but change nothing. Of poses, shapes and events of the scene it keeps only the count.
 class RunView {

@@ -31,7 +31,7 @@ struct SummaryInput {
   std::int64_t emit_waits = 0;                  // steps at which a due body found no room
   double pixels_per_metre = 0.0;                // of pile.png
   std::vector<SceneError> outside_window = {};  // what of the scene lies outside of the engine's window
-  std::optional<MeasuredDrift> measured = {};   // none: not asked for
+  std::optional<MeasuredDrift> measured = {};   // none: without --measure-drift
   std::vector<Warning> warnings = {};           // of the run and of what was measured after it
 };
 

@@ -42,7 +42,7 @@ constexpr auto silence = std::chrono::seconds(2);
 /// Of each channel on which messages came or were lost: its name, how many came, how many were lost.
 Json channels_json(const RunView& heard) {
   Json channels = Json::array();
-  for (const Channel channel : heard_channels)
+  for (const Channel channel : all_channels)
     if (heard.received(channel) > 0 || heard.lost(channel) > 0)
       channels.push_back({name_of(channel), heard.received(channel), heard.lost(channel)});
   return channels;

@@ -24,7 +24,7 @@ ReceiverProcess::Body receive_at(const std::string& address) {
   return [address](const DatagramSender& sender) {
     const LiveLink link = open_live_link(address);
     if (!link.lcm) throw std::runtime_error(link.problem);
-    receive(*link.lcm, heard_channels, sender);
+    receive(*link.lcm, all_channels, sender);
     throw std::runtime_error("LCM stopped receiving");
   };
 }

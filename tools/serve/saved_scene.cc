@@ -106,7 +106,8 @@ class Saving {
 
   toml::array* tables(std::string_view key) { return root_[key].as_array(); }
 
-  /// Of each table of [[obstacle]] the obstacles that are left; text of those whose neighbours of one table are gone.
+  /// Keeps the [[obstacle]] tables of which all obstacles are left. Of a table that has lost some, returns the others
+  /// as text.
   std::string put_obstacles() {
     std::string text;
     toml::array* tables_of = tables("obstacle");

@@ -150,7 +150,7 @@ class SimulatedScene final : public ShownRun {
     return Vec<Dim>(Eigen::Map<const Vec<Dim>>(numbers.data()));
   }
 
-  /// [D]
+  /// In the largest extent of a typical body [D]; -1: none.
   double drift_estimate(const Frame<Dim>& frame) const {
     const auto estimate = simulation_.drift_estimate();
     return estimate ? estimate->drift / frame.piles.typical_body().extent : -1.0;

@@ -63,9 +63,9 @@ void serve(const ViewOptions& options, const ViewServer& server, const std::func
     print_message("Open this address in a browser of this machine; Ctrl-C ends.");
   } else {
     print_message(
-        "warning: --listen {}: other machines reach this page. Everyone who has the address can watch the run and "
-        "steer "
-        "it, and everyone on the way can read the address, since nothing is encrypted. Ctrl-C ends.",
+        "warning: --listen {}: other machines reach this page. Its address is all that is needed to watch and steer "
+        "the "
+        "run, and can be read on the network, since nothing is encrypted. Ctrl-C ends.",
         options.listen);
   }
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
@@ -195,8 +195,8 @@ void add_options(CLI::App& command, ViewOptions& options) {
       ->capture_default_str();
   command
       .add_option("--listen", options.listen,
-                  "IPv4 address of an interface of this machine, on which other machines reach the page: who has its "
-                  "address watches and steers the run, and nothing is encrypted")
+                  "IPv4 address of an interface of this machine, on which other machines reach the page: its "
+                  "address is all that is needed to watch and steer the run, and nothing is encrypted")
       ->check(one_interface())
       ->capture_default_str();
   command.add_option("--port", options.port, "Port of the interface; 0: one that is free")

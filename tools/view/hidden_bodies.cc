@@ -28,7 +28,8 @@ Cell cell_at(const Vec3& point, double width) {
 
 constexpr Cell height_of(Cell cell) { return cell & ((Cell{1} << axis_bits) - 1); }
 
-/// The cells whose neighbours along one axis are all there, or lie below the height `ground`.
+/// The cells that are enclosed along one axis: each of the `cover` neighbours on both sides is in the set or lies below
+/// the height `ground`.
 Cells eroded(const Cells& cells, Cell step, Cell ground) {
   Cells inner;
   for (const Cell cell : cells) {

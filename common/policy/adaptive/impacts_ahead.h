@@ -8,12 +8,12 @@
 
 namespace talus {
 
-/// The rule for impacts takes effect one step late, and one body at a time. That does where supports take up most of an
-/// impact, which is from above. It does not where a body drives many others before it, or where bodies that lean on
-/// each other push on: there the sleeping body stops them all as a rock would. So two kinds of bodies wake the sleeping
-/// bodies in their path before they arrive: one with the momentum to drive many others, which also wakes around these
-/// as many as it could set in motion; and one that touches other awake bodies and moves sideways so fast that a body
-/// like it would wake when hit.
+/// The rule for impacts takes effect one step late, and one body at a time. This suffices for impacts from above, which
+/// supports take up. It does not suffice where a body drives many others before it, or where bodies in contact push on
+/// together: a sleeping body then stops them all like a fixed obstacle. So two kinds of bodies wake the sleeping bodies
+/// in their path before the impact: a body with the momentum to drive many others, which also wakes as many around
+/// these as it could set in motion; and a body that touches other awake bodies and moves sideways so fast that a body
+/// of its mass would wake when hit.
 template <int Dim>
 class ImpactsAhead {
  public:

@@ -38,7 +38,7 @@ export class Timeline {
 
   private readonly blocks: Uint8Array[] = [];
   private readonly kept: State[] = [];
-  /// By body; of a run that goes on an event may come before the frame in which its body appears.
+  /// By body. While a run goes on, an event may come before the frame in which its body appears.
   private readonly events: SleepEvent[][] = [];
   private readonly born: number[] = [];
   private readonly last: State;
