@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/policy/adaptive/impacts.h"
+#include "common/policy/adaptive/impacts_ahead.h"
 #include "common/policy/adaptive/support_criterion.h"
 #include "common/policy/adaptive/support_loss.h"
 #include "common/shape/rigid_impulse.h"
@@ -221,6 +222,42 @@ TEST(Impacts, GiveNoBodyMoreSpeedThanTheFastestApproachOfTheStep) {
   collision.strike(100.0, 3.0);  // an engine pushes overlapping bodies apart
   ASSERT_EQ(collision.out.velocities.size(), 2U);
   EXPECT_LE(collision.out.velocities[1].velocity.norm(), 3.0 + 1e-9);
+}
+
+/// A sleeping cube, an awake one that nearly touches it, and behind that a third one that pushes it.
+struct PushedCube {
+  PushedCube() { world.freeze(std::vector<BodyIndex>{0}); }
+  /// The bodies that wake where the cube in the middle moves so and the third one pushes it along `push`.
+  std::vector<BodyIndex> woken(const Vec3& velocity, const Vec3& spin, const Vec3& push) {
+    world.push(1, velocity, spin);
+    if (push != Vec3::Zero()) world.touching = {contact(1, 2, {-1.5, 0.0, 0.5}, push, 0.1)};
+    RuleOutput<3> out;
+    ImpactsAhead<3>(RuleParts{}.setup()).update(input(world), out);
+    return bodies_in(out.wakes);
+  }
+  StillWorld<3> world = cubes_at({{0.0, 0.0, 0.5}, {-0.99, 0.0, 0.5}, {-2.0, 0.0, 0.5}});
+};
+
+const std::vector<BodyIndex> no_body;
+const std::vector<BodyIndex> sleeping_cube = {0};
+
+// A body wakes from 1.02 m/s on. Of equal masses the one that is hit gets half of the speed, here 1.5 m/s.
+TEST(ImpactsAhead, WakeWhatABodyThatOthersPushIsAboutToHit) {
+  EXPECT_EQ(PushedCube().woken(3.0 * Vec3::UnitX(), Vec3::Zero(), Vec3::UnitX()), sleeping_cube);
+  EXPECT_EQ(PushedCube().woken(1.9 * Vec3::UnitX(), Vec3::Zero(), Vec3::UnitX()), no_body) << "too slow";
+  EXPECT_EQ(PushedCube().woken(3.0 * Vec3::UnitX(), Vec3::Zero(), -Vec3::UnitX()), no_body) << "pushed back";
+  EXPECT_EQ(PushedCube().woken(3.0 * Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()), no_body) << "by itself";
+}
+
+TEST(ImpactsAhead, WakeNoBodyThatTheMotionPassesBy) {
+  EXPECT_EQ(PushedCube().woken(3.0 * Vec3::UnitY(), Vec3::Zero(), Vec3::UnitX()), no_body);
+  EXPECT_EQ(PushedCube().woken(-3.0 * Vec3::UnitX(), Vec3::Zero(), Vec3::UnitX()), no_body);
+}
+
+// The corners are 0.87 m from the centre: at 3 rad/s they move at 2.6 m/s.
+TEST(ImpactsAhead, CountTurningTowardsABodyAndNotAboutTheLineToIt) {
+  EXPECT_EQ(PushedCube().woken(Vec3::Zero(), 3.0 * Vec3::UnitY(), Vec3::UnitX()), sleeping_cube);
+  EXPECT_EQ(PushedCube().woken(Vec3::Zero(), 3.0 * Vec3::UnitX(), Vec3::UnitX()), no_body);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "common/policy/adaptive/impacts_ahead.h"
 
+#include <optional>
+
 #include "common/policy/adaptive/impacts.h"
 
 namespace talus {
@@ -7,14 +9,30 @@ namespace {
 
 constexpr Wake before_impact{.cause = SleepCause::momentum, .before_impact = true};
 
-/// Whether `other` lies less than 45 degrees below the body: what lies below has supports that take up the impact.
+/// Horizontal unit vector from the body towards `other`; none for what lies more than 45 degrees below, since that has
+/// supports that take up the impact, and for what lies straight above.
 template <int Dim>
-bool is_aside(const RuleInput<Dim>& in, BodyIndex body, BodyIndex other) {
-  const Vec<Dim> to = in.pose_of(other).position - in.pose_of(body).position;
-  return height<Dim>(to) > -horizontal<Dim>(to).norm();
+std::optional<Vec<Dim>> direction_aside(const RuleInput<Dim>& in, BodyIndex body, BodyIndex other) {
+  Vec<Dim> to = in.pose_of(other).position - in.pose_of(body).position;
+  const double aside = horizontal<Dim>(to).norm();
+  if (height<Dim>(to) <= -aside || aside <= 0.0) return std::nullopt;
+  to[Dim - 1] = 0.0;
+  return to / aside;
 }
 
-/// Largest speed of a point of the body to the side [m/s].
+/// Largest speed of a point of the body in a horizontal direction [m/s]: max over r of v . d + r . (d x w).
+template <int Dim>
+double speed_towards(const RuleInput<Dim>& in, BodyIndex body, const Vec<Dim>& direction) {
+  const Spin<Dim>& spin = in.states().spin[body];
+  double turn = 0.0;
+  if constexpr (Dim == 2)
+    turn = spin.norm();
+  else
+    turn = direction.cross(spin).norm();
+  return in.states().velocity[body].dot(direction) + 0.5 * in.shape_of(body).extent * turn;
+}
+
+/// That of the direction in which it is largest, or more [m/s].
 template <int Dim>
 double speed_aside(const RuleInput<Dim>& in, BodyIndex body) {
   const double reach = 0.5 * in.shape_of(body).extent;
@@ -32,24 +50,35 @@ ImpactsAhead<Dim>::ImpactsAhead(const RuleSetup<Dim>& setup)
 template <int Dim>
 void ImpactsAhead<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   if (in.world.awake().size() == in.states().shape.size()) return;
-  mark_pushed(in, 1);
+  add_pushes(in);
   for (const BodyIndex body : in.world.awake()) {
     const double mass = in.shape_of(body).mass;
     const double momentum = mass * in.states().velocity[body].norm();
-    // Of two equal bodies the one that is hit gets half of the speed.
     if (momentum > wake_speed_ * (mass + heavy_mass_))
       wake_driven(in, body, out);
-    else if (pushed_[body] != 0 && 0.5 * speed_aside(in, body) > wake_speed_)
+    else if (pushes_[body] != Vec<Dim>::Zero() && 0.5 * speed_aside(in, body) > wake_speed_)
       wake_path(in, body, out);
   }
-  mark_pushed(in, 0);
+  clear_pushes(in);
 }
 
 template <int Dim>
-void ImpactsAhead<Dim>::mark_pushed(const RuleInput<Dim>& in, std::uint8_t mark) {
-  pushed_.resize(in.states().asleep.size(), 0);
-  for (const Contact<Dim>& contact : in.contacts)
-    if (contact.b >= 0 && !in.asleep(contact.b)) pushed_[contact.a] = pushed_[contact.b] = mark;
+void ImpactsAhead<Dim>::add_pushes(const RuleInput<Dim>& in) {
+  pushes_.resize(in.states().asleep.size(), Vec<Dim>::Zero());
+  for (const Contact<Dim>& contact : in.contacts) {
+    if (contact.b < 0 || in.asleep(contact.b)) continue;
+    const Vec<Dim> impulse = contact.normal_impulse * contact.normal + contact.friction_impulse;
+    pushes_[contact.a] += impulse;
+    pushes_[contact.b] -= impulse;
+  }
+}
+
+template <int Dim>
+void ImpactsAhead<Dim>::clear_pushes(const RuleInput<Dim>& in) {
+  for (const Contact<Dim>& contact : in.contacts) {
+    pushes_[contact.a].setZero();
+    if (contact.b >= 0) pushes_[contact.b].setZero();
+  }
 }
 
 /// The path is two steps long: a decision takes effect in the next step, and bodies reached during that step must be
@@ -65,8 +94,13 @@ void ImpactsAhead<Dim>::find_path(const RuleInput<Dim>& in, BodyIndex body) {
 template <int Dim>
 void ImpactsAhead<Dim>::wake_path(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out) {
   find_path(in, body);
-  for (const BodyIndex other : path_)
-    if (in.asleep(other) && is_aside(in, body, other)) out.wakes.add(other, before_impact);
+  for (const BodyIndex other : path_) {
+    if (!in.asleep(other)) continue;
+    const std::optional<Vec<Dim>> direction = direction_aside(in, body, other);
+    if (!direction || pushes_[body].dot(*direction) <= 0.0) continue;
+    // Of two equal bodies the one that is hit gets half of the speed.
+    if (0.5 * speed_towards<Dim>(in, body, *direction) > wake_speed_) out.wakes.add(other, before_impact);
+  }
 }
 
 /// Wakes ring by ring around the bodies in the path, until the woken bodies are together too heavy to reach the wake

@@ -12,8 +12,8 @@ namespace talus {
 /// supports take up. It does not suffice where a body drives many others before it, or where bodies in contact push on
 /// together: a sleeping body then stops them all like a fixed obstacle. So two kinds of bodies wake the sleeping bodies
 /// in their path before the impact: a body with the momentum to drive many others, which also wakes as many around
-/// these as it could set in motion; and a body that touches other awake bodies and moves sideways so fast that a body
-/// of its mass would wake when hit.
+/// these as it could set in motion; and a body that other awake bodies push to the side, for what lies on that side
+/// and would wake when hit by a body of its mass and speed.
 template <int Dim>
 class ImpactsAhead {
  public:
@@ -23,7 +23,8 @@ class ImpactsAhead {
   void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
 
  private:
-  void mark_pushed(const RuleInput<Dim>& in, std::uint8_t mark);
+  void add_pushes(const RuleInput<Dim>& in);
+  void clear_pushes(const RuleInput<Dim>& in);
   void find_path(const RuleInput<Dim>& in, BodyIndex body);
   void wake_path(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out);
   void wake_driven(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out);
@@ -31,7 +32,7 @@ class ImpactsAhead {
   double wake_speed_;                  // [m/s]
   double heavy_mass_;                  // that an impact must be able to move [kg]
   double dt_;                          // [s]
-  std::vector<std::uint8_t> pushed_;   // [body] scratch, all 0 between calls: whether it touches another awake body
+  std::vector<Vec<Dim>> pushes_;       // [body] scratch, all 0 between calls: impulse from awake bodies [N s]
   std::vector<BodyIndex> path_;        // scratch
   std::vector<BodyIndex> next_ring_;   // scratch
   std::vector<BodyIndex> woken_;       // scratch
