@@ -68,6 +68,37 @@ TEST(TruthResult, ASoundCellIsNotRed) {
   EXPECT_DOUBLE_EQ(result.speed_up_reference, 10.0);
 }
 
+TEST(TruthResult, ARedCellSaysWhetherTheFullRunIsOffByAsMuch) {
+  TruthRuns runs = sound_runs();
+  for (Values& run : runs.full) run["centre"] = run["centre"] + 0.5;
+  for (Values& run : runs.adaptive) run["centre"] = run["centre"] + 0.5;
+  EXPECT_EQ(
+      truth_result(runs).reasons,
+      std::vector<std::string>{"the engine's default step, which full has too: +0.0 % from full, 0.0 standard errors"});
+  for (Values& run : runs.full) run["centre"] = run["centre"] - 0.5;
+  const TruthResult result = truth_result(runs);
+  ASSERT_EQ(result.reasons.size(), 1U);
+  EXPECT_EQ(result.reasons[0].substr(0, 19), "the policy: +50.0 %");
+}
+
+TEST(TruthEstimate, IsScoredAgainstTheDriftOfTheSleepingBodies) {
+  const auto run = [](double estimate, double most, double drift) {
+    Values values;
+    values["estimate_D"] = estimate;
+    values["estimate_most_D"] = most;
+    values["drift_slept_D"] = drift;
+    return values;
+  };
+  const std::vector<Values> runs = {run(0.01, 0.02, 0.015), run(0.01, 0.02, 0.03), run(0.04, 0.06, 0.07),
+                                    run(0.01, 0.02, 0.06), run(NAN, NAN, 0.2)};
+  const EstimateScore score = estimate_score(runs, 0.05);
+  EXPECT_EQ(score.runs, 4);
+  EXPECT_EQ(score.near, 2);
+  EXPECT_EQ(score.claims, 3) << "0.06 D is possible in the third";
+  EXPECT_EQ(score.false_claims, 1);
+  EXPECT_EQ(score.too_low, 2);
+}
+
 TEST(TruthResult, DriftBeyondFullsMakesACellRed) {
   TruthRuns runs = sound_runs();
   for (Values& run : runs.adaptive) run["drift_mean_D"] = 0.09;

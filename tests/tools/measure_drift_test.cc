@@ -115,7 +115,40 @@ TEST(MeasureDrift, ChangesNothingOfTheRun) {
   EXPECT_TRUE(without["measured"].is_null());
   EXPECT_EQ(with["end_hash"], without["end_hash"]);
   EXPECT_EQ(with["steps"], without["steps"]);
-  EXPECT_TRUE(without["warnings"].empty());
+}
+
+// Two cubes, one of which hangs at 0.2 D: 0.1 D on average. An engine's skin and margin take up to 0.015 D.
+TEST(DriftProbe, OfEachRunUnderAdaptiveTellsTheDriftAndWarnsAboveTheTolerance) {
+  for (const Engine& engine : engines()) {
+    SCOPED_TRACE(engine.name);
+    const TemporaryFolder folder;
+    write_cubes(folder / "scene.toml", engine.dimension, {0.2, 0.0}, "asleep = true");
+    const Outcome outcome = run(folder, std::string("--strict -b ") + engine.name);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    const Json summary = summary_in(folder);
+    const Json& estimate = summary["estimate"];
+    EXPECT_NEAR(estimate["drift_D"], 0.1, 0.015);
+    EXPECT_LE(estimate["least_D"], estimate["drift_D"]);
+    EXPECT_GE(estimate["most_D"], estimate["drift_D"]);
+    EXPECT_GT(estimate["probed_s"], 0.0);
+    EXPECT_LT(estimate["probed_s"], 2.5) << "half of what --measure-drift takes";
+    ASSERT_EQ(summary["warnings"].size(), 1U);
+    EXPECT_EQ(summary["warnings"][0]["kind"], "drift");
+    EXPECT_EQ(summary["warnings"][0]["value"], estimate["least_D"]) << "what has been seen is certain";
+    EXPECT_NE(outcome.out.find("would move by some 0.1"), std::string::npos) << outcome.out;
+  }
+}
+
+TEST(DriftProbe, IsLeftOutOnRequestAndUnderOtherPolicies) {
+  for (const char* options : {"--no-drift-probe", "--policy full", "--set policy.adaptive.tolerance=0"}) {
+    SCOPED_TRACE(options);
+    const TemporaryFolder folder;
+    write_cubes(folder / "scene.toml", engines().front().dimension, {0.2}, "asleep = true");
+    const Outcome outcome = run(folder, std::string("--strict ") + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json estimate = summary_in(folder)["estimate"];
+    EXPECT_TRUE(estimate.is_null() || estimate["probed_s"] == 0.0);
+  }
 }
 
 TEST(MeasureDrift, HasNoWarningWhereThePolicyHasNoTolerance) {
@@ -191,11 +224,11 @@ TEST(MeasureDrift, StandsInTheReportBesideEstimateAndTolerance) {
   run(folder, "--measure-drift");
   ASSERT_EQ(talus_command("report " + (folder / "run")).exit_code, 0);
   const std::string page = contents(folder.path() / "run" / "report.html");
-  const auto at = page.find(
-      "Mean distance that the sleeping bodies move once all are woken: no estimate at the end, "
-      "measured ");
+  const auto at = page.find("Mean distance that the sleeping bodies move once all are woken: estimated 0.");
   ASSERT_NE(at, std::string::npos);
-  EXPECT_NE(page.find(" D, tolerance 0.05 D.", at), std::string::npos);
+  const std::string sentence = page.substr(at, page.find("</p>", at) - at);
+  EXPECT_NE(sentence.find("), measured 0."), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find(" D, tolerance 0.05 D."), std::string::npos) << sentence;
   EXPECT_NE(page.find("<td>drift</td>"), std::string::npos) << "the warning";
 }
 

@@ -68,6 +68,8 @@ std::vector<TruthColumn> truth_columns() {
           number_column(
               "drift_full_D", "full's", [](const R& r) { return r.drift_full; }, 2),
           number_column(
+              "drift_slept_D", "of the sleeping", [](const R& r) { return r.drift_slept; }, 2),
+          number_column(
               "estimate_D", "estimate", [](const R& r) { return r.estimate; }, 2),
           number_column("floating", "floating", [](const R& r) { return r.floating; }),
           number_column("asleep_percent", "asleep %", [](const R& r) { return 100.0 * r.asleep; }),
@@ -111,6 +113,7 @@ Json truth_json(const std::vector<TruthRow>& rows) {
     for (const auto& [key, bias] : biases) each[key] = std::isfinite(bias->errors) ? Json(bias->errors) : Json();
     each["severity"] = std::isfinite(result.severity) ? Json(result.severity) : Json();
     each["red"] = result.beyond;
+    each["why"] = result.reasons;
     json.push_back(each);
   }
   return json;
@@ -167,16 +170,53 @@ std::string mean_bias(const std::vector<TruthRow>& rows, Bias TruthResult::*bias
   return fmt::format("{:+.1f} ± {:.1f} %", cells.mean, cells.deviation / std::sqrt(std::max(1, cells.runs)));
 }
 
+/// How well the runs' estimates foresaw the drift.
+std::string estimates_in_short(const std::vector<TruthRow>& rows) {
+  EstimateScore all;
+  int cells = 0;
+  int near = 0;
+  for (const TruthRow& row : rows) {
+    const EstimateScore score = estimate_score(row.runs.adaptive, TruthLimits{}.drift);
+    all.runs += score.runs;
+    all.near += score.near;
+    all.claims += score.claims;
+    all.false_claims += score.false_claims;
+    all.too_low += score.too_low;
+    cells += score.runs > 0;
+    near += score.runs > 0 && is_near(row.result.estimate, row.result.drift_slept);
+  }
+  return fmt::format(
+      "The estimate at the end of a run is within a factor of 2 of the sleeping bodies' drift in {} of {} cells, and "
+      "in "
+      "{} of {} runs. {} runs say that it is within the tolerance: in {} of them it is not, in {} it is above twice "
+      "the "
+      "estimate.",
+      near, cells, all.near, all.runs, all.claims, all.false_claims, all.too_low);
+}
+
+/// What each red cell is red for, and why as far as the measures tell.
+Table reasons_table(const std::vector<TruthRow>& rows) {
+  Table table{"", {{"cell"}, {"engine"}, {"why it is red"}}, {}};
+  for (const TruthRow& row : rows) {
+    if (row.result.beyond.empty()) continue;
+    std::vector<std::string> sentences;
+    for (std::size_t i = 0; i < row.result.beyond.size(); ++i)
+      sentences.push_back(fmt::format("{}: {}", row.result.beyond[i], row.result.reasons[i]));
+    table.rows.push_back({row.runs.cell, row.runs.backend, fmt::format("{}.", fmt::join(sentences, "; "))});
+  }
+  return table;
+}
+
 std::string in_short(const std::vector<TruthRow>& rows) {
   using R = TruthResult;
   return fmt::format(
       "{} Means over the cells with their standard errors: centre {} of the reference's and {} of full's, at the end "
       "of "
-      "the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}.",
+      "the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}. {}",
       red_cells(rows), mean_bias(rows, &R::centre), mean_bias(rows, &R::centre_from_full), mean_bias(rows, &R::poured),
       over_cells(rows, [](const R& r) { return r.drift; }).mean,
       over_cells(rows, [](const R& r) { return r.awake; }).mean,
-      over_cells(rows, [](const R& r) { return r.speed_up; }).mean);
+      over_cells(rows, [](const R& r) { return r.speed_up; }).mean, estimates_in_short(rows));
 }
 
 std::string file_bytes(const fs::path& file) {
@@ -226,7 +266,8 @@ void write_text(const fs::path& file, const std::string& text) {
 constexpr const char* how_to_read =
     "Centre, r50 and r95: adaptive less the converged reference in per cent of it, spill in bodies; in brackets the "
     "same in standard errors of both ensembles. From full: against full. Poured: centre when the last body appears. "
-    "Drift: mean distance in D that bodies move when all are woken at the end, less full's; 95 %: the runs' quantile. "
+    "Drift: mean distance in D that bodies move when all are woken at the end, less full's; 95 %: the runs' quantile; "
+    "of the sleeping: that of the bodies that slept, over the runs with an estimate, which the run makes itself. "
     "Asleep: runs in which all sleep at the end. Awake: mean over the run; /moving: over the bodies of which a point "
     "moves by more than 0.05 D within half a second with all awake, at the same moments. Speed-ups are medians of "
     "ratios of processor time, seed by seed.";
@@ -244,6 +285,8 @@ void report_truth(const std::filesystem::path& folder, std::vector<TruthRow> row
   const Table table = shown_table(rows);
   results.notes.emplace_back(how_to_read);
   results.sections.push_back({"Cells, worst first", {Paragraph{in_short(rows)}, table}});
+  if (const Table reasons = reasons_table(rows); !reasons.rows.empty())
+    results.sections.push_back({"Why they are red", {reasons}});
   Section pictures = red_pictures(folder, rows);
   if (!pictures.blocks.empty()) results.sections.push_back(std::move(pictures));
   write_pages(folder, results);

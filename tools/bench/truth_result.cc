@@ -1,5 +1,7 @@
 #include "tools/bench/truth_result.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -67,7 +69,57 @@ std::vector<std::pair<double, std::string>> over_limits(const TruthResult& resul
   return over;
 }
 
+/// "full runs differ from the reference by as much", or by how much adaptive differs from full.
+std::string reason_of_bias(const Bias& from_full, double percent, const TruthLimits& limits) {
+  if (std::isnan(from_full.percent)) return "not measured for full";
+  const std::string difference =
+      fmt::format("{:+.1f} % from full, {:.1f} standard errors", from_full.percent, std::abs(from_full.errors));
+  return over_limit(from_full, percent, limits.errors) > 1.0
+             ? "the policy: " + difference
+             : "the engine's default step, which full has too: " + difference;
+}
+
+/// What the other measures of a cell say of the cause of one beyond its limit.
+std::string reason_of(const std::string& name, const TruthResult& result, const TruthLimits& limits) {
+  if (name == "centre") return reason_of_bias(result.centre_from_full, limits.centre_percent, limits);
+  if (name == "poured") return reason_of_bias(result.poured_from_full, limits.poured_percent, limits);
+  if (name == "spill")
+    return fmt::format("{:+.1f} bodies from full, {:.1f} standard errors", result.spill_from_full.difference,
+                       std::abs(result.spill_from_full.errors));
+  if (name == "awake")
+    return fmt::format("of {:.3g} awake {:.2g} were woken by stability checks", result.awake, result.awake_checked);
+  if (name == "floating") return "a sleeping body without support";
+  return fmt::format("at the end {:.2g} bodies are awake, {:.2g} of all move", result.awake_at_end,
+                     result.moving_at_end);
+}
+
+/// Runs that tell an estimate and by how much the bodies moved then.
+RunValues with_estimate(const RunValues& runs) {
+  RunValues estimated = runs;
+  std::erase_if(estimated, [](const Values& run) {
+    return !std::isfinite(run["estimate_D"]) || !std::isfinite(run["drift_slept_D"]);
+  });
+  return estimated;
+}
+
 }  // namespace
+
+bool is_near(double estimate, double drift) { return estimate >= 0.5 * drift && estimate <= 2.0 * drift; }
+
+EstimateScore estimate_score(std::span<const Values> runs, double tolerance) {
+  EstimateScore score;
+  for (const Values& run : with_estimate({runs.begin(), runs.end()})) {
+    const double estimate = run["estimate_D"];
+    const double drift = run["drift_slept_D"];
+    ++score.runs;
+    score.near += is_near(estimate, drift) ? 1 : 0;
+    if (run["estimate_most_D"] > tolerance) continue;
+    ++score.claims;
+    score.false_claims += drift > tolerance ? 1 : 0;
+    score.too_low += drift > 2.0 * estimate ? 1 : 0;
+  }
+  return score;
+}
 
 Bias bias_of(std::span<const double> runs, std::span<const double> baseline) {
   std::vector<double> own(runs.begin(), runs.end());
@@ -92,15 +144,22 @@ TruthResult truth_result(const TruthRuns& runs, const TruthLimits& limits) {
   result.r50 = bias_over(runs.adaptive, runs.reference, "r50");
   result.r95 = bias_over(runs.adaptive, runs.reference, "r95");
   result.spill = bias_over(runs.adaptive, runs.reference, "spill");
+  result.poured_from_full = bias_over(runs.adaptive, runs.full, "centre_poured");
+  result.spill_from_full = bias_over(runs.adaptive, runs.full, "spill");
   result.spill_reference = mean_over(runs.reference, "spill");
   result.drift_full = mean_over(runs.full, "drift_mean_D");
   result.drift = mean_over(runs.adaptive, "drift_mean_D") - result.drift_full;
   result.drift_95 = quantile(numbers_of(runs.adaptive, "drift_mean_D"), 0.95) - result.drift_full;
-  result.estimate = mean_over(runs.adaptive, "estimate_D");
+  const RunValues estimated = with_estimate(runs.adaptive);
+  result.estimate = mean_over(estimated, "estimate_D");
+  result.drift_slept = mean_over(estimated, "drift_slept_D");
   result.floating = mean_over(runs.adaptive, "floating");
   result.asleep = mean_over(runs.adaptive, "all_asleep");
   result.awake = mean_over(runs.adaptive, "mean_awake");
   result.awake_ratio = mean_over(runs.adaptive, "awake_sampled") / mean_over(runs.adaptive, "moving_sampled");
+  result.awake_checked = mean_over(runs.adaptive, "awake_checked");
+  result.awake_at_end = mean_over(runs.adaptive, "awake_at_end");
+  result.moving_at_end = mean_over(runs.adaptive, "moving_at_end");
   std::vector<double> beyond_moving;
   for (const Values& run : runs.adaptive) beyond_moving.push_back(run["awake_sampled"] - run["moving_sampled"]);
   result.awake_errors = bias_of(beyond_moving, std::vector<double>(2, 0.0)).errors;
@@ -111,7 +170,9 @@ TruthResult truth_result(const TruthRuns& runs, const TruthLimits& limits) {
   std::ranges::stable_sort(over, [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [ratio, name] : over) {
     result.severity = std::max(result.severity, ratio);
-    if (ratio > 1.0) result.beyond.push_back(name);
+    if (ratio <= 1.0) continue;
+    result.beyond.push_back(name);
+    result.reasons.push_back(reason_of(name, result, limits));
   }
   return result;
 }

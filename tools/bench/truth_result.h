@@ -50,23 +50,45 @@ struct TruthResult {
   Bias r50;
   Bias r95;
   Bias spill;
+  Bias poured_from_full;
+  Bias spill_from_full;
   double spill_reference = 0.0;  // mean [bodies]
   double drift = 0.0;            // beyond full's, mean [D]
   double drift_95 = 0.0;         // 95 % of the runs have no more [D]
   double drift_full = 0.0;       // [D]
-  double estimate = 0.0;         // of drift, by the policy itself; full's is part of it [D]
+  double estimate = 0.0;         // of the sleeping bodies' drift, by the run itself [D]
+  double drift_slept = 0.0;      // of these bodies, over the runs with an estimate [D]
   double floating = 0.0;         // mean
   double asleep = 0.0;           // share of runs
   double awake = 0.0;            // mean over the run
   double awake_ratio = 0.0;      // awake over moving bodies, at the same moments
   double awake_errors = 0.0;     // their difference, in standard errors
-  double speed_up = 0.0;         // over full, median of the seeds
+  double awake_checked = 0.0;    // in stability checks, mean over the run
+  double awake_at_end = 0.0;
+  double moving_at_end = 0.0;
+  double speed_up = 0.0;  // over full, median of the seeds
   double speed_up_reference = 0.0;
   /// The largest of the measures over their limits: above 1 the cell is red.
   double severity = 0.0;
   /// Names of the measures beyond their limits, largest first.
   std::vector<std::string> beyond;
+  /// For each of them in turn, what the other measures say of its cause.
+  std::vector<std::string> reasons;
 };
+
+/// How estimates compare with the drift measured afterwards.
+struct EstimateScore {
+  int runs = 0;          // with an estimate
+  int near = 0;          // of these, within a factor of 2 of the drift
+  int claims = 0;        // runs whose estimate is within the tolerance at most
+  int false_claims = 0;  // of these, with a drift above it
+  int too_low = 0;       // claims with a drift above twice the estimate
+};
+
+/// Whether an estimate is within a factor of 2 of the drift.
+bool is_near(double estimate, double drift);
+
+EstimateScore estimate_score(std::span<const Values> runs, double tolerance);
 
 TruthResult truth_result(const TruthRuns& runs, const TruthLimits& limits = {});
 

@@ -107,7 +107,15 @@ void add_last_state(const Scene<Dim>& scene, const std::string& backend, const S
   for (std::size_t i = 0; i < last.shape.size(); ++i)
     if (last.velocity[i].norm() > fastest_of_pile) last.removed[i] = 1;
   const WakeTest wake = wake_all<Dim>(world, backend, last, {.duration = wake_time(world.gravity)});
-  if (wake.bodies > 0) values["drift_mean_D"] = wake.mean / typical_body(scene).extent;
+  const double extent = typical_body(scene).extent;
+  if (wake.bodies > 0) values["drift_mean_D"] = wake.mean / extent;
+  if (scene.policy.kind != "adaptive") return;
+  if (const auto slept = of_sleepers<Dim>(wake, last); !slept.empty()) values["drift_slept_D"] = mean(slept) / extent;
+  const double allowance = probe_allowance(values["mean_awake"] * values["steps"]);
+  const auto probe = probe_end_drift<Dim>(simulation, scene, backend, allowance, {});
+  if (!probe) return;
+  values["estimate_D"] = probe->expected() / extent;
+  values["estimate_most_D"] = probe->most / extent;
 }
 
 /// Bodies of the fork of which a point moves by more than 0.05 D within half a second with all bodies awake.
@@ -167,6 +175,7 @@ class TruthStepper {
     ++steps_;
     awake_ += static_cast<double>(simulation_.world().awake().size());
     if (moments_ == 0) return;
+    count_checked();
     const BodyStates<Dim>& states = simulation_.world().states();
     for (std::size_t i = arrivals_.size(); i < states.shape.size(); ++i)
       arrivals_.push_back({simulation_.time(), {states.shape[i], states.pose[i], states.velocity[i], states.spin[i]}});
@@ -181,9 +190,11 @@ class TruthStepper {
     values["steps"] = static_cast<double>(steps_);
     values["mean_awake"] = awake_ / static_cast<double>(steps_);
     values["all_asleep"] = simulation_.world().awake().empty() ? 1.0 : 0.0;
-    if (const std::optional<DriftEstimate> estimate = simulation_.drift_estimate())
-      values["estimate_D"] = estimate->drift / simulation_.piles().typical_body().extent;
     if (forks_.empty()) return;
+    values["awake_checked"] = checked_ / static_cast<double>(steps_);
+    values["awake_at_end"] = static_cast<double>(simulation_.world().awake().size());
+    values["moving_at_end"] =
+        moving_bodies<Dim>(scene_, backend, {simulation_.time(), simulation_.world().states()}, arrivals_);
     double moving = 0.0;
     for (const Fork<Dim>& fork : forks_) moving += moving_bodies(scene_, backend, fork, arrivals_);
     values["awake_sampled"] = awake_at_forks_ / static_cast<double>(forks_.size());
@@ -191,6 +202,14 @@ class TruthStepper {
   }
 
  private:
+  /// Counts the awake bodies that a check woke.
+  void count_checked() {
+    woken_by_.resize(simulation_.world().states().asleep.size(), SleepCause::rest);
+    const Frame<Dim> frame = simulation_.frame();
+    for (const SleepEvent& event : frame.events) woken_by_[event.body] = event.cause;
+    for (const BodyIndex body : frame.world.awake()) checked_ += woken_by_[body] == SleepCause::check ? 1.0 : 0.0;
+  }
+
   const Scene<Dim>& scene_;
   Simulation<Dim> simulation_;
   double between_;  // moments [s]
@@ -198,7 +217,9 @@ class TruthStepper {
   ProcessorWatch watch_;
   double seconds_ = 0.0;
   std::int64_t steps_ = 0;
-  double awake_ = 0.0;  // body-steps
+  double awake_ = 0.0;    // body-steps
+  double checked_ = 0.0;  // of these, by bodies that a check woke
+  std::vector<SleepCause> woken_by_;
   std::vector<Fork<Dim>> forks_;
   std::vector<Arrival<Dim>> arrivals_;
   double awake_at_forks_ = 0.0;

@@ -62,6 +62,9 @@ void add_output_options(CLI::App& command, RunOptions& options) {
       "--measure-drift", options.measure_drift,
       "At the end wake all bodies in a copy of the world and measure how far the sleeping ones move; warn above the "
       "tolerance");
+  command.add_flag(
+      "!--no-drift-probe", options.probe_drift,
+      "Do not estimate by a short simulation at the end how far the sleeping bodies would move once woken");
   command.add_flag("--hash", options.hash_only, "Print the end hash and nothing else; no folder unless --out")
       ->excludes(against)
       ->excludes(measure);

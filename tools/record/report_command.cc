@@ -230,10 +230,19 @@ Section result_of(const Json& summary) {
   return section;
 }
 
+/// "estimated 0.004 D (0.002 to 0.006)": by the probe at the end of the run, else by the policy, `by_policy` [D].
+std::string estimate_text(double by_policy, const Json& summary) {
+  const Json probed = summary.is_null() ? Json() : summary.value("estimate", Json());
+  if (probed.is_object() && probed.value("least_D", Json()).is_number())
+    return fmt::format("estimated {:.2g} D ({:.2g} to {:.2g})", probed.value("drift_D", 0.0),
+                       probed.value("least_D", 0.0), probed.value("most_D", 0.0));
+  return std::isnan(by_policy) ? "no estimate at the end" : fmt::format("estimated {:.2g} D", by_policy);
+}
+
 /// Mean drift as it was estimated and measured, beside the tolerance; the latter two where there are any.
 std::string drift_text(double estimate, const Json& summary, double tolerance) {
   std::string text = "Mean distance that the sleeping bodies move once all are woken: ";
-  text += std::isnan(estimate) ? "no estimate at the end" : fmt::format("estimated {:.2g} D", estimate);
+  text += estimate_text(estimate, summary);
   const Json measured = summary.is_null() ? Json() : summary.value("measured", Json());
   if (measured.is_object() && measured.value("drift_mean_D", Json()).is_number())
     text += fmt::format(", measured {:.2g} D", measured["drift_mean_D"].get<double>());

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
-#include <vector>
 
 #include "common/measure/ensemble.h"
 #include "common/scene/happened.h"
@@ -11,6 +12,11 @@
 
 namespace talus {
 namespace {
+
+template <int Dim>
+WorldMaker<Dim> world_maker(const std::string& backend) {
+  return [backend](const WorldDescription<Dim>& description) { return make_world<Dim>(backend, description); };
+}
 
 /// Why drift cannot be measured after these events; empty: it can.
 template <int Dim>
@@ -31,28 +37,12 @@ BodyStates<Dim> within_world(BodyStates<Dim> states) {
   return states;
 }
 
-/// Of the bodies that sleep in a state, ascending by index [m].
-template <int Dim>
-std::vector<double> of_sleepers(const WakeTest& test, const BodyStates<Dim>& states) {
-  std::vector<double> asleep;
-  std::size_t present = 0;
-  for (std::size_t body = 0; body < states.asleep.size(); ++body) {
-    if (states.removed[body] != 0) continue;
-    const double displacement = test.displacements[present++];
-    if (states.asleep[body] != 0) asleep.push_back(displacement);
-  }
-  return asleep;
-}
-
 }  // namespace
 
 template <int Dim>
 WakeTest wake_all(const WorldDescription<Dim>& world, const std::string& backend, const BodyStates<Dim>& states,
                   const WakeTestParams& params) {
-  const WorldMaker<Dim> maker = [&](const WorldDescription<Dim>& description) {
-    return make_world<Dim>(backend, description);
-  };
-  return wake_test<Dim>(maker, reference_settings(world), states, params);
+  return wake_test<Dim>(world_maker<Dim>(backend), reference_settings(world), states, params);
 }
 
 template <int Dim>
@@ -84,25 +74,65 @@ MeasuredDrift measure_drift(const Simulation<Dim>& simulation, const Scene<Dim>&
   return drift;
 }
 
-double tolerance_of(const PolicyParams& policy) { return policy.kind == "adaptive" ? policy.adaptive.tolerance : 0.0; }
+template <int Dim>
+std::vector<double> of_sleepers(const WakeTest& test, const BodyStates<Dim>& states) {
+  std::vector<double> asleep;
+  std::size_t present = 0;
+  for (std::size_t body = 0; body < states.asleep.size(); ++body) {
+    if (states.removed[body] != 0) continue;
+    const double displacement = test.displacements[present++];
+    if (states.asleep[body] != 0) asleep.push_back(displacement);
+  }
+  return asleep;
+}
+
+double probe_allowance(double body_steps) {
+  constexpr double share = 0.25;
+  constexpr double no_matter = 2e4;
+  return std::max(share * body_steps, no_matter);
+}
 
 template <int Dim>
-std::optional<Warning> warning_of(const MeasuredDrift& drift, const Scene<Dim>& scene, double extent,
-                                  std::int64_t step) {
-  const double tolerance = tolerance_of(scene.policy);
-  if (tolerance <= 0.0 || !drift.missing.empty() || drift.mean <= tolerance * extent) return std::nullopt;
-  return Warning{.kind = WarningKind::drift, .step = step, .bodies = drift.bodies, .value = drift.mean / extent};
+std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, const Scene<Dim>& scene,
+                                          const std::string& backend, double body_steps,
+                                          const std::function<bool()>& stop) {
+  if (!obstruction<Dim>(scene, simulation.done_events(), simulation.time()).empty()) return std::nullopt;
+  const BodyStates<Dim> last = within_world(simulation.world().states());
+  const WorldDescription<Dim> world = world_at(scene, simulation.done_events(), simulation.time());
+  std::vector<std::uint8_t> sleepers = last.asleep;
+  for (std::size_t body = 0; body < sleepers.size(); ++body)
+    if (last.removed[body] != 0) sleepers[body] = 0;
+  const DriftProbeParams params{.unit = std::sqrt(simulation.piles().typical_body().extent / world.gravity),
+                                .duration = wake_time(world.gravity),
+                                .body_steps = body_steps,
+                                .stop = stop};
+  const DriftProbe probe =
+      probe_drift<Dim>(world_maker<Dim>(backend), reference_settings(world), last, sleepers, params);
+  return probe.bodies > 0 ? std::optional(probe) : std::nullopt;
+}
+
+double tolerance_of(const PolicyParams& policy) { return policy.kind == "adaptive" ? policy.adaptive.tolerance : 0.0; }
+
+std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, double extent,
+                                     std::int64_t step) {
+  const double tolerance = tolerance_of(policy);
+  if (tolerance <= 0.0 || mean <= tolerance * extent) return std::nullopt;
+  return Warning{.kind = WarningKind::drift, .step = step, .bodies = bodies, .value = mean / extent};
 }
 
 template WakeTest wake_all(const WorldDescription<2>&, const std::string&, const BodyStates<2>&, const WakeTestParams&);
 template WakeTest wake_all(const WorldDescription<3>&, const std::string&, const BodyStates<3>&, const WakeTestParams&);
+template std::vector<double> of_sleepers(const WakeTest&, const BodyStates<2>&);
+template std::vector<double> of_sleepers(const WakeTest&, const BodyStates<3>&);
 template void require_measurable_drift(const Scene<2>&);
 template void require_measurable_drift(const Scene<3>&);
 template MeasuredDrift measure_drift(const Simulation<2>&, const Scene<2>&, const std::string&,
                                      const std::function<bool()>&);
 template MeasuredDrift measure_drift(const Simulation<3>&, const Scene<3>&, const std::string&,
                                      const std::function<bool()>&);
-template std::optional<Warning> warning_of(const MeasuredDrift&, const Scene<2>&, double, std::int64_t);
-template std::optional<Warning> warning_of(const MeasuredDrift&, const Scene<3>&, double, std::int64_t);
+template std::optional<DriftProbe> probe_end_drift(const Simulation<2>&, const Scene<2>&, const std::string&, double,
+                                                   const std::function<bool()>&);
+template std::optional<DriftProbe> probe_end_drift(const Simulation<3>&, const Scene<3>&, const std::string&, double,
+                                                   const std::function<bool()>&);
 
 }  // namespace talus

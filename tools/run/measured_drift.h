@@ -4,7 +4,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "common/measure/drift_probe.h"
 #include "common/measure/wake_test.h"
 #include "common/simulation/simulation.h"
 
@@ -36,12 +38,27 @@ template <int Dim>
 MeasuredDrift measure_drift(const Simulation<Dim>& simulation, const Scene<Dim>& scene, const std::string& backend,
                             const std::function<bool()>& stop);
 
+/// The displacements of the bodies that sleep in the tested states, ascending by index [m].
+template <int Dim>
+std::vector<double> of_sleepers(const WakeTest& test, const BodyStates<Dim>& states);
+
+/// What the probe at the end of a run may take: a quarter of the body-steps that the run took, or as many as are no
+/// matter.
+double probe_allowance(double body_steps);
+
+/// Begins as measure_drift() does and ends as soon as the result shows. None where drift cannot be measured, no body
+/// sleeps, `stop` returns true, or the shortest probe takes more than `body_steps` (of DriftProbeParams).
+template <int Dim>
+std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, const Scene<Dim>& scene,
+                                          const std::string& backend, double body_steps,
+                                          const std::function<bool()>& stop);
+
 /// Of the drift [D]; 0 where the policy has none.
 double tolerance_of(const PolicyParams& policy);
 
-/// A warning where the mean is above the tolerance of the policy `adaptive`; `extent` is D [m].
-template <int Dim>
-std::optional<Warning> warning_of(const MeasuredDrift& drift, const Scene<Dim>& scene, double extent,
-                                  std::int64_t step);
+/// A warning where the mean drift [m] of a number of bodies is above the tolerance of the policy `adaptive`; `extent`
+/// is D [m].
+std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, double extent,
+                                     std::int64_t step);
 
 }  // namespace talus

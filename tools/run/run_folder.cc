@@ -137,10 +137,16 @@ Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
   return list;
 }
 
-/// Null where the policy does not measure it.
-Json drift_estimate_json(const std::optional<DriftEstimate>& estimate, double typical_extent) {
-  if (!estimate) return nullptr;
-  return {{"drift_D", estimate->drift / typical_extent}, {"checked_share", estimate->checked_share}};
+/// By the probe at the end of the run, else by the policy; null where neither has a result.
+Json drift_estimate_json(const std::optional<DriftProbe>& probe, const std::optional<DriftEstimate>& estimate,
+                         double typical_extent) {
+  if (!probe && !estimate) return nullptr;
+  const auto probed = [&](double length) { return probe ? Json(length / typical_extent) : Json(); };
+  return {{"drift_D", (probe ? probe->expected() : estimate->drift) / typical_extent},
+          {"least_D", probed(probe ? probe->least : 0.0)},
+          {"most_D", probed(probe ? probe->most : 0.0)},
+          {"probed_s", probe ? probe->seconds : 0.0},
+          {"checked_share", estimate ? Json(estimate->checked_share) : Json()}};
 }
 
 /// Null where it was not measured; without numbers where it could not be.
@@ -198,7 +204,8 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
   summary["shape"] = shape_json(scene, world, simulation.piles().typical_body().extent);
-  summary["estimate"] = drift_estimate_json(simulation.drift_estimate(), simulation.piles().typical_body().extent);
+  summary["estimate"] =
+      drift_estimate_json(input.probe, simulation.drift_estimate(), simulation.piles().typical_body().extent);
   summary["measured"] = measured_json(input.measured, simulation.piles().typical_body().extent);
   summary["piles"] = piles_json(simulation.piles());
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));

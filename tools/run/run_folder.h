@@ -32,6 +32,7 @@ struct SummaryInput {
   double pixels_per_metre = 0.0;                // of pile.png
   std::vector<SceneError> outside_window = {};  // what of the scene lies outside of the engine's window
   std::optional<MeasuredDrift> measured = {};   // none: without --measure-drift
+  std::optional<DriftProbe> probe = {};         // none: not made, or without a result
   std::vector<Warning> warnings = {};           // of the run and of what was measured after it
 };
 

@@ -25,7 +25,8 @@ struct RunOptions {
   bool strict = false;                // exit code 1 when the run gave a warning
   bool force = false;                 // run a scene outside of the engine's window, with warnings
   bool measure_drift = false;         // at the end wake all bodies and measure how far the sleeping ones move
-  bool hash_only = false;             // print the end hash and nothing else; write no folder unless `out` is given
+  bool probe_drift = true;  // at the end estimate by a short simulation how far the sleeping bodies would move
+  bool hash_only = false;   // print the end hash and nothing else; write no folder unless `out` is given
 };
 
 }  // namespace talus

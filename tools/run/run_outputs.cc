@@ -130,10 +130,20 @@ template class RunOutputs<3>;
 
 /// What is known of the error that sleep has caused.
 template <int Dim>
-void print_estimate(const Simulation<Dim>& simulation, const AdaptiveParams& params) {
+void print_estimate(const Simulation<Dim>& simulation, const std::optional<DriftProbe>& probe,
+                    const AdaptiveParams& params) {
   const auto& asleep = simulation.world().states().asleep;
   const bool any_asleep = std::ranges::any_of(asleep, [](std::uint8_t is_asleep) { return is_asleep != 0; });
   if (params.tolerance <= 0.0 || !any_asleep) return;
+  const double extent = simulation.piles().typical_body().extent;
+  if (probe) {
+    print_result(
+        "  once woken, the sleeping bodies would move by some {:.2g} D on average ({:.2g} to {:.2g}; {:.2g} s "
+        "simulated), "
+        "tolerance {:g} D\n",
+        probe->expected() / extent, probe->least / extent, probe->most / extent, probe->seconds, params.tolerance);
+    return;
+  }
   const std::optional<DriftEstimate> estimate = simulation.drift_estimate();
   if (const auto awake = simulation.world().awake().size(); !estimate && awake > 0) {
     print_result("  not at rest, {} awake: the error of the sleeping bodies is not known\n", awake);
@@ -144,7 +154,7 @@ void print_estimate(const Simulation<Dim>& simulation, const AdaptiveParams& par
     return;
   }
   print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
-               estimate->drift / simulation.piles().typical_body().extent, 100.0 * estimate->checked_share);
+               estimate->drift / extent, 100.0 * estimate->checked_share);
 }
 
 /// `tolerance` and `extent` are D's and metres; 0: no tolerance.
@@ -175,7 +185,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   print_result("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
-  if (scene.policy.kind == "adaptive") print_estimate(simulation, scene.policy.adaptive);
+  if (scene.policy.kind == "adaptive") print_estimate(simulation, summary.probe, scene.policy.adaptive);
   if (summary.measured)
     print_measured(*summary.measured, simulation.piles().typical_body().extent, tolerance_of(scene.policy));
   if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());

@@ -46,6 +46,7 @@ struct SweepOptions {
   std::string backend;
   bool force = false;
   bool measure_drift = false;
+  bool probe_drift = true;
   int jobs = 0;  // 0: one for each core
   fs::path out;
   std::string plot = "centre_height_m";
@@ -92,11 +93,10 @@ void check_runs(const SweepOptions& options, const fs::path& scene, const std::v
 /// What makes a sweep the same when it is started again.
 std::string identity(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes) {
   std::ifstream stream(scene, std::ios::binary);
-  nlohmann::json json = {{"scene", scene.stem().string()},
-                         {"text", std::string(std::istreambuf_iterator<char>(stream), {})},
-                         {"backend", options.backend},
-                         {"measure_drift", options.measure_drift},
-                         {"axes", nlohmann::json::array()}};
+  nlohmann::json json = {
+      {"scene", scene.stem().string()},     {"text", std::string(std::istreambuf_iterator<char>(stream), {})},
+      {"backend", options.backend},         {"measure_drift", options.measure_drift},
+      {"probe_drift", options.probe_drift}, {"axes", nlohmann::json::array()}};
   for (const SweepAxis& axis : axes) json["axes"].push_back({{"path", axis.path}, {"values", axis.values}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -138,6 +138,7 @@ std::string run_one(const SweepOptions& options, const fs::path& scene, std::vec
   run.backend = options.backend;
   run.force = options.force;
   run.measure_drift = options.measure_drift;
+  run.probe_drift = options.probe_drift;
   run.settings = std::move(settings);
   run.out = folder;
   run.telemetry = false;
@@ -221,6 +222,8 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
                     "Run outside of the window in which results hold too, as `talus run`");
   command->add_flag("--measure-drift", options->measure_drift,
                     "Measure at the end of each run how far the sleeping bodies move, as `talus run`");
+  command->add_flag("!--no-drift-probe", options->probe_drift,
+                    "Leave out the estimate of drift at the end of each run, as `talus run`");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time; without it one for each core")
       ->check(number_between(1, 1000));
   command->add_option("-o,--out", options->out, "Folder of the sweep: new, empty, or of the same sweep to go on with")
