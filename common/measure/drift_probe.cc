@@ -17,8 +17,8 @@ constexpr int most_samples = 12;
 constexpr double certain = 3.0;  // `most` over `least` at which a probe may end
 
 template <int Dim>
-double mean_displacement(const BodyStates<Dim>& from, const BodyStates<Dim>& to,
-                         std::span<const std::uint8_t> counted, int bodies) {
+double mean_displacement(const BodyStates<Dim>& from, const BodyStates<Dim>& to, std::span<const std::uint8_t> counted,
+                         int bodies) {
   double sum = 0.0;
   for (BodyIndex body = 0; body < from.size(); ++body)
     if (counted[body] != 0) sum += (to.pose[body].position - from.pose[body].position).norm();

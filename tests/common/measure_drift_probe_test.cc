@@ -24,7 +24,8 @@ WorldDescription<3> cube_world() {
 /// Bodies that hang at these heights above the place where they come to rest [m].
 BodyStates<3> hanging(const std::vector<double>& heights) {
   std::vector<Vec3> places;
-  for (std::size_t i = 0; i < heights.size(); ++i) places.emplace_back(3.0 * static_cast<double>(i), 0.0, 0.5 + heights[i]);
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    places.emplace_back(3.0 * static_cast<double>(i), 0.0, 0.5 + heights[i]);
   return states_at<3>(places);
 }
 

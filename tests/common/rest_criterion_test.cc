@@ -83,5 +83,29 @@ TEST_F(RestCriterionTest, DoesNotMarkABodyThatWokeBeforeAnImpact) {
   EXPECT_FALSE(rest_.unmoved_since_wake(0));
 }
 
+// The default tolerance of 0.05 D goes with a rest distance of 0.01 D.
+TEST(RestDistances, ShrinkWithAToleranceBelowTheDefaultAndDoNotGrowWithOneAbove) {
+  const auto factor = [](double tolerance) { return AdaptiveParams{.tolerance = tolerance}.rest_distance_factor(); };
+  EXPECT_EQ(factor(AdaptiveParams{}.tolerance), 1.0);
+  EXPECT_DOUBLE_EQ(factor(0.01), 0.2);
+  EXPECT_EQ(factor(0.2), 1.0);
+  EXPECT_EQ(factor(0.0), 1.0) << "no checks";
+}
+
+TEST(RestDistances, OfASmallToleranceCallASlowerCreepMotion) {
+  const auto at_rest_after_creep = [](double tolerance) {
+    RuleParts parts;
+    parts.params.tolerance = tolerance;
+    StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5)});
+    RestCriterion<3> rest(parts.setup());
+    rest.update(input(world, 1));
+    world.move(0, {.position = Vec3(0.005 * parts.extent, 0.0, 0.5)});
+    rest.update(input(world, 2));
+    return rest.time_at_rest(0) > 0.0;
+  };
+  EXPECT_TRUE(at_rest_after_creep(0.05));
+  EXPECT_FALSE(at_rest_after_creep(0.02));
+}
+
 }  // namespace
 }  // namespace talus::rest_criterion_test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -27,6 +28,10 @@ struct AdaptiveParams {
   double slope_proportional_gain = 20.0;
   double slope_integral_gain = 0.3;
   double slope_max_damping = 4.0;
+
+  /// Factor of the rest distances: a tolerance below the default is kept while a pour goes on, too, when there are few
+  /// checks (docs/research/tolerance_in_a_pour.md). 1 without a tolerance.
+  double rest_distance_factor() const;
 };
 
 inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
@@ -36,8 +41,9 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .range = between(0.0, 10.0),
       .meaning =
           "mean distance that the bodies of a region at rest may still move when all of them wake. Each region is "
-          "checked for it when it comes to rest. Large: heaps come to rest too steep; small: checks take long; 0: no "
-          "checks"}},
+          "checked for it when it comes to rest; below 0.05 both rest distances shrink in proportion. Large: heaps "
+          "come "
+          "to rest too steep; small: checks take long and more is awake; 0: no checks"}},
     {&AdaptiveParams::rest_distance,
      {.name = "rest_distance",
       .unit = "D",
@@ -133,5 +139,9 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .range = between(0.0, 1e6),
       .meaning = "the largest damping. Low: piles too flat; high: bodies stick wherever they touch"}},
 });
+
+inline double AdaptiveParams::rest_distance_factor() const {
+  return tolerance > 0.0 ? std::min(1.0, tolerance / AdaptiveParams{}.tolerance) : 1.0;
+}
 
 }  // namespace talus

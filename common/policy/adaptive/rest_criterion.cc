@@ -20,8 +20,8 @@ double max_displacement(const Pose<Dim>& from, const Pose<Dim>& to, double reach
 
 template <int Dim>
 RestCriterion<Dim>::RestCriterion(const RuleSetup<Dim>& setup)
-    : distance_(setup.params.rest_distance * setup.typical.extent),
-      distance_woken_(setup.params.rest_distance_woken * setup.typical.extent),
+    : distance_(setup.params.rest_distance_factor() * setup.params.rest_distance * setup.typical.extent),
+      distance_woken_(setup.params.rest_distance_factor() * setup.params.rest_distance_woken * setup.typical.extent),
       dt_(setup.world.dt) {
   for (const Shape<Dim>& shape : setup.world.shapes) reach_.push_back(0.5 * shape.extent);
 }
