@@ -87,9 +87,9 @@ std::string reason_of(const std::string& name, const TruthResult& result, const 
     return fmt::format("{:+.1f} bodies from full, {:.1f} standard errors", result.spill_from_full.difference,
                        std::abs(result.spill_from_full.errors));
   if (name == "awake")
-    return fmt::format("of {:.3g} awake {:.2g} were woken by stability checks", result.awake, result.awake_checked);
+    return fmt::format("of {:.1f} awake {:.1f} were woken by stability checks", result.awake, result.awake_checked);
   if (name == "floating") return "a sleeping body without support";
-  return fmt::format("at the end {:.2g} bodies are awake, {:.2g} of all move", result.awake_at_end,
+  return fmt::format("at the end {:.1f} bodies are awake, {:.1f} of all move", result.awake_at_end,
                      result.moving_at_end);
 }
 
