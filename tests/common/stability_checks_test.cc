@@ -209,6 +209,61 @@ TEST_F(StabilityChecksTest, DoNotWaitForFurtherBodiesOnceNoneArrives) {
   EXPECT_EQ(steps(9 * 60), heap);
 }
 
+TEST_F(StabilityChecksTest, LeaveFewerThanATwentiethOfARegionUnchecked) {
+  std::vector<BodyIndex> heap;
+  for (int i = 0; i < 20; ++i) heap.push_back(add(0.1 + 0.1 * i));
+  put_to_sleep(heap);
+  steps(sample_time + check_time);
+  put_to_sleep(heap);
+  put_to_sleep({add(2.5)});
+  EXPECT_TRUE(steps(20 * 60).empty()) << "one of 21";
+  put_to_sleep({add(2.7)});
+  EXPECT_EQ(steps(sample_time).size(), 22U) << "two of 22";
+}
+
+/// A region of two columns, 4 m apart, on which a body rolls; bodies are expected to arrive.
+class LoadedRegion : public StabilityChecksTest {
+ protected:
+  /// The friction of the cubes is 0.5.
+  void make(double rise) {
+    put_to_sleep({add(1.0, 0.5), add(5.0, 0.5 + rise)});
+    rolling_ = add(1.0, 1.5);
+    world_.touching = {contact(0, rolling_, Vec3(1.0, 2.0, 1.0), -Vec3::UnitZ(), 0.1)};
+  }
+  void roll() { move(rolling_, step_ % 2 == 0 ? 0.1 : -0.1); }
+
+  BodyIndex rolling_ = 0;
+};
+
+// In 3D the slope counts as the same along both axes: 1.15 * 0.5 is a rise of 1.63 m over 4 m.
+TEST_F(LoadedRegion, IsCheckedAlthoughItMovesWhereItIsSteeperThanItsFriction) {
+  make(1.7);
+  EXPECT_EQ(steps(sample_time, [&] { roll(); }), (std::vector<BodyIndex>{0, 1}));
+}
+
+TEST_F(LoadedRegion, IsLeftAloneWhereItIsFlatter) {
+  make(1.5);
+  EXPECT_TRUE(steps(7 * 60, [&] { roll(); }).empty());
+}
+
+TEST_F(LoadedRegion, IsHeldForAShortTimeAndCheckedAgainOnceItIsQuiet) {
+  make(1.7);
+  const auto slide = [&] {
+    roll();
+    for (const BodyIndex body : {0, 1})
+      if (checks_.holds(body)) move(body, 0.001);
+  };
+  steps(sample_time, slide);
+  steps(2 * sample_time, slide);
+  EXPECT_TRUE(checks_.holds(0));
+  steps(sample_time, slide);
+  EXPECT_FALSE(checks_.holds(0)) << "after three samples, whatever moves";
+  put_to_sleep({0, 1});
+  EXPECT_TRUE(checks_.has_unchecked()) << "such a check proves nothing";
+  EXPECT_TRUE(steps(2 * sample_time, slide).empty()) << "nothing is new";
+  EXPECT_EQ(steps(2 * sample_time), (std::vector<BodyIndex>{0, 1})) << "once it is quiet";
+}
+
 TEST_F(StabilityChecksTest, LeaveAPileAloneWhoseSlopeIsControlledAboveTheAngleOfAvalanches) {
   Pile<3> pile = make_pile<3>(Vec3(2.0, 2.0, 0.0), 1.0, 100.0, parts().typical, std::nullopt);
   pile.slope_controlled = true;

@@ -19,11 +19,6 @@ namespace {
 
 constexpr double still = 1.0;  // [m/s]; faster bodies are in flight
 
-template <int Dim>
-WorldMaker<Dim> maker_of(const std::string& backend) {
-  return [backend](const WorldDescription<Dim>& description) { return make_world<Dim>(backend, description); };
-}
-
 /// Without the bodies in flight: they would count as displaced when they land.
 template <int Dim>
 BodyStates<Dim> settled(BodyStates<Dim> states) {
@@ -185,7 +180,7 @@ void ErrorMeter<Dim>::add_motion(const Trajectory<Dim>& frames, Values& values) 
 template <int Dim>
 void ErrorMeter<Dim>::add_horizon(const Recording<Dim>& run, Values& values) const {
   if (run.forks.empty()) return;
-  const auto full = full_continuation<Dim>(maker_of<Dim>(backend_), scene_.world, full_.frames.frame_time());
+  const auto full = full_continuation<Dim>(world_maker<Dim>(backend_), scene_.world, full_.frames.frame_time());
   const std::vector<double> extents = extents_of<Dim>(scene_.world.shapes);
   const auto errors = horizon_errors<Dim>(run.forks, run.arrivals, full, recorded_continuation<Dim>(run.frames),
                                           extents, scene_.world.gravity, {10, 30});
@@ -209,7 +204,7 @@ template <int Dim>
 void ErrorMeter<Dim>::add_drift(std::span<const BodyStates<Dim>> ends, Values& values) const {
   std::vector<double> drift, far, energy, creep;
   for (const BodyStates<Dim>& end : ends) {
-    const WakeTest wake = wake_test<Dim>(maker_of<Dim>(backend_), reference_settings(scene_.world), settled(end));
+    const WakeTest wake = wake_test<Dim>(world_maker<Dim>(backend_), reference_settings(scene_.world), settled(end));
     if (wake.bodies == 0) continue;
     drift.push_back(wake.mean / extent_);
     far.push_back(wake.share_far);

@@ -184,7 +184,7 @@ std::string friction_text(const CellPlan& plan) {
 std::string scene_text(const CellPlan& plan, const std::string& name) {
   std::string text =
       fmt::format("title = \"{}\"\ndimension = {}\n\n[world]\ngravity = {}\n", name, plan.dimension, plan.gravity);
-  if (plan.dimension == 3) text += "\n[world.solver]\nwarm_friction = true\n";
+  text += "\n[world.solver]\nwarm_friction = true\n";
   text += ground_text(plan);
   text += fmt::format("\n[shape.body]\n{}{}", plan.shape.keys, friction_text(plan));
   if (!plan.shape.further.empty())

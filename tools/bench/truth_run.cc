@@ -23,11 +23,6 @@ namespace {
 
 constexpr double fastest_of_pile = 1.0;  // [m/s]; faster bodies are in flight
 
-template <int Dim>
-WorldMaker<Dim> world_maker(const std::string& backend) {
-  return [backend](const WorldDescription<Dim>& description) { return make_world<Dim>(backend, description); };
-}
-
 /// A position with its height above the slope, and the distance down the slope in the place of x.
 template <int Dim>
 Vec<Dim> along_slope(const Vec<Dim>& position, double slope) {

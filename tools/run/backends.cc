@@ -69,9 +69,16 @@ std::unique_ptr<World<Dim>> make_world(std::string_view backend, const WorldDesc
   return find_backend<Dim>(backend).make(description);
 }
 
+template <int Dim>
+WorldMaker<Dim> world_maker(const std::string& backend) {
+  return [backend](const WorldDescription<Dim>& description) { return make_world<Dim>(backend, description); };
+}
+
 template EngineTraits engine_traits<2>(std::string_view);
 template EngineTraits engine_traits<3>(std::string_view);
 template std::unique_ptr<World<2>> make_world(std::string_view, const WorldDescription<2>&);
 template std::unique_ptr<World<3>> make_world(std::string_view, const WorldDescription<3>&);
+template WorldMaker<2> world_maker(const std::string&);
+template WorldMaker<3> world_maker(const std::string&);
 
 }  // namespace talus

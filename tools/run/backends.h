@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/measure/rebuild.h"
 #include "common/world/engine_traits.h"
 #include "common/world/world.h"
 
@@ -21,5 +22,9 @@ EngineTraits engine_traits(std::string_view backend);
 /// A new world in the engine of that name. Throws std::invalid_argument where this build has no such engine for Dim.
 template <int Dim>
 std::unique_ptr<World<Dim>> make_world(std::string_view backend, const WorldDescription<Dim>& description);
+
+/// Makes worlds in the engine of that name, as make_world() does.
+template <int Dim>
+WorldMaker<Dim> world_maker(const std::string& backend);
 
 }  // namespace talus

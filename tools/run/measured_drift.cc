@@ -13,11 +13,6 @@
 namespace talus {
 namespace {
 
-template <int Dim>
-WorldMaker<Dim> world_maker(const std::string& backend) {
-  return [backend](const WorldDescription<Dim>& description) { return make_world<Dim>(backend, description); };
-}
-
 /// Why drift cannot be measured after these events; empty: it can.
 template <int Dim>
 std::string obstruction(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {

@@ -32,6 +32,9 @@ struct AdaptiveParams {
   /// Factor of the rest distances: a tolerance below the default is kept while a pour goes on, too, when there are few
   /// checks (docs/research/tolerance_in_a_pour.md). 1 without a tolerance.
   double rest_distance_factor() const;
+  /// Part of the sleeping bodies of a region that moves which must be unchecked before it is checked all the same;
+  /// above 1: never.
+  double loaded_share() const { return 10.0 * tolerance; }
 };
 
 inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
@@ -41,8 +44,8 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .range = between(0.0, 10.0),
       .meaning =
           "mean distance that the bodies of a region at rest may still move when all of them wake. Each region is "
-          "checked for it when it comes to rest; below 0.05 both rest distances shrink in proportion. Large: heaps "
-          "come "
+          "checked for it when it comes to rest; one that moves and is steeper than its friction holds, when 10 times "
+          "this share of it is unchecked; below 0.05 both rest distances shrink in proportion. Large: heaps come "
           "to rest too steep; small: checks take long and more is awake; 0: no checks"}},
     {&AdaptiveParams::rest_distance,
      {.name = "rest_distance",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace talus {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 // Times in time_unit() (docs/research/stability_checks.md).
 constexpr double sample_time = 0.8;       // between two samples of the displacement
 constexpr double shortest_time = 0.8;     // of a check
-constexpr double longest_time = 60.0;     // of a check: some contacts of an engine jitter for ever
+constexpr double longest_time = 60.0;     // of a check: some contacts of an engine jitter for ever,
+constexpr double longest_loaded = 2.4;    // and of one of a region that moves
 constexpr double horizon = 13.0;          // for which the present speed is extrapolated,
 constexpr double horizon_slowing = 6.0;   // and if the motion slows down
 constexpr double horizon_estimate = 1.5;  // for the estimate of drift: the motion dies out
@@ -19,8 +21,10 @@ constexpr double rest_time = 0.4;         // at rest, after which an awake body 
 
 constexpr double slowing = 0.7;  // of the displacement of the sample before: less means that the motion slows down
 constexpr double moving_share = 0.15;           // of the bodies of a region that may move when its check begins
-constexpr double unchecked_share = 0.2;         // of its sleeping bodies for which a check is worth its cost
+constexpr double unchecked_share = 0.2;         // of its sleeping bodies for which a check is worth its cost,
+constexpr double unchecked_share_calm = 0.05;   // and without arrivals
 constexpr double block_width = 2.5;             // [D]
+constexpr double slope_roughness = 1.15;        // of a slope found from the tops of columns, which are single bodies
 constexpr double moving_share_estimate = 0.05;  // of the bodies that may be awake in contact when drift is estimated
 constexpr std::int64_t averaged_bodies = 300;   // over which found_ averages
 
@@ -55,6 +59,11 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
   sample_steps_ = steps(sample_time);
   shortest_check_ = steps(shortest_time);
   longest_check_ = steps(longest_time);
+  longest_loaded_check_ = steps(longest_loaded);
+  loaded_share_ = setup.params.loaded_share();
+  lowest_friction_ = std::numeric_limits<double>::infinity();
+  for (const Shape<Dim>& shape : setup.world.shapes)
+    lowest_friction_ = std::min(lowest_friction_, shape.material.friction);
   arrival_steps_ = steps(arrival_time);
 }
 
@@ -71,18 +80,26 @@ void StabilityChecks<Dim>::count(const RuleInput<Dim>& in, std::span<const Sleep
   for (const SleepEvent& event : waking) {
     const Column column = columns_.cell_of(in.pose_of(event.body).position);
     --sleeping_[column];
-    if (checked_[event.body]) continue;
-    const auto waiting = unchecked_.find(column);
-    if (waiting != unchecked_.end() && --waiting->second <= 0) unchecked_.erase(waiting);
+    if (unchecked_.contains(column)) count_unchecked(column, event.body, -1);
   }
   for (const SleepEvent& event : falling_asleep) {
     const Column column = columns_.cell_of(in.pose_of(event.body).position);
     ++sleeping_[column];
     std::optional<Release>& checked = checked_[event.body];
-    if (checked && displacement(in, event.body, checked->pose) <= tolerance_) continue;
-    checked.reset();
-    ++unchecked_[column];
+    if (checked && displacement(in, event.body, checked->pose) > tolerance_) checked.reset();
+    count_unchecked(column, event.body, 1);
   }
+}
+
+/// Adds a sleeping body that waits for a check to its column, or takes it out.
+template <int Dim>
+void StabilityChecks<Dim>::count_unchecked(const Column& column, BodyIndex body, int by) {
+  const std::optional<Release>& checked = checked_[body];
+  if (checked && !checked->loaded) return;
+  Unchecked& unchecked = unchecked_[column];
+  unchecked.bodies += by;
+  if (!checked) unchecked.fresh = std::max(0, unchecked.fresh + by);
+  if (unchecked.bodies <= 0) unchecked_.erase(column);
 }
 
 template <int Dim>
@@ -95,13 +112,19 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
   for (Check& check : checks_) release_resting(in, check);
   std::erase_if(checks_, [](const Check& check) { return check.members.empty(); });
   observe_motion(in, rest);
-  std::map<Column, int> columns = unchecked_;
+  std::map<Column, Unchecked> columns = unchecked_;
   std::erase_if(columns, [&](const auto& column) {
     return controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column.first)) > angle_;
   });
   while (!columns.empty()) {
     const Region region = take_region(columns);
-    if (is_quiet(region, in.step)) begin(in, region, out);
+    if (is_quiet(region, in.step)) {
+      begin(in, region, false, out);
+    } else if (is_loaded(region, in.step)) {
+      if (is_steep(in, region)) begin(in, region, true, out);
+      for (const Column& column : region.columns)
+        if (const auto waiting = unchecked_.find(column); waiting != unchecked_.end()) waiting->second.fresh = 0;
+    }
   }
   for (const Contact<Dim>& contact : in.contacts) {
     contact_[contact.a] = 0;
@@ -132,12 +155,19 @@ void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& chec
   for (const auto& block : motion) around[block.first] = motion_around(motion, block.first);
   std::erase_if(check.members, [&](const Member& member) {
     const Motion& near = around[blocks_.cell_of(member.sample.position)];
-    const bool slows = near.sum <= slowing * near.before;
-    const double to_come = near.mean() * (slows ? horizon_slowing : horizon) / sample_time;
-    if (to_come > tolerance_ && lasted < longest_check_) return false;
-    release(in, member, near.mean() * horizon_estimate / sample_time);
+    if (!has_passed(check, near, lasted)) return false;
+    const double expected = near.mean() * horizon_estimate / sample_time;
+    release(in, member, {.pose = member.sample, .expected = expected, .loaded = check.loaded});
     return true;
   });
+}
+
+/// Whether a check that has lasted so many steps is over where the bodies move so.
+template <int Dim>
+bool StabilityChecks<Dim>::has_passed(const Check& check, const Motion& near, std::int64_t lasted) const {
+  const bool slows = near.sum <= slowing * near.before;
+  const double to_come = near.mean() * (slows || check.loaded ? horizon_slowing : horizon) / sample_time;
+  return to_come <= tolerance_ || lasted >= (check.loaded ? longest_loaded_check_ : longest_check_);
 }
 
 /// That of the bodies in a block and in those around it: one body that is still moving does not keep the others awake,
@@ -152,17 +182,17 @@ typename StabilityChecks<Dim>::Motion StabilityChecks<Dim>::motion_around(const 
 }
 
 template <int Dim>
-void StabilityChecks<Dim>::release(const RuleInput<Dim>& in, const Member& member, double expected) {
+void StabilityChecks<Dim>::release(const RuleInput<Dim>& in, const Member& member, const Release& release) {
   held_[member.body] = 0;
-  checked_[member.body] = {.pose = member.sample, .expected = expected};
-  if (!member.slept) return;
+  checked_[member.body] = release;
+  if (!member.slept || release.loaded) return;
   found_count_ = std::min(found_count_ + 1, averaged_bodies);
   found_ += (displacement(in, member.body, *member.slept) - found_) / static_cast<double>(found_count_);
 }
 
 template <int Dim>
 std::optional<double> StabilityChecks<Dim>::expected_motion(BodyIndex body) const {
-  if (body >= std::ssize(checked_) || !checked_[body]) return std::nullopt;
+  if (body >= std::ssize(checked_) || !checked_[body] || checked_[body]->loaded) return std::nullopt;
   return checked_[body]->expected;
 }
 
@@ -176,9 +206,9 @@ std::optional<DriftEstimate> StabilityChecks<Dim>::drift_estimate(const World<Di
   for (BodyIndex body = 0; body < states.size(); ++body) {
     if (states.asleep[body] == 0 || states.removed[body] != 0) continue;
     ++sleeping;
-    const bool is_checked = body < std::ssize(checked_) && checked_[body];
-    checked += is_checked ? 1 : 0;
-    drift += is_checked ? checked_[body]->expected : found_;
+    const std::optional<double> expected = expected_motion(body);
+    checked += expected ? 1 : 0;
+    drift += expected.value_or(found_);
   }
   const int moving = awake_in_contact(world);
   if (moving > moving_share_estimate * (sleeping + moving)) return std::nullopt;
@@ -211,9 +241,9 @@ void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCr
 
 /// Takes a set of connected columns out of `columns`, and adds the columns around them.
 template <int Dim>
-typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::map<Column, int>& columns) const {
+typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::map<Column, Unchecked>& columns) const {
   std::vector<Column> connected = {columns.begin()->first};
-  int unchecked = columns.begin()->second;
+  Unchecked unchecked = columns.begin()->second;
   columns.erase(columns.begin());
   std::set<Column> all;
   for (std::size_t i = 0; i < connected.size(); ++i) {
@@ -222,7 +252,8 @@ typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::map
       const auto found = columns.find(beside);
       if (found == columns.end()) continue;
       connected.push_back(beside);
-      unchecked += found->second;
+      unchecked.bodies += found->second.bodies;
+      unchecked.fresh += found->second.fresh;
       columns.erase(found);
     }
   }
@@ -242,16 +273,59 @@ typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::map
 template <int Dim>
 bool StabilityChecks<Dim>::is_quiet(const Region& region, std::int64_t step) const {
   if (region.under_check) return false;
-  const bool expects_arrivals = step - last_arrival_ <= arrival_steps_;
-  if (expects_arrivals && region.unchecked < unchecked_share * region.sleeping) return false;
+  const bool arrivals = expects_arrivals(step);
+  if (region.unchecked.bodies < (arrivals ? unchecked_share : unchecked_share_calm) * region.sleeping) return false;
   if (region.moving == 0) return true;
-  return !expects_arrivals && region.moving <= moving_share * (region.moving + region.sleeping);
+  return !arrivals && region.moving <= moving_share * (region.moving + region.sleeping);
+}
+
+/// Whether enough of a region that moves has changed since it was last checked or found too flat to slide.
+template <int Dim>
+bool StabilityChecks<Dim>::is_loaded(const Region& region, std::int64_t step) const {
+  if (region.under_check || !expects_arrivals(step)) return false;
+  return region.unchecked.fresh >= loaded_share_ * region.sleeping;
+}
+
+/// Whether the surface is steeper than friction alone holds: the root mean square of its slope from column to column.
+template <int Dim>
+bool StabilityChecks<Dim>::is_steep(const RuleInput<Dim>& in, const Region& region) {
+  std::map<Column, double> tops;
+  for (const Column& column : region.columns)
+    if (const auto top = top_of(in, column)) tops[column] = *top;
+  double squares = 0.0;
+  int pairs = 0;
+  for (const auto& [column, top] : tops) {
+    for (std::size_t axis = 0; axis < column.size(); ++axis) {
+      Column next = column;
+      ++next[axis];
+      const auto beside = tops.find(next);
+      if (beside == tops.end()) continue;
+      squares += (beside->second - top) * (beside->second - top);
+      ++pairs;
+    }
+  }
+  const double slope = std::sqrt((Dim - 1) * squares / std::max(1, pairs)) / columns_.width();
+  return slope > slope_roughness * lowest_friction_;
+}
+
+/// Height of the highest sleeping body of a column [m]; none where no body sleeps.
+template <int Dim>
+std::optional<double> StabilityChecks<Dim>::top_of(const RuleInput<Dim>& in, const Column& column) {
+  std::optional<double> top;
+  near_.clear();
+  in.world.query_box(columns_.template box_of<Dim>(column, column), near_);
+  for (const BodyIndex body : near_) {
+    const Vec<Dim>& position = in.pose_of(body).position;
+    if (!in.asleep(body) || columns_.cell_of(position) != column) continue;
+    top = std::max(top.value_or(height<Dim>(position)), height<Dim>(position));
+  }
+  return top;
 }
 
 /// Wakes the bodies of a region and holds them, and those that are awake in contact.
 template <int Dim>
-void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region, RuleOutput<Dim>& out) {
-  Check check{.members = {}, .begun = in.step};
+void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region, bool loaded, RuleOutput<Dim>& out) {
+  Check check{.members = {}, .begun = in.step, .loaded = loaded};
   for (const Column& column : region.columns) {
     unchecked_.erase(column);
     near_.clear();

@@ -26,6 +26,11 @@ namespace talus {
 /// waits until it has enough unchecked bodies to be worth its cost. When no more arrive, some bodies may move, since a
 /// slope that slides slowly as a whole would otherwise delay its own check. A pile whose slope is controlled is left
 /// out where it is steeper than heaps become by themselves, since only sleep keeps it so steep.
+///
+/// A pour that never pauses leaves no region quiet. There a region is checked although it moves as soon as enough of
+/// its sleeping bodies have not been checked where they lie, and its surface is steeper than friction alone holds. Such
+/// a loaded check is short: it lets the heap follow its load, but proves nothing, so the region is checked again once
+/// it is quiet.
 template <int Dim>
 class StabilityChecks {
  public:
@@ -73,10 +78,17 @@ class StabilityChecks {
   struct Release {
     Pose<Dim> pose{};
     double expected = 0.0;  // motion from there on, mean over the blocks around [m]
+    bool loaded = false;
   };
   struct Check {
     std::vector<Member> members;
     std::int64_t begun = 0;  // step
+    bool loaded = false;
+  };
+  /// Sleeping bodies that wait for a check.
+  struct Unchecked {
+    int bodies = 0;
+    int fresh = 0;  // of these, that not even a loaded check has left where they lie
   };
   /// Displacements of bodies.
   struct Motion {
@@ -94,20 +106,26 @@ class StabilityChecks {
   /// Columns that one check covers.
   struct Region {
     std::vector<Column> columns;
-    int sleeping = 0;   // bodies
-    int unchecked = 0;  // of these
-    int moving = 0;     // bodies that move in contact with others
+    int sleeping = 0;     // bodies
+    Unchecked unchecked;  // of these
+    int moving = 0;       // bodies that move in contact with others
     bool under_check = false;
   };
 
   double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
+  void count_unchecked(const Column& column, BodyIndex body, int by);
+  bool has_passed(const Check& check, const Motion& near, std::int64_t lasted) const;
   void release_resting(const RuleInput<Dim>& in, Check& check);
   Motion motion_around(const std::map<Block, Motion>& motion, const Block& block) const;
-  void release(const RuleInput<Dim>& in, const Member& member, double expected);
+  void release(const RuleInput<Dim>& in, const Member& member, const Release& release);
   void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
-  Region take_region(std::map<Column, int>& columns) const;
+  Region take_region(std::map<Column, Unchecked>& columns) const;
+  bool expects_arrivals(std::int64_t step) const { return step - last_arrival_ <= arrival_steps_; }
   bool is_quiet(const Region& region, std::int64_t step) const;
-  void begin(const RuleInput<Dim>& in, const Region& region, RuleOutput<Dim>& out);
+  bool is_loaded(const Region& region, std::int64_t step) const;
+  bool is_steep(const RuleInput<Dim>& in, const Region& region);
+  std::optional<double> top_of(const RuleInput<Dim>& in, const Column& column);
+  void begin(const RuleInput<Dim>& in, const Region& region, bool loaded, RuleOutput<Dim>& out);
 
   Columns columns_;
   Blocks blocks_;
@@ -117,8 +135,11 @@ class StabilityChecks {
   std::int64_t sample_steps_;                    // between two samples of the displacement
   std::int64_t shortest_check_;                  // [steps]
   std::int64_t longest_check_;                   // [steps]
+  std::int64_t longest_loaded_check_;            // [steps]
   std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
-  std::map<Column, int> unchecked_;              // sleeping bodies that wait for a check, by column
+  double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
+  double lowest_friction_;                       // of the shapes: tangent of the slope that friction alone holds
+  std::map<Column, Unchecked> unchecked_;        // by column
   std::map<Column, int> sleeping_;               // bodies, by column
   std::vector<Check> checks_;                    // under way
   std::vector<std::uint8_t> held_;               // [body]
