@@ -45,6 +45,13 @@ int awake_in_contact(const World<Dim>& world) {
   return static_cast<int>(std::ranges::count(found, 1));
 }
 
+template <int Dim>
+double lowest_friction(std::span<const Shape<Dim>> shapes) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Shape<Dim>& shape : shapes) lowest = std::min(lowest, shape.material.friction);
+  return lowest;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -52,7 +59,9 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
     : columns_(setup.params.avalanche_width * setup.typical.extent),
       blocks_(block_width * setup.typical.extent),
       tolerance_(setup.params.tolerance * setup.typical.extent),
-      angle_(setup.params.avalanche_angle) {
+      angle_(setup.params.avalanche_angle),
+      loaded_share_(setup.params.loaded_share()),
+      lowest_friction_(lowest_friction<Dim>(setup.world.shapes)) {
   const double unit = time_unit(setup.typical, setup.world);
   const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / setup.world.dt)); };
   rest_time_ = rest_time * unit;
@@ -60,10 +69,6 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
   shortest_check_ = steps(shortest_time);
   longest_check_ = steps(longest_time);
   longest_loaded_check_ = steps(longest_loaded);
-  loaded_share_ = setup.params.loaded_share();
-  lowest_friction_ = std::numeric_limits<double>::infinity();
-  for (const Shape<Dim>& shape : setup.world.shapes)
-    lowest_friction_ = std::min(lowest_friction_, shape.material.friction);
   arrival_steps_ = steps(arrival_time);
 }
 
