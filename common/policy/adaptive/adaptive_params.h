@@ -32,8 +32,8 @@ struct AdaptiveParams {
   /// Factor of the rest distances: a tolerance below the default is kept while a pour goes on, too, when there are few
   /// checks (docs/research/tolerance_in_a_pour.md). 1 without a tolerance.
   double rest_distance_factor() const;
-  /// Part of the sleeping bodies of a region that moves which must be unchecked before it is checked all the same;
-  /// above 1: never.
+  /// Share of a region's sleeping bodies that must be unchecked before the region is checked while it moves. Above 1
+  /// such a check never begins.
   double loaded_share() const { return 10.0 * tolerance; }
 };
 

@@ -167,7 +167,7 @@ void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& chec
   });
 }
 
-/// Whether a check that has lasted so many steps is over where the bodies move so.
+/// Whether a check that began `lasted` steps ago may release the bodies of a block, by the motion near them.
 template <int Dim>
 bool StabilityChecks<Dim>::has_passed(const Check& check, const Motion& near, std::int64_t lasted) const {
   const bool slows = near.sum <= slowing * near.before;
@@ -284,7 +284,7 @@ bool StabilityChecks<Dim>::is_quiet(const Region& region, std::int64_t step) con
   return !arrivals && region.moving <= moving_share * (region.moving + region.sleeping);
 }
 
-/// Whether enough of a region that moves has changed since it was last checked or found too flat to slide.
+/// Whether enough bodies of a region are fresh for a check while others still arrive.
 template <int Dim>
 bool StabilityChecks<Dim>::is_loaded(const Region& region, std::int64_t step) const {
   if (region.under_check || !expects_arrivals(step)) return false;

@@ -78,17 +78,17 @@ class StabilityChecks {
   struct Release {
     Pose<Dim> pose{};
     double expected = 0.0;  // motion from there on, mean over the blocks around [m]
-    bool loaded = false;
+    bool loaded = false;    // by a loaded check
   };
   struct Check {
     std::vector<Member> members;
     std::int64_t begun = 0;  // step
-    bool loaded = false;
+    bool loaded = false;     // begun while the region moved
   };
   /// Sleeping bodies that wait for a check.
   struct Unchecked {
     int bodies = 0;
-    int fresh = 0;  // of these, that not even a loaded check has left where they lie
+    int fresh = 0;  // of these, bodies that came to lie here after the last loaded check
   };
   /// Displacements of bodies.
   struct Motion {
