@@ -101,6 +101,7 @@ template <int Dim>
 void StabilityChecks<Dim>::count_unchecked(const Column& column, BodyIndex body, int by) {
   const std::optional<Release>& checked = checked_[body];
   if (checked && !checked->loaded) return;
+  may_begin_ = true;
   Unchecked& unchecked = unchecked_[column];
   unchecked.bodies += by;
   if (!checked) unchecked.fresh = std::max(0, unchecked.fresh + by);
@@ -131,6 +132,7 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
         if (const auto waiting = unchecked_.find(column); waiting != unchecked_.end()) waiting->second.fresh = 0;
     }
   }
+  may_begin_ = !unchecked_.empty() && (expects_arrivals(in.step) || !in.world.awake().empty());
   for (const Contact<Dim>& contact : in.contacts) {
     contact_[contact.a] = 0;
     if (contact.b >= 0) contact_[contact.b] = 0;

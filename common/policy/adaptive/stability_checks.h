@@ -39,8 +39,8 @@ class StabilityChecks {
   /// Notes the bodies that fall asleep and that wake after this step. Costs O(events).
   void count(const RuleInput<Dim>& in, std::span<const SleepEvent> falling_asleep, std::span<const SleepEvent> waking);
 
-  /// Whether sleeping bodies wait for a check. update() must be called then although all bodies sleep.
-  bool has_unchecked() const { return !unchecked_.empty(); }
+  /// Whether a check may begin although all bodies sleep. update() must be called then.
+  bool may_begin() const { return may_begin_; }
 
   /// Whether an awake body takes part in a check and must stay awake.
   bool holds(BodyIndex body) const;
@@ -139,6 +139,7 @@ class StabilityChecks {
   std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
   double lowest_friction_;                       // of the shapes: tangent of the slope that friction alone holds
+  bool may_begin_ = false;                       // no: until a body falls asleep or wakes nothing can become due
   std::map<Column, Unchecked> unchecked_;        // by column
   std::map<Column, int> sleeping_;               // bodies, by column
   std::vector<Check> checks_;                    // under way
