@@ -64,8 +64,18 @@ TEST(TruthResult, ASoundCellIsNotRed) {
   EXPECT_LE(result.severity, 1.0);
   EXPECT_DOUBLE_EQ(result.drift, 0.01);
   EXPECT_DOUBLE_EQ(result.awake_ratio, 0.5);
-  EXPECT_DOUBLE_EQ(result.speed_up, 2.0);
-  EXPECT_DOUBLE_EQ(result.speed_up_reference, 10.0);
+  EXPECT_DOUBLE_EQ(result.speed_up.middle, 2.0);
+  EXPECT_DOUBLE_EQ(result.speed_up_reference.middle, 10.0);
+}
+
+TEST(TruthResult, ASpeedUpIsTheMedianOverTheSeedsWithItsRange) {
+  TruthRuns runs = sound_runs();
+  runs.adaptive[0]["seconds"] = 2.0;
+  runs.adaptive[1]["seconds"] = 0.5;
+  const TimeRatio ratio = truth_result(runs).speed_up;
+  EXPECT_DOUBLE_EQ(ratio.least, 1.0);
+  EXPECT_DOUBLE_EQ(ratio.middle, 2.0);
+  EXPECT_DOUBLE_EQ(ratio.most, 4.0);
 }
 
 TEST(TruthResult, ARedCellSaysWhetherTheFullRunIsOffByAsMuch) {

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -53,6 +55,16 @@ TruthColumn bias_column(const std::string& key, const std::string& heading, Bias
           [=](const TruthRow& row) { return row.result.*bias.*value; }};
 }
 
+/// "3.3 (2.9-3.6)": median, smallest and largest of the seeds.
+std::string shown_ratio(const TimeRatio& ratio) {
+  return fmt::format("{} ({}-{})", shown(ratio.middle, 2), shown(ratio.least, 2), shown(ratio.most, 2));
+}
+
+TruthColumn speed_up_column(const std::string& key, const std::string& heading, TimeRatio TruthResult::*ratio) {
+  return {key, heading, [=](const TruthRow& row) { return shown_ratio(row.result.*ratio); },
+          [=](const TruthRow& row) { return (row.result.*ratio).middle; }};
+}
+
 std::vector<TruthColumn> truth_columns() {
   using R = TruthResult;
   return {bias_column("centre_percent", "centre %", &R::centre),
@@ -76,8 +88,8 @@ std::vector<TruthColumn> truth_columns() {
           number_column("awake", "awake", [](const R& r) { return r.awake; }),
           number_column(
               "awake_over_moving", "/moving", [](const R& r) { return r.awake_ratio; }, 2),
-          number_column("speed_up", "speed-up", [](const R& r) { return r.speed_up; }),
-          number_column("speed_up_reference", "/ref", [](const R& r) { return r.speed_up_reference; })};
+          speed_up_column("speed_up", "speed-up", &R::speed_up),
+          speed_up_column("speed_up_reference", "/ref", &R::speed_up_reference)};
 }
 
 std::string beyond_text(const TruthRow& row) { return fmt::format("{}", fmt::join(row.result.beyond, ", ")); }
@@ -111,6 +123,8 @@ Json truth_json(const std::vector<TruthRow>& rows) {
         {"poured_errors", &result.poured}, {"r50_errors", &result.r50},
         {"r95_errors", &result.r95},       {"spill_errors", &result.spill}};
     for (const auto& [key, bias] : biases) each[key] = std::isfinite(bias->errors) ? Json(bias->errors) : Json();
+    each["speed_up_min"] = result.speed_up.least;
+    each["speed_up_max"] = result.speed_up.most;
     each["severity"] = std::isfinite(result.severity) ? Json(result.severity) : Json();
     each["red"] = result.beyond;
     each["why"] = result.reasons;
@@ -170,11 +184,26 @@ std::string mean_bias(const std::vector<TruthRow>& rows, Bias TruthResult::*bias
   return fmt::format("{:+.1f} ± {:.1f} %", cells.mean, cells.deviation / std::sqrt(std::max(1, cells.runs)));
 }
 
-/// How well the runs' estimates foresaw the drift.
-std::string estimates_in_short(const std::vector<TruthRow>& rows) {
-  EstimateScore all;
+/// Cells with an estimate, and of these, those whose mean estimate is within a factor of 2 of the sleeping bodies' mean
+/// drift.
+struct EstimatedCells {
   int cells = 0;
   int near = 0;
+};
+EstimatedCells estimated_cells(const std::vector<TruthRow>& rows) {
+  EstimatedCells estimated;
+  for (const TruthRow& row : rows) {
+    if (std::isnan(row.result.estimate)) continue;
+    ++estimated.cells;
+    estimated.near += is_near(row.result.estimate, row.result.drift_slept) ? 1 : 0;
+  }
+  return estimated;
+}
+
+/// How well the runs' estimates foresaw the drift.
+std::string estimates_in_short(const std::vector<TruthRow>& rows) {
+  const auto [cells, near] = estimated_cells(rows);
+  EstimateScore all;
   for (const TruthRow& row : rows) {
     const EstimateScore score = estimate_score(row.runs.adaptive, TruthLimits{}.drift);
     all.runs += score.runs;
@@ -182,15 +211,11 @@ std::string estimates_in_short(const std::vector<TruthRow>& rows) {
     all.claims += score.claims;
     all.false_claims += score.false_claims;
     all.too_low += score.too_low;
-    cells += score.runs > 0;
-    near += score.runs > 0 && is_near(row.result.estimate, row.result.drift_slept);
   }
   return fmt::format(
       "The estimate at the end of a run is within a factor of 2 of the sleeping bodies' drift in {} of {} cells, and "
-      "in "
-      "{} of {} runs. {} runs say that it is within the tolerance: in {} of them it is not, in {} it is above twice "
-      "the "
-      "estimate.",
+      "in {} of {} runs. {} runs say that it is within the tolerance: in {} of them it is not, in {} it is above "
+      "twice the estimate.",
       near, cells, all.near, all.runs, all.claims, all.false_claims, all.too_low);
 }
 
@@ -211,12 +236,66 @@ std::string in_short(const std::vector<TruthRow>& rows) {
   using R = TruthResult;
   return fmt::format(
       "{} Means over the cells with their standard errors: centre {} of the reference's and {} of full's, at the end "
-      "of "
-      "the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}. {}",
+      "of the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}. {}",
       red_cells(rows), mean_bias(rows, &R::centre), mean_bias(rows, &R::centre_from_full), mean_bias(rows, &R::poured),
       over_cells(rows, [](const R& r) { return r.drift; }).mean,
       over_cells(rows, [](const R& r) { return r.awake; }).mean,
-      over_cells(rows, [](const R& r) { return r.speed_up; }).mean, estimates_in_short(rows));
+      over_cells(rows, [](const R& r) { return r.speed_up.middle; }).mean, estimates_in_short(rows));
+}
+
+/// Median over the cells that have the number; NaN without any.
+double median_over(const std::vector<TruthRow>& rows, const std::function<double(const TruthResult&)>& number) {
+  std::vector<double> numbers;
+  for (const TruthRow& row : rows)
+    if (std::isfinite(number(row.result))) numbers.push_back(number(row.result));
+  return numbers.empty() ? std::numeric_limits<double>::quiet_NaN() : median(numbers);
+}
+
+std::string mean_and_median(const std::vector<TruthRow>& rows, Bias TruthResult::*bias) {
+  return fmt::format("{}, {:+.1f} %", mean_bias(rows, bias),
+                     median_over(rows, [=](const TruthResult& result) { return (result.*bias).percent; }));
+}
+
+std::vector<std::string> engine_cells(const std::string& engine, const std::vector<TruthRow>& rows) {
+  using R = TruthResult;
+  const auto count = [&](const std::string& name) {
+    return std::to_string(std::ranges::count_if(
+        rows, [&](const TruthRow& row) { return std::ranges::count(row.result.beyond, name) > 0; }));
+  };
+  const auto [estimated, near] = estimated_cells(rows);
+  return {engine,
+          std::to_string(rows.size()),
+          mean_and_median(rows, &R::centre),
+          mean_and_median(rows, &R::centre_from_full),
+          mean_and_median(rows, &R::poured_from_full),
+          count("drift"),
+          count("drift 95 %"),
+          count("not asleep"),
+          shown(median_over(rows, [](const R& r) { return r.awake_ratio; }), 2),
+          shown(median_over(rows, [](const R& r) { return r.speed_up.middle; }), 2),
+          fmt::format("{} of {}", near, estimated)};
+}
+
+/// One row for each engine, and one for all where there are several.
+Table engines_table(const std::vector<TruthRow>& rows) {
+  Table table{"",
+              {{"engine"},
+               {"cells", true},
+               {"centre: mean, median", true},
+               {"from full: mean, median", true},
+               {"poured, from full: mean, median", true},
+               {"drift", true},
+               {"drift 95 %", true},
+               {"not asleep", true},
+               {"awake over moving: median", true},
+               {"speed-up: median", true},
+               {"estimate within a factor of 2", true}},
+              {}};
+  std::map<std::string, std::vector<TruthRow>> by_engine;
+  for (const TruthRow& row : rows) by_engine[row.runs.backend].push_back(row);
+  for (const auto& [engine, own] : by_engine) table.rows.push_back(engine_cells(engine, own));
+  if (by_engine.size() > 1) table.rows.push_back(engine_cells("all", rows));
+  return table;
 }
 
 std::string file_bytes(const fs::path& file) {
@@ -269,8 +348,8 @@ constexpr const char* how_to_read =
     "Drift: mean distance in D that bodies move when all are woken at the end, less full's; 95 %: the runs' quantile; "
     "of the sleeping: that of the bodies that slept, over the runs with an estimate, which the run makes itself. "
     "Asleep: runs in which all sleep at the end. Awake: mean over the run; /moving: over the bodies of which a point "
-    "moves by more than 0.05 D within half a second with all awake, at the same moments. Speed-ups are medians of "
-    "ratios of processor time, seed by seed.";
+    "moves by more than 0.05 D within half a second with all awake, at the same moments. Speed-ups are "
+    "ratios of processor time, seed by seed: median, in brackets the smallest and largest.";
 
 }  // namespace
 
@@ -284,6 +363,8 @@ void report_truth(const std::filesystem::path& folder, std::vector<TruthRow> row
                            [](const TruthRow& a, const TruthRow& b) { return a.result.severity > b.result.severity; });
   const Table table = shown_table(rows);
   results.notes.emplace_back(how_to_read);
+  results.sections.push_back(
+      {"In short", {engines_table(rows), Paragraph{"Drift, drift 95 % and not asleep: cells beyond the limit."}}});
   results.sections.push_back({"Cells, worst first", {Paragraph{in_short(rows)}, table}});
   if (const Table reasons = reasons_table(rows); !reasons.rows.empty())
     results.sections.push_back({"Why they are red", {reasons}});

@@ -31,12 +31,12 @@ Bias bias_over(const RunValues& runs, const RunValues& baseline, MeasureId id) {
   return bias_of(numbers_of(runs, id), numbers_of(baseline, id));
 }
 
-/// Median over the seeds.
-double time_ratio(const RunValues& slow, const RunValues& fast) {
+TimeRatio time_ratio(const RunValues& slow, const RunValues& fast) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < std::min(slow.size(), fast.size()); ++i)
     ratios.push_back(slow[i]["seconds"] / fast[i]["seconds"]);
-  return median(ratios);
+  if (ratios.empty()) return {};
+  return {.middle = median(ratios), .least = std::ranges::min(ratios), .most = std::ranges::max(ratios)};
 }
 
 double variance_of_mean(std::span<const double> numbers) {

@@ -22,6 +22,13 @@ struct Bias {
 /// Numbers that are not finite are left out; all NaN where one side has fewer than two others.
 Bias bias_of(std::span<const double> runs, std::span<const double> baseline);
 
+/// Processor time of slow runs over that of fast ones, seed by seed.
+struct TimeRatio {
+  double middle = std::numeric_limits<double>::quiet_NaN();  // median
+  double least = std::numeric_limits<double>::quiet_NaN();
+  double most = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Runs of a cell on one engine.
 struct TruthRuns {
   std::string cell;
@@ -66,8 +73,8 @@ struct TruthResult {
   double awake_checked = 0.0;    // in stability checks, mean over the run
   double awake_at_end = 0.0;
   double moving_at_end = 0.0;
-  double speed_up = 0.0;  // over full, median of the seeds
-  double speed_up_reference = 0.0;
+  TimeRatio speed_up;  // over full
+  TimeRatio speed_up_reference;
   /// The largest of the measures over their limits: above 1 the cell is red.
   double severity = 0.0;
   /// Names of the measures beyond their limits, largest first.
