@@ -260,6 +260,23 @@ step = [0, 1]
   EXPECT_NE(contents(folder.path() / "truth" / "rows.jsonl").find("\"steps\":180"), std::string::npos);
 }
 
+TEST(BenchTruth, AFileNamedLikeASceneOfThePaperKeepsItsFrames) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "drop_in_a_pile_2d.toml") << R"(
+title = "A box"
+dimension = 2
+shape.box = {kind = "box", size = [1, 1]}
+run.frames = 90
+
+[[body]]
+position = [0, 0.5]
+)";
+  const Outcome outcome = talus_command("bench truth --quick --seeds 2 --scenes " + folder.path().string() + " --out " +
+                                        (folder / "truth"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(contents(folder.path() / "truth" / "rows.jsonl").find("\"steps\":180"), std::string::npos);
+}
+
 TEST(BenchTruth, WhatIsNoSceneIsRefused) {
   const TemporaryFolder folder;
   const Outcome outcome = talus_command("bench truth --scenes " + folder.path().string());
@@ -277,7 +294,8 @@ TEST(BenchTruth, TheNumberOfJobsDoesNotChangeTheResults) {
                   .exit_code,
               0);
     results.push_back(Json::parse(contents(out + "/results.json"))[0]);
-    for (const char* time : {"speed_up", "speed_up_min", "speed_up_max", "speed_up_reference"}) results.back().erase(time);
+    for (const char* time : {"speed_up", "speed_up_min", "speed_up_max", "speed_up_reference"})
+      results.back().erase(time);
   }
   EXPECT_EQ(results[0], results[1]);
 }

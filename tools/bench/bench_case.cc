@@ -26,8 +26,7 @@ RowKey key_of(const BenchCase& bench_case) {
 
 namespace {
 
-/// The frames of the paper's run, where the scene is one of its examples or example 1 with other shapes: ours go on
-/// until the pile rests.
+/// The frames of the paper's run, where the scene is one of its examples or example 1 with other shapes.
 std::vector<Override> frames_of_paper(const std::string& scene) {
   const std::string name = find_scene(scene).stem().string();
   for (const paper::Example& example : paper::table_1)
@@ -42,7 +41,8 @@ AnyScene load(const BenchCase& bench_case) {
   const bool reference = bench_case.policy == reference_policy;
   const bool engine_default = bench_case.policy == engine_default_policy;
   const std::string policy = reference ? "full" : engine_default ? "engine" : bench_case.policy;
-  std::vector<Override> overrides = frames_of_paper(bench_case.scene);
+  std::vector<Override> overrides;
+  if (!bench_case.to_rest) overrides = frames_of_paper(bench_case.scene);
   for (const std::string& setting : bench_case.settings) overrides.push_back({setting});
   overrides.push_back({"policy.kind=" + policy});
   AnyScene scene = read_scene(find_scene(bench_case.scene), overrides);

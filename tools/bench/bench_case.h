@@ -22,6 +22,9 @@ struct BenchCase {
   std::string curve = {};
   /// The swept value, in a sweep over numbers.
   double swept = 0.0;
+  /// Whether a scene of the paper runs as long as its file says, which goes on until the pile rests, and not as long as
+  /// the paper's run.
+  bool to_rest = false;
 };
 
 /// Full at settings that are taken for converged (common/measure/rebuild.h).

@@ -132,8 +132,11 @@ std::vector<TruthTask> tasks_of(const TruthOptions& options) {
 }
 
 BenchCase case_of(const TruthTask& task, const std::string& policy, const TruthOptions& options) {
-  return {task.scene.string(), task.backend, policy,
-          policy == "adaptive" ? options.settings : std::vector<std::string>()};
+  return {.scene = task.scene.string(),
+          .backend = task.backend,
+          .policy = policy,
+          .settings = policy == "adaptive" ? options.settings : std::vector<std::string>(),
+          .to_rest = true};
 }
 
 RowKey truth_key(const TruthUnit& unit, const std::string& policy, const TruthOptions& options) {
