@@ -12,7 +12,8 @@ namespace talus::stability_checks_test {
 namespace {
 
 /// Cubes of 1 m that lie where they are put, and the rule with D = 1 m and g = 1 m/s^2, so that sqrt(D / g) is a second
-/// of 60 steps and columns are 4 m wide. The tolerance is 0.05 m.
+/// of 60 steps and columns are 4 m wide. The tolerance is 0.05 m. The friction of the first shape is 0.5, of the second
+/// 0.1.
 class StabilityChecksTest : public testing::Test {
  protected:
   static constexpr int sample_time = 48;  // steps between two samples of the displacement
@@ -22,11 +23,15 @@ class StabilityChecksTest : public testing::Test {
     RuleParts parts{.extent = 1.0};
     parts.params.tolerance = 0.05;
     parts.world.gravity = 1.0;
+    parts.world.shapes.push_back(parts.world.shapes.front());
+    parts.world.shapes.back().material.friction = 0.1;
     return parts;
   }
   StabilityChecksTest() : world_(parts().world), rest_(parts().setup()), checks_(parts().setup()) {}
 
-  BodyIndex add(double x, double height = 0.5) { return world_.add({.pose = {.position = Vec3(x, 2.0, height)}}); }
+  BodyIndex add(double x, double height = 0.5, int shape = 0) {
+    return world_.add({.shape = shape, .pose = {.position = Vec3(x, 2.0, height)}});
+  }
 
   void put_to_sleep(const std::vector<BodyIndex>& bodies) {
     world_.freeze(bodies);
@@ -225,9 +230,8 @@ TEST_F(StabilityChecksTest, LeaveFewerThanATwentiethOfARegionUnchecked) {
 /// A region of two columns, 4 m apart, on which a body rolls; bodies are expected to arrive.
 class LoadedRegion : public StabilityChecksTest {
  protected:
-  /// The friction of the cubes is 0.5.
-  void make(double rise) {
-    put_to_sleep({add(1.0, 0.5), add(5.0, 0.5 + rise)});
+  void make(double rise, int shape = 0) {
+    put_to_sleep({add(1.0, 0.5), add(5.0, 0.5 + rise, shape)});
     rolling_ = add(1.0, 1.5);
     world_.touching = {contact(0, rolling_, Vec3(1.0, 2.0, 1.0), -Vec3::UnitZ(), 0.1)};
   }
@@ -244,7 +248,12 @@ TEST_F(LoadedRegion, IsCheckedAlthoughItMovesWhereItIsSteeperThanItsFriction) {
 
 TEST_F(LoadedRegion, IsLeftAloneWhereItIsFlatter) {
   make(1.5);
-  EXPECT_TRUE(steps(7 * 60, [&] { roll(); }).empty());
+  EXPECT_TRUE(steps(7 * 60, [&] { roll(); }).empty()) << "no body of low friction lies in it";
+}
+
+TEST_F(LoadedRegion, IsAsSteepAsTheLowestFrictionInItHolds) {
+  make(1.5, 1);
+  EXPECT_EQ(steps(sample_time, [&] { roll(); }), (std::vector<BodyIndex>{0, 1}));
 }
 
 TEST_F(LoadedRegion, IsHeldForAShortTimeAndCheckedAgainOnceItIsQuiet) {

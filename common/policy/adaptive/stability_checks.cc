@@ -45,13 +45,6 @@ int awake_in_contact(const World<Dim>& world) {
   return static_cast<int>(std::ranges::count(found, 1));
 }
 
-template <int Dim>
-double lowest_friction(std::span<const Shape<Dim>> shapes) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Shape<Dim>& shape : shapes) lowest = std::min(lowest, shape.material.friction);
-  return lowest;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -60,8 +53,7 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
       blocks_(block_width * setup.typical.extent),
       tolerance_(setup.params.tolerance * setup.typical.extent),
       angle_(setup.params.avalanche_angle),
-      loaded_share_(setup.params.loaded_share()),
-      lowest_friction_(lowest_friction<Dim>(setup.world.shapes)) {
+      loaded_share_(setup.params.loaded_share()) {
   const double unit = time_unit(setup.typical, setup.world);
   const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / setup.world.dt)); };
   rest_time_ = rest_time * unit;
@@ -293,40 +285,47 @@ bool StabilityChecks<Dim>::is_loaded(const Region& region, std::int64_t step) co
   return region.unchecked.fresh >= loaded_share_ * region.sleeping;
 }
 
-/// Whether the surface is steeper than friction alone holds: the root mean square of its slope from column to column.
+/// Whether the surface is steeper than friction alone holds: the root mean square of its slope from column to column,
+/// against the lowest friction of a body in the region, which is the tangent of the slope that it holds.
 template <int Dim>
 bool StabilityChecks<Dim>::is_steep(const RuleInput<Dim>& in, const Region& region) {
-  std::map<Column, double> tops;
+  std::map<Column, Surface> surfaces;
   for (const Column& column : region.columns)
-    if (const auto top = top_of(in, column)) tops[column] = *top;
+    if (const auto surface = surface_of(in, column)) surfaces[column] = *surface;
   double squares = 0.0;
   int pairs = 0;
-  for (const auto& [column, top] : tops) {
+  double friction = std::numeric_limits<double>::infinity();
+  for (const auto& [column, surface] : surfaces) {
+    friction = std::min(friction, surface.friction);
     for (std::size_t axis = 0; axis < column.size(); ++axis) {
       Column next = column;
       ++next[axis];
-      const auto beside = tops.find(next);
-      if (beside == tops.end()) continue;
-      squares += (beside->second - top) * (beside->second - top);
+      const auto beside = surfaces.find(next);
+      if (beside == surfaces.end()) continue;
+      const double rise = beside->second.top - surface.top;
+      squares += rise * rise;
       ++pairs;
     }
   }
   const double slope = std::sqrt((Dim - 1) * squares / std::max(1, pairs)) / columns_.width();
-  return slope > slope_roughness * lowest_friction_;
+  return slope > slope_roughness * friction;
 }
 
-/// Height of the highest sleeping body of a column [m]; none where no body sleeps.
+/// None where no body sleeps.
 template <int Dim>
-std::optional<double> StabilityChecks<Dim>::top_of(const RuleInput<Dim>& in, const Column& column) {
-  std::optional<double> top;
+std::optional<typename StabilityChecks<Dim>::Surface> StabilityChecks<Dim>::surface_of(const RuleInput<Dim>& in,
+                                                                                       const Column& column) {
+  std::optional<Surface> surface;
   near_.clear();
   in.world.query_box(columns_.template box_of<Dim>(column, column), near_);
   for (const BodyIndex body : near_) {
     const Vec<Dim>& position = in.pose_of(body).position;
     if (!in.asleep(body) || columns_.cell_of(position) != column) continue;
-    top = std::max(top.value_or(height<Dim>(position)), height<Dim>(position));
+    if (!surface) surface.emplace();
+    surface->top = std::max(surface->top, height<Dim>(position));
+    surface->friction = std::min(surface->friction, in.shape_of(body).material.friction);
   }
-  return top;
+  return surface;
 }
 
 /// Wakes the bodies of a region and holds them, and those that are awake in contact.

@@ -2,6 +2,7 @@
 // Would the sleeping bodies of a region stay where they are if they were awake?
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -28,9 +29,9 @@ namespace talus {
 /// out where it is steeper than heaps become by themselves, since only sleep keeps it so steep.
 ///
 /// A pour that never pauses leaves no region quiet. There a region is checked although it moves as soon as enough of
-/// its sleeping bodies have not been checked where they lie, and its surface is steeper than friction alone holds. Such
-/// a loaded check is short: it lets the heap follow its load, but proves nothing, so the region is checked again once
-/// it is quiet.
+/// its sleeping bodies have not been checked where they lie, and its surface is steeper than the lowest friction of a
+/// body in it holds by itself. Such a loaded check is short: it lets the heap follow its load, but proves nothing, so
+/// the region is checked again once it is quiet.
 template <int Dim>
 class StabilityChecks {
  public:
@@ -112,6 +113,12 @@ class StabilityChecks {
     bool under_check = false;
   };
 
+  /// Sleeping bodies of a column.
+  struct Surface {
+    double top = std::numeric_limits<double>::lowest();         // height of the highest [m]
+    double friction = std::numeric_limits<double>::infinity();  // lowest
+  };
+
   double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
   void count_unchecked(const Column& column, BodyIndex body, int by);
   bool has_passed(const Check& check, const Motion& near, std::int64_t lasted) const;
@@ -124,7 +131,7 @@ class StabilityChecks {
   bool is_quiet(const Region& region, std::int64_t step) const;
   bool is_loaded(const Region& region, std::int64_t step) const;
   bool is_steep(const RuleInput<Dim>& in, const Region& region);
-  std::optional<double> top_of(const RuleInput<Dim>& in, const Column& column);
+  std::optional<Surface> surface_of(const RuleInput<Dim>& in, const Column& column);
   void begin(const RuleInput<Dim>& in, const Region& region, bool loaded, RuleOutput<Dim>& out);
 
   Columns columns_;
@@ -138,7 +145,6 @@ class StabilityChecks {
   std::int64_t longest_loaded_check_;            // [steps]
   std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
-  double lowest_friction_;                       // of the shapes: tangent of the slope that friction alone holds
   bool may_begin_ = false;                       // no: until a body falls asleep or wakes nothing can become due
   std::map<Column, Unchecked> unchecked_;        // by column
   std::map<Column, int> sleeping_;               // bodies, by column
