@@ -184,8 +184,7 @@ std::string mean_bias(const std::vector<TruthRow>& rows, Bias TruthResult::*bias
   return fmt::format("{:+.1f} ± {:.1f} %", cells.mean, cells.deviation / std::sqrt(std::max(1, cells.runs)));
 }
 
-/// Cells with an estimate, and of these, those whose mean estimate is within a factor of 2 of the sleeping bodies' mean
-/// drift.
+/// Cells with an estimate; near: the mean estimate is within a factor of 2 of the sleeping bodies' mean drift.
 struct EstimatedCells {
   int cells = 0;
   int near = 0;
