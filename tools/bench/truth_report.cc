@@ -170,11 +170,17 @@ std::string red_cells(const std::vector<TruthRow>& rows) {
   return text + ".";
 }
 
-/// Of a number over the cells that have it.
-EnsembleSummary over_cells(const std::vector<TruthRow>& rows, const std::function<double(const TruthResult&)>& number) {
+/// A number of the cells that have it.
+std::vector<double> numbers_of(const std::vector<TruthRow>& rows,
+                               const std::function<double(const TruthResult&)>& number) {
   std::vector<double> numbers;
   for (const TruthRow& row : rows)
     if (std::isfinite(number(row.result))) numbers.push_back(number(row.result));
+  return numbers;
+}
+
+EnsembleSummary over_cells(const std::vector<TruthRow>& rows, const std::function<double(const TruthResult&)>& number) {
+  const std::vector<double> numbers = numbers_of(rows, number);
   return numbers.empty() ? EnsembleSummary{} : summarize(numbers);
 }
 
@@ -242,11 +248,9 @@ std::string in_short(const std::vector<TruthRow>& rows) {
       over_cells(rows, [](const R& r) { return r.speed_up.middle; }).mean, estimates_in_short(rows));
 }
 
-/// Median over the cells that have the number; NaN without any.
+/// NaN where no cell has the number.
 double median_over(const std::vector<TruthRow>& rows, const std::function<double(const TruthResult&)>& number) {
-  std::vector<double> numbers;
-  for (const TruthRow& row : rows)
-    if (std::isfinite(number(row.result))) numbers.push_back(number(row.result));
+  const std::vector<double> numbers = numbers_of(rows, number);
   return numbers.empty() ? std::numeric_limits<double>::quiet_NaN() : median(numbers);
 }
 
@@ -347,8 +351,8 @@ constexpr const char* how_to_read =
     "Drift: mean distance in D that bodies move when all are woken at the end, less full's; 95 %: the runs' quantile; "
     "of the sleeping: that of the bodies that slept, over the runs with an estimate, which the run makes itself. "
     "Asleep: runs in which all sleep at the end. Awake: mean over the run; /moving: over the bodies of which a point "
-    "moves by more than 0.05 D within half a second with all awake, at the same moments. Speed-ups are "
-    "ratios of processor time, seed by seed: median, in brackets the smallest and largest.";
+    "moves by more than 0.05 D within half a second with all awake, at the same moments. Speed-ups "
+    "are ratios of processor time, seed by seed: median, in brackets the smallest and largest.";
 
 }  // namespace
 

@@ -116,7 +116,7 @@ class StabilityChecks {
   /// Sleeping bodies of a column.
   struct Surface {
     double top = std::numeric_limits<double>::lowest();         // height of the highest [m]
-    double friction = std::numeric_limits<double>::infinity();  // lowest
+    double friction = std::numeric_limits<double>::infinity();  // lowest of them
   };
 
   double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
@@ -145,7 +145,7 @@ class StabilityChecks {
   std::int64_t longest_loaded_check_;            // [steps]
   std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
-  bool may_begin_ = false;                       // no: until a body falls asleep or wakes nothing can become due
+  bool may_begin_ = false;                       // false once all sleep and no check is due
   std::map<Column, Unchecked> unchecked_;        // by column
   std::map<Column, int> sleeping_;               // bodies, by column
   std::vector<Check> checks_;                    // under way
