@@ -4,6 +4,15 @@
 #include <vector>
 
 namespace talus {
+namespace {
+
+/// At most so long, with room for rounding.
+template <typename Vector>
+Vector limited(const Vector& vector, double most) {
+  return vector * std::min(1.0, (1.0 - 1e-12) * most / std::max(vector.norm(), 1e-9));
+}
+
+}  // namespace
 
 template <int Dim>
 std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
@@ -11,7 +20,9 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
   std::unique_ptr<World<Dim>> world = make_world(description);
   std::vector<BodyIndex> asleep;
   for (BodyIndex body = 0; body < states.size(); ++body) {
-    world->add({states.shape[body], states.pose[body], states.velocity[body], states.spin[body]});
+    world->add({states.shape[body], states.pose[body],
+                limited(states.velocity[body], fastest_speed<Dim>(description.dt)),
+                limited(states.spin[body], fastest_spin(description.dt))});
     if (states.removed[body])
       world->remove(body);
     else if (states.asleep[body])

@@ -16,9 +16,10 @@ using WorldMaker = std::function<std::unique_ptr<World<Dim>>(const WorldDescript
 enum class Sleepers { awake, frozen };
 
 /// A fresh world that holds the bodies of `states` where and as fast as they were; a body keeps its index, removed ones
-/// are removed again. What an engine stores of its last step (impulses to start the next one from) is not in a state
-/// and is lost: that alone moves a heap by some millimetres, so a measure built on this comes with the same for a full
-/// run.
+/// are removed again. An engine limits speed and spin when a step begins, so those at its end may be above the limits;
+/// here they are brought down to them. What an engine stores of its last step (impulses to start the next one from) is
+/// not in a state and is lost: that alone moves a heap by some millimetres, so a measure built on this comes with the
+/// same for a full run.
 template <int Dim>
 std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
                                     const BodyStates<Dim>& states, Sleepers sleepers);

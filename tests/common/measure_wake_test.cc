@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "common/measure/rebuild.h"
 #include "common/measure/wake_test.h"
 #include "common/shape/catalogue.h"
+#include "tests/common/cubes.h"
 #include "tests/common/falling_world.h"
 #include "tests/common/made_up_run.h"
 
@@ -105,6 +107,15 @@ TEST(Rebuild, KeepsIndicesSleepersAndRemovals) {
   EXPECT_EQ(frozen->states().removed, states.removed);
   EXPECT_EQ(frozen->states().pose[2].position, Vec2(2, 2));
   EXPECT_EQ(rebuild<2>(make_falling_world<2>, cube_world<2>(), states, Sleepers::awake)->awake().size(), 2U);
+}
+
+TEST(Rebuild, SlowsABodyThatIsFasterThanAWorldTakes) {
+  StillWorld<3> world = cubes_at({Vec3::Zero()});
+  world.push(0, Vec3(1e6, 0.0, 0.0), Spin<3>(0.0, 1e6, 0.0));
+  const auto make = [](const WorldDescription<3>& description) { return std::make_unique<StillWorld<3>>(description); };
+  const auto copy = rebuild<3>(make, cubes(), world.states(), Sleepers::awake);
+  EXPECT_NEAR(copy->states().velocity[0].x(), fastest_speed<3>(cubes().dt), 1e-6);
+  EXPECT_NEAR(copy->states().spin[0].y(), fastest_spin(cubes().dt), 1e-6);
 }
 
 TEST(ReferenceSettings, AreNeverCoarserThanTheRunsOwn) {
