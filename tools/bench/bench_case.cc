@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "common/measure/rebuild.h"
 #include "tools/bench/paper_figures.h"
@@ -26,9 +27,11 @@ RowKey key_of(const BenchCase& bench_case) {
 
 namespace {
 
-/// The frames of the paper's run, where the scene is one of its examples or example 1 with other shapes.
+/// The frames of the paper's run, where the scene is the name of one of its examples or of example 1 with other shapes.
 std::vector<Override> frames_of_paper(const std::string& scene) {
-  const std::string name = find_scene(scene).stem().string();
+  const std::filesystem::path file = find_scene(scene);
+  if (file == scene) return {};
+  const std::string name = file.stem().string();
   for (const paper::Example& example : paper::table_1)
     if (name.starts_with(example.scene) || (name.starts_with("several_sizes") && example.number == "1"))
       return {{fmt::format("run.frames={}", example.frames)}};
@@ -41,8 +44,7 @@ AnyScene load(const BenchCase& bench_case) {
   const bool reference = bench_case.policy == reference_policy;
   const bool engine_default = bench_case.policy == engine_default_policy;
   const std::string policy = reference ? "full" : engine_default ? "engine" : bench_case.policy;
-  std::vector<Override> overrides;
-  if (!bench_case.to_rest) overrides = frames_of_paper(bench_case.scene);
+  std::vector<Override> overrides = frames_of_paper(bench_case.scene);
   for (const std::string& setting : bench_case.settings) overrides.push_back({setting});
   overrides.push_back({"policy.kind=" + policy});
   AnyScene scene = read_scene(find_scene(bench_case.scene), overrides);

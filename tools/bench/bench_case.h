@@ -11,7 +11,7 @@ namespace talus {
 
 /// One way to run a scene.
 struct BenchCase {
-  /// File or name.
+  /// File, which runs as long as it says, or name; an example of the paper given by name runs as long as the paper's.
   std::string scene;
   std::string backend;
   /// A policy, `reference_policy` or `engine_default_policy`.
@@ -22,9 +22,6 @@ struct BenchCase {
   std::string curve = {};
   /// The swept value, in a sweep over numbers.
   double swept = 0.0;
-  /// Whether a scene of the paper runs as long as its file says, which goes on until the pile rests, and not as long as
-  /// the paper's run.
-  bool to_rest = false;
 };
 
 /// Full at settings that are taken for converged (common/measure/rebuild.h).

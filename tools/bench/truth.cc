@@ -135,8 +135,7 @@ BenchCase case_of(const TruthTask& task, const std::string& policy, const TruthO
   return {.scene = task.scene.string(),
           .backend = task.backend,
           .policy = policy,
-          .settings = policy == "adaptive" ? options.settings : std::vector<std::string>(),
-          .to_rest = true};
+          .settings = policy == "adaptive" ? options.settings : std::vector<std::string>()};
 }
 
 RowKey truth_key(const TruthUnit& unit, const std::string& policy, const TruthOptions& options) {
@@ -260,6 +259,17 @@ std::vector<std::string> notes_of(const TruthOptions& options) {
       "their own bodies."};
 }
 
+/// Names the units without a result, which the means are without; empty where there is none.
+std::string left_out(const std::vector<TruthTask>& tasks, const RowStore& store, const TruthOptions& options) {
+  std::vector<std::string> units;
+  for (const TruthTask& task : tasks)
+    for (int seed = 1; seed <= options.seeds; ++seed)
+      if (!is_complete({task, seed}, store, options))
+        units.push_back(fmt::format("{} on {}, seed {}", task.cell.name, task.backend, seed));
+  if (units.empty()) return {};
+  return fmt::format("Left out of all means, since their runs failed: {}.", fmt::join(units, "; "));
+}
+
 /// Measures the same again; folder and number of jobs are left out.
 std::string truth_command_line(const TruthOptions& options) {
   std::string command =
@@ -285,6 +295,7 @@ void bench_truth(const TruthOptions& options) {
   std::vector<TruthRow> rows;
   for (const TruthTask& task : tasks) rows.push_back(row_of_task(task, store, all));
   BenchResults results{"Truth: errors of adaptive over scenes", notes_of(all), {}};
+  if (std::string failed = left_out(tasks, store, all); !failed.empty()) results.notes.push_back(std::move(failed));
   results.command = truth_command_line(all);
   report_truth(all.out, std::move(rows), std::move(results));
 }
