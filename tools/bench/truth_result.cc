@@ -74,9 +74,8 @@ std::string reason_of_bias(const Bias& from_full, double percent, const TruthLim
   if (std::isnan(from_full.percent)) return "not measured for full";
   const std::string difference =
       fmt::format("{:+.1f} % from full, {:.1f} standard errors", from_full.percent, std::abs(from_full.errors));
-  return over_limit(from_full, percent, limits.errors) > 1.0
-             ? "the policy: " + difference
-             : "the engine's default step, which full has too: " + difference;
+  return is_beyond(from_full, percent, limits.errors) ? "the policy: " + difference
+                                                      : "the engine's default step, which full has too: " + difference;
 }
 
 /// What the other measures of a cell say of the cause of one beyond its limit.
@@ -135,6 +134,8 @@ Bias bias_of(std::span<const double> runs, std::span<const double> baseline) {
   bias.errors = bias.difference == 0.0 ? 0.0 : bias.difference / error;
   return bias;
 }
+
+bool is_beyond(const Bias& bias, double percent, double errors) { return over_limit(bias, percent, errors) > 1.0; }
 
 TruthResult truth_result(const TruthRuns& runs, const TruthLimits& limits) {
   TruthResult result;

@@ -22,6 +22,9 @@ struct Bias {
 /// Numbers that are not finite are left out; all NaN where one side has fewer than two others.
 Bias bias_of(std::span<const double> runs, std::span<const double> baseline);
 
+/// Whether a bias is both larger than `percent` and resolved, by more than `errors` standard errors.
+bool is_beyond(const Bias& bias, double percent, double errors);
+
 /// Processor time of slow runs over that of fast ones, seed by seed.
 struct TimeRatio {
   double middle = std::numeric_limits<double>::quiet_NaN();  // median
