@@ -85,7 +85,7 @@ std::vector<Figure> figures_of(const BenchRunner& runner, const std::vector<Benc
   std::vector<Figure> figures;
   for (Plot& plot : plots) {
     if (plot.series.empty()) continue;
-    std::ranges::for_each(plot.series, sort_along_x);
+    if (!wanted.in_order_of_cases) std::ranges::for_each(plot.series, sort_along_x);
     plot.series.insert(plot.series.end(), wanted.more.begin(), wanted.more.end());
     if (plot.series.size() > most_curves) plot.series.resize(most_curves);
     figures.push_back({svg_of(plot), wanted.caption});

@@ -37,6 +37,8 @@ struct CasePlot {
   std::function<std::string(const CaseView&)> curve;
   /// One plot per scene and engine; else one plot for all.
   bool per_scene = true;
+  /// Whether a curve joins its cases in their order, as over a parameter that is on no axis; else along x.
+  bool in_order_of_cases = false;
   /// Curves beside those of the cases.
   std::vector<Series> more = {};
 };
