@@ -1,5 +1,7 @@
 #include "tools/bench/case_plot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -87,8 +89,12 @@ std::vector<Figure> figures_of(const BenchRunner& runner, const std::vector<Benc
     if (plot.series.empty()) continue;
     if (!wanted.in_order_of_cases) std::ranges::for_each(plot.series, sort_along_x);
     plot.series.insert(plot.series.end(), wanted.more.begin(), wanted.more.end());
-    if (plot.series.size() > most_curves) plot.series.resize(most_curves);
-    figures.push_back({svg_of(plot), wanted.caption});
+    std::string caption = wanted.caption;
+    if (plot.series.size() > most_curves) {
+      caption += fmt::format(" Curves left out: {}.", plot.series.size() - most_curves);
+      plot.series.resize(most_curves);
+    }
+    figures.push_back({svg_of(plot), caption});
   }
   return figures;
 }

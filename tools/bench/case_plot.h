@@ -51,7 +51,8 @@ std::function<double(const CaseView&)> measured(MeasureId id);
 std::string curve_of_case(const CaseView& view);
 std::string sleeping_policy_of(const CaseView& view);
 
-/// The figures of the plot; without any point, none. At most seven curves in each.
+/// The figures of the plot; without any point, none. At most seven curves in each; the caption says how
+/// many are left out.
 std::vector<Figure> figures_of(const BenchRunner& runner, const std::vector<BenchGroup>& groups,
                                const CasePlot& wanted);
 
