@@ -275,20 +275,20 @@ std::string red_count(const std::vector<TruthRow>& rows, const std::string& name
 std::vector<std::string> engine_cells(const std::string& engine, const std::vector<TruthRow>& rows) {
   using R = TruthResult;
   const TruthLimits limits;
-  const auto is_policys = [&](const R& r) {
+  const auto policy_is_cause = [&](const R& r) {
     return is_beyond(r.centre_from_full, limits.centre_percent, limits.errors);
   };
-  const auto slides = [&](const R& r) { return r.moving_at_end >= 1.0; };
+  const auto still_moves = [&](const R& r) { return r.moving_at_end >= 1.0; };
   const auto [estimated, near] = estimated_cells(rows);
   return {engine,
           std::to_string(rows.size()),
           mean_and_median(rows, &R::centre),
           mean_and_median(rows, &R::centre_from_full),
           mean_and_median(rows, &R::poured_from_full),
-          red_count(rows, "centre", is_policys),
-          red_count(rows, "drift", slides),
-          red_count(rows, "drift 95 %", slides),
-          red_count(rows, "not asleep", slides),
+          red_count(rows, "centre", policy_is_cause),
+          red_count(rows, "drift", still_moves),
+          red_count(rows, "drift 95 %", still_moves),
+          red_count(rows, "not asleep", still_moves),
           shown(median_over(rows, [](const R& r) { return r.awake_ratio; }), 2),
           shown(median_over(rows, [](const R& r) { return r.speed_up.middle; }), 2),
           fmt::format("{} of {}", near, estimated)};
@@ -371,10 +371,9 @@ constexpr const char* how_to_read =
     "are ratios of processor time, seed by seed: median, in brackets the smallest and largest.";
 
 constexpr const char* how_to_read_in_short =
-    "Beyond and not asleep: cells beyond the limit. In brackets for the centre: cells whose centre is beyond that "
-    "limit "
-    "of full too, so that the policy is the cause and not the engine's default step. In brackets for the others: cells "
-    "in which a body or more still moves at the end, by 0.05 D within half a second with all awake.";
+    "The columns beyond and not asleep count the cells that exceed a limit. In brackets for the centre: those that "
+    "exceed it against full too, where the policy is the cause and not the engine's default step. In brackets for the "
+    "others: those in which a body or more still moves at the end, by 0.05 D within half a second with all awake.";
 
 }  // namespace
 
