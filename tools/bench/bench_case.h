@@ -11,7 +11,7 @@ namespace talus {
 
 /// One way to run a scene.
 struct BenchCase {
-  /// File, which runs as long as it says, or name; an example of the paper given by name runs as long as the paper's.
+  /// File or name. A file runs for its own number of frames, a name of an example of the paper for the paper's.
   std::string scene;
   std::string backend;
   /// A policy, `reference_policy` or `engine_default_policy`.

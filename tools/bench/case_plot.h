@@ -37,7 +37,7 @@ struct CasePlot {
   std::function<std::string(const CaseView&)> curve;
   /// One plot per scene and engine; else one plot for all.
   bool per_scene = true;
-  /// Whether a curve joins its cases in their order, as over a parameter that is on no axis; else along x.
+  /// Joins the points of a curve in the order of its cases, as for a swept parameter; otherwise in the order of x.
   bool in_order_of_cases = false;
   /// Curves beside those of the cases.
   std::vector<Series> more = {};

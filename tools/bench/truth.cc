@@ -259,7 +259,7 @@ std::vector<std::string> notes_of(const TruthOptions& options) {
       "their own bodies."};
 }
 
-/// Names the units without a result, which the means are without; empty where there is none.
+/// A sentence that lists the failed units; empty if none failed.
 std::string left_out(const std::vector<TruthTask>& tasks, const RowStore& store, const TruthOptions& options) {
   std::vector<std::string> units;
   for (const TruthTask& task : tasks)
