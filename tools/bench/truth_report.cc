@@ -190,24 +190,31 @@ std::string mean_bias(const std::vector<TruthRow>& rows, Bias TruthResult::*bias
   return fmt::format("{:+.1f} ± {:.1f} %", cells.mean, cells.deviation / std::sqrt(std::max(1, cells.runs)));
 }
 
-/// Cells with an estimate; near: the mean estimate is within a factor of 2 of the sleeping bodies' mean drift.
+constexpr double small_drift = 0.1 * TruthLimits{}.drift;  // [D] too small to need an estimate that is near
+
+/// Cells with an estimate; near: the mean estimate is within a factor of 2 of the sleeping bodies' mean drift; small:
+/// it is not, and both are small.
 struct EstimatedCells {
   int cells = 0;
   int near = 0;
+  int small = 0;
 };
 EstimatedCells estimated_cells(const std::vector<TruthRow>& rows) {
   EstimatedCells estimated;
   for (const TruthRow& row : rows) {
     if (std::isnan(row.result.estimate)) continue;
     ++estimated.cells;
-    estimated.near += is_near(row.result.estimate, row.result.drift_slept) ? 1 : 0;
+    if (is_near(row.result.estimate, row.result.drift_slept))
+      ++estimated.near;
+    else if (std::max(row.result.estimate, row.result.drift_slept) <= small_drift)
+      ++estimated.small;
   }
   return estimated;
 }
 
 /// How well the runs' estimates foresaw the drift.
 std::string estimates_in_short(const std::vector<TruthRow>& rows) {
-  const auto [cells, near] = estimated_cells(rows);
+  const EstimatedCells cells = estimated_cells(rows);
   EstimateScore all;
   for (const TruthRow& row : rows) {
     const EstimateScore score = estimate_score(row.runs.adaptive, TruthLimits{}.drift);
@@ -219,9 +226,9 @@ std::string estimates_in_short(const std::vector<TruthRow>& rows) {
   }
   return fmt::format(
       "The estimate at the end of a run is within a factor of 2 of the sleeping bodies' drift in {} of {} cells, and "
-      "in {} of {} runs. {} runs say that it is within the tolerance: in {} of them it is not, in {} it is above "
-      "twice the estimate.",
-      near, cells, all.near, all.runs, all.claims, all.false_claims, all.too_low);
+      "in {} of {} runs. In {} of the other cells both are at most {} D. {} runs say that the drift is "
+      "within the tolerance: in {} of them it is not, in {} it is above twice the estimate.",
+      cells.near, cells.cells, all.near, all.runs, cells.small, small_drift, all.claims, all.false_claims, all.too_low);
 }
 
 /// What each red cell is red for, and why as far as the measures tell.
@@ -279,7 +286,7 @@ std::vector<std::string> engine_cells(const std::string& engine, const std::vect
     return is_beyond(r.centre_from_full, limits.centre_percent, limits.errors);
   };
   const auto still_moves = [&](const R& r) { return r.moving_at_end >= 1.0; };
-  const auto [estimated, near] = estimated_cells(rows);
+  const EstimatedCells estimated = estimated_cells(rows);
   return {engine,
           std::to_string(rows.size()),
           mean_and_median(rows, &R::centre),
@@ -291,7 +298,7 @@ std::vector<std::string> engine_cells(const std::string& engine, const std::vect
           red_count(rows, "not asleep", still_moves),
           shown(median_over(rows, [](const R& r) { return r.awake_ratio; }), 2),
           shown(median_over(rows, [](const R& r) { return r.speed_up.middle; }), 2),
-          fmt::format("{} of {}", near, estimated)};
+          fmt::format("{} of {}", estimated.near, estimated.cells)};
 }
 
 /// One row for each engine, and one for all where there are several.
