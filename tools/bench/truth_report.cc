@@ -226,7 +226,7 @@ std::string estimates_in_short(const std::vector<TruthRow>& rows) {
   }
   return fmt::format(
       "The estimate at the end of a run is within a factor of 2 of the sleeping bodies' drift in {} of {} cells, and "
-      "in {} of {} runs. In {} of the other cells both are at most {} D. {} runs say that the drift is "
+      "in {} of {} runs. In {} of the other cells both are at most {:.2g} D. {} runs say that the drift is "
       "within the tolerance: in {} of them it is not, in {} it is above twice the estimate.",
       cells.near, cells.cells, all.near, all.runs, cells.small, small_drift, all.claims, all.false_claims, all.too_low);
 }
@@ -244,13 +244,26 @@ Table reasons_table(const std::vector<TruthRow>& rows) {
   return table;
 }
 
+/// "All sleep at the end of 900 of 960 runs."
+std::string runs_asleep(const std::vector<TruthRow>& rows) {
+  double asleep = 0.0;
+  std::size_t runs = 0;
+  for (const TruthRow& row : rows) {
+    const std::size_t own = row.runs.adaptive.size();
+    asleep += row.result.asleep * static_cast<double>(own);
+    runs += own;
+  }
+  return fmt::format("All sleep at the end of {} of {} runs.", std::lround(asleep), runs);
+}
+
 std::string in_short(const std::vector<TruthRow>& rows) {
   using R = TruthResult;
   return fmt::format(
-      "{} Means over the cells with their standard errors: centre {} of the reference's and {} of full's, at the end "
+      "{} {} Means over the cells with their standard errors: centre {} of the reference's and {} of full's, at the "
+      "end "
       "of the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}. {}",
-      red_cells(rows), mean_bias(rows, &R::centre), mean_bias(rows, &R::centre_from_full), mean_bias(rows, &R::poured),
-      over_cells(rows, [](const R& r) { return r.drift; }).mean,
+      red_cells(rows), runs_asleep(rows), mean_bias(rows, &R::centre), mean_bias(rows, &R::centre_from_full),
+      mean_bias(rows, &R::poured), over_cells(rows, [](const R& r) { return r.drift; }).mean,
       over_cells(rows, [](const R& r) { return r.awake; }).mean,
       over_cells(rows, [](const R& r) { return r.speed_up.middle; }).mean, estimates_in_short(rows));
 }
