@@ -195,8 +195,8 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
   if (summary.emit_waits > 0) {
-    print_result("  the sources waited {} times for a free place; `talus check` gives the rate that they can reach\n",
-                 summary.emit_waits);
+    print_result("  the sources waited {} for a free place; `talus check` gives the rate that they can reach\n",
+                 summary.emit_waits == 1 ? "once" : fmt::format("{} times", summary.emit_waits));
   }
   print_result("  end hash {:016x}\n  {}/pile.png shows the pile, summary.json has the numbers\n",
                state_hash(world.states()), printable(outputs.folder().string()));
