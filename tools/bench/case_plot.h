@@ -51,7 +51,7 @@ std::function<double(const CaseView&)> measured(MeasureId id);
 std::string curve_of_case(const CaseView& view);
 std::string sleeping_policy_of(const CaseView& view);
 
-/// The figures of the plot; without any point, none. At most seven curves in each; the caption says how
+/// The figures of the plot; none where there is no point. A figure has at most seven curves, and its caption says how
 /// many are left out.
 std::vector<Figure> figures_of(const BenchRunner& runner, const std::vector<BenchGroup>& groups,
                                const CasePlot& wanted);

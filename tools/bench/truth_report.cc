@@ -192,12 +192,11 @@ std::string mean_bias(const std::vector<TruthRow>& rows, Bias TruthResult::*bias
 
 constexpr double small_drift = 0.1 * TruthLimits{}.drift;  // [D] too small to need an estimate that is near
 
-/// Cells with an estimate; near: the mean estimate is within a factor of 2 of the sleeping bodies' mean drift; small:
-/// it is not, and both are small.
+/// How the mean estimate of a cell compares with the mean drift of its sleeping bodies.
 struct EstimatedCells {
-  int cells = 0;
-  int near = 0;
-  int small = 0;
+  int cells = 0;  // with an estimate
+  int near = 0;   // of these, within a factor of 2
+  int small = 0;  // of the others, with estimate and drift of at most small_drift
 };
 EstimatedCells estimated_cells(const std::vector<TruthRow>& rows) {
   EstimatedCells estimated;
@@ -260,8 +259,7 @@ std::string in_short(const std::vector<TruthRow>& rows) {
   using R = TruthResult;
   return fmt::format(
       "{} {} Means over the cells with their standard errors: centre {} of the reference's and {} of full's, at the "
-      "end "
-      "of the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}. {}",
+      "end of the pour {}. Means: drift beyond full's {:.2g} D, awake {:.3g}, speed-up {:.3g}. {}",
       red_cells(rows), runs_asleep(rows), mean_bias(rows, &R::centre), mean_bias(rows, &R::centre_from_full),
       mean_bias(rows, &R::poured), over_cells(rows, [](const R& r) { return r.drift; }).mean,
       over_cells(rows, [](const R& r) { return r.awake; }).mean,
