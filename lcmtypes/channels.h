@@ -37,46 +37,40 @@ inline std::optional<Channel> channel_named(std::string_view name) {
 template <class Message>
 inline constexpr Channel channel_of = Channel::run;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_piles_v1> = Channel::piles;  // in old records
+inline constexpr Channel channel_of<talus_lcm::talus_piles> = Channel::piles;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_piles_v2> = Channel::piles;
+inline constexpr Channel channel_of<talus_lcm::talus_sleep> = Channel::sleep;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_sleep_v1> = Channel::sleep;
+inline constexpr Channel channel_of<talus_lcm::talus_stats> = Channel::stats;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_stats_v1> = Channel::stats;  // in old records
+inline constexpr Channel channel_of<talus_lcm::talus_bodies> = Channel::bodies;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_stats_v2> = Channel::stats;
+inline constexpr Channel channel_of<talus_lcm::talus_shapes> = Channel::shapes;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_bodies_v1> = Channel::bodies;
+inline constexpr Channel channel_of<talus_lcm::talus_event> = Channel::events;
 template <>
-inline constexpr Channel channel_of<talus_lcm::talus_shapes_v1> = Channel::shapes;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_event_v1> = Channel::events;  // in old records
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_event_v2> = Channel::events;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_obstacles_v1> = Channel::obstacles;
+inline constexpr Channel channel_of<talus_lcm::talus_obstacles> = Channel::obstacles;
 
-/// Calls `use` with a default message of the type that the channel carries now.
+/// Calls `use` with a default message of the type that the channel carries.
 template <class Use>
 void with_message_of(Channel channel, const Use& use) {
   switch (channel) {
     case Channel::run:
-      return use(talus_lcm::talus_run_v1{});
+      return use(talus_lcm::talus_run{});
     case Channel::piles:
-      return use(talus_lcm::talus_piles_v2{});
+      return use(talus_lcm::talus_piles{});
     case Channel::sleep:
-      return use(talus_lcm::talus_sleep_v1{});
+      return use(talus_lcm::talus_sleep{});
     case Channel::stats:
-      return use(talus_lcm::talus_stats_v2{});
+      return use(talus_lcm::talus_stats{});
     case Channel::bodies:
-      return use(talus_lcm::talus_bodies_v1{});
+      return use(talus_lcm::talus_bodies{});
     case Channel::shapes:
-      return use(talus_lcm::talus_shapes_v1{});
+      return use(talus_lcm::talus_shapes{});
     case Channel::events:
-      return use(talus_lcm::talus_event_v2{});
+      return use(talus_lcm::talus_event{});
     case Channel::obstacles:
-      return use(talus_lcm::talus_obstacles_v1{});
+      return use(talus_lcm::talus_obstacles{});
   }
 }
 
@@ -98,7 +92,7 @@ inline constexpr std::size_t header_bytes = fingerprint_bytes + 5 * 8;
 /// Encoded size of the checksum that ends it.
 inline constexpr std::size_t checksum_bytes = 4;
 
-/// Most layers that talus_pile_v2 carries of one pile.
+/// Most layers that talus_pile carries of one pile.
 inline constexpr std::size_t max_layers = 1024;
 
 }  // namespace talus

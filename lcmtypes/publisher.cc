@@ -14,7 +14,7 @@
 
 namespace talus {
 
-using talus_lcm::talus_run_v1;
+using talus_lcm::talus_run;
 
 namespace {
 
@@ -78,7 +78,7 @@ Publisher<Dim>::Publisher(const RunInfo& info, const PublisherParams& params, lc
 template <int Dim>
 void Publisher<Dim>::begin() {
   run_pulse_.due(Clock::now());
-  send_run(talus_run_v1::BEGIN, {}, 0, 0.0);
+  send_run(talus_run::BEGIN, {}, 0, 0.0);
 }
 
 template <int Dim>
@@ -91,7 +91,7 @@ void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
   send(to_sleep(frame.events), frame.step, frame.time);
   if (piles_pulse_.due(now)) send(to_piles<Dim>(frame.piles.piles(), frame.policy), frame.step, frame.time);
   if (stats_pulse_.due(now)) send_stats(frame, now);
-  if (run_pulse_.due(now)) send_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
+  if (run_pulse_.due(now)) send_run(talus_run::ALIVE, {}, frame.step, frame.time);
   if (!sends_poses()) return;
   if (shapes_pulse_.due(now)) send_shapes(frame);
   for (const SleepEvent& event : frame.events)
@@ -161,7 +161,7 @@ void Publisher<Dim>::send_events(const Frame<Dim>& frame) {
 /// Of obstacles that move the present pose.
 template <int Dim>
 void Publisher<Dim>::send_shapes(const Frame<Dim>& frame) {
-  for (talus_lcm::talus_shapes_v1& message : shapes_) {
+  for (talus_lcm::talus_shapes& message : shapes_) {
     if (message.obstacle != 0) set_pose<Dim>(frame.world.obstacle_pose(message.index), message);
     send(message, frame.step, frame.time);
   }
@@ -176,7 +176,7 @@ void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   }
   send(to_piles<Dim>(last.piles.piles(), last.policy), last.step, last.time);
   send_stats(last, Clock::now());
-  send_run(talus_run_v1::END, reason, last.step, last.time);
+  send_run(talus_run::END, reason, last.step, last.time);
   queue_->close(farewell_time);
   if (dropped() > 0) spdlog::warn("live view: {} messages were dropped; the record has everything", dropped());
 }

@@ -106,9 +106,9 @@ class Publisher final : public Observer<Dim> {
   Pulse piles_pulse_;
   Pulse bodies_pulse_;
   double bodies_rate_;
-  std::vector<talus_lcm::talus_shapes_v1> shapes_;  // and obstacles; empty: not known
-  std::vector<talus_lcm::talus_event_v2> events_;   // of the scene, as far as they have happened
-  std::size_t event_turn_ = 0;                      // the one from which on they are sent again
+  std::vector<talus_lcm::talus_shapes> shapes_;  // and obstacles; empty: not known
+  std::vector<talus_lcm::talus_event> events_;   // of the scene, as far as they have happened
+  std::size_t event_turn_ = 0;                   // the one from which on they are sent again
   std::vector<Mover<Dim>> movers_;
   std::vector<Obstacle<Dim>> obstacles_;  // before they moved
   double obstacles_time_ = -1.0;          // when their poses were sent last [s]; below 0: never

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <string_view>
 
+#include "common/math/in_space.h"
+
 namespace talus {
 namespace {
 
@@ -36,9 +38,10 @@ RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const s
           .dimension = Dim,
           .dt = scene.world.dt,
           .steps = scene.steps(),
-          .gravity = scene.world.gravity,
-          .ground = scene.world.ground.present,
-          .ground_height = scene.world.ground.present ? scene.world.ground.height : 0.0};
+          .tolerance = scene.policy.tolerance(),
+          .gravity = in_space(scene.world.gravity_vector()),
+          .ground = scene.world.ground,
+          .solver = scene.world.solver};
 }
 
 template RunInfo run_info(const Scene<2>&, const std::string&, const std::string&);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "common/scene/scene.h"
@@ -15,11 +16,12 @@ struct RunInfo {
   std::string version;
   std::uint64_t seed = 1;
   int dimension = 2;
-  double dt = 1.0 / 60.0;  // [s]
-  std::int64_t steps = 0;  // planned
-  double gravity = 9.81;   // [m/s^2]
-  bool ground = true;
-  double ground_height = 0.0;  // [m]
+  double dt = 1.0 / 60.0;                // [s]
+  std::int64_t steps = 0;                // planned
+  std::optional<double> tolerance = {};  // [D] of policy `adaptive`
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);  // [m/s^2], y = 0 in 2D; at the start
+  Ground ground = {};
+  SolverParams solver = {};
 };
 
 /// The part of it that a scene gives.

@@ -12,7 +12,7 @@
 
 namespace talus {
 
-using talus_lcm::talus_run_v1;
+using talus_lcm::talus_run;
 
 namespace {
 
@@ -43,7 +43,7 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
       obstacles_(scene.world.obstacles) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
-  write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
+  write_run(talus_run::BEGIN, {}, 0, 0.0);
   write(to_shapes<Dim>(scene.world), 0, 0.0);
   log_.flush();
 }
@@ -56,7 +56,7 @@ void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
     if (!event.woke) fell_asleep_.push_back(event.body);
   if (frame.step % steps_per_frame_ == 0) {
     const bool due = frame.step % steps_per_key_frame_ == 0;
-    if (due) write_run(talus_run_v1::ALIVE, {}, frame.step, frame.time);
+    if (due) write_run(talus_run::ALIVE, {}, frame.step, frame.time);
     write_output(frame, removed_ || (due && poses_since_key_frame_ >= frame.world.states().size()));
   }
   log_.flush_after(flush_interval_);
@@ -65,7 +65,7 @@ void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
 template <int Dim>
 void RunRecorder<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   write_output(last, true);
-  write_run(talus_run_v1::END, reason, last.step, last.time);
+  write_run(talus_run::END, reason, last.step, last.time);
   log_.flush();
 }
 
@@ -95,7 +95,7 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
 template <int Dim>
 void RunRecorder<Dim>::write_scene_events(const Frame<Dim>& frame) {
   for (const int number : frame.scene_events) {
-    talus_lcm::talus_event_v2& message = scene_events_[number];
+    talus_lcm::talus_event& message = scene_events_[number];
     set_happened(frame, info_.dt, message);
     write(message, frame.step, frame.time);
     removed_ = removed_ || message.action == "remove";

@@ -52,7 +52,7 @@ class RunRecorder final : public Observer<Dim> {
   MessageEncoder encoder_;
   std::int64_t last_utime_ = -1;
   std::vector<BodyIndex> fell_asleep_;  // since the last frame of output
-  std::vector<talus_lcm::talus_event_v2> scene_events_;
+  std::vector<talus_lcm::talus_event> scene_events_;
   std::vector<Mover<Dim>> movers_;
   std::vector<Obstacle<Dim>> obstacles_;  // before they moved
   double obstacles_time_ = -1.0;          // when their poses were written last [s]; below 0: never

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -13,25 +14,25 @@
 
 namespace talus {
 
-using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_layer_v2;
-using talus_lcm::talus_obstacles_v1;
-using talus_lcm::talus_pile_v2;
-using talus_lcm::talus_piles_v2;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_bodies;
+using talus_lcm::talus_layer;
+using talus_lcm::talus_obstacles;
+using talus_lcm::talus_pile;
+using talus_lcm::talus_piles;
+using talus_lcm::talus_run;
+using talus_lcm::talus_sleep;
+using talus_lcm::talus_stats;
 
 namespace {
 
-constexpr std::size_t layer_bytes = fixed_bytes(layout<talus_layer_v2>);
-constexpr std::size_t pile_bytes = fixed_bytes(layout<talus_pile_v2>);  // without its layers
-constexpr std::size_t event_bytes = bytes_per_entry(layout<talus_sleep_v1>, "event_count");
+constexpr std::size_t layer_bytes = fixed_bytes(layout<talus_layer>);
+constexpr std::size_t pile_bytes = fixed_bytes(layout<talus_pile>);  // without its layers
+constexpr std::size_t event_bytes = bytes_per_entry(layout<talus_sleep>, "event_count");
 
 /// Bytes that a message of fixed and counted fields has for the counted ones.
 template <class Message>
 constexpr std::size_t room = max_message_bytes - fingerprint_bytes - fixed_bytes(layout<Message>);
-static_assert(pile_bytes + max_layers * layer_bytes <= room<talus_piles_v2>);
+static_assert(pile_bytes + max_layers * layer_bytes <= room<talus_piles>);
 
 template <int Dim>
 constexpr std::size_t pose_values = Dim == 2 ? 3 : 7;
@@ -49,8 +50,8 @@ std::vector<Message> numbered(std::vector<Message> messages) {
   return messages;
 }
 
-talus_layer_v2 to_layer(const Layer& layer) {
-  talus_layer_v2 message{};
+talus_layer to_layer(const Layer& layer) {
+  talus_layer message{};
   message.bottom = static_cast<float>(layer.bottom);
   message.top = static_cast<float>(layer.top);
   message.radius = static_cast<float>(std::max(0.0, layer.radius));
@@ -64,9 +65,9 @@ talus_layer_v2 to_layer(const Layer& layer) {
 }
 
 template <int Dim>
-talus_pile_v2 to_pile(Pile<Dim> pile, const SleepPolicy<Dim>* policy) {
+talus_pile to_pile(Pile<Dim> pile, const SleepPolicy<Dim>* policy) {
   if (policy != nullptr) set_thresholds(*policy, pile);
-  talus_pile_v2 message{};
+  talus_pile message{};
   message.centre[0] = pile.centre[0];
   message.centre[1] = Dim == 2 ? 0.0 : pile.centre[1];
   message.centre[2] = height<Dim>(pile.centre);
@@ -96,9 +97,10 @@ void append(const Pose<Dim>& pose, std::vector<float>& values) {
 
 }  // namespace
 
-talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view reason, std::span<const Channel> channels,
-                    const MessageEncoder& encoder) {
-  talus_run_v1 message{};
+talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason, std::span<const Channel> channels,
+                 const MessageEncoder& encoder) {
+  talus_run message{};
+  message.format = talus_run::FORMAT;
   message.phase = phase;
   message.reason = clipped(reason);
   message.scene = clipped(info.scene);
@@ -110,9 +112,17 @@ talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view rea
   message.dimension = info.dimension;
   message.dt = info.dt;
   message.steps = info.steps;
-  message.gravity = info.gravity;
-  message.ground = info.ground ? 1 : 0;
-  message.ground_height = info.ground_height;
+  message.tolerance = info.tolerance.value_or(-1.0);
+  std::copy(info.gravity.begin(), info.gravity.end(), message.gravity);
+  message.ground = info.ground.present ? 1 : 0;
+  message.ground_height = info.ground.present ? info.ground.height : 0.0;
+  message.ground_friction = info.ground.material.friction;
+  message.ground_restitution = info.ground.material.restitution;
+  message.velocity_iterations = info.solver.velocity_iterations;
+  message.position_iterations = info.solver.position_iterations;
+  message.friction_directions = info.solver.friction_directions;
+  message.warm_friction = info.solver.warm_friction ? 1 : 0;
+  message.restitution_threshold = info.solver.restitution_threshold;
   message.channel_count = static_cast<std::int32_t>(channels.size());
   for (const Channel channel : channels) {
     message.channels.emplace_back(name_of(channel));
@@ -122,31 +132,31 @@ talus_run_v1 to_run(const RunInfo& info, std::int8_t phase, std::string_view rea
 }
 
 template <int Dim>
-std::vector<talus_piles_v2> to_piles(std::span<const Pile<Dim>> piles, const SleepPolicy<Dim>* policy) {
-  std::vector<talus_piles_v2> messages(1);
+std::vector<talus_piles> to_piles(std::span<const Pile<Dim>> piles, const SleepPolicy<Dim>* policy) {
+  std::vector<talus_piles> messages(1);
   std::size_t used = 0;
   for (std::size_t i = 0; i < piles.size(); ++i) {
-    talus_pile_v2 pile = to_pile(piles[i], policy);
+    talus_pile pile = to_pile(piles[i], policy);
     const std::size_t bytes = pile_bytes + pile.layers.size() * layer_bytes;
-    if (used + bytes > room<talus_piles_v2>) {
+    if (used + bytes > room<talus_piles>) {
       messages.emplace_back().first_pile = static_cast<std::int32_t>(i);
       used = 0;
     }
     used += bytes;
     messages.back().piles.push_back(std::move(pile));
   }
-  for (talus_piles_v2& message : messages) {
+  for (talus_piles& message : messages) {
     message.pile_total = static_cast<std::int32_t>(piles.size());
     message.pile_count = static_cast<std::int32_t>(message.piles.size());
   }
   return numbered(std::move(messages));
 }
 
-std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
-  std::vector<talus_sleep_v1> messages;
+std::vector<talus_sleep> to_sleep(std::span<const SleepEvent> events) {
+  std::vector<talus_sleep> messages;
   for (; !events.empty(); events = events.subspan(messages.back().event_count)) {
-    talus_sleep_v1& message = messages.emplace_back();
-    for (const SleepEvent& event : events.first(std::min(events.size(), room<talus_sleep_v1> / event_bytes))) {
+    talus_sleep& message = messages.emplace_back();
+    for (const SleepEvent& event : events.first(std::min(events.size(), room<talus_sleep> / event_bytes))) {
       message.body.push_back(event.body);
       message.pile.push_back(event.pile);
       message.layer.push_back(event.layer);
@@ -159,7 +169,7 @@ std::vector<talus_sleep_v1> to_sleep(std::span<const SleepEvent> events) {
   return numbered(std::move(messages));
 }
 
-void set_phase_times(const PhaseTimes& sum, std::int64_t steps, talus_lcm::talus_stats_v2& message) {
+void set_phase_times(const PhaseTimes& sum, std::int64_t steps, talus_lcm::talus_stats& message) {
   const auto mean = [&](double seconds) { return static_cast<float>(1e3 * seconds / static_cast<double>(steps)); };
   message.ms_emit = mean(sum.emit);
   message.ms_step = mean(sum.step);
@@ -172,7 +182,7 @@ void set_phase_times(const PhaseTimes& sum, std::int64_t steps, talus_lcm::talus
   message.ms_observe = mean(sum.observe);
 }
 
-PhaseTimes phase_times_of(const talus_lcm::talus_stats_v2& message) {
+PhaseTimes phase_times_of(const talus_lcm::talus_stats& message) {
   return {.emit = message.ms_emit,
           .step = message.ms_step,
           .collide = message.ms_collide,
@@ -184,7 +194,7 @@ PhaseTimes phase_times_of(const talus_lcm::talus_stats_v2& message) {
           .observe = message.ms_observe};
 }
 
-std::vector<SleepEvent> events_of(const talus_sleep_v1& message) {
+std::vector<SleepEvent> events_of(const talus_sleep& message) {
   std::vector<SleepEvent> events;
   events.reserve(message.body.size());
   for (std::size_t i = 0; i < message.body.size(); ++i) {
@@ -200,9 +210,9 @@ std::vector<SleepEvent> events_of(const talus_sleep_v1& message) {
 }
 
 template <int Dim>
-talus_stats_v2 to_stats(const Frame<Dim>& frame) {
+talus_stats to_stats(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();
-  talus_stats_v2 message{};
+  talus_stats message{};
   const auto removed = std::count(states.removed.begin(), states.removed.end(), 1);
   message.awake = static_cast<std::int32_t>(frame.world.awake().size());
   message.asleep = states.size() - message.awake - static_cast<std::int32_t>(removed);
@@ -224,7 +234,7 @@ talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   return message;
 }
 
-std::vector<Warning> warnings_of(const talus_stats_v2& message) {
+std::vector<Warning> warnings_of(const talus_stats& message) {
   std::vector<Warning> warnings;
   for (std::size_t i = 0; i < message.warning_kind.size(); ++i) {
     warnings.push_back({.kind = static_cast<WarningKind>(message.warning_kind[i]),
@@ -237,16 +247,15 @@ std::vector<Warning> warnings_of(const talus_stats_v2& message) {
 }
 
 template <int Dim>
-std::vector<talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<const BodyIndex> bodies,
-                                       bool key_frame) {
-  constexpr std::span fields = layout<talus_bodies_v1>;
-  constexpr std::size_t at_most = room<talus_bodies_v1> / (bytes_per_entry(fields, "body_count") +
-                                                           pose_values<Dim> * bytes_per_entry(fields, "value_count"));
-  std::vector<talus_bodies_v1> messages;
+std::vector<talus_bodies> to_bodies(const BodyStates<Dim>& states, std::span<const BodyIndex> bodies, bool key_frame) {
+  constexpr std::span fields = layout<talus_bodies>;
+  constexpr std::size_t at_most = room<talus_bodies> / (bytes_per_entry(fields, "body_count") +
+                                                        pose_values<Dim> * bytes_per_entry(fields, "value_count"));
+  std::vector<talus_bodies> messages;
   do {
     const auto here = bodies.first(std::min(bodies.size(), at_most));
     bodies = bodies.subspan(here.size());
-    talus_bodies_v1& message = messages.emplace_back();
+    talus_bodies& message = messages.emplace_back();
     message.key_frame = key_frame ? 1 : 0;
     message.dimension = Dim;
     message.body_count = static_cast<std::int32_t>(here.size());
@@ -261,14 +270,14 @@ std::vector<talus_bodies_v1> to_bodies(const BodyStates<Dim>& states, std::span<
   return numbered(std::move(messages));
 }
 
-template std::vector<talus_piles_v2> to_piles<2>(std::span<const Pile<2>>, const SleepPolicy<2>*);
-template std::vector<talus_piles_v2> to_piles<3>(std::span<const Pile<3>>, const SleepPolicy<3>*);
-template talus_stats_v2 to_stats<2>(const Frame<2>&);
-template talus_stats_v2 to_stats<3>(const Frame<3>&);
-template std::vector<talus_bodies_v1> to_bodies<2>(const BodyStates<2>&, std::span<const BodyIndex>, bool);
-template std::vector<talus_bodies_v1> to_bodies<3>(const BodyStates<3>&, std::span<const BodyIndex>, bool);
+template std::vector<talus_piles> to_piles<2>(std::span<const Pile<2>>, const SleepPolicy<2>*);
+template std::vector<talus_piles> to_piles<3>(std::span<const Pile<3>>, const SleepPolicy<3>*);
+template talus_stats to_stats<2>(const Frame<2>&);
+template talus_stats to_stats<3>(const Frame<3>&);
+template std::vector<talus_bodies> to_bodies<2>(const BodyStates<2>&, std::span<const BodyIndex>, bool);
+template std::vector<talus_bodies> to_bodies<3>(const BodyStates<3>&, std::span<const BodyIndex>, bool);
 
-using talus_lcm::talus_shapes_v1;
+using talus_lcm::talus_shapes;
 
 namespace {
 
@@ -290,20 +299,44 @@ template <int Dim>
 std::int8_t append(const BoxPiece<Dim>& box, std::vector<double>& values) {
   append<Dim>(box.pose, values);
   append<Dim>(box.half, values);
-  return talus_shapes_v1::BOX;
+  return talus_shapes::BOX;
 }
 
 template <int Dim>
 std::int8_t append(const HullPiece<Dim>& hull, std::vector<double>& values) {
   for (const Vec<Dim>& corner : hull.corners) append<Dim>(corner, values);
-  if (!hull.round()) return talus_shapes_v1::HULL;
+  if (!hull.round()) return talus_shapes::HULL;
   values.push_back(hull.radius);
-  return hull.corners.size() == 1 ? talus_shapes_v1::BALL : talus_shapes_v1::CAPSULE;
+  return hull.corners.size() == 1 ? talus_shapes::BALL : talus_shapes::CAPSULE;
+}
+
+// Of a symmetric matrix: where its six numbers stand.
+constexpr std::array<std::array<int, 2>, 6> inertia_places = {{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+
+template <int Dim>
+void put_inertia(const Inertia<Dim>& inertia, talus_shapes& message) {
+  if constexpr (Dim == 2)
+    message.inertia[0] = inertia(0);
+  else
+    for (std::size_t i = 0; i < inertia_places.size(); ++i)
+      message.inertia[i] = inertia(inertia_places[i][0], inertia_places[i][1]);
 }
 
 template <int Dim>
-talus_shapes_v1 to_message(const Shape<Dim>& shape, std::size_t index, std::size_t total) {
-  talus_shapes_v1 message{};
+Inertia<Dim> inertia_of(const talus_shapes& message) {
+  Inertia<Dim> inertia = Inertia<Dim>::Zero();
+  if constexpr (Dim == 2)
+    inertia(0) = message.inertia[0];
+  else
+    for (std::size_t i = 0; i < inertia_places.size(); ++i)
+      inertia(inertia_places[i][0], inertia_places[i][1]) = inertia(inertia_places[i][1], inertia_places[i][0]) =
+          message.inertia[i];
+  return inertia;
+}
+
+template <int Dim>
+talus_shapes to_message(const Shape<Dim>& shape, std::size_t index, std::size_t total) {
+  talus_shapes message{};
   message.index = static_cast<std::int32_t>(index);
   message.total = static_cast<std::int32_t>(total);
   message.name = shape.name.substr(0, 1000);
@@ -311,6 +344,10 @@ talus_shapes_v1 to_message(const Shape<Dim>& shape, std::size_t index, std::size
   message.density = shape.material.density;
   message.friction = shape.material.friction;
   message.restitution = shape.material.restitution;
+  message.rolling_friction = shape.material.rolling_friction;
+  message.volume = shape.volume;
+  put_inertia<Dim>(shape.inertia, message);
+  message.colour = clipped(shape.colour);
   for (const Piece<Dim>& piece : shape.pieces) {
     const std::size_t before = message.values.size();
     message.kind.push_back(std::visit([&](const auto& p) { return append<Dim>(p, message.values); }, piece));
@@ -318,8 +355,8 @@ talus_shapes_v1 to_message(const Shape<Dim>& shape, std::size_t index, std::size
   }
   message.piece_count = static_cast<std::int32_t>(message.kind.size());
   message.value_count = static_cast<std::int32_t>(message.values.size());
-  constexpr std::span fields = layout<talus_shapes_v1>;
-  constexpr std::size_t fixed = 1200;  // all fields of one size, and the name
+  constexpr std::span fields = layout<talus_shapes>;
+  constexpr std::size_t fixed = 1400;  // all fields of one size, and the name
   constexpr std::size_t piece_bytes = bytes_per_entry(fields, "piece_count");
   constexpr std::size_t value_bytes = bytes_per_entry(fields, "value_count");
   const std::size_t bytes = message.values.size() * value_bytes + message.kind.size() * piece_bytes;
@@ -335,13 +372,12 @@ talus_shapes_v1 to_message(const Shape<Dim>& shape, std::size_t index, std::size
 }  // namespace
 
 template <int Dim>
-std::vector<talus_shapes_v1> to_shapes(const WorldDescription<Dim>& world) {
-  std::vector<talus_shapes_v1> messages;
+std::vector<talus_shapes> to_shapes(const WorldDescription<Dim>& world) {
+  std::vector<talus_shapes> messages;
   for (std::size_t i = 0; i < world.shapes.size(); ++i)
     messages.push_back(to_message<Dim>(world.shapes[i], i, world.shapes.size()));
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    talus_shapes_v1& message =
-        messages.emplace_back(to_message<Dim>(world.obstacles[i].shape, i, world.obstacles.size()));
+    talus_shapes& message = messages.emplace_back(to_message<Dim>(world.obstacles[i].shape, i, world.obstacles.size()));
     message.obstacle = 1;
     set_pose<Dim>(world.obstacles[i].pose, message);
   }
@@ -349,7 +385,7 @@ std::vector<talus_shapes_v1> to_shapes(const WorldDescription<Dim>& world) {
 }
 
 template <int Dim>
-void set_pose(const Pose<Dim>& pose, talus_shapes_v1& message) {
+void set_pose(const Pose<Dim>& pose, talus_shapes& message) {
   std::vector<double> values;
   append<Dim>(pose, values);
   std::copy(values.begin(), values.end(), message.pose);
@@ -384,7 +420,7 @@ class ValueReader {
     return pose;
   }
   Piece<Dim> piece(std::int8_t kind) {
-    if (kind == talus_shapes_v1::BOX) {
+    if (kind == talus_shapes::BOX) {
       const Pose<Dim> at = pose();
       return BoxPiece<Dim>{at, point()};
     }
@@ -401,25 +437,33 @@ class ValueReader {
 }  // namespace
 
 template <int Dim>
-Shape<Dim> to_shape(const talus_shapes_v1& message) {
+Shape<Dim> to_shape(const talus_shapes& message) {
   std::vector<Piece<Dim>> pieces;
   std::span<const double> values = message.values;
   for (std::size_t i = 0; i < message.kind.size(); ++i) {
     pieces.push_back(ValueReader<Dim>(values.first(message.length[i])).piece(message.kind[i]));
     values = values.subspan(message.length[i]);
   }
-  return make_shape<Dim>(
-      message.name, std::move(pieces),
-      {.density = message.density, .friction = message.friction, .restitution = message.restitution});
+  for (const Piece<Dim>& piece : pieces) (void)mass_properties<Dim>(piece);  // throws on one without a volume
+  const MassProperties<Dim> masses = {.volume = message.volume, .inertia = inertia_of<Dim>(message) / message.density};
+  Shape<Dim> shape = make_shape<Dim>(message.name, std::move(pieces),
+                                     {.density = message.density,
+                                      .friction = message.friction,
+                                      .restitution = message.restitution,
+                                      .rolling_friction = message.rolling_friction},
+                                     masses);
+  shape.inertia = inertia_of<Dim>(message);  // above rounded twice
+  shape.colour = message.colour;
+  return shape;
 }
 
 template <int Dim>
-Pose<Dim> pose_of(const talus_shapes_v1& message) {
+Pose<Dim> pose_of(const talus_shapes& message) {
   return ValueReader<Dim>(message.pose).pose();
 }
 
 template <int Dim>
-Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message) {
+Pile<Dim> to_pile(const talus_lcm::talus_pile& message) {
   Pile<Dim> pile;
   if constexpr (Dim == 2)
     pile.centre = {message.centre[0], message.centre[2]};
@@ -431,7 +475,7 @@ Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message) {
   pile.height = message.height;
   pile.radius = message.radius;
   pile.merged_into = message.merged_into;
-  for (const talus_lcm::talus_layer_v2& layer : message.layers) {
+  for (const talus_lcm::talus_layer& layer : message.layers) {
     pile.layers.push_back({.bottom = layer.bottom,
                            .top = layer.top,
                            .radius = layer.radius,
@@ -444,11 +488,11 @@ Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message) {
 }
 
 template <int Dim>
-std::vector<talus_lcm::talus_event_v2> to_events(const Scene<Dim>& scene) {
-  std::vector<talus_lcm::talus_event_v2> messages(scene.events.size());
+std::vector<talus_lcm::talus_event> to_events(const Scene<Dim>& scene) {
+  std::vector<talus_lcm::talus_event> messages(scene.events.size());
   for (std::size_t i = 0; i < scene.events.size(); ++i) {
     const Event<Dim>& event = scene.events[i];
-    talus_lcm::talus_event_v2& message = messages[i];
+    talus_lcm::talus_event& message = messages[i];
     message.number = static_cast<std::int32_t>(i);
     message.total = static_cast<std::int32_t>(scene.events.size());
     message.happened_step = -1;
@@ -464,20 +508,19 @@ std::vector<talus_lcm::talus_event_v2> to_events(const Scene<Dim>& scene) {
 }
 
 template <int Dim>
-void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event_v2& message) {
+void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event& message) {
   message.happened_step = frame.step;
   message.happened_time = std::max(0.0, frame.time - dt);
 }
 
 template <int Dim>
-std::vector<talus_obstacles_v1> to_obstacles(std::span<const ObstaclePose<Dim>> poses) {
-  constexpr std::span fields = layout<talus_obstacles_v1>;
-  constexpr std::size_t at_most =
-      room<talus_obstacles_v1> /
-      (bytes_per_entry(fields, "obstacle_count") + pose_values<Dim> * bytes_per_entry(fields, "value_count"));
-  std::vector<talus_obstacles_v1> messages;
+std::vector<talus_obstacles> to_obstacles(std::span<const ObstaclePose<Dim>> poses) {
+  constexpr std::span fields = layout<talus_obstacles>;
+  constexpr std::size_t at_most = room<talus_obstacles> / (bytes_per_entry(fields, "obstacle_count") +
+                                                           pose_values<Dim> * bytes_per_entry(fields, "value_count"));
+  std::vector<talus_obstacles> messages;
   for (; !poses.empty(); poses = poses.subspan(messages.back().obstacle.size())) {
-    talus_obstacles_v1& message = messages.emplace_back();
+    talus_obstacles& message = messages.emplace_back();
     message.dimension = Dim;
     for (const ObstaclePose<Dim>& each : poses.first(std::min(poses.size(), at_most))) {
       message.obstacle.push_back(each.obstacle);
@@ -490,7 +533,7 @@ std::vector<talus_obstacles_v1> to_obstacles(std::span<const ObstaclePose<Dim>> 
 }
 
 template <int Dim>
-std::vector<ObstaclePose<Dim>> poses_of(const talus_obstacles_v1& message) {
+std::vector<ObstaclePose<Dim>> poses_of(const talus_obstacles& message) {
   std::vector<ObstaclePose<Dim>> poses;
   if (message.dimension != Dim) return poses;
   const std::vector<double> values(message.poses.begin(), message.poses.end());
@@ -499,23 +542,23 @@ std::vector<ObstaclePose<Dim>> poses_of(const talus_obstacles_v1& message) {
   return poses;
 }
 
-template std::vector<talus_obstacles_v1> to_obstacles<2>(std::span<const ObstaclePose<2>>);
-template std::vector<talus_obstacles_v1> to_obstacles<3>(std::span<const ObstaclePose<3>>);
-template std::vector<ObstaclePose<2>> poses_of(const talus_obstacles_v1&);
-template std::vector<ObstaclePose<3>> poses_of(const talus_obstacles_v1&);
-template std::vector<talus_lcm::talus_event_v2> to_events(const Scene<2>&);
-template std::vector<talus_lcm::talus_event_v2> to_events(const Scene<3>&);
-template void set_happened(const Frame<2>&, double, talus_lcm::talus_event_v2&);
-template void set_happened(const Frame<3>&, double, talus_lcm::talus_event_v2&);
-template Pile<2> to_pile<2>(const talus_lcm::talus_pile_v2&);
-template Pile<3> to_pile<3>(const talus_lcm::talus_pile_v2&);
-template void set_pose(const Pose<2>&, talus_shapes_v1&);
-template void set_pose(const Pose<3>&, talus_shapes_v1&);
-template Shape<2> to_shape<2>(const talus_shapes_v1&);
-template Shape<3> to_shape<3>(const talus_shapes_v1&);
-template Pose<2> pose_of<2>(const talus_shapes_v1&);
-template Pose<3> pose_of<3>(const talus_shapes_v1&);
-template std::vector<talus_shapes_v1> to_shapes<2>(const WorldDescription<2>&);
-template std::vector<talus_shapes_v1> to_shapes<3>(const WorldDescription<3>&);
+template std::vector<talus_obstacles> to_obstacles<2>(std::span<const ObstaclePose<2>>);
+template std::vector<talus_obstacles> to_obstacles<3>(std::span<const ObstaclePose<3>>);
+template std::vector<ObstaclePose<2>> poses_of(const talus_obstacles&);
+template std::vector<ObstaclePose<3>> poses_of(const talus_obstacles&);
+template std::vector<talus_lcm::talus_event> to_events(const Scene<2>&);
+template std::vector<talus_lcm::talus_event> to_events(const Scene<3>&);
+template void set_happened(const Frame<2>&, double, talus_lcm::talus_event&);
+template void set_happened(const Frame<3>&, double, talus_lcm::talus_event&);
+template Pile<2> to_pile<2>(const talus_lcm::talus_pile&);
+template Pile<3> to_pile<3>(const talus_lcm::talus_pile&);
+template void set_pose(const Pose<2>&, talus_shapes&);
+template void set_pose(const Pose<3>&, talus_shapes&);
+template Shape<2> to_shape<2>(const talus_shapes&);
+template Shape<3> to_shape<3>(const talus_shapes&);
+template Pose<2> pose_of<2>(const talus_shapes&);
+template Pose<3> pose_of<3>(const talus_shapes&);
+template std::vector<talus_shapes> to_shapes<2>(const WorldDescription<2>&);
+template std::vector<talus_shapes> to_shapes<3>(const WorldDescription<3>&);
 
 }  // namespace talus

@@ -7,7 +7,7 @@
 
 namespace talus {
 
-/// Why a body fell asleep or woke. The numbers are those of talus_sleep_v1.lcm, in which 5 and 6 are unused.
+/// Why a body fell asleep or woke. The numbers are those of talus_sleep.lcm, in which 5 and 6 are unused.
 enum class SleepCause : std::uint8_t {
   score,         // rho d v above tau (section 3.3)
   rest,          // at rest for long enough and supported

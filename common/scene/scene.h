@@ -190,6 +190,11 @@ struct PolicyParams {
   std::string kind = "adaptive";
   PaperParams paper;
   AdaptiveParams adaptive;
+
+  /// Mean drift that sleeping bodies may have [D]; nothing where the policy has no such limit.
+  std::optional<double> tolerance() const {
+    return kind == "adaptive" ? std::optional(adaptive.tolerance) : std::nullopt;
+  }
 };
 
 inline constexpr std::array<std::string_view, 4> policy_kinds = {"full", "engine", "paper", "adaptive"};

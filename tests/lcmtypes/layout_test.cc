@@ -9,9 +9,9 @@
 namespace talus::layout_test {
 namespace {
 
-using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_sleep_v1;
+using talus_lcm::talus_bodies;
+using talus_lcm::talus_run;
+using talus_lcm::talus_sleep;
 
 /// Puts the bits of a field with one entry, at `offset` bytes after the fingerprint.
 template <class Bits>
@@ -26,27 +26,27 @@ std::string fault_of(const std::vector<std::uint8_t>& bytes) {
 }
 
 std::vector<std::uint8_t> sleep_message(std::size_t events) {
-  talus_sleep_v1 message = to_sleep(std::vector<SleepEvent>(events)).front();
+  talus_sleep message = to_sleep(std::vector<SleepEvent>(events)).front();
   return MessageEncoder(1).encode(message, {}).bytes;
 }
 
 // One event more makes the message longer by 3 * 4 + 2 * 1 + 4 bytes, as the .lcm file says.
 TEST(MessageLayout, GivesTheSizeOfOneMoreEntry) {
-  EXPECT_EQ(bytes_per_entry(layout<talus_sleep_v1>, "event_count"), 18U);
+  EXPECT_EQ(bytes_per_entry(layout<talus_sleep>, "event_count"), 18U);
   EXPECT_EQ(sleep_message(3).size(), sleep_message(2).size() + 18);
 }
 
 TEST(MessageLayout, GivesTheSizeOfTheFixedFields) {
-  EXPECT_EQ(fingerprint_bytes + fixed_bytes(layout<talus_sleep_v1>), sleep_message(2).size() - 2 * 18);
+  EXPECT_EQ(fingerprint_bytes + fixed_bytes(layout<talus_sleep>), sleep_message(2).size() - 2 * 18);
 }
 
 TEST(MessageLayout, RefusesACountBeyondTheBytesLeft) {
   std::vector<std::uint8_t> bytes = sleep_message(2);
-  EXPECT_EQ(fault_of<talus_sleep_v1>(bytes), "");
+  EXPECT_EQ(fault_of<talus_sleep>(bytes), "");
   const std::size_t event_count = 5 * 8 + 2 * 4;  // after the header and the numbers of the part
   for (const std::uint32_t count : {100U, 0x7FFFFFFFU, 0xFFFFFFFFU}) {
     put(bytes, event_count, count);
-    EXPECT_EQ(fault_of<talus_sleep_v1>(bytes), "counts do not match the size") << count;
+    EXPECT_EQ(fault_of<talus_sleep>(bytes), "counts do not match the size") << count;
   }
 }
 
@@ -55,24 +55,24 @@ TEST(MessageLayout, RefusesANumberThatIsNotFinite) {
   const std::size_t sim_time = 3 * 8;
   for (const double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     put(bytes, sim_time, std::bit_cast<std::uint64_t>(value));
-    EXPECT_EQ(fault_of<talus_sleep_v1>(bytes), "a number is not finite");
+    EXPECT_EQ(fault_of<talus_sleep>(bytes), "a number is not finite");
   }
 }
 
 TEST(MessageLayout, RefusesABooleanThatIsNeither0Nor1) {
-  talus_bodies_v1 message{};
+  talus_bodies message{};
   std::vector<std::uint8_t> bytes = MessageEncoder(1).encode(message, {}).bytes;
   const std::size_t key_frame = 5 * 8;
   put(bytes, key_frame, std::uint8_t{2});
-  EXPECT_EQ(fault_of<talus_bodies_v1>(bytes), "a boolean is neither 0 nor 1");
+  EXPECT_EQ(fault_of<talus_bodies>(bytes), "a boolean is neither 0 nor 1");
 }
 
 TEST(MessageLayout, RefusesATextWithoutItsEnd) {
-  talus_run_v1 message{};
+  talus_run message{};
   std::vector<std::uint8_t> bytes = MessageEncoder(1).encode(message, {}).bytes;
-  const std::size_t reason = 5 * 8 + 1;
-  put(bytes, reason + 4, std::uint8_t{'x'});
-  EXPECT_EQ(fault_of<talus_run_v1>(bytes), "counts do not match the size");
+  const std::size_t version = 5 * 8 + 4;
+  put(bytes, version + 4, std::uint8_t{'x'});
+  EXPECT_EQ(fault_of<talus_run>(bytes), "counts do not match the size");
 }
 
 TEST(MessageChecksum, IsThatOfZlib) {

@@ -14,12 +14,12 @@
 namespace talus::publisher_test {
 namespace {
 
-using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_piles_v2;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_shapes_v1;
-using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_bodies;
+using talus_lcm::talus_piles;
+using talus_lcm::talus_run;
+using talus_lcm::talus_shapes;
+using talus_lcm::talus_sleep;
+using talus_lcm::talus_stats;
 
 /// Keeps all messages of one LCM object's own memory queue.
 class Ear {
@@ -77,20 +77,20 @@ class PublishedRun {
 
 TEST(Publisher, SendsSceneStepsAndReasonOfTheEnd) {
   const PublishedRun<2> run(10);
-  const auto messages = run.ear.all<talus_run_v1>();
+  const auto messages = run.ear.all<talus_run>();
   ASSERT_GE(messages.size(), 2U);
-  EXPECT_EQ(messages.front().phase, talus_run_v1::BEGIN);
+  EXPECT_EQ(messages.front().phase, talus_run::BEGIN);
   EXPECT_EQ(messages.front().scene, "still");
   EXPECT_EQ(messages.front().steps, 120);
   EXPECT_EQ(messages.front().channels.size(), 6U);
-  EXPECT_EQ(messages.back().phase, talus_run_v1::END);
+  EXPECT_EQ(messages.back().phase, talus_run::END);
   EXPECT_EQ(messages.back().reason, "finished");
-  EXPECT_EQ(messages.back().sent[1], static_cast<std::int64_t>(run.ear.all<talus_piles_v2>().size()));
+  EXPECT_EQ(messages.back().sent[1], static_cast<std::int64_t>(run.ear.all<talus_piles>().size()));
 }
 
 TEST(Publisher, SendsPilesOfEveryStepWhenAsked) {
   const PublishedRun<3> run(40);
-  const auto piles = run.ear.all<talus_piles_v2>();
+  const auto piles = run.ear.all<talus_piles>();
   ASSERT_EQ(piles.size(), 41U);  // and once more at the end
   for (std::size_t i = 0; i < 40; ++i) {
     EXPECT_EQ(piles[i].step, static_cast<std::int64_t>(i) + 1);
@@ -101,24 +101,24 @@ TEST(Publisher, SendsPilesOfEveryStepWhenAsked) {
 
 TEST(Publisher, KeepsToTheRateOfWallTime) {
   const PublishedRun<2> run(2000, {.piles_rate = 10.0});  // far more than 10 steps in a tenth of a second
-  EXPECT_LT(run.ear.all<talus_piles_v2>().size(), 200U);
-  EXPECT_GE(run.ear.all<talus_piles_v2>().size(), 2U);
+  EXPECT_LT(run.ear.all<talus_piles>().size(), 200U);
+  EXPECT_GE(run.ear.all<talus_piles>().size(), 2U);
 }
 
 TEST(Publisher, SendsEverySleepEvent) {
   const PublishedRun<2> run(40);
-  const auto sleep = run.ear.all<talus_sleep_v1>();
+  const auto sleep = run.ear.all<talus_sleep>();
   ASSERT_EQ(sleep.size(), 10U);
   for (const auto& message : sleep) {
     EXPECT_EQ(message.event_count, 12);
-    EXPECT_EQ(message.cause[0], message.woke[0] != 0 ? talus_sleep_v1::AVALANCHE : talus_sleep_v1::SCORE);
+    EXPECT_EQ(message.cause[0], message.woke[0] != 0 ? talus_sleep::AVALANCHE : talus_sleep::SCORE);
     EXPECT_EQ(message.score[0], 0.625F);
   }
 }
 
 TEST(Publisher, SendsStatisticsWithWallTimes) {
   const PublishedRun<2> run(100);
-  const auto stats = run.ear.all<talus_stats_v2>();
+  const auto stats = run.ear.all<talus_stats>();
   ASSERT_GE(stats.size(), 2U);
   EXPECT_EQ(stats.back().awake + stats.back().asleep, 12);
   EXPECT_EQ(stats.back().timed, 1);
@@ -128,7 +128,7 @@ TEST(Publisher, SendsStatisticsWithWallTimes) {
 
 TEST(Publisher, SendsPosesAtTheirRateAndAllOfThemWithinTwoSecondsAndAtTheEnd) {
   PublishedRun<3> run(2000, {.piles_rate = 10.0, .bodies_rate = 1000.0});
-  const auto bodies = run.ear.all<talus_bodies_v1>();
+  const auto bodies = run.ear.all<talus_bodies>();
   ASSERT_GE(bodies.size(), 2U);
   std::set<std::int32_t> named;
   for (const auto& message : bodies) {
@@ -139,7 +139,7 @@ TEST(Publisher, SendsPosesAtTheirRateAndAllOfThemWithinTwoSecondsAndAtTheEnd) {
   EXPECT_EQ(bodies.back().key_frame, 1);
   EXPECT_EQ(bodies.back().step, 2000);
   EXPECT_EQ(bodies.back().body_count, 12);
-  EXPECT_GE(run.ear.all<talus_shapes_v1>().size(), 2U) << "at the first step, and at the end";
+  EXPECT_GE(run.ear.all<talus_shapes>().size(), 2U) << "at the first step, and at the end";
 }
 
 TEST(Publisher, SendsWhereObstaclesAreAsLongAsTheyMove) {
@@ -157,7 +157,7 @@ TEST(Publisher, SendsWhereObstaclesAreAsLongAsTheyMove) {
   for (int step = 0; step < 30; ++step) run->step();
   run->end("finished");
   ear.listen();
-  const auto messages = ear.all<talus_lcm::talus_obstacles_v1>();
+  const auto messages = ear.all<talus_lcm::talus_obstacles>();
   ASSERT_FALSE(messages.empty());
   EXPECT_GE(messages.back().step, 11);
   for (const auto& message : messages) {
@@ -165,14 +165,14 @@ TEST(Publisher, SendsWhereObstaclesAreAsLongAsTheyMove) {
     EXPECT_NEAR(message.poses[0], 7.0 + std::min(end, message.sim_time), 1e-6);
   }
   EXPECT_LE(std::count_if(messages.begin(), messages.end(), [](const auto& message) { return message.step > 11; }), 1);
-  const std::vector<std::string> channels = ear.all<talus_run_v1>().back().channels;
+  const std::vector<std::string> channels = ear.all<talus_run>().back().channels;
   EXPECT_NE(std::find(channels.begin(), channels.end(), "TALUS_OBSTACLES"), channels.end());
 }
 
 TEST(Publisher, SendsNoPosesAtRateZero) {
   const PublishedRun<2> run(40, {.bodies_rate = 0.0});
-  EXPECT_TRUE(run.ear.all<talus_bodies_v1>().empty());
-  EXPECT_TRUE(run.ear.all<talus_shapes_v1>().empty());
+  EXPECT_TRUE(run.ear.all<talus_bodies>().empty());
+  EXPECT_TRUE(run.ear.all<talus_shapes>().empty());
 }
 
 TEST(Publisher, LeavesTheRunAsItIs) {
@@ -187,9 +187,9 @@ TEST(Publisher, LeavesTheRunAsItIs) {
 TEST(Publisher, DropsRatherThanWaitsAndSaysSo) {
   const PublishedRun<2> run(20'000, {.piles_rate = 0.0, .bodies_rate = 1e6, .queue_bytes = 1U << 20U});
   EXPECT_GT(run.dropped, 0);
-  const auto piles = run.ear.all<talus_piles_v2>();
+  const auto piles = run.ear.all<talus_piles>();
   EXPECT_LT(piles.size(), 20'000U);
-  const auto stats = run.ear.all<talus_stats_v2>();
+  const auto stats = run.ear.all<talus_stats>();
   EXPECT_TRUE(std::any_of(stats.begin(), stats.end(), [](const auto& s) { return s.dropped > 0; }));
 }
 

@@ -15,10 +15,10 @@
 namespace talus::run_recorder_test {
 namespace {
 
-using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_bodies;
+using talus_lcm::talus_run;
+using talus_lcm::talus_sleep;
+using talus_lcm::talus_stats;
 
 /// Records `steps` steps of 12 bodies.
 template <int Dim>
@@ -61,12 +61,12 @@ Record read(const std::string& path) {
 TEST(RunRecorder, WritesProgramSceneAndReasonOfTheEnd) {
   const ScratchFile file;
   record<2>(file.path(), 120);
-  const auto runs = read(file.path()).all<talus_run_v1>();
+  const auto runs = read(file.path()).all<talus_run>();
   ASSERT_EQ(runs.size(), 4U);  // begin, two seconds at 60 steps each, end
-  EXPECT_EQ(runs.front().phase, talus_run_v1::BEGIN);
+  EXPECT_EQ(runs.front().phase, talus_run::BEGIN);
   EXPECT_EQ(runs.front().scene, "still");
-  EXPECT_EQ(runs[1].phase, talus_run_v1::ALIVE);
-  EXPECT_EQ(runs.back().phase, talus_run_v1::END);
+  EXPECT_EQ(runs[1].phase, talus_run::ALIVE);
+  EXPECT_EQ(runs.back().phase, talus_run::END);
   EXPECT_EQ(runs.back().reason, "finished");
   EXPECT_EQ(runs.back().step, 120);
 }
@@ -81,7 +81,7 @@ TEST(RunRecorder, WritesEachFrameOfOutputAndEachStepsEvents) {
   EXPECT_EQ(record.count["TALUS_STATS"], 60 + 1);
   EXPECT_EQ(record.count["TALUS_BODIES"], 60 + 1);
   EXPECT_EQ(record.count["TALUS_SLEEP"], 30);  // every fourth step
-  for (const auto& sleep : record.all<talus_sleep_v1>()) {
+  for (const auto& sleep : record.all<talus_sleep>()) {
     EXPECT_EQ(sleep.event_count, 12);
     EXPECT_EQ(sleep.step % 4, 0);
     EXPECT_DOUBLE_EQ(sleep.sim_time, static_cast<double>(sleep.step) / 60.0);
@@ -95,7 +95,7 @@ TEST(RunRecorder, TellsWhereObstaclesAreInEachFrameInWhichTheyMove) {
   scene.world.obstacles[0].moves = true;
   scene.movers = {{.first = 0, .count = 1, .motion = {.times = {0.0, 0.5}, .shifts = {Vec3::Zero(), Vec3::UnitZ()}}}};
   record<3>(file.path(), 120, {}, scene);
-  const auto messages = read(file.path()).all<talus_lcm::talus_obstacles_v1>();
+  const auto messages = read(file.path()).all<talus_lcm::talus_obstacles>();
   std::int64_t step = 0;
   for (const auto& message : messages) {
     ASSERT_EQ(message.obstacle, std::vector<std::int32_t>{0});
@@ -109,7 +109,7 @@ TEST(RunRecorder, TellsWhereObstaclesAreInEachFrameInWhichTheyMove) {
 TEST(RunRecorder, TellsTheLastPoseOfABodyThatFellAsleep) {
   const ScratchFile file;
   record<2>(file.path(), 8);
-  const auto bodies = read(file.path()).all<talus_bodies_v1>();
+  const auto bodies = read(file.path()).all<talus_bodies>();
   ASSERT_EQ(bodies.size(), 5U);         // steps 2, 4, 6, 8 and the end
   EXPECT_EQ(bodies[1].body_count, 12);  // step 4: all asleep since this step
   EXPECT_EQ(bodies[1].asleep[0], 1);
@@ -124,7 +124,7 @@ TEST(RunRecorder, WritesAKeyFrameOnlyAfterAsManyPosesOfMovingBodies) {
   const ScratchFile lively;
   record<2>(lively.path(), 180);
   std::vector<std::int64_t> steps;
-  for (const auto& bodies : read(lively.path()).all<talus_bodies_v1>())
+  for (const auto& bodies : read(lively.path()).all<talus_bodies>())
     if (bodies.key_frame != 0) steps.push_back(bodies.step);
   EXPECT_EQ(steps, (std::vector<std::int64_t>{60, 120, 180, 180}));
 
@@ -138,7 +138,7 @@ TEST(RunRecorder, WritesAKeyFrameOnlyAfterAsManyPosesOfMovingBodies) {
     run->end("finished");
   }
   std::int64_t moving = 0;
-  for (const auto& bodies : read(calm.path()).all<talus_bodies_v1>()) {
+  for (const auto& bodies : read(calm.path()).all<talus_bodies>()) {
     if (bodies.key_frame == 0) {
       moving += bodies.body_count;
       continue;
@@ -157,7 +157,7 @@ TEST(RunRecorder, StampsWithSimulatedTimeSoThatPlayersKeepThePace) {
     EXPECT_GE(event.timestamp, last + 100);  // never a burst
     last = event.timestamp;
   }
-  for (const auto& stats : record.all<talus_stats_v2>())
+  for (const auto& stats : record.all<talus_stats>())
     EXPECT_NEAR(static_cast<double>(stats.utime), 1e6 * stats.sim_time, 1500.0);  // a frame's few messages, 100 us each
 }
 
@@ -194,7 +194,7 @@ TEST(RunRecorder, LeavesAReadableRecordWhenKilled) {
   ASSERT_TRUE(WIFSIGNALED(status));
   const Record record = read(file.path());
   EXPECT_EQ(record.damage.bytes, 0U);  // flushed after each step
-  const auto bodies = record.all<talus_bodies_v1>();
+  const auto bodies = record.all<talus_bodies>();
   ASSERT_FALSE(bodies.empty());
   EXPECT_EQ(bodies.back().step, 200);
 }

@@ -30,14 +30,15 @@ std::vector<Packet> sample_packets(int bodies) {
     for (auto& message : messages) packets.push_back(encoder.encode(message, {1000, frame.step, frame.time}));
   };
   constexpr Channel channels[] = {Channel::run, Channel::piles};
-  encode(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run_v1::ALIVE, "", channels, encoder)});
+  encode(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run::ALIVE, "", channels, encoder)});
   encode(to_piles<Dim>(frame.piles.piles()));
   encode(to_sleep(frame.events));
   encode(std::vector{to_stats<Dim>(frame)});
   encode(to_bodies<Dim>(states, all, true));
   encode(to_shapes<Dim>(scene.world));
-  talus_lcm::talus_event_v2 event{};
+  talus_lcm::talus_event event{};
   event.number = 3;
+  event.total = 4;
   event.action = "remove";
   event.text = "remove all bodies";
   encode(std::vector{event});

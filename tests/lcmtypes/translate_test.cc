@@ -12,10 +12,10 @@
 namespace talus::translate_test {
 namespace {
 
-using talus_lcm::talus_pile_v2;
-using talus_lcm::talus_shapes_v1;
-using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_pile;
+using talus_lcm::talus_shapes;
+using talus_lcm::talus_sleep;
+using talus_lcm::talus_stats;
 
 template <class Message>
 void expect_sendable(std::vector<Message>& messages) {
@@ -38,7 +38,7 @@ TEST(PilesMessage, SaysWhatThePileHolds) {
   const auto messages = to_piles<2>(std::span(&pile, 1));
   ASSERT_EQ(messages.size(), 1U);
   ASSERT_EQ(messages[0].piles.size(), 1U);
-  const talus_pile_v2& told = messages[0].piles[0];
+  const talus_pile& told = messages[0].piles[0];
   EXPECT_EQ(told.centre[0], 3.0);
   EXPECT_EQ(told.centre[1], 0.0);
   EXPECT_EQ(told.centre[2], 1.0);
@@ -122,7 +122,7 @@ RC_GTEST_PROP(SleepMessage, CarriesAllEventsInOrderInSmallMessages, ()) {
     for (std::size_t i = 0; i < message.body.size(); ++i, ++next) {
       RC_ASSERT(message.body[i] == next);
       RC_ASSERT(message.woke[i] == (next % 3 == 0 ? 1 : 0));
-      RC_ASSERT(message.cause[i] == talus_sleep_v1::LOST_SUPPORT);
+      RC_ASSERT(message.cause[i] == talus_sleep::LOST_SUPPORT);
     }
   }
   RC_ASSERT(next == static_cast<BodyIndex>(number));
@@ -130,14 +130,14 @@ RC_GTEST_PROP(SleepMessage, CarriesAllEventsInOrderInSmallMessages, ()) {
 }
 
 TEST(SleepMessage, NumbersCausesAsTheCoreDoes) {
-  EXPECT_EQ(talus_sleep_v1::SCORE, static_cast<int>(SleepCause::score));
-  EXPECT_EQ(talus_sleep_v1::REST, static_cast<int>(SleepCause::rest));
-  EXPECT_EQ(talus_sleep_v1::AVALANCHE, static_cast<int>(SleepCause::avalanche));
-  EXPECT_EQ(talus_sleep_v1::CHECK, static_cast<int>(SleepCause::check));
-  EXPECT_EQ(talus_sleep_v1::MOMENTUM, static_cast<int>(SleepCause::momentum));
-  EXPECT_EQ(talus_sleep_v1::LOST_SUPPORT, static_cast<int>(SleepCause::lost_support));
-  EXPECT_EQ(talus_sleep_v1::ENGINE, static_cast<int>(SleepCause::engine));
-  EXPECT_EQ(talus_sleep_v1::USER, static_cast<int>(SleepCause::user));
+  EXPECT_EQ(talus_sleep::SCORE, static_cast<int>(SleepCause::score));
+  EXPECT_EQ(talus_sleep::REST, static_cast<int>(SleepCause::rest));
+  EXPECT_EQ(talus_sleep::AVALANCHE, static_cast<int>(SleepCause::avalanche));
+  EXPECT_EQ(talus_sleep::CHECK, static_cast<int>(SleepCause::check));
+  EXPECT_EQ(talus_sleep::MOMENTUM, static_cast<int>(SleepCause::momentum));
+  EXPECT_EQ(talus_sleep::LOST_SUPPORT, static_cast<int>(SleepCause::lost_support));
+  EXPECT_EQ(talus_sleep::ENGINE, static_cast<int>(SleepCause::engine));
+  EXPECT_EQ(talus_sleep::USER, static_cast<int>(SleepCause::user));
 }
 
 TEST(BodiesMessage, CarriesAHundredThousandBodiesInSmallMessages) {
@@ -200,7 +200,7 @@ TEST(StatsMessage, CarriesEveryWarningThereAndBack) {
   auto stats = to_stats<2>(
       Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .warnings = warnings, .bodies_planned = 5});
   MessageEncoder encoder(1);
-  talus_stats_v2 decoded;
+  talus_stats decoded;
   ASSERT_EQ(decode(encoder.encode(stats, {}).bytes, decoded), "");
   EXPECT_EQ(decoded.planned, 5);
   EXPECT_EQ(decoded.appeared, 1);
@@ -232,7 +232,7 @@ TEST(StatsMessage, CarriesTheEstimateOfDriftInExtentsOfTheTypicalBody) {
   const OneMetrePolicy policy;
   auto stats = to_stats<2>(Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .policy = &policy});
   MessageEncoder encoder(1);
-  talus_stats_v2 decoded;
+  talus_stats decoded;
   ASSERT_EQ(decode(encoder.encode(stats, {}).bytes, decoded), "");
   EXPECT_EQ(decoded.drift_estimate, 0.5);
   EXPECT_EQ(decoded.checked_share, 0.25);
@@ -246,12 +246,12 @@ TEST(StatsMessage, HasNoEstimateOfDriftWithoutAPolicyThatMakesOne) {
 }
 
 TEST(StatsMessage, NumbersKindsOfWarningAsTheCoreDoes) {
-  EXPECT_EQ(talus_stats_v2::BELOW_GROUND, static_cast<int>(WarningKind::below_ground));
-  EXPECT_EQ(talus_stats_v2::OUTSIDE_WORLD, static_cast<int>(WarningKind::outside_world));
-  EXPECT_EQ(talus_stats_v2::ENERGY, static_cast<int>(WarningKind::energy));
-  EXPECT_EQ(talus_stats_v2::SPEED_LIMIT, static_cast<int>(WarningKind::speed_limit));
-  EXPECT_EQ(talus_stats_v2::SPIN_LIMIT, static_cast<int>(WarningKind::spin_limit));
-  EXPECT_EQ(talus_stats_v2::NOT_APPEARED, static_cast<int>(WarningKind::not_appeared));
+  EXPECT_EQ(talus_stats::BELOW_GROUND, static_cast<int>(WarningKind::below_ground));
+  EXPECT_EQ(talus_stats::OUTSIDE_WORLD, static_cast<int>(WarningKind::outside_world));
+  EXPECT_EQ(talus_stats::ENERGY, static_cast<int>(WarningKind::energy));
+  EXPECT_EQ(talus_stats::SPEED_LIMIT, static_cast<int>(WarningKind::speed_limit));
+  EXPECT_EQ(talus_stats::SPIN_LIMIT, static_cast<int>(WarningKind::spin_limit));
+  EXPECT_EQ(talus_stats::NOT_APPEARED, static_cast<int>(WarningKind::not_appeared));
 }
 
 TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {
@@ -259,10 +259,77 @@ TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {
   ASSERT_EQ(messages.size(), 3U);
   EXPECT_EQ(messages[0].name, "l");
   EXPECT_EQ(messages[0].piece_count, 2);
-  EXPECT_EQ(messages[1].kind, std::vector<std::int8_t>{talus_shapes_v1::BALL});
+  EXPECT_EQ(messages[1].kind, std::vector<std::int8_t>{talus_shapes::BALL});
   EXPECT_EQ(messages[1].values, (std::vector<double>{0, 0, 0, 0.5}));
   EXPECT_EQ(messages[2].obstacle, 1);
   EXPECT_EQ(messages[2].pose[0], 7.0);
+}
+
+/// What an engine, a measure or a picture reads of a shape, bit for bit.
+template <int Dim>
+void expect_same_shape(const Shape<Dim>& read, const Shape<Dim>& sent) {
+  EXPECT_EQ(read.name, sent.name);
+  EXPECT_EQ(read.colour, sent.colour);
+  EXPECT_EQ(read.pieces.size(), sent.pieces.size());
+  EXPECT_EQ(read.material.density, sent.material.density);
+  EXPECT_EQ(read.material.friction, sent.material.friction);
+  EXPECT_EQ(read.material.restitution, sent.material.restitution);
+  EXPECT_EQ(read.material.rolling_friction, sent.material.rolling_friction);
+  EXPECT_EQ(read.volume, sent.volume);
+  EXPECT_EQ(read.mass, sent.mass);
+  EXPECT_EQ(read.inertia, sent.inertia);
+  EXPECT_EQ(read.bounds.min(), sent.bounds.min());
+  EXPECT_EQ(read.bounds.max(), sent.bounds.max());
+}
+
+// The second shape is a body of two densities, whose mass and inertia do not follow from its pieces.
+template <int Dim>
+void expect_shapes_there_and_back() {
+  const Material rough{.density = 700.0, .friction = 0.3, .restitution = 0.1, .rolling_friction = 0.05};
+  const Shape<Dim> light = make_shape<Dim>("light", ball_pieces<Dim>(0.3), rough);
+  const Shape<Dim> heavy = make_shape<Dim>("heavy", box_pieces<Dim>(Vec<Dim>::Constant(0.4)), {.density = 3000.0});
+  Pose<Dim> aside;
+  aside.position[0] = 0.6;
+  WorldDescription<Dim> world;
+  world.shapes = {make_shape<Dim>("capsule", capsule_pieces<Dim>(1.0, 0.2), rough),
+                  make_compound<Dim>("two", {{light, {}}, {heavy, aside}}, rough)};
+  world.shapes[0].colour = "#12abEF";
+  const auto messages = to_shapes<Dim>(world);
+  MessageEncoder encoder(1);
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    talus_shapes sent = messages[i];
+    talus_shapes decoded;
+    ASSERT_EQ(decode(encoder.encode(sent, {}).bytes, decoded), "");
+    expect_same_shape<Dim>(to_shape<Dim>(decoded), world.shapes[i]);
+  }
+}
+
+TEST(ShapesMessage, CarriesAllThatABodyIsMadeOfThereAndBack) {
+  expect_shapes_there_and_back<2>();
+  expect_shapes_there_and_back<3>();
+}
+
+TEST(RunMessage, CarriesAllThatTheWorldIsMadeWith) {
+  Scene<2> scene = still_scene<2>();
+  scene.world.gravity = 4.0;
+  scene.world.down = Vec2(0.6, -0.8);
+  scene.world.ground.height = -2.0;
+  scene.world.ground.material.friction = 0.25;
+  scene.world.solver.velocity_iterations = 37;
+  scene.policy.kind = "adaptive";
+  scene.policy.adaptive.tolerance = 0.125;
+  const MessageEncoder encoder(1);
+  const auto message = to_run(run_info(scene, "", ""), talus_lcm::talus_run::ALIVE, "", {}, encoder);
+  EXPECT_EQ(message.format, talus_lcm::talus_run::FORMAT);
+  EXPECT_EQ(message.tolerance, 0.125);
+  EXPECT_DOUBLE_EQ(message.gravity[0], 2.4);
+  EXPECT_EQ(message.gravity[1], 0.0);
+  EXPECT_DOUBLE_EQ(message.gravity[2], -3.2);
+  EXPECT_EQ(message.ground_height, -2.0);
+  EXPECT_EQ(message.ground_friction, 0.25);
+  EXPECT_EQ(message.velocity_iterations, 37);
+  scene.policy.kind = "full";
+  EXPECT_EQ(to_run(run_info(scene, "", ""), 0, "", {}, encoder).tolerance, -1.0);
 }
 
 TEST(ObstaclesMessage, CarriesPosesThereAndBack) {
@@ -271,8 +338,8 @@ TEST(ObstaclesMessage, CarriesPosesThereAndBack) {
     poses.push_back({2 * k, {{0.5 * k, -1.0, 2.0}, Rotation<3>(Eigen::AngleAxisd(0.001 * k, Vec3::UnitY()))}});
   std::vector<ObstaclePose<3>> read;
   MessageEncoder encoder(1);
-  for (talus_lcm::talus_obstacles_v1& message : to_obstacles<3>(poses)) {
-    talus_lcm::talus_obstacles_v1 decoded;
+  for (talus_lcm::talus_obstacles& message : to_obstacles<3>(poses)) {
+    talus_lcm::talus_obstacles decoded;
     EXPECT_EQ(decode(encoder.encode(message, {0, 6, 0.5}).bytes, decoded), "");
     EXPECT_TRUE(poses_of<2>(decoded).empty());
     for (const ObstaclePose<3>& each : poses_of<3>(decoded)) read.push_back(each);

@@ -190,7 +190,7 @@ void relay(int from, int to) {
 void invent(const std::string& url, int runs) {
   const LiveLink link = open_live_link(url);
   for (int id = 1; id <= runs; ++id) {
-    talus_lcm::talus_stats_v2 message{};
+    talus_lcm::talus_stats message{};
     const Packet packet = MessageEncoder(id).encode(message, {});
     link.lcm->publish(name_of(packet.channel), packet.bytes.data(), static_cast<unsigned int>(packet.bytes.size()));
   }

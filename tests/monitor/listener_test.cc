@@ -12,9 +12,9 @@
 namespace talus::listener_test {
 namespace {
 
-using talus_lcm::talus_layer_v2;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_layer;
+using talus_lcm::talus_run;
+using talus_lcm::talus_stats;
 
 /// Hands packets to a listener.
 struct Wire {
@@ -37,16 +37,16 @@ std::vector<Packet> stream(int steps) {
   };
   const Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
   const SleepEvent event{.body = 3, .cause = SleepCause::score};
-  say_run(talus_run_v1::BEGIN, 0);
+  say_run(talus_run::BEGIN, 0);
   for (int step = 1; step <= steps; ++step) {
     const Stamp stamp{.utime = step, .step = step, .sim_time = 0.1 * step};
     for (auto& message : to_piles<2>(std::span(&pile, 1))) packets.push_back(encoder.encode(message, stamp));
     for (auto& message : to_sleep(std::span(&event, 1))) packets.push_back(encoder.encode(message, stamp));
-    talus_stats_v2 stats{};
+    talus_stats stats{};
     stats.awake = step;
     packets.push_back(encoder.encode(stats, stamp));
   }
-  say_run(talus_run_v1::END, steps);
+  say_run(talus_run::END, steps);
   return packets;
 }
 
@@ -83,7 +83,7 @@ TEST(Listener, ForgetsEndedRunsBeforeItIsFull) {
   Packet last;
   for (int id = 0; id < 200; ++id) {
     MessageEncoder encoder(id);
-    auto run = to_run({}, talus_run_v1::END, "finished", {}, encoder);
+    auto run = to_run({}, talus_run::END, "finished", {}, encoder);
     last = encoder.encode(run, {});
     wire.send(last);
   }
@@ -156,7 +156,7 @@ TEST(Listener, CountsTheLossThatForgedNumbersClaimWithoutOverflow) {
   Wire wire;
   for (std::int64_t id = 1; id < 200; ++id) {
     for (const std::int64_t number : {std::int64_t{0}, largest}) {
-      talus_stats_v2 stats{};
+      talus_stats stats{};
       Packet packet = MessageEncoder(id).encode(stats, {});
       for (std::size_t i = 0; i < 8; ++i) packet.bytes[40 + i] = static_cast<std::uint8_t>(number >> (56 - 8 * i));
       const std::uint32_t sum = checksum(std::span(packet.bytes).first(packet.bytes.size() - checksum_bytes));
@@ -173,7 +173,7 @@ TEST(Listener, KeepsABoundedNumberOfLayers) {
   Wire wire;
   MessageEncoder encoder(42);
   for (int first = 0; first < 200; ++first) {
-    talus_lcm::talus_piles_v2 message{};
+    talus_lcm::talus_piles message{};
     message.parts = 1;
     message.first_pile = first;
     message.pile_total = 1000;
@@ -190,11 +190,11 @@ TEST(Listener, KeepsABoundedNumberOfLayers) {
 }
 
 TEST(DensityBar, HasABlockPerLayerAndGroupsMany) {
-  std::vector<talus_layer_v2> layers(5);
+  std::vector<talus_layer> layers(5);
   const std::vector<float> densities = {1.5F, 0.5F, 0.1F, 0.01F, 0.0F};
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].density = densities[i];
   EXPECT_EQ(density_bar(layers), "█▄▁▁ ");
-  layers.assign(100, talus_layer_v2{});
+  layers.assign(100, talus_layer{});
   EXPECT_EQ(density_bar(layers).size(), 24U);  // 24 blanks
   EXPECT_EQ(density_bar({}), "");
 }

@@ -117,7 +117,7 @@ void crash_once(const DatagramSender& sender, const std::string& mark) {
   const bool first = access(mark.c_str(), F_OK) != 0;
   std::ofstream(mark) << "was here";
   MessageEncoder encoder(42);
-  talus_lcm::talus_stats_v2 stats{};
+  talus_lcm::talus_stats stats{};
   const Packet packet = encoder.encode(stats, {});
   sender.send(packet.channel, packet.bytes.data(), packet.bytes.size());
   if (first) std::raise(SIGKILL);

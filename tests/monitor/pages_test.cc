@@ -11,8 +11,8 @@
 namespace talus::pages_test {
 namespace {
 
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_run;
+using talus_lcm::talus_stats;
 
 const auto start = RunTable::Clock::time_point(std::chrono::hours(1));
 
@@ -38,7 +38,7 @@ class Sender {
   Sender(Screen& screen, std::int64_t id, const std::string& scene)
       : screen_(screen), encoder_(id), info_{.scene = scene, .backend = "box2d", .policy = "paper", .version = "1"} {
     info_.steps = 600;
-    run(talus_run_v1::BEGIN);
+    run(talus_run::BEGIN);
   }
 
   template <class Message>
@@ -52,7 +52,7 @@ class Sender {
   }
   void stats(int awake, int asleep) {
     ++step_;
-    talus_stats_v2 stats{};
+    talus_stats stats{};
     stats.awake = awake;
     stats.asleep = asleep;
     stats.planned = stats.appeared = awake + asleep;

@@ -15,7 +15,7 @@ struct Network {
   std::map<std::int64_t, std::int64_t> sent;
 
   void send(std::int64_t run_id) {
-    talus_lcm::talus_stats_v2 message{};
+    talus_lcm::talus_stats message{};
     message.run_id = run_id;
     message.seq = sent[run_id]++;
     if (RunTable::Entry* entry = table.find(run_id, now)) entry->view.take(message);
@@ -45,8 +45,8 @@ TEST(RunTable, DropsTheLongestSilentRunWhenFull) {
 TEST(RunTable, DropsAnEndedRunFirstAndWithoutAFaultOncePrinted) {
   Network network;
   for (std::int64_t id = 0; id < full; ++id) network.send(id);
-  talus_lcm::talus_run_v1 end{};
-  end.phase = talus_lcm::talus_run_v1::END;
+  talus_lcm::talus_run end{};
+  end.phase = talus_lcm::talus_run::END;
   RunTable::Entry& ended = network.table.entries().at(7);
   ended.view.take(end);
   ended.printed = ended.view.received();

@@ -4,16 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "common/math/in_space.h"
 #include "common/shape/surface.h"
 
 namespace talus {
-
-inline Pose<3> in_space(const Pose<3>& pose) { return pose; }
-inline Pose<3> in_space(const Pose<2>& pose) {
-  // Counter-clockwise with x to the right and z up is about -y.
-  return {{pose.position.x(), 0.0, pose.position.y()},
-          Rotation<3>(Eigen::AngleAxisd(pose.rotation.angle(), -Vec3::UnitY()))};
-}
 
 /// The surface of a shape in its own axes; round parts have 24 corners for a full turn.
 std::vector<Loop<3>> polygons_in_space(const Shape<2>& shape);

@@ -8,15 +8,15 @@
 
 namespace talus {
 
-using talus_lcm::talus_layer_v2;
-using talus_lcm::talus_pile_v2;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_layer;
+using talus_lcm::talus_pile;
+using talus_lcm::talus_run;
+using talus_lcm::talus_stats;
 using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json of(const talus_pile_v2& pile) {
+Json of(const talus_pile& pile) {
   Json counts = Json::array();
   Json sleeping = Json::array();
   Json densities = Json::array();
@@ -24,7 +24,7 @@ Json of(const talus_pile_v2& pile) {
   Json sleep_thresholds = Json::array();
   Json wake_thresholds = Json::array();
   const auto threshold = [](float density) { return density >= 0.0F ? Json(density) : Json(); };
-  for (const talus_layer_v2& layer : pile.layers) {
+  for (const talus_layer& layer : pile.layers) {
     counts.push_back(layer.count);
     sleeping.push_back(layer.sleeping);
     densities.push_back(layer.density);
@@ -42,7 +42,7 @@ Json of(const talus_pile_v2& pile) {
           {"sleeping", sleeping}};
 }
 
-Json of(const talus_run_v1& run) {
+Json of(const talus_run& run) {
   constexpr const char* phases[] = {"begin", "alive", "end"};
   return {{"scene", run.scene},
           {"backend", run.backend},
@@ -62,9 +62,12 @@ Json of(const Warning& warning) {
           {"value", warning.value}};
 }
 
-Json of(const talus_stats_v2& stats) {
-  Json object = {{"awake", stats.awake}, {"asleep", stats.asleep}, {"kinetic_energy_J", stats.kinetic_energy}};
-  if (stats.planned >= 0) object.update({{"bodies_planned", stats.planned}, {"bodies_appeared", stats.appeared}});
+Json of(const talus_stats& stats) {
+  Json object = {{"awake", stats.awake},
+                 {"asleep", stats.asleep},
+                 {"kinetic_energy_J", stats.kinetic_energy},
+                 {"bodies_planned", stats.planned},
+                 {"bodies_appeared", stats.appeared}};
   if (stats.drift_estimate >= 0.0)
     object["estimate"] = {{"drift_D", stats.drift_estimate}, {"checked_share", stats.checked_share}};
   object["warnings"] = Json::array();

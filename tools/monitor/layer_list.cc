@@ -14,8 +14,8 @@
 
 namespace talus {
 
-using talus_lcm::talus_layer_v2;
-using talus_lcm::talus_pile_v2;
+using talus_lcm::talus_layer;
+using talus_lcm::talus_pile;
 
 namespace {
 
@@ -32,7 +32,7 @@ struct LayerRow {
 double lower(double known, double more) { return known < 0.0 || (more >= 0.0 && more < known) ? more : known; }
 
 /// Bottom first, at most `rows`.
-std::vector<LayerRow> rows_of(std::span<const talus_layer_v2> layers, std::size_t rows) {
+std::vector<LayerRow> rows_of(std::span<const talus_layer> layers, std::size_t rows) {
   const std::size_t number = std::min(layers.size(), rows);
   std::vector<LayerRow> result;
   for (std::size_t i = 0; i < number; ++i) {
@@ -82,13 +82,13 @@ void draw_layer(const LayerRow& row, int number, const Area& area) {
 }
 
 /// Without the empty ones on top.
-std::span<const talus_layer_v2> filled_layers(const talus_pile_v2& pile) {
-  std::span<const talus_layer_v2> layers = pile.layers;
+std::span<const talus_layer> filled_layers(const talus_pile& pile) {
+  std::span<const talus_layer> layers = pile.layers;
   while (!layers.empty() && layers.back().count == 0) layers = layers.first(layers.size() - 1);
   return layers;
 }
 
-std::string heading_of(std::int32_t number, int place, std::size_t piles, const talus_pile_v2& pile) {
+std::string heading_of(std::int32_t number, int place, std::size_t piles, const talus_pile& pile) {
   constexpr double degrees = 180.0 / std::numbers::pi;
   const std::string among = piles > 1 ? fmt::format(" ({} of {})", place + 1, piles) : "";
   return fmt::format("pile {}{}: {} layers, {:.0f} deg, {:.0f} %", number, among, pile.layer_total,

@@ -15,7 +15,7 @@
 
 namespace talus {
 
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_stats;
 
 namespace {
 
@@ -35,9 +35,9 @@ std::string progress_of(const RunView& view) {
   if (view.run() && view.run()->steps > 0) text += fmt::format(" of {}", view.run()->steps);
   text += fmt::format("  {:.2f} s", view.sim_time());
   if (!view.stats()) return text;
-  const talus_stats_v2& stats = *view.stats();
+  const talus_stats& stats = *view.stats();
   if (stats.timed != 0) text += fmt::format("  {:.2f} x real time", stats.real_time_factor);
-  if (stats.planned >= 0) text += fmt::format("  {} of {} bodies", stats.appeared, stats.planned);
+  text += fmt::format("  {} of {} bodies", stats.appeared, stats.planned);
   return text;
 }
 

@@ -48,7 +48,7 @@ struct Wave {
 class SleepHistory {
  public:
   static constexpr std::size_t most_events = 200;  // of each kind
-  static constexpr std::size_t causes = 10;        // numbers of talus_sleep_v1
+  static constexpr std::size_t causes = 10;        // numbers of talus_sleep
 
   /// What happened to a body, and why.
   struct Kind {

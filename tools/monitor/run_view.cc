@@ -6,11 +6,11 @@
 
 namespace talus {
 
-using talus_lcm::talus_pile_v2;
-using talus_lcm::talus_piles_v2;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_pile;
+using talus_lcm::talus_piles;
+using talus_lcm::talus_run;
+using talus_lcm::talus_sleep;
+using talus_lcm::talus_stats;
 
 namespace {
 
@@ -31,7 +31,7 @@ bool RunView::note(const Message& message) {
   return newest;
 }
 
-void RunView::take(const talus_run_v1& message) {
+void RunView::take(const talus_run& message) {
   if (!note(message)) return;
   run_ = message;
   for (const Channel channel : all_channels) {
@@ -41,12 +41,12 @@ void RunView::take(const talus_run_v1& message) {
   }
 }
 
-void RunView::take(const talus_piles_v2& message) {
+void RunView::take(const talus_piles& message) {
   note(message);
   if (message.step < piles_step_) return;
   piles_step_ = message.step;
   for (std::int32_t i = 0; i < message.pile_count; ++i) {
-    const talus_pile_v2& pile = message.piles[i];
+    const talus_pile& pile = message.piles[i];
     const std::int32_t number = message.first_pile + i;
     if (pile.merged_into >= 0)
       forget(number);
@@ -62,7 +62,7 @@ void RunView::forget(std::int32_t number) {
   piles_.erase(known);
 }
 
-void RunView::keep(std::int32_t number, const talus_pile_v2& pile) {
+void RunView::keep(std::int32_t number, const talus_pile& pile) {
   forget(number);
   if (piles_.size() >= max_piles || layers_kept_ + pile.layers.size() > max_layers_kept) {
     ++piles_left_out_;
@@ -72,7 +72,7 @@ void RunView::keep(std::int32_t number, const talus_pile_v2& pile) {
   piles_.emplace(number, pile);
 }
 
-void RunView::take(const talus_sleep_v1& message) {
+void RunView::take(const talus_sleep& message) {
   const std::int64_t before = received(Channel::sleep);
   note(message);
   if (received(Channel::sleep) == before) return;  // a duplicate
@@ -82,23 +82,23 @@ void RunView::take(const talus_sleep_v1& message) {
   for (const SleepEvent& event : events_of(message)) sleep_.add(event);
 }
 
-void RunView::take(const talus_stats_v2& message) {
+void RunView::take(const talus_stats& message) {
   if (!note(message)) return;
   stats_ = message;
   counts_.add({.time = message.sim_time, .awake = message.awake, .asleep = message.asleep});
   sleep_.set_wave_size(std::max<std::int64_t>(fewest_in_wave, (std::int64_t{message.awake} + message.asleep) / 10));
 }
 
-void RunView::take(const talus_lcm::talus_bodies_v1& message) { note(message); }
+void RunView::take(const talus_lcm::talus_bodies& message) { note(message); }
 
-void RunView::take(const talus_lcm::talus_shapes_v1& message) { note(message); }
+void RunView::take(const talus_lcm::talus_shapes& message) { note(message); }
 
-void RunView::take(const talus_lcm::talus_event_v2& message) { note(message); }
+void RunView::take(const talus_lcm::talus_event& message) { note(message); }
 
-void RunView::take(const talus_lcm::talus_obstacles_v1& message) { note(message); }
+void RunView::take(const talus_lcm::talus_obstacles& message) { note(message); }
 
-bool RunView::is_restart(const talus_run_v1& message) const {
-  return run_ && message.seq < run_->seq && (message.phase == talus_run_v1::BEGIN || ended());
+bool RunView::is_restart(const talus_run& message) const {
+  return run_ && message.seq < run_->seq && (message.phase == talus_run::BEGIN || ended());
 }
 
 std::int64_t RunView::lost() const {

@@ -12,8 +12,8 @@
 
 namespace talus {
 
-using talus_lcm::talus_layer_v2;
-using talus_lcm::talus_run_v1;
+using talus_lcm::talus_layer;
+using talus_lcm::talus_run;
 
 namespace {
 
@@ -41,20 +41,20 @@ std::string bars(const RunView& view) {
 
 std::string name(const RunView& view) {
   if (!view.run()) return "?";  // until TALUS_RUN comes, which takes a second at most
-  const talus_run_v1& run = *view.run();
+  const talus_run& run = *view.run();
   return fmt::format("{} {} {}", printable(run.scene), printable(run.backend), printable(run.policy));
 }
 
 }  // namespace
 
-std::string density_bar(std::span<const talus_layer_v2> layers) {
+std::string density_bar(std::span<const talus_layer> layers) {
   const std::size_t number = std::min(layers.size(), max_blocks);
   std::string text;
   for (std::size_t i = 0; i < number; ++i) {
     const std::size_t begin = i * layers.size() / number;
     const std::size_t end = (i + 1) * layers.size() / number;
     double sum = 0.0;
-    for (const talus_layer_v2& layer : layers.subspan(begin, end - begin)) sum += layer.density;
+    for (const talus_layer& layer : layers.subspan(begin, end - begin)) sum += layer.density;
     text += block(sum / static_cast<double>(end - begin));
   }
   return text;

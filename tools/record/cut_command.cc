@@ -36,7 +36,7 @@ void for_each_event(const fs::path& file, const std::function<void(LogEvent&)>& 
 double key_frame_before(const fs::path& file, double time) {
   double found = 0.0;
   for_each_event(file, [&](const LogEvent& event) {
-    talus_lcm::talus_bodies_v1 bodies;
+    talus_lcm::talus_bodies bodies;
     if (event.channel != name_of(Channel::bodies) || header_of(event).time > time) return;
     if (decode(event.data, bodies).empty() && bodies.key_frame != 0 && bodies.part == 0) found = bodies.sim_time;
   });
@@ -92,7 +92,7 @@ class Cutter {
   void adapt(LogEvent& event) const {
     const MessageHeader header = header_of(event);
     const std::int64_t shift = header.time < from_ ? 0 : shift_[channel_of_name(event.channel)].value_or(0);
-    talus_lcm::talus_run_v1 run;
+    talus_lcm::talus_run run;
     if (event.channel == name_of(Channel::run) && decode(event.data, run).empty()) {
       for (std::size_t i = 0; i < run.channels.size(); ++i) {
         const std::size_t channel = channel_of_name(run.channels[i]);

@@ -45,23 +45,23 @@ class LogSummary {
     channel.numbers.see(header.seq);
     if (!begin_) begin_ = header.time;
     end_ = std::max(end_, header.time);
-    if (talus_lcm::talus_run_v1 run; decode(event.data, run).empty()) take(run);
-    if (talus_lcm::talus_event_v2 done; decode(event.data, done).empty()) take(done);
-    if (talus_lcm::talus_bodies_v1 bodies; decode(event.data, bodies).empty()) take(bodies);
+    if (talus_lcm::talus_run run; decode(event.data, run).empty()) take(run);
+    if (talus_lcm::talus_event done; decode(event.data, done).empty()) take(done);
+    if (talus_lcm::talus_bodies bodies; decode(event.data, bodies).empty()) take(bodies);
   }
 
   Json json(const std::filesystem::path& file, const LogDamage& damage) const {
     Json json = {{"file", file.string()}, {"bytes", std::filesystem::file_size(file)}};
     json["run"] = run_ ? Json(short_id(run_->run_id)) : Json();
     json["runs"] = runs_.size();
-    const auto text = [&](std::string talus_lcm::talus_run_v1::*field) { return run_ ? (*run_).*field : ""; };
-    json["scene"] = text(&talus_lcm::talus_run_v1::scene);
-    json["backend"] = text(&talus_lcm::talus_run_v1::backend);
-    json["policy"] = text(&talus_lcm::talus_run_v1::policy);
-    json["version"] = text(&talus_lcm::talus_run_v1::version);
+    const auto text = [&](std::string talus_lcm::talus_run::*field) { return run_ ? (*run_).*field : ""; };
+    json["scene"] = text(&talus_lcm::talus_run::scene);
+    json["backend"] = text(&talus_lcm::talus_run::backend);
+    json["policy"] = text(&talus_lcm::talus_run::policy);
+    json["version"] = text(&talus_lcm::talus_run::version);
     json["seed"] = run_ ? static_cast<std::uint64_t>(run_->seed) : 0;
     json["dimension"] = run_ ? run_->dimension : 0;
-    json["reason"] = text(&talus_lcm::talus_run_v1::reason);
+    json["reason"] = text(&talus_lcm::talus_run::reason);
     json["begin_s"] = begin_.value_or(0.0);
     json["end_s"] = end_;
     json["bodies"] = bodies_;
@@ -81,19 +81,19 @@ class LogSummary {
   }
 
  private:
-  void take(const talus_lcm::talus_run_v1& message) {
+  void take(const talus_lcm::talus_run& message) {
     constexpr std::size_t counted = 1000;  // forged messages may name as many as they like
     if (runs_.size() < counted) runs_.insert(message.run_id);
     run_ = message;
   }
 
-  void take(const talus_lcm::talus_event_v2& message) {
+  void take(const talus_lcm::talus_event& message) {
     constexpr std::size_t most = 1000;
     if (events_.size() < most)
       events_.push_back({{"number", message.number}, {"step", message.step}, {"text", message.text}});
   }
 
-  void take(const talus_lcm::talus_bodies_v1& message) {
+  void take(const talus_lcm::talus_bodies& message) {
     if (!message.body.empty()) bodies_ = std::max(bodies_, message.body.back() + 1);
     if (message.part != 0) return;
     frames_ += message.step > last_step_ ? 1 : 0;
@@ -103,10 +103,10 @@ class LogSummary {
 
   std::map<std::string, ChannelCount> channels_;
   std::set<std::int64_t> runs_;
-  std::optional<talus_lcm::talus_run_v1> run_;  // the last message about the run
-  std::optional<double> begin_;                 // [s]
-  double end_ = 0.0;                            // [s]
-  Json events_ = Json::array();                 // of the scene
+  std::optional<talus_lcm::talus_run> run_;  // the last message about the run
+  std::optional<double> begin_;              // [s]
+  double end_ = 0.0;                         // [s]
+  Json events_ = Json::array();              // of the scene
   std::int32_t bodies_ = 0;
   std::int64_t frames_ = 0;
   std::int64_t key_frames_ = 0;

@@ -3,6 +3,7 @@
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
 #include "lcmtypes/translate.h"
+#include "tools/record/recorded_run.h"
 #include "tools/record/state_reader.h"
 
 namespace talus {
@@ -28,41 +29,40 @@ class Walk {
   template <class Message>
   void decode_and_take(const LogEvent& event, Message& message) {
     if constexpr (requires { this->take(message); }) {
-      if (decode(event.data, message).empty())
-        take(message);
-      else
-        ++undecodable_;
+      if (decode(event.data, message).empty()) return take(message);
+      refuse_other_format(event);
+      ++undecodable_;
     }
   }
 
-  void take(const talus_lcm::talus_run_v1& message) {
+  void take(const talus_lcm::talus_run& message) {
     run_ = {printable(message.backend), printable(message.policy), printable(message.version),
             printable(message.reason)};
   }
 
-  void take(const talus_lcm::talus_piles_v2& message) {
+  void take(const talus_lcm::talus_piles& message) {
     if (message.part == 0) piles_.clear();
-    for (const talus_lcm::talus_pile_v2& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
+    for (const talus_lcm::talus_pile& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
   }
 
-  void take(const talus_lcm::talus_stats_v2& message) {
+  void take(const talus_lcm::talus_stats& message) {
     kinetic_energy_ = message.kinetic_energy;
     drift_estimate_ = message.drift_estimate;
     warnings_ = warnings_of(message);
   }
 
-  void take(const talus_lcm::talus_sleep_v1& message) {
+  void take(const talus_lcm::talus_sleep& message) {
     for (const SleepEvent& event : events_of(message)) {
       states_.note_event(event.body);
       events_.push_back(event);
     }
   }
 
-  void take(const talus_lcm::talus_event_v2& message) {
+  void take(const talus_lcm::talus_event& message) {
     scene_events_.push_back({message.number, message.sim_time - dt_});
   }
 
-  void take(const talus_lcm::talus_bodies_v1& message) {
+  void take(const talus_lcm::talus_bodies& message) {
     if (!states_.take(message) || states_.step() <= last_step_) return;
     last_step_ = states_.step();
     cause_.resize(states_.states().size(), -1);

@@ -47,14 +47,13 @@ class RunReader {
   template <class Message>
   void decode_and_take(const LogEvent& event, Message& message) {
     if constexpr (requires { this->take(message); }) {
-      if (decode(event.data, message).empty())
-        take(message);
-      else
-        ++run_.damage.undecodable;
+      if (decode(event.data, message).empty()) return take(message);
+      refuse_other_format(event);
+      ++run_.damage.undecodable;
     }
   }
 
-  void take(const talus_lcm::talus_run_v1& message) {
+  void take(const talus_lcm::talus_run& message) {
     if (message.dimension != Dim) {
       throw std::invalid_argument(
           fmt::format("run.lcm is of a run in {}D: must be {}D as scene.toml", message.dimension, Dim));
@@ -64,7 +63,7 @@ class RunReader {
     run_.reason = message.reason;
   }
 
-  void take(const talus_lcm::talus_sleep_v1& message) {
+  void take(const talus_lcm::talus_sleep& message) {
     const std::int64_t lost_before = sleep_numbers_.lost();
     sleep_numbers_.see(message.seq);
     if (sleep_numbers_.lost() > lost_before) states_.note_lost_events();
@@ -74,14 +73,14 @@ class RunReader {
     }
   }
 
-  void take(const talus_lcm::talus_event_v2& message) {
+  void take(const talus_lcm::talus_event& message) {
     if (message.number >= std::ssize(run_.scene.events))
       throw std::invalid_argument(
           fmt::format("run.lcm: event {}, but the scene has {} events", message.number, run_.scene.events.size()));
     run_.done.push_back({message.number, message.sim_time - run_.scene.world.dt});
   }
 
-  void take(const talus_lcm::talus_bodies_v1& message) {
+  void take(const talus_lcm::talus_bodies& message) {
     if (!states_.take(message)) return;
     const std::int64_t step = states_.step();
     const std::int64_t distance = run_.frames.steps_per_frame();
@@ -133,6 +132,12 @@ AnyScene scene_of_run(const fs::path& folder) {
         fmt::format("{}: must be a folder that `talus run` left, but it has no {}", folder.string(), name));
   }
   return read_scene(folder / "scene.toml");
+}
+
+void refuse_other_format(const LogEvent& event) {
+  if (event.channel != name_of(Channel::run)) return;
+  if (const auto other = other_format(event.data))
+    throw std::invalid_argument(fmt::format("run.lcm: {}; run the scene again", text_of(*other)));
 }
 
 std::string name_of_run(const fs::path& folder) {

@@ -54,6 +54,9 @@ using AnyRecordedRun = std::variant<RecordedRun<2>, RecordedRun<3>>;
 /// The scene of a run folder. Throws std::invalid_argument where the folder is not of a run.
 AnyScene scene_of_run(const std::filesystem::path& folder);
 
+/// Throws std::invalid_argument where the event names a run of another format.
+void refuse_other_format(const LogEvent& event);
+
 /// The folder's own name, printable.
 std::string name_of_run(const std::filesystem::path& folder);
 

@@ -326,7 +326,7 @@ Report report_of(const Scene<Dim>& scene, const ReportOptions& options) {
           fmt::format("{}: {}, policy {}, seed {}, {:.2f} s; {}; talus {}", name_of_run(folder), run.backend,
                       run.policy, scene.seed, history.time.back(), end, run.version),
           {player, result_of(summary), warnings_of(history, dt),
-           error_of(history, summary, tolerance_of(scene.policy), options),
+           error_of(history, summary, scene.policy.tolerance().value_or(0.0), options),
            plots_of(history, columns_of(folder / "frames.csv"), summary, dt), settings_of(summary, folder)}};
 }
 

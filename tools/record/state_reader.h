@@ -18,7 +18,7 @@ class StateReader {
   /// Whether `message`, checked by decode(), was the last part of a whole frame, so that states() is the state
   /// at step(). A frame without all its parts, or of a step that is over, changes nothing. Throws std::invalid_argument
   /// where the message names a body or shape that the scene does not have.
-  bool take(const talus_lcm::talus_bodies_v1& message);
+  bool take(const talus_lcm::talus_bodies& message);
 
   /// Notes that `body` fell asleep or woke since the last frame. Throws std::invalid_argument like take().
   void note_event(BodyIndex body);
@@ -35,7 +35,7 @@ class StateReader {
   BodyStates<Dim> states_with_velocities(double dt) const;
 
  private:
-  using Message = talus_lcm::talus_bodies_v1;
+  using Message = talus_lcm::talus_bodies;
 
   void check(const Message& message) const;
   void grow(std::size_t bodies);

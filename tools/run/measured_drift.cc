@@ -106,11 +106,9 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
   return probe.bodies > 0 ? std::optional(probe) : std::nullopt;
 }
 
-double tolerance_of(const PolicyParams& policy) { return policy.kind == "adaptive" ? policy.adaptive.tolerance : 0.0; }
-
 std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, double extent,
                                      std::int64_t step) {
-  const double tolerance = tolerance_of(policy);
+  const double tolerance = policy.tolerance().value_or(0.0);
   if (tolerance <= 0.0 || mean <= tolerance * extent) return std::nullopt;
   return Warning{.kind = WarningKind::drift, .step = step, .bodies = bodies, .value = mean / extent};
 }

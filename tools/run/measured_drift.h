@@ -53,9 +53,6 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
                                           const std::string& backend, double body_steps,
                                           const std::function<bool()>& stop);
 
-/// Of the drift [D]; 0 where the policy has none.
-double tolerance_of(const PolicyParams& policy);
-
 /// A warning where the mean drift [m] of a number of bodies is above the tolerance of the policy `adaptive`; `extent`
 /// is D [m].
 std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, double extent,

@@ -185,9 +185,9 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   print_result("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
-  if (scene.policy.kind == "adaptive") print_estimate(simulation, summary.probe, scene.policy.adaptive);
+  if (scene.policy.tolerance()) print_estimate(simulation, summary.probe, scene.policy.adaptive);
   if (summary.measured)
-    print_measured(*summary.measured, simulation.piles().typical_body().extent, tolerance_of(scene.policy));
+    print_measured(*summary.measured, simulation.piles().typical_body().extent, scene.policy.tolerance().value_or(0.0));
   if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
   for (const SceneError& each : summary.outside_window)
     print_result("  warning: {}{}\n", outside_prefix, printable(to_string(each)));

@@ -113,7 +113,7 @@ void add_measured_drift(SummaryInput& summary, const Scene<Dim>& scene, const Si
 template <int Dim>
 void add_probed_drift(SummaryInput& summary, const Scene<Dim>& scene, const Simulation<Dim>& simulation,
                       const RunStatistics<Dim>& statistics, const Interrupt& interrupt) {
-  if (summary.reason != "finished" || tolerance_of(scene.policy) <= 0.0) return;
+  if (summary.reason != "finished" || scene.policy.tolerance().value_or(0.0) <= 0.0) return;
   const double body_steps = statistics.mean_awake() * static_cast<double>(statistics.steps());
   const auto stop = [&interrupt] { return interrupt.requested(); };
   try {

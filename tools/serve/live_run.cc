@@ -25,14 +25,14 @@ namespace talus {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using talus_lcm::talus_bodies_v1;
-using talus_lcm::talus_event_v2;
-using talus_lcm::talus_obstacles_v1;
-using talus_lcm::talus_piles_v2;
-using talus_lcm::talus_run_v1;
-using talus_lcm::talus_shapes_v1;
-using talus_lcm::talus_sleep_v1;
-using talus_lcm::talus_stats_v2;
+using talus_lcm::talus_bodies;
+using talus_lcm::talus_event;
+using talus_lcm::talus_obstacles;
+using talus_lcm::talus_piles;
+using talus_lcm::talus_run;
+using talus_lcm::talus_shapes;
+using talus_lcm::talus_sleep;
+using talus_lcm::talus_stats;
 
 // These bound what a forged message costs.
 constexpr int most_live_bodies = 1'000'000;
@@ -68,12 +68,12 @@ Json status_json(const std::string& reason, bool finished, const std::string& po
 /// What has been heard of the run that is followed.
 class LiveRun::Assembly {
  public:
-  Assembly(const talus_run_v1& run, PageHub& hub, const std::int64_t& undecodable)
+  Assembly(const talus_run& run, PageHub& hub, const std::int64_t& undecodable)
       : run_(run), hub_(hub), undecodable_(undecodable) {}
   virtual ~Assembly() = default;
 
   bool is_of(std::int64_t run_id) const { return run_.run_id == run_id; }
-  bool ended() const { return run_.phase == talus_run_v1::END; }
+  bool ended() const { return run_.phase == talus_run::END; }
 
   /// Counts a message. Each must be counted before it is taken.
   template <class Message>
@@ -81,26 +81,26 @@ class LiveRun::Assembly {
     heard_.take(message);
   }
 
-  void take(const talus_run_v1& message) {
+  void take(const talus_run& message) {
     run_ = message;
     show_status();
   }
-  void take(const talus_stats_v2& message) {
+  void take(const talus_stats& message) {
     stats_ = message;
     warnings_ = warnings_of(message);
     show_status();
   }
-  void take(const talus_sleep_v1& message) {
+  void take(const talus_sleep& message) {
     std::vector<SleepEvent> events = events_of(message);
     std::erase_if(events, [](const SleepEvent& event) { return event.body >= most_live_bodies; });
     for (const SleepEvent& event : events) note_event(event.body);
     hub_.add_events(events);
   }
-  virtual void take(const talus_shapes_v1& message) = 0;
-  virtual void take(const talus_piles_v2& message) = 0;
-  virtual void take(const talus_bodies_v1& message) = 0;
-  virtual void take(const talus_event_v2& message) = 0;
-  virtual void take(const talus_obstacles_v1& message) = 0;
+  virtual void take(const talus_shapes& message) = 0;
+  virtual void take(const talus_piles& message) = 0;
+  virtual void take(const talus_bodies& message) = 0;
+  virtual void take(const talus_event& message) = 0;
+  virtual void take(const talus_obstacles& message) = 0;
 
  protected:
   virtual void note_event(BodyIndex body) = 0;
@@ -116,8 +116,8 @@ class LiveRun::Assembly {
     hub_.set_status(json_text(status));
   }
 
-  talus_run_v1 run_;
-  talus_stats_v2 stats_{};
+  talus_run run_;
+  talus_stats stats_{};
   std::vector<Warning> warnings_;
   PageHub& hub_;
 
@@ -135,7 +135,7 @@ class AssemblyOf final : public LiveRun::Assembly {
 
   /// A shape that is not known yet begins the picture again. Of an obstacle that moves the message has the present
   /// pose.
-  void take(const talus_shapes_v1& message) override {
+  void take(const talus_shapes& message) override {
     if (message.dimension != Dim) return;
     auto& known = message.obstacle != 0 ? obstacles_ : shapes_;
     const auto before = known.find(message.index);
@@ -147,18 +147,18 @@ class AssemblyOf final : public LiveRun::Assembly {
   }
 
   /// Only of obstacles that are known: a forged message can name any number of others.
-  void take(const talus_obstacles_v1& message) override {
+  void take(const talus_obstacles& message) override {
     for (const ObstaclePose<Dim>& each : poses_of<Dim>(message))
       if (obstacles_.contains(each.obstacle)) moved_[each.obstacle] = each.pose;
   }
 
-  void take(const talus_piles_v2& message) override {
+  void take(const talus_piles& message) override {
     if (message.part == 0) piles_.clear();
-    for (const talus_lcm::talus_pile_v2& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
+    for (const talus_lcm::talus_pile& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
   }
 
   /// All events are sent each second, so a text that comes late begins the picture again only where messages were lost.
-  void take(const talus_event_v2& message) override {
+  void take(const talus_event& message) override {
     if (message.number >= most_live_events) return;
     const auto [known, news] = events_.try_emplace(message.number, message);
     if (news) head_.reset();
@@ -167,7 +167,7 @@ class AssemblyOf final : public LiveRun::Assembly {
     known->second = message;
   }
 
-  void take(const talus_bodies_v1& message) override {
+  void take(const talus_bodies& message) override {
     if (!states_ && !all_shapes()) return;
     if (!states_) states_.emplace(most_live_bodies, shapes_.begin()->second.total);
     if (!states_->take(message)) return;
@@ -197,7 +197,7 @@ class AssemblyOf final : public LiveRun::Assembly {
 
   double drift_estimate() const { return stats_.run_id == run_.run_id ? stats_.drift_estimate : -1.0; }
 
-  static bool complete(const std::map<int, talus_shapes_v1>& known) {
+  static bool complete(const std::map<int, talus_shapes>& known) {
     return known.empty() || static_cast<int>(known.size()) == known.begin()->second.total;
   }
   bool all_shapes() const { return !shapes_.empty() && complete(shapes_) && complete(obstacles_); }
@@ -209,7 +209,6 @@ class AssemblyOf final : public LiveRun::Assembly {
     scene.title = printable(run_.scene);
     scene.seed = static_cast<std::uint64_t>(run_.seed);
     scene.world.dt = run_.dt;
-    scene.world.gravity = run_.gravity;
     scene.world.ground.present = run_.ground != 0;
     scene.world.ground.height = run_.ground_height;
     for (const auto& [index, message] : shapes_) scene.world.shapes.push_back(to_shape<Dim>(message));
@@ -227,7 +226,7 @@ class AssemblyOf final : public LiveRun::Assembly {
     head["kind"] = "head";
     head["steps"] = run_.steps;
     head["events"] = events_json();
-    head["tolerance"] = nullptr;  // not in the messages
+    head["tolerance"] = run_.tolerance >= 0.0 ? Json(run_.tolerance) : Json();
     head_ = std::make_shared<std::string>(json_text(head));
     return true;
   }
@@ -242,18 +241,18 @@ class AssemblyOf final : public LiveRun::Assembly {
     return events;
   }
 
-  std::map<int, talus_shapes_v1> shapes_;     // by index
-  std::map<int, talus_shapes_v1> obstacles_;  // by index
-  std::map<int, Pose<Dim>> moved_;            // the last poses of those that have moved
-  std::map<int, talus_event_v2> events_;      // of the scene, by number
-  std::vector<DoneEvent> done_events_;        // as heard
+  std::map<int, talus_shapes> shapes_;     // by index
+  std::map<int, talus_shapes> obstacles_;  // by index
+  std::map<int, Pose<Dim>> moved_;         // the last poses of those that have moved
+  std::map<int, talus_event> events_;      // of the scene, by number
+  std::vector<DoneEvent> done_events_;     // as heard
   std::vector<Pile<Dim>> piles_;
   std::optional<StateReader<Dim>> states_;  // once the shapes are known
   std::shared_ptr<const FrameForm<Dim>> form_;
   std::shared_ptr<const std::string> head_;
 };
 
-std::unique_ptr<LiveRun::Assembly> assemble(const talus_run_v1& run, PageHub& hub, const std::int64_t& undecodable) {
+std::unique_ptr<LiveRun::Assembly> assemble(const talus_run& run, PageHub& hub, const std::int64_t& undecodable) {
   if (run.dimension == 2) return std::make_unique<AssemblyOf<2>>(run, hub, undecodable);
   return std::make_unique<AssemblyOf<3>>(run, hub, undecodable);
 }
@@ -273,9 +272,9 @@ void LiveRun::hear(const Datagram& datagram, Message& message, Clock::time_point
     return;
   }
   const bool followed = assembly_ != nullptr && assembly_->is_of(message.run_id);
-  if constexpr (std::is_same_v<Message, talus_run_v1>) {
+  if constexpr (std::is_same_v<Message, talus_run>) {
     const bool free = assembly_ == nullptr || assembly_->ended() || now - heard_ > silence;
-    if (!followed && free && message.phase != talus_run_v1::END) assembly_ = assemble(message, hub_, undecodable_);
+    if (!followed && free && message.phase != talus_run::END) assembly_ = assemble(message, hub_, undecodable_);
   }
   if (assembly_ == nullptr || !assembly_->is_of(message.run_id)) return;
   heard_ = now;

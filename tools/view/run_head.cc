@@ -181,7 +181,7 @@ Json run_head(const Scene<Dim>& scene, const RunTexts& texts, const Quantum& qua
           {"camera", {{"azimuth", picture.azimuth}, {"elevation", picture.elevation}}},
           {"colours", colours()},
           {"score_threshold", scene.policy.kind == "paper" ? Json(scene.policy.paper.tau) : Json()},
-          {"tolerance", scene.policy.kind == "adaptive" ? Json(scene.policy.adaptive.tolerance) : Json()},
+          {"tolerance", scene.policy.tolerance() ? Json(*scene.policy.tolerance()) : Json()},
           {"causes", causes()},
           {"events", events_of(scene)},
           {"coloured_shapes", coloured_shapes_of(scene)},
