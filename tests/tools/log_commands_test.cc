@@ -1,4 +1,4 @@
-// `talus info`, `cat`, `cut`, `repair` and `diff` on records.
+// `talus info` on records: numbers, messages, repair.
 
 #ifdef TALUS_LCM
 
@@ -77,8 +77,8 @@ TEST_F(LogCommand, InfoShowsOneDamagedFrame) {
   EXPECT_GT(json["damaged_bytes"], 0);
 }
 
-TEST_F(LogCommand, CatPrintsEachMessageOfAChannelAsJson) {
-  const Outcome outcome = talus_command("cat --channel TALUS_SLEEP " + (folder_ / "run"));
+TEST_F(LogCommand, InfoPrintsEachMessageOfAChannelAsJson) {
+  const Outcome outcome = talus_command("info --messages --channel TALUS_SLEEP " + (folder_ / "run"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::istringstream lines(outcome.out);
   std::int64_t slept = 0;
@@ -90,35 +90,9 @@ TEST_F(LogCommand, CatPrintsEachMessageOfAChannelAsJson) {
   EXPECT_EQ(slept, Json::parse(contents(folder_.path() / "run" / "summary.json"))["slept_events"]);
 }
 
-TEST_F(LogCommand, CutMakesARunWithThePosesOfTheWholeRun) {
-  const std::string options = " --from 6 --to 8 --out " + (folder_ / "part");
-  ASSERT_EQ(talus_command("cut " + (folder_ / "run") + options).exit_code, 0);
-  const Json json = info("part");
-  EXPECT_LE(json["end_s"], 8.0);
-  for (const Json& channel : json["channels"]) EXPECT_EQ(channel["missing"], 0) << channel["name"];
-  for (const char* run : {"run", "part"}) {
-    const Outcome outcome = talus_command(
-        fmt::format("export {} --from 7 --to 8 --csv {}", folder_ / run, folder_ / (std::string(run) + ".csv")));
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  }
-  const auto poses = [&](const char* file) {  // without the causes, which a part has of its own time only
-    std::istringstream lines(contents(folder_.path() / file));
-    std::string text;
-    for (std::string line; std::getline(lines, line);) {
-      std::istringstream cells(line);
-      int column = 0;
-      for (std::string cell; std::getline(cells, cell, ','); ++column)
-        if (column != 5) text += cell + ' ';
-    }
-    return text;
-  };
-  EXPECT_GT(poses("run.csv").size(), 1000U);
-  EXPECT_TRUE(poses("run.csv") == poses("part.csv"));
-}
-
 TEST_F(LogCommand, RepairLeavesOutTheDamagedMessageOnly) {
   hurt_a_copy();
-  ASSERT_EQ(talus_command("repair " + (folder_ / "hurt") + " --out " + (folder_ / "whole")).exit_code, 0);
+  ASSERT_EQ(talus_command("info --repair " + (folder_ / "hurt") + " --out " + (folder_ / "whole")).exit_code, 0);
   const Json before = info("run");
   const Json after = info("whole");
   EXPECT_EQ(after["damaged_bytes"], 0);
@@ -126,18 +100,7 @@ TEST_F(LogCommand, RepairLeavesOutTheDamagedMessageOnly) {
     const std::string name = channel["name"];
     EXPECT_EQ(messages(after, name), messages(before, name) - (name == "TALUS_BODIES" ? 1 : 0)) << name;
   }
-  EXPECT_EQ(talus_command("replay " + (folder_ / "whole") + " --html " + (folder_ / "a.html")).exit_code, 0);
-}
-
-TEST_F(LogCommand, DiffFindsTheFirstMessageAndFieldThatDiffer) {
-  const std::string run = folder_ / "run";
-  EXPECT_EQ(talus_command("diff " + run + " " + run).exit_code, 0);
-  const Outcome other =
-      talus_command("run drop_in_a_pile_2d --no-telemetry --seed 2 --set run.frames=10 --out " + (folder_ / "other"));
-  ASSERT_EQ(other.exit_code, 0) << other.err;
-  const Outcome outcome = talus_command("diff " + run + " " + (folder_ / "other"));
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.out.find("run_id"), std::string::npos) << outcome.out;
+  EXPECT_EQ(talus_command("replay " + (folder_ / "whole") + " --out " + (folder_ / "a.html")).exit_code, 0);
 }
 
 TEST_F(LogCommand, TakesAForeignEventLog) {
@@ -145,17 +108,22 @@ TEST_F(LogCommand, TakesAForeignEventLog) {
   event += std::string(16, '\0') + std::string("\0\0\0\5\0\0\0\3HELLOabc", 16);
   std::ofstream(folder_.path() / "foreign.lcm", std::ios::binary) << event << event;
   EXPECT_EQ(messages(info("foreign.lcm"), "HELLO"), 2);
-  EXPECT_EQ(talus_command("cat " + (folder_ / "foreign.lcm")).exit_code, 0);
-  EXPECT_EQ(talus_command("repair " + (folder_ / "foreign.lcm") + " --out " + (folder_ / "copy")).exit_code, 0);
+  EXPECT_EQ(talus_command("info --messages " + (folder_ / "foreign.lcm")).exit_code, 0);
+  EXPECT_EQ(talus_command("info --repair " + (folder_ / "foreign.lcm") + " --out " + (folder_ / "copy")).exit_code, 0);
   EXPECT_EQ(contents(folder_.path() / "copy" / "run.lcm").size(), 2 * event.size());
 }
 
-TEST_F(LogCommand, RefusesWhatIsNoRecordAndAFolderThatIsThere) {
-  for (const char* command : {"info", "cat", "cut --out new", "repair --out new", "diff run"}) {
+TEST_F(LogCommand, RefusesWhatIsNoRecordOptionsThatDoNotFitAndAFolderThatIsThere) {
+  for (const char* command : {"info", "info --messages", "info --repair --out new"}) {
     const Outcome outcome = talus_command(fmt::format("{} {}", command, folder_ / "nothing"));
     EXPECT_EQ(outcome.exit_code, 2) << command;
   }
-  const Outcome there = talus_command("repair " + (folder_ / "run") + " --out " + (folder_ / "run"));
+  for (const char* options :
+       {"--repair", "--out new", "--channel TALUS_RUN", "--messages --json", "--repair --messages --out new"}) {
+    const Outcome outcome = talus_command(fmt::format("info {} {}", folder_ / "run", options));
+    EXPECT_EQ(outcome.exit_code, 2) << options;
+  }
+  const Outcome there = talus_command("info --repair " + (folder_ / "run") + " --out " + (folder_ / "run"));
   EXPECT_EQ(there.exit_code, 2);
   EXPECT_NE(there.err.find("must not exist yet"), std::string::npos) << there.err;
 }

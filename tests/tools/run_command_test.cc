@@ -77,18 +77,6 @@ TEST(RunCommand, RunsASceneOutsideOfTheWindowByForceWithAWarningThatStays) {
   EXPECT_EQ(summary["outside_window"][0]["value"], "0");
 }
 
-TEST(SheetCommand, PutsPicturesOfRunsSideBySide) {
-  const TemporaryFolder folder;
-  talus_command("run " + short_scene + "--out " + (folder / "run"));
-  const std::string run = folder / "run";
-  const Outcome outcome = talus_command("sheet " + run + " " + run + " --width 200 --out " + (folder / "sheet.png"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_GT(fs::file_size(folder.path() / "sheet.png"), 1000U);
-  const Outcome refused = talus_command("sheet " + (folder / "nowhere") + " --out " + (folder / "sheet.png"));
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("must be a run folder"), std::string::npos) << refused.err;
-}
-
 TEST(RunCommand, WarnsAtOnceAndAtTheEndAndInTheSummaryOfBodiesThatWereLost) {
   const TemporaryFolder folder;
   const std::string thrown =

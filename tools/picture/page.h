@@ -23,7 +23,6 @@ struct PageContent {
   std::vector<Colour> awake_colours{};  // of awake bodies
   std::vector<LegendEntry> shapes{};    // with colours of their own
   bool layers = false;                  // whether piles are drawn
-  std::vector<LegendEntry> colours{};   // of the bodies, in place of awake and asleep
   bool parallel = true;                 // whether the scale bar holds all over the picture (2D), or in the middle only
 };
 

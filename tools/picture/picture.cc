@@ -18,7 +18,6 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
   content.outside = static_cast<int>(framing.outside.size());
   content.awake_colours = awake_colours(params, input.shapes);
   content.shapes = legend_of_shapes(input.shapes);
-  content.colours = input.colours.legend;
   content.layers = !input.piles.empty();
   content.parallel = Dim == 2;
   return content;

@@ -12,6 +12,8 @@
 #include "tools/commands/commands.h"
 #include "tools/monitor/sequence_tracker.h"
 #include "tools/output/output.h"
+#include "tools/record/log_messages.h"
+#include "tools/record/log_repair.h"
 #include "tools/record/record_file.h"
 #include "tools/report/json_text.h"
 
@@ -136,12 +138,20 @@ void print_info(const Json& json) {
     print_result("\n");
   }
   if (const auto bytes = json["damaged_bytes"].get<std::uint64_t>(); bytes > 0)
-    print_result("damaged: {} bytes in {} places; `talus repair` writes what is whole\n", bytes,
+    print_result("damaged: {} bytes in {} places; `talus info --repair` writes what is whole\n", bytes,
                  json["damaged_places"].get<std::uint64_t>());
 }
 
-void info(const std::string& run, bool as_json) {
-  const std::filesystem::path file = record_file(run);
+struct InfoOptions {
+  std::string run;
+  std::string out;
+  bool json = false;
+  bool messages = false;
+  bool repair = false;
+  MessageChoice choice;
+};
+
+void summarize(const std::filesystem::path& file, bool as_json) {
   LogReader log(file.string());
   LogSummary summary;
   for (LogEvent event; log.next(event);) summary.take(event);
@@ -152,20 +162,49 @@ void info(const std::string& run, bool as_json) {
     print_info(json);
 }
 
+void info(const InfoOptions& options) {
+  const std::filesystem::path file = record_file(options.run);
+  if (options.repair)
+    repair_log(file, options.out);
+  else if (options.messages)
+    print_messages(file, options.choice);
+  else
+    summarize(file, options.json);
+}
+
 }  // namespace
 
 void add_info_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("info", "What a record or another LCM event log holds");
-  struct Options {
-    std::string run;
-    bool json = false;
-  };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoOptions>();
   command->add_option("run", options->run, "Run folder or event log")->required()->check(not_empty());
-  command->add_flag("--json", options->json, "As JSON");
-  command->footer("Example: talus info runs/pour");
+  CLI::Option* json = command->add_flag("--json", options->json, "As JSON");
+  CLI::Option* messages =
+      command->add_flag("--messages", options->messages, "Print its messages instead, a JSON object a line");
+  command
+      ->add_option("--channel", options->choice.channels,
+                   "Only messages of this channel, as TALUS_SLEEP; may be repeated")
+      ->check(not_empty())
+      ->needs(messages);
+  command->add_option("--from", options->choice.from, "Simulated time from which on messages are printed [s]")
+      ->check(number_between(0.0, 1e9))
+      ->capture_default_str()
+      ->needs(messages);
+  command->add_option("--to", options->choice.to, "Simulated time up to which they are [s]; default: the end")
+      ->check(number_between(0.0, 1e9))
+      ->needs(messages);
+  CLI::Option* repair =
+      command->add_flag("--repair", options->repair, "Copy what is whole of a damaged record to --out instead");
+  CLI::Option* out =
+      command->add_option("-o,--out", options->out, "Run folder to make")->check(not_empty())->needs(repair);
+  repair->needs(out)->excludes(messages)->excludes(json);
+  json->excludes(messages);
+  command->footer(
+      "Examples:\n  talus info runs/pour\n  talus info runs/pour --messages --channel TALUS_SLEEP --from 2 --to 3\n"
+      "  talus info runs/hurt --repair --out runs/whole\n"
+      "Other programs of LCM stop at the first damage, or crash.");
   command->callback([options, &exit_code] {
-    info(options->run, options->json);
+    info(*options);
     exit_code = exit_codes::success;
   });
 }

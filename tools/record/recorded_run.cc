@@ -35,7 +35,7 @@ class RunReader {
   }
 
   RecordedRun<Dim> finish() {
-    run_.last = states_.states_with_velocities(run_.scene.world.dt);
+    run_.last = states_.states();
     run_.last_step = states_.step();
     run_.damage.lost_events = sleep_numbers_.lost();
     for (std::size_t i = 0; i < states_.unknown().size(); ++i)

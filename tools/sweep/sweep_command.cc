@@ -36,7 +36,7 @@ constexpr const char* footer =
     "  talus sweep scene.toml --set policy.kind=full,adaptive --set source[0].rate=2,4,8 --jobs 4 --out rates\n\n"
     "Each run is what `talus run` gives with the same values: same bits, same folder. A sweep that was stopped goes "
     "on\n"
-    "where it was when it is started again. sweep.csv, sweep.sqlite (table `runs`) and sweep.svg have the results.\n"
+    "where it was when it is started again. sweep.csv and sweep.svg have the results.\n"
     "Exit code: 0 all runs finished, 1 some did not, 2 bad input.";
 
 struct SweepOptions {
@@ -187,10 +187,9 @@ int sweep(const SweepOptions& options) {
     if (fs::exists(folder_of(options.out, i) / "summary.json"))
       rows.push_back(sweep_row(i, runs[i], folder_of(options.out, i)));
   write_sweep_csv(options.out / "sweep.csv", axes, rows);
-  write_sweep_sqlite(options.out / "sweep.sqlite", axes, rows);
   const bool plotted = write_sweep_plot(options.out / "sweep.svg", title_of_scene(scene), axes, rows, options.plot);
-  print_result("{} runs, {} failed: {}/sweep.csv, sweep.sqlite{}\n", runs.size(), failed,
-               printable(options.out.string()), plotted ? ", sweep.svg" : "");
+  print_result("{} runs, {} failed: {}/sweep.csv{}\n", runs.size(), failed, printable(options.out.string()),
+               plotted ? ", sweep.svg" : "");
   return failed == 0 ? exit_codes::success : exit_codes::failed;
 }
 
