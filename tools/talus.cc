@@ -3,6 +3,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -67,6 +68,7 @@ int execute(int argc, char** argv) {
   CLI::App app("talus: piles of rigid bodies, simulated faster by freezing bodies at rest", "talus");
   app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());
   app.require_subcommand(1);
+  app.formatter(std::make_shared<talus::PlainHelp>());
   int exit_code = talus::exit_codes::success;
   add_commands(app, exit_code);
   try {

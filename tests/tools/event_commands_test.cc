@@ -37,7 +37,7 @@ class EventCommands : public testing::Test {
 
 TEST_F(EventCommands, TheRecordHasEachEventAndInfoListsIt) {
   const Outcome outcome = talus_command("info --json " + run());
-  const Json events = Json::parse(outcome.out)["events"];
+  const Json events = Json::parse(outcome.out)["runs"][0]["events"];
   ASSERT_EQ(events.size(), 3U);
   EXPECT_EQ(events[0]["text"], "remove some bodies");
   EXPECT_EQ(events[0]["step"], 61);

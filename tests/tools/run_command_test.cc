@@ -77,6 +77,28 @@ TEST(RunCommand, RunsASceneOutsideOfTheWindowByForceWithAWarningThatStays) {
   EXPECT_EQ(summary["outside_window"][0]["value"], "0");
 }
 
+TEST(Strict, FailsForEveryWarningThatIsPrinted) {
+  const TemporaryFolder folder;
+  int number = 0;
+  for (const char* warned : {"--set source[0].rate=1000",                                             // of the scene
+                             "--force --set policy.kind=paper --set policy.tau=0",                    // of the window
+                             "--set source[0].position=[9990,5] --set source[0].velocity=[90,0]"}) {  // of the run
+    const std::string scene = std::string("drop_in_a_pile_2d --set source[0].count=2 --set run.frames=40 ") + warned;
+    for (const std::string& to : {std::string("--hash"), "--out " + (folder / std::to_string(number++))}) {
+      const std::string run = "run " + scene + " --no-telemetry " + to;
+      EXPECT_EQ(talus_command(run).exit_code, 0) << run;
+      fs::remove_all(folder.path() / std::to_string(number - 1));
+      const Outcome strict = talus_command(run + " --strict");
+      EXPECT_EQ(strict.exit_code, 1) << run;
+      EXPECT_NE(strict.err.find("warning: "), std::string::npos) << strict.err;
+    }
+    if (number == 3) continue;  // `check` does not run it
+    EXPECT_EQ(talus_command("check " + scene).exit_code, 0) << scene;
+    EXPECT_EQ(talus_command("check --strict " + scene).exit_code, 1) << scene;
+  }
+  EXPECT_EQ(talus_command("check --strict drop_in_a_pile_2d").exit_code, 0);
+}
+
 TEST(RunCommand, WarnsAtOnceAndAtTheEndAndInTheSummaryOfBodiesThatWereLost) {
   const TemporaryFolder folder;
   const std::string thrown =

@@ -11,6 +11,7 @@
 #include "tools/commands/validators.h"
 #include "tools/export/exporter.h"
 #include "tools/output/output.h"
+#include "tools/record/record_file.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {
@@ -65,7 +66,7 @@ class FrameChoice {
 /// Visits the chosen frames; each has the sleep events since the one before.
 template <int Dim, class Visit>
 WalkDamage walk_chosen(const Scene<Dim>& scene, const ExportOptions& options, const Visit& visit) {
-  LogReader log((std::filesystem::path(options.run) / "run.lcm").string());
+  LogReader log(record_file(options.run).string());
   FrameChoice choice(options);
   std::vector<SleepEvent> events;
   const auto take = [&](const RecordedFrame<Dim>& frame) {
@@ -121,7 +122,9 @@ void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
 void add_export_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("export", "Write a recorded run in the formats of other programs");
   auto options = std::make_shared<ExportOptions>();
-  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it, or its record")
+      ->required()
+      ->check(not_empty());
   command
       ->add_option("-o,--out", options->out,
                    "File to write, overwritten if there: .csv, a row for each body and frame; .npz, arrays of NumPy; "

@@ -63,8 +63,9 @@ void Page::draw(cairo_t* canvas, double height, double pixels_per_metre) const {
 
 std::string Page::outside_note() const {
   if (content_.outside == 0) return "";
-  return content_.outside == 1 ? "1 body lies outside the picture"
-                               : fmt::format("{} bodies lie outside the picture", content_.outside);
+  return content_.outside == 1 ? fmt::format("1 body lies outside the picture, {:.3g} m away", content_.farthest)
+                               : fmt::format("{} bodies lie outside the picture, up to {:.3g} m away", content_.outside,
+                                             content_.farthest);
 }
 
 void Page::draw_title(cairo_t* canvas) const {

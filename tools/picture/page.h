@@ -20,6 +20,7 @@ struct PageContent {
   int asleep = 0;
   int awake = 0;
   int outside = 0;                      // bodies too far away to be drawn
+  double farthest = 0.0;                // of them, from what is drawn [m]
   std::vector<Colour> awake_colours{};  // of awake bodies
   std::vector<LegendEntry> shapes{};    // with colours of their own
   bool layers = false;                  // whether piles are drawn

@@ -116,7 +116,8 @@ PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& s
           world_at<Dim>(run.scene, run.done, time).obstacles,
           run.scene.world.ground,
           printable(run.scene.title),
-          printable(fmt::format("{}, policy {}, {:.1f} s{}", run.backend, run.policy, time, event_note(run, time)))};
+          printable(fmt::format("{}, policy {}, seed {}, {:.1f} s{}", run.backend, run.policy, run.scene.seed, time,
+                                event_note(run, time)))};
 }
 
 /// Calls make(i) for i from 0 to below `count`, on all cores, and take() here with the results in order.
@@ -168,7 +169,9 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
 void add_film_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("film", "Make a moving picture of a recorded run");
   auto options = std::make_shared<FilmOptions>();
-  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it, or its record")
+      ->required()
+      ->check(not_empty());
   command
       ->add_option("-o,--out", options->out,
                    "Film to write, overwritten if there: .webp, .mp4 or .gif, by the program ffmpeg")

@@ -35,7 +35,9 @@ void write_replay(const ReplayOptions& options) {
 void add_replay_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("replay", "Make a page that plays a recorded run, in one file");
   auto options = std::make_shared<ReplayOptions>();
-  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it, or its record")
+      ->required()
+      ->check(not_empty());
   command
       ->add_option("-o,--out", options->out,
                    "Page to write, .html, overwritten if there; a browser opens it without a net")

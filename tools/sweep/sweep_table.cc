@@ -73,11 +73,14 @@ std::string curve_of(const std::vector<SweepAxis>& axes, const SweepRow& row, st
   return name.empty() ? "mean" : name;
 }
 
+/// With bars where a point has several seeds.
 Series series_of(const std::string& name, const std::map<double, Sample>& points) {
+  const bool bars = std::ranges::any_of(points, [](const auto& point) { return point.second.count > 1; });
   Series series{.name = name, .x = {}, .y = {}, .style = SeriesStyle::line_and_points};
   for (const auto& [x, sample] : points) {
     series.x.push_back(x);
     series.y.push_back(sample.mean());
+    if (!bars) continue;
     series.low.push_back(sample.mean() - sample.standard_error());
     series.high.push_back(sample.mean() + sample.standard_error());
   }
@@ -156,7 +159,12 @@ bool write_sweep_plot(const std::filesystem::path& file, const std::string& titl
     ++sample.count;
   }
   if (curves.empty() || curves.size() > most_curves) return false;
-  Plot plot{.title = title, .x_label = axes[*along].path, .y_label = std::string(which->label), .series = {}};
+  int most_seeds = 0;
+  for (const auto& [name, points] : curves)
+    for (const auto& [x, sample] : points) most_seeds = std::max(most_seeds, sample.count);
+  const std::string bars =
+      most_seeds > 1 ? fmt::format("; bars: standard error of the mean of {} seeds", most_seeds) : "";
+  Plot plot{.title = title + bars, .x_label = axes[*along].path, .y_label = std::string(which->label), .series = {}};
   for (const auto& [name, points] : curves) plot.series.push_back(series_of(name, points));
   std::ofstream out(file, std::ios::binary);
   out << svg_of(plot);
