@@ -21,6 +21,7 @@ using talus_lcm::talus_obstacles;
 using talus_lcm::talus_pile;
 using talus_lcm::talus_piles;
 using talus_lcm::talus_run;
+using talus_lcm::talus_scene;
 using talus_lcm::talus_shapes;
 using talus_lcm::talus_sleep;
 using talus_lcm::talus_stats;
@@ -162,6 +163,11 @@ std::string_view range_fault(const talus_obstacles& m) {
   if (m.value_count != m.obstacle_count * (m.dimension == 2 ? 3 : 7)) return "values do not match obstacles";
   if (!ascend(m.obstacle)) return "obstacles not ascending";
   if (m.obstacle_count > 0 && m.obstacle.front() < 0) return "negative obstacle";
+  return {};
+}
+
+std::string_view range_fault(const talus_scene& m) {
+  if (!header_holds(m) || !parts_hold(m)) return "header out of range";
   return {};
 }
 

@@ -20,6 +20,7 @@ std::string_view range_fault(const talus_lcm::talus_bodies& message);
 std::string_view range_fault(const talus_lcm::talus_shapes& message);
 std::string_view range_fault(const talus_lcm::talus_event& message);
 std::string_view range_fault(const talus_lcm::talus_obstacles& message);
+std::string_view range_fault(const talus_lcm::talus_scene& message);
 
 /// Whether the bytes are of a size that a message can have and match the checksum at their end.
 bool checksum_holds(std::span<const std::uint8_t> bytes);

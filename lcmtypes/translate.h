@@ -62,6 +62,11 @@ std::vector<talus_lcm::talus_event> to_events(const Scene<Dim>& scene);
 template <int Dim>
 void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event& message);
 
+/// The files of a scene that was read from TOML, in parts; none of another. Throws std::system_error where one cannot
+/// be read.
+template <int Dim>
+std::vector<talus_lcm::talus_scene> to_scene_files(const Scene<Dim>& scene);
+
 /// The pile of a message that decode() took.
 template <int Dim>
 Pile<Dim> to_pile(const talus_lcm::talus_pile& message);

@@ -13,6 +13,7 @@ using talus_lcm::talus_event;
 using talus_lcm::talus_obstacles;
 using talus_lcm::talus_piles;
 using talus_lcm::talus_run;
+using talus_lcm::talus_scene;
 using talus_lcm::talus_shapes;
 using talus_lcm::talus_sleep;
 using talus_lcm::talus_stats;

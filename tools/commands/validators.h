@@ -42,7 +42,7 @@ inline CLI::Validator number_between(double low, double high, Bound lower = Boun
     return fmt::format("{}: must be a number {} {:g} and at most {:g}", text, lower == Bound::kept ? "from" : "above",
                        low, high);
   };
-  return CLI::Validator(check, fmt::format("NUMBER in {}{:g}, {:g}]", lower == Bound::kept ? '[' : '(', low, high));
+  return CLI::Validator(check, fmt::format("{}{:g} to {:g}", lower == Bound::kept ? "" : "above ", low, high));
 }
 
 /// For an option: a whole number from 0 to the largest of 64 bits. CLI11 takes a larger one for the largest.
@@ -53,7 +53,7 @@ inline CLI::Validator whole_number() {
     if (error == std::errc() && end == text.data() + text.size() && value >= 0) return {};
     return fmt::format("{}: must be a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max());
   };
-  return CLI::Validator(check, "WHOLE NUMBER");
+  return CLI::Validator(check, "");
 }
 
 }  // namespace talus

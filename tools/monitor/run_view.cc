@@ -97,6 +97,8 @@ void RunView::take(const talus_lcm::talus_event& message) { note(message); }
 
 void RunView::take(const talus_lcm::talus_obstacles& message) { note(message); }
 
+void RunView::take(const talus_lcm::talus_scene& message) { note(message); }
+
 bool RunView::is_restart(const talus_run& message) const {
   return run_ && message.seq < run_->seq && (message.phase == talus_run::BEGIN || ended());
 }

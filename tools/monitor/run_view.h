@@ -24,6 +24,7 @@ class RunView {
   void take(const talus_lcm::talus_shapes& message);
   void take(const talus_lcm::talus_event& message);
   void take(const talus_lcm::talus_obstacles& message);
+  void take(const talus_lcm::talus_scene& message);
 
   /// The run's number was used before; nothing of that is left. A record that is played twice does so.
   bool is_restart(const talus_lcm::talus_run& message) const;

@@ -101,6 +101,7 @@ class LiveRun::Assembly {
   virtual void take(const talus_bodies& message) = 0;
   virtual void take(const talus_event& message) = 0;
   virtual void take(const talus_obstacles& message) = 0;
+  void take(const talus_lcm::talus_scene& /*of records*/) {}
 
  protected:
   virtual void note_event(BodyIndex body) = 0;
