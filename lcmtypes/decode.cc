@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 #include "common/text/printable.h"
@@ -217,6 +218,12 @@ std::optional<OtherFormat> other_format(std::span<const std::uint8_t> bytes) {
     other.version.assign(text.begin(), text.end());
   }
   return other;
+}
+
+void refuse_other_format(Channel channel, std::span<const std::uint8_t> bytes) {
+  if (channel != Channel::run) return;
+  if (const auto other = other_format(bytes))
+    throw std::invalid_argument(fmt::format("{}; run the scene again", text_of(*other)));
 }
 
 template <class Message>

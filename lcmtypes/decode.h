@@ -34,6 +34,8 @@ struct OtherFormat {
 std::string text_of(const OtherFormat& other);
 /// Nothing where the bytes are damaged or of this format.
 std::optional<OtherFormat> other_format(std::span<const std::uint8_t> bytes);
+/// Throws std::invalid_argument where these are of a run of another format.
+void refuse_other_format(Channel channel, std::span<const std::uint8_t> bytes);
 
 /// Decodes `bytes` and returns what is wrong with them, or nothing (then `message` is safe to use). Checks size,
 /// checksum, fingerprint and layout (layout.h) before the generated decoder runs, which would resize to a count of 2^31

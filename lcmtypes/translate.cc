@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "common/math/in_space.h"
+#include "common/math/pose_values.h"
 #include "common/scene/happened.h"
 #include "common/scene/write_scene.h"
 #include "common/world/energy.h"
@@ -34,9 +36,6 @@ constexpr std::size_t event_bytes = bytes_per_entry(layout<talus_sleep>, "event_
 template <class Message>
 constexpr std::size_t room = max_message_bytes - fingerprint_bytes - fixed_bytes(layout<Message>);
 static_assert(pile_bytes + max_layers * layer_bytes <= room<talus_piles>);
-
-template <int Dim>
-constexpr std::size_t pose_values = Dim == 2 ? 3 : 7;
 
 /// Texts come from scene files and error messages; a message must stay small whatever they hold.
 std::string clipped(std::string_view text) { return std::string(text.substr(0, 1000)); }
@@ -69,9 +68,8 @@ template <int Dim>
 talus_pile to_pile(Pile<Dim> pile, const SleepPolicy<Dim>* policy) {
   if (policy != nullptr) set_thresholds(*policy, pile);
   talus_pile message{};
-  message.centre[0] = pile.centre[0];
-  message.centre[1] = Dim == 2 ? 0.0 : pile.centre[1];
-  message.centre[2] = height<Dim>(pile.centre);
+  const Vec3 centre = in_space(pile.centre);
+  std::copy(centre.begin(), centre.end(), message.centre);
   message.alpha = pile.alpha;
   message.structure_size = pile.structure_size;
   message.lift = pile.lift;
@@ -84,16 +82,6 @@ talus_pile to_pile(Pile<Dim> pile, const SleepPolicy<Dim>* policy) {
     message.layers.push_back(to_layer(layer));
   message.layer_count = static_cast<std::int32_t>(message.layers.size());
   return message;
-}
-
-template <int Dim>
-void append(const Pose<Dim>& pose, std::vector<float>& values) {
-  for (const double x : pose.position) values.push_back(static_cast<float>(x));
-  if constexpr (Dim == 2)
-    values.push_back(static_cast<float>(pose.rotation.angle()));
-  else
-    for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
-      values.push_back(static_cast<float>(part));
 }
 
 }  // namespace
@@ -235,6 +223,10 @@ talus_stats to_stats(const Frame<Dim>& frame) {
   return message;
 }
 
+std::optional<double> drift_of(const talus_stats& message) {
+  return message.drift_estimate >= 0.0 ? std::optional(message.drift_estimate) : std::nullopt;
+}
+
 std::vector<Warning> warnings_of(const talus_stats& message) {
   std::vector<Warning> warnings;
   for (std::size_t i = 0; i < message.warning_kind.size(); ++i) {
@@ -264,7 +256,7 @@ std::vector<talus_bodies> to_bodies(const BodyStates<Dim>& states, std::span<con
     for (const BodyIndex body : here) {
       message.shape.push_back(static_cast<std::int16_t>(states.shape[body]));
       message.asleep.push_back(static_cast<std::int8_t>(states.asleep[body]));
-      append<Dim>(states.pose[body], message.poses);
+      append_pose<Dim>(states.pose[body], message.poses);
     }
     message.value_count = static_cast<std::int32_t>(message.poses.size());
   } while (!bodies.empty());
@@ -288,17 +280,8 @@ void append(const Vec<Dim>& point, std::vector<double>& values) {
 }
 
 template <int Dim>
-void append(const Pose<Dim>& pose, std::vector<double>& values) {
-  append<Dim>(pose.position, values);
-  if constexpr (Dim == 2)
-    values.push_back(pose.rotation.angle());
-  else
-    values.insert(values.end(), {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()});
-}
-
-template <int Dim>
 std::int8_t append(const BoxPiece<Dim>& box, std::vector<double>& values) {
-  append<Dim>(box.pose, values);
+  append_pose<Dim>(box.pose, values);
   append<Dim>(box.half, values);
   return talus_shapes::BOX;
 }
@@ -388,7 +371,7 @@ std::vector<talus_shapes> to_shapes(const WorldDescription<Dim>& world) {
 template <int Dim>
 void set_pose(const Pose<Dim>& pose, talus_shapes& message) {
   std::vector<double> values;
-  append<Dim>(pose, values);
+  append_pose<Dim>(pose, values);
   std::copy(values.begin(), values.end(), message.pose);
 }
 
@@ -411,13 +394,8 @@ class ValueReader {
     return point;
   }
   Pose<Dim> pose() {
-    Pose<Dim> pose;
-    pose.position = point();
-    if constexpr (Dim == 2)
-      pose.rotation = Rotation<2>(number());
-    else
-      for (double* part : {&pose.rotation.w(), &pose.rotation.x(), &pose.rotation.y(), &pose.rotation.z()})
-        *part = number();
+    const Pose<Dim> pose = pose_from<Dim>(rest_);
+    rest_ = rest_.subspan(pose_values<Dim>);
     return pose;
   }
   Piece<Dim> piece(std::int8_t kind) {
@@ -460,7 +438,7 @@ Shape<Dim> to_shape(const talus_shapes& message) {
 
 template <int Dim>
 Pose<Dim> pose_of(const talus_shapes& message) {
-  return ValueReader<Dim>(message.pose).pose();
+  return pose_from<Dim>(std::span<const double>(message.pose));
 }
 
 template <int Dim>
@@ -482,13 +460,9 @@ std::vector<talus_lcm::talus_scene> to_scene_files(const Scene<Dim>& scene) {
 template std::vector<talus_lcm::talus_scene> to_scene_files(const Scene<2>&);
 template std::vector<talus_lcm::talus_scene> to_scene_files(const Scene<3>&);
 
-template <int Dim>
-Pile<Dim> to_pile(const talus_lcm::talus_pile& message) {
-  Pile<Dim> pile;
-  if constexpr (Dim == 2)
-    pile.centre = {message.centre[0], message.centre[2]};
-  else
-    pile.centre = {message.centre[0], message.centre[1], message.centre[2]};
+Pile<3> pile_of(const talus_lcm::talus_pile& message) {
+  Pile<3> pile;
+  pile.centre = {message.centre[0], message.centre[1], message.centre[2]};
   pile.alpha = message.alpha;
   pile.structure_size = message.structure_size;
   pile.lift = message.lift;
@@ -544,7 +518,7 @@ std::vector<talus_obstacles> to_obstacles(std::span<const ObstaclePose<Dim>> pos
     message.dimension = Dim;
     for (const ObstaclePose<Dim>& each : poses.first(std::min(poses.size(), at_most))) {
       message.obstacle.push_back(each.obstacle);
-      append<Dim>(each.pose, message.poses);
+      append_pose<Dim>(each.pose, message.poses);
     }
     message.obstacle_count = static_cast<std::int32_t>(message.obstacle.size());
     message.value_count = static_cast<std::int32_t>(message.poses.size());
@@ -552,26 +526,12 @@ std::vector<talus_obstacles> to_obstacles(std::span<const ObstaclePose<Dim>> pos
   return messages;
 }
 
-template <int Dim>
-std::vector<ObstaclePose<Dim>> poses_of(const talus_obstacles& message) {
-  std::vector<ObstaclePose<Dim>> poses;
-  if (message.dimension != Dim) return poses;
-  const std::vector<double> values(message.poses.begin(), message.poses.end());
-  ValueReader<Dim> reader(values);
-  for (const std::int32_t obstacle : message.obstacle) poses.push_back({obstacle, reader.pose()});
-  return poses;
-}
-
 template std::vector<talus_obstacles> to_obstacles<2>(std::span<const ObstaclePose<2>>);
 template std::vector<talus_obstacles> to_obstacles<3>(std::span<const ObstaclePose<3>>);
-template std::vector<ObstaclePose<2>> poses_of(const talus_obstacles&);
-template std::vector<ObstaclePose<3>> poses_of(const talus_obstacles&);
 template std::vector<talus_lcm::talus_event> to_events(const Scene<2>&);
 template std::vector<talus_lcm::talus_event> to_events(const Scene<3>&);
 template void set_happened(const Frame<2>&, double, talus_lcm::talus_event&);
 template void set_happened(const Frame<3>&, double, talus_lcm::talus_event&);
-template Pile<2> to_pile<2>(const talus_lcm::talus_pile&);
-template Pile<3> to_pile<3>(const talus_lcm::talus_pile&);
 template void set_pose(const Pose<2>&, talus_shapes&);
 template void set_pose(const Pose<3>&, talus_shapes&);
 template Shape<2> to_shape<2>(const talus_shapes&);

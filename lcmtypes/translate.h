@@ -3,6 +3,7 @@
 // checksums come later, from MessageEncoder. What is too much for one message comes in several, none above
 // max_message_bytes.
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,9 @@ PhaseTimes phase_times_of(const talus_lcm::talus_stats& message);
 /// The events of a message that has passed decode().
 std::vector<SleepEvent> events_of(const talus_lcm::talus_sleep& message);
 
+/// The estimate of drift [D]; nothing where it is not known.
+std::optional<double> drift_of(const talus_lcm::talus_stats& message);
+
 /// The warnings of a message.
 std::vector<Warning> warnings_of(const talus_lcm::talus_stats& message);
 
@@ -67,17 +71,12 @@ void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event& me
 template <int Dim>
 std::vector<talus_lcm::talus_scene> to_scene_files(const Scene<Dim>& scene);
 
-/// The pile of a message that decode() took.
-template <int Dim>
-Pile<Dim> to_pile(const talus_lcm::talus_pile& message);
+/// The pile of a message that decode() took; that of a plane scene lies in y = 0.
+Pile<3> pile_of(const talus_lcm::talus_pile& message);
 
 /// Empty if there are no poses.
 template <int Dim>
 std::vector<talus_lcm::talus_obstacles> to_obstacles(std::span<const ObstaclePose<Dim>> poses);
-
-/// The poses of a message that decode() took; none of a message of another dimension.
-template <int Dim>
-std::vector<ObstaclePose<Dim>> poses_of(const talus_lcm::talus_obstacles& message);
 
 /// Puts an obstacle elsewhere.
 template <int Dim>

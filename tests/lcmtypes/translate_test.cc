@@ -63,7 +63,7 @@ TEST(PilesMessage, HasTheThresholdsOfThePolicyForEachLayer) {
   EXPECT_EQ(layers[0].wake_density, 0.75F);
   EXPECT_EQ(layers[2].wake_density, 0.875F) << "the last one holds for all above";
   EXPECT_EQ(layers[1].sleep_density, 0.4F) << "the other factors of the score are at most 1";
-  EXPECT_EQ(to_pile<2>(of_paper[0].piles[0]).layers[2].thresholds.wake, 0.875);
+  EXPECT_EQ(pile_of(of_paper[0].piles[0]).layers[2].thresholds.wake, 0.875);
   const NoPolicy<2> none;
   const auto of_none = to_piles<2>(std::span(&pile, 1), &none);
   EXPECT_EQ(of_none[0].piles[0].layers[0].wake_density, -1.0F);
@@ -330,25 +330,6 @@ TEST(RunMessage, CarriesAllThatTheWorldIsMadeWith) {
   EXPECT_EQ(message.velocity_iterations, 37);
   scene.policy.kind = "full";
   EXPECT_EQ(to_run(run_info(scene, "", ""), 0, "", {}, encoder).tolerance, -1.0);
-}
-
-TEST(ObstaclesMessage, CarriesPosesThereAndBack) {
-  std::vector<ObstaclePose<3>> poses;
-  for (int k = 0; k < 5000; ++k)
-    poses.push_back({2 * k, {{0.5 * k, -1.0, 2.0}, Rotation<3>(Eigen::AngleAxisd(0.001 * k, Vec3::UnitY()))}});
-  std::vector<ObstaclePose<3>> read;
-  MessageEncoder encoder(1);
-  for (talus_lcm::talus_obstacles& message : to_obstacles<3>(poses)) {
-    talus_lcm::talus_obstacles decoded;
-    EXPECT_EQ(decode(encoder.encode(message, {0, 6, 0.5}).bytes, decoded), "");
-    EXPECT_TRUE(poses_of<2>(decoded).empty());
-    for (const ObstaclePose<3>& each : poses_of<3>(decoded)) read.push_back(each);
-  }
-  ASSERT_EQ(read.size(), poses.size());
-  EXPECT_EQ(read[4999].obstacle, 9998);
-  EXPECT_EQ(read[4999].pose.position, poses[4999].pose.position);
-  EXPECT_NEAR(read[4999].pose.rotation.angularDistance(poses[4999].pose.rotation), 0.0, 1e-3);
-  EXPECT_TRUE(to_obstacles<3>({}).empty());
 }
 
 TEST(ShapesMessage, RefusesAShapeTooLargeForAMessage) {

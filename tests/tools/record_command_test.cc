@@ -121,6 +121,27 @@ std::vector<Place> events(const std::string& log, const std::string& channel) {
   return places;
 }
 
+TEST(CompareCommand, RefusesARecordOfAnotherFormatByItsNumberAndVersion) {
+  const TemporaryFolder folder;
+  record(folder, "a", "");
+  const fs::path file = folder.path() / "a" / "run.lcm";
+  std::string log = contents(file);
+  for (const Place& place : events(log, "TALUS_RUN")) {
+    const std::span bytes(reinterpret_cast<std::uint8_t*>(log.data()) + place.at, place.size);
+    bytes[header_bytes + 3] = 9;
+    renumber(bytes, 0);  // with the checksum that follows
+  }
+  std::ofstream(file, std::ios::binary) << log;
+  const std::string run = folder / "a";
+  for (const std::string& command : {"compare " + run + " " + run, "export " + run + " --out " + (folder / "x.csv"),
+                                     "replay " + run + " --out " + (folder / "x.html")}) {
+    const Outcome outcome = talus_command(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_NE(outcome.err.find("run.lcm: format 9 of talus "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("must be format 1"), std::string::npos) << outcome.err;
+  }
+}
+
 /// Copies run `from` to `to` with its record as `change` leaves it.
 void copy_run(const TemporaryFolder& folder, const char* from, const char* to,
               const std::function<void(std::string&)>& change) {

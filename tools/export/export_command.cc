@@ -12,7 +12,8 @@
 #include "tools/export/exporter.h"
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
-#include "tools/record/recorded_run.h"
+#include "tools/record/record_walk.h"
+#include "tools/record/recorded_scene.h"
 
 namespace talus {
 namespace {
@@ -27,22 +28,18 @@ struct ExportOptions {
   int every = 1;
 };
 
-template <int Dim>
 struct Format {
-  std::function<std::unique_ptr<Exporter<Dim>>(const ExportInput<Dim>&)> make;
+  std::unique_ptr<Exporter> (*make)(const ExportInput&);
   /// Of its files.
   std::string_view ending;
 };
 
-template <int Dim>
-std::array<Format<Dim>, 3> formats() {
-  return {{{make_csv_export<Dim>, ".csv"}, {make_npz_export<Dim>, ".npz"}, {make_vtp_export<Dim>, ".pvd"}}};
-}
+constexpr std::array<Format, 3> formats = {
+    {{make_csv_export, ".csv"}, {make_npz_export, ".npz"}, {make_vtp_export, ".pvd"}}};
 
 /// Throws std::invalid_argument where the file has no ending of a format.
-template <int Dim>
-Format<Dim> format_of(const std::string& file) {
-  for (const Format<Dim>& format : formats<Dim>())
+Format format_of(const std::string& file) {
+  for (const Format& format : formats)
     if (file.ends_with(format.ending)) return format;
   throw std::invalid_argument(
       fmt::format("--out = {}: must end in .csv, .npz or .pvd (a series of .vtp files for ParaView)", file));
@@ -63,22 +60,20 @@ class FrameChoice {
   int number_ = 0;
 };
 
-/// Visits the chosen frames; each has the sleep events since the one before.
+/// Visits the chosen moments, each with the sleep events since the one before.
 template <int Dim, class Visit>
 WalkDamage walk_chosen(const Scene<Dim>& scene, const ExportOptions& options, const Visit& visit) {
   LogReader log(record_file(options.run).string());
   FrameChoice choice(options);
   std::vector<SleepEvent> events;
-  const auto take = [&](const RecordedFrame<Dim>& frame) {
-    events.insert(events.end(), frame.events.begin(), frame.events.end());
-    if (frame.time < options.from) events.clear();
-    if (!choice.takes(frame.time)) return;
-    RecordedFrame<Dim> chosen = frame;
-    chosen.events = events;
-    visit(chosen);
+  const auto take = [&](const Moment& moment) {
+    events.insert(events.end(), moment.events.begin(), moment.events.end());
+    if (moment.time < options.from) events.clear();
+    if (!choice.takes(moment.time)) return;
+    visit(moment, events);
     events.clear();
   };
-  return walk_record<Dim>(scene, log, take).damage;
+  return walk_record<Dim>(scene, log, options.run, take).damage;
 }
 
 void report_damage(const WalkDamage& damage) {
@@ -88,9 +83,10 @@ void report_damage(const WalkDamage& damage) {
 }
 
 template <int Dim>
-void export_as(const Format<Dim>& format, ExportInput<Dim> input, const ExportOptions& options) {
+void export_as(const Format& format, const Scene<Dim>& scene, const ExportInput& input, const ExportOptions& options) {
   const auto exporter = format.make(input);
-  walk_chosen<Dim>(input.scene, options, [&](const RecordedFrame<Dim>& frame) { exporter->add(frame); });
+  walk_chosen<Dim>(scene, options,
+                   [&](const Moment& moment, std::span<const SleepEvent> events) { exporter->add(moment, events); });
   exporter->finish();
   print_result("{}: {} frames, {} bodies, {:.0f} kB\n", printable(input.file.string()), input.frames, input.bodies,
                static_cast<double>(std::filesystem::file_size(input.file)) / 1e3);
@@ -98,14 +94,16 @@ void export_as(const Format<Dim>& format, ExportInput<Dim> input, const ExportOp
 
 template <int Dim>
 void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
-  std::vector<Format<Dim>> chosen;
-  for (const std::string& file : options.out) chosen.push_back(format_of<Dim>(file));
-  ExportInput<Dim> input = {.scene = scene, .file = {}};
-  const WalkDamage damage = walk_chosen<Dim>(scene, options, [&](const RecordedFrame<Dim>& frame) {
-    ++input.frames;
-    input.events += static_cast<std::int64_t>(frame.events.size());
-    input.bodies = frame.states.size();
-  });
+  std::vector<Format> chosen;
+  for (const std::string& file : options.out) chosen.push_back(format_of(file));
+  ExportInput input = {.dimension = Dim, .shapes = {}, .file = {}};
+  for (const Shape<Dim>& shape : scene.world.shapes) input.shapes.push_back({shape.name, polygons_in_space(shape)});
+  const WalkDamage damage =
+      walk_chosen<Dim>(scene, options, [&](const Moment& moment, std::span<const SleepEvent> events) {
+        ++input.frames;
+        input.events += std::ssize(events);
+        input.bodies = moment.bodies.size();
+      });
   if (input.frames == 0) {
     throw std::invalid_argument(fmt::format("{}: has no frame from --from {:g} to --to {:g} s ({} damaged bytes)",
                                             options.run, options.from, options.to, damage.bytes));
@@ -113,7 +111,7 @@ void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
   report_damage(damage);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     input.file = options.out[i];
-    export_as<Dim>(chosen[i], input, options);
+    export_as<Dim>(chosen[i], scene, input, options);
   }
 }
 

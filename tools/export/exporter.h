@@ -1,44 +1,51 @@
 #pragma once
 // Records in the formats of other programs.
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "common/scene/scene.h"
-#include "tools/record/record_walk.h"
+#include "common/moment/moment.h"
+#include "tools/export/solid.h"
 
 namespace talus {
 
-/// What an exporter is told before the first frame.
-template <int Dim>
+/// A shape of bodies.
+struct ExportShape {
+  std::string name;
+  std::vector<Loop<3>> polygons;  // its surface in its own axes
+};
+
+/// What an exporter is told before the first moment.
 struct ExportInput {
-  const Scene<Dim>& scene;
+  int dimension = 3;
+  std::vector<ExportShape> shapes;
   std::filesystem::path file;
-  /// Frames and sleep events that will be added, and bodies of the last one.
+  /// Moments and sleep events that will be added, and bodies of the last one.
   int frames = 0;
   std::int64_t events = 0;
   BodyIndex bodies = 0;
 };
 
-/// Frames of a record on their way into a file, which is complete after finish(). Both throw std::runtime_error or
+/// Moments of a record on their way into a file, which is complete after finish(). Both throw std::runtime_error or
 /// std::system_error where it cannot be written.
-template <int Dim>
 class Exporter {
  public:
   virtual ~Exporter() = default;
-  virtual void add(const RecordedFrame<Dim>& frame) = 0;
+  /// `events` are those since the moment before.
+  virtual void add(const Moment& moment, std::span<const SleepEvent> events) = 0;
   virtual void finish() = 0;
 };
 
-/// A row for each body and frame.
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_csv_export(const ExportInput<Dim>& input);
-/// Arrays of NumPy, uncompressed; frames pass through, so memory is that of one state.
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_npz_export(const ExportInput<Dim>& input);
+/// A row for each body and moment.
+std::unique_ptr<Exporter> make_csv_export(const ExportInput& input);
+/// Arrays of NumPy, uncompressed; moments pass through, so memory is that of one.
+std::unique_ptr<Exporter> make_npz_export(const ExportInput& input);
 /// A series of point sets (FILE.pvd, and FILE_vtp beside it) with pose, shape, sleep and cause, and a mesh of each
 /// shape.
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_vtp_export(const ExportInput<Dim>& input);
+std::unique_ptr<Exporter> make_vtp_export(const ExportInput& input);
 
 }  // namespace talus

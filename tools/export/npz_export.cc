@@ -9,17 +9,17 @@ namespace {
 
 constexpr int last_cause = static_cast<int>(SleepCause::check);
 
-template <int Dim>
-class NpzExport final : public Exporter<Dim> {
+class NpzExport final : public Exporter {
  public:
-  explicit NpzExport(const ExportInput<Dim>& input) : scene_(input.scene), bodies_(input.bodies), file_(input.file) {
+  explicit NpzExport(const ExportInput& input)
+      : bodies_(input.bodies), axes_(input.dimension), nowhere_(input.dimension), file_(input.file) {
     const auto frames = static_cast<std::uint64_t>(input.frames);
     const auto bodies = static_cast<std::uint64_t>(input.bodies);
     const auto events = static_cast<std::uint64_t>(input.events);
     step_ = file_.declare("step", "<i8", {frames});
     time_ = file_.declare("time", "<f8", {frames});
-    position_ = file_.declare("position", "<f4", {frames, bodies, Dim});
-    rotation_ = file_.declare("rotation", "<f4", {frames, bodies, Dim == 2 ? 1U : 4U});
+    position_ = file_.declare("position", "<f4", {frames, bodies, axes_});
+    rotation_ = file_.declare("rotation", "<f4", {frames, bodies, axes_ == 2 ? 1U : 4U});
     present_ = file_.declare("present", "|b1", {frames, bodies});
     asleep_ = file_.declare("asleep", "|b1", {frames, bodies});
     cause_ = file_.declare("cause", "|i1", {frames, bodies});
@@ -30,33 +30,35 @@ class NpzExport final : public Exporter<Dim> {
     event_layer_ = file_.declare("event_layer", "<i4", {events});
     event_score_ = file_.declare("event_score", "<f4", {events});
     shape_ = file_.declare("shape", "<i4", {bodies});
-    declare_names();
-    declare_meshes();
+    nowhere_.resize(1);
+    declare_names(input.shapes);
+    declare_meshes(input.shapes);
   }
 
-  void add(const RecordedFrame<Dim>& frame) override {
-    put<std::int64_t>(step_, frame.step);
-    put<double>(time_, frame.time);
+  void add(const Moment& moment, std::span<const SleepEvent> events) override {
+    put<std::int64_t>(step_, moment.step);
+    put<double>(time_, moment.time);
     std::string position;
     std::string rotation;
     std::string present;
     std::string asleep;
     std::string cause;
+    const MomentBodies& bodies = moment.bodies;
     shapes_.resize(bodies_, -1);
     for (BodyIndex body = 0; body < bodies_; ++body) {
-      const bool shown = body < frame.states.size() && frame.shows(body);
-      append_pose(shown ? frame.states.pose[body] : Pose<Dim>{}, position, rotation);
+      const bool shown = body < bodies.size() && bodies.shows(body);
+      append_pose(shown ? bodies.pose[body] : nowhere_[0], position, rotation);
       present += shown ? '\1' : '\0';
-      asleep += shown && frame.states.asleep[body] != 0 ? '\1' : '\0';
-      cause += static_cast<char>(shown ? frame.cause[body] : -1);
-      if (shown) shapes_[body] = frame.states.shape[body];
+      asleep += shown && bodies.asleep[body] != 0 ? '\1' : '\0';
+      cause += static_cast<char>(shown ? bodies.cause[body] : -1);
+      if (shown) shapes_[body] = bodies.shape[body];
     }
     file_.append(position_, position);
     file_.append(rotation_, rotation);
     file_.append(present_, present);
     file_.append(asleep_, asleep);
     file_.append(cause_, cause);
-    for (const SleepEvent& event : frame.events) add(event);
+    for (const SleepEvent& event : events) add(event);
   }
 
   void finish() override {
@@ -72,13 +74,9 @@ class NpzExport final : public Exporter<Dim> {
     file_.append(array, bytes);
   }
 
-  static void append_pose(const Pose<Dim>& pose, std::string& position, std::string& rotation) {
-    for (int axis = 0; axis < Dim; ++axis) append_bytes(position, static_cast<float>(pose.position[axis]));
-    if constexpr (Dim == 2)
-      append_bytes(rotation, static_cast<float>(pose.rotation.angle()));
-    else
-      for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
-        append_bytes(rotation, static_cast<float>(part));
+  void append_pose(std::span<const float> pose, std::string& position, std::string& rotation) const {
+    for (const float value : pose.first(axes_)) append_bytes(position, value);
+    for (const float value : pose.subspan(axes_)) append_bytes(rotation, value);
   }
 
   void add(const SleepEvent& event) {
@@ -100,24 +98,24 @@ class NpzExport final : public Exporter<Dim> {
     file_.append(number, bytes);
   }
 
-  void declare_names() {
-    std::vector<std::string> shapes;
-    for (const Shape<Dim>& shape : scene_.world.shapes) shapes.push_back(shape.name);
-    declare_names("shape_name", shapes);
+  void declare_names(const std::vector<ExportShape>& shapes) {
+    std::vector<std::string> names;
+    for (const ExportShape& shape : shapes) names.push_back(shape.name);
+    declare_names("shape_name", names);
     std::vector<std::string> causes;
     for (int cause = 0; cause <= last_cause; ++cause) causes.emplace_back(to_string(static_cast<SleepCause>(cause)));
     declare_names("cause_name", causes);
   }
 
   /// The surfaces of all shapes as triangles.
-  void declare_meshes() {
+  void declare_meshes(const std::vector<ExportShape>& shapes) {
     std::string vertices;
     std::string triangles;
     std::string owners;
     std::uint64_t vertex_count = 0;
     std::uint64_t triangle_count = 0;
-    for (std::size_t shape = 0; shape < scene_.world.shapes.size(); ++shape) {
-      const TriangleMesh mesh = triangles_of(polygons_in_space(scene_.world.shapes[shape]));
+    for (std::size_t shape = 0; shape < shapes.size(); ++shape) {
+      const TriangleMesh mesh = triangles_of(shapes[shape].polygons);
       for (const Vec3& corner : mesh.corners)
         for (int axis = 0; axis < 3; ++axis) append_bytes(vertices, static_cast<float>(corner[axis]));
       for (const int index : mesh.indices) append_bytes(triangles, static_cast<std::int32_t>(vertex_count + index));
@@ -130,8 +128,9 @@ class NpzExport final : public Exporter<Dim> {
     file_.append(file_.declare("mesh_shape", "<i4", {triangle_count}), owners);
   }
 
-  const Scene<Dim>& scene_;
   BodyIndex bodies_;
+  std::size_t axes_;
+  PoseList nowhere_;  // one pose, of bodies that are not there
   NpzFile file_;
   std::vector<std::int32_t> shapes_;
   int step_, time_, position_, rotation_, present_, asleep_, cause_, shape_;
@@ -140,11 +139,6 @@ class NpzExport final : public Exporter<Dim> {
 
 }  // namespace
 
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_npz_export(const ExportInput<Dim>& input) {
-  return std::make_unique<NpzExport<Dim>>(input);
-}
-template std::unique_ptr<Exporter<2>> make_npz_export(const ExportInput<2>&);
-template std::unique_ptr<Exporter<3>> make_npz_export(const ExportInput<3>&);
+std::unique_ptr<Exporter> make_npz_export(const ExportInput& input) { return std::make_unique<NpzExport>(input); }
 
 }  // namespace talus

@@ -74,24 +74,23 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   out.close();
 }
 
-template <int Dim>
-class VtpExport final : public Exporter<Dim> {
+class VtpExport final : public Exporter {
  public:
-  explicit VtpExport(const ExportInput<Dim>& input) : file_(input.file), folder_(input.file) {
+  explicit VtpExport(const ExportInput& input) : file_(input.file), folder_(input.file) {
     folder_.replace_extension();
     folder_ += "_vtp";
     std::filesystem::create_directory(folder_);
-    for (std::size_t i = 0; i < input.scene.world.shapes.size(); ++i)
-      write_whole(folder_ / fmt::format("shape_{}.vtp", i), mesh_file(polygons_in_space(input.scene.world.shapes[i])));
+    for (std::size_t i = 0; i < input.shapes.size(); ++i)
+      write_whole(folder_ / fmt::format("shape_{}.vtp", i), mesh_file(input.shapes[i].polygons));
   }
 
-  void add(const RecordedFrame<Dim>& frame) override {
+  void add(const Moment& moment, std::span<const SleepEvent> /*events*/) override {
     PointArrays arrays;
-    for (BodyIndex body = 0; body < frame.states.size(); ++body)
-      if (frame.shows(body)) add_body(arrays, frame, body);
+    for (BodyIndex body = 0; body < moment.bodies.size(); ++body)
+      if (moment.bodies.shows(body)) add_body(arrays, moment.bodies, body);
     const std::string name = fmt::format("frame_{:06}.vtp", frames_++);
     write_whole(folder_ / name, arrays.file());
-    series_ += fmt::format("<DataSet timestep=\"{:.6f}\" file=\"{}/{}\"/>\n", frame.time,
+    series_ += fmt::format("<DataSet timestep=\"{:.6f}\" file=\"{}/{}\"/>\n", moment.time,
                            xml_text(folder_.filename().string()), name);
   }
 
@@ -116,15 +115,15 @@ class VtpExport final : public Exporter<Dim> {
     return escaped;
   }
 
-  static void add_body(PointArrays& arrays, const RecordedFrame<Dim>& frame, BodyIndex body) {
-    const Pose<3> pose = in_space(frame.states.pose[body]);
+  static void add_body(PointArrays& arrays, const MomentBodies& bodies, BodyIndex body) {
+    const Pose<3> pose = bodies.pose.in_space(body);
     append_point(arrays.points, pose.position);
     for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
       append_bytes(arrays.orientation, static_cast<float>(part));
     append_bytes(arrays.body, static_cast<std::int32_t>(body));
-    append_bytes(arrays.shape, static_cast<std::int32_t>(frame.states.shape[body]));
-    append_bytes(arrays.asleep, frame.states.asleep[body]);
-    append_bytes(arrays.cause, frame.cause[body]);
+    append_bytes(arrays.shape, static_cast<std::int32_t>(bodies.shape[body]));
+    append_bytes(arrays.asleep, bodies.asleep[body]);
+    append_bytes(arrays.cause, bodies.cause[body]);
     append_bytes(arrays.connectivity, arrays.count++);
     append_bytes(arrays.offsets, arrays.count);
   }
@@ -137,11 +136,6 @@ class VtpExport final : public Exporter<Dim> {
 
 }  // namespace
 
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_vtp_export(const ExportInput<Dim>& input) {
-  return std::make_unique<VtpExport<Dim>>(input);
-}
-template std::unique_ptr<Exporter<2>> make_vtp_export(const ExportInput<2>&);
-template std::unique_ptr<Exporter<3>> make_vtp_export(const ExportInput<3>&);
+std::unique_ptr<Exporter> make_vtp_export(const ExportInput& input) { return std::make_unique<VtpExport>(input); }
 
 }  // namespace talus

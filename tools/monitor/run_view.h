@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "lcmtypes/channels.h"
+#include "lcmtypes/sequence_tracker.h"
 #include "tools/monitor/run_history.h"
-#include "tools/monitor/sequence_tracker.h"
 
 namespace talus {
 

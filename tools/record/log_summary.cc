@@ -14,7 +14,7 @@
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
 #include "lcmtypes/run_info.h"
-#include "tools/monitor/sequence_tracker.h"
+#include "lcmtypes/sequence_tracker.h"
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
 
@@ -119,7 +119,7 @@ class RunCount {
   }
 
   std::map<std::string, SequenceTracker> numbers_;  // by channel
-  std::optional<talus_lcm::talus_run> run_;      // the last message about the run
+  std::optional<talus_lcm::talus_run> run_;         // the last message about the run
   std::optional<double> begin_;                     // [s] simulated
   double end_ = 0.0;                                // [s] simulated
   std::optional<double> ahead_;                     // [s] of the first stamp before the time in its message

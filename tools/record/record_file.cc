@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lcmtypes/channels.h"
+#include "lcmtypes/decode.h"
 #include "lcmtypes/layout.h"
 #include "lcmtypes/run_info.h"
 
@@ -119,6 +120,14 @@ void OneRun::see(const LogEvent& event, const std::filesystem::path& file) {
         file.string(), short_id(*run_), short_id(run), short_id(*run_)));
   }
   run_ = run;
+}
+
+void refuse_other_format(const LogEvent& event, const std::filesystem::path& file) {
+  try {
+    if (const auto channel = channel_named(event.channel)) refuse_other_format(*channel, event.data);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", file.string(), error.what()));
+  }
 }
 
 bool is_of_run(const LogEvent& event) {

@@ -32,6 +32,9 @@ struct MessageHeader {
 /// Of an event on one of our channels.
 MessageHeader header_of(const LogEvent& event);
 
+/// Throws std::invalid_argument where the event is of a run of another format than this version reads.
+void refuse_other_format(const LogEvent& event, const std::filesystem::path& file);
+
 /// Whether the event is on one of the channels of a run.
 bool is_of_run(const LogEvent& event);
 

@@ -31,24 +31,24 @@ std::string stream_of(const Scene<Dim>& scene, const std::filesystem::path& fold
   const auto form = frame_form(scene);
   FrameEncoder<Dim> encoder(form);
   std::string blocks;
-  BodyStates<Dim> last;
-  std::vector<Pile<Dim>> piles;
-  const WalkResult walk = walk_record<Dim>(scene, log, [&](const RecordedFrame<Dim>& frame) {
-    const auto obstacles = moving_poses(scene.world.obstacles, scene.movers, frame.time);
-    blocks += encoder.encode({.step = frame.step,
-                              .states = frame.states,
-                              .events = frame.events,
-                              .piles = frame.piles,
-                              .warnings = frame.warnings,
-                              .kinetic_energy = frame.kinetic_energy,
-                              .scene_events = frame.scene_events,
-                              .drift_estimate = frame.drift_estimate,
+  const WalkResult walk = walk_record<Dim>(scene, log, folder, [&](const Moment& moment) {
+    const BodyStates<Dim> states = states_of<Dim>(moment);
+    const std::vector<Pile<Dim>> piles = piles_of<Dim>(moment);
+    const auto obstacles = moving_poses(scene.world.obstacles, scene.movers, moment.time);
+    blocks += encoder.encode({.step = moment.step,
+                              .states = states,
+                              .events = moment.events,
+                              .piles = piles,
+                              .warnings = moment.warnings,
+                              .kinetic_energy = moment.kinetic_energy,
+                              .scene_events = moment.done,
+                              .drift_estimate = moment.drift.value_or(-1.0),
                               .obstacles = obstacles});
-    last = frame.states;
-    piles.assign(frame.piles.begin(), frame.piles.end());
   });
   if (blocks.empty()) throw no_frame(folder, walk.damage.bytes);
-  const PictureInput<Dim> end = {scene.world.shapes, last, piles, scene.world.obstacles, scene.world.ground, "", ""};
+  const BodyStates<Dim> states = states_of<Dim>(walk.last);
+  const std::vector<Pile<Dim>> piles = piles_of<Dim>(walk.last);
+  const PictureInput<Dim> end = {scene.world.shapes, states, piles, scene.world.obstacles, scene.world.ground, "", ""};
   const RunTexts texts = texts_of(name_of_run(folder), scene.seed, walk);
   return stream_bytes(run_head(scene, texts, form->quantum, framing_of(end).box), blocks);
 }

@@ -1,51 +1,23 @@
 #pragma once
-// A record from its beginning to its end, holding one state at a time.
+// A record from its beginning to its end, holding one moment at a time.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "common/pile/pile.h"
-#include "common/policy/sleep_event.h"
-#include "common/scene/happened.h"
-#include "common/scene/scene.h"
-#include "common/world/warning.h"
+#include "common/moment/moment.h"
 #include "lcmtypes/log_reader.h"
+#include "lcmtypes/moment_reader.h"
 
 namespace talus {
-
-/// A frame of output of a record.
-template <int Dim>
-struct RecordedFrame {
-  std::int64_t step = 0;
-  double time = 0.0;  // [s] simulated
-  /// Velocities are zero.
-  const BodyStates<Dim>& states;
-  /// Per body of `states`: whether damage left its pose unknown.
-  std::span<const std::uint8_t> unknown;
-  /// Per body of `states`: why it last fell asleep or woke, as SleepCause; -1: it did neither yet.
-  std::span<const std::int8_t> cause;
-  /// Since the frame before.
-  std::span<const SleepEvent> events;
-  std::span<const Pile<Dim>> piles = {};
-  /// All so far, one of each kind.
-  std::span<const Warning> warnings = {};
-  double kinetic_energy = 0.0;  // [J]
-  /// Mean distance that the sleeping bodies are expected to move once all are woken [D]; -1: not known.
-  double drift_estimate = -1.0;
-  /// Of the scene, all so far.
-  std::span<const DoneEvent> scene_events = {};
-
-  /// Whether the body is in the world, at a known pose.
-  bool shows(BodyIndex body) const { return states.removed[body] == 0 && unknown[body] == 0; }
-};
 
 /// What a walk had to leave out.
 struct WalkDamage {
   std::uint64_t bytes = 0;       // that are no message
   std::int64_t undecodable = 0;  // messages whose checksum holds and that are of another kind all the same
+  std::int64_t lost_events = 0;  // messages with sleep events that are missing between others
 
   bool none() const { return bytes == 0 && undecodable == 0; }
 };
@@ -61,11 +33,15 @@ struct RecordedIdentity {
 struct WalkResult {
   WalkDamage damage;
   RecordedIdentity run;
+  Moment last;                           // that of the end, which may be of the last frame's step again
+  std::vector<SleepEvent> later_events;  // that are in no moment visited
 };
 
-/// Calls `visit` with each frame of output in order. Throws std::invalid_argument where the record is not of `scene`.
+/// Calls `visit` with each moment in order; the one at the end of a run that was not cut short has the step of the last
+/// frame of output and is left out. Throws std::invalid_argument where the record is not of `scene`, of another format
+/// or of several runs; `file` is for the message.
 template <int Dim>
-WalkResult walk_record(const Scene<Dim>& scene, LogReader& log,
-                       const std::function<void(const RecordedFrame<Dim>&)>& visit);
+WalkResult walk_record(const Scene<Dim>& scene, LogReader& log, const std::filesystem::path& file,
+                       const std::function<void(const Moment&)>& visit);
 
 }  // namespace talus

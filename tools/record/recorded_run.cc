@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <span>
 #include <stdexcept>
-#include <utility>
 
 #include "common/text/printable.h"
-#include "lcmtypes/decode.h"
-#include "lcmtypes/translate.h"
-#include "tools/monitor/sequence_tracker.h"
 #include "tools/record/record_file.h"
-#include "tools/record/state_reader.h"
+#include "tools/record/record_walk.h"
 
 namespace talus {
 namespace fs = std::filesystem;
@@ -22,86 +18,22 @@ namespace {
 // Bounds what a forged step number costs.
 constexpr std::size_t max_lost_frames = 1'000'000;
 
+/// Adds the moment as a frame of output, and those that are missing before it as lost.
 template <int Dim>
-class RunReader {
- public:
-  explicit RunReader(const Scene<Dim>& scene)
-      : run_(scene), states_(static_cast<int>(scene.bodies_planned()), static_cast<int>(scene.world.shapes.size())) {
-    sleep_numbers_.expect(0);
-  }
-
-  void take(const LogEvent& event) {
-    if (const auto channel = channel_named(event.channel))
-      with_message_of(*channel, [&](auto message) { decode_and_take(event, message); });
-  }
-
-  RecordedRun<Dim> finish() {
-    run_.last = states_.states();
-    run_.last_step = states_.step();
-    run_.damage.lost_events = sleep_numbers_.lost();
-    for (std::size_t i = 0; i < states_.unknown().size(); ++i)
-      run_.damage.unknown_bodies += states_.unknown()[i] != 0 ? 1 : 0;
-    return std::move(run_);
-  }
-
- private:
-  template <class Message>
-  void decode_and_take(const LogEvent& event, Message& message) {
-    if constexpr (requires { this->take(message); }) {
-      if (decode(event.data, message).empty()) return take(message);
-      refuse_other_format(event);
-      ++run_.damage.undecodable;
+void add_frame(const Moment& moment, const fs::path& file, RecordedRun<Dim>& run) {
+  const std::int64_t distance = run.frames.steps_per_frame();
+  std::int64_t next = run.frames.frames() == 0 ? distance : run.frames.step(run.frames.frames());
+  if (moment.step % distance != 0 || moment.step < next) return;  // the last state of an interrupted run
+  for (; next < moment.step; next += distance) {
+    if (moment.step > run.scene.steps() || run.damage.lost_steps.size() >= max_lost_frames) {
+      throw std::invalid_argument(fmt::format("{}: step {}, but the run of its scene has {} steps", file.string(),
+                                              moment.step, run.scene.steps()));
     }
+    run.damage.lost_steps.push_back(next);
+    run.frames.append_lost(next);
   }
-
-  void take(const talus_lcm::talus_run& message) {
-    if (message.dimension != Dim) {
-      throw std::invalid_argument(
-          fmt::format("run.lcm is of a run in {}D: must be {}D as its scene", message.dimension, Dim));
-    }
-    run_.backend = message.backend;
-    run_.policy = message.policy;
-    run_.reason = message.reason;
-  }
-
-  void take(const talus_lcm::talus_sleep& message) {
-    const std::int64_t lost_before = sleep_numbers_.lost();
-    sleep_numbers_.see(message.seq);
-    if (sleep_numbers_.lost() > lost_before) states_.note_lost_events();
-    for (const SleepEvent& event : events_of(message)) {
-      states_.note_event(event.body);
-      run_.events.push_back(event);
-    }
-  }
-
-  void take(const talus_lcm::talus_event& message) {
-    if (message.number >= std::ssize(run_.scene.events))
-      throw std::invalid_argument(
-          fmt::format("run.lcm: event {}, but the scene has {} events", message.number, run_.scene.events.size()));
-    run_.done.push_back({message.number, message.sim_time - run_.scene.world.dt});
-  }
-
-  void take(const talus_lcm::talus_bodies& message) {
-    if (!states_.take(message)) return;
-    const std::int64_t step = states_.step();
-    const std::int64_t distance = run_.frames.steps_per_frame();
-    std::int64_t next = run_.frames.frames() == 0 ? distance : run_.frames.step(run_.frames.frames());
-    if (step % distance != 0 || step < next) return;  // the last state of an interrupted run; a frame again
-    for (; next < step; next += distance) {
-      if (step > run_.scene.steps() || run_.damage.lost_steps.size() >= max_lost_frames) {
-        throw std::invalid_argument(
-            fmt::format("run.lcm: step {}, but the run of its scene has {} steps", step, run_.scene.steps()));
-      }
-      run_.damage.lost_steps.push_back(next);
-      run_.frames.append_lost(next);
-    }
-    run_.frames.append(states_.states(), step, states_.unknown());
-  }
-
-  RecordedRun<Dim> run_;
-  StateReader<Dim> states_;
-  SequenceTracker sleep_numbers_;  // of the messages with sleep events
-};
+  run.frames.append(states_of<Dim>(moment), moment.step, moment.bodies.unknown);
+}
 
 std::string plural(std::size_t number, const char* noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
@@ -126,12 +58,6 @@ std::string text_of(const RecordDamage& damage) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void refuse_other_format(const LogEvent& event) {
-  if (event.channel != name_of(Channel::run)) return;
-  if (const auto other = other_format(event.data))
-    throw std::invalid_argument(fmt::format("run.lcm: {}; run the scene again", text_of(*other)));
-}
-
 std::string name_of_run(const fs::path& folder) {
   const fs::path base = folder.filename().empty() ? folder.parent_path() : folder;
   return printable(base.filename().string());
@@ -153,15 +79,26 @@ AnyRecordedRun read_run(const fs::path& folder) {
 AnyRecordedRun read_record(const AnyScene& scene, LogReader& log, const fs::path& folder) {
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> AnyRecordedRun {
-        RunReader<Dim> reader(of_dimension);
-        OneRun one;
-        for (LogEvent event; log.next(event);) {
-          one.see(event, folder);
-          reader.take(event);
-        }
-        RecordedRun<Dim> run = reader.finish();
+        RecordedRun<Dim> run(of_dimension);
+        const auto add = [&run](const std::vector<SleepEvent>& events) {
+          run.events.insert(run.events.end(), events.begin(), events.end());
+        };
+        const WalkResult walk = walk_record<Dim>(of_dimension, log, folder, [&](const Moment& moment) {
+          add(moment.events);
+          add_frame(moment, folder, run);
+        });
+        add(walk.later_events);
         run.name = name_of_run(folder);
-        run.damage.bytes = log.damage().bytes;
+        run.backend = walk.run.backend;
+        run.policy = walk.run.policy;
+        run.reason = walk.run.reason;
+        run.last = states_of<Dim>(walk.last);
+        run.last_step = walk.last.step;
+        run.done = walk.last.done;
+        run.damage.bytes = walk.damage.bytes;
+        run.damage.undecodable = walk.damage.undecodable;
+        run.damage.lost_events = walk.damage.lost_events;
+        run.damage.unknown_bodies = static_cast<int>(std::ranges::count(walk.last.bodies.unknown, 1));
         if (run.last_step > 0) return run;
         throw no_frame(folder, run.damage.bytes);
       },

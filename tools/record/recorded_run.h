@@ -51,9 +51,6 @@ struct RecordedRun {
 
 using AnyRecordedRun = std::variant<RecordedRun<2>, RecordedRun<3>>;
 
-/// Throws std::invalid_argument where the event names a run of another format.
-void refuse_other_format(const LogEvent& event);
-
 /// The own name of a run folder or record, printable.
 std::string name_of_run(const std::filesystem::path& folder);
 

@@ -48,6 +48,7 @@ std::vector<SceneFile> recorded_files(const fs::path& file) {
   std::int64_t events = 0;
   for (LogEvent event; log.next(event); ++events) {
     run.see(event, file);
+    refuse_other_format(event, file);
     talus_lcm::talus_scene message;
     if (event.channel == name_of(Channel::scene) && decode(event.data, message).empty()) reader.take(message);
     if (event.channel == name_of(Channel::bodies)) break;

@@ -9,14 +9,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/moment/moment.h"
 #include "common/scene/scene.h"
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
+#include "lcmtypes/moment_reader.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/translate.h"
-#include "tools/monitor/run_view.h"
 #include "tools/picture/framing.h"
-#include "tools/record/state_reader.h"
 #include "tools/report/json_text.h"
 #include "tools/serve/state_copy.h"
 #include "tools/view/run_head.h"
@@ -25,22 +25,15 @@ namespace talus {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using talus_lcm::talus_bodies;
 using talus_lcm::talus_event;
-using talus_lcm::talus_obstacles;
-using talus_lcm::talus_piles;
 using talus_lcm::talus_run;
-using talus_lcm::talus_shapes;
 using talus_lcm::talus_sleep;
 using talus_lcm::talus_stats;
 
-// These bound what a forged message costs.
-constexpr int most_live_bodies = 1'000'000;
-constexpr int most_live_events = 10'000;
 constexpr auto silence = std::chrono::seconds(2);
 
 /// Of each channel on which messages came or were lost: its name, how many came, how many were lost.
-Json channels_json(const RunView& heard) {
+Json channels_json(const MomentReader& heard) {
   Json channels = Json::array();
   for (const Channel channel : all_channels)
     if (heard.received(channel) > 0 || heard.lost(channel) > 0)
@@ -69,61 +62,44 @@ Json status_json(const std::string& reason, bool finished, const std::string& po
 class LiveRun::Assembly {
  public:
   Assembly(const talus_run& run, PageHub& hub, const std::int64_t& undecodable)
-      : run_(run), hub_(hub), undecodable_(undecodable) {}
+      : reader_(run.dimension, {}), run_id_(run.run_id), hub_(hub), undecodable_(undecodable) {
+    reader_.take(run);
+  }
   virtual ~Assembly() = default;
 
-  bool is_of(std::int64_t run_id) const { return run_.run_id == run_id; }
-  bool ended() const { return run_.phase == talus_run::END; }
+  bool is_of(std::int64_t run_id) const { return run_id_ == run_id; }
+  bool ended() const { return run().phase == talus_run::END; }
+  bool is_restart(const talus_run& message) const { return reader_.is_restart(message); }
 
-  /// Counts a message. Each must be counted before it is taken.
   template <class Message>
-  void count(const Message& message) {
-    heard_.take(message);
+  void take(const Message& message) {
+    if (reader_.take(message) && reader_.has_all_shapes()) show(reader_);
+    if constexpr (std::is_same_v<Message, talus_sleep>) hub_.add_events(events_of(message));
+    if constexpr (std::is_same_v<Message, talus_run> || std::is_same_v<Message, talus_stats>) show_status();
   }
-
-  void take(const talus_run& message) {
-    run_ = message;
-    show_status();
-  }
-  void take(const talus_stats& message) {
-    stats_ = message;
-    warnings_ = warnings_of(message);
-    show_status();
-  }
-  void take(const talus_sleep& message) {
-    std::vector<SleepEvent> events = events_of(message);
-    std::erase_if(events, [](const SleepEvent& event) { return event.body >= most_live_bodies; });
-    for (const SleepEvent& event : events) note_event(event.body);
-    hub_.add_events(events);
-  }
-  virtual void take(const talus_shapes& message) = 0;
-  virtual void take(const talus_piles& message) = 0;
-  virtual void take(const talus_bodies& message) = 0;
-  virtual void take(const talus_event& message) = 0;
-  virtual void take(const talus_obstacles& message) = 0;
-  void take(const talus_lcm::talus_scene& /*of records*/) {}
 
  protected:
-  virtual void note_event(BodyIndex body) = 0;
+  const talus_run& run() const { return *reader_.run(); }
+  /// A whole moment of which all shapes are known.
+  virtual void show(const MomentReader& reader) = 0;
+  PageHub& hub() { return hub_; }
 
+ private:
   void show_status() {
-    const std::string reason = ended() && run_.reason != "finished" ? printable(run_.reason) : "";
-    Json status = status_json(reason, ended(), printable(run_.policy), stats_.step, stats_.ms_step,
-                              stats_.timed != 0 ? stats_.real_time_factor : 0.0);
-    status["channels"] = channels_json(heard_);
+    const std::string reason = ended() && run().reason != "finished" ? printable(run().reason) : "";
+    const talus_stats stats = reader_.stats().value_or(talus_stats{});
+    Json status = status_json(reason, ended(), printable(run().policy), stats.step, stats.ms_step,
+                              stats.timed != 0 ? stats.real_time_factor : 0.0);
+    status["channels"] = channels_json(reader_);
     status["undecodable"] = undecodable_;
-    status["slept"] = heard_.slept();
-    status["woken"] = heard_.woken();
+    status["slept"] = reader_.slept();
+    status["woken"] = reader_.woken();
     hub_.set_status(json_text(status));
   }
 
-  talus_run run_;
-  talus_stats stats_{};
-  std::vector<Warning> warnings_;
+  MomentReader reader_;
+  std::int64_t run_id_;
   PageHub& hub_;
-
- private:
-  RunView heard_;
   const std::int64_t& undecodable_;  // messages of all runs
 };
 
@@ -134,123 +110,71 @@ class AssemblyOf final : public LiveRun::Assembly {
  public:
   using Assembly::Assembly;
 
-  /// A shape that is not known yet begins the picture again. Of an obstacle that moves the message has the present
-  /// pose.
-  void take(const talus_shapes& message) override {
-    if (message.dimension != Dim) return;
-    auto& known = message.obstacle != 0 ? obstacles_ : shapes_;
-    const auto before = known.find(message.index);
-    const bool news = before == known.end() || before->second.values != message.values;
-    if (!news && message.obstacle != 0 && !std::ranges::equal(message.pose, before->second.pose))
-      moved_[message.index] = pose_of<Dim>(message);
-    known[message.index] = message;
-    if (news) head_.reset();
-  }
-
-  /// Only of obstacles that are known: a forged message can name any number of others.
-  void take(const talus_obstacles& message) override {
-    for (const ObstaclePose<Dim>& each : poses_of<Dim>(message))
-      if (obstacles_.contains(each.obstacle)) moved_[each.obstacle] = each.pose;
-  }
-
-  void take(const talus_piles& message) override {
-    if (message.part == 0) piles_.clear();
-    for (const talus_lcm::talus_pile& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
-  }
-
-  /// All events are sent each second, so a text that comes late begins the picture again only where messages were lost.
-  void take(const talus_event& message) override {
-    if (message.number >= most_live_events) return;
-    const auto [known, news] = events_.try_emplace(message.number, message);
-    if (news) head_.reset();
-    if (message.happened_step >= 0 && (news || known->second.happened_step < 0))
-      done_events_.push_back({message.number, message.happened_time});
-    known->second = message;
-  }
-
-  void take(const talus_bodies& message) override {
-    if (!states_ && !all_shapes()) return;
-    if (!states_) states_.emplace(most_live_bodies, shapes_.begin()->second.total);
-    if (!states_->take(message)) return;
-    const bool first = head_ == nullptr;
-    if (first && !begin()) return;
-    std::vector<ObstaclePose<Dim>> moved;
-    for (const auto& [obstacle, pose] : moved_) moved.push_back({obstacle, pose});
-    auto snapshot = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = states_->step(),
-                                                                    .states = states_->states(),
-                                                                    .piles = piles_,
-                                                                    .warnings = warnings_,
-                                                                    .kinetic_energy = stats_.kinetic_energy,
-                                                                    .scene_events = done_events_,
-                                                                    .drift_estimate = drift_estimate(),
-                                                                    .obstacles = moved},
+ private:
+  /// A shape or an event that was not known yet begins the picture again. All are sent each second, so one comes late
+  /// only where messages were lost.
+  void show(const MomentReader& reader) override {
+    const bool first = head_ == nullptr || form_number_ != reader.form();
+    const Moment& moment = reader.moment();
+    const BodyStates<Dim> states = states_of<Dim>(moment);
+    const std::vector<Pile<Dim>> piles = piles_of<Dim>(moment);
+    if (first) make_head(reader, states, piles);
+    const std::vector<ObstaclePose<Dim>> obstacles = obstacles_of<Dim>(moment);
+    auto snapshot = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = moment.step,
+                                                                    .states = states,
+                                                                    .piles = piles,
+                                                                    .warnings = moment.warnings,
+                                                                    .kinetic_energy = moment.kinetic_energy,
+                                                                    .scene_events = moment.done,
+                                                                    .drift_estimate = moment.drift.value_or(-1.0),
+                                                                    .obstacles = obstacles},
                                                      form_, head_);
     if (first)
-      hub_.begin(std::move(snapshot));
+      hub().begin(std::move(snapshot));
     else
-      hub_.publish(std::move(snapshot));
+      hub().publish(std::move(snapshot));
   }
 
- private:
-  void note_event(BodyIndex body) override {
-    if (states_) states_->note_event(body);
-  }
-
-  double drift_estimate() const { return stats_.run_id == run_.run_id ? stats_.drift_estimate : -1.0; }
-
-  static bool complete(const std::map<int, talus_shapes>& known) {
-    return known.empty() || static_cast<int>(known.size()) == known.begin()->second.total;
-  }
-  bool all_shapes() const { return !shapes_.empty() && complete(shapes_) && complete(obstacles_); }
-
-  /// Makes the head; false where shapes are missing still.
-  bool begin() {
-    if (!all_shapes()) return false;
+  void make_head(const MomentReader& reader, const BodyStates<Dim>& states, const std::vector<Pile<Dim>>& piles) {
     Scene<Dim> scene;
-    scene.title = printable(run_.scene);
-    scene.seed = static_cast<std::uint64_t>(run_.seed);
-    scene.world.dt = run_.dt;
-    scene.world.ground.present = run_.ground != 0;
-    scene.world.ground.height = run_.ground_height;
-    for (const auto& [index, message] : shapes_) scene.world.shapes.push_back(to_shape<Dim>(message));
-    for (const auto& [index, message] : obstacles_)
+    scene.title = printable(run().scene);
+    scene.seed = static_cast<std::uint64_t>(run().seed);
+    scene.world.dt = run().dt;
+    scene.world.ground.present = run().ground != 0;
+    scene.world.ground.height = run().ground_height;
+    for (const auto& [index, message] : reader.shapes()) scene.world.shapes.push_back(to_shape<Dim>(message));
+    for (const auto& [index, message] : reader.obstacles())
       scene.world.obstacles.push_back({to_shape<Dim>(message), pose_of<Dim>(message)});
     form_ = frame_form(scene);
-    const PictureInput<Dim> now = {
-        scene.world.shapes, states_->states(), piles_, scene.world.obstacles, scene.world.ground, "", ""};
-    const RunTexts texts = {.name = short_id(run_.run_id),
-                            .backend = printable(run_.backend),
-                            .policy = printable(run_.policy),
-                            .version = printable(run_.version),
+    const PictureInput<Dim> now = {scene.world.shapes, states, piles, scene.world.obstacles,
+                                   scene.world.ground, "",     ""};
+    const RunTexts texts = {.name = short_id(run().run_id),
+                            .backend = printable(run().backend),
+                            .policy = printable(run().policy),
+                            .version = printable(run().version),
                             .seed = scene.seed};
     Json head = run_head(scene, texts, form_->quantum, framing_of(now).box);
     head["kind"] = "head";
-    head["steps"] = run_.steps;
-    head["events"] = events_json();
-    head["tolerance"] = run_.tolerance >= 0.0 ? Json(run_.tolerance) : Json();
+    head["steps"] = run().steps;
+    head["events"] = events_json(reader.events());
+    head["tolerance"] = run().tolerance >= 0.0 ? Json(run().tolerance) : Json();
     head_ = std::make_shared<std::string>(json_text(head));
-    return true;
+    form_number_ = reader.form();
   }
 
   /// By number; those not heard of are null.
-  Json events_json() const {
+  static Json events_json(const std::map<int, talus_event>& known) {
     Json events = Json::array();
-    for (const auto& [number, message] : events_) {
+    for (const auto& [number, message] : known) {
       while (std::ssize(events) < number) events.push_back(nullptr);
       events.push_back({{"text", printable(message.text)}, {"removes", message.removed}});
     }
     return events;
   }
 
-  std::map<int, talus_shapes> shapes_;     // by index
-  std::map<int, talus_shapes> obstacles_;  // by index
-  std::map<int, Pose<Dim>> moved_;         // the last poses of those that have moved
-  std::map<int, talus_event> events_;      // of the scene, by number
-  std::vector<DoneEvent> done_events_;     // as heard
-  std::vector<Pile<Dim>> piles_;
-  std::optional<StateReader<Dim>> states_;  // once the shapes are known
   std::shared_ptr<const FrameForm<Dim>> form_;
   std::shared_ptr<const std::string> head_;
+  std::int64_t form_number_ = 0;  // of the head
 };
 
 std::unique_ptr<LiveRun::Assembly> assemble(const talus_run& run, PageHub& hub, const std::int64_t& undecodable) {
@@ -275,11 +199,11 @@ void LiveRun::hear(const Datagram& datagram, Message& message, Clock::time_point
   const bool followed = assembly_ != nullptr && assembly_->is_of(message.run_id);
   if constexpr (std::is_same_v<Message, talus_run>) {
     const bool free = assembly_ == nullptr || assembly_->ended() || now - heard_ > silence;
-    if (!followed && free && message.phase != talus_run::END) assembly_ = assemble(message, hub_, undecodable_);
+    const bool anew = followed ? assembly_->is_restart(message) : free && message.phase != talus_run::END;
+    if (anew) assembly_ = assemble(message, hub_, undecodable_);
   }
   if (assembly_ == nullptr || !assembly_->is_of(message.run_id)) return;
   heard_ = now;
-  assembly_->count(message);
   try {
     assembly_->take(message);
   } catch (const std::invalid_argument&) {  // a body of a shape that is not there, a shape without a volume

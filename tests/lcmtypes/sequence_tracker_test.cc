@@ -1,4 +1,4 @@
-#include "tools/monitor/sequence_tracker.h"
+#include "lcmtypes/sequence_tracker.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

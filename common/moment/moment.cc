@@ -1,0 +1,69 @@
+#include "common/moment/moment.h"
+
+#include <algorithm>
+
+#include "common/math/in_space.h"
+
+namespace talus {
+
+void PoseList::resize(std::size_t poses) {
+  const std::size_t before = size();
+  values_.resize(poses * width_, 0.0F);
+  if (dimension_ == 3)
+    for (std::size_t i = before; i < poses; ++i) values_[i * width_ + 3] = 1.0F;
+}
+
+void PoseList::set(std::size_t i, std::span<const float> values) {
+  std::copy_n(values.begin(), width_, values_.begin() + static_cast<std::ptrdiff_t>(i * width_));
+}
+
+Pose<3> PoseList::in_space(std::size_t i) const { return dimension_ == 2 ? talus::in_space(pose<2>(i)) : pose<3>(i); }
+
+template <int Dim>
+BodyStates<Dim> states_of(const Moment& moment) {
+  const MomentBodies& bodies = moment.bodies;
+  BodyStates<Dim> states;
+  states.shape = bodies.shape;
+  states.asleep = bodies.asleep;
+  states.removed = bodies.removed;
+  states.velocity.assign(bodies.shape.size(), Vec<Dim>::Zero());
+  states.spin.assign(bodies.shape.size(), Spin<Dim>::Zero());
+  states.pose.reserve(bodies.shape.size());
+  for (std::size_t i = 0; i < bodies.shape.size(); ++i) states.pose.push_back(bodies.pose.pose<Dim>(i));
+  return states;
+}
+
+template <int Dim>
+std::vector<Pile<Dim>> piles_of(const Moment& moment) {
+  if constexpr (Dim == 3) return moment.piles;
+  std::vector<Pile<Dim>> piles;
+  for (const Pile<3>& pile : moment.piles) {
+    Pile<Dim>& here = piles.emplace_back();
+    if constexpr (Dim == 2) here.centre = {pile.centre.x(), pile.centre.z()};
+    here.alpha = pile.alpha;
+    here.structure_size = pile.structure_size;
+    here.lift = pile.lift;
+    here.height = pile.height;
+    here.radius = pile.radius;
+    here.layers = pile.layers;
+    here.merged_into = pile.merged_into;
+  }
+  return piles;
+}
+
+template <int Dim>
+std::vector<ObstaclePose<Dim>> obstacles_of(const Moment& moment) {
+  std::vector<ObstaclePose<Dim>> obstacles;
+  for (std::size_t i = 0; i < moment.moved_obstacle.size(); ++i)
+    obstacles.push_back({moment.moved_obstacle[i], moment.obstacle_pose.pose<Dim>(i)});
+  return obstacles;
+}
+
+template BodyStates<2> states_of<2>(const Moment&);
+template BodyStates<3> states_of<3>(const Moment&);
+template std::vector<Pile<2>> piles_of<2>(const Moment&);
+template std::vector<Pile<3>> piles_of<3>(const Moment&);
+template std::vector<ObstaclePose<2>> obstacles_of<2>(const Moment&);
+template std::vector<ObstaclePose<3>> obstacles_of<3>(const Moment&);
+
+}  // namespace talus

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/moment/moment.h"
+#include "lcmtypes/bodies_reader.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/parts.h"
+#include "lcmtypes/sequence_tracker.h"
+
+namespace talus {
+
+/// What messages may name. They may be forged, and each body takes memory.
+struct MomentLimits {
+  int bodies = 1'000'000;
+  std::optional<int> shapes = {};  // nothing: as many as the messages have, and bodies are left out until all are known
+  int obstacles = 100'000;
+  int events = 10'000;  // of the scene
+  /// The messages are all that the run gave, as in a record: a number missing at the start is a loss too.
+  bool from_start = false;
+};
+
+/// The limits of a record of this scene.
+template <int Dim>
+MomentLimits limits_of(const Scene<Dim>& scene);
+
+/// Puts the moments of one run together from its messages, of a record or of the bus.
+class MomentReader {
+ public:
+  /// `dimension`: 2 or 3.
+  MomentReader(int dimension, const MomentLimits& limits);
+
+  /// Takes the bytes of a message; whether moment() is a whole one now. What does not decode is left out and counted.
+  /// Throws std::invalid_argument on a run of another format, and as take() of a message does.
+  bool take(Channel channel, std::span<const std::uint8_t> bytes);
+
+  /// Takes a message of the run that has passed decode(); whether moment() is a whole one now. A duplicate, and what is
+  /// older than what is known, changes nothing. Throws std::invalid_argument on a message that is of another dimension
+  /// or names what is beyond the limits.
+  bool take(const talus_lcm::talus_run& message);
+  bool take(const talus_lcm::talus_piles& message);
+  bool take(const talus_lcm::talus_sleep& message);
+  bool take(const talus_lcm::talus_stats& message);
+  bool take(const talus_lcm::talus_bodies& message);
+  bool take(const talus_lcm::talus_shapes& message);
+  bool take(const talus_lcm::talus_event& message);
+  bool take(const talus_lcm::talus_obstacles& message);
+  bool take(const talus_lcm::talus_scene& message);
+
+  /// Valid until the next call of take().
+  const Moment& moment() const { return moment_; }
+  /// Those since the moment.
+  const std::vector<SleepEvent>& later_events() const { return later_events_; }
+
+  /// The newest message about the run and its numbers.
+  const std::optional<talus_lcm::talus_run>& run() const { return run_; }
+  const std::optional<talus_lcm::talus_stats>& stats() const { return stats_; }
+  /// By index; an obstacle's as it was first told.
+  const std::map<int, talus_lcm::talus_shapes>& shapes() const { return shapes_; }
+  const std::map<int, talus_lcm::talus_shapes>& obstacles() const { return obstacles_; }
+  /// Of the scene, by number.
+  const std::map<int, talus_lcm::talus_event>& events() const { return events_; }
+  /// Whether no shape and no obstacle is missing.
+  bool has_all_shapes() const;
+  /// Goes up when a shape, an obstacle or an event of the scene is told for the first time, or is another one now.
+  std::int64_t form() const { return form_; }
+
+  std::int64_t undecodable() const { return undecodable_; }
+  std::int64_t lost(Channel channel) const { return numbers_[static_cast<std::size_t>(channel)].lost(); }
+  std::int64_t received(Channel channel) const { return numbers_[static_cast<std::size_t>(channel)].received(); }
+  std::int64_t slept() const { return slept_; }  // sleep events, all so far
+  std::int64_t woken() const { return woken_; }
+
+  /// Whether a run of the same number begins anew with this message, as when a record is played twice.
+  bool is_restart(const talus_lcm::talus_run& message) const;
+
+ private:
+  enum class Age : std::uint8_t { newest, late, duplicate };
+  template <class Message>
+  Age count(const Message& message);
+  void require_dimension(int dimension) const;
+  void place_obstacle(int obstacle, std::span<const float> values);
+
+  MomentLimits limits_;
+  Moment moment_;
+  BodiesReader bodies_;
+  Parts<talus_lcm::talus_piles> piles_;
+  std::vector<SleepEvent> later_events_;
+  std::optional<talus_lcm::talus_run> run_;
+  std::optional<talus_lcm::talus_stats> stats_;
+  std::map<int, talus_lcm::talus_shapes> shapes_;
+  std::map<int, talus_lcm::talus_shapes> obstacles_;
+  std::map<int, talus_lcm::talus_event> events_;
+  std::int64_t form_ = 0;
+  std::array<SequenceTracker, channel_names.size()> numbers_;
+  std::int64_t undecodable_ = 0;
+  std::int64_t slept_ = 0;
+  std::int64_t woken_ = 0;
+};
+
+}  // namespace talus

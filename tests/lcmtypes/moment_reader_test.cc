@@ -1,0 +1,223 @@
+#include "lcmtypes/moment_reader.h"
+
+#include <gtest/gtest.h>
+
+#include "lcmtypes/event_log.h"
+#include "lcmtypes/log_reader.h"
+#include "lcmtypes/run_recorder.h"
+#include "lcmtypes/translate.h"
+#include "tests/lcmtypes/scratch_file.h"
+#include "tests/lcmtypes/still_run.h"
+
+namespace talus::moment_reader_test {
+namespace {
+
+constexpr int body_count = 12;
+
+/// The messages of a record of so many steps, two a frame of output.
+template <int Dim>
+std::vector<LogEvent> recorded(int steps, const Scene<Dim>& scene = still_scene<Dim>()) {
+  const ScratchFile file;
+  {
+    RunRecorder<Dim> recorder(file.path(), run_info(scene, "still", "none"), scene);
+    const auto run = still_run<Dim>(scene, body_count);
+    run->add_observer(recorder);
+    for (int step = 0; step < steps; ++step) run->step();
+    run->end("finished");
+  }
+  LogReader log(file.path());
+  std::vector<LogEvent> events;
+  for (LogEvent event; log.next(event);) events.push_back(event);
+  return events;
+}
+
+bool take(const LogEvent& event, MomentReader& reader) {
+  return reader.take(*channel_named(event.channel), event.data);
+}
+
+constexpr MomentLimits limits = {.bodies = body_count, .shapes = 2, .obstacles = 1, .events = 0, .from_start = true};
+
+/// The bodies lie as still_run() puts them, with y = 0 in 2D.
+template <int Dim>
+void expect_moments_of_a_record() {
+  MomentReader reader(Dim, limits);
+  std::vector<std::int64_t> steps;
+  std::int64_t events = 0;
+  for (const LogEvent& event : recorded<Dim>(8)) {
+    if (!take(event, reader)) continue;
+    const Moment& moment = reader.moment();
+    steps.push_back(moment.step);
+    events += std::ssize(moment.events);
+    EXPECT_DOUBLE_EQ(moment.time, static_cast<double>(moment.step) / 60.0);
+    ASSERT_EQ(moment.bodies.size(), body_count);
+    const Pose<3> pose = moment.bodies.pose.in_space(10);
+    EXPECT_EQ(pose.position.x(), 0.25 * 1 - 1.0);
+    EXPECT_EQ(pose.position.y(), 0.0);
+    EXPECT_EQ(pose.position.z(), 0.01F);
+    EXPECT_EQ(moment.bodies.asleep[10] != 0, moment.step >= 4 && moment.step < 8);
+    EXPECT_TRUE(moment.bodies.shows(10));
+    EXPECT_EQ(moment.piles.size(), 1U);
+    EXPECT_EQ(moment.drift, 0.0);
+  }
+  EXPECT_EQ(steps, (std::vector<std::int64_t>{2, 4, 6, 8, 8})) << "each frame of output and the end";
+  EXPECT_EQ(events, 2 * body_count) << "all fall asleep in step 4 and wake in step 8";
+  EXPECT_EQ(static_cast<SleepCause>(reader.moment().bodies.cause[10]), SleepCause::avalanche);
+  EXPECT_EQ(reader.slept(), body_count);
+  EXPECT_EQ(reader.woken(), body_count);
+  EXPECT_EQ(reader.run()->reason, "finished");
+  EXPECT_TRUE(reader.has_all_shapes());
+  EXPECT_EQ(reader.undecodable(), 0);
+  for (const Channel channel : all_channels) EXPECT_EQ(reader.lost(channel), 0) << name_of(channel);
+}
+
+TEST(MomentReader, GivesTheMomentsOfARecordInEitherDimension) {
+  expect_moments_of_a_record<2>();
+  expect_moments_of_a_record<3>();
+}
+
+TEST(MomentReader, GivesStatesOfTheRunsOwnDimension) {
+  MomentReader reader(2, limits);
+  for (const LogEvent& event : recorded<2>(4)) take(event, reader);
+  const BodyStates<2> states = states_of<2>(reader.moment());
+  ASSERT_EQ(states.size(), body_count);
+  EXPECT_EQ(states.pose[10].position, Vec2(-0.75, 0.01F));
+  EXPECT_EQ(states.shape[11], 1);
+  EXPECT_EQ(states.asleep[11], 1);
+  const std::vector<Pile<2>> piles = piles_of<2>(reader.moment());
+  ASSERT_EQ(piles.size(), 1U);
+  EXPECT_EQ(piles[0].centre, Vec2(0.0, 0.0));
+  EXPECT_FALSE(piles[0].layers.empty());
+}
+
+TEST(MomentReader, CountsEachMessageThatIsMissingAndDoubtsPosesUntilTheyAreToldAgain) {
+  MomentReader reader(3, limits);
+  bool left_out = false;
+  for (const LogEvent& event : recorded<3>(10)) {
+    const bool is_frame = event.channel == name_of(Channel::bodies);
+    if (is_frame && reader.moment().step == 4 && !left_out) {  // that of step 6, in which no body is awake
+      left_out = true;
+      continue;
+    }
+    if (!take(event, reader) || reader.moment().step != 8) continue;
+    EXPECT_TRUE(reader.moment().bodies.shows(0)) << "awake again, so the frame has its pose";
+    EXPECT_EQ(reader.lost(Channel::bodies), 1);
+  }
+  EXPECT_TRUE(left_out);
+}
+
+TEST(MomentReader, KeepsAPoseInDoubtThatALostFrameMayHaveChanged) {
+  MomentReader reader(3, limits);
+  std::vector<LogEvent> events = recorded<3>(8);
+  for (const LogEvent& event : events) {
+    // Without step 4, in which all fall asleep, step 6 does not say where they are.
+    if (event.channel == name_of(Channel::bodies) && reader.moment().step == 2 && reader.lost(Channel::bodies) == 0 &&
+        !reader.later_events().empty()) {
+      continue;
+    }
+    if (take(event, reader) && reader.moment().step == 6) EXPECT_FALSE(reader.moment().bodies.shows(0));
+  }
+  EXPECT_EQ(reader.moment().step, 8);
+  EXPECT_TRUE(reader.moment().bodies.shows(0));
+}
+
+TEST(MomentReader, PutsObstaclesWhereTheyHaveMoved) {
+  Scene<3> scene = still_scene<3>();
+  scene.world.obstacles[0].moves = true;
+  scene.movers = {{.first = 0, .count = 1, .motion = {.times = {0.0, 0.5}, .shifts = {Vec3::Zero(), Vec3::UnitZ()}}}};
+  MomentReader reader(3, limits);
+  for (const LogEvent& event : recorded<3>(60, scene)) take(event, reader);
+  const auto obstacles = obstacles_of<3>(reader.moment());
+  ASSERT_EQ(obstacles.size(), 1U);
+  EXPECT_EQ(obstacles[0].obstacle, 0);
+  EXPECT_NEAR(obstacles[0].pose.position.z(), 8.0, 1e-6) << "7 m and the metre of the plan";
+}
+
+TEST(MomentReader, KeepsPosesOfManyObstaclesByTheirNumber) {
+  MomentReader reader(3, {.bodies = 1, .shapes = 1, .obstacles = 3, .from_start = false});
+  MessageEncoder encoder(1);
+  WorldDescription<3> world;
+  for (int k = 0; k < 3; ++k)
+    world.obstacles.push_back({make_shape<3>("wall", box_pieces<3>(Vec3::Constant(1.0)), {}), {}, true});
+  const auto pass = [&]<class Message>(std::vector<Message> messages) {
+    for (Message& message : messages) {
+      const Packet packet = encoder.encode(message, {});
+      reader.take(packet.channel, packet.bytes);
+    }
+  };
+  pass(to_shapes<3>(world));
+  const auto at = [](double x) { return Pose<3>{.position = Vec3(x, 0.0, 0.0)}; };
+  pass(to_obstacles<3>(std::vector<ObstaclePose<3>>{{2, at(2.5)}}));
+  pass(to_obstacles<3>(std::vector<ObstaclePose<3>>{{0, at(0.5)}, {1, at(1.5)}}));
+  const auto obstacles = obstacles_of<3>(reader.moment());
+  ASSERT_EQ(obstacles.size(), 3U);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(obstacles[k].obstacle, k);
+    EXPECT_EQ(obstacles[k].pose.position.x(), k + 0.5);
+  }
+}
+
+TEST(MomentReader, RefusesWhatTheSceneDoesNotHave) {
+  const std::vector<LogEvent> events = recorded<2>(4);
+  const auto read = [&](int dimension, MomentLimits allowed) {
+    MomentReader reader(dimension, allowed);
+    for (const LogEvent& event : events) take(event, reader);
+  };
+  EXPECT_NO_THROW(read(2, limits));
+  EXPECT_THROW(read(3, limits), std::invalid_argument);
+  MomentLimits fewer = limits;
+  fewer.bodies = body_count - 1;
+  EXPECT_THROW(read(2, fewer), std::invalid_argument);
+}
+
+TEST(MomentReader, RefusesARunOfAnotherFormatByItsNumberAndVersion) {
+  std::vector<LogEvent> events = recorded<2>(4);
+  std::vector<std::uint8_t>& bytes = events.front().data;
+  bytes[header_bytes + 3] = 9;
+  renumber(bytes, 0);
+  MomentReader reader(2, limits);
+  try {
+    take(events.front(), reader);
+    FAIL() << "taken";
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("format 9 of talus "), std::string::npos) << text;
+    EXPECT_NE(text.find("must be format 1"), std::string::npos) << text;
+  }
+}
+
+TEST(MomentReader, LeavesBodiesOutUntilAllShapesAreKnownWhereNoSceneIs) {
+  MomentReader reader(3, {});
+  const std::vector<LogEvent> events = recorded<3>(8);
+  for (const LogEvent& event : events)
+    if (event.channel == name_of(Channel::bodies)) EXPECT_FALSE(take(event, reader));
+  EXPECT_EQ(reader.moment().bodies.size(), 0);
+  for (const LogEvent& event : events)
+    if (event.channel == name_of(Channel::shapes)) take(event, reader);
+  EXPECT_TRUE(reader.has_all_shapes());
+}
+
+TEST(MomentReader, CountsAMessageThatComesTwiceOnce) {
+  MomentReader reader(2, limits);
+  for (const LogEvent& event : recorded<2>(8)) {
+    take(event, reader);
+    if (event.channel == name_of(Channel::sleep)) take(event, reader);
+  }
+  EXPECT_EQ(reader.slept(), body_count);
+  EXPECT_EQ(reader.lost(Channel::sleep), 0);
+}
+
+TEST(PoseList, KeepsWholeTurnsOfAPlaneScene) {
+  PoseList poses(2);
+  poses.resize(2);
+  const std::vector<float> turned = {1.0F, 2.0F, 40.0F};
+  poses.set(1, turned);
+  EXPECT_EQ(poses.pose<2>(1).rotation.angle(), 40.0);
+  // Counter-clockwise with x to the right and z up: x turns towards z.
+  poses.set(0, std::vector<float>{0.0F, 0.0F, 0.5F});
+  const Vec3 x = poses.in_space(0) * Vec3::UnitX();
+  EXPECT_NEAR(x.z(), std::sin(0.5), 1e-7);
+  EXPECT_EQ(x.y(), 0.0);
+}
+
+}  // namespace
+}  // namespace talus::moment_reader_test
