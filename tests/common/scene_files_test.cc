@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "common/scene/read_scene.h"

@@ -177,7 +177,7 @@ class LogCount {
   std::vector<std::pair<std::int64_t, RunCount>> runs_;  // by id, in the order of the log
 };
 
-std::string printed(const Json& text) { return printable(text.get<std::string>()); }
+std::string shown_text(const Json& text) { return printable(text.get<std::string>()); }
 
 /// A stamp of our records is simulated time, one of a bus the time of day.
 std::string text_of_stamps(const Json& stamps) {
@@ -204,10 +204,10 @@ void print_stamps(const Json& json) {
     print_result("  {} stamps are earlier than one before them; `talus info --repair` mends these\n", backward);
 }
 
-void print_run(const Json& run) {
-  const std::string reason = printed(run["reason"]);
-  print_result("run {}: {} on {}, policy {}, seed {}, {}\n", printed(run["run"]), printed(run["scene"]),
-               printed(run["backend"]), printed(run["policy"]), run["seed"].get<std::uint64_t>(),
+void print_run_of_log(const Json& run) {
+  const std::string reason = shown_text(run["reason"]);
+  print_result("run {}: {} on {}, policy {}, seed {}, {}\n", shown_text(run["run"]), shown_text(run["scene"]),
+               shown_text(run["backend"]), shown_text(run["policy"]), run["seed"].get<std::uint64_t>(),
                reason.empty() ? "without an end" : "ended: " + reason);
   print_result("  {:.2f} to {:.2f} s simulated, {} bodies, {} frames of output, {} of them key frames\n",
                run["begin_s"].get<double>(), run["end_s"].get<double>(), run["bodies"].get<int>(),
@@ -216,7 +216,7 @@ void print_run(const Json& run) {
     print_result("  its stamps and the times in its messages run apart by {:.2f} s\n", apart);
   for (const Json& event : run["events"])
     print_result("  event {} before step {}: {}\n", event["number"].get<int>(), event["step"].get<std::int64_t>(),
-                 printed(event["text"]));
+                 shown_text(event["text"]));
 }
 
 }  // namespace
@@ -237,13 +237,13 @@ Json log_summary(const std::filesystem::path& file) {
 
 void print_log_summary(const Json& json) {
   const bool empty = json["stamps"].is_null();
-  print_result("{}: {:.1f} MB, {}\n", printed(json["file"]), json["bytes"].get<double>() / 1e6,
+  print_result("{}: {:.1f} MB, {}\n", shown_text(json["file"]), json["bytes"].get<double>() / 1e6,
                empty ? "no message" : "stamps " + text_of_stamps(json["stamps"]));
   if (!empty) print_stamps(json);
   if (json["runs"].empty()) print_result("no run of talus is in it\n");
-  for (const Json& run : json["runs"]) print_run(run);
+  for (const Json& run : json["runs"]) print_run_of_log(run);
   for (const Json& channel : json["channels"]) {
-    print_result("  {:<14} {:>8} messages {:>12} bytes", printed(channel["name"]),
+    print_result("  {:<14} {:>8} messages {:>12} bytes", shown_text(channel["name"]),
                  channel["messages"].get<std::int64_t>(), channel["bytes"].get<std::int64_t>());
     for (const char* fault : {"missing", "undecodable"})
       if (const auto number = channel[fault].get<std::int64_t>(); number > 0) print_result(", {} {}", number, fault);

@@ -163,8 +163,8 @@ bool write_sweep_plot(const std::filesystem::path& file, const std::string& titl
   for (const auto& [name, points] : curves)
     for (const auto& [x, sample] : points) most_seeds = std::max(most_seeds, sample.count);
   const std::string bars =
-      most_seeds > 1 ? fmt::format("; bars: standard error of the mean of {} seeds", most_seeds) : "";
-  Plot plot{.title = title + bars, .x_label = axes[*along].path, .y_label = std::string(which->label), .series = {}};
+      most_seeds > 1 ? fmt::format(" (bars: standard error of the mean of {} seeds)", most_seeds) : "";
+  Plot plot{.title = title, .x_label = axes[*along].path + bars, .y_label = std::string(which->label), .series = {}};
   for (const auto& [name, points] : curves) plot.series.push_back(series_of(name, points));
   std::ofstream out(file, std::ios::binary);
   out << svg_of(plot);
