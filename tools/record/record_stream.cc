@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/scene/read_scene.h"
+#include "common/text/printable.h"
 #include "lcmtypes/log_reader.h"
 #include "tools/picture/framing.h"
 #include "tools/record/record_file.h"
@@ -18,7 +19,12 @@ namespace talus {
 namespace {
 
 RunTexts texts_of(const std::string& name, std::uint64_t seed, const WalkResult& walk) {
-  RunTexts texts = {name, walk.run.backend, walk.run.policy, walk.run.version, seed, walk.run.reason};
+  RunTexts texts = {name,
+                    printable(walk.run.backend),
+                    printable(walk.run.policy),
+                    printable(walk.run.version),
+                    seed,
+                    printable(walk.run.reason)};
   if (!walk.damage.none())
     texts.damage = fmt::format("{} damaged bytes and {} messages not decodable: frames may be missing",
                                walk.damage.bytes, walk.damage.undecodable);

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/text/printable.h"
 #include "tools/record/record_file.h"
 
 namespace talus {
@@ -13,8 +12,7 @@ namespace {
 
 RecordedIdentity identity_of(const MomentReader& reader) {
   if (!reader.run()) return {};
-  return {printable(reader.run()->backend), printable(reader.run()->policy), printable(reader.run()->version),
-          printable(reader.run()->reason)};
+  return {reader.run()->backend, reader.run()->policy, reader.run()->version, reader.run()->reason};
 }
 
 /// Whether the event completed a moment.

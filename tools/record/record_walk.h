@@ -22,7 +22,7 @@ struct WalkDamage {
   bool none() const { return bytes == 0 && undecodable == 0; }
 };
 
-/// The run's identity and end, from the record; printable. Empty where no message has it.
+/// The run's identity and end, from the record, of any bytes. Empty where no message has it.
 struct RecordedIdentity {
   std::string backend;
   std::string policy;
