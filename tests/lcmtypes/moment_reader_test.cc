@@ -107,13 +107,10 @@ TEST(MomentReader, CountsEachMessageThatIsMissingAndDoubtsPosesUntilTheyAreToldA
 
 TEST(MomentReader, KeepsAPoseInDoubtThatALostFrameMayHaveChanged) {
   MomentReader reader(3, limits);
-  std::vector<LogEvent> events = recorded<3>(8);
-  for (const LogEvent& event : events) {
+  int frames = 0;
+  for (const LogEvent& event : recorded<3>(8)) {
     // Without step 4, in which all fall asleep, step 6 does not say where they are.
-    if (event.channel == name_of(Channel::bodies) && reader.moment().step == 2 && reader.lost(Channel::bodies) == 0 &&
-        !reader.later_events().empty()) {
-      continue;
-    }
+    if (event.channel == name_of(Channel::bodies) && ++frames == 2) continue;
     if (take(event, reader) && reader.moment().step == 6) EXPECT_FALSE(reader.moment().bodies.shows(0));
   }
   EXPECT_EQ(reader.moment().step, 8);
