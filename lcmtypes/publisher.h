@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/simulation/observer.h"
+#include "lcmtypes/moment_writer.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/send_queue.h"
-#include "lcmtypes/translate.h"
 
 namespace talus {
 
@@ -55,7 +55,7 @@ class Pulse {
 /// Shows a run live over LCM. Only sends, never waits, and never changes the run. Without a way into the network it
 /// warns once and does nothing.
 template <int Dim>
-class Publisher final : public Observer<Dim> {
+class Publisher final : public Observer<Dim>, private MessageSink {
  public:
   /// Throws std::invalid_argument on bad parameters, an address that leaves the machine among them.
   explicit Publisher(const RunInfo& info, const PublisherParams& params = {});
@@ -63,13 +63,11 @@ class Publisher final : public Observer<Dim> {
   Publisher(const RunInfo& info, const PublisherParams& params, lcm::LCM& lcm);
 
   /// Poses are sent only once the shapes are known. Throws std::invalid_argument on a shape too large for a message.
-  void set_world(const WorldDescription<Dim>& world) { shapes_ = to_shapes<Dim>(world); }
-  /// The scene's events and the poses of its obstacles that move are sent too.
-  void set_scene(const Scene<Dim>& scene) {
-    events_ = to_events(scene);
-    movers_ = scene.movers;
-    obstacles_ = scene.world.obstacles;
+  void set_world(const WorldDescription<Dim>& world) {
+    if (bodies_rate_ > 0.0) writer_.set_world(world);
   }
+  /// The scene's events and the poses of its obstacles that move are sent too.
+  void set_scene(const Scene<Dim>& scene) { writer_.set_scene(scene); }
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
@@ -81,24 +79,15 @@ class Publisher final : public Observer<Dim> {
 
  private:
   using Clock = Pulse::Clock;
-  void begin();
-  template <class Message>
-  void send(Message& message, std::int64_t step, double time);
-  template <class Message>
-  void send(std::vector<Message> messages, std::int64_t step, double time);
-  void send_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time);
+  Publisher(const RunInfo& info, const PublisherParams& params, std::unique_ptr<SendQueue> queue);
+  std::int64_t stamp(double time) override;
+  void put(Packet packet) override { queue_->push(std::move(packet)); }
   void send_stats(const Frame<Dim>& frame, Clock::time_point now);
-  bool sends_poses() const { return bodies_rate_ > 0.0 && !shapes_.empty(); }
   void send_bodies(const Frame<Dim>& frame, Clock::time_point now);
-  void send_all_poses(const Frame<Dim>& frame);
-  void send_obstacles(const Frame<Dim>& frame);
-  void send_shapes(const Frame<Dim>& frame);
-  void send_events(const Frame<Dim>& frame);
 
-  RunInfo info_;
   std::int64_t run_id_;
-  MessageEncoder encoder_;
   std::unique_ptr<SendQueue> queue_;
+  MomentWriter<Dim> writer_;
   Pulse run_pulse_{1.0};
   Pulse stats_pulse_{10.0};
   Pulse shapes_pulse_{1.0};
@@ -106,14 +95,7 @@ class Publisher final : public Observer<Dim> {
   Pulse piles_pulse_;
   Pulse bodies_pulse_;
   double bodies_rate_;
-  std::vector<talus_lcm::talus_shapes> shapes_;  // and obstacles; empty: not known
-  std::vector<talus_lcm::talus_event> events_;   // of the scene, as far as they have happened
-  std::size_t event_turn_ = 0;                   // the one from which on they are sent again
-  std::vector<Mover<Dim>> movers_;
-  std::vector<Obstacle<Dim>> obstacles_;  // before they moved
-  double obstacles_time_ = -1.0;          // when their poses were sent last [s]; below 0: never
-  std::vector<BodyIndex> fell_asleep_;    // since poses were sent last
-  BodyIndex turn_ = 0;                    // the body from which on poses of resting ones are sent next
+  BodyIndex turn_ = 0;  // the body from which on poses of resting ones are sent next
   // Since the last statistics:
   PhaseTimes sum_;
   std::int64_t summed_steps_ = 0;

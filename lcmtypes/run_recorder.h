@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/simulation/observer.h"
 #include "lcmtypes/event_log.h"
+#include "lcmtypes/moment_writer.h"
 #include "lcmtypes/run_info.h"
 
 namespace talus {
@@ -23,7 +24,7 @@ struct RecorderParams {
 /// however many sleep. Stamps are simulated time and nothing in the file is from the wall clock, so the same run gives
 /// the same bytes. When the disk is full a call throws std::system_error, and later ones do nothing.
 template <int Dim>
-class RunRecorder final : public Observer<Dim> {
+class RunRecorder final : public Observer<Dim>, private MessageSink {
  public:
   /// Throws std::system_error when the file cannot be made, std::invalid_argument on bad parameters and on a shape
   /// too large for a message, or where a file that the scene names can no longer be read.
@@ -33,31 +34,17 @@ class RunRecorder final : public Observer<Dim> {
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
 
  private:
-  Stamp stamp(std::int64_t step, double time);
-  template <class Message>
-  void write(Message& message, std::int64_t step, double time);
-  template <class Message>
-  void write(std::vector<Message> messages, std::int64_t step, double time);
-  void write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time);
+  std::int64_t stamp(double time) override;
+  void put(Packet packet) override { log_.write(packet); }
   void write_output(const Frame<Dim>& frame, bool key_frame);
-  std::vector<BodyIndex> moved(const Frame<Dim>& frame);
-  void write_scene_events(const Frame<Dim>& frame);
 
-  RunInfo info_;
   std::int64_t steps_per_frame_;
   std::int64_t steps_per_key_frame_;
   std::int64_t poses_since_key_frame_ = 0;
   double flush_interval_;
   EventLog log_;
-  MessageEncoder encoder_;
   std::int64_t last_utime_ = -1;
-  std::vector<BodyIndex> fell_asleep_;  // since the last frame of output
-  std::vector<talus_lcm::talus_event> scene_events_;
-  std::vector<Mover<Dim>> movers_;
-  std::vector<Obstacle<Dim>> obstacles_;  // before they moved
-  double obstacles_time_ = -1.0;          // when their poses were written last [s]; below 0: never
-  bool has_scene_ = false;                // that was read from TOML
-  bool removed_ = false;                  // an event removed bodies since the last key frame
+  MomentWriter<Dim> writer_;
 };
 
 }  // namespace talus

@@ -1,0 +1,103 @@
+#include "lcmtypes/moment_writer.h"
+
+#include <algorithm>
+
+namespace talus {
+
+template <int Dim>
+void MomentWriter<Dim>::set_scene(const Scene<Dim>& scene) {
+  events_ = to_events(scene);
+  movers_ = scene.movers;
+  obstacles_ = scene.world.obstacles;
+}
+
+template <int Dim>
+void MomentWriter<Dim>::run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
+  auto channels = channels_of_run(!events_.empty(), !movers_.empty());
+  if (!files_.empty()) channels.push_back(Channel::scene);
+  send(to_run(info_, phase, reason, channels, encoder_), step, time);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::files() {
+  send_all(files_, 0, 0.0);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::shapes(const Frame<Dim>& frame) {
+  for (talus_lcm::talus_shapes& message : shapes_) {
+    if (message.obstacle != 0) set_pose<Dim>(frame.world.obstacle_pose(message.index), message);
+    send(message, frame.step, frame.time);
+  }
+}
+
+template <int Dim>
+void MomentWriter<Dim>::shapes() {
+  send_all(shapes_, 0, 0.0);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::events(const Frame<Dim>& frame) {
+  for (const int number : frame.scene_events) {
+    if (number >= std::ssize(events_)) continue;
+    set_happened(frame, info_.dt, events_[number]);
+    send(events_[number], frame.step, frame.time);
+    removed_ = removed_ || events_[number].action == "remove";
+  }
+  send_all(to_sleep(frame.events), frame.step, frame.time);
+  if (!has_shapes()) return;
+  for (const SleepEvent& event : frame.events)
+    if (!event.woke) fell_asleep_.push_back(event.body);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::events_again(const Frame<Dim>& frame, std::size_t most) {
+  for (std::size_t left = std::min(most, events_.size()); left > 0; --left) {
+    if (event_turn_ >= events_.size()) event_turn_ = 0;
+    send(events_[event_turn_++], frame.step, frame.time);
+  }
+}
+
+template <int Dim>
+void MomentWriter<Dim>::piles(const Frame<Dim>& frame) {
+  send_all(to_piles<Dim>(frame.piles.piles(), frame.policy), frame.step, frame.time);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::obstacles(const Frame<Dim>& frame, bool all) {
+  if (!all && !any_moves_after<Dim>(movers_, obstacles_time_)) return;
+  obstacles_time_ = frame.time;
+  send_all(to_obstacles<Dim>(moving_poses(obstacles_, movers_, frame.time)), frame.step, frame.time);
+}
+
+template <int Dim>
+typename MomentWriter<Dim>::Sent MomentWriter<Dim>::bodies(const Frame<Dim>& frame, std::span<const BodyIndex> more) {
+  const BodyStates<Dim>& states = frame.world.states();
+  std::vector<BodyIndex> bodies(frame.world.awake().begin(), frame.world.awake().end());
+  bodies.insert(bodies.end(), fell_asleep_.begin(), fell_asleep_.end());
+  bodies.insert(bodies.end(), more.begin(), more.end());
+  fell_asleep_.clear();
+  std::erase_if(bodies, [&](BodyIndex body) { return states.removed[body] != 0; });
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  auto messages = to_bodies<Dim>(states, bodies, false);
+  const Sent sent{.bodies = bodies.size(), .messages = messages.size()};
+  send_all(std::move(messages), frame.step, frame.time);
+  return sent;
+}
+
+template <int Dim>
+void MomentWriter<Dim>::all_bodies(const Frame<Dim>& frame) {
+  const BodyStates<Dim>& states = frame.world.states();
+  std::vector<BodyIndex> bodies;
+  for (BodyIndex body = 0; body < states.size(); ++body)
+    if (states.removed[body] == 0) bodies.push_back(body);
+  send_all(to_bodies<Dim>(states, bodies, true), frame.step, frame.time);
+  fell_asleep_.clear();
+  removed_ = false;
+}
+
+template class MomentWriter<2>;
+template class MomentWriter<3>;
+
+}  // namespace talus

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/policy/frame.h"
+#include "common/scene/scene.h"
+#include "common/world/motion.h"
+#include "lcmtypes/encode.h"
+#include "lcmtypes/run_info.h"
+#include "lcmtypes/translate.h"
+
+namespace talus {
+
+/// Where the messages of a run go: to the bus or into a record.
+class MessageSink {
+ public:
+  virtual ~MessageSink() = default;
+  /// The stamp [us] of the next message, which is of this simulated time [s]; see the .lcm files.
+  virtual std::int64_t stamp(double time) = 0;
+  virtual void put(Packet packet) = 0;
+};
+
+/// Writes the messages of a run: what each says, not when it is sent. What many bodies, piles or events are told in
+/// comes in several messages.
+template <int Dim>
+class MomentWriter {
+ public:
+  /// `sink` must live longer than this object.
+  MomentWriter(const RunInfo& info, std::int64_t run_id, MessageSink& sink)
+      : info_(info), encoder_(run_id), sink_(sink) {}
+
+  /// Before shapes() and bodies(). Throws std::invalid_argument on a shape too large for a message.
+  void set_world(const WorldDescription<Dim>& world) { shapes_ = to_shapes<Dim>(world); }
+  /// The scene's events, and its obstacles that move.
+  void set_scene(const Scene<Dim>& scene);
+  /// The files of the scene, which is written down then.
+  void set_files(const Scene<Dim>& scene) { files_ = to_scene_files(scene); }
+  bool has_shapes() const { return !shapes_.empty(); }
+
+  /// `phase` as in talus_run.
+  void run(std::int8_t phase, std::string_view reason, std::int64_t step, double time);
+  void files();
+  /// All shapes, and the obstacles where they are now.
+  void shapes(const Frame<Dim>& frame);
+  /// As they were at the start.
+  void shapes();
+
+  /// After each step: events of the scene and sleep events of it.
+  void events(const Frame<Dim>& frame);
+  /// Some of the scene's events again, in turn.
+  void events_again(const Frame<Dim>& frame, std::size_t most);
+
+  void piles(const Frame<Dim>& frame);
+  void stats(const Frame<Dim>& frame) { send(to_stats<Dim>(frame), frame.step, frame.time); }
+  void stats(talus_lcm::talus_stats message, const Frame<Dim>& frame) { send(message, frame.step, frame.time); }
+  /// Of obstacles that have moved since the last time; all that ever move where `all` is set.
+  void obstacles(const Frame<Dim>& frame, bool all = false);
+  /// Poses of the bodies awake, of those that fell asleep since the last time, and of `more`; how many these are and in
+  /// how many messages.
+  struct Sent {
+    std::size_t bodies = 0;
+    std::size_t messages = 0;
+  };
+  Sent bodies(const Frame<Dim>& frame, std::span<const BodyIndex> more = {});
+  /// A key frame: poses of all bodies in the world.
+  void all_bodies(const Frame<Dim>& frame);
+  /// Whether an event took bodies out of the world since the last key frame: only a key frame says which are left.
+  bool owes_key_frame() const { return removed_; }
+
+ private:
+  template <class Message>
+  void send(Message&& message, std::int64_t step, double time) {
+    sink_.put(encoder_.encode(message, {.utime = sink_.stamp(time), .step = step, .sim_time = time}));
+  }
+  template <class Message>
+  void send_all(std::vector<Message> messages, std::int64_t step, double time) {
+    for (Message& message : messages) send(message, step, time);
+  }
+
+  RunInfo info_;
+  MessageEncoder encoder_;
+  MessageSink& sink_;
+  std::vector<talus_lcm::talus_shapes> shapes_;  // and obstacles; empty: not known
+  std::vector<talus_lcm::talus_event> events_;   // of the scene, as far as they have happened
+  std::size_t event_turn_ = 0;                   // the one from which on they are sent again
+  std::vector<Mover<Dim>> movers_;
+  std::vector<Obstacle<Dim>> obstacles_;  // before they moved
+  double obstacles_time_ = -1.0;          // when their poses were sent last [s]; below 0: never
+  std::vector<BodyIndex> fell_asleep_;    // since poses were sent last
+  std::vector<talus_lcm::talus_scene> files_;
+  bool removed_ = false;
+};
+
+}  // namespace talus
