@@ -165,7 +165,9 @@ TEST_F(BadCommandLine, OfCheckIsRefused) {
 #ifdef TALUS_LCM
           {"check comb.toml --force", {"comb.toml: shape \"comb\"", "460 pieces", "one telemetry message"}},
 #endif
-          {"check drop_in_a_pile_2d --backend box2d", {"--backend"}}});
+          {"check drop_in_a_pile_2d --backend havok", {"--backend", "havok", "box2d"}},
+          {"check drop_in_a_pile_2d --policy never", {"--policy", "never"}},
+          {"check drop_in_a_pile_2d --seed -1", {"--seed", "-1"}}});
 }
 
 TEST_F(BadCommandLine, OfBenchIsRefused) {

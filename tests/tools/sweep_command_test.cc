@@ -19,7 +19,7 @@ class SweepCommand : public ::testing::Test {
   SweepCommand() {
     std::ofstream(folder_.path() / "scene.toml")
         << "title = \"Ten discs\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\n"
-           "source = [{count = 10, rate = 10, position = [0, 8], velocity = [0, -7]}]\nrun = {frames = 60}\npile = "
+           "source = [{count = 10, rate = 6, position = [0, 8], velocity = [0, -7]}]\nrun = {frames = 60}\npile = "
            "[{}]\n";
   }
   Outcome sweep(const std::string& more = "") const {
@@ -34,7 +34,7 @@ class SweepCommand : public ::testing::Test {
 };
 
 TEST_F(SweepCommand, RunsTheProductAndLeavesATableAndAPlot) {
-  const Outcome outcome = sweep();
+  const Outcome outcome = sweep(" --plot bodies");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("8 runs, 8 finished, 0 failed"), std::string::npos) << outcome.out;
   const std::string table = file("sweep.csv");
