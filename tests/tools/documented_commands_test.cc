@@ -43,8 +43,21 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus monitor --json", "talus monitor --json --seconds 1"},
     // It hears no run here, which is a loss.
     {"talus monitor --json --seconds 60 --fail-on-loss", "! talus monitor --json --seconds 1 --fail-on-loss"},
-    // Outside of the window.
-    {"talus run heavy.toml --out heavy", "! talus run heavy.toml --out heavy"},
+    {"talus bench --preset table1 --quick --out table1",
+     "talus bench varying_drops_2d --preset table1 --quick --seeds 1 --set run.frames=20 --out table1"},
+    {"talus bench drop_in_a_pile_2d --policy full,adaptive,reference --seeds 8 --out pile",
+     "talus bench drop_in_a_pile_2d --policy full,adaptive,reference --seeds 2 --set run.frames=20 --out pile"},
+    {"talus bench --preset table1 --out table1",
+     "talus bench varying_drops_2d --preset table1 --quick --seeds 1 --set run.frames=20 --out table1"},
+    {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive,reference --seeds 32 --drift --out example1",
+     "talus bench drop_in_a_pile_2d --policy full,reference --seeds 2 --set run.frames=20 --drift --out example1"},
+    {"talus bench drop_in_a_pile_2d --policy full,adaptive,reference --set policy.adaptive.tolerance=0,0.05 --set "
+     "shape.L.friction=0.2 --set ground.friction=0.2 --seeds 16 --drift --out checks",
+     "talus bench drop_in_a_pile_2d --policy full,adaptive --set policy.adaptive.tolerance=0,0.05 --set "
+     "shape.L.friction=0.2 --set ground.friction=0.2 --seeds 1 --set run.frames=20 --drift --out checks"},
+    {"talus stress", "talus stress stack-5"},
+    {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
+    {"talus stress --long", "talus stress stack-5 --long"},
 });
 
 /// Programs of other projects: their lines are not run.
