@@ -51,7 +51,8 @@ inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
     {&PileParams<Dim>::initial_size,
      {.name = "initial_size",
       .range = between(1.0, 1e7),
-      .meaning = "number of bodies, [`N`](extending.md#glossary), for which the layers have room at the start. Larger: the first "
+      .meaning = "number of bodies, [`N`](extending.md#glossary), for which the layers have room at the start. Larger: "
+                 "the first "
                  "bodies wait longer for a dense layer"}},
     {&PileParams<Dim>::growth_ratio,
      {.name = "growth_ratio",

@@ -33,6 +33,8 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus monitor", "talus monitor --seconds 1"},
     {"talus sweep public/hopper_2d --set shape.disc.radius=0.4,0.5,0.6,0.7,0.8 --seeds 8 --out hopper",
      "talus sweep public/hopper_2d --set shape.disc.radius=0.4,0.5 --set run.frames=10 --out hopper"},
+    {"talus sweep drop_in_a_pile_2d --set policy.kind=full,adaptive --seeds 8 --out policies",
+     "talus sweep drop_in_a_pile_2d --set policy.kind=full,adaptive --set run.frames=10 --seeds 2 --out policies"},
     {"talus view drop_in_a_pile_2d", "talus view drop_in_a_pile_2d --seconds 1"},
     {"talus view discs.toml", "talus view discs.toml --seconds 1"},
     {"talus view --live", "talus view --live --seconds 1"},
@@ -49,7 +51,8 @@ constexpr auto shortened = std::to_array<Shortened>({
      "talus bench drop_in_a_pile_2d --policy full,adaptive,reference --seeds 2 --set run.frames=20 --out pile"},
     {"talus bench --preset table1 --out table1",
      "talus bench varying_drops_2d --preset table1 --quick --seeds 1 --set run.frames=20 --out table1"},
-    {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive,reference --seeds 32 --drift --out example1",
+    {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive,reference --seeds 32 --drift --out "
+     "example1",
      "talus bench drop_in_a_pile_2d --policy full,reference --seeds 2 --set run.frames=20 --drift --out example1"},
     {"talus bench drop_in_a_pile_2d --policy full,adaptive,reference --set policy.adaptive.tolerance=0,0.05 --set "
      "shape.L.friction=0.2 --set ground.friction=0.2 --seeds 16 --drift --out checks",
