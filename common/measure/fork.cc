@@ -84,13 +84,16 @@ class UntilStep final : public SleepPolicy<Dim> {
   UntilStep(std::unique_ptr<SleepPolicy<Dim>> policy, std::int64_t step) : policy_(std::move(policy)), step_(step) {}
 
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override {
-    if (frame.step < step_ && policy_->decides()) policy_->decide(frame, decision);
+    if (frame.step < step_) policy_->decide(frame, decision);
     if (frame.step != step_) return;
     const BodyStates<Dim>& states = frame.world.states();
     for (BodyIndex body = 0; body < states.size(); ++body)
       if (states.asleep[body] && !states.removed[body])
         decision.thaw.push_back({.body = body, .cause = SleepCause::user});
   }
+  void note(const World<Dim>& world, std::span<const SleepEvent> events) override { policy_->note(world, events); }
+  bool needs_contacts() const override { return policy_->needs_contacts(); }
+  bool counts_flying() const override { return policy_->counts_flying(); }
 
  private:
   std::unique_ptr<SleepPolicy<Dim>> policy_;

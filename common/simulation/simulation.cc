@@ -44,19 +44,6 @@ Vec<Dim> planned_gravity(const Motion<Dim>& plan, const Vec<Dim>& still, double 
   return plan.turn_at(time) * (still + plan.shift_at(time));
 }
 
-/// Whether gravity became `woken`, at which all bodies were woken, within the steps that are to be kept awake. It is
-/// the same number then, since it is computed in the same way.
-template <int Dim>
-bool woken_lately(const Motion<Dim>& plan, const Vec<Dim>& still, const Vec<Dim>& woken, std::int64_t step, double dt,
-                  double extent) {
-  constexpr double longest = 10.0;  // [s]; with little gravity
-  const double time = std::min(longest, awake_after_gravity * std::sqrt(extent / std::max(woken.norm(), 1e-9)));
-  const auto gravity = [&](std::int64_t at) { return planned_gravity(plan, still, static_cast<double>(at) * dt); };
-  for (std::int64_t at = step; at > 0 && static_cast<double>(step - at) * dt < time; --at)
-    if (gravity(at) == woken && gravity(at - 1) != woken) return true;
-  return false;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -80,12 +67,11 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       ends_at_rest_(scene.run.until == until_rest),
       steps_(scene.steps()) {
   if (ends_at_rest_ || event_clock_.waits_for_rest()) rest_check_.emplace(scene);
-  for (const Event<Dim>& event : scene.events) {
-    if (event.action != "policy") continue;
-    Scene<Dim> with_other = scene;
-    with_other.policy.kind = event.policy;
-    other_policies_[event.policy] = make_policy(with_other);
-  }
+  if (std::ranges::count(scene.events, "policy", &Event<Dim>::action) > 0)
+    make_policy_ = [scene](const std::string& kind) mutable {
+      scene.policy.kind = kind;
+      return make_policy(scene);
+    };
   for (std::size_t i = 0; policy_->decides() && i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
 }
@@ -93,17 +79,16 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
 /// In the first step, before the engine moves the bodies.
 template <int Dim>
 void Simulation<Dim>::freeze_initial_bodies() {
-  world_->freeze(asleep_at_start_);
-  for (const BodyIndex body : asleep_at_start_) {
-    piles_.recount_body(world_->states(), body);
-    user_events_.push_back({.step = step_ + 1, .body = body, .woke = false, .cause = SleepCause::user});
-  }
+  std::vector<SleepEvent> events;
+  for (const BodyIndex body : asleep_at_start_) events.push_back({.body = body, .cause = SleepCause::user});
+  change_sleep(events, false);
   asleep_at_start_.clear();
 }
 
 template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
+  events_.clear();
   do_due_events();
   emitter_.emit(*world_, time());
   if (!asleep_at_start_.empty()) freeze_initial_bodies();
@@ -137,11 +122,7 @@ void Simulation<Dim>::step() {
 
 template <int Dim>
 void Simulation<Dim>::move_obstacles() {
-  const std::vector<BodyIndex>& sleepers = obstacles_.move(*world_, time());
-  if (engine_sleep_)
-    world_->thaw(sleepers);  // note_engine_sleep() makes the events
-  else if (!sleepers.empty())
-    thaw_now(sleepers, SleepCause::lost_support);
+  thaw_now(obstacles_.move(*world_, time()), SleepCause::lost_support);
 }
 
 /// Sleeping bodies do not feel that gravity changes: once it has by more than the tolerance, all wake.
@@ -150,20 +131,29 @@ void Simulation<Dim>::change_gravity() {
   const Vec<Dim> now = planned_gravity(*gravity_motion_, gravity_, time());
   world_->set_gravity(now);
   const double scale = std::max(now.norm(), gravity_of_sleepers_.norm());
-  if ((now - gravity_of_sleepers_).norm() <= gravity_tolerance * scale) return;
-  gravity_of_sleepers_ = now;
+  if ((now - gravity_of_sleepers_).norm() > gravity_tolerance * scale) wake_for_gravity();
+}
+
+template <int Dim>
+void Simulation<Dim>::wake_for_gravity() {
+  gravity_of_sleepers_ = world_->gravity();
+  woken_for_gravity_ = step_;
   thaw_all();
+}
+
+/// Whether bodies that woke for gravity before one of the last steps have not yet had the time to begin to move.
+template <int Dim>
+bool Simulation<Dim>::gravity_woke_lately() const {
+  if (!woken_for_gravity_) return false;
+  constexpr double longest = 10.0;  // [s]; with little gravity
+  const double unit = std::sqrt(piles_.typical_body().extent / std::max(gravity_of_sleepers_.norm(), 1e-9));
+  return static_cast<double>(step_ - 1 - *woken_for_gravity_) * dt_ < std::min(longest, awake_after_gravity * unit);
 }
 
 /// A body that touches an obstacle that moves must follow it, and one that gravity woke gets time to begin to move.
 template <int Dim>
-void Simulation<Dim>::keep_moved_awake() {
-  if (gravity_motion_ && !decision_.freeze.empty() &&
-      woken_lately(*gravity_motion_, gravity_, gravity_of_sleepers_, step_ - 1, dt_, piles_.typical_body().extent))
-    decision_.freeze.clear();
-  std::erase_if(decision_.freeze, [this](const SleepEvent& event) {
-    return obstacles_.touch(*world_, event.body) || std::ranges::binary_search(pulled_, event.body);
-  });
+bool Simulation<Dim>::must_stay_awake(BodyIndex body) const {
+  return gravity_woke_lately() || std::ranges::binary_search(pulled_, body) || obstacles_.touch(*world_, body);
 }
 
 /// Sleeping neighbours are woken: neither the loss of a support nor a slow push wakes a body by itself.
@@ -177,10 +167,7 @@ void Simulation<Dim>::pull_body() {
   const Box<Dim> bounds = world_->bounds_of(body);
   const Vec<Dim> margin = Vec<Dim>::Constant(0.05 * world_->shape_of(body).extent);
   world_->query_box({bounds.min() - margin, bounds.max() + margin}, pulled_);
-  if (engine_sleep_)
-    world_->thaw(pulled_);  // note_engine_sleep() makes the events
-  else
-    thaw_now(pulled_, SleepCause::user);
+  thaw_now(pulled_, SleepCause::user);
   const VelocityChange<Dim> change = pulled(*world_, *pull_, dt_);
   if (watched()) watchdog_.note_velocity(*world_, body, change.velocity, change.spin);
   world_->set_velocity(body, change.velocity, change.spin);
@@ -197,8 +184,6 @@ bool Simulation<Dim>::needs_contacts() const {
 /// Section 3.2. Without a policy and without observers piles are not counted.
 template <int Dim>
 void Simulation<Dim>::count_piles() {
-  events_.swap(user_events_);
-  user_events_.clear();
   if (!counts_piles()) return;
   if (engine_sleep_) note_engine_sleep();
   if (piles_.has_unplaced()) place_pile();
@@ -230,32 +215,61 @@ void Simulation<Dim>::decide() {
   decision_.thaw.clear();
   decision_.velocities.clear();
   if (policy_->decides()) policy_->decide(frame(), decision_);
-  keep_moved_awake();
 }
 
 template <int Dim>
 void Simulation<Dim>::apply() {
-  const auto take = [&](std::vector<SleepEvent>& list, bool woke) {
-    bodies_.clear();
-    for (SleepEvent& event : list) {
-      event.step = step_;
-      event.woke = woke;
-      bodies_.push_back(event.body);
-    }
-    if (woke)
-      world_->thaw(bodies_);
-    else
-      world_->freeze(bodies_);
-    for (const BodyIndex body : bodies_) piles_.recount_body(world_->states(), body);
-    events_.insert(events_.end(), list.begin(), list.end());
-  };
-  if (!decision_.thaw.empty()) take(decision_.thaw, true);
+  change_sleep(decision_.thaw, true);
   for (const VelocityChange<Dim>& change : decision_.velocities) {
     if (watched()) watchdog_.note_velocity(*world_, change.body, change.velocity, change.spin);
     world_->set_velocity(change.body, change.velocity, change.spin);
   }
-  if (!decision_.freeze.empty()) take(decision_.freeze, false);
-  std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
+  change_sleep(decision_.freeze, false);
+  close_events();
+}
+
+/// The one place where a run puts bodies to sleep or wakes them. `events` keeps those that were carried out: each body
+/// once, and none that slept or was awake before.
+template <int Dim>
+void Simulation<Dim>::change_sleep(std::vector<SleepEvent>& events, bool woke) {
+  const BodyStates<Dim>& states = world_->states();
+  std::erase_if(events, [&](const SleepEvent& event) { return (states.asleep.at(event.body) != 0) != woke; });
+  if (events.empty()) return;
+  std::ranges::stable_sort(events, {}, &SleepEvent::body);
+  const auto rest = std::ranges::unique(events, {}, &SleepEvent::body);
+  events.erase(rest.begin(), rest.end());
+  bodies_.clear();
+  for (SleepEvent& event : events) {
+    event.woke = woke;
+    bodies_.push_back(event.body);
+  }
+  if (woke)
+    world_->thaw(bodies_);
+  else
+    world_->freeze(bodies_);
+  note(events);
+}
+
+/// Tells all that keep account of sleeping bodies what happened.
+template <int Dim>
+void Simulation<Dim>::note(std::span<const SleepEvent> events) {
+  for (const SleepEvent& event : events) {
+    piles_.recount_body(world_->states(), event.body);
+    if (known_asleep_.empty()) continue;
+    known_asleep_.resize(world_->states().asleep.size(), 0);
+    known_asleep_[event.body] = event.woke ? 0 : 1;
+  }
+  policy_->note(*world_, events);
+  new_events_.insert(new_events_.end(), events.begin(), events.end());
+}
+
+/// From now on the events since the last step are those of this one.
+template <int Dim>
+void Simulation<Dim>::close_events() {
+  for (SleepEvent& event : new_events_) event.step = step_;
+  std::ranges::stable_sort(new_events_, {}, &SleepEvent::body);
+  events_.swap(new_events_);
+  new_events_.clear();
 }
 
 template <int Dim>
@@ -273,23 +287,24 @@ void Simulation<Dim>::end(std::string_view reason) {
   for (Observer<Dim>* observer : observers_) observer->on_end(last, reason);
 }
 
-/// The engine sends no events when it puts a body to sleep or wakes it, so the states before and after are compared.
+/// The engine sends no events when it puts a body to sleep or wakes it, so the states are compared with the events.
 template <int Dim>
 void Simulation<Dim>::note_engine_sleep() {
   const BodyStates<Dim>& states = world_->states();
-  asleep_before_.resize(states.asleep.size(), 0);
-  for (BodyIndex body = 0; body < states.size(); ++body) {
-    if (states.asleep[body] == asleep_before_[body]) continue;
-    asleep_before_[body] = states.asleep[body];
-    events_.push_back({.step = step_, .body = body, .woke = states.asleep[body] == 0, .cause = SleepCause::engine});
-    piles_.recount_body(states, body);
-  }
+  known_asleep_.resize(states.asleep.size(), 0);
+  std::vector<SleepEvent> events;
+  for (BodyIndex body = 0; body < states.size(); ++body)
+    if (states.asleep[body] != known_asleep_[body] && states.removed[body] == 0)
+      events.push_back({.body = body, .woke = states.asleep[body] == 0, .cause = SleepCause::engine});
+  note(events);
 }
 
 template <int Dim>
 void Simulation<Dim>::remove(BodyIndex body) {
   world_->remove(body);
   piles_.recount_body(world_->states(), body);
+  if (world_->states().asleep[body] != 0)
+    policy_->note(*world_, std::vector<SleepEvent>{{.body = body, .woke = true, .cause = SleepCause::user}});
   thaw_near(world_->bounds_of(body), 0.05 * world_->shape_of(body).extent);
 }
 
@@ -329,7 +344,7 @@ void Simulation<Dim>::do_event(const Event<Dim>& event) {
   }
   if (action == "gravity") {
     world_->set_gravity(event.gravity);
-    thaw_all();
+    wake_for_gravity();
   }
 }
 
@@ -379,11 +394,11 @@ void Simulation<Dim>::cut_obstacle(int number) {
   thaw_near(bounds, 0.05 * piles_.typical_body().extent);
 }
 
-/// A policy has no state of bodies that another one froze.
+/// A policy has no state of bodies that another one froze, so all wake, and the new one begins anew.
 template <int Dim>
 void Simulation<Dim>::switch_policy(const std::string& kind) {
   thaw_all();
-  std::swap(policy_, other_policies_.at(kind));
+  policy_ = make_policy_(kind);
 }
 
 template <int Dim>
@@ -395,15 +410,10 @@ void Simulation<Dim>::thaw_all() {
 
 template <int Dim>
 void Simulation<Dim>::thaw_now(std::span<const BodyIndex> bodies, SleepCause cause) {
-  bodies_.clear();
-  const BodyStates<Dim>& states = world_->states();
-  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(bodies_),
-               [&](BodyIndex body) { return states.asleep[body] != 0 && states.removed[body] == 0; });
-  world_->thaw(bodies_);
-  for (const BodyIndex body : bodies_) {
-    piles_.recount_body(states, body);
-    user_events_.push_back({.step = step_ + 1, .body = body, .woke = true, .cause = cause});
-  }
+  std::vector<SleepEvent> events;
+  for (const BodyIndex body : bodies)
+    if (world_->states().removed[body] == 0) events.push_back({.body = body, .cause = cause});
+  change_sleep(events, true);
 }
 
 template class Simulation<2>;

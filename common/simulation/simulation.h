@@ -1,7 +1,7 @@
 #pragma once
 // The loop.
 
-#include <map>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,7 +67,8 @@ class Simulation {
             watchdog_.warnings(),
             watchdog_.bodies_planned(),
             policy_.get(),
-            event_clock_.due()};
+            event_clock_.due(),
+            [this](BodyIndex body) { return must_stay_awake(body); }};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }
@@ -91,7 +92,9 @@ class Simulation {
   void freeze_initial_bodies();
   void move_obstacles();
   void change_gravity();
-  void keep_moved_awake();
+  void wake_for_gravity();
+  bool gravity_woke_lately() const;
+  bool must_stay_awake(BodyIndex body) const;
   void pull_body();
   void do_due_events();
   std::vector<BodyIndex> bodies_meant(const Event<Dim>& event) const;
@@ -100,6 +103,9 @@ class Simulation {
   void switch_policy(const std::string& kind);
   void thaw_near(const Box<Dim>& bounds, double reach);
   void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);
+  void change_sleep(std::vector<SleepEvent>& events, bool woke);
+  void note(std::span<const SleepEvent> events);
+  void close_events();
   void note_engine_sleep();
   bool watched() const { return !observers_.empty(); }
   void show();
@@ -111,10 +117,10 @@ class Simulation {
   Watchdog<Dim> watchdog_;  // at work while there are observers
   std::vector<Observer<Dim>*> observers_;
   Decision<Dim> decision_;
-  std::vector<BodyIndex> bodies_;            // scratch
-  std::vector<SleepEvent> events_;           // of the last step
-  std::vector<SleepEvent> user_events_;      // since the last step
-  std::vector<std::uint8_t> asleep_before_;  // by body, with the engine's own sleeping only
+  std::vector<BodyIndex> bodies_;           // scratch
+  std::vector<SleepEvent> events_;          // of the last step
+  std::vector<SleepEvent> new_events_;      // since the last step
+  std::vector<std::uint8_t> known_asleep_;  // by body, as events tell; with the engine's own sleeping only
   PhaseTimes phases_;
   double dt_;
   std::int64_t step_ = 0;
@@ -123,15 +129,16 @@ class Simulation {
   std::vector<BodyIndex> asleep_at_start_;
   MovingObstacles<Dim> obstacles_;
   std::optional<Motion<Dim>> gravity_motion_;
-  Vec<Dim> gravity_;              // before it changes by plan [m/s^2]
-  Vec<Dim> gravity_of_sleepers_;  // when all bodies were last woken for it
+  Vec<Dim> gravity_;                               // before it changes by plan [m/s^2]
+  Vec<Dim> gravity_of_sleepers_;                   // when all bodies were last woken for it
+  std::optional<std::int64_t> woken_for_gravity_;  // steps done when that was
   std::vector<Event<Dim>> scene_events_;
   std::vector<ObstacleName> obstacle_names_;
   EventClock<Dim> event_clock_;
   std::vector<DoneEvent> done_events_;
   std::optional<Pull<Dim>> pull_;
   std::vector<BodyIndex> pulled_;  // in this step: the body and what lies beside it, ascending
-  std::map<std::string, std::unique_ptr<SleepPolicy<Dim>>> other_policies_;  // by name; that events switch to
+  std::function<std::unique_ptr<SleepPolicy<Dim>>(const std::string&)> make_policy_;  // that an event switches to
   std::optional<RestCheck<Dim>> rest_check_;  // where the scene ends at rest or an event waits for it
   bool ends_at_rest_;
   bool rested_ = false;   // after the last step

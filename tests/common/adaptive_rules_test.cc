@@ -147,6 +147,16 @@ TEST(SupportLoss, DoesNotWakeABodyOnWhichAnAwakeOneMoves) {
   EXPECT_TRUE(loss.woken(world, contacts).empty());
 }
 
+TEST(SupportLoss, ForgetsASleeperThatIsRemoved) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  world.freeze(std::vector<BodyIndex>{1});
+  SupportLossRule loss;
+  loss.woken(world, stack_of_two());
+  world.remove(1);
+  world.move(0, {.position = Vec3(0.02, 0.0, 0.5)});
+  EXPECT_TRUE(loss.woken(world, {}).empty()) << "what has left the world cannot wake";
+}
+
 /// An awake cube of 1 kg hits a sleeping one beside it and is stopped. It comes from the side `from`.
 struct Collision {
   explicit Collision(const Vec3& side = -Vec3::UnitX())

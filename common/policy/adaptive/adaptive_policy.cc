@@ -1,6 +1,7 @@
 #include "common/policy/adaptive/adaptive_policy.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "common/policy/paper_policy.h"
@@ -30,20 +31,22 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       support_loss_({params, typical, world}),
       avalanches_({params, typical, world}),
       slope_controller_({params, typical, world}),
-      checks_({params, typical, world}) {}
+      checks_({params, typical, world}),
+      sleepers_(params.avalanche_width * typical.extent) {}
 
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
-  if (frame.world.awake().empty() && !checks_.may_begin()) return;
+  assert(sleepers_.matches(frame.world.states()));
+  if (frame.world.awake().empty() && !checks_.may_begin(sleepers_)) return;
   const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
   output_.clear();
   rest_.update(in);
   impacts_ahead_.update(in, output_);
   impacts_.update(in, output_);
   support_loss_.update(in, output_);
-  avalanches_.update(in, output_);
+  avalanches_.update(in, sleepers_, output_);
   slope_controller_.update(in, output_);
-  checks_.update(in, rest_, output_);
+  checks_.update(in, rest_, sleepers_, output_);
   limit_velocities();
   for (const auto& [body, wake] : output_.wakes) {
     const Placement place = placement(frame, body);
@@ -52,8 +55,21 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   decision.velocities.swap(output_.velocities);
   choose_sleepers(frame, in, decision);
   rest_.expect_motion(output_.wakes);
-  avalanches_.count(in.states(), decision.freeze, decision.thaw);
-  checks_.count(in, decision.freeze, decision.thaw);
+}
+
+/// A body that sleeps by the user's wish was not put there by a rule: it makes no heap slide and waits for no check.
+template <int Dim>
+void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEvent> events) {
+  for (const SleepEvent& event : events) {
+    if (event.woke) {
+      sleepers_.take_out(event.body);
+      continue;
+    }
+    const Vec<Dim>& position = world.states().pose[event.body].position;
+    const bool by_rule = event.cause != SleepCause::user;
+    sleepers_.put_in(event.body, position, by_rule ? checks_.note_asleep(world, event.body) : Standing::settled);
+    if (by_rule) avalanches_.note_asleep(position);
+  }
 }
 
 template <int Dim>
@@ -68,8 +84,8 @@ template <int Dim>
 void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
   bodies_.clear();
   for (const BodyIndex body : in.world.awake()) {
-    if (checks_.holds(body) || below_ground(in, body)) continue;
-    if (rested_enough(frame, body)) bodies_.push_back(body);
+    if (checks_.holds(body) || below_ground(in, body) || !rested_enough(frame, body)) continue;
+    if (frame.may_sleep(body)) bodies_.push_back(body);
   }
   support_.keep_supported(in, bodies_);
   for (const BodyIndex body : bodies_) {

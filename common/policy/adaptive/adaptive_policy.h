@@ -10,6 +10,7 @@
 #include "common/policy/adaptive/impacts_ahead.h"
 #include "common/policy/adaptive/local_avalanches.h"
 #include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/adaptive/sleep_ledger.h"
 #include "common/policy/adaptive/slope_controller.h"
 #include "common/policy/adaptive/stability_checks.h"
 #include "common/policy/adaptive/support_criterion.h"
@@ -32,9 +33,12 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool needs_contacts() const override { return true; }
   std::vector<Reading> readings(const Frame<Dim>& frame, BodyIndex body) const override;
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
+  void note(const World<Dim>& world, std::span<const SleepEvent> events) override;
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
     return checks_.drift_estimate(world);
   }
+  /// The bodies that sleep, as the policy was told.
+  const SleepLedger<Dim>& sleepers() const { return sleepers_; }
 
  private:
   /// A body's layer in the pile that scores it highest.
@@ -65,6 +69,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   LocalAvalanches<Dim> avalanches_;
   SlopeController<Dim> slope_controller_;
   StabilityChecks<Dim> checks_;
+  SleepLedger<Dim> sleepers_;
   RuleOutput<Dim> output_;         // scratch
   std::vector<BodyIndex> bodies_;  // scratch
 };

@@ -45,6 +45,12 @@ int awake_in_contact(const World<Dim>& world) {
   return static_cast<int>(std::ranges::count(found, 1));
 }
 
+/// How far a point of a body has moved from where it was at a pose [m], or more.
+template <int Dim>
+double displacement(const World<Dim>& world, BodyIndex body, const Pose<Dim>& from) {
+  return max_displacement<Dim>(from, world.states().pose[body], 0.5 * world.shape_of(body).extent);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -70,38 +76,19 @@ bool StabilityChecks<Dim>::holds(BodyIndex body) const {
 }
 
 template <int Dim>
-void StabilityChecks<Dim>::count(const RuleInput<Dim>& in, std::span<const SleepEvent> falling_asleep,
-                                 std::span<const SleepEvent> waking) {
-  if (tolerance_ <= 0.0) return;
-  checked_.resize(in.states().asleep.size());
-  for (const SleepEvent& event : waking) {
-    const Column column = columns_.cell_of(in.pose_of(event.body).position);
-    --sleeping_[column];
-    if (unchecked_.contains(column)) count_unchecked(column, event.body, -1);
-  }
-  for (const SleepEvent& event : falling_asleep) {
-    const Column column = columns_.cell_of(in.pose_of(event.body).position);
-    ++sleeping_[column];
-    std::optional<Release>& checked = checked_[event.body];
-    if (checked && displacement(in, event.body, checked->pose) > tolerance_) checked.reset();
-    count_unchecked(column, event.body, 1);
-  }
-}
-
-/// Adds a sleeping body that waits for a check to its column, or takes it out.
-template <int Dim>
-void StabilityChecks<Dim>::count_unchecked(const Column& column, BodyIndex body, int by) {
-  const std::optional<Release>& checked = checked_[body];
-  if (checked && !checked->loaded) return;
+Standing StabilityChecks<Dim>::note_asleep(const World<Dim>& world, BodyIndex body) {
+  if (tolerance_ <= 0.0) return Standing::settled;
+  checked_.resize(world.states().asleep.size());
+  std::optional<Release>& checked = checked_[body];
+  if (checked && displacement(world, body, checked->pose) > tolerance_) checked.reset();
+  if (checked && !checked->loaded) return Standing::settled;
   may_begin_ = true;
-  Unchecked& unchecked = unchecked_[column];
-  unchecked.bodies += by;
-  if (!checked) unchecked.fresh = std::max(0, unchecked.fresh + by);
-  if (unchecked.bodies <= 0) unchecked_.erase(column);
+  return checked ? Standing::unchecked : Standing::fresh;
 }
 
 template <int Dim>
-void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out) {
+void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, SleepLedger<Dim>& sleepers,
+                                  RuleOutput<Dim>& out) {
   if (tolerance_ <= 0.0) return;
   held_.resize(in.states().asleep.size(), 0);
   arrived_.resize(held_.size(), 0);
@@ -110,30 +97,26 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
   for (Check& check : checks_) release_resting(in, check);
   std::erase_if(checks_, [](const Check& check) { return check.members.empty(); });
   observe_motion(in, rest);
-  std::map<Column, Unchecked> columns = unchecked_;
-  std::erase_if(columns, [&](const auto& column) {
-    return controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column.first)) > angle_;
-  });
-  while (!columns.empty()) {
-    const Region region = take_region(columns);
+  may_begin_ = false;
+  std::set<Column> waiting;
+  for (const auto& [column, count] : sleepers.counts()) {
+    if (count.unchecked == 0) continue;
+    may_begin_ = expects_arrivals(in.step) || !in.world.awake().empty();
+    if (controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column)) <= angle_) waiting.insert(column);
+  }
+  while (!waiting.empty()) {
+    const Region region = take_region(sleepers, waiting);
     if (is_quiet(region, in.step)) {
       begin(in, region, false, out);
     } else if (is_loaded(region, in.step)) {
       if (is_steep(in, region)) begin(in, region, true, out);
-      for (const Column& column : region.columns)
-        if (const auto waiting = unchecked_.find(column); waiting != unchecked_.end()) waiting->second.fresh = 0;
+      for (const Column& column : region.columns) sleepers.settle(column);
     }
   }
-  may_begin_ = !unchecked_.empty() && (expects_arrivals(in.step) || !in.world.awake().empty());
   for (const Contact<Dim>& contact : in.contacts) {
     contact_[contact.a] = 0;
     if (contact.b >= 0) contact_[contact.b] = 0;
   }
-}
-
-template <int Dim>
-double StabilityChecks<Dim>::displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const {
-  return max_displacement<Dim>(from, in.pose_of(body), 0.5 * in.shape_of(body).extent);
 }
 
 /// Takes a sample, and releases the members of the blocks that have come to rest.
@@ -143,7 +126,7 @@ void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& chec
   std::map<Block, Motion> motion;
   for (Member& member : check.members) {
     const Pose<Dim>& pose = in.pose_of(member.body);
-    const double moved = displacement(in, member.body, member.sample);
+    const double moved = displacement(in.world, member.body, member.sample);
     motion[blocks_.cell_of(pose.position)].add({.sum = moved, .before = member.moved, .bodies = 1});
     member.moved = moved;
     member.sample = pose;
@@ -186,7 +169,7 @@ void StabilityChecks<Dim>::release(const RuleInput<Dim>& in, const Member& membe
   checked_[member.body] = release;
   if (!member.slept || release.loaded) return;
   found_count_ = std::min(found_count_ + 1, averaged_bodies);
-  found_ += (displacement(in, member.body, *member.slept) - found_) / static_cast<double>(found_count_);
+  found_ += (displacement(in.world, member.body, *member.slept) - found_) / static_cast<double>(found_count_);
 }
 
 template <int Dim>
@@ -238,32 +221,27 @@ void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCr
     for (const Member& member : check.members) under_check_.insert(columns_.cell_of(member.sample.position));
 }
 
-/// Takes a set of connected columns out of `columns`, and adds the columns around them.
+/// Takes a set of connected columns out of `waiting`, and adds the columns around them.
 template <int Dim>
-typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::map<Column, Unchecked>& columns) const {
-  std::vector<Column> connected = {columns.begin()->first};
-  Unchecked unchecked = columns.begin()->second;
-  columns.erase(columns.begin());
+typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(const SleepLedger<Dim>& sleepers,
+                                                                        std::set<Column>& waiting) const {
+  std::vector<Column> connected = {*waiting.begin()};
+  waiting.erase(waiting.begin());
   std::set<Column> all;
   for (std::size_t i = 0; i < connected.size(); ++i) {
     for (const Column& beside : Columns::around(connected[i])) {
       all.insert(beside);
-      const auto found = columns.find(beside);
-      if (found == columns.end()) continue;
-      connected.push_back(beside);
-      unchecked.bodies += found->second.bodies;
-      unchecked.fresh += found->second.fresh;
-      columns.erase(found);
+      if (waiting.erase(beside) > 0) connected.push_back(beside);
     }
   }
-  Region region{.columns = {all.begin(), all.end()}, .unchecked = unchecked};
-  const auto number_in = [](const std::map<Column, int>& numbers, const Column& column) {
-    const auto found = numbers.find(column);
-    return found == numbers.end() ? 0 : found->second;
-  };
+  Region region{.columns = {all.begin(), all.end()}};
+  for (const Column& column : connected) {
+    region.sleepers.unchecked += sleepers.count(column).unchecked;
+    region.sleepers.fresh += sleepers.count(column).fresh;
+  }
   for (const Column& column : region.columns) {
-    region.moving += number_in(moving_, column);
-    region.sleeping += number_in(sleeping_, column);
+    region.sleepers.sleeping += sleepers.count(column).sleeping;
+    if (const auto moving = moving_.find(column); moving != moving_.end()) region.moving += moving->second;
     region.under_check = region.under_check || under_check_.contains(column);
   }
   return region;
@@ -273,16 +251,17 @@ template <int Dim>
 bool StabilityChecks<Dim>::is_quiet(const Region& region, std::int64_t step) const {
   if (region.under_check) return false;
   const bool arrivals = expects_arrivals(step);
-  if (region.unchecked.bodies < (arrivals ? unchecked_share : unchecked_share_calm) * region.sleeping) return false;
+  if (region.sleepers.unchecked < (arrivals ? unchecked_share : unchecked_share_calm) * region.sleepers.sleeping)
+    return false;
   if (region.moving == 0) return true;
-  return !arrivals && region.moving <= moving_share * (region.moving + region.sleeping);
+  return !arrivals && region.moving <= moving_share * (region.moving + region.sleepers.sleeping);
 }
 
 /// Whether enough bodies of a region are fresh for a check while others still arrive.
 template <int Dim>
 bool StabilityChecks<Dim>::is_loaded(const Region& region, std::int64_t step) const {
   if (region.under_check || !expects_arrivals(step)) return false;
-  return region.unchecked.fresh >= loaded_share_ * region.sleeping;
+  return region.sleepers.fresh >= loaded_share_ * region.sleepers.sleeping;
 }
 
 /// Whether the surface is steeper than friction alone holds: the root mean square of its slope from column to column,
@@ -333,21 +312,17 @@ template <int Dim>
 void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region, bool loaded, RuleOutput<Dim>& out) {
   Check check{.members = {}, .begun = in.step, .loaded = loaded};
   for (const Column& column : region.columns) {
-    unchecked_.erase(column);
     near_.clear();
     in.world.query_box(columns_.template box_of<Dim>(column, column), near_);
-    int sleeping = 0;
     for (const BodyIndex body : near_) {
       const Pose<Dim>& pose = in.pose_of(body);
       if (columns_.cell_of(pose.position) != column) continue;
       const bool slept = in.asleep(body);
       if (!slept && contact_[body] == 0) continue;
       if (slept) out.wakes.add(body, {.cause = SleepCause::check});
-      sleeping += slept ? 1 : 0;
       check.members.push_back({.body = body, .sample = pose, .slept = slept ? std::optional(pose) : std::nullopt});
       held_[body] = 1;
     }
-    sleeping_[column] = sleeping;
   }
   if (!check.members.empty()) checks_.push_back(std::move(check));
 }

@@ -6,12 +6,12 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <vector>
 
 #include "common/policy/adaptive/grid.h"
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/adaptive/rule.h"
+#include "common/policy/adaptive/sleep_ledger.h"
 
 namespace talus {
 
@@ -37,11 +37,11 @@ class StabilityChecks {
  public:
   explicit StabilityChecks(const RuleSetup<Dim>& setup);
 
-  /// Notes the bodies that fall asleep and that wake after this step. Costs O(events).
-  void count(const RuleInput<Dim>& in, std::span<const SleepEvent> falling_asleep, std::span<const SleepEvent> waking);
+  /// A body fell asleep. Whether it waits for a check where it lies; settled without checks.
+  Standing note_asleep(const World<Dim>& world, BodyIndex body);
 
   /// Whether a check may begin although all bodies sleep. update() must be called then.
-  bool may_begin() const { return may_begin_; }
+  bool may_begin(const SleepLedger<Dim>& sleepers) const { return may_begin_ && sleepers.unchecked() > 0; }
 
   /// Whether an awake body takes part in a check and must stay awake.
   bool holds(BodyIndex body) const;
@@ -60,11 +60,13 @@ class StabilityChecks {
 
   /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a
   /// few times in sqrt(D / g), and a box query for each column that is checked.
-  void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out);
+  void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, SleepLedger<Dim>& sleepers,
+              RuleOutput<Dim>& out);
 
  private:
-  using Columns = Grid<Dim - 1>;
+  using Columns = typename SleepLedger<Dim>::Columns;
   using Column = typename Columns::Cell;
+  using Count = typename SleepLedger<Dim>::Count;
   using Blocks = Grid<Dim>;
   using Block = typename Blocks::Cell;
 
@@ -86,11 +88,6 @@ class StabilityChecks {
     std::int64_t begun = 0;  // step
     bool loaded = false;     // begun while the region moved
   };
-  /// Sleeping bodies that wait for a check.
-  struct Unchecked {
-    int bodies = 0;
-    int fresh = 0;  // of these, bodies that came to lie here after the last loaded check
-  };
   /// Displacements of bodies.
   struct Motion {
     double sum = 0.0;     // since the last sample [m]
@@ -107,9 +104,8 @@ class StabilityChecks {
   /// Columns that one check covers.
   struct Region {
     std::vector<Column> columns;
-    int sleeping = 0;     // bodies
-    Unchecked unchecked;  // of these
-    int moving = 0;       // bodies that move in contact with others
+    Count sleepers;  // of all columns
+    int moving = 0;  // bodies that move in contact with others
     bool under_check = false;
   };
 
@@ -119,14 +115,12 @@ class StabilityChecks {
     double friction = std::numeric_limits<double>::infinity();  // lowest of them
   };
 
-  double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
-  void count_unchecked(const Column& column, BodyIndex body, int by);
   bool has_passed(const Check& check, const Motion& near, std::int64_t lasted) const;
   void release_resting(const RuleInput<Dim>& in, Check& check);
   Motion motion_around(const std::map<Block, Motion>& motion, const Block& block) const;
   void release(const RuleInput<Dim>& in, const Member& member, const Release& release);
   void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
-  Region take_region(std::map<Column, Unchecked>& columns) const;
+  Region take_region(const SleepLedger<Dim>& sleepers, std::set<Column>& waiting) const;
   bool expects_arrivals(std::int64_t step) const { return step - last_arrival_ <= arrival_steps_; }
   bool is_quiet(const Region& region, std::int64_t step) const;
   bool is_loaded(const Region& region, std::int64_t step) const;
@@ -145,9 +139,7 @@ class StabilityChecks {
   std::int64_t longest_loaded_check_;            // [steps]
   std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
-  bool may_begin_ = false;                       // false once all sleep and no check is due
-  std::map<Column, Unchecked> unchecked_;        // by column
-  std::map<Column, int> sleeping_;               // bodies, by column
+  bool may_begin_ = false;                       // false once a sample has found that no check is to come
   std::vector<Check> checks_;                    // under way
   std::vector<std::uint8_t> held_;               // [body]
   std::vector<std::uint8_t> arrived_;            // [body] whether it has touched anything

@@ -32,11 +32,13 @@ void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   }
 }
 
-/// A support ends when its supporter falls asleep or is removed, or when the supported body wakes.
+/// A support ends when its supporter falls asleep, when the supported body wakes, or when either leaves the world.
 template <int Dim>
 void SupportLoss<Dim>::forget_ended(const RuleInput<Dim>& in) {
+  const std::vector<std::uint8_t>& removed = in.states().removed;
   std::erase_if(contacts_, [&](const SupportContact& contact) {
-    return in.asleep(contact.supporter) || !in.asleep(contact.supported) || in.states().removed[contact.supporter] != 0;
+    return in.asleep(contact.supporter) || !in.asleep(contact.supported) || removed[contact.supporter] != 0 ||
+           removed[contact.supported] != 0;
   });
 }
 
