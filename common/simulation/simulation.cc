@@ -31,11 +31,8 @@ const Scene<Dim>& checked(const Scene<Dim>& scene) {
   return scene;
 }
 
-/// Change of gravity, as a share of it, up to which bodies stay asleep: a tilt of 0.6 degrees.
-constexpr double gravity_tolerance = 0.01;
-
-/// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of the tolerance it has then
-/// moved by 0.02 D and is so fast that it counts as moving.
+/// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of a hundredth of it a body has
+/// then moved by 0.02 D and is so fast that it counts as moving.
 constexpr double awake_after_gravity = 2.0;
 
 /// Gravity by plan, in a step that begins at `time` [s]; `still` before it changes.
@@ -68,9 +65,9 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       steps_(scene.steps()) {
   if (ends_at_rest_ || event_clock_.waits_for_rest()) rest_check_.emplace(scene);
   if (std::ranges::count(scene.events, "policy", &Event<Dim>::action) > 0)
-    make_policy_ = [scene](const std::string& kind) mutable {
-      scene.policy.kind = kind;
-      return make_policy(scene);
+    make_policy_ = [with_other = Scene<Dim>(scene)](const std::string& kind) mutable {
+      with_other.policy.kind = kind;
+      return make_policy(with_other);
     };
   for (std::size_t i = 0; policy_->decides() && i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
@@ -130,8 +127,7 @@ template <int Dim>
 void Simulation<Dim>::change_gravity() {
   const Vec<Dim> now = planned_gravity(*gravity_motion_, gravity_, time());
   world_->set_gravity(now);
-  const double scale = std::max(now.norm(), gravity_of_sleepers_.norm());
-  if ((now - gravity_of_sleepers_).norm() > gravity_tolerance * scale) wake_for_gravity();
+  if (!same_gravity<Dim>(now, gravity_of_sleepers_)) wake_for_gravity();
 }
 
 template <int Dim>

@@ -48,19 +48,26 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
     double score = 0.0;
   };
 
+  /// How long a body must have been at rest before it sleeps, in one gravity.
+  struct RestTimes {
+    double deep = 0.0;     // where the score is 1
+    double surface = 0.0;  // where it is 0
+    double woken = 0.0;    // of a body that woke and did not move
+  };
+
   void limit_velocities();
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
-  double rest_time_needed(const Frame<Dim>& frame, BodyIndex body) const;
-  bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
+  RestTimes rest_times_in(const World<Dim>& world) const;
+  double rest_time_needed(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
+  bool rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
-  double rest_time_deep_;     // [s]
-  double rest_time_surface_;  // [s]
-  double rest_time_woken_;    // [s]
-  double ground_;             // its height [m]; without ground the lowest number
-  double max_speed_;          // [m/s]
-  double max_spin_;           // [rad/s]
+  RestTimes rest_periods_;  // in sqrt(D/g)
+  double extent_;           // D [m]
+  double ground_;           // its height [m]; without ground the lowest number
+  double max_speed_;        // [m/s]
+  double max_spin_;         // [rad/s]
   RestCriterion<Dim> rest_;
   SupportCriterion<Dim> support_;
   ImpactsAhead<Dim> impacts_ahead_;

@@ -59,15 +59,20 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
       blocks_(block_width * setup.typical.extent),
       tolerance_(setup.params.tolerance * setup.typical.extent),
       angle_(setup.params.avalanche_angle),
-      loaded_share_(setup.params.loaded_share()) {
-  const double unit = time_unit(setup.typical, setup.world);
-  const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / setup.world.dt)); };
-  rest_time_ = rest_time * unit;
-  sample_steps_ = steps(sample_time);
-  shortest_check_ = steps(shortest_time);
-  longest_check_ = steps(longest_time);
-  longest_loaded_check_ = steps(longest_loaded);
-  arrival_steps_ = steps(arrival_time);
+      extent_(setup.typical.extent),
+      dt_(setup.world.dt),
+      loaded_share_(setup.params.loaded_share()) {}
+
+template <int Dim>
+typename StabilityChecks<Dim>::Times StabilityChecks<Dim>::times_in(const World<Dim>& world) const {
+  const double unit = time_unit(extent_, world);
+  const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / dt_)); };
+  return {.rest = rest_time * unit,
+          .sample = steps(sample_time),
+          .shortest_check = steps(shortest_time),
+          .longest_check = steps(longest_time),
+          .longest_loaded = steps(longest_loaded),
+          .arrival = steps(arrival_time)};
 }
 
 template <int Dim>
@@ -80,7 +85,9 @@ Standing StabilityChecks<Dim>::note_asleep(const World<Dim>& world, BodyIndex bo
   if (tolerance_ <= 0.0) return Standing::settled;
   checked_.resize(world.states().asleep.size());
   std::optional<Release>& checked = checked_[body];
-  if (checked && displacement(world, body, checked->pose) > tolerance_) checked.reset();
+  if (checked &&
+      (displacement(world, body, checked->pose) > tolerance_ || !same_gravity<Dim>(checked->gravity, world.gravity())))
+    checked.reset();
   if (checked && !checked->loaded) return Standing::settled;
   may_begin_ = true;
   return checked ? Standing::unchecked : Standing::fresh;
@@ -93,7 +100,8 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
   held_.resize(in.states().asleep.size(), 0);
   arrived_.resize(held_.size(), 0);
   checked_.resize(held_.size());
-  if (in.step % sample_steps_ != 0) return;
+  times_ = times_in(in.world);
+  if (in.step % times_.sample != 0) return;
   for (Check& check : checks_) release_resting(in, check);
   std::erase_if(checks_, [](const Check& check) { return check.members.empty(); });
   observe_motion(in, rest);
@@ -124,22 +132,24 @@ template <int Dim>
 void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& check) {
   std::erase_if(check.members, [&](const Member& member) { return in.states().removed[member.body] != 0; });
   std::map<Block, Motion> motion;
+  const double pace = static_cast<double>(times_.sample) / static_cast<double>(in.step - check.sampled);
+  check.sampled = in.step;
   for (Member& member : check.members) {
     const Pose<Dim>& pose = in.pose_of(member.body);
-    const double moved = displacement(in.world, member.body, member.sample);
+    const double moved = pace * displacement(in.world, member.body, member.sample);
     motion[blocks_.cell_of(pose.position)].add({.sum = moved, .before = member.moved, .bodies = 1});
     member.moved = moved;
     member.sample = pose;
   }
   const std::int64_t lasted = in.step - check.begun;
-  if (lasted < shortest_check_) return;
+  if (lasted < times_.shortest_check) return;
   std::map<Block, Motion> around;
   for (const auto& block : motion) around[block.first] = motion_around(motion, block.first);
   std::erase_if(check.members, [&](const Member& member) {
     const Motion& near = around[blocks_.cell_of(member.sample.position)];
     if (!has_passed(check, near, lasted)) return false;
     const double expected = near.mean() * horizon_estimate / sample_time;
-    release(in, member, {.pose = member.sample, .expected = expected, .loaded = check.loaded});
+    release(in, member, {member.sample, expected, check.loaded, in.world.gravity()});
     return true;
   });
 }
@@ -149,7 +159,7 @@ template <int Dim>
 bool StabilityChecks<Dim>::has_passed(const Check& check, const Motion& near, std::int64_t lasted) const {
   const bool slows = near.sum <= slowing * near.before;
   const double to_come = near.mean() * (slows || check.loaded ? horizon_slowing : horizon) / sample_time;
-  return to_come <= tolerance_ || lasted >= (check.loaded ? longest_loaded_check_ : longest_check_);
+  return to_come <= tolerance_ || lasted >= (check.loaded ? times_.longest_loaded : times_.longest_check);
 }
 
 /// That of the bodies in a block and in those around it: one body that is still moving does not keep the others awake,
@@ -213,7 +223,7 @@ void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCr
   for (const BodyIndex body : in.world.awake()) {
     if (contact_[body] != 0) arrived_[body] = 1;
     if (arrived_[body] == 0) last_arrival_ = in.step;
-    const bool moves = !holds(body) && rest.time_at_rest(body) < rest_time_;
+    const bool moves = !holds(body) && rest.time_at_rest(body) < times_.rest;
     if (moves && (contact_[body] & touches_body) != 0) ++moving_[columns_.cell_of(in.pose_of(body).position)];
   }
   under_check_.clear();
@@ -234,7 +244,7 @@ typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(const Sl
       if (waiting.erase(beside) > 0) connected.push_back(beside);
     }
   }
-  Region region{.columns = {all.begin(), all.end()}};
+  Region region{.columns = {all.begin(), all.end()}, .sleepers = {}};
   for (const Column& column : connected) {
     region.sleepers.unchecked += sleepers.count(column).unchecked;
     region.sleepers.fresh += sleepers.count(column).fresh;
@@ -310,7 +320,7 @@ std::optional<typename StabilityChecks<Dim>::Surface> StabilityChecks<Dim>::surf
 /// Wakes the bodies of a region and holds them, and those that are awake in contact.
 template <int Dim>
 void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region, bool loaded, RuleOutput<Dim>& out) {
-  Check check{.members = {}, .begun = in.step, .loaded = loaded};
+  Check check{.members = {}, .begun = in.step, .sampled = in.step, .loaded = loaded};
   for (const Column& column : region.columns) {
     near_.clear();
     in.world.query_box(columns_.template box_of<Dim>(column, column), near_);

@@ -20,7 +20,7 @@ namespace talus {
 /// awake until they have come to rest together. Parts of it are released as they come to rest: a block of space is when
 /// its bodies and those in the blocks around it have so little speed that they would move less than the tolerance, on
 /// average, within a fixed horizon, which is shorter if they slow down. Where the check leaves a body it counts as
-/// checked, until it falls asleep farther from there than the tolerance.
+/// checked, until it falls asleep farther from there than the tolerance or in another gravity.
 ///
 /// A region is a set of connected vertical columns with unchecked sleeping bodies, and the columns around these. It is
 /// quiet when no body moves in contact with another one. While bodies are on their way to a first contact, a check also
@@ -80,13 +80,24 @@ class StabilityChecks {
   /// Where a check left a body.
   struct Release {
     Pose<Dim> pose{};
-    double expected = 0.0;  // motion from there on, mean over the blocks around [m]
-    bool loaded = false;    // by a loaded check
+    double expected = 0.0;                // motion from there on, mean over the blocks around [m]
+    bool loaded = false;                  // by a loaded check
+    Vec<Dim> gravity = Vec<Dim>::Zero();  // in which it was checked [m/s^2]
   };
   struct Check {
     std::vector<Member> members;
-    std::int64_t begun = 0;  // step
-    bool loaded = false;     // begun while the region moved
+    std::int64_t begun = 0;    // step
+    std::int64_t sampled = 0;  // step of the last sample
+    bool loaded = false;       // begun while the region moved
+  };
+  /// Times in one gravity, in steps where not said.
+  struct Times {
+    double rest = 0.0;        // [s] at rest, after which an awake body no longer counts as moving
+    std::int64_t sample = 1;  // between two samples of the displacement
+    std::int64_t shortest_check = 1;
+    std::int64_t longest_check = 1;
+    std::int64_t longest_loaded = 1;  // check
+    std::int64_t arrival = 1;         // without arrivals after which a check need not wait
   };
   /// Displacements of bodies.
   struct Motion {
@@ -115,13 +126,14 @@ class StabilityChecks {
     double friction = std::numeric_limits<double>::infinity();  // lowest of them
   };
 
+  Times times_in(const World<Dim>& world) const;
   bool has_passed(const Check& check, const Motion& near, std::int64_t lasted) const;
   void release_resting(const RuleInput<Dim>& in, Check& check);
   Motion motion_around(const std::map<Block, Motion>& motion, const Block& block) const;
   void release(const RuleInput<Dim>& in, const Member& member, const Release& release);
   void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
   Region take_region(const SleepLedger<Dim>& sleepers, std::set<Column>& waiting) const;
-  bool expects_arrivals(std::int64_t step) const { return step - last_arrival_ <= arrival_steps_; }
+  bool expects_arrivals(std::int64_t step) const { return step - last_arrival_ <= times_.arrival; }
   bool is_quiet(const Region& region, std::int64_t step) const;
   bool is_loaded(const Region& region, std::int64_t step) const;
   bool is_steep(const RuleInput<Dim>& in, const Region& region);
@@ -132,12 +144,9 @@ class StabilityChecks {
   Blocks blocks_;
   double tolerance_;                             // [m]; 0: no checks
   double angle_;                                 // [rad] above which a controlled slope is not checked
-  double rest_time_;                             // [s] at rest, after which an awake body no longer counts as moving
-  std::int64_t sample_steps_;                    // between two samples of the displacement
-  std::int64_t shortest_check_;                  // [steps]
-  std::int64_t longest_check_;                   // [steps]
-  std::int64_t longest_loaded_check_;            // [steps]
-  std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
+  double extent_;                                // D [m]
+  double dt_;                                    // [s]
+  Times times_;                                  // in the gravity of the last update()
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
   bool may_begin_ = false;                       // false once a sample has found that no check is to come
   std::vector<Check> checks_;                    // under way

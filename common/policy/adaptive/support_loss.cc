@@ -47,7 +47,7 @@ void SupportLoss<Dim>::remember_new(const RuleInput<Dim>& in) {
   new_contacts_.clear();
   for (const Contact<Dim>& contact : in.contacts) {
     if (contact.b < 0 || !in.asleep(contact.b)) continue;
-    if (in.asleep(contact.a) || height<Dim>(contact.normal) > max_normal_height) continue;
+    if (in.asleep(contact.a) || in.rise(contact.normal) > max_normal_height) continue;
     const SupportContact support{.supporter = contact.a, .supported = contact.b};
     if (!new_contacts_.empty() && !supports_before(new_contacts_.back(), support)) continue;  // same pair, next point
     if (std::binary_search(contacts_.begin(), contacts_.end(), support, supports_before<SupportContact>)) continue;
