@@ -104,6 +104,9 @@ bool same_gravity(const Vec<Dim>& a, const Vec<Dim>& b) {
   return (a - b).norm() <= 0.01 * std::max(a.norm(), b.norm());
 }
 
+/// Friction of the contact of two surfaces: the geometric mean, as Box2D mixes them by itself.
+inline double pair_friction(double a, double b) { return std::sqrt(a * b); }
+
 /// Torque by which the contact of two bodies resists turning, over the normal force [m]: the geometric mean of the
 /// arms of both shapes. What is no body has none and leaves it to the other.
 inline double arm_of_pair(std::optional<double> a, std::optional<double> b) {

@@ -275,7 +275,7 @@ bool StabilityChecks<Dim>::is_loaded(const Region& region, std::int64_t step) co
 }
 
 /// Whether the surface is steeper than friction alone holds: the root mean square of its slope from column to column,
-/// against the lowest friction of a body in the region, which is the tangent of the slope that it holds.
+/// against the tangent of the slope that two bodies of the lowest friction in the region hold on each other.
 template <int Dim>
 bool StabilityChecks<Dim>::is_steep(const RuleInput<Dim>& in, const Region& region) {
   std::map<Column, Surface> surfaces;
@@ -297,7 +297,7 @@ bool StabilityChecks<Dim>::is_steep(const RuleInput<Dim>& in, const Region& regi
     }
   }
   const double slope = std::sqrt((Dim - 1) * squares / std::max(1, pairs)) / columns_.width();
-  return slope > slope_roughness * friction;
+  return slope > slope_roughness * pair_friction(friction, friction);
 }
 
 /// None where no body sleeps.
