@@ -453,7 +453,7 @@ std::vector<talus_lcm::talus_event_v2> to_events(const Scene<Dim>& scene) {
     message.total = static_cast<std::int32_t>(scene.events.size());
     message.happened_step = -1;
     message.happened_time = -1.0;
-    message.action = event.action;
+    message.action = to_string(event.action);
     message.text = clipped(event_text(scene, message.number));
     const ObstacleName name = event.obstacle ? scene.obstacle_names[*event.obstacle] : ObstacleName();
     const int most = static_cast<int>((max_message_bytes - 3000) / sizeof(std::int32_t));

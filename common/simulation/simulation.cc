@@ -31,16 +31,6 @@ const Scene<Dim>& checked(const Scene<Dim>& scene) {
   return scene;
 }
 
-/// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of a hundredth of it a body has
-/// then moved by 0.02 D and is so fast that it counts as moving.
-constexpr double awake_after_gravity = 2.0;
-
-/// Gravity by plan, in a step that begins at `time` [s]; `still` before it changes.
-template <int Dim>
-Vec<Dim> planned_gravity(const Motion<Dim>& plan, const Vec<Dim>& still, double time) {
-  return plan.turn_at(time) * (still + plan.shift_at(time));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -54,17 +44,11 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep),
       debug_(scene.world.debug),
-      obstacles_(scene),
-      gravity_motion_(scene.gravity_motion),
-      gravity_(scene.world.gravity_vector()),
-      gravity_of_sleepers_(gravity_),
-      scene_events_(scene.events),
-      obstacle_names_(scene.obstacle_names),
-      event_clock_(scene.events),
+      interventions_(scene),
       ends_at_rest_(scene.run.until == until_rest),
       steps_(scene.steps()) {
-  if (ends_at_rest_ || event_clock_.waits_for_rest()) rest_check_.emplace(scene);
-  if (std::ranges::count(scene.events, "policy", &Event<Dim>::action) > 0)
+  if (ends_at_rest_ || interventions_.clock().waits_for_rest()) rest_check_.emplace(scene);
+  if (std::ranges::count(scene.events, EventAction::policy, &Event<Dim>::action) > 0)
     make_policy_ = [with_other = Scene<Dim>(scene)](const std::string& kind) mutable {
       with_other.policy.kind = kind;
       return make_policy(with_other);
@@ -86,15 +70,12 @@ template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
   events_.clear();
-  do_due_events();
+  interventions_.do_due_events(intervened(), rested_, piles_.piles());
   emitter_.emit(*world_, time());
   if (!asleep_at_start_.empty()) freeze_initial_bodies();
   if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
-  move_obstacles();
-  if (gravity_motion_) change_gravity();
-  pulled_.clear();
-  if (pull_) pull_body();
+  interventions_.move(intervened());
   world_->record_contacts(needs_contacts());
   world_->step();
   ++step_;
@@ -110,63 +91,22 @@ void Simulation<Dim>::step() {
   apply();
   phases_.apply = watch.lap();
   if (rest_check_)
-    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !obstacles_.moves_after(*world_, time()) &&
-              !(gravity_motion_ && gravity_motion_->moves_after(time()));
-  at_rest_ = ends_at_rest_ && rested_ && !event_clock_.waits();
+    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !interventions_.move_after(*world_, time());
+  at_rest_ = ends_at_rest_ && rested_ && !interventions_.clock().waits();
   show();
   phases_.observe = watch.lap();
 }
 
 template <int Dim>
-void Simulation<Dim>::move_obstacles() {
-  thaw_now(obstacles_.move(*world_, time()), SleepCause::lost_support);
-}
-
-/// Sleeping bodies do not feel that gravity changes: once it has by more than the tolerance, all wake.
-template <int Dim>
-void Simulation<Dim>::change_gravity() {
-  const Vec<Dim> now = planned_gravity(*gravity_motion_, gravity_, time());
-  world_->set_gravity(now);
-  if (!same_gravity<Dim>(now, gravity_of_sleepers_)) wake_for_gravity();
-}
-
-template <int Dim>
-void Simulation<Dim>::wake_for_gravity() {
-  gravity_of_sleepers_ = world_->gravity();
-  woken_for_gravity_ = step_;
-  thaw_all();
-}
-
-/// Whether bodies that woke for gravity before one of the last steps have not yet had the time to begin to move.
-template <int Dim>
-bool Simulation<Dim>::gravity_woke_lately() const {
-  if (!woken_for_gravity_) return false;
-  constexpr double longest = 10.0;  // [s]; with little gravity
-  const double unit = std::sqrt(piles_.typical_body().extent / std::max(gravity_of_sleepers_.norm(), 1e-9));
-  return static_cast<double>(step_ - 1 - *woken_for_gravity_) * dt_ < std::min(longest, awake_after_gravity * unit);
-}
-
-/// A body that touches an obstacle that moves must follow it, and one that gravity woke gets time to begin to move.
-template <int Dim>
-bool Simulation<Dim>::must_stay_awake(BodyIndex body) const {
-  return gravity_woke_lately() || std::ranges::binary_search(pulled_, body) || obstacles_.touch(*world_, body);
-}
-
-/// Sleeping neighbours are woken: neither the loss of a support nor a slow push wakes a body by itself.
-template <int Dim>
-void Simulation<Dim>::pull_body() {
-  const BodyIndex body = pull_->body;
-  if (world_->states().removed[body] != 0) {
-    release();
-    return;
-  }
-  const Box<Dim> bounds = world_->bounds_of(body);
-  const Vec<Dim> margin = Vec<Dim>::Constant(0.05 * world_->shape_of(body).extent);
-  world_->query_box({bounds.min() - margin, bounds.max() + margin}, pulled_);
-  thaw_now(pulled_, SleepCause::user);
-  const VelocityChange<Dim> change = pulled(*world_, *pull_, dt_);
-  if (watched()) watchdog_.note_velocity(*world_, body, change.velocity, change.spin);
-  world_->set_velocity(body, change.velocity, change.spin);
+Intervened<Dim> Simulation<Dim>::intervened() {
+  return {.world = *world_,
+          .emitter = emitter_,
+          .watchdog = watchdog_,
+          .watched = watched(),
+          .time = time(),
+          .wake = [this](std::span<const BodyIndex> bodies, SleepCause cause) { thaw_now(bodies, cause); },
+          .remove = [this](BodyIndex body) { forget(body); },
+          .switch_policy = [this](const std::string& kind) { switch_policy(kind); }};
 }
 
 template <int Dim>
@@ -295,99 +235,13 @@ void Simulation<Dim>::note_engine_sleep() {
   note(events);
 }
 
+/// Takes a body out of the world. A sleeping one leaves the account of the policy as if it had woken.
 template <int Dim>
-void Simulation<Dim>::remove(BodyIndex body) {
+void Simulation<Dim>::forget(BodyIndex body) {
   world_->remove(body);
   piles_.recount_body(world_->states(), body);
   if (world_->states().asleep[body] != 0)
     policy_->note(*world_, std::vector<SleepEvent>{{.body = body, .woke = true, .cause = SleepCause::user}});
-  thaw_near(world_->bounds_of(body), 0.05 * world_->shape_of(body).extent);
-}
-
-/// A body that rests on another one touches its box.
-template <int Dim>
-void Simulation<Dim>::thaw_near(const Box<Dim>& bounds, double reach) {
-  const Vec<Dim> margin = Vec<Dim>::Constant(reach);
-  std::vector<BodyIndex> neighbours;
-  world_->query_box({bounds.min() - margin, bounds.max() + margin}, neighbours);
-  thaw_now(neighbours, SleepCause::lost_support);
-}
-
-template <int Dim>
-void Simulation<Dim>::do_due_events() {
-  for (const int number : event_clock_.update(time(), emitter_.emitted(), rested_, piles_.piles())) {
-    do_event(scene_events_[number]);
-    done_events_.push_back({number, time()});
-  }
-}
-
-template <int Dim>
-void Simulation<Dim>::do_event(const Event<Dim>& event) {
-  const std::string& action = event.action;
-  if (action == "remove" && event.obstacle)
-    remove_obstacle(*event.obstacle);
-  else if (action == "remove")
-    for (const BodyIndex body : bodies_meant(event)) remove(body);
-  else if (action == "wake")
-    thaw_now(bodies_meant(event), SleepCause::user);
-  else if (action == "kick")
-    kick(event);
-  else if (action == "policy")
-    switch_policy(event.policy);
-  if (action == "rate") {
-    emitter_.set_rate(event.source, event.rate, time());
-    watchdog_.note_source(event.source, emitter_.source(event.source));
-  }
-  if (action == "gravity") {
-    world_->set_gravity(event.gravity);
-    wake_for_gravity();
-  }
-}
-
-template <int Dim>
-std::vector<BodyIndex> Simulation<Dim>::bodies_meant(const Event<Dim>& event) const {
-  const BodyStates<Dim>& states = world_->states();
-  const auto meant = [&](BodyIndex body) {
-    const Vec<Dim>& at = states.pose[body].position;
-    return states.removed[body] == 0 &&
-           (event.shapes.empty() || std::ranges::count(event.shapes, states.shape[body]) > 0) &&
-           (event.numbers.empty() || std::ranges::count(event.numbers, static_cast<double>(body)) > 0) &&
-           (event.box.empty() || Box<Dim>(event.box[0], event.box[1]).contains(at));
-  };
-  std::vector<BodyIndex> bodies;
-  for (BodyIndex body = 0; body < states.size(); ++body)
-    if (meant(body)) bodies.push_back(body);
-  return bodies;
-}
-
-/// The sum may be no faster than the engine allows.
-template <int Dim>
-void Simulation<Dim>::kick(const Event<Dim>& event) {
-  const std::vector<BodyIndex> bodies = bodies_meant(event);
-  thaw_now(bodies, SleepCause::user);
-  const BodyStates<Dim>& states = world_->states();
-  for (const BodyIndex body : bodies) {
-    Vec<Dim> velocity = states.velocity[body] + event.velocity;
-    Spin<Dim> spin = states.spin[body] + event.spin;
-    velocity *= std::min(1.0, fastest_speed<Dim>(dt_) / std::max(velocity.norm(), 1e-9));
-    spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
-    if (watched()) watchdog_.note_velocity(*world_, body, velocity, spin);
-    world_->set_velocity(body, velocity, spin);
-  }
-}
-
-template <int Dim>
-void Simulation<Dim>::remove_obstacle(int number) {
-  const ObstacleName& name = obstacle_names_[number];
-  for (int k = name.first; k < name.first + name.count; ++k)
-    if (world_->has_obstacle(k)) cut_obstacle(k);
-}
-
-template <int Dim>
-void Simulation<Dim>::cut_obstacle(int number) {
-  const Box<Dim> bounds = bounds_at(world_->obstacle_shape(number), world_->obstacle_pose(number));
-  world_->remove_obstacle(number);
-  thaw_near(bounds, 0.05 * piles_.typical_body().extent);
 }
 
 /// A policy has no state of bodies that another one froze, so all wake, and the new one begins anew.

@@ -45,7 +45,7 @@ std::string obstacles() {
 
 template <int Dim>
 Event<Dim> gravity(double size) {
-  return {.action = "gravity", .gravity = -up<Dim>(size)};
+  return {.action = EventAction::gravity, .gravity = -up<Dim>(size)};
 }
 
 template <typename Backend>
@@ -131,7 +131,8 @@ void disturb(Simulation<Dim>& run, std::mt19937_64& random) {
     case 3:
       return run.release();
     case 4:
-      return run.do_event({.action = "kick", .numbers = {static_cast<double>(body)}, .velocity = up<Dim>(3.0)});
+      return run.do_event(
+          {.action = EventAction::kick, .numbers = {static_cast<double>(body)}, .velocity = up<Dim>(3.0)});
     case 5:
       return run.do_event(gravity<Dim>(1.0 + below(20)));
     case 6:
@@ -213,7 +214,7 @@ TYPED_TEST(SleepAccount, AllBodiesSleepInWhateverGravityComes) {
     auto run = TestFixture::simulation(row<dim>(wall));
     TestFixture::steps(run, 300);
     EXPECT_TRUE(run.world().awake().empty()) << "before";
-    run.do_event({.action = "gravity", .gravity = gravity});
+    run.do_event({.action = EventAction::gravity, .gravity = gravity});
     TestFixture::steps(run, 1500);
     return run.world().awake().empty();
   };

@@ -73,8 +73,8 @@ TEST(EventMessage, SaysWhatTheEventRemovesAndWhenItHappened) {
   Scene<2> scene = still_scene<2>();
   scene.obstacle_names = {{"gate", 0, 1}};
   scene.events.resize(2);
-  scene.events[0].action = "wake";
-  scene.events[1].action = "remove";
+  scene.events[0].action = EventAction::wake;
+  scene.events[1].action = EventAction::remove;
   scene.events[1].obstacle = 0;
   const auto messages = to_events(scene);
   ASSERT_EQ(messages.size(), 2U);

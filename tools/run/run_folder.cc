@@ -133,7 +133,8 @@ template <int Dim>
 Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
   Json list = Json::array();
   for (const DoneEvent& event : events)
-    list.push_back({{"number", event.number}, {"time_s", event.time}, {"do", scene.events[event.number].action}});
+    list.push_back(
+        {{"number", event.number}, {"time_s", event.time}, {"do", to_string(scene.events[event.number].action)}});
   return list;
 }
 

@@ -57,10 +57,10 @@ class EventWatch final : public Observer<Dim> {
 
   void on_frame(const Frame<Dim>& frame) override {
     for (const int number : frame.scene_events) {
-      const std::string& action = scene_.events[number].action;
-      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, action);
+      const EventAction action = scene_.events[number].action;
+      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, to_string(action));
       const std::string name = fmt::format("event_{}", number);
-      if (action == "picture")
+      if (action == EventAction::picture)
         draw_pile(folder_ / (name + ".svg"), folder_ / (name + ".png"), picture_of(backend_, scene_, frame));
     }
   }
