@@ -18,7 +18,7 @@ std::string at(double x, double height) {
   return Dim == 2 ? fmt::format("[{}, {}]", x, height) : fmt::format("[{}, 0, {}]", x, height);
 }
 
-/// Sixteen cubes of 1 m side by side on the ground, and what `rest` adds.
+/// Sixteen cubes of 1 m side by side on the ground, from x = -8.25 m to 8.25 m, and what `rest` adds.
 template <int Dim>
 Scene<Dim> row(const std::string& rest = "", const std::string& policy = "adaptive") {
   const std::string text = fmt::format(
@@ -40,7 +40,7 @@ std::string obstacles() {
       "[[event]]\ntime = 5\ndo = \"remove\"\nobstacle = \"platform\"\n"
       "[[event]]\ntime = 7\ndo = \"policy\"\npolicy = \"paper\"\n"
       "[[event]]\ntime = 8\ndo = \"policy\"\npolicy = \"adaptive\"\n",
-      Dim == 2 ? "[1, 1]" : "[1, 1, 1]", at<Dim>(-1.2, 0.5), at<Dim>(0, 0), at<Dim>(0.5, 0), at<Dim>(40, 0.5));
+      Dim == 2 ? "[1, 1]" : "[1, 1, 1]", at<Dim>(-9.45, 0.5), at<Dim>(0, 0), at<Dim>(0.5, 0), at<Dim>(40, 0.5));
 }
 
 template <int Dim>
@@ -136,7 +136,7 @@ void disturb(Simulation<Dim>& run, std::mt19937_64& random) {
     case 5:
       return run.do_event(gravity<Dim>(1.0 + below(20)));
     case 6:
-      run.add({.shape = 0, .pose = {.position = up<Dim>(8.0) + below(16) * Vec<Dim>::Unit(0)}});
+      run.add({.shape = 0, .pose = {.position = up<Dim>(8.0) + (below(16) - 8) * Vec<Dim>::Unit(0)}});
       return;
     default:
       return;
@@ -209,7 +209,7 @@ TYPED_TEST(SleepAccount, TellsEachWakingOnceWhereTheEngineHasItsOwnRule) {
 TYPED_TEST(SleepAccount, AllBodiesSleepInWhateverGravityComes) {
   constexpr int dim = TypeParam::dim;
   const std::string wall = fmt::format("[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\n",
-                                       dim == 2 ? "[1, 20]" : "[1, 20, 20]", at<dim>(-1.5, 0));
+                                       dim == 2 ? "[1, 20]" : "[1, 20, 20]", at<dim>(-10.25, 0));
   const auto all_sleep_in = [&](const Vec<dim>& gravity) {
     auto run = TestFixture::simulation(row<dim>(wall));
     TestFixture::steps(run, 300);
