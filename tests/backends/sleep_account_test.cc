@@ -209,7 +209,7 @@ TYPED_TEST(SleepAccount, TellsEachWakingOnceWhereTheEngineHasItsOwnRule) {
 TYPED_TEST(SleepAccount, AllBodiesSleepInWhateverGravityComes) {
   constexpr int dim = TypeParam::dim;
   const std::string wall = fmt::format("[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\n",
-                                       dim == 2 ? "[1, 20]" : "[1, 20, 20]", at<dim>(-10.25, 0));
+                                       dim == 2 ? "[1, 80]" : "[1, 80, 80]", at<dim>(-10.25, 0));
   const auto all_sleep_in = [&](const Vec<dim>& gravity) {
     auto run = TestFixture::simulation(row<dim>(wall));
     TestFixture::steps(run, 300);
