@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "common/scene/happened.h"
+#include "common/scene/write_scene.h"
 #include "common/world/energy.h"
 
 namespace talus {
@@ -417,6 +418,25 @@ template <int Dim>
 Pose<Dim> pose_of(const talus_shapes_v1& message) {
   return ValueReader<Dim>(message.pose).pose();
 }
+
+template <int Dim>
+std::vector<talus_lcm::talus_scene_v1> to_scene_files(const Scene<Dim>& scene) {
+  constexpr std::size_t part_bytes = 48'000;
+  std::vector<talus_lcm::talus_scene_v1> messages;
+  for (const SceneFile& file : scene_files(scene)) {
+    const std::size_t parts = std::max<std::size_t>(1, (file.text.size() + part_bytes - 1) / part_bytes);
+    for (std::size_t part = 0; part < parts; ++part) {
+      talus_lcm::talus_scene_v1& message = messages.emplace_back();
+      message.file = file.name;
+      message.part = static_cast<std::int32_t>(part);
+      message.parts = static_cast<std::int32_t>(parts);
+      message.text = file.text.substr(part * part_bytes, part_bytes);
+    }
+  }
+  return messages;
+}
+template std::vector<talus_lcm::talus_scene_v1> to_scene_files(const Scene<2>&);
+template std::vector<talus_lcm::talus_scene_v1> to_scene_files(const Scene<3>&);
 
 template <int Dim>
 Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message) {

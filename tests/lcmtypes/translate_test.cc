@@ -291,5 +291,20 @@ TEST(ShapesMessage, RefusesAShapeTooLargeForAMessage) {
   EXPECT_THROW(to_shapes<2>(world), std::invalid_argument);
 }
 
+TEST(SceneFiles, ComeInPartsThatMakeTheWhole) {
+  Scene<2> scene = still_scene<2>();
+  EXPECT_TRUE(to_scene_files(scene).empty()) << "it was made by a program";
+  scene.toml = std::string(100'000, 'a') + "\n\xC3\xA4";
+  auto messages = to_scene_files(scene);
+  ASSERT_EQ(messages.size(), 3U);
+  std::string text;
+  for (const auto& message : messages) {
+    EXPECT_EQ(message.file, "scene.toml");
+    text += message.text;
+  }
+  EXPECT_EQ(text, scene.toml);
+  expect_sendable(messages);
+}
+
 }  // namespace
 }  // namespace talus::translate_test

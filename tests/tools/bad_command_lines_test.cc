@@ -165,23 +165,9 @@ TEST_F(BadCommandLine, OfCheckIsRefused) {
 #ifdef TALUS_LCM
           {"check comb.toml --force", {"comb.toml: shape \"comb\"", "460 pieces", "one telemetry message"}},
 #endif
-          {"check drop_in_a_pile_2d --backend box2d", {"--backend"}}});
-}
-
-TEST_F(BadCommandLine, OfSheetIsRefused) {
-  refuse({{"sheet", {"runs"}},
-          {"sheet flat", {"--out"}},
-          {"sheet no_run --out new.png", {"no_run", "must be a run folder"}},
-          {"sheet empty --out new.png", {"empty", "must be a run folder"}},
-          {"sheet flat --out ''", {"--out"}},
-          {"sheet flat --out no/folder/new.png", {"--out", "no/folder/new.png"}},
-          {"sheet flat --out new.png --columns 0", {"--columns", "0", "must be"}},
-          {"sheet flat --out new.png --columns 21", {"--columns", "21", "must be"}},
-          {"sheet flat --out new.png --columns two", {"--columns", "two"}},
-          {"sheet flat --out new.png --width 99", {"--width", "99", "must be"}},
-          {"sheet flat --out new.png --width 1e9", {"--width", "1e9"}},
-          {"sheet flat --out new.png --font nan", {"--font", "nan", "must be"}},
-          {"sheet flat --out new.png --font 0", {"--font", "0", "must be"}}});
+          {"check drop_in_a_pile_2d --backend havok", {"--backend", "havok", "box2d"}},
+          {"check drop_in_a_pile_2d --policy never", {"--policy", "never"}},
+          {"check drop_in_a_pile_2d --seed -1", {"--seed", "-1"}}});
 }
 
 TEST_F(BadCommandLine, OfBenchIsRefused) {
@@ -219,23 +205,6 @@ TEST_F(BadCommandLine, OfCompareIsRefused) {
           {"compare flat solid", {"2D", "3D"}},
 #endif
           {"compare flat flat --json=maybe", {"--json", "maybe"}}});
-}
-
-TEST_F(BadCommandLine, OfWakeIsRefused) {
-  refuse({{"wake", {"run"}},
-          {"wake ''", {"run"}},
-          {"wake no_run", {"no_run", "must be a folder that `talus run` left"}},
-          {"wake flat --seconds inf", {"--seconds", "inf", "must be"}},
-          {"wake flat --seconds nan", {"--seconds", "nan", "must be"}},
-          {"wake flat --seconds 0", {"--seconds", "0", "must be"}},
-          {"wake flat --seconds -3", {"--seconds", "-3", "must be"}},
-          {"wake flat --seconds 1e99", {"--seconds", "1e99", "must be"}},
-          {"wake flat --seconds long", {"--seconds", "long", "must be"}},
-          {"wake flat --full ''", {"--full"}},
-#ifdef TALUS_BULLET
-          {"wake flat --full solid --seconds 0.1", {"--full", "solid", "dimension"}},
-#endif
-          {"wake flat --full no_run --seconds 0.1", {"no_run", "must be a folder that `talus run` left"}}});
 }
 
 TEST_F(BadCommandLine, OfFilmIsRefused) {

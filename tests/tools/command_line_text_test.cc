@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "tests/process/process.h"
 
@@ -45,6 +48,24 @@ TEST(CommandLine, HasAManualPageOfAllCommands) {
   EXPECT_TRUE(page.starts_with(".TH TALUS 1\n"));
   for (const char* word : {".SS run\n", ".SS bench table1\n", ".SS sweep\n", "\\fB\\-\\-policy\\fR"})
     EXPECT_NE(page.find(word), std::string::npos) << word;
+}
+
+TEST(HelpText, IsOfPlainWords) {
+  std::istringstream all(talus_command("reference --completion bash").out);
+  std::set<std::string> commands;
+  const std::regex path("path='talus ([a-z0-9 ]+)'");
+  for (std::string line; std::getline(all, line);)
+    if (std::smatch match; std::regex_search(line, match, path)) commands.insert(match[1]);
+  EXPECT_GE(commands.size(), 14U);
+  for (const std::string& command : commands) {
+    const std::string help = talus_command(command + " --help").out;
+    for (const char* sign : {"{", " in [", ":INT", "FLOAT", "UINT", "REQUIRED", "Excludes", "Needs:", "DIR"})
+      EXPECT_EQ(help.find(sign), std::string::npos) << command << ": " << sign << "\n" << help;
+  }
+  const std::string run = talus_command("run --help").out;
+  EXPECT_NE(run.find("--bodies-hz NUMBER"), std::string::npos) << run;
+  EXPECT_NE(run.find("0: none (0 to 1000; default 30)"), std::string::npos) << run;
+  EXPECT_NE(run.find("(not with --lcm-url)"), std::string::npos) << run;
 }
 
 TEST(NewCommand, WritesASceneThatChecksWithoutWarningInEachDimension) {

@@ -107,17 +107,13 @@ void record(const std::string& folder, const std::string& policy) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
-TEST(DocumentedFiles, HaveAllKeysOfCompareAndWake) {
+TEST(DocumentedFiles, HaveAllKeysOfCompare) {
   const TemporaryFolder folder;
   record(folder / "full", "full");
   record(folder / "paper", "paper");
   Names compared = keys_printed("compare --twins 1 " + (folder / "full") + " " + (folder / "paper"));
   compared.insert({"a.lost_steps[]", "b.lost_steps[]"});  // empty, since the records are whole
   expect_documented(compared, "talus compare --json");
-  record_with_event(folder / "event");
-  Names woken = keys_printed("wake " + (folder / "paper") + " --seconds 0.1 --full " + (folder / "full"));
-  woken.merge(keys_printed("wake " + (folder / "event") + " --seconds 0.1"));
-  expect_documented(woken, "talus wake --json");
 }
 
 #endif

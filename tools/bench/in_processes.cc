@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <exception>
 #include <string_view>
 #include <system_error>
@@ -81,16 +82,24 @@ TaskOutcome outcome_of(const Worker& worker) {
 }  // namespace
 
 void in_processes(int count, int jobs, const std::function<std::string(int)>& task,
-                  const std::function<void(int, const TaskOutcome&)>& done) {
+                  const std::function<void(int, const TaskOutcome&)>& done, const std::function<bool()>& stop) {
+  constexpr int look = 200;  // [ms] after which a signal that came between two calls is seen
   std::vector<Worker> workers;
   int next = 0;
+  bool stopped = false;
   while (next < count || !workers.empty()) {
+    if (!stopped && stop && stop()) {
+      stopped = true;
+      count = next;
+      for (const Worker& worker : workers) kill(worker.process, SIGTERM);
+    }
     while (next < count && static_cast<int>(workers.size()) < std::max(1, jobs))
       workers.push_back(start_worker(task, next++));
     std::vector<pollfd> pipes;
     for (const Worker& worker : workers) pipes.push_back({worker.pipe, POLLIN, 0});
-    if (poll(pipes.data(), pipes.size(), -1) < 0 && errno != EINTR)
-      throw std::system_error(errno, std::generic_category(), "poll");
+    const int ready = poll(pipes.data(), pipes.size(), stop ? look : -1);
+    if (ready < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "poll");
+    if (ready <= 0) continue;
     for (std::size_t i = workers.size(); i-- > 0;) {
       if (pipes[i].revents == 0 || !read_some(workers[i])) continue;
       const Worker worker = std::move(workers[i]);

@@ -158,6 +158,9 @@ std::string head_of(const Plot& plot) {
   script += fmt::format("set ylabel {} textcolor '#222222'\n", quoted(plot.y_label));
   if (!plot.x_names.empty()) script += named_axis(plot.x_names);
   if (plot.log_x) script += logarithmic_axis('x', plot);
+  // The caps of bars at the first and last point.
+  const bool bars = std::ranges::any_of(plot.series, [](const Series& series) { return !series.low.empty(); });
+  if (bars && !plot.log_x && plot.x_names.empty()) script += "set offsets graph 0.03, graph 0.03, 0, 0\n";
   if (plot.log_y) script += logarithmic_axis('y', plot);
   const bool none_below = std::ranges::all_of(plot.series, [](const Series& series) {
     const auto above = [](double value) { return value >= 0.0; };

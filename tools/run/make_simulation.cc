@@ -11,6 +11,7 @@
 #include "common/scene/warnings.h"
 #include "common/scene/window.h"
 #include "common/simulation/make_policy.h"
+#include "tools/output/output.h"
 #include "tools/run/backends.h"
 
 namespace talus {
@@ -82,8 +83,23 @@ std::vector<SceneError> check_window(const Scene<Dim>& scene, const std::string&
   return outside;
 }
 
+template <int Dim>
+std::vector<std::string> scene_warnings(const Scene<Dim>& scene, const std::string& backend) {
+  std::vector<std::string> all = warnings(scene);
+  for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
+    all.push_back(fmt::format("{}: {}", backend, warning));
+  return all;
+}
+
+void print_scene_warnings(const std::vector<SceneError>& outside, const std::vector<std::string>& warnings) {
+  for (const SceneError& each : outside) print_message("warning: {}{}", outside_prefix, to_string(each));
+  for (const std::string& warning : warnings) print_message("warning: {}", warning);
+}
+
 template Simulation<2> make_simulation(const Scene<2>&, const std::string&);
 template Simulation<3> make_simulation(const Scene<3>&, const std::string&);
+template std::vector<std::string> scene_warnings(const Scene<2>&, const std::string&);
+template std::vector<std::string> scene_warnings(const Scene<3>&, const std::string&);
 template std::vector<SceneError> check_window(const Scene<2>&, const std::string&, const std::filesystem::path&, bool);
 template std::vector<SceneError> check_window(const Scene<3>&, const std::string&, const std::filesystem::path&, bool);
 

@@ -44,8 +44,8 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
           present_obstacles(scene, world, frame.time),
           scene.world.ground,
           printable(scene.title),
-          fmt::format("{}, policy {}: {} bodies, {} asleep", backend, scene.policy.kind, bodies,
-                      bodies - world.awake().size())};
+          fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep", backend, scene.policy.kind,
+                      scene.seed, frame.time, bodies, bodies - world.awake().size())};
 }
 
 /// Draws the pictures that events want, and prints a line for each event.
@@ -85,7 +85,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
       avalanches_(scene.world.dt) {
-  write_scene(scene, folder_ / scene_file_name);
+  write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
