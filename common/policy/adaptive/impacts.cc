@@ -15,7 +15,7 @@ bool pair_before(const ContactImpulse& l, const ContactImpulse& r) {
 
 /// Part of an impact that counts, by the direction of the impulse on the awake body: 1/3 for an impact from straight
 /// above, since the sleeping body's supports take up the rest; 1 from the side; 5/3 from below, where nothing resists.
-/// The slope 2/3 separated the bodies that moved from the others best (docs/research/impact_rule.md).
+/// The slope 2/3 separated the bodies that moved from the others best (lab/notes/impact_rule.md).
 template <int Dim>
 double direction_factor(const Vec<Dim>& direction) {
   return 1.0 - 2.0 / 3.0 * height<Dim>(direction);
