@@ -166,10 +166,12 @@ Plot frame_plot(const std::vector<BenchGroup>& groups, const std::string& label,
     if (group.rows.empty() || group.rows.front()->frames.empty()) continue;
     Series& curve = curve_of(plot, group.first->policy, SeriesStyle::line);
     std::vector<double> part;
+    double second = 0.0;
     for (const BenchFrame& frame : group.rows.front()->frames) {
-      if (!part.empty() && std::floor(frame.time) > static_cast<double>(curve.x.size())) {
-        curve.x.push_back(static_cast<double>(curve.x.size()) + 0.5);
-        curve.y.push_back(scale * mean(part));
+      if (frame.time >= second + 1.0) {
+        if (!part.empty()) curve.x.push_back(second + 0.5);
+        if (!part.empty()) curve.y.push_back(scale * mean(part));
+        second = std::floor(frame.time);
         part.clear();
       }
       if (std::isfinite(frame.*number)) part.push_back(frame.*number);
