@@ -140,17 +140,15 @@ run.frames = 30
 }
 
 TEST_F(Bench, SaysInARowWhyItsRunFailedAndKeepsTheOthers) {
-  // The address space has room for the first run alone, which holds twenty bodies.
+  // The limit of processor time, which counts for each process, ends the second run.
   std::ofstream(folder_.path() / "box.toml") << R"(
-title = "Boxes"
+title = "A box"
 dimension = 2
 shape.box = {kind = "box", size = [1, 1]}
-source = [{count = 20, rate = 100, position = [0, 5]}]
-pile = [{}]
-run.frames = 30
+body = [{shape = "box", position = [0, 0.5]}]
 )";
-  const Outcome outcome = shell("ulimit -v 400000; \"$TALUS\" bench " + (folder_ / "box.toml") +
-                                " --policy full --seeds 1 --set source[0].count=20,2000000 --out " + (folder_ / "b"));
+  const Outcome outcome = shell("ulimit -t 2; \"$TALUS\" bench " + (folder_ / "box.toml") +
+                                " --policy full --seeds 1 --set run.frames=30,10000000 --out " + (folder_ / "b"));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   const auto all = rows_of(folder_.path() / "b" / "bench.csv");
   ASSERT_EQ(all.size(), 2U);
