@@ -120,11 +120,12 @@ struct WokenAgain {
     StageRun<Dim> run = stage.run();
     run.until(18.0);
     const BodyStates<Dim> before = run.states();
+    const int warnings = run.warnings();  // an impact of the pour may press a box into the ground for a moment
     for (int i = 0; i < 10; ++i) {
       run.simulation().thaw_all();
       run.until(20.0 + 2.0 * i);
     }
-    return {mean_shift(run.states(), before) / extent, double(run.floating()), double(run.warnings())};
+    return {mean_shift(run.states(), before) / extent, double(run.floating()), double(run.warnings() - warnings)};
   }
 };
 
