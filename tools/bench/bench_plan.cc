@@ -179,6 +179,7 @@ std::optional<PapersNumbers> papers_numbers(const BenchCase& bench_case, std::st
   const paper::Example* example = example_of(bench_case.scene_name());
   if (bench_case.policy != "paper" || example == nullptr) return std::nullopt;
   if (preset != "table2") return PapersNumbers{example->speed_up, example->error};
+  if (example->number != "2") return std::nullopt;
   for (const paper::Threshold& threshold : paper::table_2)
     if (std::ranges::find(bench_case.settings, fmt::format("policy.tau={}", threshold.tau)) !=
         bench_case.settings.end())

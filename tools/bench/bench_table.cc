@@ -84,6 +84,9 @@ std::string shown(const MeanWithError& number) {
   return fmt::format("{:.{}f} ± {:.{}f}", number.mean, digits, number.error, digits);
 }
 
+/// A number of the paper, as it stands there.
+std::string published(double number) { return std::isfinite(number) ? fmt::format("{:g}", number) : "-"; }
+
 using Cells = std::vector<std::string>;
 
 Cells summary_cells(const BenchGroup& group, std::string_view preset) {
@@ -102,8 +105,8 @@ Cells summary_cells(const BenchGroup& group, std::string_view preset) {
           shown(group.of(&BenchNumbers::r50_error, &BenchNumbers::r50_error_se)),
           shown(group.of(&BenchNumbers::drift)),
           shown({100.0 * motion.mean, 100.0 * motion.error}),
-          shown({papers.speed_up, 0.0}),
-          shown({papers.error, 0.0})};
+          published(papers.speed_up),
+          published(papers.error)};
 }
 
 /// Letters on the screen.
