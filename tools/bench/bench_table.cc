@@ -164,7 +164,8 @@ Plot error_plot(const std::vector<BenchGroup>& groups) {
 /// Means over a second each, so that a curve can be seen; of the first seed.
 Plot frame_plot(const std::vector<BenchGroup>& groups, const std::string& label, double BenchFrame::*number,
                 double scale) {
-  Plot plot{.title = "", .x_label = "simulated time [s]", .y_label = label, .series = {}};
+  const bool logarithmic = number == &BenchFrame::motion_error;
+  Plot plot{.title = "", .x_label = "simulated time [s]", .y_label = label, .log_y = logarithmic, .series = {}};
   for (const BenchGroup& group : groups) {
     if (group.rows.empty() || group.rows.front()->frames.empty()) continue;
     Series& curve = curve_of(plot, group.first->policy, SeriesStyle::line);
@@ -172,8 +173,11 @@ Plot frame_plot(const std::vector<BenchGroup>& groups, const std::string& label,
     double second = 0.0;
     for (const BenchFrame& frame : group.rows.front()->frames) {
       if (frame.time >= second + 1.0) {
-        if (!part.empty()) curve.x.push_back(second + 0.5);
-        if (!part.empty()) curve.y.push_back(scale * mean(part));
+        const double middle = mean(part);
+        if (!part.empty() && (!plot.log_y || middle > 0.0)) {
+          curve.x.push_back(second + 0.5);
+          curve.y.push_back(scale * middle);
+        }
         second = std::floor(frame.time);
         part.clear();
       }
