@@ -9,9 +9,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "common/scene/scene.h"
+#include "common/measure/shape_statistics.h"
 #include "common/simulation/state_hash.h"
-#include "tools/run/resting_shape.h"
 #include "tools/run/version.h"
 
 namespace talus {
@@ -79,19 +78,23 @@ Json settings_json(const Scene<Dim>& scene) {
           {"frame_rate", scene.run.frame_rate}};
 }
 
+/// Shape of what lies still enough to be part of the pile.
 template <int Dim>
 Json shape_json(const Scene<Dim>& scene, const World<Dim>& world, double extent) {
-  const auto shape = resting_shape(scene, world.states(), extent);
-  if (!shape) return nullptr;
+  constexpr double still = 1.0;  // [m/s]
+  const auto bodies = placed_bodies<Dim>(scene.world.shapes, world.states(), still);
+  if (bodies.empty()) return nullptr;
+  const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, scene.world.ground.height, extent);
+  const ShapeStatistics<Dim> shape = shape_statistics<Dim>(bodies, grid, extent);
   const double degrees = 180.0 / std::numbers::pi;
-  return {{"bodies_at_rest", shape->bodies},
-          {"height_m", shape->peak},
-          {"centre_height_m", shape->centre_height},
-          {"r50_m", shape->r50},
-          {"r95_m", shape->r95},
-          {"angle_of_repose_deg", shape->repose.angle * degrees},
-          {"angle_of_repose_standard_error_deg", shape->repose.standard_error * degrees},
-          {"packing", shape->packing.all}};
+  return {{"bodies_at_rest", shape.bodies},
+          {"height_m", shape.peak},
+          {"centre_height_m", shape.centre_height},
+          {"r50_m", shape.r50},
+          {"r95_m", shape.r95},
+          {"angle_of_repose_deg", shape.repose.angle * degrees},
+          {"angle_of_repose_standard_error_deg", shape.repose.standard_error * degrees},
+          {"packing", shape.packing.all}};
 }
 
 Json warnings_json(std::span<const Warning> warnings) {
