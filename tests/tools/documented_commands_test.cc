@@ -49,19 +49,13 @@ constexpr auto shortened = std::to_array<Shortened>({
      "talus run drop_in_a_pile_2d --policy full --out runs/full --set run.frames=300"},
     {"talus run drop_in_a_pile_2d --policy paper --out runs/paper",
      "talus run drop_in_a_pile_2d --policy paper --out runs/paper --set run.frames=300"},
-    {"talus bench table1 --quick",
-     "talus bench table1 --quick --scene varying_drops_2d --share 0.02 --rounds 1 --no-errors"},
-    // Outside of the window.
-    {"talus run heavy.toml --out heavy", "! talus run heavy.toml --out heavy"},
-    {"talus run coarse.toml --out coarse", "! talus run coarse.toml --out coarse"},
-    {"talus run long_wall.toml --out long_wall", "! talus run long_wall.toml --out long_wall"},
+    {"talus bench --preset table1 --quick --out table1",
+     "talus bench varying_drops_2d --preset table1 --quick --seeds 1 --set run.frames=20 --out table1"},
+    {"talus bench drop_in_a_pile_2d --policy full,adaptive,reference --seeds 8 --out pile",
+     "talus bench drop_in_a_pile_2d --policy full,adaptive,reference --seeds 2 --set run.frames=20 --out pile"},
     {"talus stress", "talus stress stack-5"},
-    {"talus stress peers --long", "talus stress waking-forces simbenchmark-rolling"},
-    {"talus stress --advise drop_in_a_pile_2d --tolerance 0.1", "talus stress --help"},
     {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
-    {"talus stress --long --docs docs", "talus stress stack-5 --docs docs"},
-    {"talus bench table1 --reference",
-     "talus bench table1 --reference --scene varying_drops_2d --share 0.02 --rounds 1 --seeds 1 --out bench/reference"},
+    {"talus stress --long", "talus stress stack-5 --long"},
 });
 
 /// Programs of other projects: their lines are not run.

@@ -15,7 +15,7 @@ bool pair_before(const ContactImpulse& l, const ContactImpulse& r) {
 
 /// Part of an impact that counts, by how steeply the impulse on the awake body rises, from -1 to 1: 1/3 for an impact
 /// from straight above, since the sleeping body's supports take up the rest; 1 from the side; 5/3 from below, where
-/// nothing resists. The slope 2/3 separated the bodies that moved from the others best (docs/research/impact_rule.md).
+/// nothing resists. The slope 2/3 separated the bodies that moved from the others best (lab/notes/impact_rule.md).
 double direction_factor(double rise) { return 1.0 - 2.0 / 3.0 * rise; }
 
 /// Adds an impulse [N s] at a point [m] to the velocity that a body gets.

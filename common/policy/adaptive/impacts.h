@@ -15,7 +15,7 @@ namespace talus {
 ///
 /// The measure is the speed that the struck point would get, weighted by direction. It counts that an impact off the
 /// centre topples a body. Of the quantities known when an impact lands it predicts best which bodies will move
-/// (docs/research/impact_rule.md).
+/// (lab/notes/impact_rule.md).
 template <int Dim>
 class Impacts {
  public:

@@ -8,7 +8,7 @@ namespace {
 
 /// By how much a column of a controlled pile may exceed the pile's slope [D]. Tops are single bodies, each of which may
 /// stand out of the slope. Without it such piles became 2 degrees flatter in 2D and kept a fifth more bodies awake
-/// (docs/research/slope_control.md).
+/// (lab/notes/slope_control.md).
 constexpr double top_roughness = 2.0;
 
 /// Height [m] of the highest wall of a pile between two points, of which only the horizontal parts count; none if no

@@ -14,7 +14,7 @@ namespace {
 constexpr double measuring_interval = 0.1;
 
 /// How far ahead a pile's sinking is foreseen [sqrt(D/g)]. Grids that land as one become too flat with less, too steep
-/// at 35 degrees with twice as much (docs/research/slope_control.md).
+/// at 35 degrees with twice as much (lab/notes/slope_control.md).
 constexpr double foreseen = 2.7;
 
 /// Whether a body at `position` may be part of the pile: within its reach, not below its base (fallen off a table), and
@@ -98,7 +98,7 @@ void SlopeController<Dim>::update_damping(const RuleInput<Dim>& in, std::size_t 
 }
 
 /// Of the pile's bodies, asleep or in contact. Those at rest alone are the core, up to ten degrees steeper than the
-/// pile where most of it still moves (docs/research/slope_control.md).
+/// pile where most of it still moves (lab/notes/slope_control.md).
 template <int Dim>
 void SlopeController<Dim>::collect_positions(const RuleInput<Dim>& in, std::size_t pile) {
   const BodyStates<Dim>& states = in.states();

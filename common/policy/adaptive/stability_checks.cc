@@ -8,7 +8,7 @@
 namespace talus {
 namespace {
 
-// Times in time_unit() (docs/research/stability_checks.md).
+// Times in time_unit() (lab/notes/stability_checks.md).
 constexpr double sample_time = 0.8;       // between two samples of the displacement
 constexpr double shortest_time = 0.8;     // of a check
 constexpr double longest_time = 60.0;     // of a check: some contacts of an engine jitter for ever,
