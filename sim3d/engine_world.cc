@@ -95,7 +95,7 @@ template <int Dim>
 void EngineWorld<Dim>::add_ground() {
   const Ground& ground = this->description().ground;
   ground_ = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), static_cast<btScalar>(ground.height));
-  const Surface surface{static_cast<btScalar>(std::sqrt(ground.material.friction)),
+  const Surface surface{static_cast<btScalar>(pair_friction(ground.material.friction, 1.0)),
                         static_cast<btScalar>(std::sqrt(ground.material.restitution))};
   statics_.push_back(make_static_object(*ground_, surface, btTransform::getIdentity(), ground_index));
   engine_.world.add_static(*statics_.back());

@@ -2,6 +2,7 @@
 // What a sleep policy is: the part that decides which bodies sleep and which wake.
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/policy/frame.h"
@@ -17,8 +18,8 @@ struct VelocityChange {
   Spin<Dim> spin = Spin<Dim>::Zero();    // [rad/s]
 };
 
-/// A policy's decision for one frame. In each event the policy sets all but `step` and `woke`, which the simulation
-/// fills in.
+/// A policy's decision for one frame: what it wants, which is not yet done. In each event the policy sets all but
+/// `step` and `woke`, which the simulation fills in.
 template <int Dim>
 struct Decision {
   std::vector<SleepEvent> freeze;
@@ -57,8 +58,14 @@ class SleepPolicy {
   /// Of a layer, counted from the bottom.
   virtual LayerThresholds thresholds(std::size_t /*layer*/) const { return {}; }
 
-  /// Fills `decision` (empty on entry). Called once a step.
+  /// Fills `decision` (empty on entry). Called once a step. No body may be put to sleep that Frame::may_sleep()
+  /// excludes.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
+
+  /// Told of each body that fell asleep or woke, right after it did, whatever the cause: the policy's decisions as far
+  /// as they were carried out, the user, events, gravity, obstacles. A sleeping body that left the world comes as one
+  /// that woke. What a policy keeps about sleeping bodies must follow from these calls alone.
+  virtual void note(const World<Dim>& /*world*/, std::span<const SleepEvent> /*events*/) {}
 };
 
 /// Writes the policy's thresholds into the layers.

@@ -21,8 +21,9 @@ double lowest_centre(const Ground& ground) {
 
 template <int Dim>
 bool changes_gravity(const Scene<Dim>& scene) {
-  return scene.gravity_motion ||
-         std::ranges::any_of(scene.events, [](const Event<Dim>& event) { return event.action == "gravity"; });
+  return scene.gravity_motion || std::ranges::any_of(scene.events, [](const Event<Dim>& event) {
+           return event.action == EventAction::gravity;
+         });
 }
 
 template <int Dim>

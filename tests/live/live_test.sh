@@ -48,24 +48,6 @@ playback) # lcm-logplayer plays the record at the run's own pace, and the monito
   expect '"step":180' last.json
   ;;
 
-record) # a bus is recorded: all of it, some channels, in several files of which the newest stay, up to a limit
-  "$program" record --lcm-url "$url" --out all.lcm >all.txt & all=$!
-  "$program" record --lcm-url "$url" --out some.lcm --channel 'TALUS_(PILES|RUN)' >some.txt & some=$!
-  "$program" record --lcm-url "$url" --out part.lcm --split-seconds 0.5 --keep 2 >part.txt & part_files=$!
-  "$program" record --lcm-url "$url" --out small.lcm --megabytes 0.01 >small.txt & small=$!
-  sleep 1
-  "$program" run --record run.lcm --lcm-url "$url" --paced >hash.txt
-  sleep 0.5
-  kill -INT $all $some $part_files
-  wait $all $some $part_files $small
-  [[ $(events all.lcm TALUS_PILES) == 181 && $(events all.lcm damaged) == 0 ]] || fail "$("$program" count all.lcm)"
-  [[ $(events some.lcm TALUS_PILES) == 181 && -z $(events some.lcm TALUS_STATS) ]] || fail "$("$program" count some.lcm)"
-  expect '^all.lcm: [0-9]* messages, .* 6 channels, 1 file$' all.txt
-  [[ $(ls part-*.lcm | wc -l) == 2 && ! -e part-0001.lcm ]] || fail "$(ls part-*)"
-  (($(stat -c %s small.lcm) < 11000 + 60000)) || fail "the limit was passed"
-  ! "$program" record --lcm-url "$url" --out all.lcm --seconds 1 2>refused.txt || fail "a log was overwritten"
-  ;;
-
 no_route) # one line says what to do, and the run is the same as without telemetry
   if [[ $LIVE_TEST_INSIDE == plain ]]; then url=udpm://255.255.255.255:7667; fi # no way to send there either
   "$program" run --record run.lcm --lcm-url "$url" >hash.txt 2>&1

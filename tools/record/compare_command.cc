@@ -336,8 +336,10 @@ void add_compare_command(CLI::App& app, int& exit_code) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  command->add_option("run_a", options->a, "Run folder, in the role of the full run")->required()->check(not_empty());
-  command->add_option("run_b", options->b, "Run folder")->required()->check(not_empty());
+  command->add_option("run_a", options->a, "Run folder or its record, in the role of the full run")
+      ->required()
+      ->check(not_empty());
+  command->add_option("run_b", options->b, "Run folder or its record")->required()->check(not_empty());
   command
       ->add_option("--twins", options->twins,
                    "Run A's scene so many times more, its source moved by 1e-6 m and multiples: what differs between "

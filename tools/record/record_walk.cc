@@ -3,6 +3,7 @@
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
 #include "lcmtypes/translate.h"
+#include "tools/record/record_file.h"
 #include "tools/record/state_reader.h"
 
 namespace talus {
@@ -103,7 +104,11 @@ template <int Dim>
 WalkResult walk_record(const Scene<Dim>& scene, LogReader& log,
                        const std::function<void(const RecordedFrame<Dim>&)>& visit) {
   Walk<Dim> walk(scene, visit);
-  for (LogEvent event; log.next(event);) walk.take(event);
+  OneRun run;
+  for (LogEvent event; log.next(event);) {
+    run.see(event, "run.lcm");
+    walk.take(event);
+  }
   return {{log.damage().bytes, walk.undecodable()}, walk.run()};
 }
 

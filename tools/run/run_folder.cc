@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "common/measure/shape_statistics.h"
+#include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
 #include "tools/run/version.h"
 
@@ -133,7 +134,8 @@ template <int Dim>
 Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
   Json list = Json::array();
   for (const DoneEvent& event : events)
-    list.push_back({{"number", event.number}, {"time_s", event.time}, {"do", scene.events[event.number].action}});
+    list.push_back(
+        {{"number", event.number}, {"time_s", event.time}, {"do", to_string(scene.events[event.number].action)}});
   return list;
 }
 
@@ -198,6 +200,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"events", events_json(scene, simulation.done_events())},
                   {"asleep_at_end", bodies - world.awake().size()},
                   {"outside_window", outside_json(input.outside_window)},
+                  {"scene_warnings", input.scene_warnings},
                   {"warnings", warnings_json(input.warnings)},
                   {"emit_waits", input.emit_waits},
                   {"picture_pixels_per_m", input.pixels_per_metre},

@@ -44,8 +44,8 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
           present_obstacles(scene, world, frame.time),
           scene.world.ground,
           printable(scene.title),
-          fmt::format("{}, policy {}: {} bodies, {} asleep", backend, scene.policy.kind, bodies,
-                      bodies - world.awake().size())};
+          fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep", backend, scene.policy.kind,
+                      scene.seed, frame.time, bodies, bodies - world.awake().size())};
 }
 
 /// Draws the pictures that events want, and prints a line for each event.
@@ -57,10 +57,10 @@ class EventWatch final : public Observer<Dim> {
 
   void on_frame(const Frame<Dim>& frame) override {
     for (const int number : frame.scene_events) {
-      const std::string& action = scene_.events[number].action;
-      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, action);
+      const EventAction action = scene_.events[number].action;
+      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, to_string(action));
       const std::string name = fmt::format("event_{}", number);
-      if (action == "picture")
+      if (action == EventAction::picture)
         draw_pile(folder_ / (name + ".svg"), folder_ / (name + ".png"), picture_of(backend_, scene_, frame));
     }
   }
@@ -85,7 +85,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
       avalanches_(scene.world.dt) {
-  write_scene(scene, folder_ / scene_file_name);
+  write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);

@@ -101,6 +101,7 @@ class LiveRun::Assembly {
   virtual void take(const talus_bodies_v1& message) = 0;
   virtual void take(const talus_event_v2& message) = 0;
   virtual void take(const talus_obstacles_v1& message) = 0;
+  void take(const talus_lcm::talus_scene_v1& /*of records*/) {}
 
  protected:
   virtual void note_event(BodyIndex body) = 0;

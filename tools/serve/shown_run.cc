@@ -90,7 +90,7 @@ class SimulatedScene final : public ShownRun {
     if (velocity.size() != Dim || !std::ranges::all_of(velocity, allowed))
       return fmt::format("velocity: must be {} numbers of -1000 to 1000", Dim);
     Event<Dim> event;
-    event.action = "kick";
+    event.action = EventAction::kick;
     event.numbers = {static_cast<double>(body)};
     for (int axis = 0; axis < Dim; ++axis) event.velocity[axis] = velocity[axis];
     simulation_.do_event(event);

@@ -14,6 +14,7 @@
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #ifdef TALUS_LCM
+#include "tools/record/record_file.h"
 #include "tools/record/record_stream.h"
 #include "tools/serve/live_view.h"
 #endif
@@ -141,12 +142,20 @@ void view_record(const ViewOptions& options) {
 }
 #endif
 
+bool is_record(const std::string& what) {
+#ifdef TALUS_LCM
+  return std::filesystem::is_directory(what) || is_event_log(what);
+#else
+  return false;
+#endif
+}
+
 void view(const ViewOptions& options) {
   if (options.what.empty() != options.live)
     throw std::invalid_argument("talus view: must have either a scene or run folder to show, or --live");
-  const bool record = !options.live && std::filesystem::is_directory(options.what);
-  if (!options.other.empty() && !(record && std::filesystem::is_directory(options.other)))
-    throw std::invalid_argument("talus view: what stands side by side must be two run folders");
+  const bool record = !options.live && is_record(options.what);
+  if (!options.other.empty() && !(record && is_record(options.other)))
+    throw std::invalid_argument("talus view: what stands side by side must be two run folders or records");
   if (!options.against.empty() && (record || options.live))
     throw std::invalid_argument("--against: must be of a scene; two records are shown as `talus view RUN OTHER`");
 #ifdef TALUS_LCM
@@ -168,7 +177,9 @@ CLI::Validator one_interface() {
 }
 
 void add_options(CLI::App& command, ViewOptions& options) {
-  command.add_option("what", options.what, "Run folder, scene file, or the name of a scene that `talus list` shows")
+  command
+      .add_option("what", options.what,
+                  "Run folder or its record, scene file, or the name of a scene that `talus list` shows")
       ->check(not_empty());
   command.add_option("other", options.other, "Second run folder, shown beside the first in step")->check(not_empty());
 #ifdef TALUS_LCM

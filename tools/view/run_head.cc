@@ -90,7 +90,7 @@ template <int Dim>
 Json coloured_shapes_of(const Scene<Dim>& scene) {
   Json legend = Json::array();
   for (const LegendEntry& entry : legend_of_shapes<Dim>(scene.world.shapes))
-    legend.push_back({{"name", entry.text}, {"colour", json_of(entry.fills.front())}});
+    legend.push_back({{"name", entry.text}, {"colour", json_of(entry.fill)}});
   return legend;
 }
 
