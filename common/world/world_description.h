@@ -1,6 +1,7 @@
 #pragma once
 // All that an engine needs before the first body exists.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -95,6 +96,16 @@ struct WorldDescription {
   Vec<Dim> gravity_vector() const { return gravity * down; }
 };
 
+/// Whether what rests in gravity `a` [m/s^2] rests in `b` too: they differ by at most a hundredth, a tilt of 0.6
+/// degrees.
+template <int Dim>
+bool same_gravity(const Vec<Dim>& a, const Vec<Dim>& b) {
+  return (a - b).norm() <= 0.01 * std::max(a.norm(), b.norm());
+}
+
+/// Friction of the contact of two surfaces: the geometric mean, as Box2D mixes them by itself.
+inline double pair_friction(double a, double b) { return std::sqrt(a * b); }
+
 /// Torque by which the contact of two bodies resists turning, over the normal force [m]: the geometric mean of the
 /// arms of both shapes. What is no body has none and leaves it to the other.
 inline double arm_of_pair(std::optional<double> a, std::optional<double> b) {
@@ -110,9 +121,11 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
       .type = "number or vector",
       .unit = "m/s^2",
       .range = gravity_range,
-      .meaning = "downwards, or a vector: `[1.7, -9.66]` is the same as everything tilted by 10 degrees. Piles and the "
-                 "policies `paper` and `adaptive` take the last axis as up all the same. Large: bodies sink into the "
-                 "ground, see [limits](#limits-of-the-engines)"}},
+      .meaning =
+          "downwards, or a vector: `[1.7, -9.66]` is the same as everything tilted by 10 degrees. Piles, and in the "
+          "policies `paper` and `adaptive` layers and columns, take the last axis as up all the same. Large: bodies "
+          "sink into the "
+          "ground, see [limits](#limits-of-the-engines)"}},
     {&WorldDescription<Dim>::dt,
      {.name = "steps_per_second",
       .unit = "1/s",
