@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -66,8 +67,9 @@ struct Frame {
   PhaseTimes phases;
   std::span<const Warning> warnings = {};    // one of each kind that the run has shown so far, if it is observed
   int bodies_planned = 0;                    // of the scene in all
-  const SleepPolicy<Dim>* policy = nullptr;  // that of the run, for its estimate of the drift
+  const SleepPolicy<Dim>* policy = nullptr;  // that of the run
   std::span<const int> scene_events = {};    // numbers of Scene::events that happened just before this step
+  std::optional<double> probed_drift = {};   // [D] of the last state of a run, once a probe has found it
 };
 
 }  // namespace talus

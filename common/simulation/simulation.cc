@@ -104,6 +104,7 @@ void Simulation<Dim>::freeze_initial_bodies() {
 template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
+  probed_drift_.reset();
   do_due_events();
   emitter_.emit(*world_, time());
   if (!asleep_at_start_.empty()) freeze_initial_bodies();

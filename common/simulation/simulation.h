@@ -67,7 +67,8 @@ class Simulation {
             watchdog_.warnings(),
             watchdog_.bodies_planned(),
             policy_.get(),
-            event_clock_.due()};
+            event_clock_.due(),
+            probed_drift_};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }
@@ -77,9 +78,8 @@ class Simulation {
   std::span<const Warning> warnings() const { return watchdog_.warnings(); }
   /// Events of the scene so far, in the order in which they happened.
   std::span<const DoneEvent> done_events() const { return done_events_; }
-  /// What the policy expects its sleeping bodies to move once woken; none from a policy that does not measure it,
-  /// has not yet, or cannot while many bodies move.
-  std::optional<DriftEstimate> drift_estimate() const { return policy_->drift_estimate(*world_); }
+  /// What a probe of the last state found [D]. Frames have it in the place of the policy's estimate.
+  void set_probed_drift(double drift) { probed_drift_ = drift; }
 
  private:
   bool needs_contacts() const;
@@ -136,6 +136,7 @@ class Simulation {
   bool ends_at_rest_;
   bool rested_ = false;   // after the last step
   bool at_rest_ = false;  // and the run has ended so
+  std::optional<double> probed_drift_;
   std::int64_t steps_;
 };
 
