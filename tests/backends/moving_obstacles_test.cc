@@ -98,6 +98,84 @@ TYPED_TEST(MovingObstacle, TurnsABodyWithIt) {
   }
 }
 
+/// A plan and how far it should have carried a body.
+struct Carry {
+  double steps_per_second = 60.0;
+  double away = 0.0;   // of everything from the origin [m]
+  double speed = 0.0;  // [m/s] or [degrees/s]
+};
+
+/// Distance that a cube on a platform goes within 2 s, as a share of the platform's.
+template <typename Backend>
+double carried_along(const Carry& carry) {
+  constexpr int dim = Backend::dim;
+  const std::string text = fmt::format(
+      "title = \"Platform\"\ndimension = {}\nworld.steps_per_second = {}\npolicy.kind = \"full\"\n"
+      "ground.present = false\nshape.cube = {{kind = \"box\", size = {}, friction = 0.8}}\n"
+      "[[body]]\nposition = {}\n"
+      "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\nfriction = 0.8\n"
+      "motion = {{kind = \"path\", times = [1, 101], shifts = [{}, {}]}}\n",
+      dim, carry.steps_per_second, dim == 2 ? "[1, 1]" : "[1, 1, 1]", along<dim>(carry.away, 0.5),
+      dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", along<dim>(carry.away, -0.25), along<dim>(0.0, 0.0),
+      along<dim>(100.0 * carry.speed, 0.0));
+  const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
+  Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  const auto place = [&] { return simulation.world().states().pose[0].position[0]; };
+  while (simulation.time() < 1.0 - 1e-9) simulation.step();
+  const double before = place();
+  while (simulation.time() < 3.0 - 1e-9) simulation.step();
+  return (place() - before) / (2.0 * carry.speed);
+}
+
+/// Angle by which a drum about a level axis, or in 3D a turntable, carries a box within 2 s, as a share of its own.
+template <typename Backend>
+double carried_around(const Carry& carry, bool upright) {
+  constexpr int dim = Backend::dim;
+  const std::string drum = fmt::format(
+      "kind = \"ring\"\nouter_radius = 6\ninner_radius = 5\nparts = 64\nfriction = 0.8\n{}position = {}\n",
+      dim == 2 ? "" : "height = 2\nrotation_deg = {axis = [1, 0, 0], angle = 90}\n", along<dim>(carry.away, 0.0));
+  const std::string table =
+      fmt::format("kind = \"box\"\nsize = [8, 8, 0.5]\nfriction = 0.8\nposition = {}\n", along<dim>(carry.away, -5.22));
+  const std::string text = fmt::format(
+      "title = \"Drum\"\ndimension = {}\nworld.steps_per_second = {}\npolicy.kind = \"full\"\n"
+      "ground.present = false\nshape.box = {{kind = \"box\", size = {}, friction = 0.8}}\n"
+      "[[body]]\nposition = {}\n"
+      "[[obstacle]]\n{}motion = {{kind = \"turn\", speed_deg = {}{}, start = 2}}\n",
+      dim, carry.steps_per_second, dim == 2 ? "[1, 0.5]" : "[1, 0.5, 0.5]",
+      along<dim>(carry.away + (upright ? 3.0 : 0.0), -4.71), upright ? table : drum, carry.speed,
+      dim == 2  ? ""
+      : upright ? ", axis = [0, 0, 1]"
+                : ", axis = [0, -1, 0]");
+  const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
+  Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  const auto angle = [&] {
+    const Vec<dim> arm = simulation.world().states().pose[0].position - carry.away * Vec<dim>::Unit(0);
+    return upright ? std::atan2(arm[1], arm[0]) : std::atan2(arm[0], -height<dim>(arm));
+  };
+  while (simulation.time() < 2.0 - 1e-9) simulation.step();
+  const double before = angle();
+  while (simulation.time() < 4.0 - 1e-9) simulation.step();
+  return (angle() - before) / radians(2.0 * carry.speed);
+}
+
+TYPED_TEST(MovingObstacle, XMeasure) {
+  constexpr int dim = TypeParam::dim;
+  for (double away : {0.0, 10.0, 100.0, 1000.0})
+    for (double steps : {60.0, 240.0, 960.0}) {
+      for (double speed : {0.001, 0.005, 0.02, 0.2}) {
+        fmt::print("{} away {} rate {} speed {}: {:.4f}\n", TypeParam::name, away, steps, speed,
+                   carried_along<TypeParam>({steps, away, speed}));
+      }
+      for (double speed : {0.1, 1.0, 5.0, 9.0}) {
+        fmt::print("{} away {} rate {} drum {} deg/s: {:.4f}\n", TypeParam::name, away, steps, speed,
+                   carried_around<TypeParam>({steps, away, speed}, false));
+        if (dim == 3)
+          fmt::print("{} away {} rate {} table {} deg/s: {:.4f}\n", TypeParam::name, away, steps, speed,
+                     carried_around<TypeParam>({steps, away, speed}, true));
+      }
+    }
+}
+
 TYPED_TEST(MovingObstacle, GivesTheSameBitsInEachRun) {
   constexpr int dim = TypeParam::dim;
   const auto hash = [] {
