@@ -1,14 +1,19 @@
 #include "sim2d/continuous.h"
 
+#include <box2d/b2_distance.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "common/shape/piece.h"
+#include "common/shape/convex_piece.h"
 #include "sim2d/tag.h"
 
 namespace talus::box2d {
 namespace {
+
+/// Relative error of a distance in single precision, and more.
+constexpr float rounding = 1e-4F;
 
 bool is_sleeper(b2Fixture& fixture) { return fixture.GetBody()->GetType() == b2_staticBody && owner_of(fixture) >= 0; }
 
@@ -20,36 +25,84 @@ double least_width(const Shape<2>& shape) {
   return least;
 }
 
-/// From the centre to the farthest corner of the bounding box [m].
+/// How far the surface goes at most when the body turns by one radian [m]; a disc's about its centre stays.
 double reach_of(const Shape<2>& shape) {
-  return shape.bounds.min().cwiseAbs().cwiseMax(shape.bounds.max().cwiseAbs()).norm();
+  double reach = 0.0;
+  for (const ConvexPiece<2>& piece : convex_pieces(shape))
+    for (const Vec2& corner : piece.corners) reach = std::max(reach, corner.norm());
+  return reach;
 }
 
 }  // namespace
 
-ContinuousCollision::ContinuousCollision(const WorldDescription<2>& description) {
+ContinuousCollision::ContinuousCollision(const WorldDescription<2>& description)
+    : dt_(static_cast<float>(description.dt)) {
+  double thinnest = std::numeric_limits<double>::infinity();
   for (const Shape<2>& shape : description.shapes) {
-    const Size& size = sizes_.emplace_back(Size{.reach = static_cast<float>(reach_of(shape)),
-                                                .slow = static_cast<float>(least_width(shape) / 2.0 / description.dt)});
-    const bool first = sizes_.size() == 1;
-    any_.reach = std::max(any_.reach, size.reach);
-    any_.slow = first ? size.slow : std::min(any_.slow, size.slow);
+    const double width = least_width(shape);
+    thinnest = std::min(thinnest, width);
+    sizes_.push_back(
+        {.reach = static_cast<float>(reach_of(shape)), .slow = static_cast<float>(width / 2.0 / description.dt)});
+    any_.reach = std::max(any_.reach, sizes_.back().reach);
     longest_ = std::max(longest_, static_cast<float>(shape.extent));
   }
-  slow_ = any_.slow / 2.0F;
+  if (description.shapes.empty()) return;
+  any_.slow = static_cast<float>(thinnest / 2.0 / description.dt);
+  slow_ = static_cast<float>(thinnest / 4.0 / description.dt);
 }
 
 const ContinuousCollision::Size& ContinuousCollision::size_of(const b2Body& body) const {
   return sizes_[const_cast<b2Body&>(body).GetUserData().pointer];  // NOLINT(*-const-cast): Box2D has no const access
 }
 
-bool ContinuousCollision::may_pass(const b2Body& a, const b2Body& b) const {
+/// By how much two bodies may come together in a step beyond half the sum of their widths, as a speed [m/s].
+float ContinuousCollision::excess(const b2Body& a, const b2Body& b) const {
   const Size& first = size_of(a);
   const Size& second = size_of(b);
   const float approach = (a.GetLinearVelocity() - b.GetLinearVelocity()).Length() +
                          first.reach * std::abs(a.GetAngularVelocity()) +
                          second.reach * std::abs(b.GetAngularVelocity());
-  return approach > first.slow + second.slow;
+  return approach - first.slow - second.slow;
+}
+
+/// The solver has parted those that touch; a time of impact may drive them together again.
+bool ContinuousCollision::may_pass(b2Contact& contact) const {
+  b2Fixture& a = *contact.GetFixtureA();
+  b2Fixture& b = *contact.GetFixtureB();
+  if (!contact.IsTouching()) return may_pass(a, b);
+  b2WorldManifold world;
+  contact.GetWorldManifold(&world);
+  const float passing = size_of(*a.GetBody()).slow + size_of(*b.GetBody()).slow;
+  for (int i = 0; i < contact.GetManifold()->pointCount; ++i) {
+    const b2Vec2 relative = a.GetBody()->GetLinearVelocityFromWorldPoint(world.points[i]) -
+                            b.GetBody()->GetLinearVelocityFromWorldPoint(world.points[i]);
+    if (b2Dot(relative, world.normal) > passing) return true;
+  }
+  return false;
+}
+
+/// The gap between two pieces must close first. Two that would end middle on middle count too, whatever the rounding.
+bool ContinuousCollision::may_pass(b2Fixture& a, b2Fixture& b) const {
+  const float beyond = excess(*a.GetBody(), *b.GetBody());
+  if (beyond <= 0.0F) return false;
+  b2DistanceInput input;
+  input.proxyA.Set(a.GetShape(), 0);
+  input.proxyB.Set(b.GetShape(), 0);
+  input.transformA = start_of(*a.GetBody());
+  input.transformB = start_of(*b.GetBody());
+  input.useRadii = true;
+  b2SimplexCache cache;
+  cache.count = 0;
+  b2DistanceOutput output;
+  b2Distance(&output, &cache, &input);
+  return output.distance < (1.0F + rounding) * dt_ * beyond;
+}
+
+/// Where a step with the body's velocity began; after a time of impact, where it would have begun.
+b2Transform ContinuousCollision::start_of(const b2Body& body) const {
+  if (!stepping_) return body.GetTransform();
+  return {body.GetPosition() - dt_ * body.GetLinearVelocity(),
+          b2Rot(body.GetAngle() - dt_ * body.GetAngularVelocity())};
 }
 
 void ContinuousCollision::sweep(b2Body& body) {
@@ -60,7 +113,7 @@ void ContinuousCollision::sweep(b2Body& body) {
 void ContinuousCollision::sweep_if_needed(b2Body& body) {
   if (body.IsBullet()) return;
   for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next) {
-    if (!is_dynamic(*edge->other) || !may_pass(body, *edge->other)) continue;
+    if (!is_dynamic(*edge->other) || excess(body, *edge->other) <= 0.0F || !may_pass(*edge->contact)) continue;
     sweep(body);
     return;
   }
@@ -106,7 +159,7 @@ bool ContinuousCollision::ShouldCollide(b2Fixture* a, b2Fixture* b) {
   b2Body& second = *b->GetBody();
   if (!stepping_ || !is_dynamic(first) || !is_dynamic(second)) return true;
   b2Body* fast = is_fast(first) ? &first : is_fast(second) ? &second : nullptr;
-  if (fast != nullptr && !first.IsBullet() && !second.IsBullet() && may_pass(first, second)) sweep(*fast);
+  if (fast != nullptr && !first.IsBullet() && !second.IsBullet() && may_pass(*a, *b)) sweep(*fast);
   return true;
 }
 

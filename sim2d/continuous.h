@@ -25,7 +25,7 @@ class ContinuousCollision final : public b2ContactFilter {
  public:
   explicit ContinuousCollision(const WorldDescription<2>& description);
 
-  /// Before a step: sweeps the body, made of this shape, if one of its pairs needs it.
+  /// Before a step, once Box2D knows all pairs: sweeps the body, made of this shape, if one of its pairs needs it.
   void note_body(b2Body& body, int shape) {
     if (is_fast(body, sizes_[shape])) sweep_if_needed(body);
   }
@@ -45,7 +45,7 @@ class ContinuousCollision final : public b2ContactFilter {
  private:
   /// How far a body can go in a step, as a speed of its surface.
   struct Size {
-    float reach = 0.0F;  // from the centre to any point of it [m]
+    float reach = 0.0F;  // way of its surface, at most, in a turn by one radian [m]
     float slow = 0.0F;   // [m/s]: at this speed it moves by half its least width in a step
   };
   static bool is_fast(const b2Body& body, const Size& size) {
@@ -54,7 +54,10 @@ class ContinuousCollision final : public b2ContactFilter {
   }
   const Size& size_of(const b2Body& body) const;
   bool is_fast(const b2Body& body) const { return is_fast(body, any_) && is_fast(body, size_of(body)); }
-  bool may_pass(const b2Body& a, const b2Body& b) const;
+  float excess(const b2Body& a, const b2Body& b) const;
+  bool may_pass(b2Contact& contact) const;
+  bool may_pass(b2Fixture& a, b2Fixture& b) const;
+  b2Transform start_of(const b2Body& body) const;
   void sweep_if_needed(b2Body& body);
   void sweep(b2Body& body);
   void leave_out_if_slow(const b2Contact& contact, const b2Body& body) const;
@@ -65,6 +68,7 @@ class ContinuousCollision final : public b2ContactFilter {
   Size any_;                 // a body that is not fast with this one is not fast with its own
   float slow_ = 0.0F;        // [m/s], of any point of a body: slower ones do not get through a sleeper
   float longest_ = 0.0F;     // from a body's centre to any point of it at most, over all shapes [m]
+  float dt_ = 0.0F;          // [s]
   std::vector<b2Body*> swept_;
   bool stepping_ = false;
 };

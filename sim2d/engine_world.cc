@@ -140,6 +140,7 @@ EngineTimes EngineWorld::engine_step() {
   if (!description().debug.step_when_idle && awake().empty()) return {};
   check_memory();
   rolling_.start_step(states().shape);
+  find_new_contacts();
   for (const BodyIndex body : awake()) continuous_.note_body(*at(body).body, states().shape[body]);
   continuous_.start_step();
   world_.Step(static_cast<float>(description().dt), description().solver.velocity_iterations,
