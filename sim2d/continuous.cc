@@ -48,6 +48,7 @@ ContinuousCollision::ContinuousCollision(const WorldDescription<2>& description)
   }
   if (description.shapes.empty()) return;
   any_.slow = static_cast<float>(thinnest / 2.0 / description.dt);
+  restless_size_ = {.reach = any_.reach, .slow = any_.slow / 4.0F};
   slow_ = static_cast<float>(thinnest / 4.0 / description.dt);
 }
 
@@ -121,26 +122,29 @@ void ContinuousCollision::sweep_if_needed(b2Body& body) {
 
 void ContinuousCollision::end_step() {
   stepping_ = false;
+  restless_ = false;
   for (b2Body* body : swept_) body->SetBullet(false);
   swept_.clear();
 }
 
 void ContinuousCollision::note_solved(b2Contact& contact, bool sleepers) {
-  b2Fixture& first = *contact.GetFixtureA();
-  b2Fixture& second = *contact.GetFixtureB();
-  if (sleepers && is_sleeper(first)) leave_out_if_slow(contact, *second.GetBody());
-  if (sleepers && is_sleeper(second)) leave_out_if_slow(contact, *first.GetBody());
-  if (is_sleeper(first) || is_sleeper(second)) return;
-  for (b2Body* body : {first.GetBody(), second.GetBody()}) {
-    if (!is_dynamic(*body)) continue;
-    if (is_fast(*body)) sweep_if_needed(*body);
-    if (sleepers && !is_slow(*body)) search_sleepers(*body, true);
+  if (restless_) {
+    b2Body& a = *contact.GetFixtureA()->GetBody();
+    b2Body& b = *contact.GetFixtureB()->GetBody();
+    if (is_dynamic(a) && is_fast(a)) sweep_if_needed(a);
+    if (is_dynamic(b) && is_fast(b)) sweep_if_needed(b);
   }
+  if (sleepers) weigh_sleepers(contact);
 }
 
-void ContinuousCollision::leave_out_if_slow(const b2Contact& contact, const b2Body& body) const {
-  // Disabled: left out with another contact of the same body.
-  if (contact.IsEnabled() && is_slow(body)) search_sleepers(body, false);
+/// A contact with a sleeper shows whether a body is slow, one with another body whether it has been made fast.
+void ContinuousCollision::weigh_sleepers(b2Contact& contact) const {
+  b2Fixture& first = *contact.GetFixtureA();
+  b2Fixture& second = *contact.GetFixtureB();
+  const bool with_sleeper = is_sleeper(first) || is_sleeper(second);
+  if (with_sleeper && !contact.IsEnabled()) return;  // left out with another contact of the same body
+  for (const b2Body* body : {first.GetBody(), second.GetBody()})
+    if (is_dynamic(*body) && is_slow(*body) == with_sleeper) search_sleepers(*body, !with_sleeper);
 }
 
 /// Box2D enables a contact again whenever it updates it, at the latest in the next step.

@@ -27,8 +27,12 @@ class ContinuousCollision final : public b2ContactFilter {
 
   /// Before a step, once Box2D knows all pairs: sweeps the body, made of this shape, if one of its pairs needs it.
   void note_body(b2Body& body, int shape) {
+    if (!is_fast(body, restless_size_)) return;
+    restless_ = true;
     if (is_fast(body, sizes_[shape])) sweep_if_needed(body);
   }
+  /// Before a step in which an obstacle moves: it may make any body fast.
+  void note_moving_obstacle() { restless_ = true; }
   /// Between the last note_body() and end_step() bodies may be swept.
   void start_step() { stepping_ = true; }
   /// After a step, before a body is destroyed: no body is swept any more.
@@ -60,17 +64,19 @@ class ContinuousCollision final : public b2ContactFilter {
   b2Transform start_of(const b2Body& body) const;
   void sweep_if_needed(b2Body& body);
   void sweep(b2Body& body);
-  void leave_out_if_slow(const b2Contact& contact, const b2Body& body) const;
+  void weigh_sleepers(b2Contact& contact) const;
   static void search_sleepers(const b2Body& body, bool search);
   bool is_slow(const b2Body& body) const;
 
   std::vector<Size> sizes_;  // by shape
+  Size restless_size_;       // a body that is not fast with this one has a quarter of the speed of a fast one at most
   Size any_;                 // a body that is not fast with this one is not fast with its own
   float slow_ = 0.0F;        // [m/s], of any point of a body: slower ones do not get through a sleeper
   float longest_ = 0.0F;     // from a body's centre to any point of it at most, over all shapes [m]
   float dt_ = 0.0F;          // [s]
   std::vector<b2Body*> swept_;
   bool stepping_ = false;
+  bool restless_ = false;  // else no impact of this step makes a body fast
 };
 
 }  // namespace talus::box2d

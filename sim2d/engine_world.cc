@@ -172,6 +172,7 @@ bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != n
 
 void EngineWorld::engine_move_obstacle(int number, const Vec<2>& velocity, const Spin<2>& spin) {
   give_velocity(*obstacles_[number], velocity, spin);
+  continuous_.note_moving_obstacle();
 }
 
 void EngineWorld::engine_place_obstacle(int number, const Pose<2>& at) {
