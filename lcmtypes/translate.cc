@@ -211,9 +211,9 @@ talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   message.kinetic_energy = kinetic_energy(frame.world);
   message.planned = frame.bodies_planned;
   message.appeared = states.size();
-  const auto estimate = frame.policy == nullptr ? std::nullopt : frame.policy->drift_estimate(frame.world);
-  message.drift_estimate = estimate ? estimate->drift / frame.piles.typical_body().extent : -1.0;
-  message.checked_share = estimate ? estimate->checked_share : 0.0;
+  const std::optional<ToldDrift> drift = told_drift(frame);
+  message.drift_estimate = drift ? drift->drift : -1.0;
+  message.checked_share = drift ? drift->checked_share : 0.0;
   for (const Warning& warning : frame.warnings) {
     message.warning_kind.push_back(static_cast<std::int8_t>(warning.kind));
     message.warning_step.push_back(warning.step);

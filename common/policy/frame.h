@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -67,8 +68,9 @@ struct Frame {
   PhaseTimes phases;
   std::span<const Warning> warnings = {};          // one of each kind that the run has shown so far, if it is observed
   int bodies_planned = 0;                          // of the scene in all
-  const SleepPolicy<Dim>* policy = nullptr;        // that of the run, for its estimate of the drift
+  const SleepPolicy<Dim>* policy = nullptr;        // that of the run
   std::span<const int> scene_events = {};          // numbers of Scene::events that happened just before this step
+  std::optional<double> probed_drift = {};         // [D] of the last state of a run, once a probe has found it
   std::function<bool(BodyIndex)> kept_awake = {};  // awake bodies that must stay so; empty: none
 
   /// Whether the run leaves it to the policy if an awake body falls asleep: one that is pulled, touches an obstacle

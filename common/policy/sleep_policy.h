@@ -27,7 +27,7 @@ struct Decision {
   std::vector<VelocityChange<Dim>> velocities;  // applied once the bodies to thaw are awake
 };
 
-/// A policy's estimate of the error of its sleeping bodies.
+/// A policy's estimate of the error of its sleeping bodies. What is told of it: told_drift().
 struct DriftEstimate {
   double drift = 0.0;          // mean distance that the sleeping bodies are expected to move once all are woken [m]
   double checked_share = 0.0;  // of the sleeping bodies, for which this was measured; for the others it is extrapolated
@@ -81,5 +81,22 @@ class NoPolicy final : public SleepPolicy<Dim> {
   bool decides() const override { return false; }
   void decide(const Frame<Dim>&, Decision<Dim>&) override {}
 };
+
+/// How far the sleeping bodies of a frame are expected to move on average once all are woken, as texts, files, messages
+/// and pages have it.
+struct ToldDrift {
+  double drift = 0.0;          // [D], the largest extent of the typical body
+  double checked_share = 0.0;  // of the sleeping bodies, for which this was measured
+};
+
+/// By the probe of the last state where there was one, which wakes all bodies; else by the policy, where it has an
+/// estimate.
+template <int Dim>
+std::optional<ToldDrift> told_drift(const Frame<Dim>& frame) {
+  if (frame.probed_drift) return ToldDrift{.drift = *frame.probed_drift, .checked_share = 1.0};
+  const auto estimate = frame.policy == nullptr ? std::nullopt : frame.policy->drift_estimate(frame.world);
+  if (!estimate) return std::nullopt;
+  return ToldDrift{estimate->drift / frame.piles.typical_body().extent, estimate->checked_share};
+}
 
 }  // namespace talus

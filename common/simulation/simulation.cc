@@ -69,6 +69,7 @@ void Simulation<Dim>::freeze_initial_bodies() {
 template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
+  probed_drift_.reset();
   events_.clear();
   interventions_.do_due_events(intervened(), rested_, piles_.piles());
   emitter_.emit(*world_, time());

@@ -65,6 +65,7 @@ class Simulation {
             watchdog_.bodies_planned(),
             policy_.get(),
             interventions_.clock().due(),
+            probed_drift_,
             [this](BodyIndex body) { return interventions_.must_stay_awake(*world_, body); }};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
@@ -75,9 +76,8 @@ class Simulation {
   std::span<const Warning> warnings() const { return watchdog_.warnings(); }
   /// Events of the scene so far, in the order in which they happened.
   std::span<const DoneEvent> done_events() const { return interventions_.done_events(); }
-  /// What the policy expects its sleeping bodies to move once woken; none from a policy that does not measure it,
-  /// has not yet, or cannot while many bodies move.
-  std::optional<DriftEstimate> drift_estimate() const { return policy_->drift_estimate(*world_); }
+  /// What a probe of the last state found [D]. Frames have it in the place of the policy's estimate.
+  void set_probed_drift(double drift) { probed_drift_ = drift; }
 
  private:
   bool needs_contacts() const;
@@ -121,6 +121,7 @@ class Simulation {
   bool ends_at_rest_;
   bool rested_ = false;   // after the last step
   bool at_rest_ = false;  // and the run has ended so
+  std::optional<double> probed_drift_;
   std::int64_t steps_;
 };
 

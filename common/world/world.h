@@ -149,9 +149,9 @@ class World {
 
   virtual void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
 
-  /// Before a step: gives an obstacle that may move the velocity that takes it `to` there. An engine without moving
-  /// obstacles throws.
-  virtual void engine_move_obstacle(int number, const Pose<Dim>& to);
+  /// Before a step: gives an obstacle that may move the velocity of its centre and the spin that take it to its next
+  /// pose. An engine without moving obstacles throws.
+  virtual void engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin);
   /// After the step: puts it there, at rest.
   virtual void engine_place_obstacle(int /*number*/, const Pose<Dim>& /*at*/) {}
 

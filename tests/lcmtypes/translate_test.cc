@@ -238,6 +238,17 @@ TEST(StatsMessage, CarriesTheEstimateOfDriftInExtentsOfTheTypicalBody) {
   EXPECT_EQ(decoded.checked_share, 0.25);
 }
 
+TEST(StatsMessage, CarriesWhatTheProbeOfTheLastStateFoundInThePlaceOfThePolicysEstimate) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  const PileSet<2> piles({}, {.bounding_volume = 0.5, .extent = 2.0, .mass = 1.0});
+  const OneMetrePolicy policy;
+  const auto stats = to_stats<2>(
+      Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .policy = &policy, .probed_drift = 0.125});
+  EXPECT_EQ(stats.drift_estimate, 0.125);
+  EXPECT_EQ(stats.checked_share, 1.0) << "a probe wakes all bodies";
+}
+
 TEST(StatsMessage, HasNoEstimateOfDriftWithoutAPolicyThatMakesOne) {
   const Scene<2> scene = still_scene<2>();
   StillWorld<2> world(scene.world);

@@ -14,10 +14,10 @@
 #include "common/scene/typical_body.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/output/json_text.h"
 #include "tools/output/output.h"
+#include "tools/output/table.h"
 #include "tools/record/recorded_run.h"
-#include "tools/report/json_text.h"
-#include "tools/report/table.h"
 #include "tools/run/make_simulation.h"
 
 namespace talus {

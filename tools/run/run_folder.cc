@@ -139,29 +139,27 @@ Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
   return list;
 }
 
-/// By the probe at the end of the run, else by the policy; null where neither has a result.
-Json drift_estimate_json(const std::optional<DriftProbe>& probe, const std::optional<DriftEstimate>& estimate,
-                         double typical_extent) {
-  if (!probe && !estimate) return nullptr;
-  const auto probed = [&](double length) { return probe ? Json(length / typical_extent) : Json(); };
-  return {{"drift_D", (probe ? probe->expected() : estimate->drift) / typical_extent},
-          {"least_D", probed(probe ? probe->least : 0.0)},
-          {"most_D", probed(probe ? probe->most : 0.0)},
+/// Null where neither the probe nor the policy has a result.
+Json drift_estimate_json(const std::optional<DriftProbe>& probe, const std::optional<ToldDrift>& told) {
+  if (!told) return nullptr;
+  return {{"drift_D", told->drift},
+          {"least_D", probe ? Json(probe->least) : Json()},
+          {"most_D", probe ? Json(probe->most) : Json()},
           {"probed_s", probe ? probe->seconds : 0.0},
-          {"checked_share", estimate ? Json(estimate->checked_share) : Json()}};
+          {"checked_share", told->checked_share}};
 }
 
 /// Null where it was not measured; without numbers where it could not be.
-Json measured_json(const std::optional<MeasuredDrift>& drift, double typical_extent) {
+Json measured_json(const std::optional<MeasuredDrift>& drift) {
   if (!drift) return nullptr;
   const bool known = drift->missing.empty();
-  const auto in_extents = [&](double length) { return known ? Json(length / typical_extent) : Json(); };
+  const auto where_known = [&](double drift_D) { return known ? Json(drift_D) : Json(); };
   return {{"missing", drift->missing},
           {"bodies", drift->bodies},
           {"simulated_s", drift->seconds},
-          {"drift_mean_D", in_extents(drift->mean)},
-          {"drift_p95_D", in_extents(drift->p95)},
-          {"drift_max_D", in_extents(drift->max)}};
+          {"drift_mean_D", where_known(drift->mean)},
+          {"drift_p95_D", where_known(drift->p95)},
+          {"drift_max_D", where_known(drift->max)}};
 }
 
 template <int Dim>
@@ -207,9 +205,8 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                   {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
   summary["shape"] = shape_json(scene, world, simulation.piles().typical_body().extent);
-  summary["estimate"] =
-      drift_estimate_json(input.probe, simulation.drift_estimate(), simulation.piles().typical_body().extent);
-  summary["measured"] = measured_json(input.measured, simulation.piles().typical_body().extent);
+  summary["estimate"] = drift_estimate_json(input.probe, told_drift(simulation.frame()));
+  summary["measured"] = measured_json(input.measured);
   summary["piles"] = piles_json(simulation.piles());
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
   std::ofstream out(file);

@@ -1,4 +1,4 @@
-#include "tools/report/table.h"
+#include "tools/output/table.h"
 
 #include <fmt/format.h>
 
@@ -40,32 +40,6 @@ std::string padded_line(const Table& table, const std::vector<std::string>& cell
   return line + "\n";
 }
 
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
-  std::string result = "\"";
-  for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) line += ',';
-    line += quoted(cells[i]);
-  }
-  return line + "\n";
-}
-
-std::string markdown_line(const std::vector<std::string>& cells) {
-  std::string line = "|";
-  for (const std::string& cell : cells) {
-    line += ' ';
-    for (const char c : cell) line += c == '|' ? std::string("\\|") : std::string(1, c);
-    line += " |";
-  }
-  return line + "\n";
-}
-
 }  // namespace
 
 std::string text_of(const Table& table) {
@@ -81,23 +55,6 @@ std::string text_of(const Table& table) {
   for (const std::size_t width : widths) rule.emplace_back(width, '-');
   text += padded_line(table, rule, widths);
   for (const auto& row : table.rows) text += padded_line(table, row, widths);
-  return text;
-}
-
-std::string markdown_of(const Table& table) {
-  check(table);
-  std::string text = markdown_line(header(table));
-  text += '|';
-  for (const Column& column : table.columns) text += column.number ? " ---: |" : " --- |";
-  text += "\n";
-  for (const auto& row : table.rows) text += markdown_line(row);
-  return text;
-}
-
-std::string csv_of(const Table& table) {
-  check(table);
-  std::string text = csv_line(header(table));
-  for (const auto& row : table.rows) text += csv_line(row);
   return text;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A table of text, for a terminal, for a manual, for a page.
+// A table of text for a terminal.
 
 #include <string>
 #include <vector>
@@ -20,11 +20,5 @@ struct Table {
 /// As lines for a terminal: columns padded to one width, numbers to the right, the header underlined. Throws
 /// std::invalid_argument on rows that differ in length.
 std::string text_of(const Table& table);
-
-/// The same as a table in Markdown.
-std::string markdown_of(const Table& table);
-
-/// As lines of comma-separated values (RFC 4180), the header first.
-std::string csv_of(const Table& table);
 
 }  // namespace talus
