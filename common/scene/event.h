@@ -81,7 +81,7 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
       .range = above(0.0, 1e3),
       .default_text = "required for `layer_density`",
       .meaning = "`layer_density`: number of bodies in the densest layer of the pile over the number that it has room "
-                 "for, see [layers](#where-piles-are-to-grow-pile)"}},
+                 "for, see [layers](#piles-pile)"}},
     {&Event<Dim>::pile,
      {.name = "pile", .range = between(0.0, 4095.0), .meaning = "`layer_density`: number of the pile, from 0 on"}},
     {&Event<Dim>::bodies,

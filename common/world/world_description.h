@@ -42,8 +42,7 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
      {.name = "warm_friction",
       .meaning = "Bullet only. true: friction starts each step at the last step's impulse. 10 iterations then hold a "
                  "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time; the 3D scenes of this "
-                 "project but `million_3d` have it. Towers one body wide sway more than without "
-                 "([convergence](../lab/notes/convergence.md))"}},
+                 "project but `million_3d` have it. Towers one body wide sway more than without"}},
     {&SolverParams::restitution_threshold,
      {.name = "restitution_threshold",
       .unit = "m/s",

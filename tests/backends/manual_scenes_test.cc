@@ -40,7 +40,7 @@ std::vector<Block> blocks_of(const fs::path& file) {
   return blocks;
 }
 
-/// All blocks as whole scenes, but for those of the page about scenes that the door refuses. A fragment, which has no
+/// All blocks as whole scenes. A fragment, which has no
 /// title, is added to the manual's first scene.
 std::vector<Block> manual_scenes() {
   const fs::path root = TALUS_SOURCE_DIR;

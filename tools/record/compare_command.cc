@@ -328,7 +328,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("compare", "How far two recorded runs differ, and from which step on");
   command->footer(
       "Example: talus compare runs/drop_in_a_pile_2d-box2d-full runs/drop_in_a_pile_2d-box2d-paper\n"
-      "docs/measures.md explains each measure and gives its floor and ceiling.");
+      "docs/accuracy.md explains each measure and gives its floor and ceiling.");
   struct Options {
     std::string a;
     std::string b;
