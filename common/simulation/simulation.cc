@@ -114,9 +114,12 @@ void Simulation<Dim>::step() {
   pulled_.clear();
   if (pull_) pull_body();
   world_->record_contacts(needs_contacts());
+  if (watched()) watchdog_.start_step(*world_);
   world_->step();
   ++step_;
   phases_.step = watch.lap();
+  if (watched()) watchdog_.end_step(*world_, step_);
+  const double watching = watch.lap();
   const EngineTimes engine = world_->times();
   phases_.collide = engine.collide;
   phases_.solve = engine.solve;
@@ -132,7 +135,7 @@ void Simulation<Dim>::step() {
               !(gravity_motion_ && gravity_motion_->moves_after(time()));
   at_rest_ = ends_at_rest_ && rested_ && !event_clock_.waits();
   show();
-  phases_.observe = watch.lap();
+  phases_.observe = watching + watch.lap();
 }
 
 template <int Dim>
@@ -182,7 +185,6 @@ void Simulation<Dim>::pull_body() {
   else
     thaw_now(pulled_, SleepCause::user);
   const VelocityChange<Dim> change = pulled(*world_, *pull_, dt_);
-  if (watched()) watchdog_.note_velocity(*world_, body, change.velocity, change.spin);
   world_->set_velocity(body, change.velocity, change.spin);
 }
 
@@ -190,7 +192,8 @@ template <int Dim>
 bool Simulation<Dim>::needs_contacts() const {
   const bool for_piles = counts_piles() && (piles_.needs_contacts() || piles_.has_unplaced());
   const auto for_observer = [](const Observer<Dim>* observer) { return observer->needs_contacts(); };
-  return for_piles || policy_->needs_contacts() || std::ranges::any_of(observers_, for_observer) ||
+  const bool for_watchdog = watched() && (obstacles_.any_moved() || watchdog_.needs_contacts(step_ + 1));
+  return for_piles || for_watchdog || policy_->needs_contacts() || std::ranges::any_of(observers_, for_observer) ||
          debug_.gather_contacts;
 }
 
@@ -250,10 +253,8 @@ void Simulation<Dim>::apply() {
     events_.insert(events_.end(), list.begin(), list.end());
   };
   if (!decision_.thaw.empty()) take(decision_.thaw, true);
-  for (const VelocityChange<Dim>& change : decision_.velocities) {
-    if (watched()) watchdog_.note_velocity(*world_, change.body, change.velocity, change.spin);
+  for (const VelocityChange<Dim>& change : decision_.velocities)
     world_->set_velocity(change.body, change.velocity, change.spin);
-  }
   if (!decision_.freeze.empty()) take(decision_.freeze, false);
   std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
 }
@@ -360,7 +361,6 @@ void Simulation<Dim>::kick(const Event<Dim>& event) {
     Spin<Dim> spin = states.spin[body] + event.spin;
     velocity *= std::min(1.0, fastest_speed<Dim>(dt_) / std::max(velocity.norm(), 1e-9));
     spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
-    if (watched()) watchdog_.note_velocity(*world_, body, velocity, spin);
     world_->set_velocity(body, velocity, spin);
   }
 }

@@ -67,7 +67,8 @@ class Simulation {
             watchdog_.warnings(),
             watchdog_.bodies_planned(),
             policy_.get(),
-            event_clock_.due()};
+            event_clock_.due(),
+            watchdog_.overlap()};
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }

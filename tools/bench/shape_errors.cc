@@ -74,7 +74,7 @@ ShapeEnsemble<Dim> shape_ensemble(std::span<const BodyStates<Dim>> states, std::
   for (const BodyStates<Dim>& run : states) {
     const auto bodies = placed_bodies<Dim>(shapes, run, still);
     if (bodies.empty()) continue;
-    ensemble.runs.push_back(shape_statistics<Dim>(bodies, grid, extent));
+    ensemble.runs.push_back(shape_statistics<Dim>(bodies, grid));
     ensemble.heights.push_back(heights<Dim>(bodies));
     ensemble.radii.push_back(radii<Dim>(bodies, grid.centre));
   }

@@ -215,12 +215,15 @@ Section result_of(const Json& summary) {
       {"/shape/r50_m", "radius that holds half of the bodies [m]"},
       {"/shape/angle_of_repose_deg", "slope of the surface [degrees]"},
       {"/shape/angle_of_repose_standard_error_deg", "standard error of the slope [degrees]"},
+      {"/shape/angle_of_repose_reason", "no slope"},
+      {"/shape/packing", "share of the volume that is solid"},
+      {"/shape/packing_reason", "no such share"},
       {"/end_hash", "hash of all states at the end"},
   });
   Section section{"Result", {}};
   Table table{"", {{"quantity"}, {"value", true}}, {}};
   for (const auto& [key, name] : shown)
-    if (const Json::json_pointer at(key); summary.contains(at))
+    if (const Json::json_pointer at(key); summary.contains(at) && !summary[at].is_null())
       table.rows.push_back({name, text_of_value(summary[at])});
   if (table.rows.empty())
     section.blocks.emplace_back(

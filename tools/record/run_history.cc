@@ -8,7 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "common/measure/shape_statistics.h"
+#include "common/measure/pile_form.h"
 #include "common/scene/typical_body.h"
 #include "tools/record/recorded_run.h"
 
@@ -78,10 +78,12 @@ class HistoryReader {
     const auto bodies = placed_bodies<Dim>(scene_.world.shapes, lying);
     if (std::ssize(bodies) < fewest_of_a_fit) return;
     const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, scene_.world.ground.height, extent_);
-    const AngleOfRepose slope = shape_statistics<Dim>(bodies, grid, extent_).repose;
-    if (slope.bins >= 3)
+    const auto slope = pile_form<Dim>(bodies, shape_statistics<Dim>(bodies, grid), grid,
+                                      world_at<Dim>(scene_, {}, frame.time), extent_)
+                           .slope;
+    if (slope.value)
       history_.slopes.push_back(
-          {frame.time, degrees_per_radian * slope.angle, degrees_per_radian * slope.standard_error});
+          {frame.time, degrees_per_radian * slope.value->angle, degrees_per_radian * slope.value->standard_error});
   }
 
   void remember(const RecordedFrame<Dim>& frame) {

@@ -80,7 +80,7 @@ std::string measure_setting(const Scene<Dim>& plain, const std::string& backend,
   const double extent = simulation.piles().typical_body().extent;
   const auto bodies = placed_bodies<Dim>(scene.world.shapes, simulation.world().states());
   const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, scene.world.ground.height, extent);
-  const ShapeStatistics<Dim> shape = shape_statistics<Dim>(bodies, grid, extent);
+  const ShapeStatistics<Dim> shape = shape_statistics<Dim>(bodies, grid);
   const auto pairs = touching_pairs(scene.world, simulation.world().states(), 0.01 * extent);
   return Json{{"centre", shape.centre_height / extent},
               {"r50", shape.r50 / extent},
