@@ -18,7 +18,7 @@ constexpr double leaning_gap = 0.05;   // [D]; engines keep bodies so far apart 
 constexpr double most_tilt = 0.01;     // [rad]
 constexpr double even_spread = 0.577;  // 1 / sqrt(3)
 constexpr double spread_margin = 0.05;
-constexpr double lowest_bed = 2.0;  // [D]; in a lower one gaps between bodies count as the outside
+constexpr double lowest_pile = 2.0;  // [D]; in a lower bed gaps between bodies count as the outside
 
 template <int Dim>
 bool holds(const std::vector<ConvexPiece<Dim>>& obstacle, const PlacedBody<Dim>& body, double extent) {
@@ -81,6 +81,7 @@ std::string why_no_heap(const ShapeStatistics<Dim>& shape, std::size_t held, dou
   if (shape.repose.bins < 3) return "the surface is narrower than three strips of D/2";
   if (!falls_outwards(shape.profile, shape.r95, extent))
     return "the surface does not fall from its middle outwards, as that of one heap does";
+  if (shape.repose.apex < lowest_pile * extent) return "the heap is lower than two bodies";
   if (shape.repose.angle < min_angle_of_repose) return "the surface is flatter than 5 degrees";
   return {};
 }
@@ -209,7 +210,7 @@ template <int Dim>
 Applicable<double> packing_of_bed(std::span<const PlacedBody<Dim>> bodies, const Pieces<Dim>& obstacles,
                                   double extent) {
   const Spread spread = spread_of<Dim>(bodies);
-  if (2.0 * spread.mean < lowest_bed * extent) return {.why_not = "the bed is lower than two bodies"};
+  if (2.0 * spread.mean < lowest_pile * extent) return {.why_not = "the bed is lower than two bodies"};
   if (std::abs(spread.deviation / spread.mean - even_spread) > spread_margin)
     return {.why_not = "the bodies are no bed with upright walls and a level surface"};
   Section<Dim> section(bodies);

@@ -25,7 +25,8 @@ struct PileForm {
 /// Slope and packing where they apply. Both take 16 bodies and vertical gravity.
 ///
 /// A heap stands free: obstacles hold no more than a twentieth of its bodies. From quarter to quarter of r95 its
-/// surface falls outwards, by 5 degrees or more. Its packing is that of the outline that the slope draws.
+/// surface falls outwards, by 5 degrees or more, from a height of 2 D. Its packing is that of the outline that the
+/// slope draws.
 ///
 /// Where obstacles hold more bodies there is no slope. The packing is then that of a bed: solid volume over the area
 /// that the bodies cover, seen from above, times twice the height of the centre of mass above their lowest point, exact

@@ -8,7 +8,7 @@
 
 #include "common/pile/pile_set.h"
 #include "common/policy/sleep_event.h"
-#include "common/world/overlap.h"
+#include "common/world/run_overlap.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
 
@@ -69,7 +69,7 @@ struct Frame {
   int bodies_planned = 0;                    // of the scene in all
   const SleepPolicy<Dim>* policy = nullptr;  // that of the run, for its estimate of the drift
   std::span<const int> scene_events = {};    // numbers of Scene::events that happened just before this step
-  Overlap overlap = {};                      // that the run has shown so far, if it is observed
+  RunOverlap overlap = {};                   // that the run has shown so far, if it is observed
 };
 
 }  // namespace talus

@@ -1,8 +1,6 @@
 #include "common/simulation/energy_ledger.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "common/world/energy.h"
 
@@ -41,17 +39,6 @@ void EnergyLedger<Dim>::end_step(const World<Dim>& world) {
   if (burst_ == 0.0) burst_lift_ = 0.0;
   burst_lift_ = std::max(burst_lift_, lift_);
   burst_ = std::max(0.0, burst_ + gain_ - work_);
-  if (std::getenv("DBG_LEDGER") != nullptr) {
-    static double worst = 0.0;
-    static int step = 0;
-    ++step;
-    const double ratio = (burst_ - 0.1 * largest_kinetic_) / std::max(burst_lift_, 1e-9);
-    if (ratio > worst) {
-      worst = ratio;
-      std::fprintf(stderr, "LEDGER %d ratio %.4g burst %.4g kin %.4g lift %.4g awake %zu rise/tol %.3g\n", step, ratio,
-                   burst_, largest_kinetic_, burst_lift_, before_.size(), rise_ / tolerance());
-    }
-  }
 }
 
 template <int Dim>

@@ -14,7 +14,7 @@ constexpr double least_depth = 0.005;         // [D]; what engines leave at any 
 
 std::int64_t period_of(double extent, double gravity, double dt) {
   const double time = std::min(longest_period, std::sqrt(extent / std::max(gravity, 1e-3)));
-  return std::max(shortest_period, std::llround(time / dt));
+  return std::max<std::int64_t>(shortest_period, std::llround(time / dt));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "common/world/overlap.h"
+#include "common/world/run_overlap.h"
 #include "common/world/world.h"
 
 namespace talus {
@@ -32,7 +32,7 @@ class OverlapWatch {
   /// After such a step. Valid until the next call.
   std::span<const Finding> sample(const World<Dim>& world);
 
-  const Overlap& overlap() const { return overlap_; }
+  const RunOverlap& overlap() const { return overlap_; }
 
  private:
   struct Pair {
@@ -52,7 +52,7 @@ class OverlapWatch {
   std::vector<Finding> findings_;
   std::int64_t pairs_ = 0;        // in contact, over all samples
   std::int64_t overlapping_ = 0;  // of these beyond the limit
-  Overlap overlap_;
+  RunOverlap overlap_;
 };
 
 }  // namespace talus

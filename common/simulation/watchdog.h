@@ -40,7 +40,7 @@ class Watchdog {
 
   /// One of each kind that was seen, in the order of first sight.
   std::span<const Warning> warnings() const { return warnings_; }
-  const Overlap& overlap() const { return overlap_.overlap(); }
+  const RunOverlap& overlap() const { return overlap_.overlap(); }
   /// Bodies of the scene in all.
   int bodies_planned() const { return bodies_planned_; }
 

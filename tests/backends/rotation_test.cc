@@ -11,15 +11,13 @@ namespace {
 template <typename Backend>
 class Turning : public BackendTest<Backend> {
  protected:
-  static constexpr int dim = Backend::dim;
-
   /// A ball in free space that turns about the axis towards the viewer of the x-z plane, counter-clockwise.
-  static std::unique_ptr<World<dim>> spinning(double spin) {
+  static std::unique_ptr<World<Backend::dim>> spinning(double spin) {
     auto description = BackendTest<Backend>::description();
     description.gravity = 0.0;
     auto world = Backend::make(description);
-    BodyDef<dim> ball = BackendTest<Backend>::at(up<dim>(50.0), 1);
-    if constexpr (dim == 2)
+    BodyDef<Backend::dim> ball = BackendTest<Backend>::at(up<Backend::dim>(50.0), 1);
+    if constexpr (Backend::dim == 2)
       ball.spin[0] = spin;
     else
       ball.spin = -spin * Vec3::UnitY();
@@ -28,9 +26,9 @@ class Turning : public BackendTest<Backend> {
   }
 
   /// The angle that the body's own x axis has turned from x to z [rad].
-  static double turned(const World<dim>& world) {
-    const Vec<dim> axis = world.states().pose[0].rotation * Vec<dim>::Unit(0);
-    return std::atan2(axis[dim - 1], axis[0]);
+  static double turned(const World<Backend::dim>& world) {
+    const Vec<Backend::dim> axis = world.states().pose[0].rotation * Vec<Backend::dim>::Unit(0);
+    return std::atan2(axis[Backend::dim - 1], axis[0]);
   }
 };
 

@@ -139,7 +139,7 @@ TYPED_TEST(PileForm, GivesTwoHeapsNoCommonSlope) {
 TYPED_TEST(PileForm, GivesALayerOnTheGroundNeither) {
   using T = TestFixture;
   const auto form = T::form(T::lattice(20, 1, 1.0, 1.0, 1.0), {}, 1.0);
-  EXPECT_EQ(form.slope.why_not, "the surface is flatter than 5 degrees");
+  EXPECT_EQ(form.slope.why_not, "the heap is lower than two bodies");
   EXPECT_FALSE(form.packing.value);
 }
 

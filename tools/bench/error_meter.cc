@@ -106,7 +106,7 @@ ErrorMeter<Dim>::ErrorMeter(const Scene<Dim>& baseline, std::string backend, int
   grid_ = grid_around<Dim>(bodies, scene_.world.ground.height, extent_);
   std::vector<BodyStates<Dim>> ends = {full_.last};
   for (BodyStates<Dim>& end : ends_of(baseline, backend_, 1, seeds_)) ends.push_back(std::move(end));
-  shapes_ = shape_ensemble<Dim>(ends, scene_.world.shapes, grid_, extent_);
+  shapes_ = shape_ensemble<Dim>(ends, scene_.world.shapes, grid_);
   add_floors(ends);
 }
 
@@ -147,7 +147,7 @@ Values ErrorMeter<Dim>::measure(const Scene<Dim>& scene) const {
   std::vector<BodyStates<Dim>> ends = {run.last};
   for (BodyStates<Dim>& end : ends_of(scene, backend_, 1, seeds_)) ends.push_back(std::move(end));
   add_drift(ends, values);
-  add_shape_errors(shapes_, shape_ensemble<Dim>(ends, scene_.world.shapes, grid_, extent_), extent_, values);
+  add_shape_errors(shapes_, shape_ensemble<Dim>(ends, scene_.world.shapes, grid_), extent_, values);
   const Values& baseline = of_baseline_;
   constexpr std::array<MeasureId, 9> of_the_baseline = {
       "relative_floor",          "R_floor",     "S_floor",      "R_ceiling", "S_ceiling", "horizon_R_30_floor",

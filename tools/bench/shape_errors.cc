@@ -68,7 +68,7 @@ void add_distribution(MeasureId ks, MeasureId w1, const RunSamples& baseline, co
 
 template <int Dim>
 ShapeEnsemble<Dim> shape_ensemble(std::span<const BodyStates<Dim>> states, std::span<const Shape<Dim>> shapes,
-                                  const ProfileGrid<Dim>& grid, double extent) {
+                                  const ProfileGrid<Dim>& grid) {
   constexpr double still = 1.0;  // [m/s]
   ShapeEnsemble<Dim> ensemble;
   for (const BodyStates<Dim>& run : states) {
@@ -112,9 +112,9 @@ void add_shape_errors(const ShapeEnsemble<Dim>& baseline, const ShapeEnsemble<Di
 }
 
 template ShapeEnsemble<2> shape_ensemble(std::span<const BodyStates<2>>, std::span<const Shape<2>>,
-                                         const ProfileGrid<2>&, double);
+                                         const ProfileGrid<2>&);
 template ShapeEnsemble<3> shape_ensemble(std::span<const BodyStates<3>>, std::span<const Shape<3>>,
-                                         const ProfileGrid<3>&, double);
+                                         const ProfileGrid<3>&);
 template void add_shape_errors(const ShapeEnsemble<2>&, const ShapeEnsemble<2>&, double, Values&);
 template void add_shape_errors(const ShapeEnsemble<3>&, const ShapeEnsemble<3>&, double, Values&);
 

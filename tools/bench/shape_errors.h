@@ -20,7 +20,7 @@ struct ShapeEnsemble {
 /// Bodies faster than 1 m/s do not belong to the pile. A run without any slower body is left out.
 template <int Dim>
 ShapeEnsemble<Dim> shape_ensemble(std::span<const BodyStates<Dim>> states, std::span<const Shape<Dim>> shapes,
-                                  const ProfileGrid<Dim>& grid, double extent);
+                                  const ProfileGrid<Dim>& grid);
 
 /// Adds the shape's measures: means and deviations of `runs`, and their distance from `baseline`; the floor is the
 /// scatter of `baseline`, each of its runs against the others. Adds nothing where either ensemble is empty.

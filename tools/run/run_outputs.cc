@@ -188,7 +188,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   if (scene.policy.kind == "adaptive") print_estimate(simulation, summary.probe, scene.policy.adaptive);
   if (summary.measured)
     print_measured(*summary.measured, simulation.piles().typical_body().extent, tolerance_of(scene.policy));
-  if (const Overlap overlap = simulation.frame().overlap; overlap.deepest > 0.0)
+  if (const RunOverlap overlap = simulation.frame().overlap; overlap.deepest > 0.0)
     print_result("  contacts overlap by at most {:.2g} D, {:.2g} % of them by more than {:g} D\n", overlap.deepest,
                  100.0 * overlap.share, overlap_limit);
   if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
