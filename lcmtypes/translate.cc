@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "common/math/angle.h"
 #include "common/scene/happened.h"
 #include "common/scene/write_scene.h"
 #include "common/world/energy.h"
@@ -89,7 +90,7 @@ template <int Dim>
 void append(const Pose<Dim>& pose, std::vector<float>& values) {
   for (const double x : pose.position) values.push_back(static_cast<float>(x));
   if constexpr (Dim == 2)
-    values.push_back(static_cast<float>(pose.rotation.angle()));
+    values.push_back(static_cast<float>(wrapped_angle(pose.rotation)));
   else
     for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
       values.push_back(static_cast<float>(part));
@@ -214,6 +215,8 @@ talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   const std::optional<ToldDrift> drift = told_drift(frame);
   message.drift_estimate = drift ? drift->drift : -1.0;
   message.checked_share = drift ? drift->checked_share : 0.0;
+  message.overlap = frame.overlap.deepest;
+  message.overlap_share = frame.overlap.share;
   for (const Warning& warning : frame.warnings) {
     message.warning_kind.push_back(static_cast<std::int8_t>(warning.kind));
     message.warning_step.push_back(warning.step);

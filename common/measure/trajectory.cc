@@ -7,6 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/math/angle.h"
 #include "common/math/require.h"
 
 namespace talus {
@@ -45,7 +46,7 @@ void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_nu
     const Pose<Dim>& pose = states.pose[i];
     for (int axis = 0; axis < Dim; ++axis) poses_.push_back(static_cast<float>(pose.position[axis]));
     if constexpr (Dim == 2)
-      poses_.push_back(static_cast<float>(pose.rotation.angle()));
+      poses_.push_back(static_cast<float>(wrapped_angle(pose.rotation)));
     else
       for (int k = 0; k < 4; ++k) poses_.push_back(static_cast<float>(pose.rotation.coeffs()[k]));
     const bool is_unknown = !unknown.empty() && unknown[i] != 0;

@@ -10,6 +10,7 @@
 
 #include "common/pile/pile_set.h"
 #include "common/policy/sleep_event.h"
+#include "common/world/run_overlap.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
 
@@ -71,6 +72,7 @@ struct Frame {
   const SleepPolicy<Dim>* policy = nullptr;        // that of the run
   std::span<const int> scene_events = {};          // numbers of Scene::events that happened just before this step
   std::optional<double> probed_drift = {};         // [D] of the last state of a run, once a probe has found it
+  RunOverlap overlap = {};                         // that the run has shown so far, if it is observed
   std::function<bool(BodyIndex)> kept_awake = {};  // awake bodies that must stay so; empty: none
 
   /// Whether the run leaves it to the policy if an awake body falls asleep: one that is pulled, touches an obstacle

@@ -46,12 +46,6 @@ std::vector<BodyIndex> bodies_meant(const World<Dim>& world, const Event<Dim>& e
   return bodies;
 }
 
-template <int Dim>
-void set_velocity(const Intervened<Dim>& run, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
-  if (run.watched) run.watchdog.note_velocity(run.world, body, velocity, spin);
-  run.world.set_velocity(body, velocity, spin);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -123,7 +117,7 @@ void Interventions<Dim>::pull_body(const Intervened<Dim>& run) {
   pulled_ = bodies_near<Dim>(run.world, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
   run.wake(pulled_, SleepCause::user);
   const VelocityChange<Dim> change = pulled(run.world, *pull_, dt_);
-  set_velocity<Dim>(run, body, change.velocity, change.spin);
+  run.world.set_velocity(body, change.velocity, change.spin);
 }
 
 template <int Dim>
@@ -180,7 +174,7 @@ void Interventions<Dim>::kick(const Intervened<Dim>& run, const Event<Dim>& even
     Spin<Dim> spin = states.spin[body] + event.spin;
     velocity *= std::min(1.0, fastest_speed<Dim>(dt_) / std::max(velocity.norm(), 1e-9));
     spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
-    set_velocity<Dim>(run, body, velocity, spin);
+    run.world.set_velocity(body, velocity, spin);
   }
 }
 

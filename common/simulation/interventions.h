@@ -25,8 +25,7 @@ struct Intervened {
   World<Dim>& world;
   Emitter<Dim>& emitter;
   Watchdog<Dim>& watchdog;
-  bool watched = false;  // whether the watchdog is at work
-  double time = 0.0;     // [s]
+  double time = 0.0;  // [s]
   /// Wakes those of the bodies that sleep.
   std::function<void(std::span<const BodyIndex>, SleepCause)> wake;
   /// Takes a body out of the world.
@@ -59,6 +58,8 @@ class Interventions {
   /// After a step: whether an awake body must stay so. One that touches an obstacle that moves, or is pulled, must
   /// follow it, and one that gravity woke gets time to begin to move.
   bool must_stay_awake(const World<Dim>& world, BodyIndex body) const;
+  /// Whether an obstacle moved in the last call of move().
+  bool obstacles_moved() const { return obstacles_.any_moved(); }
   /// Whether an obstacle or gravity moves by plan after a time [s].
   bool move_after(const World<Dim>& world, double time) const;
   const EventClock<Dim>& clock() const { return clock_; }

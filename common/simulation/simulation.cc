@@ -78,9 +78,12 @@ void Simulation<Dim>::step() {
   phases_.emit = watch.lap();
   interventions_.move(intervened());
   world_->record_contacts(needs_contacts());
+  if (watched()) watchdog_.start_step(*world_);
   world_->step();
   ++step_;
   phases_.step = watch.lap();
+  if (watched()) watchdog_.end_step(*world_, step_);
+  const double watching = watch.lap();
   const EngineTimes engine = world_->times();
   phases_.collide = engine.collide;
   phases_.solve = engine.solve;
@@ -95,7 +98,7 @@ void Simulation<Dim>::step() {
     rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !interventions_.move_after(*world_, time());
   at_rest_ = ends_at_rest_ && rested_ && !interventions_.clock().waits();
   show();
-  phases_.observe = watch.lap();
+  phases_.observe = watching + watch.lap();
 }
 
 template <int Dim>
@@ -103,7 +106,6 @@ Intervened<Dim> Simulation<Dim>::intervened() {
   return {.world = *world_,
           .emitter = emitter_,
           .watchdog = watchdog_,
-          .watched = watched(),
           .time = time(),
           .wake = [this](std::span<const BodyIndex> bodies, SleepCause cause) { thaw_now(bodies, cause); },
           .remove = [this](BodyIndex body) { forget(body); },
@@ -114,7 +116,8 @@ template <int Dim>
 bool Simulation<Dim>::needs_contacts() const {
   const bool for_piles = counts_piles() && (piles_.needs_contacts() || piles_.has_unplaced());
   const auto for_observer = [](const Observer<Dim>* observer) { return observer->needs_contacts(); };
-  return for_piles || policy_->needs_contacts() || std::ranges::any_of(observers_, for_observer) ||
+  const bool for_watchdog = watched() && (interventions_.obstacles_moved() || watchdog_.needs_contacts(step_ + 1));
+  return for_piles || for_watchdog || policy_->needs_contacts() || std::ranges::any_of(observers_, for_observer) ||
          debug_.gather_contacts;
 }
 
@@ -157,10 +160,8 @@ void Simulation<Dim>::decide() {
 template <int Dim>
 void Simulation<Dim>::apply() {
   change_sleep(decision_.thaw, true);
-  for (const VelocityChange<Dim>& change : decision_.velocities) {
-    if (watched()) watchdog_.note_velocity(*world_, change.body, change.velocity, change.spin);
+  for (const VelocityChange<Dim>& change : decision_.velocities)
     world_->set_velocity(change.body, change.velocity, change.spin);
-  }
   change_sleep(decision_.freeze, false);
   close_events();
 }

@@ -66,6 +66,7 @@ class Simulation {
             policy_.get(),
             interventions_.clock().due(),
             probed_drift_,
+            watchdog_.overlap(),
             [this](BodyIndex body) { return interventions_.must_stay_awake(*world_, body); }};
   }
   double time() const { return static_cast<double>(step_) * dt_; }

@@ -67,6 +67,7 @@ Json of(const talus_stats_v2& stats) {
   if (stats.planned >= 0) object.update({{"bodies_planned", stats.planned}, {"bodies_appeared", stats.appeared}});
   if (stats.drift_estimate >= 0.0)
     object["estimate"] = {{"drift_D", stats.drift_estimate}, {"checked_share", stats.checked_share}};
+  object["overlap"] = {{"deepest_D", stats.overlap}, {"share", stats.overlap_share}};
   object["warnings"] = Json::array();
   for (const Warning& warning : warnings_of(stats)) object["warnings"].push_back(of(warning));
   if (stats.timed == 0) return object;

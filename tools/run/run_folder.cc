@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <stdexcept>
 
-#include "common/measure/shape_statistics.h"
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
+#include "tools/run/resting_shape.h"
+#include "tools/run/shape_json.h"
 #include "tools/run/version.h"
 
 namespace talus {
@@ -79,23 +79,17 @@ Json settings_json(const Scene<Dim>& scene) {
           {"frame_rate", scene.run.frame_rate}};
 }
 
-/// Shape of what lies still enough to be part of the pile.
+/// Shape of what lies still enough to be part of the pile; null where nothing does.
 template <int Dim>
-Json shape_json(const Scene<Dim>& scene, const World<Dim>& world, double extent) {
-  constexpr double still = 1.0;  // [m/s]
-  const auto bodies = placed_bodies<Dim>(scene.world.shapes, world.states(), still);
+Json shape_of_rest_json(const Scene<Dim>& scene, const Simulation<Dim>& simulation) {
+  const double extent = simulation.piles().typical_body().extent;
+  const auto bodies = resting_bodies(scene, simulation.world().states());
   if (bodies.empty()) return nullptr;
   const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, scene.world.ground.height, extent);
-  const ShapeStatistics<Dim> shape = shape_statistics<Dim>(bodies, grid, extent);
-  const double degrees = 180.0 / std::numbers::pi;
-  return {{"bodies_at_rest", shape.bodies},
-          {"height_m", shape.peak},
-          {"centre_height_m", shape.centre_height},
-          {"r50_m", shape.r50},
-          {"r95_m", shape.r95},
-          {"angle_of_repose_deg", shape.repose.angle * degrees},
-          {"angle_of_repose_standard_error_deg", shape.repose.standard_error * degrees},
-          {"packing", shape.packing.all}};
+  Json json = {{"bodies_at_rest", bodies.size()}};
+  json.update(shape_json<Dim>(bodies, shape_statistics<Dim>(bodies, grid), grid,
+                              world_at(scene, simulation.done_events(), simulation.time()), extent));
+  return json;
 }
 
 Json warnings_json(std::span<const Warning> warnings) {
@@ -181,30 +175,32 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
                    const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics) {
   const World<Dim>& world = simulation.world();
   const auto bodies = world.states().shape.size();
-  Json summary = {{"talus", version_text()},
-                  {"build", build_text()},
-                  {"scene", input.scene_name},
-                  {"title", scene.title},
-                  {"backend", input.backend},
-                  {"policy", scene.policy.kind},
-                  {"seed", scene.seed},
-                  {"settings", settings_json(scene)},
-                  {"reason", input.reason},
-                  {"bodies", bodies},
-                  {"bodies_planned", simulation.emitter().total()},
-                  {"bodies_appeared", simulation.emitter().emitted()},
-                  {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
-                  {"at_rest", simulation.at_rest()},
-                  {"events", events_json(scene, simulation.done_events())},
-                  {"asleep_at_end", bodies - world.awake().size()},
-                  {"outside_window", outside_json(input.outside_window)},
-                  {"scene_warnings", input.scene_warnings},
-                  {"warnings", warnings_json(input.warnings)},
-                  {"emit_waits", input.emit_waits},
-                  {"picture_pixels_per_m", input.pixels_per_metre},
-                  {"wall_s", input.wall_seconds}};
+  Json summary = {
+      {"talus", version_text()},
+      {"build", build_text()},
+      {"scene", input.scene_name},
+      {"title", scene.title},
+      {"backend", input.backend},
+      {"policy", scene.policy.kind},
+      {"seed", scene.seed},
+      {"settings", settings_json(scene)},
+      {"reason", input.reason},
+      {"bodies", bodies},
+      {"bodies_planned", simulation.emitter().total()},
+      {"bodies_appeared", simulation.emitter().emitted()},
+      {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
+      {"at_rest", simulation.at_rest()},
+      {"events", events_json(scene, simulation.done_events())},
+      {"asleep_at_end", bodies - world.awake().size()},
+      {"outside_window", outside_json(input.outside_window)},
+      {"scene_warnings", input.scene_warnings},
+      {"warnings", warnings_json(input.warnings)},
+      {"overlap", {{"deepest_D", simulation.frame().overlap.deepest}, {"share", simulation.frame().overlap.share}}},
+      {"emit_waits", input.emit_waits},
+      {"picture_pixels_per_m", input.pixels_per_metre},
+      {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
-  summary["shape"] = shape_json(scene, world, simulation.piles().typical_body().extent);
+  summary["shape"] = shape_of_rest_json(scene, simulation);
   summary["estimate"] = drift_estimate_json(input.probe, told_drift(simulation.frame()));
   summary["measured"] = measured_json(input.measured);
   summary["piles"] = piles_json(simulation.piles());

@@ -186,6 +186,9 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                simulation.time() / summary.wall_seconds);
   if (scene.policy.kind == "adaptive") print_estimate(simulation, summary.probe, scene.policy.adaptive);
   if (summary.measured) print_measured(*summary.measured, tolerance_of(scene.policy));
+  if (const RunOverlap overlap = simulation.frame().overlap; overlap.deepest > 0.0)
+    print_result("  contacts overlap by at most {:.2g} D, {:.2g} % of them by more than {:g} D\n", overlap.deepest,
+                 100.0 * overlap.share, overlap_limit);
   if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
   for (const SceneError& each : summary.outside_window)
     print_result("  warning: {}{}\n", outside_prefix, printable(to_string(each)));

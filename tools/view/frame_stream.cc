@@ -152,7 +152,7 @@ double FrameEncoder<Dim>::slope_of(const ViewFrame<Dim>& frame) const {
   if (bodies.size() < min_bodies_for_slope) return -1.0;
   const double extent = form_->shapes.front().extent;
   const AngleOfRepose slope =
-      shape_statistics<Dim>(bodies, grid_around<Dim>(bodies, form_->ground.value_or(0.0), extent), extent).repose;
+      shape_statistics<Dim>(bodies, grid_around<Dim>(bodies, form_->ground.value_or(0.0), extent)).repose;
   return slope.bins >= 3 ? slope.angle : -1.0;
 }
 

@@ -4,13 +4,15 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/math/angle.h"
+
 namespace talus {
 
 template <int Dim>
 double max_displacement(const Pose<Dim>& from, const Pose<Dim>& to, double reach) {
   double turn = 0.0;
   if constexpr (Dim == 2) {
-    turn = std::abs(to.rotation.angle() - from.rotation.angle());
+    turn = std::abs(wrapped(to.rotation.angle() - from.rotation.angle()));
   } else {
     // The vector part of the relative rotation is the sine of half the angle; the arc is at most twice that chord.
     turn = 2.0 * (from.rotation.conjugate() * to.rotation).vec().norm();
