@@ -33,10 +33,6 @@ Json errors_of(const SceneErrors& errors) {
   return list;
 }
 
-const std::string& toml_of(const AnyScene& scene) {
-  return std::visit([](const auto& of_dimension) -> const std::string& { return of_dimension.toml; }, scene);
-}
-
 const std::string& policy_of(const AnyScene& scene) {
   return std::visit([](const auto& of_dimension) -> const std::string& { return of_dimension.policy.kind; }, scene);
 }

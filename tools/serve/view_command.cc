@@ -52,12 +52,6 @@ struct ViewOptions {
   std::size_t history_bytes() const { return static_cast<std::size_t>(history) << 20U; }
 };
 
-#ifdef TALUS_LCM
-const std::string& toml_of(const AnyScene& scene) {
-  return std::visit([](const auto& of_dimension) -> const std::string& { return of_dimension.toml; }, scene);
-}
-#endif
-
 RunChoice choice_of(const ViewOptions& options) {
   RunChoice choice = {
       .file = find_scene(options.what), .backend = options.backend, .force = options.force, .pace = options.pace};
