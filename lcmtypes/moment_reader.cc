@@ -27,6 +27,7 @@ MomentLimits limits_of(const Scene<Dim>& scene) {
           .shapes = static_cast<int>(scene.world.shapes.size()),
           .obstacles = static_cast<int>(scene.world.obstacles.size()),
           .events = static_cast<int>(scene.events.size()),
+          .later_events = std::numeric_limits<std::size_t>::max(),
           .from_start = true};
 }
 template MomentLimits limits_of(const Scene<2>&);
@@ -37,10 +38,12 @@ MomentReader::MomentReader(int dimension, const MomentLimits& limits) : limits_(
     for (SequenceTracker& numbers : numbers_) numbers.expect(0);
 }
 
-bool MomentReader::take(Channel channel, std::span<const std::uint8_t> bytes) {
+bool MomentReader::take(Channel channel, std::span<const std::uint8_t> bytes,
+                        const std::function<void(std::int64_t)>& before) {
   bool whole = false;
   with_message_of(channel, [&](auto message) {
     if (decode(bytes, message).empty()) {
+      if (before) before(message.step);
       whole = take(message);
       return;
     }
@@ -96,6 +99,10 @@ bool MomentReader::take(const talus_sleep& message) {
     bodies_.note_event(event.body);
     ++(event.woke ? woken_ : slept_);
   }
+  if (later_events_.size() + events.size() > limits_.later_events) {
+    later_events_.clear();
+    bodies_.note_lost_events();
+  }
   later_events_.insert(later_events_.end(), events.begin(), events.end());
   return false;
 }
@@ -123,10 +130,11 @@ bool MomentReader::take(const talus_bodies& message) {
                                             shapes));
   }
   if (count(message) == Age::duplicate || !bodies_.take(message, moment_.bodies)) return false;
+  if (message.step != moment_.step) moment_.events.clear();
+  moment_.events.insert(moment_.events.end(), later_events_.begin(), later_events_.end());
+  later_events_.clear();
   moment_.step = message.step;
   moment_.time = message.sim_time;
-  moment_.events.swap(later_events_);
-  later_events_.clear();
   for (const SleepEvent& event : moment_.events)
     if (event.body < moment_.bodies.size()) moment_.bodies.cause[event.body] = static_cast<std::int8_t>(event.cause);
   return true;
@@ -150,6 +158,7 @@ bool MomentReader::take(const talus_shapes& message) {
   }
   before = message;
   ++form_;
+  if (message.obstacle == 0) ++shape_form_;
   return false;
 }
 

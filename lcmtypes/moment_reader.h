@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -20,7 +22,8 @@ struct MomentLimits {
   int bodies = 1'000'000;
   std::optional<int> shapes = {};  // nothing: as many as the messages have, and bodies are left out until all are known
   int obstacles = 100'000;
-  int events = 10'000;  // of the scene
+  int events = 10'000;                   // of the scene
+  std::size_t later_events = 1'000'000;  // sleep events between two moments; beyond, they are dropped
   /// The messages are all that the run gave, as in a record: a number missing at the start is a loss too.
   bool from_start = false;
 };
@@ -36,8 +39,10 @@ class MomentReader {
   MomentReader(int dimension, const MomentLimits& limits);
 
   /// Takes the bytes of a message; whether moment() is a whole one now. What does not decode is left out and counted.
-  /// Throws std::invalid_argument on a run of another format, and as take() of a message does.
-  bool take(Channel channel, std::span<const std::uint8_t> bytes);
+  /// `before` is called with the step of a message that decodes, before it changes anything. Throws
+  /// std::invalid_argument on a run of another format, and as take() of a message does.
+  bool take(Channel channel, std::span<const std::uint8_t> bytes,
+            const std::function<void(std::int64_t step)>& before = {});
 
   /// Takes a message of the run that has passed decode(); whether moment() is a whole one now. A duplicate, and what is
   /// older than what is known, changes nothing. Throws std::invalid_argument on a message that is of another dimension
@@ -67,6 +72,8 @@ class MomentReader {
   const std::map<int, talus_lcm::talus_event>& events() const { return events_; }
   /// Whether no shape and no obstacle is missing.
   bool has_all_shapes() const;
+  /// Goes up when a shape of bodies is told for the first time, or is another one now.
+  std::int64_t shape_form() const { return shape_form_; }
   /// Goes up when a shape, an obstacle or an event of the scene is told for the first time, or is another one now.
   std::int64_t form() const { return form_; }
 
@@ -97,6 +104,7 @@ class MomentReader {
   std::map<int, talus_lcm::talus_shapes> obstacles_;
   std::map<int, talus_lcm::talus_event> events_;
   std::int64_t form_ = 0;
+  std::int64_t shape_form_ = 0;
   std::array<SequenceTracker, channel_names.size()> numbers_;
   std::int64_t undecodable_ = 0;
   std::int64_t slept_ = 0;

@@ -105,13 +105,13 @@ void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now)
 template <int Dim>
 void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   if (!queue_) return;
+  writer_.piles(last);
+  send_stats(last, Clock::now());  // before the poses, which are shown with them
   if (writer_.has_shapes()) {
     writer_.shapes(last);
     writer_.obstacles(last);
     if (last.world.states().size() <= most_in_key_frame) writer_.all_bodies(last);
   }
-  writer_.piles(last);
-  send_stats(last, Clock::now());
   writer_.run(talus_run::END, reason, last.step, last.time);
   queue_->close(farewell_time);
   if (dropped() > 0) spdlog::warn("live view: {} messages were dropped; the record has everything", dropped());

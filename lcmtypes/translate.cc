@@ -209,9 +209,11 @@ talus_stats to_stats(const Frame<Dim>& frame) {
   message.kinetic_energy = kinetic_energy(frame.world);
   message.planned = frame.bodies_planned;
   message.appeared = states.size();
-  const auto estimate = frame.policy == nullptr ? std::nullopt : frame.policy->drift_estimate(frame.world);
-  message.drift_estimate = estimate ? estimate->drift / frame.piles.typical_body().extent : -1.0;
-  message.checked_share = estimate ? estimate->checked_share : 0.0;
+  const std::optional<ToldDrift> drift = told_drift(frame);
+  message.drift_estimate = drift ? drift->drift : -1.0;
+  message.checked_share = drift ? drift->checked_share : 0.0;
+  message.overlap = frame.overlap.deepest;
+  message.overlap_share = frame.overlap.share;
   for (const Warning& warning : frame.warnings) {
     message.warning_kind.push_back(static_cast<std::int8_t>(warning.kind));
     message.warning_step.push_back(warning.step);
@@ -491,7 +493,7 @@ std::vector<talus_lcm::talus_event> to_events(const Scene<Dim>& scene) {
     message.total = static_cast<std::int32_t>(scene.events.size());
     message.happened_step = -1;
     message.happened_time = -1.0;
-    message.action = event.action;
+    message.action = to_string(event.action);
     message.text = clipped(event_text(scene, message.number));
     const ObstacleName name = event.obstacle ? scene.obstacle_names[*event.obstacle] : ObstacleName();
     const int most = static_cast<int>((max_message_bytes - 3000) / sizeof(std::int32_t));

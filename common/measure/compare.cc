@@ -77,8 +77,8 @@ RunComparison<Dim> compare_runs(const Trajectory<Dim>& a, const Trajectory<Dim>&
 
   const std::vector<PlacedBody<Dim>> bodies_a = placed_bodies(shapes, a, last);
   const std::vector<PlacedBody<Dim>> bodies_b = placed_bodies(shapes, b, last);
-  result.shape_a = shape_statistics<Dim>(bodies_a, grid, extent);
-  result.shape_b = shape_statistics<Dim>(bodies_b, grid, extent);
+  result.shape_a = shape_statistics<Dim>(bodies_a, grid);
+  result.shape_b = shape_statistics<Dim>(bodies_b, grid);
   result.profile_rms = profile_difference(result.shape_a.profile, result.shape_b.profile) / extent;
   if (!bodies_a.empty() && !bodies_b.empty()) {
     result.z = distribution_distance(heights<Dim>(bodies_a), heights<Dim>(bodies_b));

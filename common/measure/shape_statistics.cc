@@ -42,9 +42,7 @@ Vec<Dim - 1> middle(std::span<const PlacedBody<Dim>> bodies) {
 }
 
 template <int Dim>
-ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, const ProfileGrid<Dim>& grid,
-                                      double layer_height) {
-  require(layer_height > 0.0, "layer_height", layer_height, "must be > 0");
+ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, const ProfileGrid<Dim>& grid) {
   ShapeStatistics<Dim> statistics;
   statistics.bodies = static_cast<int>(bodies.size());
   statistics.profile = height_profile<Dim>(bodies, grid);
@@ -61,12 +59,6 @@ ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, c
   statistics.r50 = quantile(distances, 0.5);
   statistics.r95 = quantile(distances, 0.95);
   statistics.repose = angle_of_repose(statistics.profile, statistics.r95);
-  if (statistics.repose.foot > 0.0) {
-    Vec<Dim> base;
-    base << grid.centre, grid.base;
-    const int layers = std::max(1, static_cast<int>(statistics.repose.apex / layer_height));
-    statistics.packing = packing<Dim>(bodies, base, statistics.repose.foot, statistics.repose.apex, layers);
-  }
   return statistics;
 }
 
@@ -87,7 +79,7 @@ template Packing packing<2>(std::span<const PlacedBody<2>>, const Vec<2>&, doubl
 template Packing packing<3>(std::span<const PlacedBody<3>>, const Vec<3>&, double, double, int);
 template Vec<1> middle<2>(std::span<const PlacedBody<2>>);
 template Vec<2> middle<3>(std::span<const PlacedBody<3>>);
-template ShapeStatistics<2> shape_statistics(std::span<const PlacedBody<2>>, const ProfileGrid<2>&, double);
-template ShapeStatistics<3> shape_statistics(std::span<const PlacedBody<3>>, const ProfileGrid<3>&, double);
+template ShapeStatistics<2> shape_statistics(std::span<const PlacedBody<2>>, const ProfileGrid<2>&);
+template ShapeStatistics<3> shape_statistics(std::span<const PlacedBody<3>>, const ProfileGrid<3>&);
 
 }  // namespace talus

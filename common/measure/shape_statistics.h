@@ -31,13 +31,11 @@ struct ShapeStatistics {
   double peak = 0.0;                   // highest point of a body above the ground [m]
   std::vector<ProfileBin> profile;
   AngleOfRepose repose;
-  Packing packing;  // of the outline that the angle's line draws, in layers about `layer_height` high
 };
 
-/// `layer_height` [m] > 0 is D, as in the piles' own layers. All zero for no bodies.
+/// All zero for no bodies. Whether the angle is one of repose is for pile_form() to say.
 template <int Dim>
-ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, const ProfileGrid<Dim>& grid,
-                                      double layer_height);
+ShapeStatistics<Dim> shape_statistics(std::span<const PlacedBody<Dim>> bodies, const ProfileGrid<Dim>& grid);
 
 /// Bins of D / 2 around the bodies' middle, as many as reach the farthest of them but no more than 2,000 (2D) or 250
 /// (3D). `base` [m] is the ground's height, `extent` [m] > 0 is D. Of two runs to compare, one's grid serves both.

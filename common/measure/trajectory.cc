@@ -7,6 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/math/angle.h"
 #include "common/math/require.h"
 
 namespace talus {
@@ -45,7 +46,7 @@ void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_nu
     const Pose<Dim>& pose = states.pose[i];
     for (int axis = 0; axis < Dim; ++axis) poses_.push_back(static_cast<float>(pose.position[axis]));
     if constexpr (Dim == 2)
-      poses_.push_back(static_cast<float>(pose.rotation.angle()));
+      poses_.push_back(static_cast<float>(wrapped_angle(pose.rotation)));
     else
       for (int k = 0; k < 4; ++k) poses_.push_back(static_cast<float>(pose.rotation.coeffs()[k]));
     const bool is_unknown = !unknown.empty() && unknown[i] != 0;
@@ -76,28 +77,6 @@ Rotation<Dim> Trajectory<Dim>::rotation(int frame, BodyIndex body) const {
     return Rotation<2>(values[0]);
   else
     return Rotation<3>(values[3], values[0], values[1], values[2]).normalized();
-}
-
-template <int Dim>
-Trajectory<Dim> Trajectory<Dim>::part(int first, int count) const {
-  Trajectory copy(step_time_, steps_per_frame_);
-  const int end = std::min(first + count, frames());
-  if (end <= first) return copy;
-  copy.first_step_ = step(first);
-  const std::size_t from = entry(first, 0);
-  const std::size_t to = entry(end - 1, bodies(end - 1));
-  BodyIndex most = 0;
-  for (int frame = first; frame < end; ++frame) {
-    copy.first_.push_back(entry(frame, 0) - from);
-    copy.lost_.push_back(lost_[frame]);
-    most = std::max(most, bodies(frame));
-  }
-  copy.shape_.assign(shape_.begin(), shape_.begin() + most);
-  copy.poses_.assign(poses_.begin() + static_cast<std::ptrdiff_t>(from * floats_per_body),
-                     poses_.begin() + static_cast<std::ptrdiff_t>(to * floats_per_body));
-  copy.flags_.assign(flags_.begin() + static_cast<std::ptrdiff_t>(from),
-                     flags_.begin() + static_cast<std::ptrdiff_t>(to));
-  return copy;
 }
 
 template <int Dim>

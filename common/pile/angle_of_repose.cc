@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace talus {
-namespace {
-
-constexpr double min_angle_of_repose = 5.0 * (std::numbers::pi / 180.0);  // [rad]; a flatter layer is no pile
-
-}  // namespace
 
 template <int Dim>
 double estimate_angle_of_repose(std::vector<Vec<Dim>>& positions) {

@@ -12,6 +12,9 @@ namespace talus {
 /// Slope of a pile before its own can be measured [rad].
 inline constexpr double default_angle_of_repose = std::numbers::pi / 6.0;
 
+/// A flatter layer is no pile [rad].
+inline constexpr double min_angle_of_repose = 5.0 * std::numbers::pi / 180.0;
+
 /// Largest slope that is ever measured [rad].
 inline constexpr double max_angle_of_repose = 75.0 * std::numbers::pi / 180.0;
 

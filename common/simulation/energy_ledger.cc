@@ -8,59 +8,75 @@ namespace talus {
 namespace {
 
 constexpr double tolerated_share = 0.1;
-constexpr double rest_speed = 0.5;  // [m/s]; without gravity the only scale of a world at rest
+constexpr double tolerated_burst = 0.02;  // of the work that lifts each awake body by its own extent
+constexpr double rest_speed = 0.5;        // [m/s]; without gravity the only scale of a world at rest
 
 }  // namespace
 
 template <int Dim>
-EnergyLedger<Dim>::EnergyLedger(const WorldDescription<Dim>& world) : down_(world.down) {
-  for (const Shape<Dim>& shape : world.shapes) {
-    const double weight = shape.mass * world.gravity;
-    constants_.push_back({weight, weight * shape.extent + 0.5 * shape.mass * rest_speed * rest_speed});
-  }
+EnergyLedger<Dim>::EnergyLedger(const WorldDescription<Dim>& world) : dt_(world.dt) {
+  for (int k = 0; k < std::ssize(world.obstacles); ++k)
+    if (world.obstacles[k].moves) obstacles_.push_back({k, {}});
 }
 
 template <int Dim>
-void EnergyLedger<Dim>::note_added(const World<Dim>& world) {
-  for (auto body = static_cast<BodyIndex>(last_.size()); body < world.states().size(); ++body)
-    last_.push_back(energy(world, body, kinetic_energy(world, body)));
+void EnergyLedger<Dim>::start_step(const World<Dim>& world) {
+  const BodyStates<Dim>& states = world.states();
+  before_.clear();
+  for (const BodyIndex body : world.awake())
+    before_.push_back({body, states.pose[body].position, states.velocity[body], kinetic_energy(world, body)});
+  for (ObstacleBefore& obstacle : obstacles_) obstacle.pose = world.obstacle_pose(obstacle.number);
 }
 
 template <int Dim>
-void EnergyLedger<Dim>::note_velocity(const World<Dim>& world, BodyIndex body, const Vec<Dim>& velocity,
-                                      const Spin<Dim>& spin) {
-  const Rotation<Dim>& rotation = world.states().pose[body].rotation;
-  change_ += kinetic_energy(world, body) - kinetic_energy<Dim>(world.shape_of(body), rotation, velocity, spin);
-}
-
-template <int Dim>
-void EnergyLedger<Dim>::note_state(const World<Dim>& world, BodyIndex body) {
-  const double kinetic = kinetic_energy(world, body);
-  const double now = energy(world, body, kinetic);
-  double& last = last_[body];
-  change_ += now - last;
-  last = now;
-  kinetic_ += kinetic;
-  scale_ += constants_of(world, body).scale;
-}
-
-template <int Dim>
-void EnergyLedger<Dim>::close_step() {
-  rise_ = std::max(0.0, rise_ + change_);
+void EnergyLedger<Dim>::end_step(const World<Dim>& world) {
+  change_ = gain_ = kinetic_ = lift_ = 0.0;
+  for (const Before& before : before_) add(world, before);
+  work_ = work_of_obstacles(world);
   largest_kinetic_ = std::max(largest_kinetic_, kinetic_);
-  largest_scale_ = std::max(largest_scale_, scale_);
-  change_ = kinetic_ = scale_ = 0.0;
+  largest_lift_ = std::max(largest_lift_, lift_);
+  rise_ = std::max(0.0, rise_ + change_ - work_);
+  if (burst_ == 0.0) burst_lift_ = 0.0;
+  burst_lift_ = std::max(burst_lift_, lift_);
+  burst_ = std::max(0.0, burst_ + gain_ - work_);
+}
+
+template <int Dim>
+void EnergyLedger<Dim>::add(const World<Dim>& world, const Before& before) {
+  const Shape<Dim>& shape = world.shape_of(before.body);
+  const Vec<Dim> gravity = world.gravity();
+  const double kinetic = kinetic_energy(world, before.body);
+  const double gained = kinetic - before.kinetic;
+  change_ += gained - shape.mass * gravity.dot(world.states().pose[before.body].position - before.position);
+  gain_ += gained - shape.mass * dt_ * gravity.dot(before.velocity + 0.5 * dt_ * gravity);
+  kinetic_ += kinetic;
+  lift_ += shape.mass * (gravity.norm() * shape.extent + 0.5 * rest_speed * rest_speed);
+}
+
+template <int Dim>
+double EnergyLedger<Dim>::work_of_obstacles(const World<Dim>& world) const {
+  if (obstacles_.empty()) return 0.0;
+  double work = 0.0;
+  for (const Contact<Dim>& contact : world.contacts()) {
+    if (contact.b > first_obstacle) continue;
+    const auto before = std::ranges::lower_bound(obstacles_, first_obstacle - contact.b, {}, &ObstacleBefore::number);
+    if (before == obstacles_.end() || before->number != first_obstacle - contact.b) continue;
+    const Pose<Dim>& after = world.obstacle_pose(before->number);
+    const Vec<Dim> own = before->pose.rotation.inverse() * (contact.point - before->pose.position);
+    const Vec<Dim> moved = after.position + after.rotation * own - contact.point;
+    work += (contact.normal_impulse * contact.normal + contact.friction_impulse).dot(moved) / dt_;
+  }
+  return work;
 }
 
 template <int Dim>
 double EnergyLedger<Dim>::tolerance() const {
-  return tolerated_share * (largest_kinetic_ + largest_scale_);
+  return tolerated_share * (largest_kinetic_ + largest_lift_);
 }
 
 template <int Dim>
-double EnergyLedger<Dim>::energy(const World<Dim>& world, BodyIndex body, double kinetic) const {
-  const Vec<Dim>& position = world.states().pose[body].position;
-  return kinetic - constants_of(world, body).weight * down_.dot(position);
+double EnergyLedger<Dim>::burst_tolerance() const {
+  return tolerated_share * largest_kinetic_ + tolerated_burst * burst_lift_;
 }
 
 template class EnergyLedger<2>;

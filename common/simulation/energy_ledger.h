@@ -1,36 +1,31 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "common/world/world.h"
 
 namespace talus {
 
-/// Keeps account of the kinetic and potential energy of all bodies and of what was put in, so that energy which the
-/// engine creates shows. Costs O(awake) a step and eight bytes a body.
+/// Keeps account of the energy that an engine creates within its steps. Costs O(awake) a step, and O(contacts) while
+/// an obstacle moves.
 ///
-/// A step of a rigid-body engine may lose energy (friction, impact, freezing) but must not create any. The ledger sums
-/// the changes that no source and no policy made. The sum never falls below 0, so it is the rise over the lowest
-/// energy so far: an early loss does not hide a late gain. Energies are relative to the origin, which cancels out in
-/// every change.
+/// A step of a rigid-body engine may lose energy (friction, impact) but gets it from gravity and from obstacles that
+/// move alone. What happens between steps (sources, sleep, kicks, a change of gravity) is not the engine's and does
+/// not count. Each sum below never falls below 0, so it is the rise over the lowest value so far: an early loss does
+/// not hide a late gain.
 template <int Dim>
 class EnergyLedger {
  public:
   explicit EnergyLedger(const WorldDescription<Dim>& world);
 
-  /// Bodies that were added since the last call, at the energy that they have now.
-  void note_added(const World<Dim>& world);
+  /// Just before World::step(), once all that acts in the step is set. The step must record contacts if an obstacle
+  /// moves in it.
+  void start_step(const World<Dim>& world);
+  /// Just after it.
+  void end_step(const World<Dim>& world);
 
-  /// A body will get a new velocity from outside the engine.
-  void note_velocity(const World<Dim>& world, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
-
-  /// The state of a body after a step. To be called for each body that is awake or fell asleep in the step.
-  void note_state(const World<Dim>& world, BodyIndex body);
-
-  /// After note_state() of all these bodies.
-  void close_step();
-
-  /// Energy that the engine created and has not lost since [J].
+  /// Kinetic and potential energy that the steps created and have not lost since [J].
   double rise() const { return rise_; }
 
   /// What rounding, time steps and position correction may create [J]: a tenth of the largest kinetic energy so far
@@ -38,27 +33,50 @@ class EnergyLedger {
   /// bodies, which may fall asleep before the sum is checked.
   double tolerance() const;
 
- private:
-  double energy(const World<Dim>& world, BodyIndex body, double kinetic) const;
+  /// Kinetic energy that contacts created and have not dissipated since [J]: what the velocities of a step show beyond
+  /// those before it and gravity's part. Position correction and the error of the time step have no part in it.
+  double burst() const { return burst_; }
 
-  /// Of one shape.
-  struct Constants {
-    double weight = 0.0;  // [N]
-    double scale = 0.0;   // work to lift it by its extent, and a motion too slow to be seen [J]
-  };
-  const Constants& constants_of(const World<Dim>& world, BodyIndex body) const {
-    return constants_[world.states().shape[body]];
+  /// Energy created beyond what is tolerated: the larger of rise() and burst() that is above its tolerance, else 0 [J].
+  double created() const {
+    return std::max(rise_ > tolerance() ? rise_ : 0.0, burst_ > burst_tolerance() ? burst_ : 0.0);
   }
 
-  Vec<Dim> down_;
-  std::vector<Constants> constants_;  // by shape
-  std::vector<double> last_;          // energy of each body when last noted [J]
-  double change_ = 0.0;               // in this step [J], without what was put in
-  double kinetic_ = 0.0;              // of the bodies noted in this step [J]
-  double scale_ = 0.0;                // of the bodies noted in this step [J]
-  double largest_kinetic_ = 0.0;      // so far [J]
-  double largest_scale_ = 0.0;        // so far [J]
-  double rise_ = 0.0;                 // [J]
+  /// What contacts may create of it by correcting overlap with velocity, as Bullet does [J].
+  double burst_tolerance() const;
+
+  /// Work of the obstacles that moved, on bodies, in the last step [J]: the impulse of each contact point times the
+  /// obstacle's motion there.
+  double work() const { return work_; }
+
+ private:
+  struct Before {
+    BodyIndex body = 0;
+    Vec<Dim> position = Vec<Dim>::Zero();
+    Vec<Dim> velocity = Vec<Dim>::Zero();
+    double kinetic = 0.0;  // [J]
+  };
+  struct ObstacleBefore {
+    int number = 0;
+    Pose<Dim> pose;
+  };
+  void add(const World<Dim>& world, const Before& before);
+  double work_of_obstacles(const World<Dim>& world) const;
+
+  double dt_;                              // [s]
+  std::vector<Before> before_;             // awake bodies before the step, ascending
+  std::vector<ObstacleBefore> obstacles_;  // those that may move, before the step
+  double change_ = 0.0;                    // of kinetic and potential energy in this step [J]
+  double gain_ = 0.0;                      // of kinetic energy in this step beyond what gravity gives a free body [J]
+  double work_ = 0.0;                      // [J]
+  double kinetic_ = 0.0;                   // of the awake bodies after this step [J]
+  double lift_ = 0.0;             // work that lifts each awake body of this step by its extent, and gives it a motion
+                                  // too slow to be seen [J]
+  double largest_kinetic_ = 0.0;  // so far [J]
+  double largest_lift_ = 0.0;     // so far [J]
+  double burst_lift_ = 0.0;       // largest since burst_ was last 0 [J]
+  double rise_ = 0.0;             // [J]
+  double burst_ = 0.0;            // [J]
 };
 
 }  // namespace talus

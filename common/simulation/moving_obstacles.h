@@ -19,6 +19,9 @@ class MovingObstacles {
   /// will within the step; valid until the next call.
   const std::vector<BodyIndex>& move(World<Dim>& world, double time);
 
+  /// Whether any moved in the last call of move().
+  bool any_moved() const { return !moving_.empty(); }
+
   /// Whether a body touches an obstacle that moved in the last step.
   bool touch(const World<Dim>& world, BodyIndex body) const;
 

@@ -20,12 +20,6 @@ double lowest_centre(const Ground& ground) {
 }
 
 template <int Dim>
-bool changes_gravity(const Scene<Dim>& scene) {
-  return scene.gravity_motion ||
-         std::ranges::any_of(scene.events, [](const Event<Dim>& event) { return event.action == "gravity"; });
-}
-
-template <int Dim>
 double farthest(const Vec<Dim>& place) {
   return place.cwiseAbs().maxCoeff();
 }
@@ -37,36 +31,39 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
     : sources_(scene.sources),
       initial_bodies_(static_cast<int>(scene.bodies.size())),
       ledger_(scene.world),
+      overlap_(scene),
       lowest_(lowest_centre(scene.world.ground)),
       ground_(scene.world.ground.height),
       dt_(scene.world.dt),
-      driven_(!scene.movers.empty() || changes_gravity(scene)),
       speed_squared_(at_limit(limits.speed)),
       spin_squared_(at_limit(limits.spin)),
       bodies_planned_(static_cast<int>(scene.bodies_planned())) {}
 
 template <int Dim>
 void Watchdog<Dim>::note_added(const World<Dim>& world, std::int64_t step) {
-  ledger_.note_added(world);
   if (world.states().size() == appeared_) return;
   appeared_ = world.states().size();
   last_appearance_ = step;
 }
 
 template <int Dim>
+void Watchdog<Dim>::end_step(const World<Dim>& world, std::int64_t step) {
+  ledger_.end_step(world);
+  if (!overlap_.due(step)) return;
+  for (const auto& [body, depth] : overlap_.sample(world)) note(WarningKind::overlap, body, step, depth);
+}
+
+template <int Dim>
 void Watchdog<Dim>::check(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step) {
   const BodyStates<Dim>& states = world.states();
   for (const BodyIndex body : world.awake()) {
-    ledger_.note_state(world, body);
     check_place(states, body, step);
     check_speed(states, body, step);
   }
   for (const SleepEvent& event : events) {
     if (states.asleep[event.body] == 0) continue;
-    ledger_.note_state(world, event.body);
     check_place(states, event.body, step);
   }
-  ledger_.close_step();
   check_energy(world, step);
 }
 
@@ -87,10 +84,10 @@ void Watchdog<Dim>::check_speed(const BodyStates<Dim>& states, BodyIndex body, s
 
 template <int Dim>
 void Watchdog<Dim>::check_energy(const World<Dim>& world, std::int64_t step) {
-  if (driven_ || ledger_.rise() <= ledger_.tolerance()) return;
+  if (ledger_.created() == 0.0) return;
   const auto known = std::ranges::find(warnings_, WarningKind::energy, &Warning::kind);
   if (known != warnings_.end()) {
-    known->value = std::max(known->value, ledger_.rise());
+    known->value = std::max(known->value, ledger_.created());
     return;
   }
   const auto kinetic = [&](BodyIndex body) { return kinetic_energy(world, body); };
@@ -100,7 +97,7 @@ void Watchdog<Dim>::check_energy(const World<Dim>& world, std::int64_t step) {
                        .step = step,
                        .body = fastest == awake.end() ? -1 : *fastest,
                        .bodies = static_cast<std::int64_t>(awake.size()),
-                       .value = ledger_.rise()});
+                       .value = ledger_.created()});
 }
 
 template <int Dim>

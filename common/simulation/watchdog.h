@@ -6,6 +6,7 @@
 #include "common/policy/sleep_event.h"
 #include "common/scene/scene.h"
 #include "common/simulation/energy_ledger.h"
+#include "common/simulation/overlap_watch.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
 
@@ -20,10 +21,13 @@ class Watchdog {
   /// Bodies added since the last call, before the step that moves them; `step` counts the steps done.
   void note_added(const World<Dim>& world, std::int64_t step);
 
-  /// Before an awake body gets a new velocity from outside the engine.
-  void note_velocity(const World<Dim>& world, BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
-    ledger_.note_velocity(world, body, velocity, spin);
-  }
+  /// Whether the step that will be number `step` must record its contacts, besides each in which an obstacle moves.
+  bool needs_contacts(std::int64_t step) const { return overlap_.due(step); }
+
+  /// Just before World::step(), once all that acts in the step is set.
+  void start_step(const World<Dim>& world) { ledger_.start_step(world); }
+  /// Just after it; `step` is its number.
+  void end_step(const World<Dim>& world, std::int64_t step);
 
   /// A source has another rate now.
   void note_source(int number, const Source<Dim>& source) { sources_[number] = source; }
@@ -36,6 +40,7 @@ class Watchdog {
 
   /// One of each kind that was seen, in the order of first sight.
   std::span<const Warning> warnings() const { return warnings_; }
+  const RunOverlap& overlap() const { return overlap_.overlap(); }
   /// Bodies of the scene in all.
   int bodies_planned() const { return bodies_planned_; }
 
@@ -49,10 +54,10 @@ class Watchdog {
   std::vector<Source<Dim>> sources_;
   int initial_bodies_;  // in the world from the start
   EnergyLedger<Dim> ledger_;
+  OverlapWatch<Dim> overlap_;
   double lowest_;         // height that no centre may lie below [m]
   double ground_;         // [m]
   double dt_;             // [s]
-  bool driven_;           // obstacles move by plan or gravity changes, so energy is put in
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
   int bodies_planned_;

@@ -7,8 +7,8 @@
 namespace talus {
 namespace {
 
-constexpr std::array<std::string_view, 7> kind_names = {"below_ground", "outside_world", "energy", "speed_limit",
-                                                        "spin_limit",   "not_appeared",  "drift"};
+constexpr std::array<std::string_view, 8> kind_names = {"below_ground", "outside_world", "energy",  "speed_limit",
+                                                        "spin_limit",   "not_appeared",  "overlap", "drift"};
 
 /// What is the case, with the value.
 std::string finding(const Warning& warning) {
@@ -25,6 +25,8 @@ std::string finding(const Warning& warning) {
       return fmt::format("the spin is {:.4g} rad/s, at the engine's limit", warning.value);
     case WarningKind::not_appeared:
       return fmt::format("{:.0f} bodies that were due never appeared: their source found no free place", warning.value);
+    case WarningKind::overlap:
+      return fmt::format("the overlap with a body, the ground or an obstacle is {:.2g} D and lasts", warning.value);
     case WarningKind::drift:
       return fmt::format("once woken, the sleeping bodies move by {:.2g} D on average, farther than the tolerance",
                          warning.value);
@@ -46,6 +48,9 @@ std::string_view remedy(WarningKind kind) {
       return "raise world.steps_per_second or the size of the bodies";
     case WarningKind::not_appeared:
       return "raise the source's position or spread, or set ride_above";
+    case WarningKind::overlap:
+      return "raise world.solver.velocity_iterations or world.steps_per_second, or lower the fall or the depth of the "
+             "pile";
     case WarningKind::drift:
       return "lower policy.adaptive.tolerance, or simulate for longer so that the bodies come to rest";
   }

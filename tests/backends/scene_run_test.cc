@@ -86,7 +86,7 @@ TYPED_TEST(SceneRun, APileWithoutASlopeFindsItsOwn) {
   for (int i = 0; i < 300; ++i) simulation.step();
   const std::vector<PlacedBody<dim>> bodies = placed_bodies<dim>(scene.world.shapes, simulation.world().states());
   const ProfileGrid<dim> grid = grid_around<dim>(bodies, scene.world.ground.height, typical_body(scene).extent);
-  const ShapeStatistics<dim> shape = shape_statistics<dim>(bodies, grid, typical_body(scene).extent);
+  const ShapeStatistics<dim> shape = shape_statistics<dim>(bodies, grid);
   const double apex = (dim == 3 ? 4.0 : 3.0) * shape.centre_height;
   const double foot = shape.r50 / (dim == 3 ? 0.5 : 1.0 - std::sqrt(0.5));
   // The slope is measured while the pile grows; afterwards the pile settles.

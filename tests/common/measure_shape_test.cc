@@ -59,7 +59,7 @@ TYPED_TEST(ShapeStatisticsOfAHeap, FindTheAngleItWasBuiltWith) {
   const auto bodies = heap<dim>();
   ProfileGrid<dim> grid;
   grid.bin_width = 0.4;
-  const auto statistics = shape_statistics<dim>(bodies, grid, 0.5);
+  const auto statistics = shape_statistics<dim>(bodies, grid);
   // Cubes of 0.1 m make steps of up to 0.05 m on a flank of 10 m: 0.3 degrees.
   EXPECT_NEAR(statistics.repose.angle * 180 / std::numbers::pi, 25.0, 0.3);
   EXPECT_LT(statistics.repose.standard_error * 180 / std::numbers::pi, 0.2);
@@ -71,7 +71,7 @@ TYPED_TEST(ShapeStatisticsOfAHeap, FindTheAngleItWasBuiltWith) {
 TYPED_TEST(ShapeStatisticsOfAHeap, FindRadiiAndCentreOfMassOfConeAndWedge) {
   constexpr int dim = TypeParam::dim;
   const auto bodies = heap<dim>();
-  const auto statistics = shape_statistics<dim>(bodies, ProfileGrid<dim>{}, 0.5);
+  const auto statistics = shape_statistics<dim>(bodies, ProfileGrid<dim>{});
   // Centre of mass: a quarter (cone) or a third (wedge) of the height.
   EXPECT_NEAR(statistics.centre_height, slope * foot / (dim + 1), 0.05);
   // Share of the volume within radius r = s R: wedge 2 s - s^2, cone 3 s^2 - 2 s^3; both solved for 0.5 and 0.95.

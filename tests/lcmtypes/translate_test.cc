@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <numbers>
 #include <numeric>
 
 #include "common/policy/paper_policy.h"
@@ -73,8 +74,8 @@ TEST(EventMessage, SaysWhatTheEventRemovesAndWhenItHappened) {
   Scene<2> scene = still_scene<2>();
   scene.obstacle_names = {{"gate", 0, 1}};
   scene.events.resize(2);
-  scene.events[0].action = "wake";
-  scene.events[1].action = "remove";
+  scene.events[0].action = EventAction::wake;
+  scene.events[1].action = EventAction::remove;
   scene.events[1].obstacle = 0;
   const auto messages = to_events(scene);
   ASSERT_EQ(messages.size(), 2U);
@@ -238,11 +239,49 @@ TEST(StatsMessage, CarriesTheEstimateOfDriftInExtentsOfTheTypicalBody) {
   EXPECT_EQ(decoded.checked_share, 0.25);
 }
 
+TEST(StatsMessage, CarriesWhatTheProbeOfTheLastStateFoundInThePlaceOfThePolicysEstimate) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  const PileSet<2> piles({}, {.bounding_volume = 0.5, .extent = 2.0, .mass = 1.0});
+  const OneMetrePolicy policy;
+  const auto stats = to_stats<2>(
+      Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .policy = &policy, .probed_drift = 0.125});
+  EXPECT_EQ(stats.drift_estimate, 0.125);
+  EXPECT_EQ(stats.checked_share, 1.0) << "a probe wakes all bodies";
+}
+
 TEST(StatsMessage, HasNoEstimateOfDriftWithoutAPolicyThatMakesOne) {
   const Scene<2> scene = still_scene<2>();
   StillWorld<2> world(scene.world);
   const PileSet<2> piles({}, {});
   EXPECT_EQ(to_stats<2>(Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}}).drift_estimate, -1.0);
+}
+
+TEST(StatsMessage, CarriesTheOverlap) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  const PileSet<2> piles({}, {});
+  auto stats = to_stats<2>(Frame<2>{
+      .world = world, .piles = piles, .events = {}, .phases = {}, .overlap = {.deepest = 0.25, .share = 0.125}});
+  MessageEncoder encoder(1);
+  talus_stats decoded;
+  ASSERT_EQ(decode(encoder.encode(stats, {}).bytes, decoded), "");
+  EXPECT_EQ(decoded.overlap, 0.25);
+  EXPECT_EQ(decoded.overlap_share, 0.125);
+}
+
+// Box2D counts turns and Bullet does not.
+TEST(BodiesMessage, HasAnglesOfAtMostHalfATurn) {
+  BodyStates<2> states;
+  states.shape = {0};
+  states.pose = {{Vec2(1.0, 2.0), Rotation<2>(7.0)}};
+  states.velocity = {Vec2::Zero()};
+  states.spin = {Spin<2>::Zero()};
+  states.asleep = {0};
+  states.removed = {0};
+  const auto messages = to_bodies<2>(states, std::vector<BodyIndex>{0}, true);
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_FLOAT_EQ(messages[0].poses[2], 7.0F - 2.0F * std::numbers::pi_v<float>);
 }
 
 TEST(StatsMessage, NumbersKindsOfWarningAsTheCoreDoes) {
@@ -252,6 +291,7 @@ TEST(StatsMessage, NumbersKindsOfWarningAsTheCoreDoes) {
   EXPECT_EQ(talus_stats::SPEED_LIMIT, static_cast<int>(WarningKind::speed_limit));
   EXPECT_EQ(talus_stats::SPIN_LIMIT, static_cast<int>(WarningKind::spin_limit));
   EXPECT_EQ(talus_stats::NOT_APPEARED, static_cast<int>(WarningKind::not_appeared));
+  EXPECT_EQ(talus_stats::OVERLAP, static_cast<int>(WarningKind::overlap));
 }
 
 TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {

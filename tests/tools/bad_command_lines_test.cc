@@ -171,24 +171,24 @@ TEST_F(BadCommandLine, OfCheckIsRefused) {
 }
 
 TEST_F(BadCommandLine, OfBenchIsRefused) {
-  refuse({{"bench", {"subcommand"}},
-          {"bench table9", {"table9"}},
-          {"bench table1 --rounds -1", {"--rounds", "-1", "1000"}},
-          {"bench table1 --rounds 0", {"--rounds", "0", "1000"}},
-          {"bench table1 --rounds 1001", {"--rounds", "1001", "1000"}},
-          {"bench table1 --rounds some", {"--rounds", "some"}},
-          {"bench table1 --seeds 101", {"--seeds", "101", "100"}},
-          {"bench table1 --seeds 0", {"--seeds", "0", "100"}},
-          {"bench table1 --share 0", {"--share", "0", "must be"}},
-          {"bench table1 --share 1.5", {"--share", "1.5", "must be"}},
-          {"bench table1 --share nan", {"--share", "nan", "must be"}},
-          {"bench table1 --quick --policy lazy --out new", {"--policy", "lazy"}},
-          {"bench table1 --quick --policy '' --out new", {"--policy"}},
-          {"bench table1 --quick --backend havok --out new", {"--backend", "havok"}},
-          {"bench table1 --quick --scene no_such_scene --out new", {"no_such_scene"}},
-          {"bench table1 --quick --set run.frames=-1 --out new", {"run.frames=-1", "must be"}},
-          {"bench table1 --quick --out ''", {"--out"}},
-          {"bench table1 --quick --out text", {"--out", "text"}}});
+  refuse({{"bench", {"bench", "--preset"}},
+          {"bench --preset table9", {"--preset", "table9"}},
+          {"bench flat --seeds 0", {"--seeds", "0", "1000"}},
+          {"bench flat --seeds some", {"--seeds", "some"}},
+          {"bench flat --jobs 0", {"--jobs", "0"}},
+          {"bench --preset table1 --policy lazy --out new", {"--policy", "lazy"}},
+          {"bench --preset table1 --policy '' --out new", {"--policy"}},
+          {"bench --preset table1 --backend havok --out new", {"--backend", "havok"}},
+          {"bench no_such_scene --out new", {"no_such_scene"}},
+          {"bench drop_in_a_pile_2d --backend bullet --out new", {"--backend", "no scene"}},
+          {"bench drop_in_a_pile_2d --set run.frames=-1 --out new", {"run.frames=-1", "must be"}},
+          {"bench drop_in_a_pile_2d --set seed=1,2 --out new", {"--set seed", "--seeds"}},
+          {"bench drop_in_a_pile_2d --set policy.kind=full --out new", {"--set policy.kind", "--policy"}},
+          {"bench drop_in_a_pile_2d --set run.frames=2 --set run.frames=3 --out new", {"run.frames", "once"}},
+          {"bench drop_in_a_pile_2d --backend bullet-planar --set world.solver.velocity_iterations=2 --out new",
+           {"velocity_iterations", "window"}},
+          {"bench drop_in_a_pile_2d --out ''", {"--out"}},
+          {"bench drop_in_a_pile_2d --out text", {"--out", "text"}}});
 }
 
 #ifdef TALUS_LCM

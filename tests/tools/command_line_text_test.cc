@@ -21,7 +21,6 @@ void expect_suggestion(const std::string& arguments, const std::string& meant) {
 TEST(CommandLine, WithAWrongWordSuggestsTheNearest) {
   expect_suggestion("chek", "check");
   expect_suggestion("run drop_in_a_pile_2d --polcy full", "--policy");
-  expect_suggestion("bench tabel1", "table1");
   expect_suggestion("sweep drop_in_a_pile_2d --seed=3 --out x", "--seeds");
 }
 
@@ -33,10 +32,10 @@ complete_words() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _talus; echo "${CO
 complete_words talus ch
 complete_words talus run --pol
 complete_words talus run drop_in_a_pile_2
-complete_words talus bench tru
+complete_words talus bench --pres
 )bash";
   const Outcome outcome = shell(script);
-  EXPECT_EQ(outcome.out, "check\n--policy\ndrop_in_a_pile_2d\ntruth\n") << outcome.err;
+  EXPECT_EQ(outcome.out, "check\n--policy\ndrop_in_a_pile_2d\n--preset\n") << outcome.err;
 }
 
 TEST(CommandLine, HasAZshCompletionThatBeginsAsZshWants) {
@@ -46,7 +45,7 @@ TEST(CommandLine, HasAZshCompletionThatBeginsAsZshWants) {
 TEST(CommandLine, HasAManualPageOfAllCommands) {
   const std::string page = talus_command("reference --man").out;
   EXPECT_TRUE(page.starts_with(".TH TALUS 1\n"));
-  for (const char* word : {".SS run\n", ".SS bench table1\n", ".SS sweep\n", "\\fB\\-\\-policy\\fR"})
+  for (const char* word : {".SS run\n", ".SS bench\n", ".SS sweep\n", "\\fB\\-\\-policy\\fR"})
     EXPECT_NE(page.find(word), std::string::npos) << word;
 }
 

@@ -4,7 +4,7 @@
 
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/translate.h"
-#include "tools/report/json_text.h"
+#include "tools/output/json_text.h"
 
 namespace talus {
 
@@ -70,6 +70,7 @@ Json of(const talus_stats& stats) {
                  {"bodies_appeared", stats.appeared}};
   if (stats.drift_estimate >= 0.0)
     object["estimate"] = {{"drift_D", stats.drift_estimate}, {"checked_share", stats.checked_share}};
+  object["overlap"] = {{"deepest_D", stats.overlap}, {"share", stats.overlap_share}};
   object["warnings"] = Json::array();
   for (const Warning& warning : warnings_of(stats)) object["warnings"].push_back(of(warning));
   if (stats.timed == 0) return object;

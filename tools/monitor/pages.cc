@@ -57,7 +57,9 @@ void draw_head(const Heard& heard, const std::vector<HeardRun>& runs, const Hear
   area.put_right(1, fmt::format("  {}", state_of(heard, run)), view.ended() ? Style::good : Style::alert);
   area.put(2, 0, progress_of(view));
   const int end = area.put(3, 0, error_of(view));
-  if (view.stats()) area.put(3, end, fmt::format("  energy {:.3g} J", view.stats()->kinetic_energy));
+  if (view.stats())
+    area.put(3, end,
+             fmt::format("  overlap {:.2g} D  energy {:.3g} J", view.stats()->overlap, view.stats()->kinetic_energy));
   const bool lost = view.lost() > 0;
   area.put_right(3, fmt::format("  lost {}", count_text(static_cast<double>(view.lost()))),
                  lost ? Style::alert : Style::good);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,11 +13,12 @@
 #include "common/scene/typical_body.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/output/json_text.h"
 #include "tools/output/output.h"
+#include "tools/output/table.h"
 #include "tools/record/recorded_run.h"
-#include "tools/report/json_text.h"
-#include "tools/report/table.h"
 #include "tools/run/make_simulation.h"
+#include "tools/run/shape_json.h"
 
 namespace talus {
 namespace {
@@ -55,17 +55,6 @@ Json head_json(const RecordedRun<Dim>& run) {
           {"damage", text_of(run.damage)}};
 }
 
-template <int Dim>
-Json shape_json(const ShapeStatistics<Dim>& shape) {
-  constexpr double degrees = 180.0 / std::numbers::pi;
-  return {{"centre_height_m", shape.centre_height},
-          {"r50_m", shape.r50},
-          {"r95_m", shape.r95},
-          {"height_m", shape.peak},
-          {"angle_of_repose_deg", shape.repose.angle * degrees},
-          {"packing", shape.packing.all}};
-}
-
 Json motion_json(const MotionError& error) {
   return {{"relative", error.relative}, {"left_out", error.left_out}, {"absolute", error.absolute},
           {"floored", error.floored},   {"R", error.ratio},           {"S", error.symmetric},
@@ -94,25 +83,52 @@ void check_comparable_runs(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b)
   throw std::invalid_argument(fmt::format("{} and {}: must have a frame of output in common", a.name, b.name));
 }
 
+/// Two runs, with the shapes of their piles as JSON.
 template <int Dim>
-RunComparison<Dim> compare_frames(const RecordedRun<Dim>& a, const Trajectory<Dim>& b) {
-  const auto bodies = placed_bodies<Dim>(a.scene.world.shapes, a.frames, last_common_frame(a.frames, b));
-  const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, a.scene.world.ground.height, typical_body(a.scene).extent);
-  return compare_runs<Dim>(a.frames, b, a.scene.world.shapes, a.scene.world.gravity, grid);
+struct Compared {
+  RunComparison<Dim> result;
+  Json shape_a;
+  Json shape_b;
+};
+
+/// `scene_b` and `done_b` are those of the run of which `b` are the frames.
+template <int Dim>
+Compared<Dim> compare_frames(const RecordedRun<Dim>& a, const Trajectory<Dim>& b, const Scene<Dim>& scene_b,
+                             std::span<const DoneEvent> done_b) {
+  const std::vector<Shape<Dim>>& shapes = a.scene.world.shapes;
+  const int last = last_common_frame(a.frames, b);
+  const double extent = typical_body(a.scene).extent;
+  const auto bodies = placed_bodies<Dim>(shapes, a.frames, last);
+  const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, a.scene.world.ground.height, extent);
+  const double time = static_cast<double>(a.frames.step(last)) * a.frames.step_time();
+  Compared<Dim> both{compare_runs<Dim>(a.frames, b, shapes, a.scene.world.gravity, grid), {}, {}};
+  both.shape_a = shape_json<Dim>(bodies, both.result.shape_a, grid, world_at<Dim>(a.scene, a.done, time), extent);
+  both.shape_b = shape_json<Dim>(placed_bodies<Dim>(shapes, b, last), both.result.shape_b, grid,
+                                 world_at<Dim>(scene_b, done_b, time), extent);
+  return both;
+}
+
+/// B's numbers minus A's, by name; without the texts, and null where either has none.
+Json difference_of(const Json& a, const Json& b) {
+  Json difference;
+  for (const auto& [name, value] : b.items()) {
+    if (name.ends_with("_reason")) continue;
+    const bool both = value.is_number() && a[name].is_number();
+    difference[name] = both ? Json(value.get<double>() - a[name].get<double>()) : Json();
+  }
+  return difference;
 }
 
 /// All numbers that are 0 where the runs are equal; of the shape B's minus A's.
 template <int Dim>
-Json numbers_json(const RunComparison<Dim>& result) {
-  const Json shape_a = shape_json(result.shape_a);
-  Json shape = shape_json(result.shape_b);
-  for (auto& [name, value] : shape.items()) value = value.template get<double>() - shape_a[name].template get<double>();
+Json numbers_json(const Compared<Dim>& compared) {
+  const RunComparison<Dim>& result = compared.result;
   return {{"motion", motion_json(result.motion_mean)},
           {"distance_D",
            {{"mean_at_end", result.position_mean[result.last]},
             {"p95_at_end", result.position_p95},
             {"max_at_end", result.position_max}}},
-          {"shape", shape},
+          {"shape", difference_of(compared.shape_a, compared.shape_b)},
           {"profile_rms_D", result.profile_rms},
           {"z", {{"ks", result.z.kolmogorov_smirnov}, {"w1_m", result.z.wasserstein}, {"energy_m", result.z.energy}}},
           {"r", {{"ks", result.r.kolmogorov_smirnov}, {"w1_m", result.r.wasserstein}, {"energy_m", result.r.energy}}}};
@@ -149,7 +165,7 @@ Json floor_json(const RecordedRun<Dim>& a, int twins) {
   Json floor = nullptr;
   for (int k = 1; k <= twins; ++k) {
     if (floor.is_null()) floor = Json::object();
-    raise_floor(floor, numbers_json(compare_frames(a, twin_of(a, k * shift))));
+    raise_floor(floor, numbers_json(compare_frames<Dim>(a, twin_of(a, k * shift), a.scene, a.done)));
   }
   return floor;
 }
@@ -191,7 +207,8 @@ std::string verdict_of(const Json& json) {
 template <int Dim>
 Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b, int twins) {
   check_comparable_runs(a, b);
-  const RunComparison<Dim> result = compare_frames(a, b.frames);
+  const Compared<Dim> compared = compare_frames<Dim>(a, b.frames, b.scene, b.done);
+  const RunComparison<Dim>& result = compared.result;
   Json json = {{"a", head_json(a)},
                {"b", head_json(b)},
                {"settings_that_differ", settings_json(a, b)},
@@ -210,9 +227,9 @@ Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b, int t
                                           {"woke", event->woke},
                                           {"cause", std::string(to_string(event->cause))}};
   }
-  json["shape_a"] = shape_json(result.shape_a);
-  json["shape_b"] = shape_json(result.shape_b);
-  const Json numbers = numbers_json(result);
+  json["shape_a"] = compared.shape_a;
+  json["shape_b"] = compared.shape_b;
+  const Json numbers = numbers_json(compared);
   for (const char* key : {"motion", "distance_D", "profile_rms_D", "z", "r"}) json[key] = numbers[key];
   json["floor"] = floor_json(a, twins);
   json["verdict"] = verdict_of(json);
@@ -220,8 +237,8 @@ Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b, int t
 }
 
 std::string number(const Json& value) {
-  const double known = value.get<double>();
-  return std::isfinite(known) ? fmt::format("{:.4g}", known) : "-";
+  const bool known = value.is_number() && std::isfinite(value.get<double>());
+  return known ? fmt::format("{:.4g}", value.get<double>()) : "-";
 }
 
 std::string printed(const Json& text) { return printable(text.get<std::string>()); }
@@ -269,7 +286,7 @@ Table numbers_table(std::string title, std::vector<Column> columns, const Json& 
 }
 
 void add_row(Table& table, const Json& json, std::vector<std::string> cells, const Json::json_pointer& in_floor) {
-  if (!json["floor"].is_null()) cells.push_back(number(json["floor"][in_floor]));
+  if (!json["floor"].is_null()) cells.push_back(number(json["floor"].value(in_floor, Json())));
   table.rows.push_back(std::move(cells));
 }
 
@@ -287,8 +304,14 @@ void print_shapes(const Json& json) {
   Table shape =
       numbers_table("\nShape at the last frame that both have", {{"measure"}, {"A", true}, {"B", true}}, json);
   for (const auto& [name, value] : json["shape_a"].items())
-    add_row(shape, json, {name, number(value), number(json["shape_b"][name])}, Json::json_pointer("/shape/" + name));
+    if (!name.ends_with("_reason"))
+      add_row(shape, json, {name, number(value), number(json["shape_b"][name])}, Json::json_pointer("/shape/" + name));
   print_text(text_of(shape));
+  for (const auto& [letter, side] : {std::pair("A", "shape_a"), {"B", "shape_b"}})
+    for (const auto& [reason, name] :
+         {std::pair("angle_of_repose_reason", "angle of repose"), {"packing_reason", "packing"}})
+      if (const Json& text = json[side][reason]; text.is_string())
+        print_result("{}: no {}: {}\n", letter, name, printed(text));
   Table between = numbers_table("\nBetween the shapes", {{"measure"}, {"value", true}}, json);
   add_row(between, json, {"profile_rms_D", number(json["profile_rms_D"])}, Json::json_pointer("/profile_rms_D"));
   for (const char* axis : {"z", "r"})
@@ -328,7 +351,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("compare", "How far two recorded runs differ, and from which step on");
   command->footer(
       "Example: talus compare runs/drop_in_a_pile_2d-box2d-full runs/drop_in_a_pile_2d-box2d-paper\n"
-      "docs/measures.md explains each measure and gives its floor and ceiling.");
+      "docs/accuracy.md explains each measure and gives its floor and ceiling.");
   struct Options {
     std::string a;
     std::string b;

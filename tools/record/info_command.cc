@@ -2,12 +2,12 @@
 #include <string>
 
 #include "tools/commands/commands.h"
+#include "tools/output/json_text.h"
 #include "tools/output/output.h"
 #include "tools/record/log_messages.h"
 #include "tools/record/log_repair.h"
 #include "tools/record/log_summary.h"
 #include "tools/record/record_file.h"
-#include "tools/report/json_text.h"
 
 namespace talus {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "tools/output/json_text.h"
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
-#include "tools/report/json_text.h"
 
 namespace talus {
 namespace {

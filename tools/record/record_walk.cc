@@ -16,10 +16,11 @@ RecordedIdentity identity_of(const MomentReader& reader) {
 }
 
 /// Whether the event completed a moment.
-bool take(const LogEvent& event, const std::filesystem::path& file, MomentReader& reader) {
+bool take(const LogEvent& event, const std::filesystem::path& file, MomentReader& reader,
+          const std::function<void(std::int64_t)>& before) {
   const auto channel = channel_named(event.channel);
   try {
-    return channel && reader.take(*channel, event.data);
+    return channel && reader.take(*channel, event.data, before);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", file.string(), error.what()));
   }
@@ -32,25 +33,24 @@ WalkResult walk_record(const Scene<Dim>& scene, LogReader& log, const std::files
                        const std::function<void(const Moment&)>& visit) {
   MomentReader reader(Dim, limits_of(scene));
   OneRun run;
-  std::int64_t last_step = 0;
-  std::vector<SleepEvent> later_events;
+  bool whole = false;  // a moment that was not visited yet: the end of a run says some things of it again
+  const auto show = [&] {
+    if (std::exchange(whole, false)) visit(reader.moment());
+  };
+  const auto before = [&](std::int64_t step) {
+    if (step != reader.moment().step) show();
+  };
   for (LogEvent event; log.next(event);) {
     run.see(event, file);
-    if (!take(event, file, reader)) continue;
-    const Moment& moment = reader.moment();
-    if (moment.step > last_step)
-      visit(moment);
-    else
-      later_events.insert(later_events.end(), moment.events.begin(), moment.events.end());
-    last_step = moment.step;
+    if (take(event, file, reader, before)) whole = true;
   }
-  later_events.insert(later_events.end(), reader.later_events().begin(), reader.later_events().end());
+  show();
   return {.damage = {.bytes = log.damage().bytes,
                      .undecodable = reader.undecodable(),
                      .lost_events = reader.lost(Channel::sleep)},
           .run = identity_of(reader),
           .last = reader.moment(),
-          .later_events = std::move(later_events)};
+          .later_events = reader.later_events()};
 }
 
 template WalkResult walk_record(const Scene<2>&, LogReader&, const std::filesystem::path&,

@@ -33,13 +33,12 @@ struct RecordedIdentity {
 struct WalkResult {
   WalkDamage damage;
   RecordedIdentity run;
-  Moment last;                           // that of the end, which may be of the last frame's step again
+  Moment last;
   std::vector<SleepEvent> later_events;  // that are in no moment visited
 };
 
-/// Calls `visit` with each moment in order; the one at the end of a run that was not cut short has the step of the last
-/// frame of output and is left out. Throws std::invalid_argument where the record is not of `scene`, of another format
-/// or of several runs; `file` is for the message.
+/// Calls `visit` with each moment in order, the last one as the end of the run tells it. Throws std::invalid_argument
+/// where the record is not of `scene`, of another format or of several runs; `file` is for the message.
 template <int Dim>
 WalkResult walk_record(const Scene<Dim>& scene, LogReader& log, const std::filesystem::path& file,
                        const std::function<void(const Moment&)>& visit);

@@ -40,7 +40,7 @@ template <int Dim>
 double largest_gravity(const Scene<Dim>& scene) {
   std::vector<Vec<Dim>> still = {scene.world.gravity_vector()};
   for (const Event<Dim>& event : scene.events)
-    if (event.action == "gravity") still.push_back(event.gravity);
+    if (event.action == EventAction::gravity) still.push_back(event.gravity);
   const Motion<Dim> plan = scene.gravity_motion.value_or(Motion<Dim>());
   std::vector<Vec<Dim>> shifts = plan.shifts;
   if (shifts.empty()) shifts.push_back(Vec<Dim>::Zero());

@@ -16,9 +16,10 @@
 #include "lcmtypes/moment_reader.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/translate.h"
+#include "tools/output/json_text.h"
 #include "tools/picture/framing.h"
-#include "tools/report/json_text.h"
-#include "tools/serve/state_copy.h"
+#include "tools/view/frame_stream.h"
+#include "tools/view/merge_blocks.h"
 #include "tools/view/run_head.h"
 
 namespace talus {
@@ -74,7 +75,6 @@ class LiveRun::Assembly {
   template <class Message>
   void take(const Message& message) {
     if (reader_.take(message) && reader_.has_all_shapes()) show(reader_);
-    if constexpr (std::is_same_v<Message, talus_sleep>) hub_.add_events(events_of(message));
     if constexpr (std::is_same_v<Message, talus_run> || std::is_same_v<Message, talus_stats>) show_status();
   }
 
@@ -111,31 +111,43 @@ class AssemblyOf final : public LiveRun::Assembly {
   using Assembly::Assembly;
 
  private:
-  /// A shape or an event that was not known yet begins the picture again. All are sent each second, so one comes late
-  /// only where messages were lost.
+  /// A shape that was not known yet begins the run again. An obstacle or a text that comes late tells the pages more of
+  /// the same run.
   void show(const MomentReader& reader) override {
-    const bool first = head_ == nullptr || form_number_ != reader.form();
     const Moment& moment = reader.moment();
     const BodyStates<Dim> states = states_of<Dim>(moment);
     const std::vector<Pile<Dim>> piles = piles_of<Dim>(moment);
-    if (first) make_head(reader, states, piles);
+    if (form_ == nullptr || shape_form_ != reader.shape_form()) {
+      const Scene<Dim> scene = known_scene(reader);
+      form_ = frame_form(scene);
+      encoder_.emplace(form_);
+      shown_events_ = 0;
+      hub().begin(head_of(reader, scene, states, piles), merge_blocks<Dim>);
+    } else if (told_form_ != reader.form()) {
+      hub().set_head(head_of(reader, known_scene(reader), states, piles));
+    }
+    shape_form_ = reader.shape_form();
+    told_form_ = reader.form();
+    if (moment.step != shown_step_) shown_events_ = 0;
     const std::vector<ObstaclePose<Dim>> obstacles = obstacles_of<Dim>(moment);
-    auto snapshot = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = moment.step,
-                                                                    .states = states,
-                                                                    .piles = piles,
-                                                                    .warnings = moment.warnings,
-                                                                    .kinetic_energy = moment.kinetic_energy,
-                                                                    .scene_events = moment.done,
-                                                                    .drift_estimate = moment.drift.value_or(-1.0),
-                                                                    .obstacles = obstacles},
-                                                     form_, head_);
-    if (first)
-      hub().begin(std::move(snapshot));
-    else
-      hub().publish(std::move(snapshot));
+    const talus_stats stats = reader.stats().value_or(talus_stats{});
+    hub().publish({.step = moment.step,
+                   .block = encoder_->encode({.step = moment.step,
+                                              .states = states,
+                                              .events = std::span(moment.events).subspan(shown_events_),
+                                              .piles = piles,
+                                              .warnings = moment.warnings,
+                                              .kinetic_energy = moment.kinetic_energy,
+                                              .scene_events = moment.done,
+                                              .drift_estimate = moment.drift.value_or(-1.0),
+                                              .obstacles = obstacles,
+                                              .ms_per_step = stats.timed != 0 ? stats.ms_step : -1.0}),
+                   .contacts = {}});
+    shown_step_ = moment.step;
+    shown_events_ = moment.events.size();
   }
 
-  void make_head(const MomentReader& reader, const BodyStates<Dim>& states, const std::vector<Pile<Dim>>& piles) {
+  Scene<Dim> known_scene(const MomentReader& reader) const {
     Scene<Dim> scene;
     scene.title = printable(run().scene);
     scene.seed = static_cast<std::uint64_t>(run().seed);
@@ -145,7 +157,11 @@ class AssemblyOf final : public LiveRun::Assembly {
     for (const auto& [index, message] : reader.shapes()) scene.world.shapes.push_back(to_shape<Dim>(message));
     for (const auto& [index, message] : reader.obstacles())
       scene.world.obstacles.push_back({to_shape<Dim>(message), pose_of<Dim>(message)});
-    form_ = frame_form(scene);
+    return scene;
+  }
+
+  std::string head_of(const MomentReader& reader, const Scene<Dim>& scene, const BodyStates<Dim>& states,
+                      const std::vector<Pile<Dim>>& piles) const {
     const PictureInput<Dim> now = {scene.world.shapes, states, piles, scene.world.obstacles,
                                    scene.world.ground, "",     ""};
     const RunTexts texts = {.name = short_id(run().run_id),
@@ -156,10 +172,10 @@ class AssemblyOf final : public LiveRun::Assembly {
     Json head = run_head(scene, texts, form_->quantum, framing_of(now).box);
     head["kind"] = "head";
     head["steps"] = run().steps;
+    head["steps_per_frame"] = nullptr;  // frames come as they are sent
     head["events"] = events_json(reader.events());
     head["tolerance"] = run().tolerance >= 0.0 ? Json(run().tolerance) : Json();
-    head_ = std::make_shared<std::string>(json_text(head));
-    form_number_ = reader.form();
+    return json_text(head);
   }
 
   /// By number; those not heard of are null.
@@ -172,9 +188,12 @@ class AssemblyOf final : public LiveRun::Assembly {
     return events;
   }
 
-  std::shared_ptr<const FrameForm<Dim>> form_;
-  std::shared_ptr<const std::string> head_;
-  std::int64_t form_number_ = 0;  // of the head
+  std::shared_ptr<const FrameForm<Dim>> form_;  // null: the run has not begun for the pages
+  std::optional<FrameEncoder<Dim>> encoder_;
+  std::int64_t shape_form_ = 0;  // of the run as it was begun
+  std::int64_t told_form_ = 0;   // of the head that pages have
+  std::int64_t shown_step_ = -1;
+  std::size_t shown_events_ = 0;  // of that step
 };
 
 std::unique_ptr<LiveRun::Assembly> assemble(const talus_run& run, PageHub& hub, const std::int64_t& undecodable) {

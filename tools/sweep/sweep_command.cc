@@ -14,9 +14,9 @@
 
 #include "common/scene/read_scene.h"
 #include "common/text/printable.h"
-#include "tools/bench/in_processes.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
+#include "tools/pool/in_processes.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"

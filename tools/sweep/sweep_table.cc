@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/output/csv.h"
 #include "tools/plot/plot.h"
 
 namespace talus {
@@ -22,13 +23,6 @@ std::optional<double> number_in(const std::string& text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + "\"";
 }
 
 /// Names of all columns.
@@ -128,16 +122,14 @@ SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path&
 void write_sweep_csv(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
                      const std::vector<SweepRow>& rows) {
   std::ofstream out(file, std::ios::binary);
-  std::vector<std::string> cells;
-  for (const std::string& column : columns_of(axes)) cells.push_back(csv_cell(column));
-  out << fmt::format("{}\n", fmt::join(cells, ","));
+  out << csv_line(columns_of(axes));
   for (const SweepRow& row : rows) {
-    cells = {fmt::format("{}", row.run)};
-    for (const std::string& value : row.values) cells.push_back(csv_cell(value));
-    cells.insert(cells.end(), {csv_cell(row.reason), row.end_hash});
+    std::vector<std::string> cells = {fmt::format("{}", row.run)};
+    cells.insert(cells.end(), row.values.begin(), row.values.end());
+    cells.insert(cells.end(), {row.reason, row.end_hash});
     for (const std::optional<double>& number : row.numbers)
       cells.push_back(number ? fmt::format("{:.9g}", *number) : "");
-    out << fmt::format("{}\n", fmt::join(cells, ","));
+    out << csv_line(cells);
   }
   out.close();
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");

@@ -175,6 +175,7 @@ Json run_head(const Scene<Dim>& scene, const RunTexts& texts, const Quantum& qua
           {"dimension", Dim},
           {"dt", scene.world.dt},
           {"steps", scene.steps()},
+          {"steps_per_frame", scene.steps_per_frame()},
           {"ground", {{"present", scene.world.ground.present}, {"height", scene.world.ground.height}}},
           {"quantum", {{"position", quantum.position}, {"angle", quantum.angle}, {"quaternion", quantum.quaternion}}},
           {"box", {json_of<Dim>(box.min()), json_of<Dim>(box.max())}},

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "common/math/vector.h"
+
+namespace talus {
+
+/// An angle [rad] brought into [-pi, pi]. Such an angle stays as it is, bit for bit.
+inline double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+/// The angle of a rotation as records and files have it [rad], in [-pi, pi]: Box2D counts whole turns and Bullet does
+/// not.
+inline double wrapped_angle(const Rotation<2>& rotation) { return wrapped(rotation.angle()); }
+
+}  // namespace talus

@@ -1,0 +1,36 @@
+#include "tools/run/shape_json.h"
+
+#include <numbers>
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+}  // namespace
+
+template <int Dim>
+Json shape_json(std::span<const PlacedBody<Dim>> bodies, const ShapeStatistics<Dim>& shape,
+                const ProfileGrid<Dim>& grid, const WorldDescription<Dim>& world, double extent) {
+  const PileForm form = pile_form<Dim>(bodies, shape, grid, world, extent);
+  const auto& slope = form.slope.value;
+  const double degrees = 180.0 / std::numbers::pi;
+  return {{"height_m", shape.peak},
+          {"centre_height_m", shape.centre_height},
+          {"r50_m", shape.r50},
+          {"r95_m", shape.r95},
+          {"angle_of_repose_deg", slope ? Json(slope->angle * degrees) : Json()},
+          {"angle_of_repose_standard_error_deg", slope ? Json(slope->standard_error * degrees) : Json()},
+          {"angle_of_repose_reason", or_null(form.slope.why_not)},
+          {"packing", form.packing.value ? Json(*form.packing.value) : Json()},
+          {"packing_reason", or_null(form.packing.why_not)}};
+}
+
+template Json shape_json(std::span<const PlacedBody<2>>, const ShapeStatistics<2>&, const ProfileGrid<2>&,
+                         const WorldDescription<2>&, double);
+template Json shape_json(std::span<const PlacedBody<3>>, const ShapeStatistics<3>&, const ProfileGrid<3>&,
+                         const WorldDescription<3>&, double);
+
+}  // namespace talus
