@@ -149,7 +149,7 @@ std::string head_of(const Plot& plot) {
   if (plot.log_x) script += logarithmic_axis('x', plot);
   // The caps of bars at the first and last point.
   const bool bars = std::ranges::any_of(plot.series, [](const Series& series) { return !series.low.empty(); });
-  if (bars && !plot.log_x && plot.x_names.empty()) script += "set offsets graph 0.03, graph 0.03, 0, 0\n";
+  if (bars && !plot.log_x) script += "set offsets graph 0.03, graph 0.03, 0, 0\n";
   if (plot.log_y) script += logarithmic_axis('y', plot);
   const bool none_below = std::ranges::all_of(plot.series, [](const Series& series) {
     const auto above = [](double value) { return value >= 0.0; };

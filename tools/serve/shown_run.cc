@@ -65,7 +65,7 @@ class SimulatedScene final : public ShownRun {
   bool at_rest() const override { return simulation_.at_rest(); }
 
   void probe_drift(const std::function<bool()>& stop) override {
-    if (!scene_.policy.tolerance()) return;
+    if (scene_.policy.tolerance().value_or(0.0) <= 0.0) return;
     const auto probe = probe_end_drift<Dim>(simulation_, scene_, backend_, probe_allowance(since_.body_steps), stop);
     if (probe) simulation_.set_probed_drift(probe->expected());
   }
