@@ -14,11 +14,11 @@
 namespace talus {
 
 /// One kind of message each.
-enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events, obstacles };
+enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events, obstacles, scene };
 
-inline constexpr std::array<const char*, 8> channel_names = {"TALUS_RUN",    "TALUS_PILES",    "TALUS_SLEEP",
-                                                             "TALUS_STATS",  "TALUS_BODIES",   "TALUS_SHAPES",
-                                                             "TALUS_EVENTS", "TALUS_OBSTACLES"};
+inline constexpr std::array<const char*, 9> channel_names = {"TALUS_RUN",    "TALUS_PILES",     "TALUS_SLEEP",
+                                                             "TALUS_STATS",  "TALUS_BODIES",    "TALUS_SHAPES",
+                                                             "TALUS_EVENTS", "TALUS_OBSTACLES", "TALUS_SCENE"};
 
 inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
 
@@ -56,6 +56,8 @@ template <>
 inline constexpr Channel channel_of<talus_lcm::talus_event_v2> = Channel::events;
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_obstacles_v1> = Channel::obstacles;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_scene_v1> = Channel::scene;
 
 /// Calls `use` with a default message of the type that the channel carries now.
 template <class Use>
@@ -77,6 +79,8 @@ void with_message_of(Channel channel, const Use& use) {
       return use(talus_lcm::talus_event_v2{});
     case Channel::obstacles:
       return use(talus_lcm::talus_obstacles_v1{});
+    case Channel::scene:
+      return use(talus_lcm::talus_scene_v1{});
   }
 }
 

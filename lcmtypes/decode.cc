@@ -24,6 +24,7 @@ using talus_lcm::talus_pile_v2;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
+using talus_lcm::talus_scene_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v1;
@@ -281,6 +282,11 @@ std::string_view range_fault(const talus_obstacles_v1& m) {
   if (m.value_count != m.obstacle_count * (m.dimension == 2 ? 3 : 7)) return "values do not match obstacles";
   if (!ascend(m.obstacle)) return "obstacles not ascending";
   if (m.obstacle_count > 0 && m.obstacle.front() < 0) return "negative obstacle";
+  return {};
+}
+
+std::string_view range_fault(const talus_scene_v1& m) {
+  if (!header_holds(m) || !parts_hold(m)) return "header out of range";
   return {};
 }
 

@@ -21,6 +21,7 @@ std::string_view range_fault(const talus_lcm::talus_shapes_v1& message);
 std::string_view range_fault(const talus_lcm::talus_event_v1& message);
 std::string_view range_fault(const talus_lcm::talus_event_v2& message);
 std::string_view range_fault(const talus_lcm::talus_obstacles_v1& message);
+std::string_view range_fault(const talus_lcm::talus_scene_v1& message);
 
 /// Whether the bytes are of a size that a message can have and match the checksum at their end.
 bool checksum_holds(std::span<const std::uint8_t> bytes);

@@ -170,12 +170,12 @@ void Publisher<Dim>::send_shapes(const Frame<Dim>& frame) {
 template <int Dim>
 void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   if (!queue_) return;
+  send(to_piles<Dim>(last.piles.piles(), last.policy), last.step, last.time);
+  send_stats(last, Clock::now());  // before the poses, which are shown with them
   if (sends_poses()) {
     send_shapes(last);
     send_all_poses(last);
   }
-  send(to_piles<Dim>(last.piles.piles(), last.policy), last.step, last.time);
-  send_stats(last, Clock::now());
   send_run(talus_run_v1::END, reason, last.step, last.time);
   queue_->close(farewell_time);
   if (dropped() > 0) spdlog::warn("live view: {} messages were dropped; the record has everything", dropped());

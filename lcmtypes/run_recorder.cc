@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "lcmtypes/translate.h"
 
@@ -43,7 +44,10 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
       obstacles_(scene.world.obstacles) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
+  auto scene_files = to_scene_files(scene);
+  has_scene_ = !scene_files.empty();
   write_run(talus_run_v1::BEGIN, {}, 0, 0.0);
+  write(std::move(scene_files), 0, 0.0);
   write(to_shapes<Dim>(scene.world), 0, 0.0);
   log_.flush();
 }
@@ -117,7 +121,8 @@ std::vector<BodyIndex> RunRecorder<Dim>::moved(const Frame<Dim>& frame) {
 
 template <int Dim>
 void RunRecorder<Dim>::write_run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  const auto channels = channels_of_run(!scene_events_.empty(), !movers_.empty());
+  auto channels = channels_of_run(!scene_events_.empty(), !movers_.empty());
+  if (has_scene_) channels.push_back(Channel::scene);
   auto message = to_run(info_, phase, reason, channels, encoder_);
   write(message, step, time);
 }

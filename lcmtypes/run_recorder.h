@@ -17,16 +17,16 @@ struct RecorderParams {
                                     // short: the file of a lively run doubles
 };
 
-/// Writes the record of a run: shapes at the start, events of the scene, sleep events of each step, piles, statistics
-/// and poses of each frame of output, of obstacles that move too, key frames, and why it ended. Key frames come after
-/// at least as many poses of moving bodies, so together they take no more room than what moves, however many sleep.
-/// Stamps are simulated time and nothing in the file is from the wall clock, so the same run gives the same bytes. When
-/// the disk is full a call throws std::system_error, and later ones do nothing.
+/// Writes the record of a run: the scene's files and shapes at the start, events of the scene, sleep events of each
+/// step, piles, statistics and poses of each frame of output, of obstacles that move too, key frames, and why it ended.
+/// Key frames come after at least as many poses of moving bodies, so together they take no more room than what moves,
+/// however many sleep. Stamps are simulated time and nothing in the file is from the wall clock, so the same run gives
+/// the same bytes. When the disk is full a call throws std::system_error, and later ones do nothing.
 template <int Dim>
 class RunRecorder final : public Observer<Dim> {
  public:
   /// Throws std::system_error when the file cannot be made, std::invalid_argument on bad parameters and on a shape
-  /// too large for a message.
+  /// too large for a message, or where a file that the scene names can no longer be read.
   RunRecorder(const std::string& path, const RunInfo& info, const Scene<Dim>& scene, const RecorderParams& params = {});
 
   void on_frame(const Frame<Dim>& frame) override;
@@ -56,6 +56,7 @@ class RunRecorder final : public Observer<Dim> {
   std::vector<Mover<Dim>> movers_;
   std::vector<Obstacle<Dim>> obstacles_;  // before they moved
   double obstacles_time_ = -1.0;          // when their poses were written last [s]; below 0: never
+  bool has_scene_ = false;                // that was read from TOML
   bool removed_ = false;                  // an event removed bodies since the last key frame
 };
 

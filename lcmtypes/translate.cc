@@ -10,6 +10,7 @@
 
 #include "common/math/angle.h"
 #include "common/scene/happened.h"
+#include "common/scene/write_scene.h"
 #include "common/world/energy.h"
 
 namespace talus {
@@ -211,9 +212,9 @@ talus_stats_v2 to_stats(const Frame<Dim>& frame) {
   message.kinetic_energy = kinetic_energy(frame.world);
   message.planned = frame.bodies_planned;
   message.appeared = states.size();
-  const auto estimate = frame.policy == nullptr ? std::nullopt : frame.policy->drift_estimate(frame.world);
-  message.drift_estimate = estimate ? estimate->drift / frame.piles.typical_body().extent : -1.0;
-  message.checked_share = estimate ? estimate->checked_share : 0.0;
+  const std::optional<ToldDrift> drift = told_drift(frame);
+  message.drift_estimate = drift ? drift->drift : -1.0;
+  message.checked_share = drift ? drift->checked_share : 0.0;
   message.overlap = frame.overlap.deepest;
   message.overlap_share = frame.overlap.share;
   for (const Warning& warning : frame.warnings) {
@@ -422,6 +423,25 @@ Pose<Dim> pose_of(const talus_shapes_v1& message) {
 }
 
 template <int Dim>
+std::vector<talus_lcm::talus_scene_v1> to_scene_files(const Scene<Dim>& scene) {
+  constexpr std::size_t part_bytes = 48'000;
+  std::vector<talus_lcm::talus_scene_v1> messages;
+  for (const SceneFile& file : scene_files(scene)) {
+    const std::size_t parts = std::max<std::size_t>(1, (file.text.size() + part_bytes - 1) / part_bytes);
+    for (std::size_t part = 0; part < parts; ++part) {
+      talus_lcm::talus_scene_v1& message = messages.emplace_back();
+      message.file = file.name;
+      message.part = static_cast<std::int32_t>(part);
+      message.parts = static_cast<std::int32_t>(parts);
+      message.text = file.text.substr(part * part_bytes, part_bytes);
+    }
+  }
+  return messages;
+}
+template std::vector<talus_lcm::talus_scene_v1> to_scene_files(const Scene<2>&);
+template std::vector<talus_lcm::talus_scene_v1> to_scene_files(const Scene<3>&);
+
+template <int Dim>
 Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message) {
   Pile<Dim> pile;
   if constexpr (Dim == 2)
@@ -456,7 +476,7 @@ std::vector<talus_lcm::talus_event_v2> to_events(const Scene<Dim>& scene) {
     message.total = static_cast<std::int32_t>(scene.events.size());
     message.happened_step = -1;
     message.happened_time = -1.0;
-    message.action = event.action;
+    message.action = to_string(event.action);
     message.text = clipped(event_text(scene, message.number));
     const ObstacleName name = event.obstacle ? scene.obstacle_names[*event.obstacle] : ObstacleName();
     const int most = static_cast<int>((max_message_bytes - 3000) / sizeof(std::int32_t));

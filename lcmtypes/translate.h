@@ -62,6 +62,11 @@ std::vector<talus_lcm::talus_event_v2> to_events(const Scene<Dim>& scene);
 template <int Dim>
 void set_happened(const Frame<Dim>& frame, double dt, talus_lcm::talus_event_v2& message);
 
+/// The files of a scene that was read from TOML, in parts; none of another. Throws std::system_error where one cannot
+/// be read.
+template <int Dim>
+std::vector<talus_lcm::talus_scene_v1> to_scene_files(const Scene<Dim>& scene);
+
 /// The pile of a message that decode() took.
 template <int Dim>
 Pile<Dim> to_pile(const talus_lcm::talus_pile_v2& message);

@@ -16,8 +16,9 @@ float skin(const b2Fixture& fixture) {
 
 }  // namespace
 
-ContactListener::ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start)
-    : warm_start_(&warm_start), continuous_(description), mix_restitutions_(restitutions_differ(description)) {}
+ContactListener::ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start,
+                                 ContinuousCollision& continuous)
+    : warm_start_(&warm_start), continuous_(&continuous), mix_restitutions_(restitutions_differ(description)) {}
 
 void ContactListener::BeginContact(b2Contact* contact) {
   if (mix_restitutions_) mix_restitution(*contact);
@@ -40,7 +41,7 @@ void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {
 }
 
 void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
-  if (sleepers_) continuous_.leave_out_if_slow(*contact);
+  continuous_->note_solved(*contact, sleepers_);
   if (!recording_) return;
   ContactRecord& record = records_[*contact];
   for (int i = 0; i < impulse->count; ++i) {

@@ -15,19 +15,19 @@
 
 namespace talus::box2d {
 
-/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made again, turns
-/// off continuous collision of slow bodies against frozen ones, and, in a step that records contacts, notes what only a
-/// listener sees: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
+/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made again, tells
+/// the choice of continuous collision what was solved, and, in a step that records contacts, notes what only a listener
+/// sees: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
 class ContactListener final : public b2ContactListener {
  public:
-  ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start);
+  ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start, ContinuousCollision& continuous);
 
   void BeginContact(b2Contact* contact) override;
   void PreSolve(b2Contact* contact, const b2Manifold* before) override;
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
-  /// Forgets the last step. `sleepers`: whether there are frozen bodies in the coming one; `recording`: whether to
-  /// record its contacts.
+  /// Forgets the last step. `sleepers`: whether there are frozen bodies in the coming one and slow bodies are not swept
+  /// against them; `recording`: whether to record its contacts.
   void start_step(bool sleepers, bool recording);
 
   /// After a step that recorded: appends its touching contacts, sorted by their bodies and pieces. Each is listed once:
@@ -44,7 +44,7 @@ class ContactListener final : public b2ContactListener {
   static void append(const Touch& touch, std::vector<Contact<2>>& out);
 
   const WarmStart* warm_start_;
-  ContinuousCollision continuous_;
+  ContinuousCollision* continuous_;
   bool mix_restitutions_;
   bool sleepers_ = false;
   bool recording_ = false;

@@ -48,12 +48,14 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
     : World<2>(description, {fastest_speed<2>(description.dt), fastest_spin(description.dt)}),
       world_(to_engine(description.gravity_vector())),
       hosts_(world_, !description.debug.keep_sleepers),
-      listener_(description, warm_start_),
+      continuous_(description),
+      listener_(description, warm_start_, continuous_),
       rolling_(description, world_) {
   for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
   world_.SetAllowSleeping(description.engine_sleep);
   world_.SetAutoClearForces(false);  // there are none
   world_.SetContactListener(&listener_);
+  world_.SetContactFilter(&continuous_);
   if (description.ground.present) add_ground();
   add_obstacles();
 }
@@ -92,15 +94,17 @@ void EngineWorld::add_obstacles() {
 Pose<2> EngineWorld::engine_add(BodyIndex body, const BodyDef<2>& def) {
   check_memory();
   Pose<2> pose{from_engine(to_engine(def.pose.position)), Rotation<2>(engine_angle(def.pose.rotation.angle()))};
-  b2Body* made = create(body, template_of(def.shape), pose);
+  b2Body* made = create(body, def.shape, pose);
   give_velocity(*made, def.velocity, def.spin);
   bodies_.push_back({made, nullptr});
   proxies_moved_ = true;
   return pose;
 }
 
-b2Body* EngineWorld::create(BodyIndex index, const BodyTemplate& from, const Pose<2>& pose) {
+b2Body* EngineWorld::create(BodyIndex index, int shape, const Pose<2>& pose) {
+  const BodyTemplate& from = template_of(shape);
   b2BodyDef def;
+  def.userData.pointer = static_cast<std::uintptr_t>(shape);  // for ContinuousCollision
   def.type = b2_dynamicBody;
   def.position = to_engine(pose.position);
   def.angle = static_cast<float>(pose.rotation.angle());
@@ -136,8 +140,12 @@ EngineTimes EngineWorld::engine_step() {
   if (!description().debug.step_when_idle && awake().empty()) return {};
   check_memory();
   rolling_.start_step(states().shape);
+  find_new_contacts();
+  for (const BodyIndex body : awake()) continuous_.note_body(*at(body).body, states().shape[body]);
+  continuous_.start_step();
   world_.Step(static_cast<float>(description().dt), description().solver.velocity_iterations,
               description().solver.position_iterations);
+  continuous_.end_step();
   warm_start_.end_step();
   proxies_moved_ = false;
   const b2Profile& profile = world_.GetProfile();
@@ -162,11 +170,9 @@ void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) { listener_
 
 bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
 
-void EngineWorld::engine_move_obstacle(int number, const Pose<2>& to) {
-  const Pose<2>& from = obstacle_pose(number);
-  const double rate = 1.0 / description().dt;
-  give_velocity(*obstacles_[number], rate * (to.position - from.position),
-                Spin<2>(rate * (to.rotation.angle() - from.rotation.angle())));
+void EngineWorld::engine_move_obstacle(int number, const Vec<2>& velocity, const Spin<2>& spin) {
+  give_velocity(*obstacles_[number], velocity, spin);
+  continuous_.note_moving_obstacle();
 }
 
 void EngineWorld::engine_place_obstacle(int number, const Pose<2>& at) {
@@ -224,7 +230,7 @@ std::vector<b2Fixture*> EngineWorld::fixtures_of(std::span<const BodyIndex> bodi
 /// Creates a Box2D body for each of `bodies` that has none yet.
 void EngineWorld::create_thawed(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies)
-    if (at(body).body == nullptr) at(body) = {create(body, template_of_body(body), states().pose[body]), nullptr};
+    if (at(body).body == nullptr) at(body) = {create(body, states().shape[body], states().pose[body]), nullptr};
 }
 
 void EngineWorld::check_memory() const { reserve_.check(bodies_.size(), world_.GetContactCount()); }

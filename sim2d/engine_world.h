@@ -9,6 +9,7 @@
 #include "common/world/world.h"
 #include "sim2d/body_template.h"
 #include "sim2d/contacts.h"
+#include "sim2d/continuous.h"
 #include "sim2d/conversions.h"
 #include "sim2d/rolling_resistance.h"
 #include "sim2d/static_hosts.h"
@@ -42,14 +43,14 @@ class EngineWorld final : public World<2> {
   void engine_query_box(const Box<2>& box, std::vector<BodyIndex>& found) const override;
   void engine_contacts(std::vector<Contact<2>>& contacts) override;
   bool engine_awake(BodyIndex body) const override;
-  void engine_move_obstacle(int number, const Pose<2>& to) override;
+  void engine_move_obstacle(int number, const Vec<2>& velocity, const Spin<2>& spin) override;
   void engine_place_obstacle(int number, const Pose<2>& at) override;
   void engine_remove_obstacle(int number) override;
   void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
 
   void add_ground();
   void add_obstacles();
-  b2Body* create(BodyIndex index, const BodyTemplate& from, const Pose<2>& pose);
+  b2Body* create(BodyIndex index, int shape, const Pose<2>& pose);
   std::vector<b2Fixture*> fixtures_of(std::span<const BodyIndex> bodies) const;
   void create_thawed(std::span<const BodyIndex> bodies);
   /// Throws std::bad_alloc where Box2D could not get the memory for its next step.
@@ -67,6 +68,7 @@ class EngineWorld final : public World<2> {
   MemoryReserve reserve_;
   StaticHosts hosts_;
   WarmStart warm_start_;
+  ContinuousCollision continuous_;
   ContactListener listener_;
   RollingResistance rolling_;
   std::vector<EngineBody> bodies_;

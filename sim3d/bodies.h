@@ -36,7 +36,7 @@ class RigidBodyMaker {
 std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, const Surface& surface,
                                                       const btTransform& place, BodyIndex index);
 
-/// An obstacle that moves by plan: Bullet takes its velocity from the difference of its two transforms.
+/// An obstacle that moves by plan, with the velocity that it is given for each step.
 std::unique_ptr<btCollisionObject> make_moving_obstacle(const BodyTemplate& shape, const btTransform& place,
                                                         BodyIndex index);
 

@@ -176,7 +176,7 @@ BodyTemplate make_body_template(const Shape<Dim>& shape, double mass_scale) {
   assemble(made, make_pieces(shape, made));
   made.mass = static_cast<btScalar>(mass_scale * shape.mass);
   set_inertia(made, Inertia<Dim>(mass_scale * shape.inertia));
-  made.surface.friction = static_cast<btScalar>(std::sqrt(shape.material.friction));
+  made.surface.friction = static_cast<btScalar>(pair_friction(shape.material.friction, 1.0));  // Bullet multiplies both
   made.surface.restitution = static_cast<btScalar>(std::sqrt(shape.material.restitution));
   made.surface.rolling_arm = static_cast<btScalar>(rolling_arm(shape));
   double width = smallest_width(shape.pieces[0]);

@@ -72,6 +72,10 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
 
 template <int Dim>
 typename Contacts<Dim>::Motion Contacts<Dim>::motion_before(const btCollisionObject& object) const {
+  if (object.isKinematicObject()) {
+    const btRigidBody& obstacle = *btRigidBody::upcast(&object);
+    return {obstacle.getLinearVelocity(), obstacle.getAngularVelocity()};
+  }
   if (object.isStaticObject() || object.getUserIndex() < 0) return {};
   return motion_[object.getWorldArrayIndex() - first_];
 }

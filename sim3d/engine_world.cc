@@ -95,7 +95,7 @@ template <int Dim>
 void EngineWorld<Dim>::add_ground() {
   const Ground& ground = this->description().ground;
   ground_ = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), static_cast<btScalar>(ground.height));
-  const Surface surface{static_cast<btScalar>(std::sqrt(ground.material.friction)),
+  const Surface surface{static_cast<btScalar>(pair_friction(ground.material.friction, 1.0)),
                         static_cast<btScalar>(std::sqrt(ground.material.restitution))};
   statics_.push_back(make_static_object(*ground_, surface, btTransform::getIdentity(), ground_index));
   engine_.world.add_static(*statics_.back());
@@ -172,24 +172,16 @@ std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) 
   return std::nullopt;
 }
 
-/// The transform before the last step is set to what it would have been with the velocity of the next one: Bullet
-/// takes the velocity from the difference.
 template <int Dim>
-void EngineWorld<Dim>::engine_move_obstacle(int number, const Pose<Dim>& to) {
-  btCollisionObject& object = obstacle(number);
-  const btTransform& now = object.getWorldTransform();
-  const btTransform next = to_bullet(to, obstacles_[number].frame);
-  const btMatrix3x3 turn = next.getBasis() * now.getBasis().transpose();
-  object.setInterpolationWorldTransform(
-      btTransform(turn.transpose() * now.getBasis(), btScalar(2) * now.getOrigin() - next.getOrigin()));
+void EngineWorld<Dim>::engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+  give_velocity<Dim>(*btRigidBody::upcast(&obstacle(number)), velocity, spin);
 }
 
 template <int Dim>
 void EngineWorld<Dim>::engine_place_obstacle(int number, const Pose<Dim>& at) {
-  btCollisionObject& object = obstacle(number);
-  const btTransform place = to_bullet(at, obstacles_[number].frame);
-  object.setWorldTransform(place);
-  object.setInterpolationWorldTransform(place);
+  btRigidBody& body = *btRigidBody::upcast(&obstacle(number));
+  body.setWorldTransform(to_bullet(at, obstacles_[number].frame));
+  give_velocity<Dim>(body, Vec<Dim>::Zero(), Spin<Dim>::Zero());
 }
 
 /// It stays in Bullet's list of objects, without an entry in the broad phase: nothing meets it any more.

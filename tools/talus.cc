@@ -3,6 +3,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -17,7 +18,6 @@
 #endif
 #ifdef TALUS_LCM
 #include "tools/monitor/monitor_command.h"
-#include "tools/monitor/record_command.h"
 #endif
 #include "tools/output/output.h"
 #include "tools/run/huge_pages.h"
@@ -33,16 +33,6 @@ void send_log_to_standard_error() {
   spdlog::set_pattern("%l: %v");
 }
 
-#ifdef TALUS_LCM
-void add_log_commands(CLI::App& app, int& exit_code) {
-  talus::add_info_command(app, exit_code);
-  talus::add_cat_command(app, exit_code);
-  talus::add_cut_command(app, exit_code);
-  talus::add_repair_command(app, exit_code);
-  talus::add_diff_command(app, exit_code);
-}
-#endif
-
 void add_commands(CLI::App& app, int& exit_code) {
   talus::add_run_command(app, exit_code);
   talus::add_new_command(app, exit_code);
@@ -51,7 +41,6 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_bench_command(app, exit_code);
   talus::add_stress_command(app, exit_code);
   talus::add_sweep_command(app, exit_code);
-  talus::add_sheet_command(app, exit_code);
   talus::add_reference_command(app, exit_code);
   talus::add_view_command(app, exit_code);
 #ifdef TALUS_BULLET
@@ -59,14 +48,11 @@ void add_commands(CLI::App& app, int& exit_code) {
 #endif
 #ifdef TALUS_LCM
   talus::add_monitor_command(app);
-  talus::add_record_command(app);
   talus::add_compare_command(app, exit_code);
-  talus::add_wake_command(app, exit_code);
   talus::add_film_command(app, exit_code);
   talus::add_replay_command(app, exit_code);
-  talus::add_report_command(app, exit_code);
   talus::add_export_command(app, exit_code);
-  add_log_commands(app, exit_code);
+  talus::add_info_command(app, exit_code);
 #endif
 }
 
@@ -82,6 +68,7 @@ int execute(int argc, char** argv) {
   CLI::App app("talus: piles of rigid bodies, simulated faster by freezing bodies at rest", "talus");
   app.set_version_flag("--version", talus::version_text() + ", " + talus::build_text());
   app.require_subcommand(1);
+  app.formatter(std::make_shared<talus::PlainHelp>());
   int exit_code = talus::exit_codes::success;
   add_commands(app, exit_code);
   try {

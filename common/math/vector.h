@@ -57,6 +57,17 @@ struct Pose {
   Vec<Dim> operator*(const Vec<Dim>& local) const { return position + rotation * local; }
 };
 
+/// The constant spin that turns `from` into `to` within a time [s]: in 3D the shorter way round.
+template <int Dim>
+Spin<Dim> spin_between(const Rotation<Dim>& from, const Rotation<Dim>& to, double time) {
+  if constexpr (Dim == 2) {
+    return Spin<2>((to.angle() - from.angle()) / time);
+  } else {
+    const Eigen::AngleAxisd turn(to * from.conjugate());
+    return turn.angle() / time * turn.axis();
+  }
+}
+
 /// Height of a point: its last coordinate [m].
 template <int Dim>
 double height(const Vec<Dim>& point) {

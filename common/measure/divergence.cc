@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 namespace talus {
@@ -37,21 +36,6 @@ std::vector<double> position_differences(const Trajectory<Dim>& a, const Traject
     means.push_back(present > 0 ? sum / present : 0.0);
   }
   return means;
-}
-
-int divergence_frame(std::span<const double> floor_pair) {
-  const std::size_t tail = std::min(floor_pair.size(), std::max<std::size_t>(floor_pair.size() / 10, 1));
-  const std::span<const double> last = floor_pair.last(tail);
-  const double half =
-      0.5 * std::accumulate(last.begin(), last.end(), 0.0) / static_cast<double>(std::max<std::size_t>(tail, 1));
-  const auto found = std::find_if(floor_pair.begin(), floor_pair.end(), [&](double value) { return value > half; });
-  return static_cast<int>(found - floor_pair.begin());
-}
-
-double skill(double value, double floor, double ceiling) {
-  if (!(ceiling > floor))
-    throw std::invalid_argument(fmt::format("ceiling = {}: must be above the floor, {}", ceiling, floor));
-  return (value - floor) / (ceiling - floor);
 }
 
 template void check_comparable(const Trajectory<2>&, const Trajectory<2>&);

@@ -25,7 +25,7 @@ double mean_displacement(const BodyStates<Dim>& from, const BodyStates<Dim>& to,
   return sum / bodies;
 }
 
-/// The mean speed over the later half of the samples, which are `between` apart [m/s].
+/// The mean speed over the later half of the samples, which are `between` seconds apart [D/s].
 double present_speed(std::span<const double> samples, double between) {
   const std::size_t half = samples.size() / 2;
   const double before = half == 0 ? 0.0 : samples[half - 1];
@@ -38,6 +38,7 @@ template <int Dim>
 DriftProbe probe_drift(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
                        const BodyStates<Dim>& states, std::span<const std::uint8_t> counted,
                        const DriftProbeParams& params) {
+  require(params.extent > 0.0, "extent", params.extent, "must be > 0");
   require(params.unit > 0.0, "unit", params.unit, "must be > 0");
   require(params.duration > 0.0, "duration", params.duration, "must be > 0");
   const int bodies = static_cast<int>(std::ranges::count(counted, 1));
@@ -55,7 +56,7 @@ DriftProbe probe_drift(const WorldMaker<Dim>& make_world, const WorldDescription
       if (params.stop && params.stop()) return {};
       world->step();
     }
-    samples.push_back(mean_displacement(states, world->states(), counted, bodies));
+    samples.push_back(mean_displacement(states, world->states(), counted, bodies) / params.extent);
     const double seconds = static_cast<double>(samples.size()) * between;
     const double rest = std::max(0.0, params.duration - seconds);
     probe = {bodies, seconds, samples.back(), samples.back() + present_speed(samples, between) * rest};

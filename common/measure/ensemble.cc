@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
-
-#include "common/math/random.h"
 
 namespace talus {
 
@@ -30,30 +27,17 @@ double quantile(std::vector<double> values, double q) {
   return values[index];
 }
 
-EnsembleSummary summarize(std::span<const double> values, int resamples, std::uint64_t seed) {
-  if (values.empty()) throw std::invalid_argument("ensemble: must hold at least one run");
-  EnsembleSummary summary;
-  summary.runs = static_cast<int>(values.size());
-  summary.mean = summary.lower = summary.upper = mean(values);
-  if (values.size() < 2) return summary;
+MeanWithError mean_with_error(std::span<const double> values) {
+  std::vector<double> finite(values.begin(), values.end());
+  std::erase_if(finite, [](double value) { return !std::isfinite(value); });
+  if (finite.empty()) return {};
+  MeanWithError result{.mean = mean(finite)};
+  if (finite.size() < 2) return result;
   double squares = 0.0;
-  for (const double value : values) squares += (value - summary.mean) * (value - summary.mean);
-  summary.deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
-
-  std::mt19937_64 random(seed);
-  std::vector<double> means;
-  means.reserve(resamples);
-  for (int k = 0; k < resamples; ++k) {
-    double sum = 0.0;
-    for (std::size_t draw = 0; draw < values.size(); ++draw) {
-      const auto run = static_cast<std::size_t>(uniform(random) * static_cast<double>(values.size()));
-      sum += values[run];
-    }
-    means.push_back(sum / static_cast<double>(values.size()));
-  }
-  summary.lower = quantile(means, 0.025);
-  summary.upper = quantile(means, 0.975);
-  return summary;
+  for (const double value : finite) squares += (value - result.mean) * (value - result.mean);
+  const auto count = static_cast<double>(finite.size());
+  result.error = std::sqrt(squares / (count - 1.0) / count);
+  return result;
 }
 
 }  // namespace talus

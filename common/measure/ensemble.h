@@ -1,24 +1,19 @@
 #pragma once
 // A number per run, summed up over the runs of an ensemble.
 
-#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace talus {
 
-/// Mean, standard deviation and confidence interval of the mean.
-struct EnsembleSummary {
-  int runs = 0;
-  double mean = 0.0;
-  double deviation = 0.0;  // standard deviation of one run (n - 1)
-  double lower = 0.0;      // 95 % interval of the mean, by bootstrap over runs
-  double upper = 0.0;
+struct MeanWithError {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double error = std::numeric_limits<double>::quiet_NaN();  // standard error of the mean
 };
 
-/// `resamples` >= 1 bootstrap draws of as many runs, percentiles 2.5 and 97.5 of their means. One run alone has no
-/// interval: lower = upper = mean. Throws std::invalid_argument on no runs.
-EnsembleSummary summarize(std::span<const double> values, int resamples = 4000, std::uint64_t seed = 1);
+/// Of the numbers that are finite. NaN for the mean of none, and for the error of fewer than two.
+MeanWithError mean_with_error(std::span<const double> values);
 
 /// The smallest of the numbers that a share `q` in [0, 1] of them does not exceed; 0 for no numbers.
 double quantile(std::vector<double> values, double q);

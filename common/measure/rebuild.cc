@@ -42,24 +42,11 @@ WorldDescription<Dim> reference_settings(WorldDescription<Dim> description) {
   return description;
 }
 
-template <int Dim>
-WorldDescription<Dim> engine_default_settings(WorldDescription<Dim> description) {
-  description.dt = 1.0 / 60.0;
-  description.engine_sleep = true;
-  description.solver.velocity_iterations = Dim == 2 ? 8 : 10;
-  description.solver.position_iterations = 3;
-  description.solver.friction_directions = 1;
-  description.solver.warm_friction = false;
-  return description;
-}
-
 template std::unique_ptr<World<2>> rebuild(const WorldMaker<2>&, const WorldDescription<2>&, const BodyStates<2>&,
                                            Sleepers);
 template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDescription<3>&, const BodyStates<3>&,
                                            Sleepers);
 template WorldDescription<2> reference_settings(WorldDescription<2>);
 template WorldDescription<3> reference_settings(WorldDescription<3>);
-template WorldDescription<2> engine_default_settings(WorldDescription<2>);
-template WorldDescription<3> engine_default_settings(WorldDescription<3>);
 
 }  // namespace talus

@@ -29,10 +29,4 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
 template <int Dim>
 WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
 
-/// The description with the default settings of an engine: its own sleeping, steps of 1/60 s;
-/// Box2D 8 velocity and 3 position iterations (its manual), Bullet 10 iterations, one friction direction, friction from
-/// zero in each step (btContactSolverInfo.h).
-template <int Dim>
-WorldDescription<Dim> engine_default_settings(WorldDescription<Dim> description);
-
 }  // namespace talus

@@ -80,28 +80,6 @@ Rotation<Dim> Trajectory<Dim>::rotation(int frame, BodyIndex body) const {
 }
 
 template <int Dim>
-Trajectory<Dim> Trajectory<Dim>::part(int first, int count) const {
-  Trajectory copy(step_time_, steps_per_frame_);
-  const int end = std::min(first + count, frames());
-  if (end <= first) return copy;
-  copy.first_step_ = step(first);
-  const std::size_t from = entry(first, 0);
-  const std::size_t to = entry(end - 1, bodies(end - 1));
-  BodyIndex most = 0;
-  for (int frame = first; frame < end; ++frame) {
-    copy.first_.push_back(entry(frame, 0) - from);
-    copy.lost_.push_back(lost_[frame]);
-    most = std::max(most, bodies(frame));
-  }
-  copy.shape_.assign(shape_.begin(), shape_.begin() + most);
-  copy.poses_.assign(poses_.begin() + static_cast<std::ptrdiff_t>(from * floats_per_body),
-                     poses_.begin() + static_cast<std::ptrdiff_t>(to * floats_per_body));
-  copy.flags_.assign(flags_.begin() + static_cast<std::ptrdiff_t>(from),
-                     flags_.begin() + static_cast<std::ptrdiff_t>(to));
-  return copy;
-}
-
-template <int Dim>
 bool Trajectory<Dim>::same(int frame, const Trajectory& other, BodyIndex body) const {
   if (unknown(frame, body) || other.unknown(frame, body)) return true;
   if (!present(frame, body) || !other.present(frame, body)) return present(frame, body) == other.present(frame, body);

@@ -53,9 +53,6 @@ class Trajectory {
   Vec<Dim> position(int frame, BodyIndex body) const;
   Rotation<Dim> rotation(int frame, BodyIndex body) const;
 
-  /// A copy of `count` frames from `first` on, fewer where the trajectory ends.
-  Trajectory part(int first, int count) const;
-
   /// Whether body `body` of two trajectories is the same bit for bit at a frame, absence included. True where either is
   /// unknown.
   bool same(int frame, const Trajectory& other, BodyIndex body) const;

@@ -23,8 +23,10 @@ std::uint64_t content_hash(const Mesh& mesh);
 /// Mends what is harmless: merges corners closer than about a millionth of the mesh's length, drops triangles that are
 /// then without area or there twice, drops corners that no triangle uses, and turns every connected part so that its
 /// outside is outside. Overlapping parts count twice; hollows become solid.
+/// Closed pieces may touch each other at corners, edges and faces; each stays a piece of its own.
 /// Throws std::invalid_argument with count and place where the surface is not closed, where more than two triangles
-/// meet in an edge, where it has but one side (a Moebius strip), and where it encloses no volume.
+/// meet in an edge that are not of closed pieces, where it has but one side (a Moebius strip), and where it encloses no
+/// volume.
 Mesh repaired(const Mesh& mesh);
 
 }  // namespace talus

@@ -27,11 +27,12 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-bool is_finite_number(std::string_view word) {
+bool is_coordinate(std::string_view word) {
+  constexpr double most = 1e30;  // squares and cubes of it are numbers
   word.remove_prefix(word.starts_with('+') ? 1 : 0);
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+  return error == std::errc() && end == word.data() + word.size() && std::abs(value) <= most;
 }
 
 // The part of a word that fits into a message.
@@ -46,9 +47,10 @@ class ObjLines {
  public:
   explicit ObjLines(const std::filesystem::path& file) : file_(file.string()) {}
 
-  /// Whether the line is one from which a mesh is read.
-  bool check(std::string_view line) {
-    ++number_;
+  /// Whether the line is one from which a mesh is read. `lines`: how many of the file's own it was continued over.
+  bool check(std::string_view line, int lines) {
+    number_ += next_;
+    next_ = lines;
     const std::vector<std::string_view> words = words_of(line);
     const std::string_view kind = words.empty() ? "" : words.front();
     if (kind == "v")
@@ -71,7 +73,8 @@ class ObjLines {
   void check_corner(const std::vector<std::string_view>& words) {
     require_here(words.size() >= 4, "a corner must be three numbers");
     for (std::size_t i = 1; i <= 3; ++i)
-      require_here(is_finite_number(words[i]), "a corner must be three finite numbers, not " + shown(words[i]));
+      require_here(is_coordinate(words[i]),
+                   "a corner must be three numbers from -1e30 to 1e30, not " + shown(words[i]));
     ++corners_;
   }
 
@@ -95,7 +98,8 @@ class ObjLines {
   }
 
   std::string file_;
-  long number_ = 0;
+  long number_ = 1;  // of the line
+  int next_ = 0;     // lines from there to the next one
   long corners_ = 0;
   long largest_ = 0;
   long line_of_largest_ = 0;
@@ -113,6 +117,50 @@ std::string contents_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+void require_utf8(std::string_view all, const std::filesystem::path& file) {
+  const bool utf16 = all.starts_with("\xFF\xFE") || all.starts_with("\xFE\xFF");
+  require(!utf16 && all.find('\0') == std::string_view::npos, "mesh file", file.string(),
+          utf16 ? "must be text in UTF-8, not in UTF-16" : "must be text in UTF-8, but has zero bytes");
+}
+
+/// Cuts a text into lines, without comments at their ends, but for names, which may have a number sign in them. A
+/// backslash at the end of a line continues it.
+class LineCutter {
+ public:
+  explicit LineCutter(std::string_view text) : rest_(text) {}
+
+  bool next() {
+    if (rest_.empty()) return false;
+    line_.clear();
+    lines_ = 0;
+    do {
+      const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+      line_ += rest_.substr(0, end);
+      rest_.remove_prefix(std::min(end + (rest_.compare(end, 2, "\r\n") == 0 ? 2 : 1), rest_.size()));
+      ++lines_;
+    } while (continues());
+    return true;
+  }
+
+  std::string_view line() const {
+    const std::size_t first = line_.find_first_not_of(blanks);
+    const bool is_name = first != std::string::npos && (line_[first] == 'o' || line_[first] == 'g');
+    return std::string_view(line_).substr(0, is_name ? line_.size() : std::min(line_.find('#'), line_.size()));
+  }
+  int lines() const { return lines_; }
+
+ private:
+  bool continues() {
+    if (!line_.ends_with('\\')) return false;
+    line_.back() = ' ';
+    return !rest_.empty();
+  }
+
+  std::string_view rest_;
+  std::string line_;
+  int lines_ = 0;
+};
+
 }  // namespace
 
 std::string checked_obj_text(const std::filesystem::path& file) {
@@ -120,13 +168,11 @@ std::string checked_obj_text(const std::filesystem::path& file) {
   ObjLines lines(file);
   std::string kept;
   kept.reserve(all.size());
-  std::size_t start = 0;
-  while (start < all.size()) {
-    const std::size_t end = std::min(all.find_first_of("\r\n", start), all.size());
-    const std::string_view line = std::string_view(all).substr(start, end - start);
-    if (lines.check(line)) kept.append(line).push_back('\n');
-    start = end + (all.compare(end, 2, "\r\n") == 0 ? 2 : 1);
-  }
+  require_utf8(all, file);
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8
+  LineCutter text(std::string_view(all).substr(all.starts_with(mark) ? mark.size() : 0));
+  while (text.next())
+    if (lines.check(text.line(), text.lines())) kept.append(text.line()).push_back('\n');
   lines.check_end();
   return kept;
 }

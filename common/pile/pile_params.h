@@ -31,7 +31,7 @@ inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
       .unit = "degrees",
       .stored = Stored::in_radians,
       .range = between(1.0, 89.0),  // at 0 and 90 a pile has no height or no base
-      .default_text = "[angle of repose](glossary.md) of the bodies",
+      .default_text = "[angle of repose](extending.md#glossary) of the bodies",
       .meaning = "slope of the cone, in 2D of the wedge; within walls it must be given. Far above the angle of repose "
                  "`paper` lets few bodies sleep"}},
     {&PileParams<Dim>::control_slope,
@@ -51,12 +51,13 @@ inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
     {&PileParams<Dim>::initial_size,
      {.name = "initial_size",
       .range = between(1.0, 1e7),
-      .meaning = "number of bodies, [`N`](glossary.md), for which the layers have room at the start. Larger: the first "
+      .meaning = "number of bodies, [`N`](extending.md#glossary), for which the layers have room at the start. Larger: "
+                 "the first "
                  "bodies wait longer for a dense layer"}},
     {&PileParams<Dim>::growth_ratio,
      {.name = "growth_ratio",
       .range = between(0.01, 1.0),
-      .meaning = "[occupation ratio](glossary.md) above which `N` doubles"}},
+      .meaning = "[occupation ratio](extending.md#glossary) above which `N` doubles"}},
     {&PileParams<Dim>::merge_distance,
      {.name = "merge_distance",
       .unit = "D",

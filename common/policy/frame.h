@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -63,13 +65,19 @@ struct Frame {
   double time = 0.0;      // simulated [s]
   const World<Dim>& world;
   const PileSet<Dim>& piles;
-  std::span<const SleepEvent> events;  // of this step, by body; empty while a policy decides
+  std::span<const SleepEvent> events;  // of this step, by body; empty while a policy decides, which note() tells
   PhaseTimes phases;
-  std::span<const Warning> warnings = {};    // one of each kind that the run has shown so far, if it is observed
-  int bodies_planned = 0;                    // of the scene in all
-  const SleepPolicy<Dim>* policy = nullptr;  // that of the run, for its estimate of the drift
-  std::span<const int> scene_events = {};    // numbers of Scene::events that happened just before this step
-  RunOverlap overlap = {};                   // that the run has shown so far, if it is observed
+  std::span<const Warning> warnings = {};          // one of each kind that the run has shown so far, if it is observed
+  int bodies_planned = 0;                          // of the scene in all
+  const SleepPolicy<Dim>* policy = nullptr;        // that of the run
+  std::span<const int> scene_events = {};          // numbers of Scene::events that happened just before this step
+  std::optional<double> probed_drift = {};         // [D] of the last state of a run, once a probe has found it
+  RunOverlap overlap = {};                         // that the run has shown so far, if it is observed
+  std::function<bool(BodyIndex)> kept_awake = {};  // awake bodies that must stay so; empty: none
+
+  /// Whether the run leaves it to the policy if an awake body falls asleep: one that is pulled, touches an obstacle
+  /// that moves or feels another gravity than a moment ago must first follow.
+  bool may_sleep(BodyIndex body) const { return !kept_awake || !kept_awake(body); }
 };
 
 }  // namespace talus

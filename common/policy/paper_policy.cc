@@ -113,7 +113,7 @@ void PaperPolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, Decision<Dim>& d
   for (const BodyIndex body : frame.world.awake()) {
     if (frame.step < body_rests_from_[body]) continue;
     const SleepEvent best = best_score(frame, body, open);
-    if (best.pile >= 0 && best.score > params_.tau) decision.freeze.push_back(best);
+    if (best.pile >= 0 && best.score > params_.tau && frame.may_sleep(body)) decision.freeze.push_back(best);
   }
 }
 

@@ -2,6 +2,7 @@
 // What a sleep policy is: the part that decides which bodies sleep and which wake.
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/policy/frame.h"
@@ -17,8 +18,8 @@ struct VelocityChange {
   Spin<Dim> spin = Spin<Dim>::Zero();    // [rad/s]
 };
 
-/// A policy's decision for one frame. In each event the policy sets all but `step` and `woke`, which the simulation
-/// fills in.
+/// A policy's decision for one frame: what it wants, which is not yet done. In each event the policy sets all but
+/// `step` and `woke`, which the simulation fills in.
 template <int Dim>
 struct Decision {
   std::vector<SleepEvent> freeze;
@@ -26,7 +27,7 @@ struct Decision {
   std::vector<VelocityChange<Dim>> velocities;  // applied once the bodies to thaw are awake
 };
 
-/// A policy's estimate of the error of its sleeping bodies.
+/// A policy's estimate of the error of its sleeping bodies. What is told of it: told_drift().
 struct DriftEstimate {
   double drift = 0.0;          // mean distance that the sleeping bodies are expected to move once all are woken [m]
   double checked_share = 0.0;  // of the sleeping bodies, for which this was measured; for the others it is extrapolated
@@ -57,8 +58,14 @@ class SleepPolicy {
   /// Of a layer, counted from the bottom.
   virtual LayerThresholds thresholds(std::size_t /*layer*/) const { return {}; }
 
-  /// Fills `decision` (empty on entry). Called once a step.
+  /// Fills `decision` (empty on entry). Called once a step. No body may be put to sleep that Frame::may_sleep()
+  /// excludes.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
+
+  /// Told of each body that fell asleep or woke, right after it did, whatever the cause: the policy's decisions as far
+  /// as they were carried out, the user, events, gravity, obstacles. A sleeping body that left the world comes as one
+  /// that woke. What a policy keeps about sleeping bodies must follow from these calls alone.
+  virtual void note(const World<Dim>& /*world*/, std::span<const SleepEvent> /*events*/) {}
 };
 
 /// Writes the policy's thresholds into the layers.
@@ -74,5 +81,22 @@ class NoPolicy final : public SleepPolicy<Dim> {
   bool decides() const override { return false; }
   void decide(const Frame<Dim>&, Decision<Dim>&) override {}
 };
+
+/// How far the sleeping bodies of a frame are expected to move on average once all are woken, as texts, files, messages
+/// and pages have it.
+struct ToldDrift {
+  double drift = 0.0;          // [D], the largest extent of the typical body
+  double checked_share = 0.0;  // of the sleeping bodies, for which this was measured
+};
+
+/// By the probe of the last state where there was one, which wakes all bodies; else by the policy, where it has an
+/// estimate.
+template <int Dim>
+std::optional<ToldDrift> told_drift(const Frame<Dim>& frame) {
+  if (frame.probed_drift) return ToldDrift{.drift = *frame.probed_drift, .checked_share = 1.0};
+  const auto estimate = frame.policy == nullptr ? std::nullopt : frame.policy->drift_estimate(frame.world);
+  if (!estimate) return std::nullopt;
+  return ToldDrift{estimate->drift / frame.piles.typical_body().extent, estimate->checked_share};
+}
 
 }  // namespace talus

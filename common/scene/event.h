@@ -15,8 +15,12 @@ namespace talus {
 inline constexpr std::string_view when_at_rest = "rest";
 inline constexpr std::string_view when_layer_density = "layer_density";
 inline constexpr std::array<std::string_view, 2> event_conditions = {when_at_rest, when_layer_density};
+/// What an event does.
+enum class EventAction : std::uint8_t { remove, wake, kick, rate, policy, gravity, picture };
+/// Their names, in the same order.
 inline constexpr std::array<std::string_view, 7> event_actions = {"remove", "wake",    "kick",   "rate",
                                                                   "policy", "gravity", "picture"};
+constexpr std::string_view to_string(EventAction action) { return event_actions[static_cast<std::size_t>(action)]; }
 /// Policies that a run may switch between: the engine's own sleeping is part of its world.
 inline constexpr std::array<std::string_view, 3> switchable_policies = {"full", "paper", "adaptive"};
 
@@ -28,7 +32,7 @@ struct Event {
   double density = 0.0;  // of the densest layer of `pile`, with when_layer_density
   int pile = 0;
   std::int64_t bodies = 0;  // 0: no such condition
-  std::string action = {};
+  EventAction action = EventAction::picture;
   std::vector<int> shapes = {};      // of the bodies that are meant; empty: of any
   std::vector<double> numbers = {};  // of these bodies; empty: of any
   std::vector<Vec<Dim>> box = {};    // lower and upper corner of where they are; empty: anywhere
@@ -47,6 +51,15 @@ struct ObstacleName {
   int first = 0;
   int count = 0;
 };
+
+inline constexpr Key event_action_key = {
+    .name = "do",
+    .required = true,
+    .choices = event_actions,
+    .meaning =
+        "`remove`: bodies or an obstacle. `wake`: bodies. `kick`: bodies get `velocity` and `spin` in "
+        "addition. `rate`: of a source. `policy`: another from now on, all bodies awake. `gravity`: another "
+        "from now on, all bodies awake. `picture`: of the run folder, `event_0.png` for the first event"};
 
 template <int Dim>
 inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
@@ -68,7 +81,7 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
       .range = above(0.0, 1e3),
       .default_text = "required for `layer_density`",
       .meaning = "`layer_density`: number of bodies in the densest layer of the pile over the number that it has room "
-                 "for, see [layers](#where-piles-are-to-grow-pile)"}},
+                 "for, see [layers](#piles-pile)"}},
     {&Event<Dim>::pile,
      {.name = "pile", .range = between(0.0, 4095.0), .meaning = "`layer_density`: number of the pile, from 0 on"}},
     {&Event<Dim>::bodies,
@@ -76,13 +89,7 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
       .range = between(0.0, 1e7),
       .default_text = "none",
       .meaning = "it happens once so many bodies have appeared"}},
-    {&Event<Dim>::action,
-     {.name = "do",
-      .required = true,
-      .choices = event_actions,
-      .meaning = "`remove`: bodies or an obstacle. `wake`: bodies. `kick`: bodies get `velocity` and `spin` in "
-                 "addition. `rate`: of a source. `policy`: another from now on, all bodies awake. `gravity`: another "
-                 "from now on, all bodies awake. `picture`: of the run folder, `event_0.png` for the first event"}},
+    {{}, event_action_key},
     {{},
      {.name = "shape",
       .type = "text or texts",

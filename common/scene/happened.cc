@@ -29,12 +29,22 @@ std::vector<std::uint8_t> removed_obstacles(const Scene<Dim>& scene, std::span<c
 template <int Dim>
 std::string event_text(const Scene<Dim>& scene, int number) {
   const Event<Dim>& event = scene.events[number];
-  const std::string& action = event.action;
+  const std::string_view action = to_string(event.action);
   if (event.obstacle) return fmt::format("remove obstacle {}", scene.obstacle_names[*event.obstacle].name);
-  if (action == "gravity") return fmt::format("gravity {}", field_text({}, event.gravity));
-  if (action == "policy") return fmt::format("policy {}", event.policy);
-  if (action == "rate") return fmt::format("rate {:g} of source {}", event.rate, event.source);
-  if (action == "picture") return action;
+  switch (event.action) {
+    case EventAction::gravity:
+      return fmt::format("gravity {}", field_text({}, event.gravity));
+    case EventAction::policy:
+      return fmt::format("policy {}", event.policy);
+    case EventAction::rate:
+      return fmt::format("rate {:g} of source {}", event.rate, event.source);
+    case EventAction::picture:
+      return std::string(action);
+    case EventAction::remove:
+    case EventAction::wake:
+    case EventAction::kick:
+      break;
+  }
   const bool some = !event.shapes.empty() || !event.numbers.empty() || !event.box.empty();
   return fmt::format("{} {} bodies", action, some ? "some" : "all");
 }
@@ -47,7 +57,7 @@ WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEven
   for (const DoneEvent& each : done) {
     if (each.time > time) break;
     const Event<Dim>& event = scene.events[each.number];
-    if (event.action == "gravity") gravity = event.gravity;
+    if (event.action == EventAction::gravity) gravity = event.gravity;
   }
   world.gravity = gravity.norm();
   if (world.gravity > 0.0) world.down = gravity / world.gravity;

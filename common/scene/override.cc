@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/scene/text_limits.h"
+#include "common/text/nearest_name.h"
 #include "common/text/printable.h"
 
 namespace talus {
@@ -38,6 +39,23 @@ std::string broken_rule(const toml::node& parent, const toml::path_component& pa
   return parent.is_table() ? "" : fmt::format("\"{}\" follows what is no table", part.key());
 }
 
+// What is wrong with an override; nothing without a rule.
+struct BrokenRule {
+  std::string rule = {};
+  std::string suggestion = {};  // the known name nearest to a wrong one
+};
+
+// The rule that a path breaks by going on through a part that `parent` does not have: only tables whose names talus
+// gives are made on the way. `at`: the place of the part in `path`.
+BrokenRule missing_part(const toml::table& parent, const toml::path& path, std::size_t at) {
+  const std::string& name = path[at].key();
+  if (is_index(path[at + 1])) return {.rule = fmt::format("[{}]: the scene has no {}", path[at + 1].index(), name)};
+  if (at != 1 || is_index(path[0]) || path[0].key() != "shape") return {};
+  std::vector<std::string> known;
+  for (const auto& [key, value] : parent) known.emplace_back(key.str());
+  return {.rule = fmt::format("the scene has no shape \"{}\"", name), .suggestion = nearest_name(name, known)};
+}
+
 // Puts a value in the place of whatever `parent` has at `part`. Moved, since a copy would forget its origin.
 void put(toml::node& parent, const toml::path_component& part, toml::node& value) {
   value.visit([&](auto& typed) {
@@ -62,22 +80,26 @@ toml::node& enter(toml::node& parent, const toml::path_component& part, const st
   return *table.get(part.key());
 }
 
-// The rule that the override breaks; empty if it was applied.
-std::string apply(toml::table& table, const Override& one, const std::string& origin) {
+// The rule that the override breaks; without a rule if it was applied.
+BrokenRule apply(toml::table& table, const Override& one, const std::string& origin) {
   const std::size_t equals = one.text.find('=');
   const std::string_view written = std::string_view(one.text).substr(0, equals);
   const toml::path path(written);
   // The parser of paths takes much for right, such as a bracket without its other half; its text then differs.
   if (equals == std::string::npos || equals == 0 || path.empty() || path.str() != written)
-    return "must be path=value, the path as in source[0].rate";
+    return {.rule = "must be path=value, the path as in source[0].rate"};
   toml::node* parent = &table;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (std::string rule = broken_rule(*parent, path[i]); !rule.empty()) return rule;
-    if (i + 1 < path.size()) parent = &enter(*parent, path[i], origin);
+    if (std::string rule = broken_rule(*parent, path[i]); !rule.empty()) return {.rule = std::move(rule)};
+    if (i + 1 == path.size()) break;
+    if (const toml::table* table_here = parent->as_table();
+        table_here != nullptr && !table_here->contains(path[i].key()))
+      if (BrokenRule missing = missing_part(*table_here, path, i); !missing.rule.empty()) return missing;
+    parent = &enter(*parent, path[i], origin);
   }
   toml::table value = read_value(one.text.substr(equals + 1), origin);
   put(*parent, path[path.size() - 1], *value.get("value"));
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -86,8 +108,8 @@ void apply_overrides(toml::table& table, std::span<const Override> overrides, st
   for (const Override& one : overrides) {
     const std::string origin = one.origin.empty() ? "--set " + shortened(one.text, 200) : one.origin;
     check_scene_text(one.text, origin);
-    if (std::string rule = apply(table, one, origin); !rule.empty())
-      errors.push_back({origin, 0, 0, "", "", std::move(rule), ""});
+    if (BrokenRule broken = apply(table, one, origin); !broken.rule.empty())
+      errors.push_back({origin, 0, 0, "", "", std::move(broken.rule), std::move(broken.suggestion)});
   }
 }
 

@@ -41,7 +41,7 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
       .unit = "m",
       .range = coordinate_range,
       .default_text = "origin",
-      .meaning = "where the origin of the shape's own axes goes, as for an [obstacle](#what-no-body-moves-obstacle). "
+      .meaning = "where the origin of the shape's own axes goes, as for an [obstacle](#obstacles-obstacle). "
                  "Bodies may touch each other, obstacles and ground; overlap deeper than `overlap` is refused"}},
     {{}, angle_key},
     {{}, axis_key},

@@ -9,21 +9,28 @@ namespace talus {
 namespace {
 
 /// The keys that belong to each action, besides its condition.
-bool belongs(std::string_view key, std::string_view action) {
-  const bool of_bodies = action == "remove" || action == "wake" || action == "kick";
+bool belongs(std::string_view key, EventAction action) {
+  const bool of_bodies = action == EventAction::remove || action == EventAction::wake || action == EventAction::kick;
   if (key == "shape" || key == "body" || key == "box") return of_bodies;
-  if (key == "obstacle") return action == "remove";
-  if (key == "velocity" || key == "spin") return action == "kick";
-  if (key == "source" || key == "rate") return action == "rate";
-  return key == action;  // policy, gravity
+  if (key == "obstacle") return action == EventAction::remove;
+  if (key == "velocity" || key == "spin") return action == EventAction::kick;
+  if (key == "source") return action == EventAction::rate;
+  return key == to_string(action);  // rate, policy, gravity
 }
 
-void check_keys(TableReader& table, std::string_view action) {
+EventAction read_action(TableReader& table) {
+  std::string name;
+  table.read(event_action_key, name);
+  const auto found = std::ranges::find(event_actions, name);
+  return found == event_actions.end() ? Event<2>().action : static_cast<EventAction>(found - event_actions.begin());
+}
+
+void check_keys(TableReader& table, EventAction action) {
   for (const std::string_view key :
        {"shape", "body", "box", "obstacle", "velocity", "spin", "source", "rate", "policy", "gravity"})
-    if (!belongs(key, action)) table.forbid(key, fmt::format("means nothing for do = \"{}\"", action));
+    if (!belongs(key, action)) table.forbid(key, fmt::format("means nothing for do = \"{}\"", to_string(action)));
   for (const std::string_view key : {"rate", "policy", "gravity"})
-    if (key == action) table.require(key);
+    if (key == to_string(action)) table.require(key);
   if (table.has("obstacle"))
     for (const std::string_view key : {"shape", "body", "box"}) table.forbid(key, "must not be given beside obstacle");
 }
@@ -79,13 +86,13 @@ void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& 
     table.error("box", "must be two corners, the lower one first");
   if (std::ranges::any_of(event.numbers, [](double number) { return number != std::floor(number); }))
     table.error("body", "must be whole numbers");
-  if (event.action == "rate" && event.source >= std::ssize(scene.sources))
+  if (event.action == EventAction::rate && event.source >= std::ssize(scene.sources))
     table.error("source", fmt::format("must be the number of a source, of which there are {}", scene.sources.size()));
-  if (event.action == "policy" && scene.policy.kind == "engine")
+  if (event.action == EventAction::policy && scene.policy.kind == "engine")
     table.error("do", "must not be policy where policy.kind is engine, whose sleeping is part of its world");
-  if (event.action == "gravity" && scene.gravity_motion)
+  if (event.action == EventAction::gravity && scene.gravity_motion)
     table.error("do", "must not be gravity where world.gravity_motion is given");
-  if (event.action == "kick" && event.velocity.norm() > fastest_speed<Dim>(scene.world.dt))
+  if (event.action == EventAction::kick && event.velocity.norm() > fastest_speed<Dim>(scene.world.dt))
     table.error("velocity", fmt::format("must be at most {:.6g} m/s", fastest_speed<Dim>(scene.world.dt)));
 }
 
@@ -95,6 +102,7 @@ template <int Dim>
 Event<Dim> read_event(TableReader& table, const ShapeNames& shapes, const Scene<Dim>& scene) {
   Event<Dim> event;
   table.read_fields(event, event_fields<Dim>);
+  event.action = read_action(table);
   read_event_shapes(table, shapes, event);
   read_event_obstacle(table, scene, event);
   if (table.ok()) check_keys(table, event.action);

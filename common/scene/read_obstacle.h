@@ -38,7 +38,7 @@ inline constexpr auto obstacle_fields = std::to_array<Field<Pose<Dim>>>({
       .type = "text",
       .further_rule = "of no other obstacle",
       .default_text = "none",
-      .meaning = "by which an [event](#what-happens-event) removes it"}},
+      .meaning = "by which an [event](#events-event) removes it"}},
     {{},
      {.name = "motion",
       .type = "table",

@@ -16,6 +16,11 @@ namespace talus {
 
 using AnyScene = std::variant<Scene<2>, Scene<3>>;
 
+/// The text of the scene file, with what replaced its values.
+inline const std::string& toml_of(const AnyScene& scene) {
+  return std::visit([](const auto& of_dimension) -> const std::string& { return of_dimension.toml; }, scene);
+}
+
 /// The scene in a TOML file, with `overrides` put in before it is read. Throws SceneErrors with all that is wrong.
 AnyScene read_scene(const std::filesystem::path& file, std::span<const Override> overrides = {});
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -100,6 +101,50 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
     lines.emplace_back("world.steps_per_second below 60: bodies sink visibly into each other");
 }
 
+/// Number of the [[obstacle]] that made the obstacles that move as one.
+template <int Dim>
+std::size_t table_of(const Scene<Dim>& scene, const Mover<Dim>& mover) {
+  std::size_t table = 0;
+  int end = 0;
+  for (; table < scene.obstacles_of_tables.size(); ++table) {
+    end += scene.obstacles_of_tables[table];
+    if (mover.first < end) break;
+  }
+  return table;
+}
+
+/// Engines keep places in single precision and round each step: a body that is carried by little more than this
+/// rounding in a step is carried too far or not at all.
+template <int Dim>
+void warn_of_coarse_motion(const Scene<Dim>& scene, Lines& lines) {
+  constexpr double most = 0.01;
+  for (const Mover<Dim>& mover : scene.movers) {
+    double farthest = 0.0;
+    double arm = 0.0;
+    for (int k = mover.first; k < mover.first + mover.count; ++k) {
+      const Obstacle<Dim>& obstacle = scene.world.obstacles[k];
+      const Box<Dim> bounds = bounds_at(obstacle.shape, obstacle.pose);
+      const auto reach = [&bounds](const Vec<Dim>& from) -> Vec<Dim> {
+        return (bounds.min() - from).cwiseAbs().cwiseMax((bounds.max() - from).cwiseAbs());
+      };
+      farthest = std::max(farthest, reach(Vec<Dim>::Zero()).maxCoeff());
+      arm = std::max(arm, reach(mover.pivot).norm());
+    }
+    const double way = (mover.motion.fastest_shift() + arm * mover.motion.fastest_turn()) * scene.world.dt;
+    const auto place = static_cast<float>(farthest);
+    const double grain = std::nextafter(place, std::numeric_limits<float>::infinity()) - place;
+    if (way <= 0.0 || grain / 2.0 <= most * way) continue;
+    lines.push_back(
+        fmt::format("obstacle[{}].motion: of {:.2g} m a step at most, up to {:.4g} m from the origin, where single "
+                    "precision resolves "
+                    "{:.2g} m: bodies on it go up to {:.0f} % too far or too short; fewer steps per second or a place "
+                    "nearer to the "
+                    "origin help",
+                    table_of(scene, mover), way, farthest, grain, std::min(100.0, 50.0 * grain / way)));
+    return;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -109,6 +154,7 @@ std::vector<std::string> warnings(const Scene<Dim>& scene) {
   warn_of_sizes(scene.world.shapes, lines);
   warn_of_mixtures(scene, lines);
   warn_of_settings(scene, lines);
+  warn_of_coarse_motion(scene, lines);
   return lines;
 }
 

@@ -1,36 +1,46 @@
 #include "common/scene/write_scene.h"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
+#include "common/math/require.h"
+
 namespace talus {
-namespace {
 
 namespace fs = std::filesystem;
 
-// A scene in 2D may lack the parts of a mesh, since it does not use them.
-void copy_referred(const fs::path& from, const fs::path& to) {
-  std::error_code same_or_missing;
-  if (fs::exists(from) && !fs::equivalent(from, to, same_or_missing)) {
-    fs::create_directories(to.parent_path());
-    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+template <int Dim>
+std::vector<SceneFile> scene_files(const Scene<Dim>& scene) {
+  if (scene.toml.empty()) return {};
+  std::vector<SceneFile> files = {{scene_file_name, scene.toml}};
+  for (const fs::path& referred : scene.referred) {
+    const fs::path file = scene.folder / referred;
+    const bool named_before = std::ranges::find(files, referred.string(), &SceneFile::name) != files.end();
+    if (named_before || !fs::exists(file)) continue;  // in 2D a mesh may lack its parts, which are not used
+    std::ifstream stream(file, std::ios::binary);
+    files.push_back({referred.string(), std::string(std::istreambuf_iterator<char>(stream), {})});
+    require(static_cast<bool>(stream), "file of the scene", file.string(), "must be readable");
+  }
+  return files;
+}
+
+void write_scene_files(const std::vector<SceneFile>& files, const fs::path& folder) {
+  for (const SceneFile& each : files) {
+    const fs::path name = each.name;
+    const bool below = name.is_relative() && name.has_filename() && std::ranges::find(name, "..") == name.end();
+    require(below, "file of the scene", each.name, "must be in or below the scene's folder");
+    const fs::path file = folder / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream stream(file, std::ios::binary);
+    stream << each.text;
+    stream.close();
+    if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
   }
 }
 
-}  // namespace
-
-template <int Dim>
-void write_scene(const Scene<Dim>& scene, const std::filesystem::path& file) {
-  if (scene.toml.empty())
-    throw std::invalid_argument("scene.toml is empty: only a scene that was read from TOML can be written");
-  std::ofstream stream(file, std::ios::binary);
-  stream << scene.toml;
-  stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
-  for (const fs::path& referred : scene.referred) copy_referred(scene.folder / referred, file.parent_path() / referred);
-}
-
-template void write_scene(const Scene<2>&, const std::filesystem::path&);
-template void write_scene(const Scene<3>&, const std::filesystem::path&);
+template std::vector<SceneFile> scene_files(const Scene<2>&);
+template std::vector<SceneFile> scene_files(const Scene<3>&);
 
 }  // namespace talus

@@ -13,9 +13,7 @@ constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight 
 }  // namespace
 
 template <int Dim>
-Emitter<Dim>::Emitter(const Scene<Dim>& scene)
-    : slow_time_(scene.world.gravity > 0.0 ? settled_speed / scene.world.gravity : 0.0),
-      total_(static_cast<int>(scene.bodies_planned())) {
+Emitter<Dim>::Emitter(const Scene<Dim>& scene) : total_(static_cast<int>(scene.bodies_planned())) {
   for (const InitialBody<Dim>& body : scene.bodies) initial_.push_back(body.def);
   if (scene.world.ground.present) ground_ = scene.world.ground.height;
   for (const Obstacle<Dim>& obstacle : scene.world.obstacles)
@@ -31,7 +29,9 @@ template <int Dim>
 void Emitter<Dim>::emit(World<Dim>& world, double time) {
   if (finished()) return;
   add_initial(world);
-  while (!births_.empty() && births_.front().time + slow_time_ <= time) births_.pop_front();
+  const double gravity = world.gravity_size();
+  const double slow_time = gravity > 0.0 ? settled_speed / gravity : 0.0;  // [s]
+  while (!births_.empty() && births_.front().time + slow_time <= time) births_.pop_front();
   for (Spout& spout : spouts_) {
     bool ridden = spout.source.ride_above == 0.0;
     while (due(spout, time)) {

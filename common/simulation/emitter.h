@@ -64,8 +64,7 @@ class Emitter {
   std::vector<Spout> spouts_;
   std::vector<Box<Dim>> fixed_;                               // around the obstacles
   double ground_ = -std::numeric_limits<double>::infinity();  // [m]
-  double slow_time_;                                          // from rest to the speed of what is in flight [s]
-  std::deque<Birth> births_;                                  // of the last slow_time_
+  std::deque<Birth> births_;                                  // that are too young to be as fast as what is in flight
   std::vector<BodyIndex> near_;                               // scratch
   std::vector<BodyIndex> beneath_;                            // scratch
   int emitted_ = 0;

@@ -9,18 +9,25 @@
 namespace talus {
 
 template <int Dim>
-RestCheck<Dim>::RestCheck(const Scene<Dim>& scene) : distance_(rest_distance * typical_body(scene).extent) {
+RestCheck<Dim>::RestCheck(const Scene<Dim>& scene)
+    : extent_(typical_body(scene).extent),
+      frame_time_(static_cast<double>(scene.steps_per_frame()) * scene.world.dt),
+      steps_per_frame_(scene.steps_per_frame()) {}
+
+/// [steps]
+template <int Dim>
+std::int64_t RestCheck<Dim>::period_in(const World<Dim>& world) const {
   constexpr double least_gravity = 1e-3;  // [m/s^2]; without gravity there is no such time
-  const double time = rest_time * std::sqrt(typical_body(scene).extent / std::max(scene.world.gravity, least_gravity));
-  const double frame = static_cast<double>(scene.steps_per_frame()) * scene.world.dt;
-  period_ = scene.steps_per_frame() * std::max<std::int64_t>(1, std::llround(time / frame));
+  const double time = rest_time * std::sqrt(extent_ / std::max(world.gravity_size(), least_gravity));
+  return steps_per_frame_ * std::max<std::int64_t>(1, std::llround(time / frame_time_));
 }
 
 template <int Dim>
 bool RestCheck<Dim>::update(const World<Dim>& world, std::int64_t step) {
-  if (step % period_ != 0) return false;
-  const bool rested = looked_ && has_rested(world);
-  looked_ = true;
+  if (step % steps_per_frame_ != 0 || step - looked_at_ < period_in(world)) return false;
+  const bool rested = looked_at_ > 0 && gravity_ == world.gravity() && has_rested(world);
+  looked_at_ = step;
+  gravity_ = world.gravity();
   bodies_.assign(world.awake().begin(), world.awake().end());
   poses_.clear();
   for (const BodyIndex body : bodies_) poses_.push_back(world.states().pose[body]);
@@ -33,7 +40,8 @@ bool RestCheck<Dim>::has_rested(const World<Dim>& world) const {
     const auto before = std::ranges::lower_bound(bodies_, body);
     if (before == bodies_.end() || *before != body) return false;
     const double reach = 0.5 * world.shape_of(body).extent;
-    return max_displacement(poses_[before - bodies_.begin()], world.states().pose[body], reach) <= distance_;
+    return max_displacement(poses_[before - bodies_.begin()], world.states().pose[body], reach) <=
+           rest_distance * extent_;
   });
 }
 

@@ -31,32 +31,6 @@ const Scene<Dim>& checked(const Scene<Dim>& scene) {
   return scene;
 }
 
-/// Change of gravity, as a share of it, up to which bodies stay asleep: a tilt of 0.6 degrees.
-constexpr double gravity_tolerance = 0.01;
-
-/// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of the tolerance it has then
-/// moved by 0.02 D and is so fast that it counts as moving.
-constexpr double awake_after_gravity = 2.0;
-
-/// Gravity by plan, in a step that begins at `time` [s]; `still` before it changes.
-template <int Dim>
-Vec<Dim> planned_gravity(const Motion<Dim>& plan, const Vec<Dim>& still, double time) {
-  return plan.turn_at(time) * (still + plan.shift_at(time));
-}
-
-/// Whether gravity became `woken`, at which all bodies were woken, within the steps that are to be kept awake. It is
-/// the same number then, since it is computed in the same way.
-template <int Dim>
-bool woken_lately(const Motion<Dim>& plan, const Vec<Dim>& still, const Vec<Dim>& woken, std::int64_t step, double dt,
-                  double extent) {
-  constexpr double longest = 10.0;  // [s]; with little gravity
-  const double time = std::min(longest, awake_after_gravity * std::sqrt(extent / std::max(woken.norm(), 1e-9)));
-  const auto gravity = [&](std::int64_t at) { return planned_gravity(plan, still, static_cast<double>(at) * dt); };
-  for (std::int64_t at = step; at > 0 && static_cast<double>(step - at) * dt < time; --at)
-    if (gravity(at) == woken && gravity(at - 1) != woken) return true;
-  return false;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -70,22 +44,15 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       dt_(scene.world.dt),
       engine_sleep_(scene.world.engine_sleep),
       debug_(scene.world.debug),
-      obstacles_(scene),
-      gravity_motion_(scene.gravity_motion),
-      gravity_(scene.world.gravity_vector()),
-      gravity_of_sleepers_(gravity_),
-      scene_events_(scene.events),
-      obstacle_names_(scene.obstacle_names),
-      event_clock_(scene.events),
+      interventions_(scene),
       ends_at_rest_(scene.run.until == until_rest),
       steps_(scene.steps()) {
-  if (ends_at_rest_ || event_clock_.waits_for_rest()) rest_check_.emplace(scene);
-  for (const Event<Dim>& event : scene.events) {
-    if (event.action != "policy") continue;
-    Scene<Dim> with_other = scene;
-    with_other.policy.kind = event.policy;
-    other_policies_[event.policy] = make_policy(with_other);
-  }
+  if (ends_at_rest_ || interventions_.clock().waits_for_rest()) rest_check_.emplace(scene);
+  if (std::ranges::count(scene.events, EventAction::policy, &Event<Dim>::action) > 0)
+    make_policy_ = [with_other = Scene<Dim>(scene)](const std::string& kind) mutable {
+      with_other.policy.kind = kind;
+      return make_policy(with_other);
+    };
   for (std::size_t i = 0; policy_->decides() && i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
 }
@@ -93,26 +60,23 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
 /// In the first step, before the engine moves the bodies.
 template <int Dim>
 void Simulation<Dim>::freeze_initial_bodies() {
-  world_->freeze(asleep_at_start_);
-  for (const BodyIndex body : asleep_at_start_) {
-    piles_.recount_body(world_->states(), body);
-    user_events_.push_back({.step = step_ + 1, .body = body, .woke = false, .cause = SleepCause::user});
-  }
+  std::vector<SleepEvent> events;
+  for (const BodyIndex body : asleep_at_start_) events.push_back({.body = body, .cause = SleepCause::user});
+  change_sleep(events, false);
   asleep_at_start_.clear();
 }
 
 template <int Dim>
 void Simulation<Dim>::step() {
   Stopwatch watch;
-  do_due_events();
+  probed_drift_.reset();
+  events_.clear();
+  interventions_.do_due_events(intervened(), rested_, piles_.piles());
   emitter_.emit(*world_, time());
   if (!asleep_at_start_.empty()) freeze_initial_bodies();
   if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
-  move_obstacles();
-  if (gravity_motion_) change_gravity();
-  pulled_.clear();
-  if (pull_) pull_body();
+  interventions_.move(intervened());
   world_->record_contacts(needs_contacts());
   if (watched()) watchdog_.start_step(*world_);
   world_->step();
@@ -131,68 +95,28 @@ void Simulation<Dim>::step() {
   apply();
   phases_.apply = watch.lap();
   if (rest_check_)
-    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !obstacles_.moves_after(*world_, time()) &&
-              !(gravity_motion_ && gravity_motion_->moves_after(time()));
-  at_rest_ = ends_at_rest_ && rested_ && !event_clock_.waits();
+    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !interventions_.move_after(*world_, time());
+  at_rest_ = ends_at_rest_ && rested_ && !interventions_.clock().waits();
   show();
   phases_.observe = watching + watch.lap();
 }
 
 template <int Dim>
-void Simulation<Dim>::move_obstacles() {
-  const std::vector<BodyIndex>& sleepers = obstacles_.move(*world_, time());
-  if (engine_sleep_)
-    world_->thaw(sleepers);  // note_engine_sleep() makes the events
-  else if (!sleepers.empty())
-    thaw_now(sleepers, SleepCause::lost_support);
-}
-
-/// Sleeping bodies do not feel that gravity changes: once it has by more than the tolerance, all wake.
-template <int Dim>
-void Simulation<Dim>::change_gravity() {
-  const Vec<Dim> now = planned_gravity(*gravity_motion_, gravity_, time());
-  world_->set_gravity(now);
-  const double scale = std::max(now.norm(), gravity_of_sleepers_.norm());
-  if ((now - gravity_of_sleepers_).norm() <= gravity_tolerance * scale) return;
-  gravity_of_sleepers_ = now;
-  thaw_all();
-}
-
-/// A body that touches an obstacle that moves must follow it, and one that gravity woke gets time to begin to move.
-template <int Dim>
-void Simulation<Dim>::keep_moved_awake() {
-  if (gravity_motion_ && !decision_.freeze.empty() &&
-      woken_lately(*gravity_motion_, gravity_, gravity_of_sleepers_, step_ - 1, dt_, piles_.typical_body().extent))
-    decision_.freeze.clear();
-  std::erase_if(decision_.freeze, [this](const SleepEvent& event) {
-    return obstacles_.touch(*world_, event.body) || std::ranges::binary_search(pulled_, event.body);
-  });
-}
-
-/// Sleeping neighbours are woken: neither the loss of a support nor a slow push wakes a body by itself.
-template <int Dim>
-void Simulation<Dim>::pull_body() {
-  const BodyIndex body = pull_->body;
-  if (world_->states().removed[body] != 0) {
-    release();
-    return;
-  }
-  const Box<Dim> bounds = world_->bounds_of(body);
-  const Vec<Dim> margin = Vec<Dim>::Constant(0.05 * world_->shape_of(body).extent);
-  world_->query_box({bounds.min() - margin, bounds.max() + margin}, pulled_);
-  if (engine_sleep_)
-    world_->thaw(pulled_);  // note_engine_sleep() makes the events
-  else
-    thaw_now(pulled_, SleepCause::user);
-  const VelocityChange<Dim> change = pulled(*world_, *pull_, dt_);
-  world_->set_velocity(body, change.velocity, change.spin);
+Intervened<Dim> Simulation<Dim>::intervened() {
+  return {.world = *world_,
+          .emitter = emitter_,
+          .watchdog = watchdog_,
+          .time = time(),
+          .wake = [this](std::span<const BodyIndex> bodies, SleepCause cause) { thaw_now(bodies, cause); },
+          .remove = [this](BodyIndex body) { forget(body); },
+          .switch_policy = [this](const std::string& kind) { switch_policy(kind); }};
 }
 
 template <int Dim>
 bool Simulation<Dim>::needs_contacts() const {
   const bool for_piles = counts_piles() && (piles_.needs_contacts() || piles_.has_unplaced());
   const auto for_observer = [](const Observer<Dim>* observer) { return observer->needs_contacts(); };
-  const bool for_watchdog = watched() && (obstacles_.any_moved() || watchdog_.needs_contacts(step_ + 1));
+  const bool for_watchdog = watched() && (interventions_.obstacles_moved() || watchdog_.needs_contacts(step_ + 1));
   return for_piles || for_watchdog || policy_->needs_contacts() || std::ranges::any_of(observers_, for_observer) ||
          debug_.gather_contacts;
 }
@@ -200,8 +124,6 @@ bool Simulation<Dim>::needs_contacts() const {
 /// Section 3.2. Without a policy and without observers piles are not counted.
 template <int Dim>
 void Simulation<Dim>::count_piles() {
-  events_.swap(user_events_);
-  user_events_.clear();
   if (!counts_piles()) return;
   if (engine_sleep_) note_engine_sleep();
   if (piles_.has_unplaced()) place_pile();
@@ -233,30 +155,59 @@ void Simulation<Dim>::decide() {
   decision_.thaw.clear();
   decision_.velocities.clear();
   if (policy_->decides()) policy_->decide(frame(), decision_);
-  keep_moved_awake();
 }
 
 template <int Dim>
 void Simulation<Dim>::apply() {
-  const auto take = [&](std::vector<SleepEvent>& list, bool woke) {
-    bodies_.clear();
-    for (SleepEvent& event : list) {
-      event.step = step_;
-      event.woke = woke;
-      bodies_.push_back(event.body);
-    }
-    if (woke)
-      world_->thaw(bodies_);
-    else
-      world_->freeze(bodies_);
-    for (const BodyIndex body : bodies_) piles_.recount_body(world_->states(), body);
-    events_.insert(events_.end(), list.begin(), list.end());
-  };
-  if (!decision_.thaw.empty()) take(decision_.thaw, true);
+  change_sleep(decision_.thaw, true);
   for (const VelocityChange<Dim>& change : decision_.velocities)
     world_->set_velocity(change.body, change.velocity, change.spin);
-  if (!decision_.freeze.empty()) take(decision_.freeze, false);
-  std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.body < b.body; });
+  change_sleep(decision_.freeze, false);
+  close_events();
+}
+
+/// The one place where a run puts bodies to sleep or wakes them. `events` keeps those that were carried out: each body
+/// once, and none that slept or was awake before.
+template <int Dim>
+void Simulation<Dim>::change_sleep(std::vector<SleepEvent>& events, bool woke) {
+  const BodyStates<Dim>& states = world_->states();
+  std::erase_if(events, [&](const SleepEvent& event) { return (states.asleep.at(event.body) != 0) != woke; });
+  if (events.empty()) return;
+  std::ranges::stable_sort(events, {}, &SleepEvent::body);
+  const auto rest = std::ranges::unique(events, {}, &SleepEvent::body);
+  events.erase(rest.begin(), rest.end());
+  bodies_.clear();
+  for (SleepEvent& event : events) {
+    event.woke = woke;
+    bodies_.push_back(event.body);
+  }
+  if (woke)
+    world_->thaw(bodies_);
+  else
+    world_->freeze(bodies_);
+  note(events);
+}
+
+/// Tells all that keep account of sleeping bodies what happened.
+template <int Dim>
+void Simulation<Dim>::note(std::span<const SleepEvent> events) {
+  for (const SleepEvent& event : events) {
+    piles_.recount_body(world_->states(), event.body);
+    if (known_asleep_.empty()) continue;
+    known_asleep_.resize(world_->states().asleep.size(), 0);
+    known_asleep_[event.body] = event.woke ? 0 : 1;
+  }
+  policy_->note(*world_, events);
+  new_events_.insert(new_events_.end(), events.begin(), events.end());
+}
+
+/// From now on the events since the last step are those of this one.
+template <int Dim>
+void Simulation<Dim>::close_events() {
+  for (SleepEvent& event : new_events_) event.step = step_;
+  std::ranges::stable_sort(new_events_, {}, &SleepEvent::body);
+  events_.swap(new_events_);
+  new_events_.clear();
 }
 
 template <int Dim>
@@ -274,116 +225,32 @@ void Simulation<Dim>::end(std::string_view reason) {
   for (Observer<Dim>* observer : observers_) observer->on_end(last, reason);
 }
 
-/// The engine sends no events when it puts a body to sleep or wakes it, so the states before and after are compared.
+/// The engine sends no events when it puts a body to sleep or wakes it, so the states are compared with the events.
 template <int Dim>
 void Simulation<Dim>::note_engine_sleep() {
   const BodyStates<Dim>& states = world_->states();
-  asleep_before_.resize(states.asleep.size(), 0);
-  for (BodyIndex body = 0; body < states.size(); ++body) {
-    if (states.asleep[body] == asleep_before_[body]) continue;
-    asleep_before_[body] = states.asleep[body];
-    events_.push_back({.step = step_, .body = body, .woke = states.asleep[body] == 0, .cause = SleepCause::engine});
-    piles_.recount_body(states, body);
-  }
+  known_asleep_.resize(states.asleep.size(), 0);
+  std::vector<SleepEvent> events;
+  for (BodyIndex body = 0; body < states.size(); ++body)
+    if (states.asleep[body] != known_asleep_[body] && states.removed[body] == 0)
+      events.push_back({.body = body, .woke = states.asleep[body] == 0, .cause = SleepCause::engine});
+  note(events);
 }
 
+/// Takes a body out of the world. A sleeping one leaves the account of the policy as if it had woken.
 template <int Dim>
-void Simulation<Dim>::remove(BodyIndex body) {
+void Simulation<Dim>::forget(BodyIndex body) {
   world_->remove(body);
   piles_.recount_body(world_->states(), body);
-  thaw_near(world_->bounds_of(body), 0.05 * world_->shape_of(body).extent);
+  if (world_->states().asleep[body] != 0)
+    policy_->note(*world_, std::vector<SleepEvent>{{.body = body, .woke = true, .cause = SleepCause::user}});
 }
 
-/// A body that rests on another one touches its box.
-template <int Dim>
-void Simulation<Dim>::thaw_near(const Box<Dim>& bounds, double reach) {
-  const Vec<Dim> margin = Vec<Dim>::Constant(reach);
-  std::vector<BodyIndex> neighbours;
-  world_->query_box({bounds.min() - margin, bounds.max() + margin}, neighbours);
-  thaw_now(neighbours, SleepCause::lost_support);
-}
-
-template <int Dim>
-void Simulation<Dim>::do_due_events() {
-  for (const int number : event_clock_.update(time(), emitter_.emitted(), rested_, piles_.piles())) {
-    do_event(scene_events_[number]);
-    done_events_.push_back({number, time()});
-  }
-}
-
-template <int Dim>
-void Simulation<Dim>::do_event(const Event<Dim>& event) {
-  const std::string& action = event.action;
-  if (action == "remove" && event.obstacle)
-    remove_obstacle(*event.obstacle);
-  else if (action == "remove")
-    for (const BodyIndex body : bodies_meant(event)) remove(body);
-  else if (action == "wake")
-    thaw_now(bodies_meant(event), SleepCause::user);
-  else if (action == "kick")
-    kick(event);
-  else if (action == "policy")
-    switch_policy(event.policy);
-  if (action == "rate") {
-    emitter_.set_rate(event.source, event.rate, time());
-    watchdog_.note_source(event.source, emitter_.source(event.source));
-  }
-  if (action == "gravity") {
-    world_->set_gravity(event.gravity);
-    thaw_all();
-  }
-}
-
-template <int Dim>
-std::vector<BodyIndex> Simulation<Dim>::bodies_meant(const Event<Dim>& event) const {
-  const BodyStates<Dim>& states = world_->states();
-  const auto meant = [&](BodyIndex body) {
-    const Vec<Dim>& at = states.pose[body].position;
-    return states.removed[body] == 0 &&
-           (event.shapes.empty() || std::ranges::count(event.shapes, states.shape[body]) > 0) &&
-           (event.numbers.empty() || std::ranges::count(event.numbers, static_cast<double>(body)) > 0) &&
-           (event.box.empty() || Box<Dim>(event.box[0], event.box[1]).contains(at));
-  };
-  std::vector<BodyIndex> bodies;
-  for (BodyIndex body = 0; body < states.size(); ++body)
-    if (meant(body)) bodies.push_back(body);
-  return bodies;
-}
-
-/// The sum may be no faster than the engine allows.
-template <int Dim>
-void Simulation<Dim>::kick(const Event<Dim>& event) {
-  const std::vector<BodyIndex> bodies = bodies_meant(event);
-  thaw_now(bodies, SleepCause::user);
-  const BodyStates<Dim>& states = world_->states();
-  for (const BodyIndex body : bodies) {
-    Vec<Dim> velocity = states.velocity[body] + event.velocity;
-    Spin<Dim> spin = states.spin[body] + event.spin;
-    velocity *= std::min(1.0, fastest_speed<Dim>(dt_) / std::max(velocity.norm(), 1e-9));
-    spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
-    world_->set_velocity(body, velocity, spin);
-  }
-}
-
-template <int Dim>
-void Simulation<Dim>::remove_obstacle(int number) {
-  const ObstacleName& name = obstacle_names_[number];
-  for (int k = name.first; k < name.first + name.count; ++k)
-    if (world_->has_obstacle(k)) cut_obstacle(k);
-}
-
-template <int Dim>
-void Simulation<Dim>::cut_obstacle(int number) {
-  const Box<Dim> bounds = bounds_at(world_->obstacle_shape(number), world_->obstacle_pose(number));
-  world_->remove_obstacle(number);
-  thaw_near(bounds, 0.05 * piles_.typical_body().extent);
-}
-
-/// A policy has no state of bodies that another one froze.
+/// A policy has no state of bodies that another one froze, so all wake, and the new one begins anew.
 template <int Dim>
 void Simulation<Dim>::switch_policy(const std::string& kind) {
   thaw_all();
-  std::swap(policy_, other_policies_.at(kind));
+  policy_ = make_policy_(kind);
 }
 
 template <int Dim>
@@ -395,15 +262,10 @@ void Simulation<Dim>::thaw_all() {
 
 template <int Dim>
 void Simulation<Dim>::thaw_now(std::span<const BodyIndex> bodies, SleepCause cause) {
-  bodies_.clear();
-  const BodyStates<Dim>& states = world_->states();
-  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(bodies_),
-               [&](BodyIndex body) { return states.asleep[body] != 0 && states.removed[body] == 0; });
-  world_->thaw(bodies_);
-  for (const BodyIndex body : bodies_) {
-    piles_.recount_body(states, body);
-    user_events_.push_back({.step = step_ + 1, .body = body, .woke = true, .cause = cause});
-  }
+  std::vector<SleepEvent> events;
+  for (const BodyIndex body : bodies)
+    if (world_->states().removed[body] == 0) events.push_back({.body = body, .cause = cause});
+  change_sleep(events, true);
 }
 
 template class Simulation<2>;

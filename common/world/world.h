@@ -87,6 +87,9 @@ class World {
   /// Gravity from the next step on [m/s^2]. Sleeping bodies stay asleep.
   void set_gravity(const Vec<Dim>& gravity);
   Vec<Dim> gravity() const { return description_.gravity_vector(); }
+  /// Its size [m/s^2] and its direction, a unit vector; without gravity the direction that it had last.
+  double gravity_size() const { return description_.gravity; }
+  const Vec<Dim>& down() const { return description_.down; }
 
   /// Whether the steps from now on record their contacts, which takes 5 to 15 % of a step. Off in a new world.
   void record_contacts(bool record) { record_contacts_ = record; }
@@ -146,9 +149,9 @@ class World {
 
   virtual void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
 
-  /// Before a step: gives an obstacle that may move the velocity that takes it `to` there. An engine without moving
-  /// obstacles throws.
-  virtual void engine_move_obstacle(int number, const Pose<Dim>& to);
+  /// Before a step: gives an obstacle that may move the velocity of its centre and the spin that take it to its next
+  /// pose. An engine without moving obstacles throws.
+  virtual void engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin);
   /// After the step: puts it there, at rest.
   virtual void engine_place_obstacle(int /*number*/, const Pose<Dim>& /*at*/) {}
 

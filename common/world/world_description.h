@@ -1,6 +1,7 @@
 #pragma once
 // All that an engine needs before the first body exists.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -41,8 +42,7 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
      {.name = "warm_friction",
       .meaning = "Bullet only. true: friction starts each step at the last step's impulse. 10 iterations then hold a "
                  "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time; the 3D scenes of this "
-                 "project but `million_3d` have it. Towers one body wide sway more than without "
-                 "([convergence](research/convergence.md))"}},
+                 "project but `million_3d` have it. Towers one body wide sway more than without"}},
     {&SolverParams::restitution_threshold,
      {.name = "restitution_threshold",
       .unit = "m/s",
@@ -96,6 +96,16 @@ struct WorldDescription {
   Vec<Dim> gravity_vector() const { return gravity * down; }
 };
 
+/// Whether what rests in gravity `a` [m/s^2] rests in `b` too: they differ by at most a hundredth, a tilt of 0.6
+/// degrees.
+template <int Dim>
+bool same_gravity(const Vec<Dim>& a, const Vec<Dim>& b) {
+  return (a - b).norm() <= 0.01 * std::max(a.norm(), b.norm());
+}
+
+/// Friction of the contact of two surfaces: the geometric mean, as Box2D mixes them by itself.
+inline double pair_friction(double a, double b) { return std::sqrt(a * b); }
+
 /// Torque by which the contact of two bodies resists turning, over the normal force [m]: the geometric mean of the
 /// arms of both shapes. What is no body has none and leaves it to the other.
 inline double arm_of_pair(std::optional<double> a, std::optional<double> b) {
@@ -111,9 +121,11 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
       .type = "number or vector",
       .unit = "m/s^2",
       .range = gravity_range,
-      .meaning = "downwards, or a vector: `[1.7, -9.66]` is the same as everything tilted by 10 degrees. Piles and the "
-                 "policies `paper` and `adaptive` take the last axis as up all the same. Large: bodies sink into the "
-                 "ground, see [limits](#limits-of-the-engines)"}},
+      .meaning =
+          "downwards, or a vector: `[1.7, -9.66]` is the same as everything tilted by 10 degrees. Piles, and in the "
+          "policies `paper` and `adaptive` layers and columns, take the last axis as up all the same. Large: bodies "
+          "sink into the "
+          "ground, see [limits](#limits-of-the-engines)"}},
     {&WorldDescription<Dim>::dt,
      {.name = "steps_per_second",
       .unit = "1/s",

@@ -40,6 +40,9 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
 
   void performDiscreteCollisionDetection() override;
   void solveConstraints(btContactSolverInfo& info) override;
+  /// Leaves the velocities of moving obstacles as they were given. Bullet takes them from the difference of two poses
+  /// in single precision, in which a turn below 0.0007 rad a step is none.
+  void saveKinematicState(btScalar /*time_step*/) override {}
 
  private:
   DebugOptions debug_;

@@ -13,7 +13,7 @@ namespace talus::bullet {
 /// order of their contacts are Bullet's. Different: the sort of the manifolds compares keys that lie beside the
 /// pointers, where Bullet fetches two manifolds and four bodies a comparison; and a manifold without points is dropped
 /// after the sort. (The sort is not stable, so the order of all others depends on it.) Gain:
-/// docs/research/bullet_step.md.
+/// lab/notes/bullet_step.md.
 class Islands {
  public:
   /// Gives the solver all islands with an active body, as groups of more than `info.m_minimumSolverBatchSize`

@@ -81,6 +81,7 @@ TYPED_TEST(GravityMotion, LetsASleeperSlideWhereTheTiltIsSlow) {
   EXPECT_GT(run_to(friction_angle + 2.0), 0.2);
 }
 
+/// A tilt of 2.8 degrees wakes all at each of 0.57 degrees, and a check may follow in the new gravity.
 TYPED_TEST(GravityMotion, WakesSleepersOnlyNowAndThen) {
   auto simulation = TestFixture::simulation(tilting<TypeParam::dim>("adaptive", 0.2));
   int asleep = 0;
@@ -97,7 +98,7 @@ TYPED_TEST(GravityMotion, WakesSleepersOnlyNowAndThen) {
   }
   EXPECT_GT(asleep, steps / 2);
   EXPECT_GE(woken, 3);
-  EXPECT_LE(woken, 6);
+  EXPECT_LE(woken, 10);
 }
 
 TYPED_TEST(GravityMotion, GivesTheSameBitsEachTime) {

@@ -40,13 +40,13 @@ std::vector<Block> blocks_of(const fs::path& file) {
   return blocks;
 }
 
-/// All blocks as whole scenes, but for those of the page about scenes that the door refuses. A fragment, which has no
+/// All blocks as whole scenes. A fragment, which has no
 /// title, is added to the manual's first scene.
 std::vector<Block> manual_scenes() {
   const fs::path root = TALUS_SOURCE_DIR;
   std::vector<fs::path> files = {root / "README.md"};
   for (const auto& entry : fs::directory_iterator(root / "docs"))
-    if (entry.path().extension() == ".md" && entry.path().stem() != "outside_the_window") files.push_back(entry.path());
+    if (entry.path().extension() == ".md") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   const std::string first = blocks_of(root / "docs" / "scenes.md").at(0).toml;
   std::vector<Block> scenes;

@@ -1,14 +1,10 @@
-// The measures on real heaps: what they say of contacts, hanging bodies and forks must be what the engine does.
+// The measures on real heaps: what they say of contacts and hanging bodies must be what the engine does.
 
 #include <map>
 
 #include "common/math/random.h"
-#include "common/measure/fork.h"
-#include "common/measure/short_horizon.h"
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"
-#include "common/simulation/make_policy.h"
-#include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
 namespace talus::measure_test {
@@ -43,24 +39,6 @@ class MeasureTest : public BackendTest<Backend> {
     BackendTest<Backend>::freeze(*world, 1);
     world->remove(0);
     return world;
-  }
-
-  /// Ten L's poured from 4 m, four a second.
-  static Scene<dimension> pour(const std::string& policy) {
-    Scene<dimension> scene;
-    scene.world = BackendTest<Backend>::description();
-    Source<dimension> source;
-    source.shapes = {2};
-    source.count = 10;
-    source.rate = 4.0;
-    source.position = up<dimension>(4.0);
-    source.velocity = -up<dimension>(8.0);
-    scene.sources = {source};
-    scene.piles.resize(1);
-    scene.piles[0].alpha = radians(25.0);
-    scene.policy.kind = policy;
-    scene.policy.paper.tau = 0.1;
-    return scene;
   }
 };
 TYPED_TEST_SUITE(MeasureTest, Backends, BackendName);
@@ -125,46 +103,6 @@ TYPED_TEST(MeasureTest, HardlyMovesAHeapAtRestByWakingIt) {
   // or index in the rebuilding would throw it about by metres.
   EXPECT_LT(test.mean, 0.1);
   EXPECT_LT(test.energy_all, 0.05);
-}
-
-TYPED_TEST(MeasureTest, ReplaysAFullRunBitForBit) {
-  constexpr int dim = TypeParam::dim;
-  const Scene<dim> scene = TestFixture::pour("full");
-  Simulation<dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
-  TrajectoryRecorder<dim> recorder(scene.world.dt, scene.steps_per_frame());
-  ForkRecorder<dim> forks(scene.steps_per_frame(), 60);
-  simulation.add_observer(recorder);
-  simulation.add_observer(forks);
-  for (int step = 0; step < 300; ++step) simulation.step();
-  const std::vector<double> extents(3, 1.0);
-  const auto errors =
-      horizon_errors<dim>(forks.forks(), forks.arrivals(), replayed_continuation<dim>(TypeParam::make, scene),
-                          recorded_continuation(recorder.trajectory()), extents, 10.0);
-  ASSERT_EQ(errors.size(), 3U);
-  EXPECT_EQ(errors[2].forks, 2);
-  EXPECT_EQ(errors[2].max, 0.0);
-  EXPECT_EQ(errors[2].ratio, 0.0);
-}
-
-TYPED_TEST(MeasureTest, WakesTheSleepersWhenAPiledRunIsReplayed) {
-  constexpr int dim = TypeParam::dim;
-  const Scene<dim> scene = TestFixture::pour("paper");
-  Simulation<dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
-  ForkRecorder<dim> forks(scene.steps_per_frame(), 30);
-  simulation.add_observer(forks);
-  for (int step = 0; step < 300; ++step) simulation.step();
-  const auto replay = replayed_continuation<dim>(TypeParam::make, scene);
-  int asleep = 0;
-  for (const Fork<dim>& fork : forks.forks()) {
-    const Trajectory<dim> run = replay(fork, forks.arrivals(), 2);
-    for (BodyIndex body = 0; body < run.bodies(0); ++body) {
-      asleep += fork.states.asleep[body];
-      EXPECT_EQ(run.position(0, body), fork.states.pose[body].position) << "the replay is the run up to the fork";
-      EXPECT_FALSE(run.asleep(0, body));
-      EXPECT_FALSE(run.asleep(2, body));
-    }
-  }
-  EXPECT_GT(asleep, 0) << "no body ever slept: the test shows nothing";
 }
 
 }  // namespace

@@ -98,6 +98,116 @@ TYPED_TEST(MovingObstacle, TurnsABodyWithIt) {
   }
 }
 
+/// A plan and how far it should have carried a body.
+struct Carry {
+  double steps_per_second = 60.0;
+  double away = 0.0;   // of everything from the origin [m]
+  double speed = 0.0;  // [m/s] or [degrees/s]
+};
+
+/// Distance that a cube on a platform goes within 2 s, as a share of the platform's.
+template <typename Backend>
+double carried_along(const Carry& carry) {
+  constexpr int dim = Backend::dim;
+  const std::string text = fmt::format(
+      "title = \"Platform\"\ndimension = {}\nworld.steps_per_second = {}\npolicy.kind = \"full\"\n"
+      "ground.present = false\nshape.cube = {{kind = \"box\", size = {}, friction = 0.8}}\n"
+      "[[body]]\nposition = {}\n"
+      "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\nfriction = 0.8\n"
+      "motion = {{kind = \"path\", times = [1, 101], shifts = [{}, {}]}}\n",
+      dim, carry.steps_per_second, dim == 2 ? "[1, 1]" : "[1, 1, 1]", along<dim>(carry.away, 0.5),
+      dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", along<dim>(carry.away, -0.25), along<dim>(0.0, 0.0),
+      along<dim>(100.0 * carry.speed, 0.0));
+  const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
+  Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  const auto place = [&] { return simulation.world().states().pose[0].position[0]; };
+  while (simulation.time() < 1.5 - 1e-9) simulation.step();
+  const double before = place();
+  while (simulation.time() < 3.5 - 1e-9) simulation.step();
+  return (place() - before) / (2.0 * carry.speed);
+}
+
+/// Angle by which a drum about a level axis, or in 3D a turntable, carries a box within 6 s, as a share of its own.
+template <typename Backend>
+double carried_around(const Carry& carry, bool upright) {
+  constexpr int dim = Backend::dim;
+  const std::string drum =
+      fmt::format("kind = \"ring\"\nouter_radius = 6\ninner_radius = 5\nparts = 64\nfriction = 0.8\n{}position = {}\n",
+                  dim == 2 ? "" : "depth = 2\n", along<dim>(carry.away, 0.0));
+  const std::string table =
+      fmt::format("kind = \"box\"\nsize = [8, 8, 0.5]\nfriction = 0.8\nposition = {}\n", along<dim>(carry.away, -5.22));
+  const std::string text = fmt::format(
+      "title = \"Drum\"\ndimension = {}\nworld.steps_per_second = {}\npolicy.kind = \"full\"\n"
+      "ground.present = false\nshape.box = {{kind = \"box\", size = {}, friction = 0.8}}\n"
+      "[[body]]\nposition = {}\n"
+      "[[obstacle]]\n{}motion = {{kind = \"turn\", speed_deg = {}{}, start = 2}}\n",
+      dim, carry.steps_per_second, dim == 2 ? "[1, 0.5]" : "[1, 0.5, 0.5]",
+      along<dim>(carry.away + (upright ? 3.0 : 0.0), -4.71), upright ? table : drum, carry.speed,
+      dim == 2  ? ""
+      : upright ? ", axis = [0, 0, 1]"
+                : ", axis = [0, -1, 0]");
+  const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
+  Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  const auto angle = [&] {
+    const Vec<dim> arm = simulation.world().states().pose[0].position - carry.away * Vec<dim>::Unit(0);
+    return upright ? std::atan2(arm[1], arm[0]) : std::atan2(arm[0], -height<dim>(arm));
+  };
+  while (simulation.time() < 2.5 - 1e-9) simulation.step();
+  const double before = angle();
+  while (simulation.time() < 8.5 - 1e-9) simulation.step();
+  return (angle() - before) / radians(6.0 * carry.speed);
+}
+
+// Within 1 % over 2 s, from half a second after the start on, when friction has brought the cube to speed: it needs
+// v / (mu g), 0.03 s at 0.2 m/s. Single precision adds up to 0.2 % at 960 steps a second.
+TYPED_TEST(MovingObstacle, CarriesACubeAsFastAsItGoes) {
+  for (const double steps : {60.0, 960.0})
+    for (const double speed : {0.001, 0.005, 0.02, 0.2})
+      EXPECT_NEAR(carried_along<TypeParam>({steps, 0.0, speed}), 1.0, 0.01) << speed << " m/s, " << steps;
+}
+
+// Within 1 % over 6 s: now and then a box settles by 2 mm between two parts of the drum.
+TYPED_TEST(MovingObstacle, CarriesABoxAroundAsFastAsItTurns) {
+  constexpr int dim = TypeParam::dim;
+  for (const double steps : {60.0, 960.0}) {
+    for (const double speed : {1.0, 5.0}) {
+      EXPECT_NEAR(carried_around<TypeParam>({steps, 0.0, speed}, false), 1.0, 0.01)
+          << "drum, " << speed << " degrees/s, " << steps;
+      if (dim == 3) {
+        EXPECT_NEAR(carried_around<TypeParam>({steps, 0.0, speed}, true), 1.0, 0.01)
+            << "table, " << speed << " degrees/s, " << steps;
+      }
+    }
+  }
+}
+
+TYPED_TEST(MovingObstacle, CarriesFarFromTheOriginToo) {
+  // Single precision resolves 6e-5 m there: a step of 0.003 m is off by 1 % at most.
+  EXPECT_NEAR(carried_along<TypeParam>({60.0, 1000.0, 0.2}), 1.0, 0.01);
+  EXPECT_NEAR(carried_around<TypeParam>({60.0, 1000.0, 5.0}, false), 1.0, 0.01);
+}
+
+// Its velocity counts in the speed at which the two come together.
+TYPED_TEST(MovingObstacle, StrikesABodyAtRestAtItsOwnSpeed) {
+  constexpr int dim = TypeParam::dim;
+  Scene<dim> scene = platform<dim>(path<dim>(1.0, 0.0));
+  scene.world.gravity = 0.0;
+  const auto world = TypeParam::make(scene.world);
+  BodyDef<dim> cube;
+  cube.pose.position = up<dim>(2.7);
+  world->add(cube);
+  world->record_contacts(true);
+  double fastest = 0.0;
+  for (int step = 0; step < 30; ++step) {
+    Pose<dim> next = world->obstacle_pose(0);
+    next.position += up<dim>(1.0 / 60.0);
+    world->move_obstacle(0, next);
+    world->step();
+    for (const Contact<dim>& contact : world->contacts()) fastest = std::max(fastest, contact.approach_speed);
+  }
+  EXPECT_NEAR(fastest, 1.0, 1e-3);
+}
+
 TYPED_TEST(MovingObstacle, GivesTheSameBitsInEachRun) {
   constexpr int dim = TypeParam::dim;
   const auto hash = [] {

@@ -20,7 +20,7 @@ function start(program, ...args) {
 }
 
 const messages = (file, channel) =>
-  talus("cat", file, "--channel", channel)
+  talus("info", file, "--messages", "--channel", channel)
     .trim()
     .split("\n")
     .map((line) => JSON.parse(line).message);

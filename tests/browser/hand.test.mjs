@@ -28,7 +28,7 @@ const onScreen = (page, body) => page.evaluate((i) => window.talus.stage.placeOf
 
 for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   test(`${scene}: a body is pulled along by the pointer, and stays awake`, async () => {
-    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20");
+    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", "--set", "run.until=frames");
     const page = await openPage(url);
     await until(page, ({ asleep }) => asleep > 3, 60);
     const body = await highest(page);
@@ -56,7 +56,7 @@ for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   });
 
   test(`${scene}: a click adds a body of the shape chosen`, async () => {
-    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20");
+    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", "--set", "run.until=frames");
     const page = await openPage(url);
     await until(page, ({ asleep }) => asleep > 3, 60);
     const body = await highest(page);

@@ -45,6 +45,126 @@ test("a run differs from itself by nothing", async () => {
   child.kill();
 });
 
+/// What the two sides show: the time of what is drawn [s], metres of a pixel with the camera, and the size of the canvas.
+async function sidesOf(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return Promise.all(
+    page.frames().slice(1).map((side) =>
+      side.evaluate(() => {
+        const { timeline, stage, plots } = window.talus;
+        const canvas = document.getElementById("bodies");
+        const { min, max } = plots.counts.scales.x;
+        return { time: plots.time, shown: timeline.time(timeline.shown), view: stage.view(), size: [canvas.clientWidth, canvas.clientHeight], plot: [min, max, plots.counts.scales.y.max, plots.densities.scales.y.max], grid: stage.surroundings.gridLength };
+      }),
+    ),
+  );
+}
+
+/// One moment at one scale on both sides.
+async function assertTogether(page, time) {
+  const [a, b] = await sidesOf(page);
+  assert.equal(a.time, b.time);
+  if (time !== undefined) assert.ok(Math.abs(a.time - time) < 1e-9, `${a.time}, not ${time}`);
+  assert.deepEqual([a.size, a.grid], [b.size, b.grid]);
+  assert.ok(Math.abs(a.view.metresPerPixel / b.view.metresPerPixel - 1) < 1e-6, JSON.stringify([a.view, b.view]));
+  for (const part of ["eye", "target"]) a.view[part].forEach((value, i) => assert.ok(Math.abs(value - b.view[part][i]) < 1e-6, JSON.stringify([a.view, b.view])));
+  return [a, b];
+}
+
+for (const dimension of ["2d", "3d"]) {
+  test(`${dimension}: records of other step, rate, length and scale are shown at one moment and one scale, with what differs in words`, async () => {
+    const folder = temporaryFolder();
+    const common = ["run", `drop_in_a_pile_${dimension}`, "--no-telemetry"];
+    const [a, b] = ["short", "long"].map((name) => join(folder, name));
+    talus(...common, "--set", "run.frames=90", "--out", a);
+    talus(...common, "--policy", "full", "--seed", "7", "--set", "world.steps_per_second=100", "--set", "run.frame_rate=10", "--set", "run.frames=50", "--set", "source[0].position=" + (dimension === "2d" ? "[12, 30]" : "[12, 0, 30]"), "--out", b);
+    const { url, child } = await serve(a, b);
+    const page = await openPair(url);
+    await page.evaluate(() => window.pair.pause());
+    for (const time of [1.234, 0.3, 2.5]) {
+      await page.evaluate((at) => window.pair.seek(at), time);
+      await assertTogether(page, time);
+    }
+    await page.waitForFunction(() => document.getElementById("time").textContent.includes("the first run ends at 3.00 s"));
+    await page.evaluate(() => window.pair.seek(99));
+    const [first, second] = await assertTogether(page, 3);
+    assert.ok(Math.abs(second.shown - 3) < 0.15 && Math.abs(first.shown - 3) < 1e-6);
+    assert.deepEqual(first.plot, second.plot, "plots have one scale");
+    // A body of the right run between two of its frames is drawn between their places.
+    await page.evaluate(() => window.pair.seek(1.47));
+    const steps = await page.frames()[2].evaluate(() => {
+      const { timeline } = window.talus;
+      return [timeline.state.step, timeline.drawn !== timeline.state, timeline.step[timeline.shown + 1]];
+    });
+    assert.ok(steps[0] < 147 && steps[1] && steps[2] > 147, JSON.stringify(steps));
+    // The camera of one side is that of the other.
+    const canvas = await page.frames()[1].locator("#bodies").boundingBox();
+    await page.mouse.move(canvas.x + 100, canvas.y + 100);
+    await page.mouse.wheel(0, -300);
+    await page.mouse.down();
+    await page.mouse.move(canvas.x + 160, canvas.y + 130, { steps: 3 });
+    await page.mouse.up();
+    await page.waitForTimeout(300);
+    const [moved] = await assertTogether(page);
+    assert.notDeepEqual(moved.view, first.view);
+    const labels = await page.locator(".label").allInnerTexts();
+    assert.match(labels[0], /policy adaptive.*seed \d+/s);
+    assert.match(labels[1], /policy full.*seed 7/s);
+    assert.match(labels[1], /world\.steps_per_second 100/);
+    for (const width of [1280, 390]) {
+      await page.setViewportSize({ width, height: 800 });
+      await page.waitForTimeout(300);
+      const cut = await page.evaluate(() => [...document.querySelectorAll(".label, .label b, #difference td, #time")].filter((each) => each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).display !== "inline").map((each) => each.textContent));
+      assert.deepEqual(cut, [], `nothing is cut off at ${width} pixels`);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+      await assertTogether(page);
+    }
+    assert.deepEqual(page.faults, []);
+    await page.close();
+    child.kill();
+  });
+}
+
+test("keys and clicks on one side go to both runs", async () => {
+  const run = join(temporaryFolder(), "run");
+  talus("run", "drop_in_a_pile_2d", "--no-telemetry", "--set", "run.frames=90", "--out", run);
+  const { url, child } = await serve(run, run);
+  const page = await openPair(url);
+  await page.evaluate(() => (window.pair.pause(), window.pair.seek(1)));
+  const right = page.frames()[2];
+  const over = await right.locator(".u-over").first().boundingBox();
+  await page.mouse.click(over.x + 0.5 * over.width, over.y + 20);
+  const [{ time }] = await assertTogether(page);
+  assert.ok(Math.abs(time - 1.5) < 0.1, `${time}`);
+  await page.keyboard.press(".");
+  const [after] = await assertTogether(page);
+  assert.ok(after.time > time && after.time < time + 0.05, `${after.time}`);
+  await page.close();
+  child.kill();
+});
+
+test("two simulations are shown at one moment while they run, paused and after a restart", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d", "--against", "full", "--pace", "8", "--set", "run.frames=150");
+  const page = await openPair(url);
+  for (let i = 0; i < 5; ++i) {
+    await page.waitForTimeout(200);
+    await assertTogether(page);
+  }
+  await page.waitForFunction(() => window.pair.ended() && window.pair.difference().step === 300, null, { timeout: 60_000 });
+  await assertTogether(page, 5);
+  assert.equal(await page.textContent("#play"), "\u25B6", "a run that has ended offers to play it");
+  await page.click("#play");
+  await page.waitForFunction(() => window.pair.difference().step > 5 && window.pair.difference().step < 300);
+  await page.evaluate(() => (window.pair.pause(), window.pair.seek(2.01)));
+  await assertTogether(page, 2.01);
+  await page.click("#restart");
+  await page.waitForFunction(() => window.pair.difference().step > 5 && !window.pair.ended());
+  await assertTogether(page);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+  child.kill();
+});
+
 test("a scene runs under two policies, and one button pauses both", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d", "--against", "full", "--pace", "4");
   const page = await openPair(url);

@@ -11,7 +11,7 @@ function record(scene, ...options) {
   const run = join(folder, scene);
   talus("run", scene, "--no-telemetry", "--out", run, ...options);
   const html = join(folder, `${scene}.html`);
-  talus("replay", run, "--html", html);
+  talus("replay", run, "--out", html);
   return { run, url: pathToFileURL(html) };
 }
 
@@ -82,21 +82,6 @@ for (const [name, { run, url }] of Object.entries({ flat, solid })) {
     await page.close();
   });
 }
-
-test("the report of a run opens without a network, plays the record and has its plots", async () => {
-  const html = join(folder, "report.html");
-  talus("report", flat.run, "--html", html);
-  const page = await openPage(pathToFileURL(html), { offline: true, talus: false });
-  const player = page.frames()[1];
-  await player.waitForFunction(() => window.talus !== undefined);
-  await player.evaluate(() => (window.talus.pause(), window.talus.seek(400)));
-  const share = await colours(player);
-  assert.ok(share.orange > 0.001 && share.dark > 0.001, JSON.stringify(share));
-  for (const plot of await page.locator("figure > svg").all()) assert.ok((await plot.boundingBox()).height > 100);
-  assert.ok((await page.locator("figure > svg").count()) >= 5);
-  assert.deepEqual(page.faults, []);
-  await page.close();
-});
 
 test("buttons, keys and the slider play, step and scrub", async () => {
   const page = await openAt(flat.url, 100);

@@ -23,7 +23,7 @@ const bodiesOf = (page) =>
 
 for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   test(`${scene}: the scene saved begins with the bodies as they are, without the one deleted`, async () => {
-    const { url, child } = await serve(scene, "--pace", "16", "--set", "source[0].count=12", "--set", "run.frames=20000"); // longer than the test
+    const { url, child } = await serve(scene, "--pace", "16", "--set", "source[0].count=12", "--set", "run.frames=20000", "--set", "run.until=frames"); // longer than the test
     const page = await openPage(url);
     await until(page, ({ bodies, asleep }) => bodies === 12 && asleep === 12, 120);
     await pause(page);

@@ -1,7 +1,9 @@
 // A scene that is simulated while `talus view SCENE` shows it.
 import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
-import { openPage, serve, shown, statusOf, until, upgrade } from "./browser.mjs";
+import { openPage, serve, shown, statusOf, talus, temporaryFolder, until, upgrade } from "./browser.mjs";
 
 test("something moves within three seconds of the command", async () => {
   await (await openPage("about:blank", { talus: false })).close(); // the browser is running
@@ -98,7 +100,7 @@ test("a scene of the other dimension can follow", async () => {
 
 test("a body is thrown by shift and drag, and removed by Delete", async () => {
   // Few bodies, so that none falls onto the one thrown.
-  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--set", "source[0].count=12");
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--set", "source[0].count=12", "--set", "run.until=frames");
   const page = await openPage(url);
   await until(page, ({ bodies, asleep }) => bodies === 12 && asleep > 8, 60);
   await page.click("#run");
@@ -191,6 +193,90 @@ test("a slider changes a number of the scene, which runs again", async () => {
   await page.locator("#value").press("Enter");
   await page.waitForFunction(() => document.getElementById("errors").textContent.includes("count"));
   assert.equal((await shown(page)).bodies, 7, "the run goes on as it was");
+  await page.close();
+  child.kill();
+});
+
+test("the sliders begin with a number that is worth to change, and have no dimension", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d");
+  const page = await openPage(url);
+  await page.waitForFunction(() => document.getElementById("text").value !== "");
+  assert.match(await page.inputValue("#number"), /friction$/);
+  const paths = await page.locator("#number option").allTextContents();
+  assert.ok(paths.length > 3 && !paths.includes("dimension"), paths.join(" "));
+  await page.close();
+  child.kill();
+});
+
+const rests = 'title = "rests"\ndimension = 2\nrun = {until = "rest", frames = 3000}\nshape.disc = {kind = "ball", radius = 0.5, rolling_friction = 0.2}\n[[source]]\nposition = [0, 4]\ncount = 3\n[[pile]]\n';
+
+test("a run until rest ends when talus run does, with its estimate of drift, and can be replayed and run again", async () => {
+  const folder = temporaryFolder();
+  const scene = join(folder, "rests.toml");
+  writeFileSync(scene, rests);
+  talus("run", scene, "--no-telemetry", "--out", join(folder, "run"));
+  const summary = JSON.parse(readFileSync(join(folder, "run", "summary.json"), "utf8"));
+  assert.ok(summary.at_rest && summary.steps < 3000 && summary.estimate);
+  const { url, child } = await serve(scene, "--pace", "0");
+  const page = await openPage(url);
+  await page.waitForFunction(() => document.getElementById("speed").textContent.startsWith("finished: all at rest after"), null, { timeout: 60_000 });
+  const end = await until(page, ({ step }) => step === summary.steps);
+  assert.equal(end.asleep, summary.asleep_at_end);
+  const drift = await page.evaluate(() => window.talus.timeline.state.drift);
+  assert.ok(Math.abs(drift - summary.estimate.drift_D) <= 1e-6 * summary.estimate.drift_D, `${drift}, not ${summary.estimate.drift_D}`);
+  assert.equal(await page.textContent("#run"), "Run again");
+  assert.equal(await page.textContent("#play"), "\u25B6");
+  assert.ok(await page.isDisabled("#single"));
+  await page.click("#play");
+  await page.waitForFunction(() => window.talus.shown().playing && window.talus.shown().frame > 3 && window.talus.shown().frame < window.talus.timeline.frames - 1);
+  assert.equal(await page.textContent("#play"), "\u2016");
+  await page.click("#play");
+  await page.waitForFunction(() => !window.talus.shown().playing);
+  await page.click("#run");
+  await page.waitForFunction(() => window.talus.shown().step === 0 || window.talus.timeline.frames < 100);
+  await page.waitForFunction(() => document.getElementById("speed").textContent.startsWith("finished"), null, { timeout: 60_000 });
+  assert.deepEqual(page.faults, []);
+  await page.close();
+  child.kill();
+});
+
+test("the record of a run has at its end the estimate of drift that the run told", async () => {
+  const folder = temporaryFolder();
+  talus("run", "drop_in_a_pile_2d", "--no-telemetry", "--set", "source[0].count=40", "--set", "run.frames=450", "--out", join(folder, "run"));
+  const { estimate } = JSON.parse(readFileSync(join(folder, "run", "summary.json"), "utf8"));
+  assert.ok(estimate.probed_s > 0, JSON.stringify(estimate));
+  const { url, child } = await serve(join(folder, "run"));
+  const page = await openPage(url);
+  await page.click("#last");
+  const drift = await page.evaluate(() => window.talus.timeline.state.drift);
+  assert.ok(Math.abs(drift - estimate.drift_D) <= 1e-6 * estimate.drift_D, `${drift}, not ${estimate.drift_D}`);
+  assert.match(await page.textContent("#measured"), new RegExp(`Drift estimated ${estimate.drift_D.toPrecision(2)} D`));
+  await page.close();
+  child.kill();
+});
+
+test("after a resize the line of the time shown and the cursor are where they should be", async () => {
+  const run = join(temporaryFolder(), "run");
+  talus("run", "drop_in_a_pile_2d", "--no-telemetry", "--set", "run.frames=90", "--out", run);
+  const { url, child } = await serve(run);
+  const page = await openPage(url, { viewport: { width: 1280, height: 800 } });
+  await page.evaluate(() => (window.talus.pause(), window.talus.seek(45)));
+  for (const width of [1280, 700, 1000, 390]) {
+    await page.setViewportSize({ width, height: 800 });
+    await page.waitForTimeout(300);
+    const [line, expected] = await page.evaluate(() => {
+      const { counts } = window.talus.plots;
+      return [document.querySelector(".playhead").offsetLeft, counts.valToPos(window.talus.shown().time, "x")];
+    });
+    assert.ok(Math.abs(line - expected) < 1.5, `${line} for ${expected} at ${width}`);
+    const over = page.locator(".u-over").first();
+    await over.scrollIntoViewIfNeeded();
+    const box = await over.boundingBox();
+    await page.mouse.move(box.x + 0.25 * box.width, box.y + 0.5 * box.height);
+    await page.waitForTimeout(100);
+    const cursor = await page.locator(".u-cursor-x").first().boundingBox();
+    assert.ok(Math.abs(cursor.x - box.x - 0.25 * box.width) < 2.5, `${cursor.x} at ${width}`);
+  }
   await page.close();
   child.kill();
 });

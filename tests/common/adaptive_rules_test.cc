@@ -67,10 +67,9 @@ std::vector<Contact<3>> stack_of_two() {
 /// Those of `candidates` that are supported. The weight of a cube is 1 N s a step.
 std::vector<BodyIndex> supported(StillWorld<3> world, std::vector<Contact<3>> contacts,
                                  std::vector<BodyIndex> candidates) {
-  RuleParts parts;
-  parts.world.gravity = 1.0 / parts.world.dt;
+  world.set_gravity(Vec3(0.0, 0.0, -60.0));
   world.touching = std::move(contacts);
-  SupportCriterion<3>(parts.setup()).keep_supported(input(world), candidates);
+  SupportCriterion<3>(RuleParts{}.setup()).keep_supported(input(world), candidates);
   return candidates;
 }
 
@@ -90,6 +89,28 @@ TEST(SupportCriterion, RemovesAWholeTowerWithItsLowestBody) {
   const std::vector<Contact<3>> contacts = {contact(0, 1, Vec3(0.0, 0.0, 1.0), -Vec3::UnitZ(), 1.0),
                                             contact(1, 2, Vec3(0.0, 0.0, 2.0), -Vec3::UnitZ(), 1.0)};
   EXPECT_TRUE(supported(world, contacts, {0, 1, 2}).empty());
+}
+
+TEST(SupportCriterion, AsksForTheWeightInTheGravityOfTheStep) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5)});
+  std::vector<BodyIndex> candidates = {0};
+  world.touching = {contact(0, ground_index, Vec3::Zero(), Vec3::UnitZ(), 1.6 / 60.0)};
+  const SupportCriterion<3> support(RuleParts{}.setup());
+  world.set_gravity(Vec3(0.0, 0.0, -1.6));
+  support.keep_supported(input(world), candidates);
+  EXPECT_EQ(candidates.size(), 1U) << "on the Moon";
+  world.set_gravity(Vec3(0.0, 0.0, -10.0));
+  support.keep_supported(input(world), candidates);
+  EXPECT_TRUE(candidates.empty());
+}
+
+TEST(SupportCriterion, CountsWhatCarriesAgainstGravityThatPullsToTheSide) {
+  StillWorld<3> world = cubes_at({Vec3(0.5, 0.0, 5.0)});
+  std::vector<BodyIndex> candidates = {0};
+  world.set_gravity(Vec3(-10.0, 0.0, 0.0));
+  world.touching = {contact(0, first_obstacle, Vec3(0.0, 0.0, 5.0), Vec3::UnitX(), 10.0 / 60.0)};
+  SupportCriterion<3>(RuleParts{}.setup()).keep_supported(input(world), candidates);
+  EXPECT_EQ(candidates.size(), 1U) << "a wall carries it";
 }
 
 TEST(SupportCriterion, RemovesABodyInFlight) {
@@ -147,26 +168,44 @@ TEST(SupportLoss, DoesNotWakeABodyOnWhichAnAwakeOneMoves) {
   EXPECT_TRUE(loss.woken(world, contacts).empty());
 }
 
+TEST(SupportLoss, ForgetsASleeperThatIsRemoved) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  world.freeze(std::vector<BodyIndex>{1});
+  SupportLossRule loss;
+  loss.woken(world, stack_of_two());
+  world.remove(1);
+  world.move(0, {.position = Vec3(0.02, 0.0, 0.5)});
+  EXPECT_TRUE(loss.woken(world, {}).empty()) << "what has left the world cannot wake";
+}
+
 /// An awake cube of 1 kg hits a sleeping one beside it and is stopped. It comes from the side `from`.
 struct Collision {
   explicit Collision(const Vec3& side = -Vec3::UnitX())
       : from(side), world(cubes_at({middle() + side, middle()})), impacts(RuleParts{}.setup()) {
     world.freeze(std::vector<BodyIndex>{1});
-    impacts.update(input(world), out);  // the step before: awake, without contact
+    step();  // awake, without contact
+    step();
+  }
+  void step() {
+    const RuleInput<3> in = input(world, ++steps);
+    out.clear();
+    rest.update(in);
+    impacts.update(in, rest, out);
   }
   static Vec3 middle() { return {0.0, 0.0, 5.0}; }
   void strike(double impulse, double approach, const Vec3& off_centre = Vec3::Zero()) {
     Contact<3> touch = contact(0, 1, middle() + 0.5 * from + off_centre, from, impulse);
     touch.approach_speed = approach;
     world.touching = {touch};
-    out.clear();
-    impacts.update(input(world), out);
+    step();
   }
   bool wakes() const { return !out.wakes.empty(); }
   Vec3 from;
   StillWorld<3> world;
+  RestCriterion<3> rest{RuleParts{}.setup()};
   Impacts<3> impacts;
   RuleOutput<3> out;
+  std::int64_t steps = 0;
 };
 
 TEST(Impacts, ShareMomentumAsBetweenFreeBodiesThatDoNotBounce) {
@@ -222,6 +261,24 @@ TEST(Impacts, GiveNoBodyMoreSpeedThanTheFastestApproachOfTheStep) {
   collision.strike(100.0, 3.0);  // an engine pushes overlapping bodies apart
   ASSERT_EQ(collision.out.velocities.size(), 2U);
   EXPECT_LE(collision.out.velocities[1].velocity.norm(), 3.0 + 1e-9);
+}
+
+// In a tenth of the gravity a tenth of the energy lifts the body as high.
+TEST(Impacts, WakeByTheGravityOfTheStep) {
+  Collision collision;
+  collision.world.set_gravity(Vec3(0.0, 0.0, -1.0));
+  collision.strike(0.7, 9.0);
+  EXPECT_TRUE(collision.wakes()) << "0.35 m/s; it takes 0.32";
+  Collision before;
+  before.strike(0.7, 9.0);
+  EXPECT_FALSE(before.wakes());
+}
+
+TEST(Impacts, OfABodyThatWokeAfterAPauseCountByItsApproach) {
+  Collision collision;
+  collision.steps += 100;  // all slept, so the rule was not called
+  collision.strike(4.0, 0.0);
+  EXPECT_FALSE(collision.wakes()) << "a load, not an impact";
 }
 
 /// A sleeping cube, an awake one that nearly touches it, and behind that a third one that pushes it.

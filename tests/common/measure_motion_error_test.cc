@@ -89,24 +89,10 @@ TEST(MotionError, RefusesRunsOfDifferentFrames) {
   EXPECT_THROW(motion_errors<2>(mover(0.5), Trajectory<2>(0.5), one_metre, gravity), std::invalid_argument);
 }
 
-TEST(Divergence, IsTheFirstFrameAboveHalfTheFinalValue) {
-  std::vector<double> growing(100, 4.0);
-  for (std::size_t j = 0; j < 50; ++j) growing[j] = 1e-6 * std::exp(0.31 * static_cast<double>(j));
-  // exp(0.31 j) exceeds 2e6 from j = 47 on: ln(2e6) / 0.31 = 46.8.
-  EXPECT_EQ(divergence_frame(growing), 47);
-  EXPECT_EQ(divergence_frame(std::vector<double>(10, 0.0)), 10) << "never";
-}
-
 TEST(Divergence, MeasuresPlacesFrameByFrame) {
   const std::vector<double> apart = position_differences(mover(0.5), mover(0.25));
   ASSERT_EQ(apart.size(), 5U);
   EXPECT_DOUBLE_EQ(apart[4], 0.5);  // (1 m + 0 m) / 2 after four frames
-}
-
-TEST(Skill, IsZeroAtTheFloorAndOneAtTheCeiling) {
-  EXPECT_DOUBLE_EQ(skill(0.46, 0.46, 0.65), 0.0);
-  EXPECT_DOUBLE_EQ(skill(0.65, 0.46, 0.65), 1.0);
-  EXPECT_THROW(skill(0.5, 0.6, 0.6), std::invalid_argument);
 }
 
 }  // namespace

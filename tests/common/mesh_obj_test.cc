@@ -100,6 +100,89 @@ TEST_F(ObjFile, IsReadWithoutTheFilesThatItNames) {
   EXPECT_NEAR(moments(read("mtllib /dev/zero\nusemtl any\n" + tetrahedron)).volume, 1.0 / 6.0, 1e-12);
 }
 
+/// Corners -1 to 1, faces of four corners.
+const std::string cube =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+/// `text` with each `from` replaced.
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+TEST_F(ObjFile, IsReadAsOtherProgramsWriteIt) {
+  const std::string unended = cube.substr(0, cube.size() - 1);
+  for (const auto& [how, text] : std::vector<std::pair<std::string, std::string>>{
+           {"a byte order mark", "\xEF\xBB\xBF" + cube},
+           {"continued lines", with(cube, " ", " \\\n ")},
+           {"continued lines of Windows", with(cube, " ", "\\\r\n ")},
+           {"comments at the ends of lines", with(cube, "\n", " # of a cube\n")},
+           {"comments without a blank", with(cube, "\n", "\t# of a cube\n# a\n")},
+           {"tabs and trailing blanks", with(with(cube, " ", "\t"), "\n", " \t\n")},
+           {"lines of Windows", with(cube, "\n", "\r\n")},
+           {"lines of old Macs", with(cube, "\n", "\r")},
+           {"no line end at the end", unended},
+           {"a backslash at the end", unended + "\\"},
+           {"colours", with(with(cube, "1\nv", "1 0.5 0.5 0.5\nv"), "1\nf 1 4", "1 0.5 0.5 0.5\nf 1 4")},
+           {"a weight", with(cube, "1\nv", "1 1.0\nv")},
+           {"normals", "vn 0 0 1\n" + with(with(cube, "f 1 4 3 2", "f 1//1 4//1 3//1 2//1"), "f 5 6", "f 5//1 6")},
+           {"groups and objects", with(cube, "f 5", "g side one\no other #2\ns off\nf 5")}}) {
+    SCOPED_TRACE(how);
+    const Mesh mesh = read(text);
+    EXPECT_EQ(mesh.corners.size(), 8U);
+    EXPECT_NEAR(moments(mesh).volume, 8.0, 1e-12);
+  }
+}
+
+TEST_F(ObjFile, ThatIsNoTextInUtf8IsRefusedWithTheReason) {
+  std::string wide;
+  for (const char letter : cube) wide += {letter, '\0'};
+  expect_refused("\xFF\xFE" + wide, "must be text in UTF-8, not in UTF-16");
+  expect_refused(wide, "must be text in UTF-8, but has zero bytes");
+  expect_refused("", "must hold faces");
+  expect_refused("\xEF\xBB\xBF", "must hold faces");
+  expect_refused("v 0 0 1e31\n" + cube, "mesh.obj:1: a corner must be three numbers from -1e30 to 1e30");
+}
+
+TEST_F(ObjFile, NamesTheFirstOfContinuedLines) {
+  expect_refused("v 0 \\\n0 0\nv 1 \\\n0 x\n", "mesh.obj:3: a corner must be three");
+}
+
+/// Cubes of side 1, each with corners of its own, their lowest corners as given.
+std::string cubes(const std::vector<Vec3>& places, double size = 1.0) {
+  std::string text;
+  int first = 1;
+  for (const Vec3& place : places) {
+    text += fmt::format("o cube{}\n", first);
+    for (int i = 0; i < 8; ++i)
+      text += fmt::format("v {} {} {}\n", place.x() + size * (i & 1), place.y() + size * (i >> 1 & 1),
+                          place.z() + size * (i >> 2));
+    for (const auto& f : std::vector<std::array<int, 4>>{
+             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+      text += fmt::format("f {} {} {} {}\n", first + f[0], first + f[1], first + f[2], first + f[3]);
+    first += 8;
+  }
+  return text;
+}
+
+TEST_F(ObjFile, MayHaveClosedPiecesThatTouch) {
+  for (const auto& [how, places] : std::vector<std::pair<std::string, std::vector<Vec3>>>{
+           {"at a corner", {{0, 0, 0}, {1, 1, 1}}},
+           {"at an edge", {{0, 0, 0}, {1, 1, 0}}},
+           {"at a face", {{0, 0, 0}, {1, 0, 0}}},
+           {"around an edge", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}},
+           {"at three edges of one", {{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}}}) {
+    SCOPED_TRACE(how);
+    const Moments<3> whole = moments(read(cubes(places)));
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& place : places) centre += place + Vec3::Constant(0.5);
+    EXPECT_NEAR(whole.volume, static_cast<double>(places.size()), 1e-12);
+    EXPECT_NEAR((whole.centre - centre / static_cast<double>(places.size())).norm(), 0.0, 1e-12);
+  }
+}
+
 TEST_F(ObjFile, CountsCornersBackFromTheFace) {
   EXPECT_NEAR(moments(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                            "f -4/1 -2/2 -3/3\nf -4 -3 -1\nf -3 -2 -1\nf -2//1 -4//1 -1//1\n"))

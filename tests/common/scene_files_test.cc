@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "common/scene/read_scene.h"
@@ -39,9 +40,8 @@ TEST(DropInAPile, IsThePapersFirstExample) {
 
 std::string written_and_read(const AnyScene& scene) {
   const TemporaryFolder folder;
-  const fs::path file = folder / "scene.toml";
-  std::visit([&](const auto& one) { write_scene(one, file); }, scene);
-  return std::visit([](const auto& one) { return description(one); }, read_scene(file));
+  std::visit([&](const auto& one) { write_scene_files(scene_files(one), folder.path()); }, scene);
+  return std::visit([](const auto& one) { return description(one); }, read_scene(folder / "scene.toml"));
 }
 
 // The shipped bunny's parts were made for speed and stay, so that results stay comparable: see docs/scenes.md.
@@ -72,24 +72,24 @@ TEST(EveryScene, IsReadWithoutWarningAndWrittenBackTheSame) {
 }
 
 // A run's folder must be enough to run it again.
-TEST(WriteScene, CopiesTheMeshesThatTheSceneNames) {
+TEST(SceneFiles, AreAlsoTheMeshesThatTheSceneNames) {
   const std::string text =
       "title = \"A scene\"\ndimension = 3\n[shape.bunny]\nkind = \"mesh\"\nfile = \"shapes/bunny.obj\"\n[[source]]\n";
   const AnyScene scene = parse_scene(text, (scenes / "made_up.toml").string());
   const TemporaryFolder folder;
-  write_scene(std::get<Scene<3>>(scene), folder / "scene.toml");
+  write_scene_files(scene_files(std::get<Scene<3>>(scene)), folder.path());
   const AnyScene again = read_scene(folder / "scene.toml");
   EXPECT_EQ(description(std::get<Scene<3>>(again)), description(std::get<Scene<3>>(scene)));
 }
 
-TEST(WriteScene, RefusesASceneMadeByAProgram) {
-  const TemporaryFolder folder;
-  EXPECT_THROW(write_scene(Scene<2>(), folder / "scene.toml"), std::invalid_argument);
-}
+TEST(SceneFiles, OfASceneMadeByAProgramAreNone) { EXPECT_TRUE(scene_files(Scene<2>()).empty()); }
 
-TEST(WriteScene, TellsWhereItCouldNotWrite) {
-  const AnyScene scene = read_scene(scenes / "drop_in_a_pile_2d.toml");
-  EXPECT_THROW(write_scene(std::get<Scene<2>>(scene), "no/such/folder/scene.toml"), std::runtime_error);
+TEST(SceneFiles, AreWrittenBelowTheFolderOnlyAndIntoOneThatCanBe) {
+  const TemporaryFolder folder;
+  for (const char* name : {"../a.toml", "/a.toml", "a/../../b", "", "a/"})
+    EXPECT_THROW(write_scene_files({{name, "text"}}, folder.path()), std::invalid_argument) << name;
+  std::ofstream(folder / "file") << "text";
+  EXPECT_ANY_THROW(write_scene_files({{"a.toml", "text"}}, folder / "file"));
 }
 
 }  // namespace

@@ -77,6 +77,15 @@ TEST(WrongOverride, OfAnUnknownPathIsToldTheNearest) {
             "--set polcy.tau=0.4: polcy = {...}: no such key here (did you mean \"policy\"?)");
 }
 
+TEST(WrongOverride, OfANameOrNumberThatTheSceneDoesNotHaveSaysSo) {
+  EXPECT_EQ(error_of("shape.l.friction=1"),
+            "--set shape.l.friction=1: the scene has no shape \"l\" (did you mean \"L\"?)");
+  EXPECT_EQ(error_of("shape.stone.friction=1"), "--set shape.stone.friction=1: the scene has no shape \"stone\"");
+  EXPECT_EQ(error_of("obstacle[0].friction=1"), "--set obstacle[0].friction=1: [0]: the scene has no obstacle");
+  EXPECT_EQ(error_of("source[7].rate=1"), "--set source[7].rate=1: [7]: there are only 2, counted from 0");
+  EXPECT_EQ(with({{"shape.disc={kind=\"ball\", radius=1}"}}).world.shapes.size(), 2U) << "a whole shape may be added";
+}
+
 TEST(WrongOverride, OfAPathThatLeadsNowhereIsRefused) {
   EXPECT_EQ(error_of("source[2].rate=3"), "--set source[2].rate=3: [2]: there are only 2, counted from 0");
   EXPECT_EQ(error_of("source.rate=3"),

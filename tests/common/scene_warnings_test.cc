@@ -32,6 +32,19 @@ TEST(Warnings, TellOfBodiesThatAreDueAfterTheEnd) {
   expect_one(warnings_with({{"run.frames=60"}}), "source[0]: its last body is due at 4.5 s, the run ends at 2 s");
 }
 
+TEST(Warnings, TellOfMotionsThatSinglePrecisionRoundsAway) {
+  const auto platform_at = [](const std::string& x, const std::string& speed) {
+    return warnings_with(
+        {{"obstacle=[{kind = \"box\", size = [2, 2, 0.5], position = [" + x +
+          ", 0, 1], motion = {kind = \"path\", times = [0, 1], shifts = [[0, 0, 0], [" + speed + ", 0, 0]]}}]"}});
+  };
+  EXPECT_EQ(platform_at("0", "0.001"), "");
+  EXPECT_EQ(platform_at("1000", "0.2"), "");
+  expect_one(platform_at("20", "0.001"), "obstacle[0].motion: of 1.7e-05 m a step at most, up to 21 m");
+  expect_one(platform_at("20", "0.001"), "go up to 6 % too far or too short");
+  expect_one(platform_at("1000", "0.001"), "go up to 100 % too far or too short");
+}
+
 TEST(Warnings, TellOfSizesThatEnginesHoldBadly) {
   expect_one(warnings_with({{"shape.ball.radius=0.09"}}), "shape.ball: 0.18 to 0.18 m wide");
 }

@@ -35,18 +35,23 @@ class StabilityChecksTest : public testing::Test {
 
   void put_to_sleep(const std::vector<BodyIndex>& bodies) {
     world_.freeze(bodies);
-    checks_.count(input(world_), events(bodies), {});
+    for (const BodyIndex body : bodies)
+      sleepers_.put_in(body, world_.states().pose[body].position, checks_.note_asleep(world_, body));
   }
+  void wake(const std::vector<BodyIndex>& bodies) {
+    world_.thaw(bodies);
+    for (const BodyIndex body : bodies) sleepers_.take_out(body);
+  }
+  bool may_begin() const { return checks_.may_begin(sleepers_); }
 
   /// One step; returns the bodies that wake.
   std::vector<BodyIndex> step() {
     const RuleInput<3> in = input(world_, ++step_, piles_);
     RuleOutput<3> out;
     rest_.update(in);
-    checks_.update(in, rest_, out);
-    const std::vector<BodyIndex> woken = bodies_in(out.wakes);
-    world_.thaw(woken);
-    checks_.count(input(world_), {}, events(woken));
+    checks_.update(in, rest_, sleepers_, out);
+    std::vector<BodyIndex> woken = bodies_in(out.wakes);
+    wake(woken);
     return woken;
   }
 
@@ -72,15 +77,10 @@ class StabilityChecksTest : public testing::Test {
     world_.move(body, pose);
   }
 
-  static std::vector<SleepEvent> events(const std::vector<BodyIndex>& bodies) {
-    std::vector<SleepEvent> events;
-    for (const BodyIndex body : bodies) events.push_back({.body = body});
-    return events;
-  }
-
   StillWorld<3> world_;
   RestCriterion<3> rest_;
   StabilityChecks<3> checks_;
+  SleepLedger<3> sleepers_{4.0};
   std::vector<Pile<3>> piles_;
   std::int64_t step_ = 0;
 };
@@ -88,9 +88,9 @@ class StabilityChecksTest : public testing::Test {
 TEST_F(StabilityChecksTest, WakeAQuietRegionAndHoldItUntilItHasLainStill) {
   const std::vector<BodyIndex> bodies = {add(1.0), add(2.0)};
   put_to_sleep(bodies);
-  EXPECT_TRUE(checks_.may_begin());
+  EXPECT_TRUE(may_begin());
   EXPECT_EQ(steps(sample_time), bodies);
-  EXPECT_FALSE(checks_.may_begin());
+  EXPECT_FALSE(may_begin());
   EXPECT_TRUE(checks_.holds(0) && checks_.holds(1));
   steps(check_time);
   EXPECT_FALSE(checks_.holds(0) || checks_.holds(1));
@@ -139,11 +139,11 @@ TEST_F(StabilityChecksTest, AreNotRepeatedForABodyThatSleepsAgainWhereItWas) {
   steps(sample_time + check_time);
   move(0, 0.04);
   put_to_sleep({0});
-  EXPECT_FALSE(checks_.may_begin());
-  world_.thaw(std::vector<BodyIndex>{0});
+  EXPECT_FALSE(may_begin());
+  wake({0});
   move(0, 0.02);  // 0.06 m from where the check left it
   put_to_sleep({0});
-  EXPECT_TRUE(checks_.may_begin());
+  EXPECT_TRUE(may_begin());
   EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{0}));
 }
 
@@ -155,7 +155,7 @@ TEST_F(StabilityChecksTest, WakeTheColumnsAroundAndNoneFarther) {
   put_to_sleep({far});
   steps(sample_time + check_time);
   put_to_sleep({checked, far});
-  EXPECT_FALSE(checks_.may_begin()) << "both lie where a check left them";
+  EXPECT_FALSE(may_begin()) << "both lie where a check left them";
   const BodyIndex fresh = add(1.0);  // in the column from 0 to 4 m, the others from 4 m up and below -4 m
   put_to_sleep({fresh});
   EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{checked, fresh}));
@@ -222,7 +222,7 @@ TEST_F(StabilityChecksTest, LeaveFewerThanATwentiethOfARegionUnchecked) {
   put_to_sleep(heap);
   put_to_sleep({add(2.5)});
   EXPECT_TRUE(steps(20 * 60).empty()) << "one of 21";
-  EXPECT_FALSE(checks_.may_begin()) << "so that a pile at rest costs nothing";
+  EXPECT_FALSE(may_begin()) << "so that a pile at rest costs nothing";
   put_to_sleep({add(2.7)});
   EXPECT_EQ(steps(sample_time).size(), 22U) << "two of 22";
 }
@@ -269,7 +269,7 @@ TEST_F(LoadedRegion, IsHeldForAShortTimeAndCheckedAgainOnceItIsQuiet) {
   steps(sample_time, slide);
   EXPECT_FALSE(checks_.holds(0)) << "after three samples, whatever moves";
   put_to_sleep({0, 1});
-  EXPECT_TRUE(checks_.may_begin()) << "such a check proves nothing";
+  EXPECT_TRUE(may_begin()) << "such a check proves nothing";
   EXPECT_TRUE(steps(2 * sample_time, slide).empty()) << "nothing is new";
   EXPECT_EQ(steps(2 * sample_time), (std::vector<BodyIndex>{0, 1})) << "once it is quiet";
 }
@@ -280,7 +280,7 @@ TEST_F(StabilityChecksTest, LeaveAPileAloneWhoseSlopeIsControlledAboveTheAngleOf
   piles_ = {pile};
   put_to_sleep({add(1.0)});
   EXPECT_TRUE(steps(20 * 60).empty());
-  EXPECT_FALSE(checks_.may_begin()) << "so that a pile at rest costs nothing";
+  EXPECT_FALSE(may_begin()) << "so that a pile at rest costs nothing";
   piles_.front().slope_controlled = false;
   EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{0}));
 }
@@ -352,8 +352,7 @@ TEST(StabilityChecks, AreOffWithoutATolerance) {
   StabilityChecks<3> checks(parts.setup());
   world.add({.pose = {.position = Vec3(0.0, 0.0, 0.5)}});
   world.freeze(std::vector<BodyIndex>{0});
-  checks.count(input(world), std::vector<SleepEvent>{{.body = 0}}, {});
-  EXPECT_FALSE(checks.may_begin());
+  EXPECT_EQ(checks.note_asleep(world, 0), Standing::settled);
   EXPECT_FALSE(checks.drift_estimate(world));
 }
 

@@ -37,14 +37,14 @@ END)");
                                      "check drop_in_a_pile_2d",
                                      short_run() + "--hash",
                                      short_run() + "--out new",
-                                     "sheet run --out sheet.png",
                                      "bench --help"};
 #ifdef TALUS_BULLET
     list.emplace_back("decompose mesh.obj");
 #endif
 #ifdef TALUS_LCM
     list.emplace_back("compare run run");
-    list.emplace_back("wake run --seconds 0.1");
+    list.emplace_back("info run");
+    list.emplace_back("info --messages run");
 #endif
     return list;
   }

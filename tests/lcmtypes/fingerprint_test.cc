@@ -15,6 +15,7 @@ using talus_lcm::talus_obstacles_v1;
 using talus_lcm::talus_piles_v1;
 using talus_lcm::talus_piles_v2;
 using talus_lcm::talus_run_v1;
+using talus_lcm::talus_scene_v1;
 using talus_lcm::talus_shapes_v1;
 using talus_lcm::talus_sleep_v1;
 using talus_lcm::talus_stats_v1;

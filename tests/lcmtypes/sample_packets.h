@@ -41,6 +41,11 @@ std::vector<Packet> sample_packets(int bodies) {
   event.action = "remove";
   event.text = "remove all bodies";
   encode(std::vector{event});
+  talus_lcm::talus_scene_v1 file{};
+  file.file = "scene.toml";
+  file.parts = 1;
+  file.text = "title = \"still\"\n";
+  encode(std::vector{file});
   const std::vector<ObstaclePose<Dim>> moved = {{0, scene.world.obstacles[0].pose}};
   encode(to_obstacles<Dim>(moved));
   return packets;

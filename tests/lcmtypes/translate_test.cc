@@ -74,8 +74,8 @@ TEST(EventMessage, SaysWhatTheEventRemovesAndWhenItHappened) {
   Scene<2> scene = still_scene<2>();
   scene.obstacle_names = {{"gate", 0, 1}};
   scene.events.resize(2);
-  scene.events[0].action = "wake";
-  scene.events[1].action = "remove";
+  scene.events[0].action = EventAction::wake;
+  scene.events[1].action = EventAction::remove;
   scene.events[1].obstacle = 0;
   const auto messages = to_events(scene);
   ASSERT_EQ(messages.size(), 2U);
@@ -239,6 +239,17 @@ TEST(StatsMessage, CarriesTheEstimateOfDriftInExtentsOfTheTypicalBody) {
   EXPECT_EQ(decoded.checked_share, 0.25);
 }
 
+TEST(StatsMessage, CarriesWhatTheProbeOfTheLastStateFoundInThePlaceOfThePolicysEstimate) {
+  const Scene<2> scene = still_scene<2>();
+  StillWorld<2> world(scene.world);
+  const PileSet<2> piles({}, {.bounding_volume = 0.5, .extent = 2.0, .mass = 1.0});
+  const OneMetrePolicy policy;
+  const auto stats = to_stats<2>(
+      Frame<2>{.world = world, .piles = piles, .events = {}, .phases = {}, .policy = &policy, .probed_drift = 0.125});
+  EXPECT_EQ(stats.drift_estimate, 0.125);
+  EXPECT_EQ(stats.checked_share, 1.0) << "a probe wakes all bodies";
+}
+
 TEST(StatsMessage, HasNoEstimateOfDriftWithoutAPolicyThatMakesOne) {
   const Scene<2> scene = still_scene<2>();
   StillWorld<2> world(scene.world);
@@ -318,6 +329,21 @@ TEST(ShapesMessage, RefusesAShapeTooLargeForAMessage) {
   world.shapes.resize(1);
   world.shapes[0].pieces.assign(3000, BoxPiece<2>{});
   EXPECT_THROW(to_shapes<2>(world), std::invalid_argument);
+}
+
+TEST(SceneFiles, ComeInPartsThatMakeTheWhole) {
+  Scene<2> scene = still_scene<2>();
+  EXPECT_TRUE(to_scene_files(scene).empty()) << "it was made by a program";
+  scene.toml = std::string(100'000, 'a') + "\n\xC3\xA4";
+  auto messages = to_scene_files(scene);
+  ASSERT_EQ(messages.size(), 3U);
+  std::string text;
+  for (const auto& message : messages) {
+    EXPECT_EQ(message.file, "scene.toml");
+    text += message.text;
+  }
+  EXPECT_EQ(text, scene.toml);
+  expect_sendable(messages);
 }
 
 }  // namespace

@@ -30,7 +30,6 @@
 #include "lcmtypes/run_recorder.h"
 #include "sim2d/make_world.h"
 #include "tools/monitor/monitor_command.h"
-#include "tools/monitor/record_command.h"
 
 namespace talus {
 namespace {
@@ -202,7 +201,6 @@ void invent(const std::string& url, int runs) {
 int main(int argc, char** argv) {
   CLI::App app;
   talus::add_monitor_command(app);
-  talus::add_record_command(app);
   talus::Options options;
   CLI::App* run = app.add_subcommand("run");
   run->add_option("--lcm-url", options.url);

@@ -66,6 +66,16 @@ TEST(Framing, LeavesOutAStrayThatIsFarFromAllOthers) {
   EXPECT_LT(framing.box.diagonal().norm(), 20.0);
 }
 
+TEST(Framing, HoldsTheFewThatCameThroughAGate) {
+  Sample<2> sample;
+  sample.add_rows(50);
+  for (int i = 0; i < 10; ++i) sample.add({i - 5.0, -40.0 - 8.0 * i}, false);
+  const Framing<2> framing = framing_of(sample.input());
+  EXPECT_EQ(framing.drawn.size(), 210U);
+  EXPECT_TRUE(framing.outside.empty());
+  EXPECT_LT(framing.box.min().y(), -112.0);
+}
+
 TEST(Framing, DoesNotCountRemovedBodies) {
   Sample<2> sample;
   sample.add_rows(2);

@@ -36,16 +36,6 @@ TEST(Plot, IsAnSvgWithItsWords) {
   EXPECT_NE(svg.find("rgb(  0, 114, 178)"), std::string::npos);
 }
 
-TEST(Plot, NamesStandOnTheAxisInThePlaceOfNumbers) {
-  Plot plot = sample();
-  plot.x_names = {"first", "second", "third"};
-  const std::string svg = svg_of(plot);
-  for (const std::string& name : plot.x_names) EXPECT_NE(svg.find(">" + name + "</text>"), std::string::npos) << name;
-  EXPECT_EQ(svg.find(">0.5</text>"), std::string::npos);
-  plot.log_x = true;
-  EXPECT_NE(refusal(plot).find("plot.x_names"), std::string::npos);
-}
-
 TEST(Plot, IsTheSameBytesForTheSameInput) { EXPECT_EQ(svg_of(sample()), svg_of(sample())); }
 
 TEST(Plot, HandsOverEachNumberWithoutLossOfDigits) {

@@ -165,44 +165,30 @@ TEST_F(BadCommandLine, OfCheckIsRefused) {
 #ifdef TALUS_LCM
           {"check comb.toml --force", {"comb.toml: shape \"comb\"", "460 pieces", "one telemetry message"}},
 #endif
-          {"check drop_in_a_pile_2d --backend box2d", {"--backend"}}});
-}
-
-TEST_F(BadCommandLine, OfSheetIsRefused) {
-  refuse({{"sheet", {"runs"}},
-          {"sheet flat", {"--out"}},
-          {"sheet no_run --out new.png", {"no_run", "must be a run folder"}},
-          {"sheet empty --out new.png", {"empty", "must be a run folder"}},
-          {"sheet flat --out ''", {"--out"}},
-          {"sheet flat --out no/folder/new.png", {"--out", "no/folder/new.png"}},
-          {"sheet flat --out new.png --columns 0", {"--columns", "0", "must be"}},
-          {"sheet flat --out new.png --columns 21", {"--columns", "21", "must be"}},
-          {"sheet flat --out new.png --columns two", {"--columns", "two"}},
-          {"sheet flat --out new.png --width 99", {"--width", "99", "must be"}},
-          {"sheet flat --out new.png --width 1e9", {"--width", "1e9"}},
-          {"sheet flat --out new.png --font nan", {"--font", "nan", "must be"}},
-          {"sheet flat --out new.png --font 0", {"--font", "0", "must be"}}});
+          {"check drop_in_a_pile_2d --backend havok", {"--backend", "havok", "box2d"}},
+          {"check drop_in_a_pile_2d --policy never", {"--policy", "never"}},
+          {"check drop_in_a_pile_2d --seed -1", {"--seed", "-1"}}});
 }
 
 TEST_F(BadCommandLine, OfBenchIsRefused) {
-  refuse({{"bench", {"subcommand"}},
-          {"bench table9", {"table9"}},
-          {"bench table1 --rounds -1", {"--rounds", "-1", "1000"}},
-          {"bench table1 --rounds 0", {"--rounds", "0", "1000"}},
-          {"bench table1 --rounds 1001", {"--rounds", "1001", "1000"}},
-          {"bench table1 --rounds some", {"--rounds", "some"}},
-          {"bench table1 --seeds 101", {"--seeds", "101", "100"}},
-          {"bench table1 --seeds 0", {"--seeds", "0", "100"}},
-          {"bench table1 --share 0", {"--share", "0", "must be"}},
-          {"bench table1 --share 1.5", {"--share", "1.5", "must be"}},
-          {"bench table1 --share nan", {"--share", "nan", "must be"}},
-          {"bench table1 --quick --policy lazy --out new", {"--policy", "lazy"}},
-          {"bench table1 --quick --policy '' --out new", {"--policy"}},
-          {"bench table1 --quick --backend havok --out new", {"--backend", "havok"}},
-          {"bench table1 --quick --scene no_such_scene --out new", {"no_such_scene"}},
-          {"bench table1 --quick --set run.frames=-1 --out new", {"run.frames=-1", "must be"}},
-          {"bench table1 --quick --out ''", {"--out"}},
-          {"bench table1 --quick --out text", {"--out", "text"}}});
+  refuse({{"bench", {"bench", "--preset"}},
+          {"bench --preset table9", {"--preset", "table9"}},
+          {"bench flat --seeds 0", {"--seeds", "0", "1000"}},
+          {"bench flat --seeds some", {"--seeds", "some"}},
+          {"bench flat --jobs 0", {"--jobs", "0"}},
+          {"bench --preset table1 --policy lazy --out new", {"--policy", "lazy"}},
+          {"bench --preset table1 --policy '' --out new", {"--policy"}},
+          {"bench --preset table1 --backend havok --out new", {"--backend", "havok"}},
+          {"bench no_such_scene --out new", {"no_such_scene"}},
+          {"bench drop_in_a_pile_2d --backend bullet --out new", {"--backend", "no scene"}},
+          {"bench drop_in_a_pile_2d --set run.frames=-1 --out new", {"run.frames=-1", "must be"}},
+          {"bench drop_in_a_pile_2d --set seed=1,2 --out new", {"--set seed", "--seeds"}},
+          {"bench drop_in_a_pile_2d --set policy.kind=full --out new", {"--set policy.kind", "--policy"}},
+          {"bench drop_in_a_pile_2d --set run.frames=2 --set run.frames=3 --out new", {"run.frames", "once"}},
+          {"bench drop_in_a_pile_2d --backend bullet-planar --set world.solver.velocity_iterations=2 --out new",
+           {"velocity_iterations", "window"}},
+          {"bench drop_in_a_pile_2d --out ''", {"--out"}},
+          {"bench drop_in_a_pile_2d --out text", {"--out", "text"}}});
 }
 
 #ifdef TALUS_LCM
@@ -219,23 +205,6 @@ TEST_F(BadCommandLine, OfCompareIsRefused) {
           {"compare flat solid", {"2D", "3D"}},
 #endif
           {"compare flat flat --json=maybe", {"--json", "maybe"}}});
-}
-
-TEST_F(BadCommandLine, OfWakeIsRefused) {
-  refuse({{"wake", {"run"}},
-          {"wake ''", {"run"}},
-          {"wake no_run", {"no_run", "must be a folder that `talus run` left"}},
-          {"wake flat --seconds inf", {"--seconds", "inf", "must be"}},
-          {"wake flat --seconds nan", {"--seconds", "nan", "must be"}},
-          {"wake flat --seconds 0", {"--seconds", "0", "must be"}},
-          {"wake flat --seconds -3", {"--seconds", "-3", "must be"}},
-          {"wake flat --seconds 1e99", {"--seconds", "1e99", "must be"}},
-          {"wake flat --seconds long", {"--seconds", "long", "must be"}},
-          {"wake flat --full ''", {"--full"}},
-#ifdef TALUS_BULLET
-          {"wake flat --full solid --seconds 0.1", {"--full", "solid", "dimension"}},
-#endif
-          {"wake flat --full no_run --seconds 0.1", {"no_run", "must be a folder that `talus run` left"}}});
 }
 
 TEST_F(BadCommandLine, OfFilmIsRefused) {

@@ -1,316 +1,170 @@
-// `talus bench`: each benchmark on a scene so small that it takes a second.
+// `talus bench` on scenes so small that a run takes a part of a second.
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/process/process.h"
 
 namespace talus::bench_command_test {
 namespace {
 
-using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-const std::string tiny =
-    " --quick --rounds 2 --policy paper --set source[0].count=10 --set run.frames=120 --set policy.tau=0.3 ";
+const std::string tiny = " --set source[0].count=10 --set run.frames=120 ";
 
-std::size_t lines(const fs::path& file) {
-  const std::string text = contents(file);
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+using Row = std::map<std::string, std::string>;
+
+/// The cells of a line; no cell of these tests is quoted.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line + ",end");
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  cells.pop_back();
+  return cells;
 }
 
-/// Runs the benchmark and checks what each of them leaves.
-Json results_of(const TemporaryFolder& folder, const std::string& name, const std::string& options) {
-  const Outcome outcome = talus_command("bench " + name + tiny + options + " --out " + (folder / name));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("Quick: "), std::string::npos) << "what quick leaves out must be said";
-  EXPECT_NE(outcome.err.find(" left\n"), std::string::npos) << "progress with the time left";
-  const fs::path out = folder.path() / name;
-  const std::string html = contents(out / "report.html");
-  EXPECT_NE(html.find("</html>"), std::string::npos);
-  EXPECT_NE(html.find("<svg"), std::string::npos) << "plots are part of the page";
-  const std::string page = contents(out / "results.md");
-  EXPECT_NE(page.find("processor"), std::string::npos);
-  EXPECT_NE(page.find("- command: `talus bench " + name + " --quick "), std::string::npos) << page.substr(0, 200);
-  EXPECT_NE(page.find("--set 'source[0].count=10' --set run.frames=120"), std::string::npos) << page.substr(0, 200);
-  EXPECT_GT(lines(out / "results.csv"), 1U);
-  const Json json = Json::parse(contents(out / "results.json"));
-  for (const Json& each : json["cases"]) {
-    EXPECT_EQ(each["end_hashes"].size(), 1U) << "the same input gives the same end: " << each["policy"];
-    EXPECT_GT(each["against_full"]["seconds"], 0.0);
-    EXPECT_GT(each["against_full"]["speed_up"], 0.0);
-    for (const auto& [measure, value] : each["against_full"].items())
-      EXPECT_TRUE(std::isfinite(value.get<double>())) << measure;
+std::vector<Row> rows_of(const fs::path& file) {
+  std::istringstream lines(contents(file));
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> head = cells_of(line);
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    EXPECT_EQ(cells.size(), head.size()) << line;
+    Row row;
+    for (std::size_t i = 0; i < std::min(cells.size(), head.size()); ++i) row[head[i]] = cells[i];
+    rows.push_back(row);
   }
-  return json;
+  return rows;
 }
 
-TEST(BenchTable1, ShowsErrorsFloorsAndHindsightBesideEachSpeedUp) {
-  const TemporaryFolder folder;
-  const Json json = results_of(folder, "table1", "--scene drop_in_a_pile_2d --reference");
-  ASSERT_EQ(json["cases"].size(), 5U) << "full, engine, paper, reference, engine_default";
-  const Json& full = json["cases"][0];
-  EXPECT_EQ(full["policy"], "full");
-  EXPECT_EQ(full["against_full"]["speed_up"], 1.0);
-  EXPECT_GE(full["against_full"]["hindsight_005"], 1.0);
-  const Json& paper = json["cases"][2];
-  EXPECT_EQ(paper["policy"], "paper");
-  for (const char* name : {"relative", "relative_floor", "R", "R_floor", "R_ceiling", "S", "drift_mean_D", "floating",
-                           "ks_z", "w1_r", "centre_off_D", "penetration_p99_D", "work_skipped", "hindsight_005"}) {
-    EXPECT_TRUE(paper["against_full"].contains(name)) << name;
-    EXPECT_TRUE(paper["against_reference"].contains(name)) << name;
+double number(const Row& row, const std::string& column) {
+  const std::string& cell = row.at(column);
+  return cell.empty() ? std::nan("") : std::stod(cell);
+}
+
+class Bench : public ::testing::Test {
+ protected:
+  std::vector<Row> rows(const std::string& arguments) {
+    outcome_ = talus_command("bench " + arguments + " --out " + (folder_ / "b"));
+    EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;
+    return rows_of(folder_.path() / "b" / "bench.csv");
   }
-  EXPECT_GT(paper["against_full"]["work_skipped"], 0.0);
-  EXPECT_GT(full["against_reference"]["R"], 0.0) << "the full run at other settings is not the reference";
-  const Json& engine_default = json["cases"][4];
-  EXPECT_EQ(engine_default["policy"], "engine_default");
-  EXPECT_TRUE(engine_default["against_reference"].contains("ks_z"));
-  EXPECT_NE(engine_default["end_hashes"], json["cases"][1]["end_hashes"])
-      << "the scene's settings are not the engine's own";
-}
 
-TEST(BenchTable1, GoesOnWhereItStoppedAndMeasuresNothingTwice) {
-  const TemporaryFolder folder;
-  const std::string options = "--scene drop_in_a_pile_2d";
-  results_of(folder, "table1", options);
-  const fs::path rows = folder.path() / "table1" / "rows.jsonl";
-  const std::string all = contents(rows);
-  EXPECT_EQ(lines(rows), 3U * 3U) << "of three policies two rounds and the errors";
-  const Outcome again = talus_command("bench table1" + tiny + options + " --out " + (folder / "table1"));
-  EXPECT_EQ(again.err.find(", round"), std::string::npos) << again.err;
-  EXPECT_EQ(contents(rows), all);
-  std::ofstream(rows) << all.substr(0, all.size() - 20);  // killed while it wrote the last row
-  const Outcome resumed = talus_command("bench table1" + tiny + options + " --out " + (folder / "table1"));
-  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_NE(resumed.err.find("[1/1]"), std::string::npos) << "one row was missing: " << resumed.err;
-  EXPECT_EQ(lines(rows), 3U * 3U);
-}
+  TemporaryFolder folder_;
+  Outcome outcome_;
+};
 
-TEST(BenchTable2, SweepsTauOnAnyScene) {
-  const TemporaryFolder folder;
-  const Json json = results_of(folder, "table2", "--scene drop_in_a_pile_2d");
-  EXPECT_EQ(json["cases"].size(), 6U) << "full and five values of tau";
-}
-
-TEST(BenchFigures, LeavesTimeAndErrorOfEachFrame) {
-  const TemporaryFolder folder;
-  results_of(folder, "figures", "--scene drop_in_a_pile_2d");
-  EXPECT_EQ(lines(folder.path() / "figures" / "frames-drop_in_a_pile_2d-box2d-paper.csv"), 60U);
-}
-
-TEST(BenchPareto, MovesOneParameterAtATime) {
-  const TemporaryFolder folder;
-  const Json json = results_of(folder, "pareto", "--scene drop_in_a_pile_2d");
-  EXPECT_EQ(json["cases"].size(), 7U) << "full, engine, iterations twice, one time step, tau twice";
-}
-
-#ifdef TALUS_BULLET
-TEST(BenchEngines, SetsTheEnginesSideBySide) {
-  const TemporaryFolder folder;
-  const Outcome outcome =
-      talus_command("bench engines" + tiny + "--scene drop_in_a_pile_2d --seeds 2 --out " + (folder / "engines"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json json = Json::parse(contents(folder.path() / "engines" / "results.json"));
-  ASSERT_EQ(json["cases"].size(), 6U);
-  EXPECT_EQ(json["cases"][0]["backend"], "box2d");
-  EXPECT_EQ(json["cases"][3]["backend"], "bullet-planar");
-  EXPECT_EQ(json["cases"][5]["against_full"]["runs"], 2.0);
-}
-#endif
-
-TEST(BenchConvergence, ComparesEachSettingWithTheFinest) {
-  const TemporaryFolder folder;
-  const Json json = results_of(folder, "convergence", "--scene drop_in_a_pile_2d --backend box2d");
-  ASSERT_EQ(json["cases"].size(), 3U);
-  EXPECT_EQ(json["cases"][0]["against_full"]["profile_rms_D"], 0.0) << "the finest has no distance from itself";
-  EXPECT_GT(json["cases"][1]["against_full"]["profile_rms_D"], 0.0);
-}
-
-TEST(BenchSkips, SaysOfEachDebugOptionWhetherTheBitsStay) {
-  const TemporaryFolder folder;
-  const Outcome outcome = talus_command(
-      "bench skips --quick --rounds 1 --scene drop_in_a_pile_2d --set source[0].count=10 --set "
-      "run.frames=120 --out " +
-      (folder / "skips"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json json = Json::parse(contents(folder.path() / "skips" / "results.json"));
-  ASSERT_EQ(json["cases"].size(), 13U) << "without options, and with twelve in turn";
-  const Json& without = json["cases"][0];
-  EXPECT_EQ(without["policy"], "adaptive");
-  EXPECT_GT(without["against_full"]["seconds"], 0.0);
-  for (const Json& each : json["cases"]) {
-    if (each["settings"].back() == "debug.sweep_slow_bodies=true") continue;
-    EXPECT_EQ(each["end_hashes"], without["end_hashes"]) << each["settings"];
+TEST_F(Bench, HasARowForEachRunWithSpeedUpAndErrorsAgainstTheReference) {
+  const auto all = rows("drop_in_a_pile_2d --policy full,adaptive,reference --seeds 2 --drift" + tiny);
+  ASSERT_EQ(all.size(), 6U);
+  double reference = 0.0;
+  for (const Row& row : all)
+    if (row.at("policy") == "reference") reference += 0.5 * number(row, "centre_height_m");
+  for (const Row& row : all) {
+    EXPECT_EQ(row.at("failure"), "");
+    EXPECT_GT(number(row, "seconds"), 0.0);
+    EXPECT_EQ(number(row, "bodies"), 10.0);
+    EXPECT_EQ(number(row, "steps"), row.at("policy") == "reference" ? 480.0 : 240.0);
+    EXPECT_GE(number(row, "drift_D"), 0.0);
+    if (row.at("policy") == "full") EXPECT_EQ(number(row, "speed_up"), 1.0);
+    if (row.at("policy") == "full") EXPECT_EQ(number(row, "asleep_at_end"), 0.0);
+    if (row.at("policy") == "reference") continue;
+    EXPECT_NEAR(number(row, "centre_error_percent"), 100.0 * (number(row, "centre_height_m") / reference - 1.0), 1e-5);
+    EXPECT_GT(number(row, "centre_error_se"), 0.0);
   }
-  EXPECT_NE(outcome.out.find("sweep_slow_bodies"), std::string::npos);
+  EXPECT_NE(outcome_.out.find(" ± "), std::string::npos) << outcome_.out;
+  EXPECT_NE(contents(folder_.path() / "b" / "error-drop_in_a_pile_2d-box2d.svg").find("<svg"), std::string::npos);
 }
 
-TEST(BenchRest, TellsHowSoonAllSleep) {
-  const TemporaryFolder folder;
-  const Outcome outcome =
-      talus_command("bench rest --quick --policy adaptive --scene drop_in_a_pile_2d --set source[0].count=5 --out " +
-                    (folder / "rest"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string table = contents(folder.path() / "rest" / "results.md");
-  EXPECT_NE(table.find("| drop_in_a_pile_2d | box2d | 5 | engine |"), std::string::npos) << table;
-  EXPECT_NE(table.find("| drop_in_a_pile_2d | box2d | 5 | adaptive |"), std::string::npos) << table;
+TEST_F(Bench, GivesTheBitsOfTalusRun) {
+  const auto all = rows("drop_in_a_pile_2d --policy adaptive --seeds 2" + tiny);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NE(all[0].at("end_hash"), all[1].at("end_hash"));
+  const Outcome run = talus_command("run drop_in_a_pile_2d --no-telemetry --policy adaptive --set seed=2" + tiny +
+                                    "--set run.until=frames --out " + (folder_ / "r"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(contents(folder_.path() / "r" / "summary.json"));
+  EXPECT_EQ(summary.at("end_hash"), all[1].at("end_hash"));
 }
 
-TEST(BenchRate, PoursAtSeveralRates) {
-  const TemporaryFolder folder;
-  const Outcome outcome = talus_command(
-      "bench rate --quick --rounds 1 --no-errors --policy paper --scene drop_in_a_pile_2d --out " + (folder / "rate"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json json = Json::parse(contents(folder.path() / "rate" / "results.json"));
-  ASSERT_EQ(json["cases"].size(), 9U) << "full, engine and paper at three rates";
-  EXPECT_EQ(json["cases"][0]["against_full"]["bodies"], json["cases"][8]["against_full"]["bodies"]);
+TEST_F(Bench, DoesNotRepeatFullForEachValueOfAPolicysSetting) {
+  const auto all = rows(
+      "drop_in_a_pile_2d --policy full,paper --seeds 1 --set policy.tau=0.1,0.3 --set "
+      "ground.friction=0.2:0.6:0.4" +
+      tiny);
+  ASSERT_EQ(all.size(), 6U) << "for two frictions full once and paper twice";
+  for (const Row& row : all) EXPECT_TRUE(std::isfinite(number(row, "speed_up"))) << row.at("settings");
 }
 
-TEST(BenchScale, TellsWhatSleepersCost) {
-  const TemporaryFolder folder;
-  const Outcome outcome =
-      talus_command("bench scale --quick --backend box2d --scene drop_in_a_pile_2d --out " + (folder / "scale"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("10000"), std::string::npos);
-  EXPECT_NE(contents(folder.path() / "scale" / "report.html").find("never frozen"), std::string::npos);
+TEST_F(Bench, OfTable2SweepsTauBesideThePapersOwnNumbers) {
+  const auto all = rows("drop_in_a_pile_2d --preset table2 --quick" + tiny);
+  EXPECT_EQ(all.size(), 2U * 6U) << "full and five values of tau";
+  EXPECT_EQ(outcome_.out.find("paper: speed-up"), std::string::npos) << "the paper has no such scene in Table 2";
 }
 
-TEST(Bench, RefusesBadInput) {
-  const TemporaryFolder folder;
-  const auto refused = [&](const std::string& arguments, const std::string& said) {
-    const Outcome outcome = shell("cd " + folder.path().string() + " && \"$TALUS\" bench " + arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
-  };
-  refused("table1 --scene drop_in_a_pil", "drop_in_a_pile");
-  refused("table1 --scene drop_in_a_pile_2d --policy pape --quick", "--policy");
-  refused("table1 --rounds -1", "--rounds");
-  refused("table1 --share 1.5", "--share");
-  refused("table7", "table7");
+TEST_F(Bench, OfTable1HasThePapersOwnNumbersAndItsError) {
+  const auto all = rows("varying_drops_2d --preset table1 --policy full,paper --seeds 1 --set run.frames=60");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_GE(number(all[1], "motion_error"), 0.0);
+  EXPECT_NE(outcome_.out.find("paper: speed-up"), std::string::npos) << outcome_.out;
+  EXPECT_NE(outcome_.out.find("20.8"), std::string::npos) << outcome_.out;
 }
 
-TEST(Bench, RefusesRowsOfAnotherKindAndKeepsThem) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path() / "rows.jsonl") << "my own numbers\n";
-  const Outcome outcome =
-      talus_command("bench table1 --quick --scene drop_in_a_pile_2d --out " + folder.path().string());
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("rows.jsonl:1: "), std::string::npos) << outcome.err;
-  EXPECT_EQ(contents(folder.path() / "rows.jsonl"), "my own numbers\n");
+TEST_F(Bench, OfAFigureHasTimeAndErrorOfEachFrame) {
+  rows("drop_in_a_pile_2d --preset figure5 --policy full,paper --seeds 1" + tiny);
+  const auto frames = rows_of(folder_.path() / "b" / "frames.csv");
+  EXPECT_EQ(frames.size(), 2U * 119U) << "motions between 120 frames";
+  EXPECT_EQ(frames[1].at("time_s").substr(0, 6), "0.0333");
+  EXPECT_TRUE(fs::exists(folder_.path() / "b" / "frame_time-drop_in_a_pile_2d-box2d.svg"));
 }
 
-TEST(Bench, WritesMarkdownWithItsFiguresForManuals) {
-  const TemporaryFolder folder;
-  results_of(folder, "table2", "--scene drop_in_a_pile_2d --no-errors --docs " + (folder / "docs"));
-  const std::string page = contents(folder.path() / "docs" / "table2.md");
-  EXPECT_NE(page.find("](table2-1.svg)"), std::string::npos) << page;
-  EXPECT_NE(contents(folder.path() / "docs" / "table2-1.svg").find("<svg"), std::string::npos);
-}
-
-TEST(BenchTruth, MeasuresACellAndGoesOnWhereItStopped) {
-  const TemporaryFolder folder;
-  const std::string command = "bench truth --quick --bodies 10 --seeds 2 --cells 2d-f0.6-L-at_once-flat-g9.81 --out " +
-                              (folder / "truth") + " --set policy.adaptive.";
-  const Outcome outcome = talus_command(command + "wake_height=0.02");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const fs::path out = folder.path() / "truth";
-  EXPECT_EQ(lines(out / "rows.jsonl"), 2U * 3U) << "two seeds of full, reference and adaptive";
-  EXPECT_NE(outcome.out.find("2d-f0.6-L-at_once-flat-g9.81"), std::string::npos);
-  EXPECT_TRUE(fs::exists(out / "pictures" / "2d-f0.6-L-at_once-flat-g9.81-box2d-adaptive.png"));
-  const Json json = Json::parse(contents(out / "results.json"));
-  ASSERT_EQ(json.size(), 1U);
-  EXPECT_EQ(json[0]["seeds"], 2);
-  EXPECT_GT(json[0]["speed_up_min"], 0.0);
-  EXPECT_LE(json[0]["speed_up_min"], json[0]["speed_up"]);
-  EXPECT_LE(json[0]["speed_up"], json[0]["speed_up_max"]);
-  EXPECT_NE(contents(out / "report.html").find("wake_height=0.02"), std::string::npos);
-  EXPECT_NE(contents(out / "results.md").find("\n| box2d | 1 |"), std::string::npos) << "the table by engine";
-  EXPECT_EQ(talus_command(command + "wake_height=0.02").err, "") << "nothing is measured twice";
-  EXPECT_EQ(talus_command(command + "wake_height=0.04").exit_code, 0);
-  EXPECT_EQ(lines(out / "rows.jsonl"), 2U * 4U) << "full and the reference are kept";
-  const Outcome ran = talus_command("check " + (out / "scenes" / "2d-f0.6-L-at_once-flat-g9.81.toml").string());
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-}
-
-TEST(BenchTruth, MeasuresASceneFileForAsLongAsItsFramesTake) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "two_boxes.toml") << R"(
-title = "Two boxes"
-dimension = 2
-shape.box = {kind = "box", size = [1, 1]}
-run.frames = 90
-
-[[body]]
-position = [0, 0.5]
-repeat = [1, 2]
-step = [0, 1]
-)";
-  const Outcome outcome = talus_command("bench truth --quick --seeds 2 --scenes " + folder.path().string() + " --out " +
-                                        (folder / "truth"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json json = Json::parse(contents(folder.path() / "truth" / "results.json"));
-  ASSERT_EQ(json.size(), 1U);
-  EXPECT_EQ(json[0]["cell"], "two_boxes");
-  EXPECT_EQ(json[0]["seeds"], 2);
-  EXPECT_NE(contents(folder.path() / "truth" / "rows.jsonl").find("\"steps\":180"), std::string::npos);
-}
-
-TEST(BenchTruth, AFileNamedLikeASceneOfThePaperKeepsItsFrames) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "drop_in_a_pile_2d.toml") << R"(
+TEST_F(Bench, SetsSeedsApartByAMicrometreWhereNothingIsRandom) {
+  std::ofstream(folder_.path() / "box.toml") << R"(
 title = "A box"
 dimension = 2
 shape.box = {kind = "box", size = [1, 1]}
-run.frames = 90
-
-[[body]]
-position = [0, 0.5]
+body = [{shape = "box", position = [0, 0.5]}]
+run.frames = 30
 )";
-  const Outcome outcome = talus_command("bench truth --quick --seeds 2 --scenes " + folder.path().string() + " --out " +
-                                        (folder / "truth"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(contents(folder.path() / "truth" / "rows.jsonl").find("\"steps\":180"), std::string::npos);
+  const auto all = rows((folder_ / "box.toml") + " --policy full --seeds 2");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NE(all[0].at("end_hash"), all[1].at("end_hash"));
 }
 
-TEST(BenchTruth, WhatIsNoSceneIsRefused) {
-  const TemporaryFolder folder;
-  const Outcome outcome = talus_command("bench truth --scenes " + folder.path().string());
+TEST_F(Bench, SaysInARowWhyItsRunFailedAndKeepsTheOthers) {
+  // The limit of processor time, which counts for each process, ends the second run.
+  std::ofstream(folder_.path() / "box.toml") << R"(
+title = "A box"
+dimension = 2
+shape.box = {kind = "box", size = [1, 1]}
+body = [{shape = "box", position = [0, 0.5]}]
+)";
+  const Outcome outcome = shell("ulimit -t 2; \"$TALUS\" bench " + (folder_ / "box.toml") +
+                                " --policy full --seeds 1 --set run.frames=30,10000000 --out " + (folder_ / "b"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  const auto all = rows_of(folder_.path() / "b" / "bench.csv");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].at("failure"), "");
+  EXPECT_NE(all[1].at("failure"), "");
+  EXPECT_EQ(all[1].at("end_hash"), "");
+  EXPECT_NE(outcome.out.find("2 runs, 1 failed"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Bench, KeepsWhatIsInAFolder) {
+  fs::create_directories(folder_.path() / "b");
+  std::ofstream(folder_.path() / "b" / "bench.csv") << "my own numbers\n";
+  const Outcome outcome = talus_command("bench drop_in_a_pile_2d --out " + (folder_ / "b"));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("no .toml file in it"), std::string::npos) << outcome.err;
-}
-
-TEST(BenchTruth, TheNumberOfJobsDoesNotChangeTheResults) {
-  const TemporaryFolder folder;
-  std::vector<Json> results;
-  for (const std::string jobs : {"1", "3"}) {
-    const std::string out = folder / jobs;
-    ASSERT_EQ(talus_command("bench truth --quick --bodies 10 --seeds 3 --cells 2d-f0.6-L-at_once-flat-g9.81 --jobs " +
-                            jobs + " --out " + out)
-                  .exit_code,
-              0);
-    results.push_back(Json::parse(contents(out + "/results.json"))[0]);
-    for (const char* time : {"speed_up", "speed_up_min", "speed_up_max", "speed_up_reference"})
-      results.back().erase(time);
-  }
-  EXPECT_EQ(results[0], results[1]);
-}
-
-TEST(BenchTruth, ABadSettingIsRefusedBeforeAnyRun) {
-  const TemporaryFolder folder;
-  const Outcome outcome = talus_command("bench truth --quick --set policy.adaptive.no=1 --out " + (folder / "truth"));
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("policy.adaptive.no = 1: no such key"), std::string::npos) << outcome.err;
-}
-
-TEST(BenchTruth, ACellThatDoesNotExistIsRefused) {
-  const Outcome outcome = talus_command("bench truth --cells 5d");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("--cells 5d"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("must be a new or an empty folder"), std::string::npos) << outcome.err;
+  EXPECT_EQ(contents(folder_.path() / "b" / "bench.csv"), "my own numbers\n");
 }
 
 }  // namespace

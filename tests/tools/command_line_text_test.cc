@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "tests/process/process.h"
 
@@ -18,7 +21,6 @@ void expect_suggestion(const std::string& arguments, const std::string& meant) {
 TEST(CommandLine, WithAWrongWordSuggestsTheNearest) {
   expect_suggestion("chek", "check");
   expect_suggestion("run drop_in_a_pile_2d --polcy full", "--policy");
-  expect_suggestion("bench tabel1", "table1");
   expect_suggestion("sweep drop_in_a_pile_2d --seed=3 --out x", "--seeds");
 }
 
@@ -30,10 +32,10 @@ complete_words() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _talus; echo "${CO
 complete_words talus ch
 complete_words talus run --pol
 complete_words talus run drop_in_a_pile_2
-complete_words talus bench tru
+complete_words talus bench --pres
 )bash";
   const Outcome outcome = shell(script);
-  EXPECT_EQ(outcome.out, "check\n--policy\ndrop_in_a_pile_2d\ntruth\n") << outcome.err;
+  EXPECT_EQ(outcome.out, "check\n--policy\ndrop_in_a_pile_2d\n--preset\n") << outcome.err;
 }
 
 TEST(CommandLine, HasAZshCompletionThatBeginsAsZshWants) {
@@ -43,8 +45,26 @@ TEST(CommandLine, HasAZshCompletionThatBeginsAsZshWants) {
 TEST(CommandLine, HasAManualPageOfAllCommands) {
   const std::string page = talus_command("reference --man").out;
   EXPECT_TRUE(page.starts_with(".TH TALUS 1\n"));
-  for (const char* word : {".SS run\n", ".SS bench table1\n", ".SS sweep\n", "\\fB\\-\\-policy\\fR"})
+  for (const char* word : {".SS run\n", ".SS bench\n", ".SS sweep\n", "\\fB\\-\\-policy\\fR"})
     EXPECT_NE(page.find(word), std::string::npos) << word;
+}
+
+TEST(HelpText, IsOfPlainWords) {
+  std::istringstream all(talus_command("reference --completion bash").out);
+  std::set<std::string> commands;
+  const std::regex path("path='talus ([a-z0-9 ]+)'");
+  for (std::string line; std::getline(all, line);)
+    if (std::smatch match; std::regex_search(line, match, path)) commands.insert(match[1]);
+  EXPECT_GE(commands.size(), 14U);
+  for (const std::string& command : commands) {
+    const std::string help = talus_command(command + " --help").out;
+    for (const char* sign : {"{", " in [", ":INT", "FLOAT", "UINT", "REQUIRED", "Excludes", "Needs:", "DIR"})
+      EXPECT_EQ(help.find(sign), std::string::npos) << command << ": " << sign << "\n" << help;
+  }
+  const std::string run = talus_command("run --help").out;
+  EXPECT_NE(run.find("--bodies-hz NUMBER"), std::string::npos) << run;
+  EXPECT_NE(run.find("0: none (0 to 1000; default 30)"), std::string::npos) << run;
+  EXPECT_NE(run.find("(not with --lcm-url)"), std::string::npos) << run;
 }
 
 TEST(NewCommand, WritesASceneThatChecksWithoutWarningInEachDimension) {

@@ -10,7 +10,7 @@
 #include "common/policy/frame.h"
 #include "tests/common/documented_names.h"
 #include "tests/process/process.h"
-#include "tools/bench/measure.h"
+#include "tools/bench/bench_run.h"
 
 namespace talus::documented_files_test {
 namespace {
@@ -107,80 +107,36 @@ void record(const std::string& folder, const std::string& policy) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
-TEST(DocumentedFiles, HaveAllKeysOfCompareAndWake) {
+TEST(DocumentedFiles, HaveAllKeysOfCompare) {
   const TemporaryFolder folder;
   record(folder / "full", "full");
   record(folder / "paper", "paper");
   Names compared = keys_printed("compare --twins 1 " + (folder / "full") + " " + (folder / "paper"));
   compared.insert({"a.lost_steps[]", "b.lost_steps[]"});  // empty, since the records are whole
   expect_documented(compared, "talus compare --json");
-  record_with_event(folder / "event");
-  Names woken = keys_printed("wake " + (folder / "paper") + " --seconds 0.1 --full " + (folder / "full"));
-  woken.merge(keys_printed("wake " + (folder / "event") + " --seconds 0.1"));
-  expect_documented(woken, "talus wake --json");
 }
 
 #endif
 
-/// The names of all measures, which stand in tables of their own.
-Names all_measures() {
-  Names names;
-  for (const Measure& measure : measures) names.insert(std::string(measure.name));
-  return names;
-}
-
-Names without(Names names, const Names& others) {
-  for (const std::string& name : others) names.erase(name);
-  return names;
-}
-
-TEST(DocumentedFiles, HaveAllColumnsAndKeysOfBenchmarks) {
+TEST(DocumentedFiles, HaveAllColumnsOfBenchmarks) {
   const TemporaryFolder folder;
   const Outcome outcome = talus_command(
-      "bench figures --quick --policy paper --scene drop_in_a_pile_2d --rounds 1 "
-      "--set source[0].count=10 --set run.frames=60 --out " +
+      "bench drop_in_a_pile_2d --preset figure5 --policy full --seeds 1 --set source[0].count=10 --set run.frames=60 "
+      "--out " +
       (folder / "b"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  Names keys;
-  collect(Json::parse(header_of(folder.path() / "b" / "rows.jsonl")), "", keys);
-  Names row;
-  for (const std::string& key : keys) row.insert(key.starts_with("values.") ? "values" : key);
-  expect_documented(row, "rows.jsonl");
-  expect_documented(without(split(header_of(folder.path() / "b" / "results.csv")), all_measures()), "results.csv");
-  Names columns = split(header_of(folder.path() / "b" / "frames-drop_in_a_pile_2d-box2d-paper.csv"));
-  std::erase_if(columns, [](const std::string& name) { return name.find('(') != name.npos; });  // the version
-  expect_documented(columns, "frames-SCENE-BACKEND-POLICY.csv");
+  expect_documented(split(header_of(folder.path() / "b" / "bench.csv")), "bench.csv");
+  Names of_frames = split(header_of(folder.path() / "b" / "frames.csv"));
+  for (const char* of_the_run : {"scene", "backend", "policy", "settings", "seed"}) of_frames.erase(of_the_run);
+  expect_documented(of_frames, "bench's frames.csv");
 }
 
-TEST(DocumentedFiles, HaveAllKeysOfBenchTruth) {
-  const TemporaryFolder folder;
-  const Outcome outcome = talus_command(
-      "bench truth --quick --bodies 10 --seeds 2 --cells 2d-f0.6-box-at_once-flat-g25 --out " + (folder / "b"));
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  Names keys;
-  collect(Json::parse(contents(folder.path() / "b" / "results.json"))[0], "", keys);
-  keys.insert("red[]");  // the list may be empty
-  keys.erase("red");
-  expect_documented(keys, "results.json of talus bench truth");
-}
-
-TEST(DocumentedFiles, HaveAllColumnsOfStressCsv) {
-  const TemporaryFolder folder;
-  const Outcome outcome = talus_command("stress stack-5 --policy full --out " + (folder / "s"));
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_documented(split(header_of(folder.path() / "s" / "stress.csv")), "stress.csv");
-}
-
-TEST(DocumentedFiles, HaveATableOfTheMeasuresAsTheyAreDeclared) {
-  std::string table;
-  for (const Measure& measure : measures) {
-    if (measure.meaning.empty()) continue;
-    std::string meaning;
-    for (const char c : measure.meaning) meaning += c == '|' ? "\\|" : std::string(1, c);
-    table += "| `" + std::string(measure.name) + "` | " + std::string(measure.heading) + " | " + meaning + " |\n";
-  }
+TEST(DocumentedFiles, HaveTheNumbersOfBenchmarksAsTheyAreDeclared) {
   const std::string page = contents(std::string(TALUS_SOURCE_DIR) + "/docs/files.md");
-  EXPECT_NE(page.find(table), std::string::npos) << "the rows must be:\n" << table;
+  for (const BenchColumn& column : bench_columns) {
+    const std::string row = "| `" + std::string(column.name) + "` | " + std::string(column.meaning) + " |\n";
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
 }
 
 }  // namespace

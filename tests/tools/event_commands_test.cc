@@ -37,7 +37,7 @@ class EventCommands : public testing::Test {
 
 TEST_F(EventCommands, TheRecordHasEachEventAndInfoListsIt) {
   const Outcome outcome = talus_command("info --json " + run());
-  const Json events = Json::parse(outcome.out)["events"];
+  const Json events = Json::parse(outcome.out)["runs"][0]["events"];
   ASSERT_EQ(events.size(), 3U);
   EXPECT_EQ(events[0]["text"], "remove some bodies");
   EXPECT_EQ(events[0]["step"], 61);
@@ -48,7 +48,7 @@ TEST_F(EventCommands, TheRecordHasEachEventAndInfoListsIt) {
 }
 
 TEST_F(EventCommands, ARemovedBodyIsGoneFromTheNextFrameOn) {
-  const Outcome outcome = talus_command("export --csv " + (folder_ / "run.csv") + " " + run());
+  const Outcome outcome = talus_command("export --out " + (folder_ / "run.csv") + " " + run());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   std::ifstream rows(folder_.path() / "run.csv");
   std::int64_t last_of_removed = 0;
@@ -64,13 +64,6 @@ TEST_F(EventCommands, ARemovedBodyIsGoneFromTheNextFrameOn) {
   }
   EXPECT_EQ(last_of_removed, 60);
   EXPECT_EQ(last_of_other, 300);
-}
-
-TEST_F(EventCommands, WakeTakesTheWorldAsEventsLeftItAndSaysSo) {
-  const Outcome outcome = talus_command("wake --seconds 1 " + run());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("3 events of the scene have happened"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("floating sleepers: 0"), std::string::npos) << outcome.out;
 }
 
 TEST_F(EventCommands, ARecordOfASceneWithoutEventsNamesNoSuchChannel) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <set>
 
 #include "tests/process/process.h"
 
@@ -43,22 +42,6 @@ TEST(FilmCommand, MakesSmallerWebpWithLoss) {
   ASSERT_EQ(talus_command(film + (folder / "all.webp")).exit_code, 0);
   ASSERT_EQ(talus_command(film + (folder / "less.webp") + " --quality 20").exit_code, 0);
   EXPECT_LT(contents(folder / "less.webp").size(), contents(folder / "all.webp").size());
-}
-
-TEST(FilmCommand, ColoursBodiesByEachOfItsWords) {
-  const TemporaryFolder folder;
-  const Outcome run =
-      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=120 --out " + (folder / "run"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  std::set<std::string> films;
-  for (const std::string word : {"state", "shape", "size", "speed", "layer", "cause", "age"}) {
-    const std::string file = folder / (word + ".webp");
-    const Outcome film =
-        talus_command("film " + (folder / "run") + " --width 320 --from 3.9 --colour " + word + " --out " + file);
-    EXPECT_EQ(film.exit_code, 0) << film.err;
-    films.insert(contents(file));
-  }
-  EXPECT_EQ(films.size(), 7U) << "each looks different";
 }
 
 TEST(FilmCommand, MakesMp4AndGifThatFfprobeReads) {
@@ -112,7 +95,6 @@ TEST(FilmCommand, RefusesBadOptions) {
   refused("--out a.webp --quality 101", "--quality");
   refused("--out a.webp --speed nan", "--speed");
   refused("--out a.webp --rate 500", "--rate");
-  refused("--out a.webp --colour mood", "--colour");
   refused("--out a.webp --from 5 --to 3", "--to");
 }
 

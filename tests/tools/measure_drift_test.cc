@@ -216,23 +216,5 @@ TEST(MeasureDrift, IsAColumnOfASweep) {
   EXPECT_EQ(talus_command(sweep).exit_code, 2) << "runs without it would not go into the same table";
 }
 
-#ifdef TALUS_LCM
-
-TEST(MeasureDrift, StandsInTheReportBesideEstimateAndTolerance) {
-  const TemporaryFolder folder;
-  write_cubes(folder / "scene.toml", engines().front().dimension, {0.2}, "asleep = true");
-  run(folder, "--measure-drift");
-  ASSERT_EQ(talus_command("report " + (folder / "run")).exit_code, 0);
-  const std::string page = contents(folder.path() / "run" / "report.html");
-  const auto at = page.find("Mean distance that the sleeping bodies move once all are woken: estimated 0.");
-  ASSERT_NE(at, std::string::npos);
-  const std::string sentence = page.substr(at, page.find("</p>", at) - at);
-  EXPECT_NE(sentence.find("), measured 0."), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find(" D, tolerance 0.05 D."), std::string::npos) << sentence;
-  EXPECT_NE(page.find("<td>drift</td>"), std::string::npos) << "the warning";
-}
-
-#endif
-
 }  // namespace
 }  // namespace talus::measure_drift_test

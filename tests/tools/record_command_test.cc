@@ -1,4 +1,4 @@
-// `talus compare` and `talus wake` on recorded runs.
+// `talus compare` on recorded runs.
 
 #ifdef TALUS_LCM
 
@@ -66,58 +66,7 @@ TEST(CompareCommand, RefusesAFolderThatIsNoRun) {
   record(folder, "a", "");
   const Outcome none = talus_command("compare " + (folder / "a") + " " + (folder / "b"));
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_NE(none.err.find("scene.toml"), std::string::npos) << none.err;
-}
-
-TEST(CompareCommand, StopsAtARecordThatIsNotOfItsScene) {
-  const TemporaryFolder folder;
-  record(folder, "a", "");
-  std::string scene = contents(folder.path() / "a" / "scene.toml");
-  scene.replace(scene.find("count = 400"), 11, "count = 2");
-  std::ofstream(folder.path() / "a" / "scene.toml") << scene;
-  const Outcome outcome = talus_command("compare " + (folder / "a") + " " + (folder / "a"));
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("the scene has 2 bodies"), std::string::npos) << outcome.err;
-}
-
-TEST(WakeCommand, TellsHowFarTheSleepersDriftAndTakesTheFullRunsDriftOff) {
-  const TemporaryFolder folder;
-  record(folder, "full", "--policy full --set source[0].count=15");
-  record(folder, "piled", "--policy paper --set policy.tau=0.2 --set source[0].count=15");
-  const Json json = answer("wake " + (folder / "piled") + " --full " + (folder / "full") + " --seconds 1");
-  EXPECT_EQ(json["bodies"], 15);
-  EXPECT_GT(json["asleep"], 0);
-  EXPECT_EQ(json["floating_sleepers"], 0);
-  EXPECT_EQ(json["sunken_sleepers"], 0);
-  EXPECT_LT(json["penetration_D"]["max"], 0.2);
-  const double drift = json["after_waking"]["drift_mean_D"];
-  EXPECT_GT(drift, 0.0);
-  EXPECT_DOUBLE_EQ(json["beyond_full_run"]["drift_mean_D"], drift - json["full_run"]["drift_mean_D"].get<double>());
-}
-
-TEST(WakeCommand, FindsASceneInTheAirUpset) {
-  const TemporaryFolder folder;
-  record(folder, "falling", "--policy full --set run.frames=15");
-  const Json json = answer("wake " + (folder / "falling") + " --seconds 1");
-  EXPECT_GT(json["after_waking"]["drift_max_D"], 1.0) << "what falls at 10 m/s goes on falling: velocities come along";
-}
-
-TEST(WakeCommand, TellsThatTheRunEndedInMidPour) {
-  const TemporaryFolder folder;
-  record(folder, "pouring", "--set run.frames=30");
-  const Json json = answer("wake " + (folder / "pouring") + " --seconds 0.1");
-  EXPECT_EQ(json["unfinished"]["bodies_to_come"].get<int>(), 400 - json["bodies"].get<int>());
-  EXPECT_GT(json["unfinished"]["moving"], 0);
-  const Outcome text = talus_command("wake " + (folder / "pouring") + " --seconds 0.1");
-  EXPECT_NE(text.out.find("not a finished pile"), std::string::npos) << text.out;
-}
-
-TEST(WakeCommand, RefusesATimeThatIsNoSensibleNumber) {
-  for (const char* seconds : {"inf", "nan", "-1", "0", "1e300", "3601", "five"}) {
-    const Outcome outcome = talus_command(std::string("wake nowhere --seconds=") + seconds);
-    EXPECT_EQ(outcome.exit_code, 2) << seconds;
-    EXPECT_NE(outcome.err.find("must be a number above 0 and at most 3600"), std::string::npos) << outcome.err;
-  }
+  EXPECT_NE(none.err.find("must be a folder that `talus run` left"), std::string::npos) << none.err;
 }
 
 TEST(Options, AreRefusedWhereTheyAreNoSensibleNumber) {
@@ -146,11 +95,9 @@ TEST(CompareCommand, RefusesARecordWithoutAFrame) {
   record(folder, "a", "");
   fs::copy(folder.path() / "a", folder.path() / "b");
   std::ofstream(folder.path() / "b" / "run.lcm", std::ios::trunc);
-  for (const std::string& arguments : {"compare " + (folder / "a") + " " + (folder / "b"), "wake " + (folder / "b")}) {
-    const Outcome outcome = talus_command(arguments);
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.err.find("run.lcm holds no frame"), std::string::npos) << outcome.err;
-  }
+  const Outcome outcome = talus_command("compare " + (folder / "a") + " " + (folder / "b"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("run.lcm holds no frame"), std::string::npos) << outcome.err;
 }
 
 /// Where the data of an event lies in a log.
@@ -184,6 +131,18 @@ void copy_run(const TemporaryFolder& folder, const char* from, const char* to,
   std::ofstream(folder.path() / to / "run.lcm", std::ios::binary | std::ios::trunc) << log;
 }
 
+TEST(CompareCommand, StopsAtARecordThatIsNotOfItsScene) {
+  const TemporaryFolder folder;
+  record(folder, "whole", "");
+  copy_run(folder, "whole", "harmed", [&](std::string& log) { log[events(log, "TALUS_SCENE").at(0).at + 100] ^= 4; });
+  std::string scene = contents(folder.path() / "whole" / "scene.toml");
+  scene.replace(scene.find("count = 400"), 11, "count = 2");
+  std::ofstream(folder.path() / "harmed" / "scene.toml") << scene;
+  const Outcome outcome = talus_command("compare " + (folder / "harmed") + " " + (folder / "whole"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("the scene has 2 bodies"), std::string::npos) << outcome.err;
+}
+
 TEST(CompareCommand, LeavesOutADamagedFrameAndNothingElse) {
   const TemporaryFolder folder;
   record(folder, "whole", "--set policy.tau=0.2");
@@ -199,8 +158,6 @@ TEST(CompareCommand, LeavesOutADamagedFrameAndNothingElse) {
     EXPECT_EQ(json["distance_D"]["max_at_end"], 0.0);
     EXPECT_NE(talus_command(both).out.find(fmt::format("1 frame left out (step {})", 2 * frame + 2)),
               std::string::npos);
-    const Json wake = answer("wake " + (folder / "harmed") + " --seconds 0.1");
-    EXPECT_NE(wake["damage"].get<std::string>().find("1 frame left out"), std::string::npos);
   }
 }
 
@@ -219,7 +176,7 @@ TEST(CompareCommand, PrintsForgedTextsWithoutHarm) {
   });
   const std::string both = "compare " + (folder / "b") + " " + (folder / "a");
   EXPECT_EQ(answer(both)["a"]["policy"], "\ufffd\x1b[2J\ufffd(\ufffd");
-  for (const std::string& arguments : {both, both + " --json", "wake --seconds 0.1 " + (folder / "b")}) {
+  for (const std::string& arguments : {both, both + " --json"}) {
     const Outcome outcome = talus_command(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.find_first_of("\x1b\xff\x9b"), std::string::npos) << outcome.out;
@@ -232,8 +189,7 @@ TEST(Titles, ArePrintedWithoutTerminalCommands) {
   const std::string run = folder / "run";
   for (const std::string& arguments :
        {"check drop_in_a_pile_2d " + title,
-        "run drop_in_a_pile_2d --no-telemetry --set run.frames=2 " + title + " --out " + run,
-        "sheet " + run + " --out " + (folder / "sheet.png")}) {
+        "run drop_in_a_pile_2d --no-telemetry --set run.frames=2 " + title + " --out " + run}) {
     const Outcome outcome = talus_command(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ((outcome.out + outcome.err).find_first_of("\x1b\x9b"), std::string::npos) << outcome.out;

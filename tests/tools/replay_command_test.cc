@@ -19,20 +19,20 @@ void record(const std::string& folder, const std::string& scene) {
 TEST(ReplayCommand, WritesOneFileThatNamesNoOther) {
   const TemporaryFolder folder;
   record(folder / "run", "drop_in_a_pile_2d --set run.frames=60");
-  ASSERT_EQ(talus_command("replay " + (folder / "run") + " --html " + (folder / "a.html")).exit_code, 0);
+  ASSERT_EQ(talus_command("replay " + (folder / "run") + " --out " + (folder / "a.html")).exit_code, 0);
   const std::string page = contents(folder / "a.html");
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   for (const char* reference : {"src=\"", "href=\"", "@import", "url(http"})
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
   EXPECT_EQ(page.find("<!-- "), std::string::npos) << "every mark of the page is replaced";
-  ASSERT_EQ(talus_command("replay " + (folder / "run") + " --html " + (folder / "b.html")).exit_code, 0);
+  ASSERT_EQ(talus_command("replay " + (folder / "run") + " --out " + (folder / "b.html")).exit_code, 0);
   EXPECT_TRUE(contents(folder / "b.html") == page) << "the same run gives the same page";
 }
 
 TEST(ReplayCommand, AMinuteOf400BodiesTakesLessThanFiveMegabytes) {
   const TemporaryFolder folder;
   record(folder / "run", "drop_in_a_pile_2d --policy full");
-  ASSERT_EQ(talus_command("replay " + (folder / "run") + " --html " + (folder / "a.html")).exit_code, 0);
+  ASSERT_EQ(talus_command("replay " + (folder / "run") + " --out " + (folder / "a.html")).exit_code, 0);
   EXPECT_LT(std::filesystem::file_size(folder / "a.html"), 5'000'000U) << "with every body awake";
 }
 
@@ -42,7 +42,7 @@ TEST(ReplayCommand, PlaysWhatADamagedRecordStillHas) {
   std::string log = contents(folder / "run/run.lcm");
   log.resize(log.size() / 2);
   std::ofstream(folder / "run/run.lcm", std::ios::binary) << log;
-  EXPECT_EQ(talus_command("replay " + (folder / "run") + " --html " + (folder / "a.html")).exit_code, 0);
+  EXPECT_EQ(talus_command("replay " + (folder / "run") + " --out " + (folder / "a.html")).exit_code, 0);
 }
 
 TEST(ReplayCommand, RefusesBadOptions) {
@@ -52,10 +52,10 @@ TEST(ReplayCommand, RefusesBadOptions) {
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
   };
-  refused("--html " + (folder / "a.html"), "must be a folder that `talus run` left");
-  refused("--html " + (folder / "a.txt"), "must end in .html");
-  refused("--html " + (folder / "none/a.html"), "must be a file in a folder that exists");
-  refused("", "--html");
+  refused("--out " + (folder / "a.html"), "must be a folder that `talus run` left");
+  refused("--out " + (folder / "a.txt"), "must end in .html");
+  refused("--out " + (folder / "none/a.html"), "must be a file in a folder that exists");
+  refused("", "--out");
 }
 
 }  // namespace

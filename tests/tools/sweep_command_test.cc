@@ -19,7 +19,7 @@ class SweepCommand : public ::testing::Test {
   SweepCommand() {
     std::ofstream(folder_.path() / "scene.toml")
         << "title = \"Ten discs\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\n"
-           "source = [{count = 10, rate = 10, position = [0, 8], velocity = [0, -7]}]\nrun = {frames = 60}\npile = "
+           "source = [{count = 10, rate = 6, position = [0, 8], velocity = [0, -7]}]\nrun = {frames = 60}\npile = "
            "[{}]\n";
   }
   Outcome sweep(const std::string& more = "") const {
@@ -34,16 +34,16 @@ class SweepCommand : public ::testing::Test {
 };
 
 TEST_F(SweepCommand, RunsTheProductAndLeavesATableAndAPlot) {
-  const Outcome outcome = sweep();
+  const Outcome outcome = sweep(" --plot bodies");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("8 runs, 0 failed"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("8 runs, 8 finished, 0 failed"), std::string::npos) << outcome.out;
   const std::string table = file("sweep.csv");
   EXPECT_TRUE(table.starts_with("run,shape.disc.friction,policy.kind,seed,reason,end_hash,")) << table;
   EXPECT_EQ(std::ranges::count(table, '\n'), 9);
   EXPECT_NE(table.find("\n0,0.2,full,1,finished,"), std::string::npos) << table;
   EXPECT_NE(table.find("\n7,0.6,adaptive,2,finished,"), std::string::npos) << table;
-  EXPECT_TRUE(file("sweep.sqlite").starts_with("SQLite format 3"));
   EXPECT_NE(file("sweep.svg").find("policy.kind = adaptive"), std::string::npos);
+  EXPECT_NE(file("sweep.svg").find("bars: standard error of the mean of 2 seeds"), std::string::npos);
 }
 
 TEST_F(SweepCommand, GivesTheBitsOfSingleRuns) {
@@ -64,6 +64,29 @@ TEST_F(SweepCommand, GoesOnWhereItWasStopped) {
   EXPECT_NE(outcome.err.find("1 of 1: run_0003"), std::string::npos) << outcome.err;
   EXPECT_EQ(fs::last_write_time(folder_.path() / "sweep" / "run_0000" / "summary.json"), first);
   EXPECT_EQ(std::ranges::count(file("sweep.csv"), '\n'), std::ranges::count(before, '\n'));
+}
+
+TEST_F(SweepCommand, SaysWhatCtrlCDoesStopsItsRunsAndGoesOnLater) {
+  const std::string command = "sweep " + (folder_ / "scene.toml") +
+                              " --set run.frames=100000 --set world.gravity=5,6,7,8 --policy full --set run.pace=1 "
+                              "--jobs 2 --out " +
+                              (folder_ / "sweep");
+  const Outcome outcome =
+      shell("\"$TALUS\" " + command + " & sweep=$!; sleep 1.5; kill -INT $sweep; wait $sweep; exit $?");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.err.find("interrupted: no run begins any more"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("4 runs, 0 finished, 0 failed"), std::string::npos) << outcome.out;
+  EXPECT_FALSE(fs::exists(folder_.path() / "sweep" / "run_0002"));
+  EXPECT_NE(file("run_0000/summary.json").find("\"interrupted\""), std::string::npos);
+}
+
+TEST_F(SweepCommand, CountsRunsWithWarningsAndFailsForThemIfStrict) {
+  const std::string command = "sweep " + (folder_ / "scene.toml") +
+                              " --force --policy paper --set policy.tau=0,0.5 --out " + (folder_ / "sweep");
+  const Outcome outcome = talus_command(command);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find(", 1 with warnings"), std::string::npos) << outcome.out;
+  EXPECT_EQ(talus_command(command + " --strict").exit_code, 1);
 }
 
 TEST_F(SweepCommand, OfOtherValuesIsRefusedInTheSameFolder) {

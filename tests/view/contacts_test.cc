@@ -7,8 +7,8 @@
 
 #include "common/scene/read_scene.h"
 #include "tests/view/engine_list.h"
-#include "tests/view/stream_reader.h"
 #include "tools/serve/shown_run.h"
+#include "tools/view/stream_numbers.h"
 
 namespace talus::contacts_test {
 namespace {
@@ -55,8 +55,8 @@ class ShownContacts : public ::testing::TestWithParam<EngineChoice> {
   std::unique_ptr<ShownRun> run(const std::string& policy) const {
     return show_run(parse_scene(two_cubes(dimension(), policy), "two.toml", {}), GetParam().second, "two.toml", true);
   }
-  std::vector<Read> contacts_of(const ShownRun& run) const {
-    return read(run.snapshot()->contacts(), dimension(), 1e-3 * std::sqrt(dimension()));
+  std::vector<Read> contacts_of(ShownRun& run) const {
+    return read(run.frame(-1.0).contacts, dimension(), 1e-3 * std::sqrt(dimension()));
   }
 };
 
@@ -109,13 +109,13 @@ TEST_P(ShownContacts, OfSleepingBodiesAreThoseOfTheLastStepBefore) {
 TEST_P(ShownContacts, AreNeitherComputedNorSentWhileOff) {
   const auto shown = run("full");
   for (int step = 0; step < 60; ++step) shown->step();
-  EXPECT_EQ(shown->snapshot()->contacts(), "");
+  EXPECT_EQ(shown->frame(-1.0).contacts, "");
   shown->show_contacts(true);
   EXPECT_TRUE(contacts_of(*shown).empty()) << "policy full has no steps record them";
   shown->step();
   EXPECT_FALSE(contacts_of(*shown).empty());
   shown->show_contacts(false);
-  EXPECT_EQ(shown->snapshot()->contacts(), "");
+  EXPECT_EQ(shown->frame(-1.0).contacts, "");
 }
 
 }  // namespace

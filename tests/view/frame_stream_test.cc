@@ -11,8 +11,9 @@
 #include <random>
 
 #include "common/shape/catalogue.h"
-#include "tests/view/stream_reader.h"
 #include "tools/view/hidden_bodies.h"
+#include "tools/view/merge_blocks.h"
+#include "tools/view/stream_numbers.h"
 
 namespace talus::frame_stream_test {
 namespace {
@@ -31,6 +32,7 @@ struct Decoded {
   float kinetic_energy = 0.0F;
   float drift_estimate = 0.0F;
   float slope = 0.0F;
+  float ms_per_step = 0.0F;
   std::map<std::uint64_t, std::string> warnings;
   std::vector<DoneEvent> scene_events;
   std::map<std::uint64_t, std::array<double, components>> obstacles;  // their poses, in quanta
@@ -42,7 +44,7 @@ class Decoder {
   void take(const std::string& block) {
     reader_ = StreamReader(block);
     state.step = number();
-    for (std::uint64_t bodies = number(); state.shape.size() < bodies;) {
+    for (std::uint64_t left = number(); left > 0; --left) {
       state.shape.push_back(0);
       state.pose.emplace_back();
       state.asleep.push_back(0);
@@ -63,6 +65,7 @@ class Decoder {
     state.kinetic_energy = real();
     state.drift_estimate = real();
     state.slope = real();
+    state.ms_per_step = real();
     for (std::uint64_t left = number(); left > 0; --left) {
       const std::uint64_t kind = number();
       number();
@@ -102,12 +105,11 @@ class Decoder {
     state.counts.resize(number());
     for (std::uint64_t left = number(); left > 0; --left) {
       std::vector<std::int64_t>& counts = state.counts[number()];
-      if (number() == 1) {
-        for (int i = 0; i < Dim + 4; ++i) real();
-        const std::uint64_t layers = number();
-        for (std::uint64_t i = 0; i < 6 * layers; ++i) real();
-        counts.resize(2 * layers);
-      }
+      const std::uint64_t form = number();
+      for (std::uint64_t i = 0; i < form; ++i) real();
+      const std::uint64_t size = number();
+      if (form > 0) counts.assign(size, 0);
+      EXPECT_EQ(counts.size(), size);
       for (std::int64_t& count : counts) count += difference();
     }
   }
@@ -261,6 +263,109 @@ TEST(FrameStream, LayersCountAsThePilesDo) {
       EXPECT_EQ(decoder.state.counts[0][2 * i + 1], piles[0].layers[i].sleeping);
     }
   }
+}
+
+/// A run of which everything changes: bodies come, move, sleep, wake and go, the pile grows and shrinks and goes,
+/// obstacles move, events and warnings happen.
+template <int Dim>
+class EventfulRun {
+ public:
+  std::string next() {
+    ++step_;
+    std::vector<SleepEvent> events;
+    for (BodyIndex body = 0; body < states_.size(); ++body) {
+      if (happens(3)) states_.pose[body].position = any_place();
+      if (happens(3)) states_.pose[body].rotation = any_rotation();
+      if (happens(10)) states_.removed[body] = 1;
+      if (!happens(4) || states_.removed[body] != 0) continue;
+      states_.asleep[body] ^= 1;
+      events.push_back({.step = step_, .body = body, .woke = states_.asleep[body] == 0, .score = 0.25});
+    }
+    if (happens(2)) add_body<Dim>(states_, {any_place(), any_rotation()});
+    if (happens(5)) piles_.clear();
+    if (happens(2))
+      piles_ = {
+          make_pile<Dim>(Vec<Dim>::Zero(), 0.6, happens(2) ? 20.0 : 300.0, {.bounding_volume = 1.0, .extent = 1.4})};
+    for (Pile<Dim>& pile : piles_)
+      for (Layer& layer : pile.layers) layer.count = static_cast<int>(random_() % 9);
+    if (happens(6)) scene_events_.push_back({static_cast<int>(scene_events_.size()), 0.5 * static_cast<double>(step_)});
+    warnings_ = {{.kind = WarningKind::energy, .step = 1, .bodies = 1, .value = happens(2) ? 1.0 : 2.0}};
+    if (happens(2)) obstacles_ = {{3, {any_place(), any_rotation()}}};
+    return encoder_.encode({.step = step_,
+                            .states = states_,
+                            .events = events,
+                            .piles = piles_,
+                            .warnings = warnings_,
+                            .kinetic_energy = static_cast<double>(step_),
+                            .scene_events = scene_events_,
+                            .drift_estimate = 0.5,
+                            .obstacles = obstacles_,
+                            .ms_per_step = 2.0 * static_cast<double>(step_)});
+  }
+
+ private:
+  bool happens(int one_in) { return random_() % one_in == 0; }
+  double any() { return std::uniform_real_distribution<double>(-9.0, 9.0)(random_); }
+  Vec<Dim> any_place() {
+    return Vec<Dim>::NullaryExpr([this] { return any(); });
+  }
+  Rotation<Dim> any_rotation() {
+    if constexpr (Dim == 2)
+      return Rotation<2>(any());
+    else
+      return Rotation<3>(any(), any(), any(), any()).normalized();
+  }
+
+  std::mt19937 random_{7};
+  std::int64_t step_ = 0;
+  FrameEncoder<Dim> encoder_{std::make_shared<FrameForm<Dim>>()};
+  BodyStates<Dim> states_;
+  std::vector<Pile<Dim>> piles_;
+  std::vector<DoneEvent> scene_events_;
+  std::vector<Warning> warnings_;
+  std::vector<ObstaclePose<Dim>> obstacles_;
+};
+
+/// Blocks merged in any grouping bring a page to the same states, and tell it of all that happened.
+template <int Dim>
+void expect_merged_blocks_to_do_what_both_do() {
+  EventfulRun<Dim> run;
+  Decoder<Dim> all;
+  Decoder<Dim> some;
+  std::mt19937 random(5);
+  std::vector<SleepEvent> events_of_all;
+  std::string waiting;
+  for (int frame = 0; frame < 400; ++frame) {
+    const std::string block = run.next();
+    all.take(block);
+    events_of_all.insert(events_of_all.end(), all.state.events.begin(), all.state.events.end());
+    waiting = waiting.empty() ? block : merge_blocks<Dim>(waiting, block);
+    if (random() % 3 != 0) continue;
+    some.take(waiting);
+    waiting.clear();
+    EXPECT_EQ(some.state.step, all.state.step);
+    EXPECT_EQ(some.state.pose, all.state.pose);
+    EXPECT_EQ(some.state.shape, all.state.shape);
+    EXPECT_EQ(some.state.asleep, all.state.asleep);
+    EXPECT_EQ(some.state.removed, all.state.removed);
+    EXPECT_EQ(some.state.counts, all.state.counts);
+    EXPECT_EQ(some.state.warnings, all.state.warnings);
+    EXPECT_EQ(some.state.obstacles, all.state.obstacles);
+    EXPECT_EQ(some.state.scene_events.size(), all.state.scene_events.size());
+    EXPECT_EQ(some.state.ms_per_step, all.state.ms_per_step);
+    ASSERT_EQ(some.state.events.size(), events_of_all.size());
+    for (std::size_t i = 0; i < events_of_all.size(); ++i) {
+      EXPECT_EQ(some.state.events[i].step, events_of_all[i].step);
+      EXPECT_EQ(some.state.events[i].body, events_of_all[i].body);
+      EXPECT_EQ(some.state.events[i].woke, events_of_all[i].woke);
+    }
+    events_of_all.clear();
+  }
+}
+
+TEST(FrameStream, MergedBlocksDoWhatBothDo) {
+  expect_merged_blocks_to_do_what_both_do<2>();
+  expect_merged_blocks_to_do_what_both_do<3>();
 }
 
 /// A cube of cubes, `edge` along each axis, that all sleep.

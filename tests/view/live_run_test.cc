@@ -77,9 +77,9 @@ std::vector<Datagram> messages_of_a_run(int steps) {
   Scene<Dim> scene = still_scene<Dim>();
   scene.obstacle_names = {{"gate", 0, 1}};
   scene.events.resize(2);
-  scene.events[0].action = "wake";
+  scene.events[0].action = EventAction::wake;
   scene.events[0].time = 10 * scene.world.dt;
-  scene.events[1].action = "remove";
+  scene.events[1].action = EventAction::remove;
   scene.events[1].obstacle = 0;
   scene.events[1].time = 1e3;
   Publisher<Dim> publisher(run_info(scene, "still", "none"), {.piles_rate = 0.0, .bodies_rate = 1000.0}, lcm);

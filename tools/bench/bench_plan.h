@@ -1,30 +1,52 @@
 #pragma once
-// Which scenes, engines and policies a benchmark takes.
+// Which runs a benchmark takes.
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "tools/bench/bench_case.h"
-#include "tools/bench/bench_options.h"
+#include "tools/bench/bench_run.h"
 
 namespace talus {
 
-/// Scene names: the options', else `names`. A name without "_2d" or "_3d" stands for both; `names` that are not
-/// installed are left out. Quick: only the first `quick_count` of `names`.
-std::vector<std::string> scenes_of(const BenchOptions& options, const std::vector<std::string>& names,
-                                   std::size_t quick_count);
+/// What `talus bench` is told.
+struct BenchOptions {
+  std::vector<std::string> scenes;    // files or names
+  std::string preset;                 // empty: none
+  std::vector<std::string> policies;  // empty: the preset's, else full, paper, adaptive and the reference
+  std::vector<std::string> settings;  // as for `talus sweep`
+  std::vector<std::string> backends;  // empty: the first of each dimension
+  std::filesystem::path out = "bench";
+  int seeds = 0;  // 0: three, quick two
+  int jobs = 1;
+  bool quick = false;
+  bool force = false;
+  BenchExtras extras;
+};
 
-/// Engines for the scene: the options' engines of its dimension, else the dimension's first.
-std::vector<std::string> backends_of(const BenchOptions& options, const std::string& scene);
+/// A table or figure of the paper.
+struct BenchPreset {
+  std::string_view name;
+  std::string_view about;
+};
+std::span<const BenchPreset> bench_presets();
 
-/// The options' settings for every case of this scene, with the frames cut to the options' share.
-std::vector<std::string> settings_of(const BenchOptions& options, const std::string& scene);
+/// The options with what the preset and --quick add. Throws std::invalid_argument without a scene.
+BenchOptions completed(BenchOptions options);
 
-/// Policies to measure beside full and engine: the options', else paper and adaptive.
-std::vector<std::string> policies_of(const BenchOptions& options);
+/// All combinations of scene, engine, settings, policy and seed; those that share a seed side by side. Of `full`,
+/// `engine` and `reference`, combinations that differ in settings of a policy alone are one. Throws
+/// std::invalid_argument and SceneErrors where a run is not possible.
+std::vector<BenchCase> bench_cases(const BenchOptions& options);
 
-/// Full, the engine's sleeping, the policies to measure, and with options.reference the reference, on one scene and
-/// engine.
-BenchGroup policies_group(const BenchOptions& options, const std::string& scene, const std::string& backend);
+/// The paper's own numbers for a run: speed-up, and in Table 1 the error [%].
+struct PapersNumbers {
+  double speed_up = BenchNumbers::none;
+  double error = BenchNumbers::none;
+};
+
+/// Nothing where the paper has no such run.
+std::optional<PapersNumbers> papers_numbers(const BenchCase& bench_case, std::string_view preset);
 
 }  // namespace talus

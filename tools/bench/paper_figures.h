@@ -46,7 +46,4 @@ inline constexpr std::array<Threshold, 5> table_2 = {{
     {0.3, 199.4, 2.5},
 }};
 
-/// Speed-up that Bullet's own sleeping brought in example 4.
-inline constexpr double bullet_sleeping = 1.09;
-
 }  // namespace talus::paper

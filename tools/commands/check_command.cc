@@ -1,10 +1,12 @@
+#include <algorithm>
+#include <memory>
 
 #include "common/scene/read_scene.h"
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
-#include "common/scene/warnings.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/scene_options.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
@@ -32,23 +34,32 @@ void print_report(const Scene<Dim>& scene) {
     print_result("  source[{}]: {} bodies at {:g} a second from {:g} s on; its spout reaches {:.3g} a second\n", i,
                  source.count, source.rate, source.start, reachable_rate(source, scene.world));
   }
-  for (const std::string& warning : warnings(scene)) print_result("  warning: {}\n", printable(warning));
-  for (const std::string& backend : backends(Dim))
-    for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
-      print_result("  warning: {}: {}\n", backend, printable(warning));
 }
 
-/// Builds what a run would build on each engine of this build, where the scene lies in the engine's window or `force`
-/// is given: `check` refuses what every one of them refuses.
+/// Prints the warnings of all these engines, those that all have once; whether there is any.
 template <int Dim>
-void try_engines(const Scene<Dim>& scene, const std::string& file, bool force) {
-  const std::vector<std::string> engines = backends(Dim);
+bool print_warnings(const Scene<Dim>& scene, const std::vector<std::string>& engines) {
+  std::vector<std::string> printed;
+  for (const std::string& backend : engines)
+    for (const std::string& warning : scene_warnings(scene, backend))
+      if (std::ranges::find(printed, warning) == printed.end()) printed.push_back(warning);
+  for (const std::string& warning : printed) print_result("  warning: {}\n", printable(warning));
+  return !printed.empty();
+}
+
+/// Builds what a run would build on each of these engines, where the scene lies in the engine's window or `force` is
+/// given: `check` refuses what every one of them refuses. Whether there was a warning.
+template <int Dim>
+bool try_engines(const Scene<Dim>& scene, const std::string& file, const std::vector<std::string>& engines,
+                 bool force) {
   std::string refusals;
   std::size_t refused = 0;
+  bool warned = false;
   for (const std::string& backend : engines) {
     try {
-      for (const SceneError& each : check_window(scene, backend, file, force))
-        print_message("warning: {}{}", outside_prefix, to_string(each));
+      const std::vector<SceneError> outside = check_window(scene, backend, file, force);
+      print_scene_warnings(outside, {});
+      warned = warned || !outside.empty();
       make_simulation(scene, backend);
     } catch (const std::invalid_argument& refusal) {
       refusals += fmt::format("{}{}: {}: {}", refused == 0 ? "" : "\n", file, backend, refusal.what());
@@ -57,6 +68,7 @@ void try_engines(const Scene<Dim>& scene, const std::string& file, bool force) {
   }
   if (refused > 0 && refused == engines.size()) throw std::invalid_argument(refusals);
   if (refused > 0) print_result("{}\n", refusals);
+  return warned || refused > 0;
 }
 
 #ifdef TALUS_LCM
@@ -71,18 +83,26 @@ void try_messages(const Scene<Dim>& scene, const std::string& file) {
 }
 #endif
 
-int check_scene(const std::string& name, const std::vector<std::string>& settings, bool force) {
-  std::vector<Override> overrides;
-  for (const std::string& setting : settings) overrides.push_back({setting});
-  const std::filesystem::path file = find_scene(name);
-  const AnyScene scene = read_scene(file, overrides);
-  std::visit([&](const auto& of_dimension) { try_engines(of_dimension, file.string(), force); }, scene);
+template <int Dim>
+bool check_on_engines(const Scene<Dim>& scene, const std::string& file, const SceneChoice& choice) {
+  const std::vector<std::string> engines =
+      choice.backend.empty() ? backends(Dim) : std::vector<std::string>{choice.backend};
+  bool warned = try_engines(scene, file, engines, choice.force);
 #ifdef TALUS_LCM
-  std::visit([&](const auto& of_dimension) { try_messages(of_dimension, file.string()); }, scene);
+  try_messages(scene, file);
 #endif
-  print_result("{}: OK\n", printable(file.string()));
-  std::visit([](const auto& of_dimension) { print_report(of_dimension); }, scene);
-  return exit_codes::success;
+  print_result("{}: OK\n", printable(file));
+  print_report(scene);
+  warned = print_warnings(scene, engines) || warned;
+  return warned;
+}
+
+int check_scene(const SceneChoice& choice, bool strict) {
+  const std::filesystem::path file = find_scene(choice.scene);
+  const AnyScene scene = read_scene(file, overrides_of(choice));
+  const bool warned = std::visit(
+      [&](const auto& of_dimension) { return check_on_engines(of_dimension, file.string(), choice); }, scene);
+  return strict && warned ? exit_codes::failed : exit_codes::success;
 }
 
 }  // namespace
@@ -90,16 +110,11 @@ int check_scene(const std::string& name, const std::vector<std::string>& setting
 void add_check_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("check", "Read a scene without running it: all its errors, or what it will do");
-  auto scene = std::make_shared<std::string>();
-  auto settings = std::make_shared<std::vector<std::string>>();
-  command->add_option("scene", *scene, "Scene file, or the name of a scene that `talus list` shows")->required();
-  command->add_option("-s,--set", *settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  auto force = std::make_shared<bool>(false);
-  command->add_flag("-f,--force", *force,
-                    "Accept the scene outside of the window in which results hold too, as `talus run` does");
-  command->callback([=, &exit_code] { exit_code = check_scene(*scene, *settings, *force); });
+  auto choice = std::make_shared<SceneChoice>();
+  auto strict = std::make_shared<bool>(false);
+  add_scene_options(*command, *choice);
+  command->add_flag("--strict", *strict, "Exit with 1 where there is a warning");
+  command->callback([=, &exit_code] { exit_code = check_scene(*choice, *strict); });
 }
 
 }  // namespace talus

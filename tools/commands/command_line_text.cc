@@ -1,9 +1,12 @@
 #include "tools/commands/command_line_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
+#include <set>
 #include <vector>
 
 #include "common/text/nearest_name.h"
@@ -25,18 +28,65 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// What a value of an option may be.
+struct ValueKind {
+  std::string word;    // as NUMBER
+  std::string limits;  // as "1 to 64"; empty: none
+};
+
+/// From what CLI11 and validators.h say, as "INT:1 to 64", "TEXT:{a,b}" or "INT:INT in [1 - 64]".
+ValueKind kind_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t colon = std::min(type.find(':'), type.size());
+  ValueKind kind = {type.substr(0, colon), colon < type.size() ? type.substr(colon + 1) : ""};
+  if (kind.word == "INT" || kind.word == "UINT" || kind.word == "FLOAT") kind.word = "NUMBER";
+  std::smatch match;
+  if (kind.limits.starts_with('{')) {
+    constexpr std::size_t longest_word = 20;
+    const std::string values = kind.limits.substr(1, kind.limits.size() - 2);
+    const bool is_short = values.size() <= longest_word;
+    if (is_short) kind.word = replaced(values, ",", "|");
+    kind.limits = is_short ? "" : "one of " + replaced(values, ",", ", ");
+  } else if (std::regex_match(kind.limits, match, std::regex(R"(INT in \[(\S+) - (\S+)\])"))) {
+    kind.limits = fmt::format("{} to {}", match[1].str(), match[2].str());
+  } else if (kind.limits.find("DIR") != std::string::npos) {
+    kind = {"FOLDER", ""};
+  }
+  return kind;
+}
+
+/// What an option does, with all that holds for it in brackets.
+std::string meaning_of(const CLI::Option& option) {
+  std::vector<std::string> notes;
+  const auto note_others = [&](const char* word, const std::set<CLI::Option*>& others) {
+    std::vector<std::string> names;
+    for (const CLI::Option* other : others) names.push_back(names_of(*other).back());
+    std::ranges::sort(names);
+    if (!names.empty()) notes.push_back(fmt::format("{} {}", word, fmt::join(names, " or ")));
+  };
+  if (takes_value(option)) {
+    if (const std::string limits = kind_of(option).limits; !limits.empty()) notes.push_back(limits);
+    if (!option.get_default_str().empty()) notes.push_back("default " + option.get_default_str());
+  }
+  if (option.get_required() && !option.get_positional()) notes.emplace_back("must be given");
+  note_others("with", option.get_needs());
+  note_others("not with", option.get_excludes());
+  if (notes.empty()) return option.get_description();
+  return fmt::format("{} ({})", option.get_description(), fmt::join(notes, "; "));
+}
+
 std::vector<std::string> words_of(const CLI::App& app) {
   std::vector<std::string> words;
   for (const CLI::App* command : commands_of(app)) words.push_back(command->get_name());
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : names_of(*option)) words.push_back(name);
   return words;
-}
-
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
 }
 
 /// Text in which roff reads nothing as a request.
@@ -52,10 +102,11 @@ std::string option_text(const CLI::Option& option) {
   std::string head;
   for (const std::string& name : names_of(option))
     head += fmt::format("{}\\fB{}\\fR", head.empty() ? "" : ", ", roff(name));
-  if (head.empty()) head = fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
-  if (takes_value(option) && !option.get_type_name().empty())
-    head += fmt::format(" \\fI{}\\fR", roff(option.get_type_name()));
-  return fmt::format(".TP\n{}\n{}\n", head, roff(option.get_description()));
+  if (head.empty())
+    head = fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
+  else if (takes_value(option))
+    head += fmt::format(" \\fI{}\\fR", roff(kind_of(option).word));
+  return fmt::format(".TP\n{}\n{}\n", head, roff(meaning_of(option)));
 }
 
 void append_command(const CLI::App& command, const std::string& name, std::string& page) {
@@ -83,6 +134,16 @@ void append_paths(const CLI::App& command, const std::string& path, std::string&
 }
 
 }  // namespace
+
+std::string PlainHelp::make_option_name(const CLI::Option* option, bool is_positional) const {
+  return is_positional ? option->get_name(true) : fmt::format("{}", fmt::join(names_of(*option), ", "));
+}
+
+std::string PlainHelp::make_option_opts(const CLI::Option* option) const {
+  return takes_value(*option) && !option->get_positional() ? " " + kind_of(*option).word : "";
+}
+
+std::string PlainHelp::make_option_desc(const CLI::Option* option) const { return meaning_of(*option); }
 
 std::string man_page(const CLI::App& app) {
   std::string upper = app.get_name();

@@ -7,6 +7,15 @@
 
 namespace talus {
 
+/// Help in plain words: kinds of values as TEXT and NUMBER, and behind each description the values that may be given,
+/// the default, and what must or must not stand beside it.
+class PlainHelp final : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
+  std::string make_option_desc(const CLI::Option* option) const override;
+};
+
 /// The manual page of the command with all its sub-commands, in the macros of man(7).
 std::string man_page(const CLI::App& app);
 

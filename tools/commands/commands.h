@@ -12,22 +12,15 @@ namespace talus {
 void add_run_command(CLI::App& app, int& exit_code);
 void add_list_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
-void add_sheet_command(CLI::App& app, int& exit_code);
 void add_reference_command(CLI::App& app, int& exit_code);
 void add_new_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
 
 // On recorded runs; where talus is built with LCM.
 void add_compare_command(CLI::App& app, int& exit_code);
-void add_cat_command(CLI::App& app, int& exit_code);
-void add_cut_command(CLI::App& app, int& exit_code);
-void add_diff_command(CLI::App& app, int& exit_code);
 void add_export_command(CLI::App& app, int& exit_code);
 void add_film_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
-void add_repair_command(CLI::App& app, int& exit_code);
 void add_replay_command(CLI::App& app, int& exit_code);
-void add_report_command(CLI::App& app, int& exit_code);
-void add_wake_command(CLI::App& app, int& exit_code);
 
 }  // namespace talus

@@ -14,7 +14,7 @@ namespace talus {
 namespace {
 
 constexpr const char* flat_scene =
-    "# All keys: docs/scenes.md or `talus reference`. Examples: docs/experiments.md.\n"
+    "# All keys: docs/scenes.md or `talus reference`. Examples: docs/tutorial.md.\n"
     "title = \"A pile of boxes and discs\"\n"
     "dimension = 2\n"
     "\n"
@@ -55,7 +55,7 @@ constexpr const char* flat_scene =
     "frames = 900 # at most: 30 s\n";
 
 constexpr const char* space_scene =
-    "# All keys: docs/scenes.md or `talus reference`. Examples: docs/experiments.md.\n"
+    "# All keys: docs/scenes.md or `talus reference`. Examples: docs/tutorial.md.\n"
     "title = \"A pile of boxes and balls\"\n"
     "dimension = 3\n"
     "\n"

@@ -1,4 +1,5 @@
 #include "tools/commands/commands.h"
+#include "tools/commands/scene_options.h"
 #include "tools/commands/validators.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_scene.h"
@@ -11,30 +12,8 @@ constexpr const char* footer =
     "  talus run drop_in_a_pile_2d\n"
     "  talus run scenes/drop_in_a_pile_3d.toml --policy full --out runs/reference\n"
     "  talus run drop_in_a_pile_2d --backend bullet-planar --set policy.tau=0.3 --set pile[0].alpha_deg=25\n\n"
-    "Exit code: 0 done, 1 the run failed (with --strict: or gave a warning), 2 bad input, 130 interrupted "
+    "Exit code: 0 done, 1 the run failed (with --strict: or there was a warning), 2 bad input, 130 interrupted "
     "(everything up to then is saved).";
-
-/// What is run.
-void add_scene_options(CLI::App& command, RunOptions& options) {
-  command.add_option("scene", options.scene, "Scene file, or the name of a scene that `talus list` shows")
-      ->required()
-      ->check(not_empty());
-  command.add_option("-b,--backend", options.backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D")
-      ->check(not_empty());
-  command
-      .add_option("-p,--policy", options.policy,
-                  "Which bodies may sleep: full (none), engine (the engine's own rule), paper, adaptive")
-      ->check(not_empty());
-  command.add_option("-s,--set", options.settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--seed", options.seed, "Seed of all that is random in the scene, 0 or more")
-      ->check(whole_number());
-  command.add_flag("-f,--force", options.force,
-                   "Run the scene outside of the window in which results hold too: a warning instead of an error");
-  command.add_option("--pace", options.pace, "Simulated seconds per second at most: 1 is real time; 0: no limit")
-      ->check(number_between(0.0, 1e6));
-}
 
 /// What the run leaves, sends and prints.
 void add_output_options(CLI::App& command, RunOptions& options) {
@@ -57,7 +36,8 @@ void add_output_options(CLI::App& command, RunOptions& options) {
                       "Afterwards time the scene under this policy and under --policy, several rounds in turn; print "
                       "how many times faster the run is: median and range")
           ->check(not_empty());
-  command.add_flag("--strict", options.strict, "Exit with 1 when a body was lost or the run gave any other warning");
+  command.add_flag("--strict", options.strict,
+                   "Exit with 1 when a body was lost or the scene or run gave any other warning");
   auto* measure = command.add_flag(
       "--measure-drift", options.measure_drift,
       "At the end wake all bodies in a copy of the world and measure how far the sleeping ones move; warn above the "
@@ -77,6 +57,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->footer(footer);
   auto options = std::make_shared<RunOptions>();
   add_scene_options(*command, *options);
+  command->add_option("--pace", options->pace, "Simulated seconds per second at most: 1 is real time; 0: no limit")
+      ->check(number_between(0.0, 1e6));
   add_output_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }

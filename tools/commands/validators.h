@@ -42,7 +42,9 @@ inline CLI::Validator number_between(double low, double high, Bound lower = Boun
     return fmt::format("{}: must be a number {} {:g} and at most {:g}", text, lower == Bound::kept ? "from" : "above",
                        low, high);
   };
-  return CLI::Validator(check, fmt::format("NUMBER in {}{:g}, {:g}]", lower == Bound::kept ? '[' : '(', low, high));
+  std::string most = fmt::format("{:g}", high);
+  if (const std::size_t sign = most.find("e+0"); sign != std::string::npos) most.replace(sign, 3, "e");
+  return CLI::Validator(check, fmt::format("{}{:g} to {}", lower == Bound::kept ? "" : "above ", low, most));
 }
 
 /// For an option: a whole number from 0 to the largest of 64 bits. CLI11 takes a larger one for the largest.
@@ -53,7 +55,7 @@ inline CLI::Validator whole_number() {
     if (error == std::errc() && end == text.data() + text.size() && value >= 0) return {};
     return fmt::format("{}: must be a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max());
   };
-  return CLI::Validator(check, "WHOLE NUMBER");
+  return CLI::Validator(check, "");
 }
 
 }  // namespace talus

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/validators.h"
 #include "tools/export/exporter.h"
 #include "tools/output/output.h"
+#include "tools/record/record_file.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {
@@ -17,7 +19,7 @@ namespace {
 
 struct ExportOptions {
   std::string run;
-  std::array<std::string, 6> files;  // in the order of formats()
+  std::vector<std::string> out;  // a format of formats() each, by its ending
   /// Simulated time that is exported [s].
   double from = 0.0;
   double to = std::numeric_limits<double>::infinity();
@@ -28,21 +30,23 @@ struct ExportOptions {
 template <int Dim>
 struct Format {
   std::function<std::unique_ptr<Exporter<Dim>>(const ExportInput<Dim>&)> make;
-  /// Of its files; checked, since other programs go by it.
+  /// Of its files.
   std::string_view ending;
 };
 
 template <int Dim>
-std::array<Format<Dim>, 6> formats() {
-  return {{{make_csv_export<Dim>, ".csv"},
-           {make_npz_export<Dim>, ".npz"},
-           {make_ply_export<Dim>, ".ply"},
-           {make_vtp_export<Dim>, ".pvd"},
-           {make_glb_export<Dim>, ".glb"},
-           {make_mcap_export<Dim>, ".mcap"}}};
+std::array<Format<Dim>, 3> formats() {
+  return {{{make_csv_export<Dim>, ".csv"}, {make_npz_export<Dim>, ".npz"}, {make_vtp_export<Dim>, ".pvd"}}};
 }
 
-constexpr int many_nodes = 2000;
+/// Throws std::invalid_argument where the file has no ending of a format.
+template <int Dim>
+Format<Dim> format_of(const std::string& file) {
+  for (const Format<Dim>& format : formats<Dim>())
+    if (file.ends_with(format.ending)) return format;
+  throw std::invalid_argument(
+      fmt::format("--out = {}: must end in .csv, .npz or .pvd (a series of .vtp files for ParaView)", file));
+}
 
 /// Chooses among the frames of a record.
 class FrameChoice {
@@ -62,7 +66,7 @@ class FrameChoice {
 /// Visits the chosen frames; each has the sleep events since the one before.
 template <int Dim, class Visit>
 WalkDamage walk_chosen(const Scene<Dim>& scene, const ExportOptions& options, const Visit& visit) {
-  LogReader log((std::filesystem::path(options.run) / "run.lcm").string());
+  LogReader log(record_file(options.run).string());
   FrameChoice choice(options);
   std::vector<SleepEvent> events;
   const auto take = [&](const RecordedFrame<Dim>& frame) {
@@ -85,10 +89,6 @@ void report_damage(const WalkDamage& damage) {
 
 template <int Dim>
 void export_as(const Format<Dim>& format, ExportInput<Dim> input, const ExportOptions& options) {
-  if (format.ending == ".glb" && input.bodies > many_nodes) {
-    print_message("{}: {} bodies are as many nodes; above {} most programs take minutes to open them (--npz does not)",
-                  input.file.string(), input.bodies, many_nodes);
-  }
   const auto exporter = format.make(input);
   walk_chosen<Dim>(input.scene, options, [&](const RecordedFrame<Dim>& frame) { exporter->add(frame); });
   exporter->finish();
@@ -98,10 +98,8 @@ void export_as(const Format<Dim>& format, ExportInput<Dim> input, const ExportOp
 
 template <int Dim>
 void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
-  const auto kinds = formats<Dim>();
-  for (std::size_t i = 0; i < kinds.size(); ++i)
-    if (const std::string& file = options.files[i]; !file.empty() && !file.ends_with(kinds[i].ending))
-      throw std::invalid_argument(fmt::format("{}: must end in {}", file, kinds[i].ending));
+  std::vector<Format<Dim>> chosen;
+  for (const std::string& file : options.out) chosen.push_back(format_of<Dim>(file));
   ExportInput<Dim> input = {.scene = scene, .file = {}};
   const WalkDamage damage = walk_chosen<Dim>(scene, options, [&](const RecordedFrame<Dim>& frame) {
     ++input.frames;
@@ -113,10 +111,9 @@ void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
                                             options.run, options.from, options.to, damage.bytes));
   }
   report_damage(damage);
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    if (options.files[i].empty()) continue;
-    input.file = options.files[i];
-    export_as<Dim>(kinds[i], input, options);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    input.file = options.out[i];
+    export_as<Dim>(chosen[i], input, options);
   }
 }
 
@@ -125,18 +122,16 @@ void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
 void add_export_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("export", "Write a recorded run in the formats of other programs");
   auto options = std::make_shared<ExportOptions>();
-  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
-  constexpr std::array<std::array<const char*, 2>, 6> files = {
-      {{"--csv", "A row for each body and frame"},
-       {"--npz", "Arrays of NumPy"},
-       {"--ply", "The bodies of the last frame as one mesh"},
-       {"--vtp", "A series for ParaView: FILE.pvd, with the folder FILE_vtp"},
-       {"--glb", "An animated scene for Blender and engines of games"},
-       {"--mcap", "A recording for Foxglove, Lichtblick and Rerun"}}};
-  CLI::Option_group* group = command->add_option_group("formats", "Files to write, overwritten if there");
-  for (std::size_t i = 0; i < files.size(); ++i)
-    group->add_option(files[i][0], options->files[i], files[i][1])->check(in_a_folder());
-  group->require_option(1, 0);
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it, or its record")
+      ->required()
+      ->check(not_empty());
+  command
+      ->add_option("-o,--out", options->out,
+                   "File to write, overwritten if there: .csv, a row for each body and frame; .npz, arrays of NumPy; "
+                   ".pvd, a series for ParaView, with a folder beside it; may be repeated")
+      ->required()
+      ->allow_extra_args(false)
+      ->check(in_a_folder());
   command->add_option("--from", options->from, "Simulated time from which on frames are written [s]")
       ->check(number_between(0.0, 1e9))
       ->capture_default_str();
@@ -145,7 +140,9 @@ void add_export_command(CLI::App& app, int& exit_code) {
   command->add_option("--every", options->every, "Take every Nth frame of output")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  command->footer("Example:\n  talus run drop_in_a_pile_3d --out runs/pile\n  talus export runs/pile --npz pile.npz");
+  command->footer(
+      "Example:\n  talus run drop_in_a_pile_3d --out runs/pile\n  talus export runs/pile --out pile.npz --out "
+      "pile.pvd");
   command->callback([options, &exit_code] {
     std::visit([&](const auto& scene) { export_run(*options, scene); }, scene_of_run(options->run));
     exit_code = exit_codes::success;

@@ -36,18 +36,9 @@ std::unique_ptr<Exporter<Dim>> make_csv_export(const ExportInput<Dim>& input);
 /// Arrays of NumPy, uncompressed; frames pass through, so memory is that of one state.
 template <int Dim>
 std::unique_ptr<Exporter<Dim>> make_npz_export(const ExportInput<Dim>& input);
-/// The surfaces of all bodies of the last frame, in the colours of the pictures.
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_ply_export(const ExportInput<Dim>& input);
 /// A series of point sets (FILE.pvd, and FILE_vtp beside it) with pose, shape, sleep and cause, and a mesh of each
 /// shape.
 template <int Dim>
 std::unique_ptr<Exporter<Dim>> make_vtp_export(const ExportInput<Dim>& input);
-/// A node for each body, with keys only where it moves. In memory until finish().
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_glb_export(const ExportInput<Dim>& input);
-/// Bodies, layers, counts, sleep events and warnings as messages with times. Frames pass through.
-template <int Dim>
-std::unique_ptr<Exporter<Dim>> make_mcap_export(const ExportInput<Dim>& input);
 
 }  // namespace talus

@@ -28,12 +28,10 @@ std::vector<Loop<3>> polygons_in_space(const Shape<3>& shape) { return faces(sha
 TriangleMesh triangles_of(const std::vector<Loop<3>>& polygons) {
   TriangleMesh mesh;
   for (const Loop<3>& polygon : polygons) {
-    const Vec3 area = area_vector(polygon);
-    if (area.norm() == 0.0) continue;
+    if (area_vector(polygon).norm() == 0.0) continue;
     const int first = static_cast<int>(mesh.corners.size());
     const int corners = static_cast<int>(polygon.size());
     mesh.corners.insert(mesh.corners.end(), polygon.begin(), polygon.end());
-    mesh.normals.insert(mesh.normals.end(), polygon.size(), area.normalized());
     for (int i = 2; i < corners; ++i) mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
   }
   return mesh;

@@ -22,7 +22,6 @@ std::vector<Loop<3>> polygons_in_space(const Shape<3>& shape);
 /// The corners of all polygons, and the triangles that fill them.
 struct TriangleMesh {
   std::vector<Vec3> corners;  // of each polygon apart
-  std::vector<Vec3> normals;  // of each corner, that of its polygon
   std::vector<int> indices;   // three for each triangle
 };
 TriangleMesh triangles_of(const std::vector<Loop<3>>& polygons);

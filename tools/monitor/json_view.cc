@@ -4,7 +4,7 @@
 
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/translate.h"
-#include "tools/report/json_text.h"
+#include "tools/output/json_text.h"
 
 namespace talus {
 

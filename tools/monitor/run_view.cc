@@ -97,6 +97,8 @@ void RunView::take(const talus_lcm::talus_event_v2& message) { note(message); }
 
 void RunView::take(const talus_lcm::talus_obstacles_v1& message) { note(message); }
 
+void RunView::take(const talus_lcm::talus_scene_v1& message) { note(message); }
+
 bool RunView::is_restart(const talus_run_v1& message) const {
   return run_ && message.seq < run_->seq && (message.phase == talus_run_v1::BEGIN || ended());
 }

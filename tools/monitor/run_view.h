@@ -24,6 +24,7 @@ class RunView {
   void take(const talus_lcm::talus_shapes_v1& message);
   void take(const talus_lcm::talus_event_v2& message);
   void take(const talus_lcm::talus_obstacles_v1& message);
+  void take(const talus_lcm::talus_scene_v1& message);
 
   /// The run's number was used before; nothing of that is left. A record that is played twice does so.
   bool is_restart(const talus_lcm::talus_run_v1& message) const;

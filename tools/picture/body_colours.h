@@ -1,5 +1,5 @@
 #pragma once
-// Colours of bodies in pictures: by state, or by what else is wanted.
+// Colours of bodies in pictures.
 
 #include <algorithm>
 #include <span>
@@ -11,27 +11,11 @@
 
 namespace talus {
 
-/// A line of the legend: a colour or a scale of colours, and what it stands for.
+/// A line of the legend: a colour and what it stands for.
 struct LegendEntry {
-  std::vector<Colour> fills;
+  Colour fill;
   std::string text;
 };
-
-/// Colours that show something else than the state. Sleeping bodies are drawn darker.
-struct BodyColours {
-  std::vector<Colour> awake;  // [body]; empty: the colours of PictureParams
-  std::vector<LegendEntry> legend;
-};
-
-/// Colours for kinds: `kind[body]` indexes `names`, or is -1 (grey, `none` in the legend). `own[kind]`, where given, is
-/// its "#rrggbb". Beyond seven kinds the colours come again. The legend has the kinds that occur, at most seven.
-BodyColours colours_of_kinds(std::span<const int> kind, std::span<const std::string> names, const std::string& none,
-                             std::span<const std::string> own = {});
-
-/// Colours from blue over grey to red for values from `least` to `greatest` (> least) and beyond, `text` in the legend;
-/// NaN: grey, `none` in the legend.
-BodyColours colours_of_values(std::span<const double> values, double least, double greatest, const std::string& text,
-                              const std::string& none);
 
 /// Fill and outline of one body.
 struct BodyPaint {
@@ -39,9 +23,8 @@ struct BodyPaint {
   Colour outline;
 };
 
-/// `own`: Shape::colour. `colour`: what `BodyColours` says of the body, or nullptr.
-BodyPaint body_paint(const PictureParams& params, int shape, const std::string& own, bool asleep,
-                     const Colour* colour = nullptr);
+/// `own`: Shape::colour, which sleeping bodies have darker.
+BodyPaint body_paint(const PictureParams& params, int shape, const std::string& own, bool asleep);
 
 /// "#rrggbb" as a colour.
 Colour colour_of(const std::string& text);
@@ -55,7 +38,7 @@ std::vector<LegendEntry> legend_of_shapes(std::span<const Shape<Dim>> shapes) {
   for (const Shape<Dim>& shape : shapes) {
     const std::string name = shape.name.substr(0, shape.name.find_first_of("#*"));
     const bool named = std::ranges::any_of(legend, [&](const LegendEntry& entry) { return entry.text == name; });
-    if (!shape.colour.empty() && !named && legend.size() < most) legend.push_back({{colour_of(shape.colour)}, name});
+    if (!shape.colour.empty() && !named && legend.size() < most) legend.push_back({colour_of(shape.colour), name});
   }
   return legend;
 }

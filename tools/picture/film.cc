@@ -16,7 +16,6 @@ PageContent page_content(const PictureInput<Dim>& input, const PictureParams& pa
     if (input.states.removed[i] == 0) ++(input.states.asleep[i] != 0 ? content.asleep : content.awake);
   content.awake_colours = awake_colours(params, input.shapes);
   content.shapes = legend_of_shapes(input.shapes);
-  content.colours = input.colours.legend;
   content.layers = !input.piles.empty();
   content.parallel = Dim == 2;
   return content;

@@ -1,8 +1,9 @@
 #pragma once
-// Films as files: WebP by libwebp, MP4 and GIF by the program ffmpeg.
+// Films as files, by the program ffmpeg, which is started without a shell and reads the frames from a pipe.
+
+#include <sys/types.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "tools/picture/film.h"
 
@@ -17,21 +18,30 @@ struct FilmFormat {
   int quality = 100;        // of WebP, 0 to 100; 100 is without loss
 };
 
-/// A film being written. The same frames give the same bytes with the same version of the encoder.
-class FilmFile {
- public:
-  virtual ~FilmFile() = default;
-  /// Adds a frame of the format's size. Throws std::runtime_error with the encoder's reason.
-  virtual void add(const Image& image) = 0;
-  /// Completes the file; no frame may be added afterwards. Throws std::runtime_error as add() does.
-  virtual void finish() = 0;
-};
-
 /// Whether the ending of a file is that of a film.
 bool is_film_file(const std::filesystem::path& file);
 
-/// Opens the film for writing, over a file that is there. Throws std::runtime_error where ffmpeg is needed and does not
-/// start.
-std::unique_ptr<FilmFile> make_film_file(const FilmFormat& format);
+/// A film being written: WebP and GIF (a palette a frame) in an endless loop, or MP4 (H.264, in colours that each
+/// player shows). The same frames give the same bytes with the same version of ffmpeg.
+class FilmFile {
+ public:
+  /// Opens the film for writing, over a file that is there. Throws std::runtime_error where ffmpeg does not start.
+  explicit FilmFile(const FilmFormat& format);
+  ~FilmFile();
+  FilmFile(const FilmFile&) = delete;
+  FilmFile& operator=(const FilmFile&) = delete;
+
+  /// Adds a frame of the format's size. Throws std::runtime_error where ffmpeg fails, which prints the reason.
+  void add(const Image& image);
+  /// Completes the file; no frame may be added afterwards. Throws as add() does.
+  void finish();
+
+ private:
+  [[noreturn]] void fail();
+  int end();
+
+  pid_t process_ = -1;
+  int pipe_ = -1;
+};
 
 }  // namespace talus

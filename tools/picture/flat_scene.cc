@@ -103,9 +103,7 @@ struct FlatScene {
     const double line = many_bodies != nullptr && size < 2.0 ? 0.0 : std::clamp(0.03 * size, 0.15, 1.2);
     for (const BodyIndex body : framing.drawn) {
       const int shape = input.states.shape[body];
-      const std::vector<Colour>& colours = input.colours.awake;
-      const BodyPaint paint = body_paint(params, shape, input.shapes[shape].colour, input.states.asleep[body] != 0,
-                                         colours.empty() ? nullptr : &colours[body]);
+      const BodyPaint paint = body_paint(params, shape, input.shapes[shape].colour, input.states.asleep[body] != 0);
       paint_pieces(canvas, shapes[shape], input.states.pose[body], paint.fill, paint.outline, line);
     }
   }

@@ -62,18 +62,32 @@ void include_bodies(Framing<Dim>& framing, const PictureInput<Dim>& input, const
   double largest = 0.0;
   for (const Shape<Dim>& shape : input.shapes) largest = std::max(largest, shape.extent);
   const Box<Dim> fence = fence_of(input.states, present, 2.0 * largest);
+  const auto position = [&](BodyIndex body) -> const Vec<Dim>& { return input.states.pose[body].position; };
+  const auto bounds = [&](BodyIndex body) {
+    return bounds_at(input.shapes[input.states.shape[body]], input.states.pose[body]);
+  };
   for (const BodyIndex body : present) {
-    const Vec<Dim>& position = input.states.pose[body].position;
-    const bool near = fence.contains(position) ||
-                      std::ranges::any_of(piles, [&](const Box<Dim>& box) { return box.contains(position); });
+    const bool near = fence.contains(position(body)) ||
+                      std::ranges::any_of(piles, [&](const Box<Dim>& box) { return box.contains(position(body)); });
     (near ? framing.drawn : framing.outside).push_back(body);
   }
   if (framing.drawn.empty()) {
     // Each is far off on one axis or another: there is no middle to be far from.
     std::swap(framing.drawn, framing.outside);
   }
-  for (const BodyIndex body : framing.drawn)
-    include(framing, bounds_at(input.shapes[input.states.shape[body]], input.states.pose[body]));
+  for (const BodyIndex body : framing.drawn) include(framing, bounds(body));
+  // The others from the nearest on, as long as none is further from what is seen than that is large.
+  std::ranges::sort(framing.outside, {},
+                    [&](BodyIndex body) { return framing.box.squaredExteriorDistance(position(body)); });
+  auto far = framing.outside.begin();
+  for (; far != framing.outside.end(); ++far) {
+    if (framing.box.exteriorDistance(position(*far)) > framing.box.diagonal().norm()) break;
+    include(framing, bounds(*far));
+  }
+  framing.drawn.insert(framing.drawn.end(), framing.outside.begin(), far);
+  framing.outside.erase(framing.outside.begin(), far);
+  std::ranges::sort(framing.drawn);
+  std::ranges::sort(framing.outside);
 }
 
 }  // namespace

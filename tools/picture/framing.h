@@ -13,13 +13,13 @@ struct Framing {
   Box<Dim> box;                    // around all that is to be seen [m]; never empty
   std::vector<Vec<Dim>> points;    // the picture must hold these [m]: corners of bodies' boxes, rims of layers
   std::vector<BodyIndex> drawn;    // ascending
-  std::vector<BodyIndex> outside;  // ascending: too far from the others to be drawn
+  std::vector<BodyIndex> outside;  // ascending: beyond a gap that is wider than all that is seen
 };
 
-/// Bodies lie outside where they are further from the middle half of all bodies, on any axis, than Tukey's fence of 1.5
-/// times that half's width and two bodies more, and outside of every pile's layers too. (A fixed share of the bodies
-/// would fail with a handful of them.) Fewer than five are all shown. Obstacles are part of the framing unless they are
-/// much larger than all else.
+/// Shown is what lies within Tukey's fence, 1.5 times the width of the middle half of all bodies and two bodies more to
+/// each side, or within a pile's layers; then all others from the nearest on, each of which is no further from what is
+/// seen than that is large. Bodies beyond such a gap lie outside: one that was shot away would make a dot of all
+/// others. Obstacles are part of the framing unless they are much larger than all else.
 template <int Dim>
 Framing<Dim> framing_of(const PictureInput<Dim>& input);
 

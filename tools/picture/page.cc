@@ -63,8 +63,9 @@ void Page::draw(cairo_t* canvas, double height, double pixels_per_metre) const {
 
 std::string Page::outside_note() const {
   if (content_.outside == 0) return "";
-  return content_.outside == 1 ? "1 body lies outside the picture"
-                               : fmt::format("{} bodies lie outside the picture", content_.outside);
+  return content_.outside == 1 ? fmt::format("1 body lies outside the picture, {:.3g} m away", content_.farthest)
+                               : fmt::format("{} bodies lie outside the picture, up to {:.3g} m away", content_.outside,
+                                             content_.farthest);
 }
 
 void Page::draw_title(cairo_t* canvas) const {
@@ -77,17 +78,11 @@ void Page::draw_title(cairo_t* canvas) const {
 
 void Page::draw_legend(cairo_t* canvas) const {
   double left = params_.margin;
-  if (!content_.colours.empty()) {
-    for (const LegendEntry& entry : content_.colours)
-      left = draw_entry(canvas, left, entry.fills, params_.awake_outline, entry.text);
-    draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, "asleep (darker)"));
-    return;
-  }
   const char* asleep = content_.shapes.empty() ? "asleep" : "asleep (darker)";
   left = draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, asleep));
   left = draw_entry(canvas, left, content_.awake_colours, params_.awake_outline, counted(content_.awake, "awake"));
   for (const LegendEntry& entry : content_.shapes)
-    left = draw_entry(canvas, left, entry.fills, params_.awake_outline, entry.text);
+    left = draw_entry(canvas, left, {entry.fill}, params_.awake_outline, entry.text);
   if (content_.layers)
     draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
 }

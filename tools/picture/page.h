@@ -20,10 +20,10 @@ struct PageContent {
   int asleep = 0;
   int awake = 0;
   int outside = 0;                      // bodies too far away to be drawn
+  double farthest = 0.0;                // of them, from what is drawn [m]
   std::vector<Colour> awake_colours{};  // of awake bodies
   std::vector<LegendEntry> shapes{};    // with colours of their own
   bool layers = false;                  // whether piles are drawn
-  std::vector<LegendEntry> colours{};   // of the bodies, in place of awake and asleep
   bool parallel = true;                 // whether the scale bar holds all over the picture (2D), or in the middle only
 };
 

@@ -1,5 +1,7 @@
 #include "tools/picture/picture.h"
 
+#include <algorithm>
+
 #include "tools/picture/canvas.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/page.h"
@@ -16,9 +18,10 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
   for (const auto* bodies : {&framing.drawn, &framing.outside})
     for (const BodyIndex body : *bodies) (input.states.asleep[body] != 0 ? content.asleep : content.awake) += 1;
   content.outside = static_cast<int>(framing.outside.size());
+  for (const BodyIndex body : framing.outside)
+    content.farthest = std::max(content.farthest, framing.box.exteriorDistance(input.states.pose[body].position));
   content.awake_colours = awake_colours(params, input.shapes);
   content.shapes = legend_of_shapes(input.shapes);
-  content.colours = input.colours.legend;
   content.layers = !input.piles.empty();
   content.parallel = Dim == 2;
   return content;

@@ -8,7 +8,6 @@
 
 #include "common/pile/pile.h"
 #include "common/world/world_description.h"
-#include "tools/picture/body_colours.h"
 #include "tools/picture/picture_params.h"
 
 namespace talus {
@@ -21,9 +20,8 @@ struct PictureInput {
   std::span<const Pile<Dim>> piles;      // may be empty
   std::vector<Obstacle<Dim>> obstacles;  // where they are
   Ground ground;
-  std::string title;      // one line, may be empty
-  std::string caption;    // one line or more, separated by '\n'; may be empty
-  BodyColours colours{};  // in place of those by state
+  std::string title;    // one line, may be empty
+  std::string caption;  // one line or more, separated by '\n'; may be empty
 };
 
 /// Draws the same picture into two files: sleeping bodies black, awake ones in warm colours, the layers of each pile

@@ -93,10 +93,8 @@ constexpr double crease = 0.85;  // cosine of the angle between two faces of one
 BodyPaint ShadedImage::paint_of(const Face& face, const PictureInput<3>& input) const {
   if (face.owner == ground_owner) return {params_.paper, params_.paper};
   if (is_obstacle(face)) return {params_.obstacle, params_.obstacle_outline};
-  const std::vector<Colour>& colours = input.colours.awake;
   const int shape = input.states.shape[face.owner];
-  return body_paint(params_, shape, input.shapes[shape].colour, input.states.asleep[face.owner] != 0,
-                    colours.empty() ? nullptr : &colours[face.owner]);
+  return body_paint(params_, shape, input.shapes[shape].colour, input.states.asleep[face.owner] != 0);
 }
 
 double ShadedImage::outline_strength(int x, int y) const {

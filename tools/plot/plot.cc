@@ -109,16 +109,6 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// Where there are many names each second, third, ... is left out.
-std::string named_axis(const std::vector<std::string>& names) {
-  constexpr std::size_t most_shown = 12;
-  const std::size_t every = (names.size() + most_shown - 1) / most_shown;
-  std::string ticks;
-  for (std::size_t i = 0; i < names.size(); i += every)
-    ticks += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(names[i]), i);
-  return fmt::format("set xtics ({})\nset xrange [-0.5:{}]\n", ticks, static_cast<double>(names.size()) - 0.5);
-}
-
 /// A logarithmic axis that reaches a little beyond its values instead of to the next powers of ten, with labels at 1, 2
 /// and 5 where powers alone would be too few.
 std::string logarithmic_axis(char axis, const Plot& plot) {
@@ -156,14 +146,16 @@ std::string head_of(const Plot& plot) {
   if (!plot.title.empty()) script += fmt::format("set title {} textcolor '#222222' font ',15'\n", quoted(plot.title));
   script += fmt::format("set xlabel {} offset 0,0.5 textcolor '#222222'\n", quoted(plot.x_label));
   script += fmt::format("set ylabel {} textcolor '#222222'\n", quoted(plot.y_label));
-  if (!plot.x_names.empty()) script += named_axis(plot.x_names);
   if (plot.log_x) script += logarithmic_axis('x', plot);
+  // The caps of bars at the first and last point.
+  const bool bars = std::ranges::any_of(plot.series, [](const Series& series) { return !series.low.empty(); });
+  if (bars && !plot.log_x && plot.x_names.empty()) script += "set offsets graph 0.03, graph 0.03, 0, 0\n";
   if (plot.log_y) script += logarithmic_axis('y', plot);
   const bool none_below = std::ranges::all_of(plot.series, [](const Series& series) {
     const auto above = [](double value) { return value >= 0.0; };
     return std::ranges::all_of(series.y, above) && std::ranges::all_of(series.low, above);
   });
-  if (plot.from_zero && !plot.log_y && none_below) script += "set yrange [0:*]\n";
+  if (!plot.log_y && none_below) script += "set yrange [0:*]\n";
   return script;
 }
 
@@ -198,8 +190,6 @@ void check(const Plot& plot) {
           "must be 200 to 4000 px");
   require(!plot.series.empty() && plot.series.size() <= palette.size(), "plot.series",
           std::to_string(plot.series.size()) + " of them", "must be 1 to 7");
-  require(plot.x_names.empty() || !plot.log_x, "plot.x_names", std::to_string(plot.x_names.size()) + " of them",
-          "must be none on a logarithmic axis");
   for (const Series& series : plot.series) {
     const std::string name = fmt::format("series \"{}\"", series.name);
     const std::size_t size = series.x.size();

@@ -22,12 +22,8 @@ struct Plot {
   std::string title;
   std::string x_label;  // with the unit, as in "time [s]"
   std::string y_label;
-  /// Of 0, 1, 2, ... on the x axis, in the place of numbers; empty: numbers.
-  std::vector<std::string> x_names = {};
   bool log_x = false;
-  bool log_y = false;
-  bool from_zero =
-      true;  // whether a linear y axis begins at zero where no value is below; cut off, changes seem larger
+  bool log_y = false;          // a linear one begins at zero where no value is below
   std::vector<Series> series;  // at most 7, the number of colours distinct for all kinds of colour vision
   int width = 760;             // [px] 200..4000
   int height = 440;            // [px] 200..4000

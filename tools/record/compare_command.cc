@@ -13,10 +13,10 @@
 #include "common/scene/typical_body.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/output/json_text.h"
 #include "tools/output/output.h"
+#include "tools/output/table.h"
 #include "tools/record/recorded_run.h"
-#include "tools/report/json_text.h"
-#include "tools/report/table.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/shape_json.h"
 
@@ -351,7 +351,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("compare", "How far two recorded runs differ, and from which step on");
   command->footer(
       "Example: talus compare runs/drop_in_a_pile_2d-box2d-full runs/drop_in_a_pile_2d-box2d-paper\n"
-      "docs/measures.md explains each measure and gives its floor and ceiling.");
+      "docs/accuracy.md explains each measure and gives its floor and ceiling.");
   struct Options {
     std::string a;
     std::string b;
@@ -359,8 +359,10 @@ void add_compare_command(CLI::App& app, int& exit_code) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  command->add_option("run_a", options->a, "Run folder, in the role of the full run")->required()->check(not_empty());
-  command->add_option("run_b", options->b, "Run folder")->required()->check(not_empty());
+  command->add_option("run_a", options->a, "Run folder or its record, in the role of the full run")
+      ->required()
+      ->check(not_empty());
+  command->add_option("run_b", options->b, "Run folder or its record")->required()->check(not_empty());
   command
       ->add_option("--twins", options->twins,
                    "Run A's scene so many times more, its source moved by 1e-6 m and multiples: what differs between "

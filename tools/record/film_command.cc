@@ -6,6 +6,7 @@
 #include <deque>
 #include <future>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "common/math/require.h"
@@ -14,7 +15,6 @@
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/picture/film_file.h"
-#include "tools/record/film_colours.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {
@@ -34,8 +34,6 @@ struct FilmOptions {
   int width = 800;
   /// Of WebP; 100: without loss.
   int quality = 100;
-  /// One of colour_words().
-  std::string colour = "state";
 };
 
 void check(const FilmOptions& options) {
@@ -110,8 +108,7 @@ std::string event_note(const RecordedRun<Dim>& run, double time) {
 }
 
 template <int Dim>
-PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame,
-                           const FilmColours<Dim>& colours) {
+PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame) {
   const double time = static_cast<double>(run.frames.step(frame)) * run.frames.step_time();
   return {run.scene.world.shapes,
           states,
@@ -119,8 +116,8 @@ PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& s
           world_at<Dim>(run.scene, run.done, time).obstacles,
           run.scene.world.ground,
           printable(run.scene.title),
-          printable(fmt::format("{}, policy {}, {:.1f} s{}", run.backend, run.policy, time, event_note(run, time))),
-          colours.at(frame)};
+          printable(fmt::format("{}, policy {}, seed {}, {:.1f} s{}", run.backend, run.policy, run.scene.seed, time,
+                                event_note(run, time)))};
 }
 
 /// Calls make(i) for i from 0 to below `count`, on all cores, and take() here with the results in order.
@@ -140,24 +137,23 @@ template <int Dim>
 void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   const Cut cut = cut_of(options, run.frames);
   const BodyStates<Dim> end = states_at(run.frames, cut.last);
-  const FilmColours<Dim> colours(run, options.colour);
-  const FilmFrames<Dim> page(input_at(run, end, cut.last, colours), params_of(options));
+  const FilmFrames<Dim> page(input_at(run, end, cut.last), params_of(options));
   const auto draw = [&](int shown) {
     int frame = cut.frame(shown);
     while (frame > 0 && run.frames.lost(frame)) --frame;  // the record is damaged
     const BodyStates<Dim> states = states_at(run.frames, frame);
-    return page.draw(input_at(run, states, frame, colours));
+    return page.draw(input_at(run, states, frame));
   };
   const bool progress = isatty(STDERR_FILENO) != 0;
-  std::unique_ptr<FilmFile> file;
+  std::optional<FilmFile> file;
   int taken = 0;
   in_order(cut.frames(), draw, [&](const Image& image) {
     if (!file) {
-      file = make_film_file({.file = options.out,
-                             .width = image.width,
-                             .height = image.height,
-                             .frame_time = cut.frame_time,
-                             .quality = options.quality});
+      file.emplace(FilmFormat{.file = options.out,
+                              .width = image.width,
+                              .height = image.height,
+                              .frame_time = cut.frame_time,
+                              .quality = options.quality});
     }
     file->add(image);
     if (progress) write_note(fmt::format("\r{} of {} frames", ++taken, cut.frames()));
@@ -173,8 +169,12 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
 void add_film_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("film", "Make a moving picture of a recorded run");
   auto options = std::make_shared<FilmOptions>();
-  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
-  command->add_option("-o,--out", options->out, "Film to write, overwritten if there: .webp, or by ffmpeg .mp4 or .gif")
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it, or its record")
+      ->required()
+      ->check(not_empty());
+  command
+      ->add_option("-o,--out", options->out,
+                   "Film to write, overwritten if there: .webp, .mp4 or .gif, by the program ffmpeg")
       ->required()
       ->check(in_a_folder());
   command->add_option("--from", options->from, "Simulated time at which the film begins [s]")->capture_default_str();
@@ -186,9 +186,6 @@ void add_film_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--quality", options->quality, "Of a WebP film, 0 to 100; 100: without loss")
       ->check(number_between(0, 100))
-      ->capture_default_str();
-  command->add_option("--colour", options->colour, "What the bodies' colours show")
-      ->check(CLI::IsMember(colour_words()))
       ->capture_default_str();
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
   command->callback([options, &exit_code] {

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
 #include "lcmtypes/channels.h"
 #include "lcmtypes/layout.h"
+#include "lcmtypes/run_info.h"
 
 namespace talus {
 namespace {
@@ -94,6 +97,30 @@ std::filesystem::path record_file(const std::filesystem::path& run) {
       fmt::format("{}: must be a folder that `talus run` left, or an LCM event log", run.string()));
 }
 
+std::invalid_argument no_event_log(const std::filesystem::path& file) {
+  return std::invalid_argument(
+      fmt::format("{}: must be a folder that `talus run` left, or an LCM event log, but no event is in its {} bytes",
+                  file.string(), std::filesystem::file_size(file)));
+}
+
+bool is_event_log(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 4> begin{};
+  return in.read(begin.data(), begin.size()) && std::string_view(begin.data(), begin.size()) == "\xED\xA1\xDA\x01";
+}
+
+void OneRun::see(const LogEvent& event, const std::filesystem::path& file) {
+  if (!is_of_run(event)) return;
+  const std::int64_t run = header_of(event).run_id;
+  if (run_.value_or(run) != run) {
+    throw std::invalid_argument(fmt::format(
+        "{}: holds the runs {} and {}: must be of one run; `talus info --repair --run {} --out FOLDER` takes "
+        "one of them out",
+        file.string(), short_id(*run_), short_id(run), short_id(*run_)));
+  }
+  run_ = run;
+}
+
 bool is_of_run(const LogEvent& event) {
   return std::find(channel_names.begin(), channel_names.end(), event.channel) != channel_names.end() &&
          event.data.size() >= header_bytes;
@@ -103,7 +130,9 @@ MessageHeader header_of(const LogEvent& event) {
   const auto number = [&](std::size_t field) {
     return big_endian(std::span(event.data).subspan(fingerprint_bytes + 8 * field, 8));
   };
-  return {.step = static_cast<std::int64_t>(number(2)),
+  return {.utime = static_cast<std::int64_t>(number(0)),
+          .run_id = static_cast<std::int64_t>(number(1)),
+          .step = static_cast<std::int64_t>(number(2)),
           .time = std::bit_cast<double>(number(3)),
           .seq = static_cast<std::int64_t>(number(4))};
 }

@@ -7,6 +7,7 @@
 #include "common/scene/read_scene.h"
 #include "lcmtypes/log_reader.h"
 #include "tools/picture/framing.h"
+#include "tools/record/record_file.h"
 #include "tools/record/record_walk.h"
 #include "tools/record/recorded_run.h"
 #include "tools/view/frame_stream.h"
@@ -26,7 +27,7 @@ RunTexts texts_of(const std::string& name, std::uint64_t seed, const WalkResult&
 
 template <int Dim>
 std::string stream_of(const Scene<Dim>& scene, const std::filesystem::path& folder) {
-  LogReader log((folder / "run.lcm").string());
+  LogReader log(record_file(folder).string());
   const auto form = frame_form(scene);
   FrameEncoder<Dim> encoder(form);
   std::string blocks;

@@ -1,8 +1,11 @@
 #include "tools/record/record_walk.h"
 
+#include <utility>
+
 #include "common/text/printable.h"
 #include "lcmtypes/decode.h"
 #include "lcmtypes/translate.h"
+#include "tools/record/record_file.h"
 #include "tools/record/state_reader.h"
 
 namespace talus {
@@ -21,6 +24,27 @@ class Walk {
       with_message_of(*channel, [&](auto message) { decode_and_take(event, message); });
   }
 
+  /// Visits the frame of the last step once all messages of that step have been taken: the end of a run says some
+  /// things of it again.
+  void show() {
+    if (!std::exchange(complete_, false)) return;
+    cause_.resize(states_.states().size(), -1);
+    for (const SleepEvent& event : events_)
+      if (event.body < states_.states().size()) cause_[event.body] = static_cast<std::int8_t>(event.cause);
+    visit_({.step = last_step_,
+            .time = dt_ * static_cast<double>(last_step_),
+            .states = states_.states(),
+            .unknown = states_.unknown(),
+            .cause = cause_,
+            .events = events_,
+            .piles = piles_,
+            .warnings = warnings_,
+            .kinetic_energy = kinetic_energy_,
+            .drift_estimate = drift_estimate_,
+            .scene_events = scene_events_});
+    events_.clear();
+  }
+
   std::int64_t undecodable() const { return undecodable_; }
   const RecordedIdentity& run() const { return run_; }
 
@@ -28,10 +52,12 @@ class Walk {
   template <class Message>
   void decode_and_take(const LogEvent& event, Message& message) {
     if constexpr (requires { this->take(message); }) {
-      if (decode(event.data, message).empty())
-        take(message);
-      else
+      if (!decode(event.data, message).empty()) {
         ++undecodable_;
+        return;
+      }
+      if (message.step != last_step_) show();
+      take(message);
     }
   }
 
@@ -65,21 +91,7 @@ class Walk {
   void take(const talus_lcm::talus_bodies_v1& message) {
     if (!states_.take(message) || states_.step() <= last_step_) return;
     last_step_ = states_.step();
-    cause_.resize(states_.states().size(), -1);
-    for (const SleepEvent& event : events_)
-      if (event.body < states_.states().size()) cause_[event.body] = static_cast<std::int8_t>(event.cause);
-    visit_({.step = last_step_,
-            .time = dt_ * static_cast<double>(last_step_),
-            .states = states_.states(),
-            .unknown = states_.unknown(),
-            .cause = cause_,
-            .events = events_,
-            .piles = piles_,
-            .warnings = warnings_,
-            .kinetic_energy = kinetic_energy_,
-            .drift_estimate = drift_estimate_,
-            .scene_events = scene_events_});
-    events_.clear();
+    complete_ = true;
   }
 
   double dt_;
@@ -94,6 +106,7 @@ class Walk {
   double kinetic_energy_ = 0.0;
   double drift_estimate_ = -1.0;
   std::int64_t last_step_ = 0;
+  bool complete_ = false;  // the state of that step, which was not visited yet
   std::int64_t undecodable_ = 0;
 };
 
@@ -103,7 +116,12 @@ template <int Dim>
 WalkResult walk_record(const Scene<Dim>& scene, LogReader& log,
                        const std::function<void(const RecordedFrame<Dim>&)>& visit) {
   Walk<Dim> walk(scene, visit);
-  for (LogEvent event; log.next(event);) walk.take(event);
+  OneRun run;
+  for (LogEvent event; log.next(event);) {
+    run.see(event, "run.lcm");
+    walk.take(event);
+  }
+  walk.show();
   return {{log.damage().bytes, walk.undecodable()}, walk.run()};
 }
 

@@ -11,6 +11,7 @@
 #include "lcmtypes/decode.h"
 #include "lcmtypes/translate.h"
 #include "tools/monitor/sequence_tracker.h"
+#include "tools/record/record_file.h"
 #include "tools/record/state_reader.h"
 
 namespace talus {
@@ -35,7 +36,7 @@ class RunReader {
   }
 
   RecordedRun<Dim> finish() {
-    run_.last = states_.states_with_velocities(run_.scene.world.dt);
+    run_.last = states_.states();
     run_.last_step = states_.step();
     run_.damage.lost_events = sleep_numbers_.lost();
     for (std::size_t i = 0; i < states_.unknown().size(); ++i)
@@ -57,7 +58,7 @@ class RunReader {
   void take(const talus_lcm::talus_run_v1& message) {
     if (message.dimension != Dim) {
       throw std::invalid_argument(
-          fmt::format("run.lcm is of a run in {}D: must be {}D as scene.toml", message.dimension, Dim));
+          fmt::format("run.lcm is of a run in {}D: must be {}D as its scene", message.dimension, Dim));
     }
     run_.backend = message.backend;
     run_.policy = message.policy;
@@ -90,7 +91,7 @@ class RunReader {
     for (; next < step; next += distance) {
       if (step > run_.scene.steps() || run_.damage.lost_steps.size() >= max_lost_frames) {
         throw std::invalid_argument(
-            fmt::format("run.lcm: step {}, but the run of scene.toml has {} steps", step, run_.scene.steps()));
+            fmt::format("run.lcm: step {}, but the run of its scene has {} steps", step, run_.scene.steps()));
       }
       run_.damage.lost_steps.push_back(next);
       run_.frames.append_lost(next);
@@ -126,15 +127,6 @@ std::string text_of(const RecordDamage& damage) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-AnyScene scene_of_run(const fs::path& folder) {
-  for (const char* name : {"scene.toml", "run.lcm"}) {
-    if (std::filesystem::is_regular_file(folder / name)) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: must be a folder that `talus run` left, but it has no {}", folder.string(), name));
-  }
-  return read_scene(folder / "scene.toml");
-}
-
 std::string name_of_run(const fs::path& folder) {
   const fs::path base = folder.filename().empty() ? folder.parent_path() : folder;
   return printable(base.filename().string());
@@ -149,7 +141,7 @@ std::invalid_argument no_frame(const fs::path& folder, std::uint64_t damaged_byt
 
 AnyRecordedRun read_run(const fs::path& folder) {
   const AnyScene scene = scene_of_run(folder);
-  LogReader log((folder / "run.lcm").string());
+  LogReader log(record_file(folder).string());
   return read_record(scene, log, folder);
 }
 
@@ -157,7 +149,11 @@ AnyRecordedRun read_record(const AnyScene& scene, LogReader& log, const fs::path
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> AnyRecordedRun {
         RunReader<Dim> reader(of_dimension);
-        for (LogEvent event; log.next(event);) reader.take(event);
+        OneRun one;
+        for (LogEvent event; log.next(event);) {
+          one.see(event, folder);
+          reader.take(event);
+        }
         RecordedRun<Dim> run = reader.finish();
         run.name = name_of_run(folder);
         run.damage.bytes = log.damage().bytes;

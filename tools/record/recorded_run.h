@@ -13,6 +13,7 @@
 #include "common/scene/read_scene.h"
 #include "common/scene/scene.h"
 #include "lcmtypes/log_reader.h"
+#include "tools/record/recorded_scene.h"
 
 namespace talus {
 
@@ -30,7 +31,7 @@ struct RecordDamage {
 /// One line, as "1 frame left out (step 80), 57 damaged bytes"; empty where there is no damage.
 std::string text_of(const RecordDamage& damage);
 
-/// What scene.toml and run.lcm of a run folder hold.
+/// What a record holds.
 template <int Dim>
 struct RecordedRun {
   explicit RecordedRun(const Scene<Dim>& as_run) : scene(as_run), frames(as_run.world.dt, as_run.steps_per_frame()) {}
@@ -41,8 +42,7 @@ struct RecordedRun {
   std::string reason;      // why it ended; empty: it was killed
   Scene<Dim> scene;        // as it was run
   Trajectory<Dim> frames;  // poses at each frame of output; lost where the record is damaged
-  BodyStates<Dim> last;    // the last recorded state. A record has no velocities: those of the awake are the mean ones
-                           // since the record before
+  BodyStates<Dim> last;    // the last recorded state; velocities are zero, since a record has none
   std::int64_t last_step = 0;
   std::vector<SleepEvent> events;  // in order
   std::vector<DoneEvent> done;     // events of the scene, in order
@@ -51,17 +51,15 @@ struct RecordedRun {
 
 using AnyRecordedRun = std::variant<RecordedRun<2>, RecordedRun<3>>;
 
-/// The scene of a run folder. Throws std::invalid_argument where the folder is not of a run.
-AnyScene scene_of_run(const std::filesystem::path& folder);
-
-/// The folder's own name, printable.
+/// The own name of a run folder or record, printable.
 std::string name_of_run(const std::filesystem::path& folder);
 
 /// The error of a record without a frame.
 std::invalid_argument no_frame(const std::filesystem::path& folder, std::uint64_t damaged_bytes);
 
-/// Reads the run folder; damage costs what it hit. Throws std::invalid_argument where the folder is not of a run, where
-/// run.lcm belongs to another scene or holds no frame; std::system_error where a file cannot be read.
+/// Reads a run folder, or a record without its folder; damage costs what it hit. Throws std::invalid_argument where it
+/// is none, where the record belongs to another scene, holds several runs or no frame; std::system_error where a file
+/// cannot be read.
 AnyRecordedRun read_run(const std::filesystem::path& folder);
 
 /// Reads the record of a run of this scene; `folder` is for messages. Throws as read_run() does.

@@ -18,16 +18,16 @@ namespace {
 
 struct ReplayOptions {
   std::string run;
-  std::string html;
+  std::string out;
 };
 
 void write_replay(const ReplayOptions& options) {
-  require(options.html.ends_with(".html"), "--html", options.html, "must end in .html");
+  require(options.out.ends_with(".html"), "--out", options.out, "must end in .html");
   const std::string page = page_with(record_stream(options.run));
-  std::ofstream out(options.html, std::ios::binary);
+  std::ofstream out(options.out, std::ios::binary);
   out << page << std::flush;
-  if (!out) throw std::system_error(errno, std::generic_category(), options.html);
-  print_result("{}: {:.0f} kB\n", printable(options.html), static_cast<double>(page.size()) / 1e3);
+  if (!out) throw std::system_error(errno, std::generic_category(), options.out);
+  print_result("{}: {:.0f} kB\n", printable(options.out), static_cast<double>(page.size()) / 1e3);
 }
 
 }  // namespace
@@ -35,11 +35,15 @@ void write_replay(const ReplayOptions& options) {
 void add_replay_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("replay", "Make a page that plays a recorded run, in one file");
   auto options = std::make_shared<ReplayOptions>();
-  command->add_option("run", options->run, "Run folder, as `talus run` leaves it")->required()->check(not_empty());
-  command->add_option("--html", options->html, "Page to write, overwritten if there; a browser opens it without a net")
+  command->add_option("run", options->run, "Run folder, as `talus run` leaves it, or its record")
+      ->required()
+      ->check(not_empty());
+  command
+      ->add_option("-o,--out", options->out,
+                   "Page to write, .html, overwritten if there; a browser opens it without a net")
       ->required()
       ->check(in_a_folder());
-  command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus replay runs/pour --html pour.html");
+  command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus replay runs/pour --out pour.html");
   command->callback([options, &exit_code] {
     write_replay(*options);
     exit_code = exit_codes::success;

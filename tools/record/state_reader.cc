@@ -17,17 +17,6 @@ Pose<Dim> pose_of(const float* values) {
     return {{values[0], values[1], values[2]}, Rotation<3>(values[3], values[4], values[5], values[6])};
 }
 
-/// Turn from one rotation to another as a vector [rad].
-template <int Dim>
-Spin<Dim> turn(const Rotation<Dim>& from, const Rotation<Dim>& to) {
-  if constexpr (Dim == 2) {
-    return Spin<2>((to * from.inverse()).smallestAngle());
-  } else {
-    const Eigen::AngleAxisd step(to * from.inverse());
-    return step.angle() * step.axis();
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -69,11 +58,6 @@ template <int Dim>
 void StateReader<Dim>::apply() {
   if (parts_[0].seq != next_number_) doubt();
   next_number_ = sum_of_counts(parts_.back().seq, 1);
-  if (parts_[0].step > step_) {
-    before_ = states_;
-    unknown_before_ = unknown_;
-    step_before_ = step_;
-  }
   step_ = parts_[0].step;
   seen_.assign(states_.shape.size(), 0);
   for (const Message& part : parts_)
@@ -123,20 +107,6 @@ void StateReader<Dim>::set(const Message& message, std::size_t entry) {
   states_.removed[body] = 0;
   seen_[body] = 1;
   unknown_[body] = 0;
-}
-
-template <int Dim>
-BodyStates<Dim> StateReader<Dim>::states_with_velocities(double dt) const {
-  BodyStates<Dim> states = states_;
-  const double time = dt * static_cast<double>(step_ - step_before_);
-  for (std::size_t i = 0; i < before_.shape.size(); ++i) {
-    if (unknown_[i] != 0 || unknown_before_[i] != 0 || states.asleep[i] != 0 || states.removed[i] != 0 ||
-        before_.removed[i] != 0)
-      continue;
-    states.velocity[i] = (states.pose[i].position - before_.pose[i].position) / time;
-    states.spin[i] = turn<Dim>(before_.pose[i].rotation, states.pose[i].rotation) / time;
-  }
-  return states;
 }
 
 template class StateReader<2>;

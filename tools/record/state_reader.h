@@ -31,9 +31,6 @@ class StateReader {
   const std::vector<std::uint8_t>& unknown() const { return unknown_; }
   std::int64_t step() const { return step_; }
 
-  /// The same with velocities of the awake bodies: the mean since the frame before. `dt` of a step in s.
-  BodyStates<Dim> states_with_velocities(double dt) const;
-
  private:
   using Message = talus_lcm::talus_bodies_v1;
 
@@ -48,11 +45,8 @@ class StateReader {
   std::vector<Message> parts_;  // of the frame that is being read
   std::int64_t next_number_ = 0;
   BodyStates<Dim> states_;
-  BodyStates<Dim> before_;  // a frame earlier
   std::int64_t step_ = 0;
-  std::int64_t step_before_ = 0;
   std::vector<std::uint8_t> unknown_;
-  std::vector<std::uint8_t> unknown_before_;
   std::vector<std::uint8_t> seen_;  // bodies that a key frame names; others are gone
   std::vector<BodyIndex> events_;   // bodies that fell asleep or woke since the last frame
   bool events_lost_ = false;        // since the last frame

@@ -11,6 +11,7 @@
 #include "common/scene/warnings.h"
 #include "common/scene/window.h"
 #include "common/simulation/make_policy.h"
+#include "tools/output/output.h"
 #include "tools/run/backends.h"
 
 namespace talus {
@@ -39,7 +40,7 @@ template <int Dim>
 double largest_gravity(const Scene<Dim>& scene) {
   std::vector<Vec<Dim>> still = {scene.world.gravity_vector()};
   for (const Event<Dim>& event : scene.events)
-    if (event.action == "gravity") still.push_back(event.gravity);
+    if (event.action == EventAction::gravity) still.push_back(event.gravity);
   const Motion<Dim> plan = scene.gravity_motion.value_or(Motion<Dim>());
   std::vector<Vec<Dim>> shifts = plan.shifts;
   if (shifts.empty()) shifts.push_back(Vec<Dim>::Zero());
@@ -82,8 +83,23 @@ std::vector<SceneError> check_window(const Scene<Dim>& scene, const std::string&
   return outside;
 }
 
+template <int Dim>
+std::vector<std::string> scene_warnings(const Scene<Dim>& scene, const std::string& backend) {
+  std::vector<std::string> all = warnings(scene);
+  for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
+    all.push_back(fmt::format("{}: {}", backend, warning));
+  return all;
+}
+
+void print_scene_warnings(const std::vector<SceneError>& outside, const std::vector<std::string>& warnings) {
+  for (const SceneError& each : outside) print_message("warning: {}{}", outside_prefix, to_string(each));
+  for (const std::string& warning : warnings) print_message("warning: {}", warning);
+}
+
 template Simulation<2> make_simulation(const Scene<2>&, const std::string&);
 template Simulation<3> make_simulation(const Scene<3>&, const std::string&);
+template std::vector<std::string> scene_warnings(const Scene<2>&, const std::string&);
+template std::vector<std::string> scene_warnings(const Scene<3>&, const std::string&);
 template std::vector<SceneError> check_window(const Scene<2>&, const std::string&, const std::filesystem::path&, bool);
 template std::vector<SceneError> check_window(const Scene<3>&, const std::string&, const std::filesystem::path&, bool);
 

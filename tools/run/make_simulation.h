@@ -21,6 +21,13 @@ template <int Dim>
 std::vector<SceneError> check_window(const Scene<Dim>& scene, const std::string& backend,
                                      const std::filesystem::path& file, bool force);
 
+/// All other warnings about the scene and how the engine holds it, a line each.
+template <int Dim>
+std::vector<std::string> scene_warnings(const Scene<Dim>& scene, const std::string& backend);
+
+/// Prints both kinds, as `talus run` and `talus check` do.
+void print_scene_warnings(const std::vector<SceneError>& outside, const std::vector<std::string>& warnings);
+
 /// What a warning of a scene outside of the window begins with.
 inline constexpr std::string_view outside_prefix = "outside of the window in which results hold: ";
 

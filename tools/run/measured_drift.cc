@@ -63,9 +63,10 @@ MeasuredDrift measure_drift(const Simulation<Dim>& simulation, const Scene<Dim>&
   const std::vector<double> asleep = of_sleepers(test, last);
   if (asleep.empty()) return {.missing = "no body sleeps at the end"};
   drift.bodies = static_cast<int>(asleep.size());
-  drift.mean = mean(asleep);
-  drift.p95 = quantile(asleep, 0.95);
-  drift.max = quantile(asleep, 1.0);
+  const double extent = simulation.piles().typical_body().extent;
+  drift.mean = mean(asleep) / extent;
+  drift.p95 = quantile(asleep, 0.95) / extent;
+  drift.max = quantile(asleep, 1.0) / extent;
   return drift;
 }
 
@@ -97,7 +98,9 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
   std::vector<std::uint8_t> sleepers = last.asleep;
   for (std::size_t body = 0; body < sleepers.size(); ++body)
     if (last.removed[body] != 0) sleepers[body] = 0;
-  const DriftProbeParams params{.unit = std::sqrt(simulation.piles().typical_body().extent / world.gravity),
+  const double extent = simulation.piles().typical_body().extent;
+  const DriftProbeParams params{.extent = extent,
+                                .unit = std::sqrt(extent / world.gravity),
                                 .duration = wake_time(world.gravity),
                                 .body_steps = body_steps,
                                 .stop = stop};
@@ -108,11 +111,10 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
 
 double tolerance_of(const PolicyParams& policy) { return policy.kind == "adaptive" ? policy.adaptive.tolerance : 0.0; }
 
-std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, double extent,
-                                     std::int64_t step) {
+std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, std::int64_t step) {
   const double tolerance = tolerance_of(policy);
-  if (tolerance <= 0.0 || mean <= tolerance * extent) return std::nullopt;
-  return Warning{.kind = WarningKind::drift, .step = step, .bodies = bodies, .value = mean / extent};
+  if (tolerance <= 0.0 || mean <= tolerance) return std::nullopt;
+  return Warning{.kind = WarningKind::drift, .step = step, .bodies = bodies, .value = mean};
 }
 
 template WakeTest wake_all(const WorldDescription<2>&, const std::string&, const BodyStates<2>&, const WakeTestParams&);

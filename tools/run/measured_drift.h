@@ -17,9 +17,9 @@ struct MeasuredDrift {
   std::string missing;   // why there are no numbers; empty: there are
   int bodies = 0;        // that slept
   double seconds = 0.0;  // simulated after waking
-  double mean = 0.0;     // [m]
-  double p95 = 0.0;      // [m]
-  double max = 0.0;      // [m]
+  double mean = 0.0;     // [D]
+  double p95 = 0.0;      // [D]
+  double max = 0.0;      // [D]
 };
 
 /// Wakes all bodies of a state and simulates on at the reference settings; `world` as world_at() gives it.
@@ -56,9 +56,7 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
 /// Of the drift [D]; 0 where the policy has none.
 double tolerance_of(const PolicyParams& policy);
 
-/// A warning where the mean drift [m] of a number of bodies is above the tolerance of the policy `adaptive`; `extent`
-/// is D [m].
-std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, double extent,
-                                     std::int64_t step);
+/// A warning where the mean drift [D] of a number of bodies is above the tolerance of the policy `adaptive`.
+std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, std::int64_t step);
 
 }  // namespace talus

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
+#include "tools/run/resting_shape.h"
 #include "tools/run/shape_json.h"
 #include "tools/run/version.h"
 
@@ -80,9 +82,8 @@ Json settings_json(const Scene<Dim>& scene) {
 /// Shape of what lies still enough to be part of the pile; null where nothing does.
 template <int Dim>
 Json shape_of_rest_json(const Scene<Dim>& scene, const Simulation<Dim>& simulation) {
-  constexpr double still = 1.0;  // [m/s]
   const double extent = simulation.piles().typical_body().extent;
-  const auto bodies = placed_bodies<Dim>(scene.world.shapes, simulation.world().states(), still);
+  const auto bodies = resting_bodies(scene, simulation.world().states());
   if (bodies.empty()) return nullptr;
   const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, scene.world.ground.height, extent);
   Json json = {{"bodies_at_rest", bodies.size()}};
@@ -127,33 +128,32 @@ template <int Dim>
 Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
   Json list = Json::array();
   for (const DoneEvent& event : events)
-    list.push_back({{"number", event.number}, {"time_s", event.time}, {"do", scene.events[event.number].action}});
+    list.push_back(
+        {{"number", event.number}, {"time_s", event.time}, {"do", to_string(scene.events[event.number].action)}});
   return list;
 }
 
-/// By the probe at the end of the run, else by the policy; null where neither has a result.
-Json drift_estimate_json(const std::optional<DriftProbe>& probe, const std::optional<DriftEstimate>& estimate,
-                         double typical_extent) {
-  if (!probe && !estimate) return nullptr;
-  const auto probed = [&](double length) { return probe ? Json(length / typical_extent) : Json(); };
-  return {{"drift_D", (probe ? probe->expected() : estimate->drift) / typical_extent},
-          {"least_D", probed(probe ? probe->least : 0.0)},
-          {"most_D", probed(probe ? probe->most : 0.0)},
+/// Null where neither the probe nor the policy has a result.
+Json drift_estimate_json(const std::optional<DriftProbe>& probe, const std::optional<ToldDrift>& told) {
+  if (!told) return nullptr;
+  return {{"drift_D", told->drift},
+          {"least_D", probe ? Json(probe->least) : Json()},
+          {"most_D", probe ? Json(probe->most) : Json()},
           {"probed_s", probe ? probe->seconds : 0.0},
-          {"checked_share", estimate ? Json(estimate->checked_share) : Json()}};
+          {"checked_share", told->checked_share}};
 }
 
 /// Null where it was not measured; without numbers where it could not be.
-Json measured_json(const std::optional<MeasuredDrift>& drift, double typical_extent) {
+Json measured_json(const std::optional<MeasuredDrift>& drift) {
   if (!drift) return nullptr;
   const bool known = drift->missing.empty();
-  const auto in_extents = [&](double length) { return known ? Json(length / typical_extent) : Json(); };
+  const auto where_known = [&](double drift_D) { return known ? Json(drift_D) : Json(); };
   return {{"missing", drift->missing},
           {"bodies", drift->bodies},
           {"simulated_s", drift->seconds},
-          {"drift_mean_D", in_extents(drift->mean)},
-          {"drift_p95_D", in_extents(drift->p95)},
-          {"drift_max_D", in_extents(drift->max)}};
+          {"drift_mean_D", where_known(drift->mean)},
+          {"drift_p95_D", where_known(drift->p95)},
+          {"drift_max_D", where_known(drift->max)}};
 }
 
 template <int Dim>
@@ -193,6 +193,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
       {"events", events_json(scene, simulation.done_events())},
       {"asleep_at_end", bodies - world.awake().size()},
       {"outside_window", outside_json(input.outside_window)},
+      {"scene_warnings", input.scene_warnings},
       {"warnings", warnings_json(input.warnings)},
       {"overlap", {{"deepest_D", simulation.frame().overlap.deepest}, {"share", simulation.frame().overlap.share}}},
       {"emit_waits", input.emit_waits},
@@ -200,9 +201,8 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
       {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
   summary["shape"] = shape_of_rest_json(scene, simulation);
-  summary["estimate"] =
-      drift_estimate_json(input.probe, simulation.drift_estimate(), simulation.piles().typical_body().extent);
-  summary["measured"] = measured_json(input.measured, simulation.piles().typical_body().extent);
+  summary["estimate"] = drift_estimate_json(input.probe, told_drift(simulation.frame()));
+  summary["measured"] = measured_json(input.measured);
   summary["piles"] = piles_json(simulation.piles());
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
   std::ofstream out(file);

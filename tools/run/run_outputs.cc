@@ -44,8 +44,8 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
           present_obstacles(scene, world, frame.time),
           scene.world.ground,
           printable(scene.title),
-          fmt::format("{}, policy {}: {} bodies, {} asleep", backend, scene.policy.kind, bodies,
-                      bodies - world.awake().size())};
+          fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep", backend, scene.policy.kind,
+                      scene.seed, frame.time, bodies, bodies - world.awake().size())};
 }
 
 /// Draws the pictures that events want, and prints a line for each event.
@@ -57,10 +57,10 @@ class EventWatch final : public Observer<Dim> {
 
   void on_frame(const Frame<Dim>& frame) override {
     for (const int number : frame.scene_events) {
-      const std::string& action = scene_.events[number].action;
-      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, action);
+      const EventAction action = scene_.events[number].action;
+      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, to_string(action));
       const std::string name = fmt::format("event_{}", number);
-      if (action == "picture")
+      if (action == EventAction::picture)
         draw_pile(folder_ / (name + ".svg"), folder_ / (name + ".png"), picture_of(backend_, scene_, frame));
     }
   }
@@ -85,7 +85,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
       avalanches_(scene.world.dt) {
-  write_scene(scene, folder_ / scene_file_name);
+  write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
@@ -135,30 +135,29 @@ void print_estimate(const Simulation<Dim>& simulation, const std::optional<Drift
   const auto& asleep = simulation.world().states().asleep;
   const bool any_asleep = std::ranges::any_of(asleep, [](std::uint8_t is_asleep) { return is_asleep != 0; });
   if (params.tolerance <= 0.0 || !any_asleep) return;
-  const double extent = simulation.piles().typical_body().extent;
+  const std::optional<ToldDrift> drift = told_drift(simulation.frame());
   if (probe) {
     print_result(
         "  once woken, the sleeping bodies would move by some {:.2g} D on average ({:.2g} to {:.2g}; {:.2g} s "
         "simulated), "
         "tolerance {:g} D\n",
-        probe->expected() / extent, probe->least / extent, probe->most / extent, probe->seconds, params.tolerance);
+        drift->drift, probe->least, probe->most, probe->seconds, params.tolerance);
     return;
   }
-  const std::optional<DriftEstimate> estimate = simulation.drift_estimate();
-  if (const auto awake = simulation.world().awake().size(); !estimate && awake > 0) {
+  if (const auto awake = simulation.world().awake().size(); !drift && awake > 0) {
     print_result("  not at rest, {} awake: the error of the sleeping bodies is not known\n", awake);
     return;
   }
-  if (!estimate) {
+  if (!drift) {
     print_result("  no stability check yet: the error of the sleeping bodies is not known\n");
     return;
   }
   print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
-               estimate->drift / extent, 100.0 * estimate->checked_share);
+               drift->drift, 100.0 * drift->checked_share);
 }
 
-/// `tolerance` and `extent` are D's and metres; 0: no tolerance.
-void print_measured(const MeasuredDrift& drift, double extent, double tolerance) {
+/// `tolerance` [D], 0: none.
+void print_measured(const MeasuredDrift& drift, double tolerance) {
   if (!drift.missing.empty()) {
     print_result("  drift not measured: {}\n", drift.missing);
     return;
@@ -166,7 +165,7 @@ void print_measured(const MeasuredDrift& drift, double extent, double tolerance)
   print_result(
       "  measured: the {} sleeping bodies move by {:.2g} D on average, 95 % by at most {:.2g} D, the farthest by "
       "{:.2g} D{}\n",
-      drift.bodies, drift.mean / extent, drift.p95 / extent, drift.max / extent,
+      drift.bodies, drift.mean, drift.p95, drift.max,
       tolerance > 0.0 ? fmt::format("; tolerance {:g} D", tolerance) : "");
 }
 
@@ -186,8 +185,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
   if (scene.policy.kind == "adaptive") print_estimate(simulation, summary.probe, scene.policy.adaptive);
-  if (summary.measured)
-    print_measured(*summary.measured, simulation.piles().typical_body().extent, tolerance_of(scene.policy));
+  if (summary.measured) print_measured(*summary.measured, tolerance_of(scene.policy));
   if (const RunOverlap overlap = simulation.frame().overlap; overlap.deepest > 0.0)
     print_result("  contacts overlap by at most {:.2g} D, {:.2g} % of them by more than {:g} D\n", overlap.deepest,
                  100.0 * overlap.share, overlap_limit);

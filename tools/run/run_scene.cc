@@ -30,15 +30,9 @@
 namespace talus {
 namespace {
 
-/// What the command line sets, as overrides of the scene file, so that it is checked and recorded like the file's own
-/// values. `option` is the one that gave the policy.
-std::vector<Override> overrides(const RunOptions& options, const char* option, const std::string& policy) {
-  std::vector<Override> list;
-  for (const std::string& setting : options.settings) list.push_back({setting});
-  if (!policy.empty()) list.push_back({"policy.kind=" + policy, fmt::format("{} {}", option, policy)});
+std::vector<Override> with_pace(const RunOptions& options, std::vector<Override> list) {
   if (options.pace)
     list.push_back({fmt::format("run.pace={}", *options.pace), fmt::format("--pace {}", *options.pace)});
-  if (options.seed) list.push_back({fmt::format("seed={}", *options.seed), fmt::format("--seed {}", *options.seed)});
   return list;
 }
 
@@ -59,38 +53,31 @@ std::string advance(Simulation<Dim>& simulation, const Interrupt& interrupt, dou
   return "finished";
 }
 
-int exit_code_of(std::string_view reason, bool strict, std::span<const Warning> warnings) {
-  if (reason == "finished") return strict && !warnings.empty() ? exit_codes::failed : exit_codes::success;
+/// `warned`: whether there was a warning, and it counts.
+int exit_code_of(std::string_view reason, bool warned) {
+  if (reason == "finished") return warned ? exit_codes::failed : exit_codes::success;
   return reason == "interrupted" ? exit_codes::interrupted : exit_codes::failed;
-}
-
-template <int Dim>
-void warn(const Scene<Dim>& scene, const std::string& backend, std::span<const SceneError> outside) {
-  for (const SceneError& each : outside) print_message("warning: {}{}", outside_prefix, to_string(each));
-  for (const std::string& warning : warnings(scene)) print_message("warning: {}", warning);
-  for (const std::string& warning : engine_warnings(scene, engine_traits<Dim>(backend)))
-    print_message("warning: {}: {}", backend, warning);
 }
 
 /// A run that did not finish has no end: its reason instead of a hash.
 template <int Dim>
-int print_hash(const Simulation<Dim>& simulation, const std::string& reason, bool strict) {
+int print_hash(const Simulation<Dim>& simulation, const std::string& reason, bool warned) {
   if (reason == "finished")
     print_result("{:016x}\n", state_hash(simulation.world().states()));
   else
     print_message("talus: no end hash: {}", reason);
-  return exit_code_of(reason, strict, simulation.warnings());
+  return exit_code_of(reason, warned);
 }
 
 template <int Dim>
-int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict) {
+int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict, bool warned) {
   const Interrupt interrupt;
   Simulation<Dim> simulation = make_simulation(scene, backend);
   WarningPrinter<Dim> printer;
   if (strict) simulation.add_observer(printer);
   const std::string reason = advance(simulation, interrupt, scene.run.pace);
   simulation.end(reason);
-  return print_hash(simulation, reason, strict);
+  return print_hash(simulation, reason, strict && (warned || !simulation.warnings().empty()));
 }
 
 /// What --measure-drift adds to the summary of a run that has ended.
@@ -109,17 +96,20 @@ void add_measured_drift(SummaryInput& summary, const Scene<Dim>& scene, const Si
   }
 }
 
-/// What a run under `adaptive` that has ended tells of its error by itself.
+/// What a run under `adaptive` tells of its error by itself once its last step is done. Before end(), so that its
+/// observers, and so record and messages, have the same number as the summary.
 template <int Dim>
-void add_probed_drift(SummaryInput& summary, const Scene<Dim>& scene, const Simulation<Dim>& simulation,
+void add_probed_drift(SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
                       const RunStatistics<Dim>& statistics, const Interrupt& interrupt) {
   if (summary.reason != "finished" || tolerance_of(scene.policy) <= 0.0) return;
   const double body_steps = statistics.mean_awake() * static_cast<double>(statistics.steps());
   const auto stop = [&interrupt] { return interrupt.requested(); };
   try {
     summary.probe = probe_end_drift<Dim>(simulation, scene, summary.backend, probe_allowance(body_steps), stop);
+    if (summary.probe) simulation.set_probed_drift(summary.probe->expected());
   } catch (const std::exception& error) {  // of the copy: the run itself is whole
-    print_message("warning: no drift probe: {}", error.what());
+    summary.scene_warnings.push_back(fmt::format("no drift probe: {}", error.what()));
+    print_message("warning: {}", summary.scene_warnings.back());
   }
 }
 
@@ -128,9 +118,9 @@ template <int Dim>
 void add_drift_warning(SummaryInput& summary, const Scene<Dim>& scene, const Simulation<Dim>& simulation) {
   const bool measured = summary.measured && summary.measured->missing.empty();
   if (!measured && !summary.probe) return;
-  const auto warning = drift_warning(measured ? summary.measured->mean : summary.probe->least,
-                                     measured ? summary.measured->bodies : summary.probe->bodies, scene.policy,
-                                     simulation.piles().typical_body().extent, simulation.frame().step);
+  const auto warning =
+      drift_warning(measured ? summary.measured->mean : summary.probe->least,
+                    measured ? summary.measured->bodies : summary.probe->bodies, scene.policy, simulation.frame().step);
   if (!warning) return;
   print_message("warning: {}", advice(*warning));
   summary.warnings.push_back(*warning);
@@ -139,7 +129,7 @@ void add_drift_warning(SummaryInput& summary, const Scene<Dim>& scene, const Sim
 /// Runs, records and prints the result.
 template <int Dim>
 int record_run(const RunOptions& options, const std::string& name, const std::string& backend, const Scene<Dim>& scene,
-               const std::vector<SceneError>& outside) {
+               const std::vector<SceneError>& outside, const std::vector<std::string>& scene_warnings) {
   Simulation<Dim> simulation = make_simulation(scene, backend);
   RunOutputs<Dim> outputs(options, scene, name, backend, simulation);
   const Interrupt interrupt;
@@ -150,16 +140,18 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
                        .reason = reason,
                        .wall_seconds = watch.lap(),
                        .emit_waits = simulation.emitter().waits(),
-                       .outside_window = outside};
+                       .outside_window = outside,
+                       .scene_warnings = scene_warnings};
+  if (options.probe_drift) add_probed_drift(summary, scene, simulation, outputs.statistics(), interrupt);
   simulation.end(reason);
   summary.warnings.assign(simulation.warnings().begin(), simulation.warnings().end());
   if (options.measure_drift) add_measured_drift(summary, scene, simulation, interrupt);
-  if (options.probe_drift) add_probed_drift(summary, scene, simulation, outputs.statistics(), interrupt);
   add_drift_warning(summary, scene, simulation);
   outputs.finish(summary, scene, simulation);
-  if (options.hash_only) return print_hash(simulation, reason, options.strict);
+  const bool warned = !outside.empty() || !summary.scene_warnings.empty() || !summary.warnings.empty();
+  if (options.hash_only) return print_hash(simulation, reason, options.strict && warned);
   print_run(summary, scene, simulation, outputs);
-  return exit_code_of(reason, options.strict, summary.warnings);
+  return exit_code_of(reason, options.strict && warned);
 }
 
 #ifdef TALUS_LCM
@@ -169,31 +161,45 @@ void check_live_url(const std::string& url) {
 }
 #endif
 
-std::string backend_for(const RunOptions& options, int dimension) {
+std::string backend_for(const SceneChoice& options, int dimension) {
   const std::vector<std::string> engines = backends(dimension);
   return options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
 }
 
 }  // namespace
 
+std::vector<Override> overrides_of(const SceneChoice& choice) {
+  std::vector<Override> list;
+  for (const std::string& setting : choice.settings) list.push_back({setting});
+  if (!choice.policy.empty()) list.push_back({"policy.kind=" + choice.policy, "--policy " + choice.policy});
+  if (choice.seed) list.push_back({fmt::format("seed={}", *choice.seed), fmt::format("--seed {}", *choice.seed)});
+  return list;
+}
+
 int run_scene(const RunOptions& options) {
 #ifdef TALUS_LCM
   if (options.telemetry) check_live_url(options.lcm_url);
 #endif
   const std::filesystem::path file = find_scene(options.scene);
-  const AnyScene scene = read_scene(file, overrides(options, "--policy", options.policy));
+  const AnyScene scene = read_scene(file, with_pace(options, overrides_of(options)));
   // Read before the run, so that a policy that does not exist is refused before it.
   std::optional<AnyScene> other;
-  if (!options.against.empty()) other = read_scene(file, overrides(options, "--against", options.against));
+  if (!options.against.empty()) {
+    std::vector<Override> list = with_pace(options, overrides_of(options));
+    list.push_back({"policy.kind=" + options.against, "--against " + options.against});
+    other = read_scene(file, list);
+  }
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) {
         const std::string backend = backend_for(options, Dim);
         const std::vector<SceneError> outside = check_window(of_dimension, backend, file, options.force);
         if (other) check_window(std::get<Scene<Dim>>(*other), backend, file, options.force);
         if (options.measure_drift) require_measurable_drift(of_dimension);
-        if (options.hash_only && options.out.empty()) return hash_run(of_dimension, backend, options.strict);
-        if (!options.hash_only) warn(of_dimension, backend, outside);
-        const int exit_code = record_run(options, file.stem().string(), backend, of_dimension, outside);
+        const std::vector<std::string> of_scene = scene_warnings(of_dimension, backend);
+        if (!options.hash_only || options.strict) print_scene_warnings(outside, of_scene);
+        if (options.hash_only && options.out.empty())
+          return hash_run(of_dimension, backend, options.strict, !outside.empty() || !of_scene.empty());
+        const int exit_code = record_run(options, file.stem().string(), backend, of_dimension, outside, of_scene);
         if (!other || exit_code != exit_codes::success) return exit_code;
         return tell_speed_up(of_dimension, std::get<Scene<Dim>>(*other), backend);
       },

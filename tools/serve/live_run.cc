@@ -15,10 +15,11 @@
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/translate.h"
 #include "tools/monitor/run_view.h"
+#include "tools/output/json_text.h"
 #include "tools/picture/framing.h"
 #include "tools/record/state_reader.h"
-#include "tools/report/json_text.h"
-#include "tools/serve/state_copy.h"
+#include "tools/view/frame_stream.h"
+#include "tools/view/merge_blocks.h"
 #include "tools/view/run_head.h"
 
 namespace talus {
@@ -37,6 +38,7 @@ using talus_lcm::talus_stats_v2;
 // These bound what a forged message costs.
 constexpr int most_live_bodies = 1'000'000;
 constexpr int most_live_events = 10'000;
+constexpr std::size_t most_waiting_events = 1'000'000;  // for a frame
 constexpr auto silence = std::chrono::seconds(2);
 
 /// Of each channel on which messages came or were lost: its name, how many came, how many were lost.
@@ -94,13 +96,15 @@ class LiveRun::Assembly {
     std::vector<SleepEvent> events = events_of(message);
     std::erase_if(events, [](const SleepEvent& event) { return event.body >= most_live_bodies; });
     for (const SleepEvent& event : events) note_event(event.body);
-    hub_.add_events(events);
+    if (events_.size() + events.size() > most_waiting_events) events_.clear();
+    events_.insert(events_.end(), events.begin(), events.end());
   }
   virtual void take(const talus_shapes_v1& message) = 0;
   virtual void take(const talus_piles_v2& message) = 0;
   virtual void take(const talus_bodies_v1& message) = 0;
   virtual void take(const talus_event_v2& message) = 0;
   virtual void take(const talus_obstacles_v1& message) = 0;
+  void take(const talus_lcm::talus_scene_v1& /*of records*/) {}
 
  protected:
   virtual void note_event(BodyIndex body) = 0;
@@ -119,6 +123,7 @@ class LiveRun::Assembly {
   talus_run_v1 run_;
   talus_stats_v2 stats_{};
   std::vector<Warning> warnings_;
+  std::vector<SleepEvent> events_;  // since the last frame
   PageHub& hub_;
 
  private:
@@ -133,8 +138,7 @@ class AssemblyOf final : public LiveRun::Assembly {
  public:
   using Assembly::Assembly;
 
-  /// A shape that is not known yet begins the picture again. Of an obstacle that moves the message has the present
-  /// pose.
+  /// A shape that is not known yet begins the run again. Of an obstacle that moves the message has the present pose.
   void take(const talus_shapes_v1& message) override {
     if (message.dimension != Dim) return;
     auto& known = message.obstacle != 0 ? obstacles_ : shapes_;
@@ -143,7 +147,11 @@ class AssemblyOf final : public LiveRun::Assembly {
     if (!news && message.obstacle != 0 && !std::ranges::equal(message.pose, before->second.pose))
       moved_[message.index] = pose_of<Dim>(message);
     known[message.index] = message;
-    if (news) head_.reset();
+    if (!news) return;
+    if (message.obstacle != 0)
+      tell_head();
+    else
+      form_.reset();
   }
 
   /// Only of obstacles that are known: a forged message can name any number of others.
@@ -157,11 +165,11 @@ class AssemblyOf final : public LiveRun::Assembly {
     for (const talus_lcm::talus_pile_v2& pile : message.piles) piles_.push_back(to_pile<Dim>(pile));
   }
 
-  /// All events are sent each second, so a text that comes late begins the picture again only where messages were lost.
+  /// All events are sent each second, so a text comes late only where messages were lost.
   void take(const talus_event_v2& message) override {
     if (message.number >= most_live_events) return;
-    const auto [known, news] = events_.try_emplace(message.number, message);
-    if (news) head_.reset();
+    const auto [known, news] = texts_.try_emplace(message.number, message);
+    if (news) tell_head();
     if (message.happened_step >= 0 && (news || known->second.happened_step < 0))
       done_events_.push_back({message.number, message.happened_time});
     known->second = message;
@@ -171,23 +179,23 @@ class AssemblyOf final : public LiveRun::Assembly {
     if (!states_ && !all_shapes()) return;
     if (!states_) states_.emplace(most_live_bodies, shapes_.begin()->second.total);
     if (!states_->take(message)) return;
-    const bool first = head_ == nullptr;
-    if (first && !begin()) return;
+    if (!form_ && !begin()) return;
     std::vector<ObstaclePose<Dim>> moved;
     for (const auto& [obstacle, pose] : moved_) moved.push_back({obstacle, pose});
-    auto snapshot = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = states_->step(),
-                                                                    .states = states_->states(),
-                                                                    .piles = piles_,
-                                                                    .warnings = warnings_,
-                                                                    .kinetic_energy = stats_.kinetic_energy,
-                                                                    .scene_events = done_events_,
-                                                                    .drift_estimate = drift_estimate(),
-                                                                    .obstacles = moved},
-                                                     form_, head_);
-    if (first)
-      hub_.begin(std::move(snapshot));
-    else
-      hub_.publish(std::move(snapshot));
+    const double ms = stats_.timed != 0 ? stats_.ms_step : -1.0;
+    hub_.publish({.step = states_->step(),
+                  .block = encoder_->encode({.step = states_->step(),
+                                             .states = states_->states(),
+                                             .events = events_,
+                                             .piles = piles_,
+                                             .warnings = warnings_,
+                                             .kinetic_energy = stats_.kinetic_energy,
+                                             .scene_events = done_events_,
+                                             .drift_estimate = drift_estimate(),
+                                             .obstacles = moved,
+                                             .ms_per_step = ms}),
+                  .contacts = {}});
+    events_.clear();
   }
 
  private:
@@ -202,9 +210,22 @@ class AssemblyOf final : public LiveRun::Assembly {
   }
   bool all_shapes() const { return !shapes_.empty() && complete(shapes_) && complete(obstacles_); }
 
-  /// Makes the head; false where shapes are missing still.
+  /// Begins the run for the pages; false where shapes are missing still.
   bool begin() {
     if (!all_shapes()) return false;
+    const Scene<Dim> scene = known_scene();
+    form_ = frame_form(scene);
+    encoder_.emplace(form_);
+    hub_.begin(head_of(scene), merge_blocks<Dim>);
+    return true;
+  }
+
+  /// More is known of a run that has begun.
+  void tell_head() {
+    if (form_ && all_shapes()) hub_.set_head(head_of(known_scene()));
+  }
+
+  Scene<Dim> known_scene() const {
     Scene<Dim> scene;
     scene.title = printable(run_.scene);
     scene.seed = static_cast<std::uint64_t>(run_.seed);
@@ -215,7 +236,10 @@ class AssemblyOf final : public LiveRun::Assembly {
     for (const auto& [index, message] : shapes_) scene.world.shapes.push_back(to_shape<Dim>(message));
     for (const auto& [index, message] : obstacles_)
       scene.world.obstacles.push_back({to_shape<Dim>(message), pose_of<Dim>(message)});
-    form_ = frame_form(scene);
+    return scene;
+  }
+
+  std::string head_of(const Scene<Dim>& scene) const {
     const PictureInput<Dim> now = {
         scene.world.shapes, states_->states(), piles_, scene.world.obstacles, scene.world.ground, "", ""};
     const RunTexts texts = {.name = short_id(run_.run_id),
@@ -226,16 +250,16 @@ class AssemblyOf final : public LiveRun::Assembly {
     Json head = run_head(scene, texts, form_->quantum, framing_of(now).box);
     head["kind"] = "head";
     head["steps"] = run_.steps;
+    head["steps_per_frame"] = nullptr;  // frames come as they are sent
     head["events"] = events_json();
     head["tolerance"] = nullptr;  // not in the messages
-    head_ = std::make_shared<std::string>(json_text(head));
-    return true;
+    return json_text(head);
   }
 
   /// By number; those not heard of are null.
   Json events_json() const {
     Json events = Json::array();
-    for (const auto& [number, message] : events_) {
+    for (const auto& [number, message] : texts_) {
       while (std::ssize(events) < number) events.push_back(nullptr);
       events.push_back({{"text", printable(message.text)}, {"removes", message.removed}});
     }
@@ -245,12 +269,12 @@ class AssemblyOf final : public LiveRun::Assembly {
   std::map<int, talus_shapes_v1> shapes_;     // by index
   std::map<int, talus_shapes_v1> obstacles_;  // by index
   std::map<int, Pose<Dim>> moved_;            // the last poses of those that have moved
-  std::map<int, talus_event_v2> events_;      // of the scene, by number
+  std::map<int, talus_event_v2> texts_;       // events of the scene, by number
   std::vector<DoneEvent> done_events_;        // as heard
   std::vector<Pile<Dim>> piles_;
-  std::optional<StateReader<Dim>> states_;  // once the shapes are known
-  std::shared_ptr<const FrameForm<Dim>> form_;
-  std::shared_ptr<const std::string> head_;
+  std::optional<StateReader<Dim>> states_;      // once the shapes are known
+  std::shared_ptr<const FrameForm<Dim>> form_;  // null: the run has not begun for the pages
+  std::optional<FrameEncoder<Dim>> encoder_;
 };
 
 std::unique_ptr<LiveRun::Assembly> assemble(const talus_run_v1& run, PageHub& hub, const std::int64_t& undecodable) {

@@ -1,15 +1,16 @@
 #include "tools/serve/page_hub.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "tools/view/stream_numbers.h"
 
 namespace talus {
 namespace {
 
-constexpr SleepEvent no_event = {.step = -1};
-
-/// Events that wait for a page that does not acknowledge; beyond, the oldest are given up.
-constexpr std::size_t most_events = 1'000'000;
+/// Of frames that are sent at once: the page draws between two such parcels.
+constexpr std::size_t most_parcel_bytes = std::size_t{1} << 20U;
 
 }  // namespace
 
@@ -22,39 +23,34 @@ PageHub::~PageHub() {
   for (const int number : numbers) remove(number);
 }
 
-void PageHub::begin(std::shared_ptr<const Snapshot> first) {
+void PageHub::begin(const std::string& head, FrameHistory::Merge merge) {
   const std::lock_guard lock(mutex_);
-  last_events_.clear();
-  for (Page& page : pages_) {
-    page.events.clear();
-    page.body = -1;
-  }
-  newest_ = std::move(first);
+  for (Page& page : pages_) page.body = -1;
+  head_ = std::make_shared<std::string>(head);
+  history_ = FrameHistory(most_history_bytes_, std::move(merge));
+  contacts_.clear();
   changed_.notify_all();
 }
 
-void PageHub::add_events(std::span<const SleepEvent> events) {
-  if (events.empty()) return;
+void PageHub::set_head(const std::string& head) {
   const std::lock_guard lock(mutex_);
-  for (const SleepEvent& event : events) {
-    if (static_cast<std::size_t>(event.body) >= last_events_.size()) last_events_.resize(event.body + 1, no_event);
-    last_events_[event.body] = event;
-  }
-  for (Page& page : pages_) {
-    if (page.events.size() + events.size() > most_events) page.events.clear();
-    page.events.insert(page.events.end(), events.begin(), events.end());
-  }
+  head_ = std::make_shared<std::string>(head);
+  changed_.notify_all();
+}
+
+void PageHub::publish(ShownFrame frame) {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::int64_t> held;
+  for (const Page& page : pages_)
+    if (page.head == head_) held.push_back(page.frame);
+  history_.add(frame.step, std::move(frame.block), held);
+  contacts_ = std::move(frame.contacts);
+  changed_.notify_all();
 }
 
 bool PageHub::wanted() const {
   const std::lock_guard lock(mutex_);
-  return std::ranges::any_of(pages_, [&](const Page& page) { return page.ready && page.sent == newest_; });
-}
-
-void PageHub::publish(std::shared_ptr<const Snapshot> snapshot) {
-  const std::lock_guard lock(mutex_);
-  newest_ = std::move(snapshot);
-  changed_.notify_all();
+  return std::ranges::any_of(pages_, [&](const Page& page) { return page.ready && !due(page); });
 }
 
 void PageHub::set_status(const std::string& status) {
@@ -69,8 +65,6 @@ int PageHub::add(PageSocket& socket) {
   Page& page = pages_.emplace_back();
   page.number = next_page_++;
   page.socket = &socket;
-  std::ranges::copy_if(last_events_, std::back_inserter(page.events),
-                       [](const SleepEvent& event) { return event.step >= 0; });
   page.sender = std::jthread([this, &page] { send(page); });
   return page.number;
 }
@@ -140,7 +134,6 @@ PageHub::Page* PageHub::find(int number) {
 
 /// The thread of a page.
 void PageHub::send(Page& page) {
-  std::unique_ptr<BlockWriter> writer;
   for (;;) {
     Parcel parcel;
     {
@@ -149,7 +142,9 @@ void PageHub::send(Page& page) {
       if (page.closing) return;
       parcel = take(page);
     }
-    if (!send(parcel, *page.socket, writer)) return;
+    for (const std::string& text : parcel.texts)
+      if (!page.socket->send_text(text)) return;
+    if (!parcel.frames.empty() && !page.socket->send_bytes(parcel.frames)) return;
   }
 }
 
@@ -158,30 +153,27 @@ PageHub::Parcel PageHub::take(Page& page) {
   parcel.texts = std::exchange(page.replies, {});
   if (page.status != status_) parcel.texts.push_back(page.status = status_);
   if (!due(page)) return parcel;
-  parcel.new_run = page.sent == nullptr || page.sent->head() != newest_->head();
-  if (!page.account.empty()) parcel.texts.push_back(std::exchange(page.account, ""));
-  parcel.contacts = page.contacts;
-  parcel.snapshot = page.sent = newest_;
-  // Events of steps after the snapshot stay for the next one.
-  const auto later = std::stable_partition(page.events.begin(), page.events.end(),
-                                           [&](const SleepEvent& event) { return event.step <= newest_->step(); });
-  parcel.events.assign(page.events.begin(), later);
-  page.events.erase(page.events.begin(), later);
-  page.ready = false;
-  return parcel;
-}
-
-bool PageHub::send(const Parcel& parcel, PageSocket& socket, std::unique_ptr<BlockWriter>& writer) {
-  for (const std::string& text : parcel.texts)
-    if (!socket.send_text(text)) return false;
-  if (!parcel.snapshot) return true;
-  if (parcel.new_run || !writer) {
-    writer = parcel.snapshot->make_writer();
-    if (!socket.send_text(*parcel.snapshot->head())) return false;
+  if (page.head != head_) {
+    page.head = head_;
+    page.frame = -1;
+    page.spacing = 0;
+    parcel.texts.push_back(*head_);
   }
-  std::string bytes = parcel.snapshot->block(*writer, parcel.events);
-  if (parcel.contacts) bytes += parcel.snapshot->contacts();
-  return socket.send_bytes(bytes);
+  if (page.spacing != history_.spacing()) {
+    page.spacing = history_.spacing();
+    const nlohmann::json text = {
+        {"kind", "thinned"}, {"steps", page.spacing}, {"mebibytes", most_history_bytes_ >> 20U}};
+    parcel.texts.push_back(text.dump());
+  }
+  if (!page.account.empty()) parcel.texts.push_back(std::exchange(page.account, ""));
+  const FrameHistory::Run run = history_.after(page.frame, most_parcel_bytes);
+  if (run.frames == 0) return parcel;
+  page.frame = run.last;
+  page.ready = false;
+  write_unsigned(parcel.frames, run.frames);
+  parcel.frames += run.bytes;
+  if (page.contacts && run.last == history_.newest()) parcel.frames += contacts_;
+  return parcel;
 }
 
 }  // namespace talus

@@ -6,14 +6,13 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "tools/serve/shown_run.h"
+#include "tools/serve/frame_history.h"
 
 namespace talus {
 
@@ -25,25 +24,36 @@ class PageSocket {
   virtual bool send_bytes(std::string_view bytes) = 0;
 };
 
-/// Sends each page the newest state, the next one only once the page has acknowledged the last: never more than the
-/// newest waits. A thread for each page sends, so a slow or dead page holds up neither the run nor the others.
+/// One state of a run, as pages are sent it.
+struct ShownFrame {
+  std::int64_t step = 0;
+  std::string block;          // what it changes of the frame before (frame_stream.h)
+  std::string contacts = {};  // contact_stream.h; empty: none
+};
+
+/// Keeps the frames of a run and sends each page all of them, so that a page that comes late or again has the whole
+/// run. A page gets those that it lacks once it has acknowledged the last ones, many at a time where it lags behind. A
+/// thread for each page sends, so a slow or dead page holds up neither the run nor the others.
 class PageHub {
  public:
   /// More are refused: each costs a thread.
   static constexpr std::size_t most_pages = 8;
+  /// Of memory that the frames of a run take; beyond, some are left out (FrameHistory).
+  static constexpr std::size_t usual_history_bytes = std::size_t{256} << 20U;
 
-  PageHub() = default;
+  explicit PageHub(std::size_t most_history_bytes = usual_history_bytes) : most_history_bytes_(most_history_bytes) {}
   ~PageHub();
   PageHub(const PageHub&) = delete;
   PageHub& operator=(const PageHub&) = delete;
 
-  /// A run begins with this state; events of the last one are forgotten.
-  void begin(std::shared_ptr<const Snapshot> first);
-  /// Events of one step. A page gets all since its last frame, a new page the last of each body.
-  void add_events(std::span<const SleepEvent> events);
-  /// Whether a page waits for a newer state than the last one published.
+  /// A run begins; frames of the last one are forgotten. `head`: what pages know before the first frame. `merge`: of
+  /// its blocks.
+  void begin(const std::string& head, FrameHistory::Merge merge);
+  /// More is known of the same run: pages begin again with this head and all frames.
+  void set_head(const std::string& head);
+  void publish(ShownFrame frame);
+  /// Whether a page has acknowledged all frames and waits for a newer one.
   bool wanted() const;
-  void publish(std::shared_ptr<const Snapshot> snapshot);
   /// Sent to each page once it changes, and to new pages.
   void set_status(const std::string& status);
 
@@ -77,32 +87,31 @@ class PageHub {
     std::int64_t body = -1;  // of which it is sent an account
     std::string account;     // of it; empty: sent
     std::vector<std::string> replies;
-    std::vector<SleepEvent> events;  // since the last frame sent
-    std::string status;              // sent last
-    std::shared_ptr<const Snapshot> sent;
+    std::string status;                       // sent last
+    std::shared_ptr<const std::string> head;  // sent last
+    std::int64_t frame = -1;                  // sent last, of the run of that head
+    std::int64_t spacing = 0;                 // of the history, as it was told last
     std::jthread sender;
   };
   /// What a sender takes under the lock and sends without it.
   struct Parcel {
     std::vector<std::string> texts;
-    std::shared_ptr<const Snapshot> snapshot;  // null: none is due
-    std::vector<SleepEvent> events;
-    bool new_run = false;
-    bool contacts = false;
+    std::string frames;  // u their number, their blocks, contacts of the last one; empty: none is due
   };
 
   void send(Page& page);
-  bool due(const Page& page) const { return page.ready && newest_ && newest_ != page.sent; }
+  bool due(const Page& page) const { return page.ready && (page.head != head_ || page.frame < history_.newest()); }
   Parcel take(Page& page);
-  static bool send(const Parcel& parcel, PageSocket& socket, std::unique_ptr<BlockWriter>& writer);
   Page* find(int number);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::list<Page> pages_;
   int next_page_ = 0;
-  std::shared_ptr<const Snapshot> newest_;
-  std::vector<SleepEvent> last_events_;  // of each body that had one, by body; `step` < 0: none
+  std::size_t most_history_bytes_;
+  std::shared_ptr<const std::string> head_;  // null: no run
+  FrameHistory history_{0, {}};
+  std::string contacts_;  // of the newest frame
   std::string status_;
 };
 

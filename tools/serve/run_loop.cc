@@ -11,6 +11,7 @@
 
 #include "common/simulation/stopwatch.h"
 #include "common/world/world.h"
+#include "tools/output/output.h"
 
 namespace talus {
 namespace {
@@ -18,7 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr auto note_interval = std::chrono::milliseconds(500);
-constexpr auto longest_lag = std::chrono::milliseconds(250);  // that a slow run makes up for
+constexpr auto shortest_idle = std::chrono::milliseconds(10);  // in which a state is worth showing
+constexpr auto longest_lag = std::chrono::milliseconds(250);   // that a slow run makes up for
 
 std::string text_of(const Json& message) { return message.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
@@ -29,10 +31,6 @@ Json errors_of(const SceneErrors& errors) {
   for (const SceneError& error : errors.errors())
     list.push_back({{"line", error.line}, {"column", error.column}, {"text", to_string(error)}});
   return list;
-}
-
-const std::string& toml_of(const AnyScene& scene) {
-  return std::visit([](const auto& of_dimension) -> const std::string& { return of_dimension.toml; }, scene);
 }
 
 const std::string& policy_of(const AnyScene& scene) {
@@ -50,7 +48,7 @@ RunLoop::RunLoop(const RunChoice& choice, PageHub& hub)
       pace_(choice.pace) {
   text_ = toml_of(scene_);
   run_ = show_run(scene_, backend_, file_, force_);
-  hub_.begin(run_->snapshot());
+  begin_run();
   hub_.set_status(status());
   thread_ = std::thread([this] { work(); });
 }
@@ -99,7 +97,10 @@ void RunLoop::command(int page, const std::string& text) {
 void RunLoop::obey(int page, const std::string& what, const Json& command) {
   const Json value = command.value("value", Json());
   if (what == "run") {
-    change([this] { running_ = true; });
+    change([this] {
+      if (finished_ || !reason_.empty()) restart_ = true;
+      running_ = true;
+    });
   } else if (what == "pause") {
     change([this] { running_ = false; });
   } else if (what == "step") {
@@ -228,7 +229,8 @@ RunLoop::Task RunLoop::next_task() {
     single_steps_ = 0;
     const bool goes = running_ && can_step();
     if (goes && (pace_ == 0.0 || Clock::now() >= due_)) return Task::step;
-    if (!published_ && run_) publish();
+    const bool idle = !goes || (hub_.pages() > 0 && (hub_.wanted() || due_ - Clock::now() > shortest_idle));
+    if (!published_ && run_ && idle) publish();
     if (goes)
       changed_.wait_until(lock, due_);
     else
@@ -248,14 +250,13 @@ void RunLoop::start() {
   run_.reset();
   try {
     run_ = show_run(scene, backend_, file_, force_);
-    hub_.begin(run_->snapshot());
-    published_ = true;
+    begin_run();
   } catch (const std::exception& error) {
     reason = error.what();
   }
   due_ = Clock::now();
   change([&] {
-    finished_ = false;
+    finished_ = at_rest_ = false;
     reason_ = reason;
   });
 }
@@ -274,22 +275,48 @@ void RunLoop::step() {
   seconds_of_run_ += seconds;
   ++steps_since_;
   ++steps_of_run_;
-  published_ = false;
-  if (reason.empty()) hub_.add_events(run_->events());
-  if (hub_.wanted()) publish();
+  published_ = !reason.empty();
+  seconds_since_frame_ += seconds;
+  ++steps_since_frame_;
+  if (run_->finished() && reason.empty()) probe_drift();
+  if (!published_ && (hub_.wanted() || run_->is_output() || run_->finished())) publish();
   if (run_->finished() || !reason.empty()) {
     change([&] {
       running_ = false;
       finished_ = run_->finished();
+      at_rest_ = run_->at_rest();
       reason_ = reason;
     });
   }
   note_speed();
 }
 
+void RunLoop::probe_drift() {
+  const auto stop = [this] {
+    const std::lock_guard lock(mutex_);
+    return stop_ || restart_ || !by_hand_.empty();
+  };
+  try {
+    run_->probe_drift(stop);
+  } catch (const std::exception& error) {  // of the copy: the run itself is whole
+    print_message("warning: no drift probe: {}", error.what());
+  }
+}
+
+void RunLoop::begin_run() {
+  seconds_since_frame_ = 0.0;
+  steps_since_frame_ = 0;
+  hub_.begin(run_->head(), run_->merge());
+  publish();
+}
+
 void RunLoop::publish() {
   for (const auto& [page, body] : hub_.chosen_bodies()) hub_.set_account(page, run_->account(body));
-  hub_.publish(run_->snapshot());
+  const double ms =
+      steps_since_frame_ > 0 ? 1e3 * seconds_since_frame_ / static_cast<double>(steps_since_frame_) : -1.0;
+  hub_.publish(run_->frame(ms));
+  seconds_since_frame_ = 0.0;
+  steps_since_frame_ = 0;
   published_ = true;
 }
 
@@ -318,6 +345,7 @@ std::string RunLoop::status() const {
   return text_of({{"kind", "status"},
                   {"running", running_},
                   {"finished", finished_},
+                  {"at_rest", at_rest_},
                   {"reason", reason_},
                   {"pace", pace_},
                   {"policy", policy_.empty() ? policy_of(scene_) : policy_},

@@ -49,7 +49,8 @@ class RunLoop {
   void greet(int page);
   /// A page has gone: what it pulls is let go.
   void leave(int page);
-  /// A command of a page, as JSON: {"do": "run" | "pause" | "step" | "restart"}, {"do": "pace", "value": number},
+  /// A command of a page, as JSON: {"do": "run" (from the start where the run has ended) | "pause" | "step" |
+  /// "restart"}, {"do": "pace", "value": number},
   /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "save"}, {"do": "contacts", "value":
   /// whether this page is sent them}, {"do": "choose", "body": number to be told of with each frame, below 0: none}, or
   /// one of hand_command.h. What is wrong is replied to the page; then nothing changes.
@@ -78,6 +79,8 @@ class RunLoop {
   bool can_step() const { return run_ && !run_->finished() && reason_.empty(); }
   void start();
   void step();
+  void begin_run();
+  void probe_drift();
   void publish();
   void note_speed();
   std::string status() const;
@@ -95,7 +98,9 @@ class RunLoop {
   std::int64_t steps_since_ = 0;   // the last note of the speed
   double seconds_in_steps_ = 0.0;  // since then
   std::int64_t steps_of_run_ = 0;
-  double seconds_of_run_ = 0.0;  // in its steps
+  double seconds_of_run_ = 0.0;         // in its steps
+  std::int64_t steps_since_frame_ = 0;  // the last one published
+  double seconds_since_frame_ = 0.0;    // in these
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
@@ -111,7 +116,8 @@ class RunLoop {
   std::atomic<int> pulling_ = -1;  // page that pulled last
   double pace_;
   bool finished_ = false;
-  std::string reason_;  // why the run cannot go on; empty: it can
+  bool at_rest_ = false;  // finished since the world came to rest
+  std::string reason_;    // why the run cannot go on; empty: it can
   double ms_per_step_ = 0.0;
   double mean_ms_per_step_ = 0.0;  // since the start of the run
   double real_time_factor_ = 0.0;

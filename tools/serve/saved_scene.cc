@@ -180,8 +180,8 @@ class Saving {
   }
 
   void put_gravity() {
-    const bool changed = std::ranges::any_of(simulation_.done_events(),
-                                             [&](const DoneEvent& done) { return action_of(done) == "gravity"; });
+    const bool changed = std::ranges::any_of(
+        simulation_.done_events(), [&](const DoneEvent& done) { return action_of(done) == EventAction::gravity; });
     if (scene_.gravity_motion) lost("where gravity is in its motion: it begins again");
     if (!changed) return;
     toml::array gravity;
@@ -191,7 +191,7 @@ class Saving {
     root_["world"].as_table()->insert_or_assign("gravity", std::move(gravity));
   }
 
-  const std::string& action_of(const DoneEvent& done) const { return scene_.events[done.number].action; }
+  EventAction action_of(const DoneEvent& done) const { return scene_.events[done.number].action; }
 
   void put_events() {
     toml::array* tables_of = tables("event");
@@ -205,7 +205,7 @@ class Saving {
       if (moved(event, table)) kept.push_back(std::move(table));
     }
     for (const DoneEvent& each : done)
-      if (action_of(each) == "policy") put_policy(scene_.events[each.number].policy);
+      if (action_of(each) == EventAction::policy) put_policy(scene_.events[each.number].policy);
     root_.erase("event");
     if (!kept.empty()) root_.insert("event", std::move(kept));
   }
@@ -221,7 +221,7 @@ class Saving {
     if (event.bodies > 0)
       table.insert_or_assign(
           "bodies", std::max<std::int64_t>(1, event.bodies - simulation_.emitter().emitted() + numbers_.present()));
-    if (event.action == "rate") {
+    if (event.action == EventAction::rate) {
       if (source_numbers_[event.source] < 0) return false;
       table.insert_or_assign("source", source_numbers_[event.source]);
     }

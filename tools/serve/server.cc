@@ -1,8 +1,12 @@
 #include "tools/serve/server.h"
 
+#include <arpa/inet.h>
 #include <civetweb.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 #include <sys/random.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -34,6 +38,18 @@ bool same_text(std::string_view a, std::string_view b) {
   unsigned different = 0;
   for (std::size_t i = 0; i < a.size(); ++i) different |= static_cast<unsigned char>(a[i] ^ b[i]);
   return different == 0;
+}
+
+/// Whether sockets of this machine can have this address.
+bool has_interface(const std::string& address) {
+  const int socket_file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (socket_file < 0) return true;  // not known
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  const bool has = inet_pton(AF_INET, address.c_str(), &place.sin_addr) == 1 &&
+                   bind(socket_file, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0;
+  close(socket_file);
+  return has;
 }
 
 std::string_view header(const mg_connection* connection, const char* name) {
@@ -190,11 +206,13 @@ ViewServer::ViewServer(int port, std::vector<ServedPage> pages, const std::strin
   mg_callbacks callbacks{};
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };
   service_->context = mg_start(&callbacks, service_.get(), const_cast<const char**>(options.data()));
-  if (service_->context == nullptr)
-    throw std::runtime_error(
-        fmt::format("--port = {}: cannot be listened on at {}; another program may have it, or no interface here has "
-                    "this address",
-                    port, address));
+  if (service_->context == nullptr) {
+    if (!has_interface(address))
+      throw std::invalid_argument(
+          fmt::format("--listen = {}: must be the IPv4 address of an interface of this machine", address));
+    throw std::runtime_error(fmt::format(
+        "--port = {}: cannot be listened on at {}; another program may have it, or it is reserved", port, address));
+  }
   std::array<mg_server_port, 1> ports{};
   mg_get_server_ports(service_->context, 1, ports.data());
   service_->port = ports[0].port;

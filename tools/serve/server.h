@@ -27,7 +27,7 @@ struct ServedPage {
 class ViewServer {
  public:
   /// `port` 0: one that is free. `address`: of the interface, IPv4. The first page is the one of url(). Throws
-  /// std::runtime_error where the port cannot be had there.
+  /// std::invalid_argument where no interface has the address, std::runtime_error where the port cannot be had there.
   ViewServer(int port, std::vector<ServedPage> pages, const std::string& address = std::string(loopback));
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;

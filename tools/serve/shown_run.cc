@@ -14,24 +14,31 @@
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/make_simulation.h"
+#include "tools/run/measured_drift.h"
 #include "tools/run/version.h"
 #include "tools/serve/body_account.h"
 #include "tools/serve/contact_memory.h"
 #include "tools/serve/free_place.h"
 #include "tools/serve/saved_scene.h"
-#include "tools/serve/state_copy.h"
+#include "tools/view/contact_stream.h"
 #include "tools/view/frame_stream.h"
+#include "tools/view/merge_blocks.h"
 #include "tools/view/run_head.h"
 
 namespace talus {
 namespace {
 
-/// Keeps the events of the last step; with an observer a simulation counts piles and looks for warnings.
+/// Keeps what happened since the last frame for the pages; with an observer a simulation counts piles and looks for
+/// warnings.
 template <int Dim>
-class LastEvents final : public Observer<Dim> {
+class SinceShown final : public Observer<Dim> {
  public:
-  void on_frame(const Frame<Dim>& frame) override { events.assign(frame.events.begin(), frame.events.end()); }
+  void on_frame(const Frame<Dim>& frame) override {
+    events.insert(events.end(), frame.events.begin(), frame.events.end());
+    body_steps += static_cast<double>(frame.world.awake().size());
+  }
   std::vector<SleepEvent> events;
+  double body_steps = 0.0;  // of awake bodies, since the start
 };
 
 template <int Dim>
@@ -39,13 +46,13 @@ class SimulatedScene final : public ShownRun {
  public:
   SimulatedScene(const Scene<Dim>& scene, const std::string& backend, const std::string& name)
       : scene_(scene),
-        dt_(scene.world.dt),
-        steps_(scene.steps()),
+        backend_(backend),
         form_(frame_form(scene)),
-        head_(std::make_shared<std::string>(head_of(scene, backend, name))),
+        head_(head_of(scene, backend, name)),
+        encoder_(form_),
         contacts_(scene.world.dt),
         simulation_(make_simulation(scene, backend)) {
-    simulation_.add_observer(events_);
+    simulation_.add_observer(since_);
     simulation_.add_observer(contacts_);
   }
 
@@ -54,25 +61,42 @@ class SimulatedScene final : public ShownRun {
     for (const auto done = simulation_.done_events(); known_events_ < done.size(); ++known_events_)
       happened_.push_back(done[known_events_]);
   }
-  bool finished() const override { return simulation_.frame().step >= steps_; }
-  double dt() const override { return dt_; }
-  std::span<const SleepEvent> events() const override { return events_.events; }
-  std::shared_ptr<const Snapshot> snapshot() const override {
+  bool finished() const override { return simulation_.finished(); }
+  bool at_rest() const override { return simulation_.at_rest(); }
+
+  void probe_drift(const std::function<bool()>& stop) override {
+    if (tolerance_of(scene_.policy) <= 0.0) return;
+    const auto probe = probe_end_drift<Dim>(simulation_, scene_, backend_, probe_allowance(since_.body_steps), stop);
+    if (probe) simulation_.set_probed_drift(probe->expected());
+  }
+
+  std::int64_t step_number() const override { return simulation_.frame().step; }
+  bool is_output() const override { return step_number() % scene_.steps_per_frame() == 0; }
+  double dt() const override { return scene_.world.dt; }
+  const std::string& head() const override { return head_; }
+  FrameHistory::Merge merge() const override { return merge_blocks<Dim>; }
+
+  ShownFrame frame(double ms_per_step) override {
     const Frame<Dim> frame = simulation_.frame();
     std::vector<Pile<Dim>> piles(frame.piles.piles().begin(), frame.piles.piles().end());
     for (Pile<Dim>& pile : piles) set_thresholds(*frame.policy, pile);
     const auto obstacles = moving_poses(scene_.world.obstacles, scene_.movers, frame.time);
-    auto copy = std::make_shared<StateCopy<Dim>>(ViewFrame<Dim>{.step = frame.step,
-                                                                .states = frame.world.states(),
-                                                                .piles = piles,
-                                                                .warnings = frame.warnings,
-                                                                .kinetic_energy = kinetic_energy(frame.world),
-                                                                .scene_events = happened_,
-                                                                .drift_estimate = drift_estimate(frame),
-                                                                .obstacles = obstacles},
-                                                 form_, head_);
-    if (contacts_.needs_contacts()) copy->set_contacts(contacts_.contacts(frame.world));
-    return copy;
+    const std::optional<ToldDrift> drift = told_drift(frame);
+    ShownFrame shown = {.step = frame.step,
+                        .block = encoder_.encode({.step = frame.step,
+                                                  .states = frame.world.states(),
+                                                  .events = since_.events,
+                                                  .piles = piles,
+                                                  .warnings = frame.warnings,
+                                                  .kinetic_energy = kinetic_energy(frame.world),
+                                                  .scene_events = happened_,
+                                                  .drift_estimate = drift ? drift->drift : -1.0,
+                                                  .obstacles = obstacles,
+                                                  .ms_per_step = ms_per_step})};
+    since_.events.clear();
+    if (contacts_.needs_contacts())
+      shown.contacts = encode_contacts<Dim>(contacts_.contacts(frame.world), form_->quantum);
+    return shown;
   }
 
   void show_contacts(bool show) override { contacts_.want(show, simulation_.world()); }
@@ -90,7 +114,7 @@ class SimulatedScene final : public ShownRun {
     if (velocity.size() != Dim || !std::ranges::all_of(velocity, allowed))
       return fmt::format("velocity: must be {} numbers of -1000 to 1000", Dim);
     Event<Dim> event;
-    event.action = "kick";
+    event.action = EventAction::kick;
     event.numbers = {static_cast<double>(body)};
     for (int axis = 0; axis < Dim; ++axis) event.velocity[axis] = velocity[axis];
     simulation_.do_event(event);
@@ -136,7 +160,7 @@ class SimulatedScene final : public ShownRun {
         !simulation_.world().has_obstacle(static_cast<int>(obstacle)))
       return fmt::format("obstacle {}: is not in the world", obstacle);
     simulation_.cut_obstacle(static_cast<int>(obstacle));
-    happened_.push_back({static_cast<int>(std::ssize(scene_.events) + obstacle), simulation_.time() - dt_});
+    happened_.push_back({static_cast<int>(std::ssize(scene_.events) + obstacle), simulation_.time() - scene_.world.dt});
     return {};
   }
 
@@ -148,12 +172,6 @@ class SimulatedScene final : public ShownRun {
     const auto allowed = [&](double number) { return std::abs(number) <= limit; };
     if (numbers.size() != Dim || !std::ranges::all_of(numbers, allowed)) return std::nullopt;
     return Vec<Dim>(Eigen::Map<const Vec<Dim>>(numbers.data()));
-  }
-
-  /// In the largest extent of a typical body [D]; -1: none.
-  double drift_estimate(const Frame<Dim>& frame) const {
-    const auto estimate = simulation_.drift_estimate();
-    return estimate ? estimate->drift / frame.piles.typical_body().extent : -1.0;
   }
 
   bool present(std::int64_t body) const {
@@ -176,11 +194,11 @@ class SimulatedScene final : public ShownRun {
   }
 
   Scene<Dim> scene_;
-  double dt_;
-  std::int64_t steps_;
+  std::string backend_;
   std::shared_ptr<const FrameForm<Dim>> form_;
-  std::shared_ptr<const std::string> head_;
-  LastEvents<Dim> events_;
+  std::string head_;
+  FrameEncoder<Dim> encoder_;
+  SinceShown<Dim> since_;
   std::vector<DoneEvent> happened_;  // events of the scene, and after their numbers obstacles that were cut
   std::size_t known_events_ = 0;     // of the simulation
   ContactMemory<Dim> contacts_;

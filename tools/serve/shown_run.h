@@ -3,38 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "common/policy/sleep_event.h"
 #include "common/scene/read_scene.h"
+#include "tools/serve/page_hub.h"
 
 namespace talus {
-
-/// Writes frames for one page.
-class BlockWriter {
- public:
-  virtual ~BlockWriter() = default;
-};
-
-/// One state of a run, copied, so that pages can be served while the run goes on.
-class Snapshot {
- public:
-  virtual ~Snapshot() = default;
-  /// What pages know before the first frame. The same object for all snapshots of a run.
-  virtual std::shared_ptr<const std::string> head() const = 0;
-  virtual std::int64_t step() const = 0;
-  virtual std::unique_ptr<BlockWriter> make_writer() const = 0;
-  /// The block (frame_stream.h) of this state. `writer`: of a snapshot of the same run. `events`: since the page's last
-  /// frame.
-  virtual std::string block(BlockWriter& writer, std::span<const SleepEvent> events) const = 0;
-  /// Its contacts (contact_stream.h); none where the run does not show them.
-  virtual std::string contacts() const { return {}; }
-};
 
 /// A scene that is being simulated, in 2D or 3D.
 class ShownRun {
@@ -43,12 +21,24 @@ class ShownRun {
   /// Throws NonFiniteState as Simulation does.
   virtual void step() = 0;
   virtual bool finished() const = 0;
+  /// Whether it finished since the world came to rest.
+  virtual bool at_rest() const = 0;
+  /// Of a run that has finished: looks how far its sleeping bodies would move, as `talus run` does; later frames have
+  /// the result. Ends without one where `stop` returns true.
+  virtual void probe_drift(const std::function<bool()>& stop) = 0;
+  /// Steps done.
+  virtual std::int64_t step_number() const = 0;
+  /// Whether the present state is a frame of output of the scene.
+  virtual bool is_output() const = 0;
   /// Length of a step [s].
   virtual double dt() const = 0;
-  /// Sleep events of the last step.
-  virtual std::span<const SleepEvent> events() const = 0;
-  virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
-  /// Whether snapshots have contacts from now on. Costs nothing while false.
+  /// What pages know before the first frame.
+  virtual const std::string& head() const = 0;
+  /// Of the blocks of frames.
+  virtual FrameHistory::Merge merge() const = 0;
+  /// The present state, with all that happened since the last call. `ms_per_step`: wall time, -1: not known.
+  virtual ShownFrame frame(double ms_per_step) = 0;
+  /// Whether frames have contacts from now on. Costs nothing while false.
   virtual void show_contacts(bool show) = 0;
   /// What is known of a body here only (body_account.h), as JSON.
   virtual std::string account(std::int64_t body) const = 0;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -14,11 +15,15 @@
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #ifdef TALUS_LCM
+#include "common/scene/setting_differences.h"
+#include "tools/record/record_file.h"
 #include "tools/record/record_stream.h"
+#include "tools/record/recorded_run.h"
 #include "tools/serve/live_view.h"
 #endif
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
+#include "tools/serve/open_browser.h"
 #include "tools/serve/run_loop.h"
 #include "tools/serve/server.h"
 #include "tools/view/page.h"
@@ -41,6 +46,10 @@ struct ViewOptions {
   double seconds = 0.0;  // 0: until Ctrl-C
   bool live = false;
   std::string lcm_url;
+  int history = static_cast<int>(PageHub::usual_history_bytes >> 20U);  // [MiB]
+  bool open = true;                                                     // the browser of a desktop
+
+  std::size_t history_bytes() const { return static_cast<std::size_t>(history) << 20U; }
 };
 
 RunChoice choice_of(const ViewOptions& options) {
@@ -59,6 +68,8 @@ void serve(const ViewOptions& options, const ViewServer& server, const std::func
   const Interrupt interrupt;
   print_result("{}\n", server.url());
   flush_results();
+  std::optional<BrowserPage> browser;
+  if (options.open && on_desktop()) browser.emplace(server.url());
   if (options.listen == loopback) {
     print_message("Open this address in a browser of this machine; Ctrl-C ends.");
   } else {
@@ -80,7 +91,7 @@ void serve(const ViewOptions& options, const ViewServer& server) {
 ServedPage pair_page(const PairTexts& texts) { return {.path = "/", .page = page_of_pair(texts)}; }
 
 void view_scene(const ViewOptions& options) {
-  PageHub hub;
+  PageHub hub(options.history_bytes());
   RunLoop loop(choice_of(options), hub);
   const ViewServer server(options.port,
                           {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub, .loop = &loop}},
@@ -90,8 +101,8 @@ void view_scene(const ViewOptions& options) {
 
 /// The scene under its policy beside the same under another one.
 void view_policies(const ViewOptions& options) {
-  PageHub hub_a;
-  PageHub hub_b;
+  PageHub hub_a(options.history_bytes());
+  PageHub hub_b(options.history_bytes());
   ViewOptions other = options;
   other.policy = options.against;
   RunLoop a(choice_of(options), hub_a);
@@ -107,7 +118,7 @@ void view_policies(const ViewOptions& options) {
 
 #ifdef TALUS_LCM
 void view_live(const ViewOptions& options) {
-  PageHub hub;
+  PageHub hub(options.history_bytes());
   LiveView live(options.lcm_url, hub);  // before the threads of the server: it forks
   const ViewServer server(options.port, {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub}},
                           options.listen);
@@ -130,8 +141,15 @@ void view_record(const ViewOptions& options) {
     serve(options, server);
     return;
   }
+  const AnyScene a = scene_of_run(options.what);
+  const AnyScene b = scene_of_run(options.other);
+  if (a.index() != b.index())
+    throw std::invalid_argument(
+        fmt::format("{} and {} are runs in 2D and in 3D: two runs side by side must be of one dimension", options.what,
+                    options.other));
   const PairTexts texts = {.of_runs = false,
-                           .ms_per_step = {ms_per_step_of(options.what), ms_per_step_of(options.other)}};
+                           .ms_per_step = {ms_per_step_of(options.what), ms_per_step_of(options.other)},
+                           .differences = setting_differences(toml_of(a), toml_of(b))};
   const ViewServer server(options.port,
                           {pair_page(texts),
                            {.path = "/a/", .page = page, .record = record_stream(options.what)},
@@ -141,14 +159,42 @@ void view_record(const ViewOptions& options) {
 }
 #endif
 
-void view(const ViewOptions& options) {
+bool is_record(const std::string& what) {
+#ifdef TALUS_LCM
+  return std::filesystem::is_directory(what) || is_event_log(what);
+#else
+  return false;
+#endif
+}
+
+/// What stands in the place of a scene.
+enum class Shown : std::uint8_t { scene, record, live };
+
+/// An option that would change nothing of what is shown is a mistake.
+void refuse_idle_options(const CLI::App& command, const ViewOptions& options, Shown shown) {
+  const auto refuse = [&](const char* name, std::string_view rule) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (option != nullptr && option->count() > 0)
+      throw std::invalid_argument(fmt::format(
+          "{}: must be of {}; {}", name, rule,
+          shown == Shown::live
+              ? "--live shows the run of another process"
+              : fmt::format("{} is {}", options.what, shown == Shown::scene ? "a scene" : "a recorded run")));
+  };
+  if (shown != Shown::scene)
+    for (const char* name : {"--backend", "--policy", "--against", "--set", "--seed", "--force", "--pace"})
+      refuse(name, "a scene");
+  if (shown != Shown::live) refuse("--lcm-url", "--live");
+  if (shown == Shown::record) refuse("--history", "a scene or of --live");
+}
+
+void view(const CLI::App& command, const ViewOptions& options) {
   if (options.what.empty() != options.live)
     throw std::invalid_argument("talus view: must have either a scene or run folder to show, or --live");
-  const bool record = !options.live && std::filesystem::is_directory(options.what);
-  if (!options.other.empty() && !(record && std::filesystem::is_directory(options.other)))
-    throw std::invalid_argument("talus view: what stands side by side must be two run folders");
-  if (!options.against.empty() && (record || options.live))
-    throw std::invalid_argument("--against: must be of a scene; two records are shown as `talus view RUN OTHER`");
+  const bool record = !options.live && is_record(options.what);
+  if (!options.other.empty() && !(record && is_record(options.other)))
+    throw std::invalid_argument("talus view: what stands side by side must be two run folders or records");
+  refuse_idle_options(command, options, options.live ? Shown::live : record ? Shown::record : Shown::scene);
 #ifdef TALUS_LCM
   if (options.live) return view_live(options);
   if (record) return view_record(options);
@@ -167,8 +213,21 @@ CLI::Validator one_interface() {
       "IPV4");
 }
 
+/// 0, or a number from the slowest pace to the fastest.
+CLI::Validator pace() {
+  const CLI::Validator inside = number_between(RunLoop::slowest_pace, RunLoop::fastest_pace);
+  return {[inside](std::string& text) {
+            double value = NAN;
+            if (CLI::detail::lexical_cast(text, value) && value == 0.0) return std::string();
+            return inside(text);
+          },
+          fmt::format("NUMBER in {{0, [{:g}, {:g}]}}", RunLoop::slowest_pace, RunLoop::fastest_pace)};
+}
+
 void add_options(CLI::App& command, ViewOptions& options) {
-  command.add_option("what", options.what, "Run folder, scene file, or the name of a scene that `talus list` shows")
+  command
+      .add_option("what", options.what,
+                  "Run folder or its record, scene file, or the name of a scene that `talus list` shows")
       ->check(not_empty());
   command.add_option("other", options.other, "Second run folder, shown beside the first in step")->check(not_empty());
 #ifdef TALUS_LCM
@@ -191,7 +250,7 @@ void add_options(CLI::App& command, ViewOptions& options) {
   command
       .add_option("--pace", options.pace,
                   "Of a scene: simulated seconds per second, 0.01 to 1000; 0: as fast as possible")
-      ->check(number_between(0.0, RunLoop::fastest_pace))
+      ->check(pace())
       ->capture_default_str();
   command
       .add_option("--listen", options.listen,
@@ -202,6 +261,13 @@ void add_options(CLI::App& command, ViewOptions& options) {
   command.add_option("--port", options.port, "Port of the interface; 0: one that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
+  command
+      .add_option("--history", options.history,
+                  "Of a scene or --live: MiB of memory for the frames that pages can scrub back to; where a run has "
+                  "more, some are left out")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command.add_flag("!--no-open", options.open, "Only print the address: open no browser");
   command.add_option("--seconds", options.seconds, "Stop after so many seconds; else Ctrl-C stops")
       ->check(number_between(0.0, 1e9));
 }
@@ -216,9 +282,10 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->footer(
       "Examples:\n  talus view drop_in_a_pile_2d\n  talus view drop_in_a_pile_3d --policy full --pace 4\n"
       "  talus view drop_in_a_pile_2d --against full\n\n"
-      "The page is for browsers of this machine and this user: its address holds a secret.");
-  command->callback([options, &exit_code] {
-    view(*options);
+      "On a desktop the browser opens by itself. The page is for browsers of this machine and this user: its address "
+      "holds a secret.");
+  command->callback([command, options, &exit_code] {
+    view(*command, *options);
     exit_code = exit_codes::success;
   });
 }

@@ -1,166 +1,124 @@
 #include "tools/stress/stress_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "common/scene/scene.h"
-#include "tools/bench/bench_results.h"
+#include "tests/physics/physics_case.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
+#include "tools/pool/in_processes.h"
 #include "tools/run/backends.h"
-#include "tools/stress/advise.h"
-#include "tools/stress/stress_report.h"
 
 namespace talus {
 namespace {
 
 struct StressOptions {
-  StressChoice choice;
-  std::filesystem::path out;
-  std::filesystem::path docs;
-  std::filesystem::path history;
-  AdviceOptions advice;
+  std::vector<std::string> names;
+  std::vector<std::string> backends;
+  std::vector<std::string> policies;
   int jobs = 2;
-  bool quick = false;
+  bool whole = false;
 };
 
 constexpr const char* footer =
-    "Groups: closed, standing, granular, extremes, piling, peers. Without --long the quick cases run, half a minute "
-    "on\n"
-    "one core. A cell is a case on an engine under a policy; it is red where a measured quantity lies outside of its\n"
-    "tolerance. Exit code 1 where a cell is red for no known reason.\n"
+    "Each case lies inside the window in which an engine's results hold, and has numbers that must lie within a\n"
+    "tolerance of a reference: from theory, from a law of granular matter, or from the same case without sleep.\n"
+    "Exit code: 0 all do, 1 some do not, 2 bad input.\n"
     "Example: talus stress standing --backend box2d --policy adaptive";
 
-std::string command_line(const StressOptions& options) {
-  std::string text = "talus stress";
-  for (const std::string& name : options.choice.names) text += " " + name;
-  text += options.choice.whole ? " --long" : " --quick";
-  for (const std::string& backend : options.choice.backends) text += " --backend " + backend;
-  for (const std::string& policy : options.choice.policies) text += " --policy " + policy;
-  if (!options.docs.empty()) text += " --docs " + options.docs.string();
-  return text;
+bool is_chosen(const std::vector<std::string>& list, std::string_view name) {
+  return list.empty() || std::ranges::find(list, name) != list.end();
 }
 
-BenchResults results_of(const StressOptions& options, const std::vector<StressRow>& rows) {
-  BenchResults results{
-      "Limits: where results hold",
-      {"Each case is measured on each engine under each policy that matters to it, and compared with a "
-       "reference from theory, from the law of a measured material, or from the same case "
-       "without sleep. A value outside of its tolerance is in bold type; why it is there stands under "
-       "[red cells](#red-cells). `refused`: the case lies outside of what a scene may have."},
-      stress_sections(rows)};
-  results.command = command_line(options);
-  return results;
-}
-
-void write_report(const StressOptions& options, const std::vector<StressRow>& rows) {
-  const std::vector<StressRecord> history = append_history(options.history, rows);
-  BenchResults results = results_of(options, rows);
-  std::vector<Figure> figures = history_figures(history);
-  if (!options.docs.empty()) write_page(options.docs, "limits", results);
-  if (!figures.empty()) {
-    Section over_time{"Over the versions", {}};
-    for (Figure& figure : figures) over_time.blocks.emplace_back(std::move(figure));
-    results.sections.push_back(std::move(over_time));
+void check_names(const std::vector<std::string>& names) {
+  const std::vector<std::string_view> groups = physics_groups();
+  for (const std::string& name : names) {
+    const bool known = std::ranges::find(groups, name) != groups.end() ||
+                       std::ranges::find(physics_cases(), name, &PhysicsCase::name) != physics_cases().end();
+    if (!known)
+      throw std::invalid_argument(
+          fmt::format("{}: must be a group ({}) or the name of a case", name, fmt::join(groups, ", ")));
   }
-  write_pages(options.out, results);
 }
 
-/// Table in the terminal: bold type has no meaning there.
-std::string for_terminal(const Table& table) {
-  Table plain = table;
-  for (std::vector<std::string>& row : plain.rows)
-    for (std::string& cell : row)
-      if (cell.starts_with("**")) cell = "RED " + cell.substr(2, cell.size() - 4);
-  return text_of(plain);
+/// Slow cases only by name or with --long.
+std::vector<PhysicsTask> chosen_tasks(const StressOptions& options) {
+  check_names(options.names);
+  std::vector<PhysicsTask> tasks = physics_tasks();
+  std::erase_if(tasks, [&](const PhysicsTask& task) {
+    const bool named = !options.names.empty() && is_chosen(options.names, task.each->name);
+    const bool in_group = is_chosen(options.names, task.each->group) && (options.whole || !task.each->slow);
+    return !(named || in_group) || !is_chosen(options.backends, task.cell.backend) ||
+           !is_chosen(options.policies, task.cell.policy);
+  });
+  if (tasks.empty()) throw std::invalid_argument("stress: no case runs on the engines and policies that were chosen");
+  return tasks;
 }
 
-int give_advice(StressOptions options) {
-  const auto one = [](const std::vector<std::string>& list, const char* option) {
-    if (list.size() > 1) throw std::invalid_argument(fmt::format("{}: must be given once with --advise", option));
-    return list.empty() ? std::string() : list.front();
-  };
-  options.advice.backend = one(options.choice.backends, "--backend");
-  options.advice.policy = one(options.choice.policies, "--policy");
-  options.advice.jobs = options.jobs;
-  advise(options.advice);
-  return exit_codes::success;
-}
-
-int run(StressOptions options) {
-  if (!options.advice.scene.empty()) return give_advice(options);
-  if (options.out.empty())
-    options.out = std::filesystem::path("bench") / (options.choice.whole ? "stress" : "stress-quick");
-  if (options.history.empty()) options.history = options.out / "stress.csv";
-  const std::vector<StressRow> rows = run_stress(options.choice, options.jobs);
-  if (rows.empty()) throw std::invalid_argument("no case runs on the engines and policies that were chosen");
-  write_report(options, rows);
-  print_text(for_terminal(stress_table(rows)));
-  print_result("\n{}\n{}, {}/report.html and results.md\n", in_short(rows), options.history.string(),
-               options.out.string());
-  int exit_code = exit_codes::success;
-  for (const StressRow& row : rows) {
-    if (row.outcome != StressOutcome::red) continue;
-    print_message("talus: {}", complaint(row));
-    exit_code = exit_codes::failed;
+/// How many of the case's numbers lie outside of their tolerances; a case that failed has none.
+int print_task(const PhysicsTask& task, const TaskOutcome& outcome) {
+  const auto numbers = nlohmann::json::parse(outcome.failed ? "[]" : outcome.text);
+  int outside = 0;
+  for (std::size_t i = 0; i < task.each->gates.size(); ++i) {
+    const PhysicsGate& gate = task.each->gates[i];
+    const double measured = i < numbers.size() && numbers[i].is_number() ? numbers[i].get<double>() : std::nan("");
+    const bool good = gate.holds(measured);
+    outside += good ? 0 : 1;
+    print_result("  {:<14}{:<10}{} = {:.4g}{}{}, must be {:.4g} ± {:.4g}{}\n", task.cell.backend, task.cell.policy,
+                 gate.quantity, measured, gate.unit.empty() ? "" : " ", gate.unit, gate.reference, gate.tolerance,
+                 good ? "" : " OUTSIDE");
+    if (!good)
+      print_message("talus: {}{}{}", sentence(task, gate, measured), outcome.failed ? ": " : "",
+                    outcome.failed ? outcome.text : "");
   }
-  return exit_code;
+  return outside;
 }
 
-CLI::Validator folder() { return not_empty() & (CLI::ExistingDirectory | CLI::NonexistentPath); }
-
-void add_stress_options(CLI::App& command, StressOptions& options) {
-  command.add_option("name", options.choice.names, "Groups or cases; default: all groups");
-  auto* quick = command.add_flag("-q,--quick", options.quick, "Only the quick cases; this is the default");
-  command.add_flag("-l,--long", options.choice.whole, "All cases, about a quarter of an hour of processor time")
-      ->excludes(quick);
-  std::vector<std::string> engines = backends(2);
-  for (const std::string& engine : backends(3)) engines.push_back(engine);
-  command.add_option("-b,--backend", options.choice.backends, "Engine, may be repeated; default: all")
-      ->check(CLI::IsMember(engines))
-      ->allow_extra_args(false);
-  command.add_option("-p,--policy", options.choice.policies, "Policy, may be repeated; default: all")
-      ->check(CLI::IsMember(std::vector<std::string>(policy_kinds.begin(), policy_kinds.end())))
-      ->allow_extra_args(false);
-  command.add_option("-j,--jobs", options.jobs, "Cells at a time, each in a process of its own")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command
-      .add_option("-o,--out", options.out,
-                  "Folder of stress.csv, report.html and results.md (bench/stress, quick: bench/stress-quick)")
-      ->check(folder());
-  command.add_option("--docs", options.docs, "Folder for the page limits.md")->check(folder());
-  auto* advise =
-      command
-          .add_option("--advise", options.advice.scene,
-                      "Instead run this scene at half, its own and double steps a second and iterations, and "
-                      "say which suffice")
-          ->check(not_empty())
-          ->excludes(quick);
-  command
-      .add_option("--tolerance", options.advice.tolerance,
-                  "What suffices for --advise: heights, radii and overlaps within this of the finest setting's [D]")
-      ->check(number_between(0.0, 10.0, Bound::left_out))
-      ->needs(advise)
-      ->capture_default_str();
-  command.add_option("--seeds", options.advice.seeds, "Runs at each setting of --advise")
-      ->check(CLI::Range(1, 100))
-      ->needs(advise)
-      ->capture_default_str();
-  command.add_option("--history", options.history, "File of all versions' values; default: stress.csv in --out")
-      ->check(not_empty());
+int stress(const StressOptions& options) {
+  const std::vector<PhysicsTask> tasks = chosen_tasks(options);
+  std::vector<TaskOutcome> outcomes(tasks.size());
+  in_processes(
+      static_cast<int>(tasks.size()), options.jobs, [&](int i) { return nlohmann::json(tasks[i].measure()).dump(); },
+      [&](int i, const TaskOutcome& outcome) { outcomes[i] = outcome; });
+  std::size_t numbers = 0;
+  int outside = 0;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const PhysicsCase& each = *tasks[i].each;
+    if (i == 0 || tasks[i - 1].each != &each) print_result("{}: {}\n", each.name, each.setup);
+    numbers += each.gates.size();
+    outside += print_task(tasks[i], outcomes[i]);
+  }
+  print_result("\n{} numbers measured, {} outside of their tolerances\n", numbers, outside);
+  return outside == 0 ? exit_codes::success : exit_codes::failed;
 }
 
 }  // namespace
 
 void add_stress_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("stress", "Try to break engines and policies: measure where results hold and where not");
+  CLI::App* command = app.add_subcommand("stress", "Measure what engines and policies must get right");
   command->footer(footer);
   auto options = std::make_shared<StressOptions>();
-  add_stress_options(*command, *options);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->add_option("name", options->names, "Groups or cases; default: all groups");
+  command->add_flag("-l,--long", options->whole, "Slow cases too, some minutes");
+  std::vector<std::string> engines = backends(2);
+  for (const std::string& engine : backends(3)) engines.push_back(engine);
+  command->add_option("-b,--backend", options->backends, "Engine, may be repeated; default: all")
+      ->check(CLI::IsMember(engines))
+      ->allow_extra_args(false);
+  command->add_option("-p,--policy", options->policies, "Policy, may be repeated; default: all")
+      ->check(CLI::IsMember(std::vector<std::string>(policy_kinds.begin(), policy_kinds.end())))
+      ->allow_extra_args(false);
+  command->add_option("-j,--jobs", options->jobs, "Runs at a time, each in a process of its own")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = stress(*options); });
 }
 
 }  // namespace talus

@@ -14,11 +14,12 @@
 
 #include "common/scene/read_scene.h"
 #include "common/text/printable.h"
-#include "tools/bench/in_processes.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
+#include "tools/pool/in_processes.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
+#include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/measured_drift.h"
 #include "tools/run/run_scene.h"
@@ -36,15 +37,17 @@ constexpr const char* footer =
     "  talus sweep scene.toml --set policy.kind=full,adaptive --set source[0].rate=2,4,8 --jobs 4 --out rates\n\n"
     "Each run is what `talus run` gives with the same values: same bits, same folder. A sweep that was stopped goes "
     "on\n"
-    "where it was when it is started again. sweep.csv, sweep.sqlite (table `runs`) and sweep.svg have the results.\n"
-    "Exit code: 0 all runs finished, 1 some did not, 2 bad input.";
+    "where it was when it is started again. sweep.csv and sweep.svg have the results.\n"
+    "Exit code: 0 all runs finished, 1 some did not (with --strict: or gave a warning), 2 bad input, 130 interrupted.";
 
 struct SweepOptions {
   std::string scene;
   std::vector<std::string> settings;
   int seeds = 1;
   std::string backend;
+  std::string policy;  // empty: the scene's
   bool force = false;
+  bool strict = false;
   bool measure_drift = false;
   bool probe_drift = true;
   int jobs = 0;  // 0: one for each core
@@ -55,6 +58,7 @@ struct SweepOptions {
 std::vector<SweepAxis> axes_of(const SweepOptions& options) {
   std::vector<SweepAxis> axes;
   for (const std::string& setting : options.settings) axes.push_back(sweep_axis(setting));
+  if (!options.policy.empty()) axes.push_back({"policy.kind", {options.policy}});
   SweepAxis seeds{"seed", {}};
   for (int seed = 1; seed <= options.seeds; ++seed) seeds.values.push_back(fmt::format("{}", seed));
   if (options.seeds > 1) axes.push_back(seeds);
@@ -121,10 +125,24 @@ void enter_folder(const fs::path& folder, const std::string& same) {
 
 fs::path folder_of(const fs::path& sweep, int number) { return sweep / fmt::format("run_{:04}", number); }
 
-bool is_finished(const fs::path& folder) {
+nlohmann::json summary_of(const fs::path& folder) {
   std::ifstream stream(folder / "summary.json");
-  const auto summary = nlohmann::json::parse(stream, nullptr, false);
-  return summary.is_object() && summary.value("reason", "") == "finished";
+  auto summary = nlohmann::json::parse(stream, nullptr, false);
+  return summary.is_object() ? summary : nlohmann::json::object();
+}
+
+/// Why the run of a folder ended; empty where it has no summary.
+std::string reason_of(const fs::path& folder) { return summary_of(folder).value("reason", ""); }
+
+bool is_finished(const fs::path& folder) { return reason_of(folder) == "finished"; }
+
+/// Warnings of a run about scene, window and what happened.
+std::size_t warnings_of(const fs::path& folder) {
+  const nlohmann::json summary = summary_of(folder);
+  std::size_t count = 0;
+  for (const char* kind : {"outside_window", "scene_warnings", "warnings"})
+    if (summary.contains(kind)) count += summary[kind].size();
+  return count;
 }
 
 /// In a process of its own, whose standard output nobody reads.
@@ -147,15 +165,47 @@ std::string run_one(const SweepOptions& options, const fs::path& scene, std::vec
   return {};
 }
 
-/// Runs all that are not finished; how many failed.
-int do_runs(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes,
-            const std::vector<SweepRun>& runs) {
+/// What became of the runs of a sweep.
+struct SweepEnd {
+  int failed = 0;
+  bool stopped = false;  // by a signal, before all had begun or ended
+};
+
+/// Says once that a signal has come, and what it does.
+class StopNotice {
+ public:
+  bool requested() {
+    if (!interrupt_.requested()) return false;
+    if (!told_)
+      print_message(
+          "interrupted: no run begins any more, and those at work save what they have; the same command goes on later");
+    told_ = true;
+    return true;
+  }
+
+ private:
+  Interrupt interrupt_;
+  bool told_ = false;
+};
+
+std::string word_for(const TaskOutcome& outcome, const fs::path& folder) {
+  if (outcome.failed) return ": failed " + outcome.text;
+  const std::string reason = reason_of(folder);
+  if (reason != "finished") return ": " + reason;
+  const std::size_t warnings = warnings_of(folder);
+  return warnings == 0 ? "" : fmt::format(": {} {}", warnings, warnings == 1 ? "warning" : "warnings");
+}
+
+/// Runs all that are not finished.
+SweepEnd do_runs(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes,
+                 const std::vector<SweepRun>& runs) {
   std::vector<int> left;
   for (int i = 0; i < std::ssize(runs); ++i)
     if (!is_finished(folder_of(options.out, i))) left.push_back(i);
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   int done = 0;
-  int failed = 0;
+  SweepEnd end;
+  StopNotice notice;
   in_processes(
       static_cast<int>(left.size()), options.jobs > 0 ? options.jobs : cores,
       [&](int task) {
@@ -163,12 +213,14 @@ int do_runs(const SweepOptions& options, const fs::path& scene, const std::vecto
       },
       [&](int task, const TaskOutcome& outcome) {
         const fs::path folder = folder_of(options.out, left[task]);
-        const bool good = !outcome.failed && is_finished(folder);
-        failed += good ? 0 : 1;
+        const bool interrupted = !outcome.failed && reason_of(folder) == "interrupted";
+        end.failed += interrupted || (!outcome.failed && is_finished(folder)) ? 0 : 1;
         print_message("{} of {}: {} {}{}", ++done, left.size(), folder.filename().string(),
-                      fmt::join(settings_of(axes, runs[left[task]]), " "), good ? "" : ": failed " + outcome.text);
-      });
-  return failed;
+                      fmt::join(settings_of(axes, runs[left[task]]), " "), word_for(outcome, folder));
+      },
+      [&] { return notice.requested(); });
+  end.stopped = notice.requested();
+  return end;
 }
 
 std::string title_of_scene(const fs::path& scene) {
@@ -181,17 +233,23 @@ int sweep(const SweepOptions& options) {
   const std::vector<SweepRun> runs = sweep_runs(axes);
   check_runs(options, scene, axes, runs);
   enter_folder(options.out, identity(options, scene, axes));
-  const int failed = do_runs(options, scene, axes, runs);
+  const SweepEnd end = do_runs(options, scene, axes, runs);
   std::vector<SweepRow> rows;
-  for (int i = 0; i < std::ssize(runs); ++i)
-    if (fs::exists(folder_of(options.out, i) / "summary.json"))
-      rows.push_back(sweep_row(i, runs[i], folder_of(options.out, i)));
+  std::int64_t with_warnings = 0;
+  for (int i = 0; i < std::ssize(runs); ++i) {
+    const fs::path folder = folder_of(options.out, i);
+    if (!fs::exists(folder / "summary.json")) continue;
+    rows.push_back(sweep_row(i, runs[i], folder));
+    with_warnings += warnings_of(folder) > 0 ? 1 : 0;
+  }
   write_sweep_csv(options.out / "sweep.csv", axes, rows);
-  write_sweep_sqlite(options.out / "sweep.sqlite", axes, rows);
   const bool plotted = write_sweep_plot(options.out / "sweep.svg", title_of_scene(scene), axes, rows, options.plot);
-  print_result("{} runs, {} failed: {}/sweep.csv, sweep.sqlite{}\n", runs.size(), failed,
+  const std::int64_t finished = std::ranges::count(rows, "finished", &SweepRow::reason);
+  print_result("{} runs, {} finished, {} failed{}: {}/sweep.csv{}\n", runs.size(), finished, end.failed,
+               with_warnings > 0 ? fmt::format(", {} with warnings", with_warnings) : "",
                printable(options.out.string()), plotted ? ", sweep.svg" : "");
-  return failed == 0 ? exit_codes::success : exit_codes::failed;
+  if (end.stopped && finished < std::ssize(runs)) return exit_codes::interrupted;
+  return end.failed == 0 && !(options.strict && with_warnings > 0) ? exit_codes::success : exit_codes::failed;
 }
 
 std::vector<std::string> names_of_measures() {
@@ -218,8 +276,11 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
       ->check(number_between(1, 100000))
       ->capture_default_str();
   command->add_option("-b,--backend", options->backend, "Engine, as for `talus run`")->check(not_empty());
+  command->add_option("-p,--policy", options->policy, "Which bodies may sleep, as for `talus run`; several by --set")
+      ->check(not_empty());
   command->add_flag("-f,--force", options->force,
-                    "Run outside of the window in which results hold too, as `talus run`");
+                    "Also outside of the window in which results hold: a warning instead of an error");
+  command->add_flag("--strict", options->strict, "Exit with 1 when a scene or run gave a warning");
   command->add_flag("--measure-drift", options->measure_drift,
                     "Measure at the end of each run how far the sleeping bodies move, as `talus run`");
   command->add_flag("!--no-drift-probe", options->probe_drift,

@@ -1,7 +1,6 @@
 #include "tools/sweep/sweep_table.h"
 
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/output/csv.h"
 #include "tools/plot/plot.h"
 
 namespace talus {
@@ -25,13 +25,6 @@ std::optional<double> number_in(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + "\"";
-}
-
 /// Names of all columns.
 std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes) {
   std::vector<std::string> columns = {"run"};
@@ -39,44 +32,6 @@ std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes) {
   columns.insert(columns.end(), {"reason", "end_hash"});
   for (const SweepMeasure& measure : sweep_measures()) columns.emplace_back(measure.name);
   return columns;
-}
-
-using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close)>;
-using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
-
-void require_done(int code, int wanted, sqlite3* database, const std::filesystem::path& file) {
-  if (code != wanted)
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), sqlite3_errmsg(database)));
-}
-
-void execute(sqlite3* database, const std::string& command, const std::filesystem::path& file) {
-  require_done(sqlite3_exec(database, command.c_str(), nullptr, nullptr, nullptr), SQLITE_OK, database, file);
-}
-
-std::string quoted_name(const std::string& name) {
-  std::string quoted = "\"";
-  for (const char letter : name) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + "\"";
-}
-
-void bind_text(sqlite3_stmt* statement, int place, const std::string& text) {
-  if (const std::optional<double> number = number_in(text))
-    sqlite3_bind_double(statement, place, *number);
-  else
-    sqlite3_bind_text(statement, place, text.c_str(), -1, SQLITE_TRANSIENT);
-}
-
-void bind_row(sqlite3_stmt* statement, const SweepRow& row) {
-  int place = 1;
-  sqlite3_bind_int(statement, place++, row.run);
-  for (const std::string& value : row.values) bind_text(statement, place++, value);
-  sqlite3_bind_text(statement, place++, row.reason.c_str(), -1, SQLITE_TRANSIENT);
-  sqlite3_bind_text(statement, place++, row.end_hash.c_str(), -1, SQLITE_TRANSIENT);
-  for (const std::optional<double>& number : row.numbers)
-    if (number)
-      sqlite3_bind_double(statement, place++, *number);
-    else
-      sqlite3_bind_null(statement, place++);
 }
 
 /// The values of one point of a curve.
@@ -112,11 +67,14 @@ std::string curve_of(const std::vector<SweepAxis>& axes, const SweepRow& row, st
   return name.empty() ? "mean" : name;
 }
 
+/// With bars where a point has several seeds.
 Series series_of(const std::string& name, const std::map<double, Sample>& points) {
+  const bool bars = std::ranges::any_of(points, [](const auto& point) { return point.second.count > 1; });
   Series series{.name = name, .x = {}, .y = {}, .style = SeriesStyle::line_and_points};
   for (const auto& [x, sample] : points) {
     series.x.push_back(x);
     series.y.push_back(sample.mean());
+    if (!bars) continue;
     series.low.push_back(sample.mean() - sample.standard_error());
     series.high.push_back(sample.mean() + sample.standard_error());
   }
@@ -164,42 +122,17 @@ SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path&
 void write_sweep_csv(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
                      const std::vector<SweepRow>& rows) {
   std::ofstream out(file, std::ios::binary);
-  std::vector<std::string> cells;
-  for (const std::string& column : columns_of(axes)) cells.push_back(csv_cell(column));
-  out << fmt::format("{}\n", fmt::join(cells, ","));
+  out << csv_line(columns_of(axes));
   for (const SweepRow& row : rows) {
-    cells = {fmt::format("{}", row.run)};
-    for (const std::string& value : row.values) cells.push_back(csv_cell(value));
-    cells.insert(cells.end(), {csv_cell(row.reason), row.end_hash});
+    std::vector<std::string> cells = {fmt::format("{}", row.run)};
+    cells.insert(cells.end(), row.values.begin(), row.values.end());
+    cells.insert(cells.end(), {row.reason, row.end_hash});
     for (const std::optional<double>& number : row.numbers)
       cells.push_back(number ? fmt::format("{:.9g}", *number) : "");
-    out << fmt::format("{}\n", fmt::join(cells, ","));
+    out << csv_line(cells);
   }
   out.close();
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
-void write_sweep_sqlite(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
-                        const std::vector<SweepRow>& rows) {
-  std::filesystem::remove(file);
-  sqlite3* opened = nullptr;
-  const int code = sqlite3_open(file.c_str(), &opened);
-  const Database database(opened, sqlite3_close);
-  require_done(code, SQLITE_OK, opened, file);
-  std::vector<std::string> names;
-  for (const std::string& column : columns_of(axes)) names.push_back(quoted_name(column));
-  execute(opened, fmt::format("CREATE TABLE runs ({}); BEGIN", fmt::join(names, ", ")), file);
-  sqlite3_stmt* prepared = nullptr;
-  const std::string insert =
-      fmt::format("INSERT INTO runs VALUES ({})", fmt::join(std::vector<std::string>(names.size(), "?"), ", "));
-  require_done(sqlite3_prepare_v2(opened, insert.c_str(), -1, &prepared, nullptr), SQLITE_OK, opened, file);
-  const Statement statement(prepared, sqlite3_finalize);
-  for (const SweepRow& row : rows) {
-    bind_row(prepared, row);
-    require_done(sqlite3_step(prepared), SQLITE_DONE, opened, file);
-    sqlite3_reset(prepared);
-  }
-  execute(opened, "COMMIT", file);
 }
 
 bool write_sweep_plot(const std::filesystem::path& file, const std::string& title, const std::vector<SweepAxis>& axes,
@@ -218,7 +151,12 @@ bool write_sweep_plot(const std::filesystem::path& file, const std::string& titl
     ++sample.count;
   }
   if (curves.empty() || curves.size() > most_curves) return false;
-  Plot plot{.title = title, .x_label = axes[*along].path, .y_label = std::string(which->label), .series = {}};
+  int most_seeds = 0;
+  for (const auto& [name, points] : curves)
+    for (const auto& [x, sample] : points) most_seeds = std::max(most_seeds, sample.count);
+  const std::string bars =
+      most_seeds > 1 ? fmt::format(" (bars: standard error of the mean of {} seeds)", most_seeds) : "";
+  Plot plot{.title = title, .x_label = axes[*along].path + bars, .y_label = std::string(which->label), .series = {}};
   for (const auto& [name, points] : curves) plot.series.push_back(series_of(name, points));
   std::ofstream out(file, std::ios::binary);
   out << svg_of(plot);

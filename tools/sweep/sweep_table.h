@@ -33,11 +33,9 @@ struct SweepRow {
 /// The row of a run folder. Throws std::runtime_error where it has no summary that can be read.
 SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path& folder);
 
-/// sweep.csv and sweep.sqlite, whose table `runs` has the same columns. Overwrites both.
+/// Writes sweep.csv, over a file that is there.
 void write_sweep_csv(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
                      const std::vector<SweepRow>& rows);
-void write_sweep_sqlite(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
-                        const std::vector<SweepRow>& rows);
 
 /// A measure over the first axis that has several numbers, a curve for each combination of the other axes but `seed`,
 /// over whose values the mean is taken with its standard error. Nothing is drawn, and false returned, where there is no

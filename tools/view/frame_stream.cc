@@ -70,6 +70,7 @@ std::string FrameEncoder<Dim>::encode(const ViewFrame<Dim>& frame) {
   write_float(block_, static_cast<float>(frame.kinetic_energy));
   write_float(block_, static_cast<float>(frame.drift_estimate));
   write_float(block_, static_cast<float>(slope_));
+  write_float(block_, static_cast<float>(frame.ms_per_step));
   write_warnings(frame.warnings);
   const std::span<const DoneEvent> happened = frame.scene_events.subspan(known_scene_events_);
   known_scene_events_ = frame.scene_events.size();
@@ -85,7 +86,7 @@ std::string FrameEncoder<Dim>::encode(const ViewFrame<Dim>& frame) {
 
 template <int Dim>
 void FrameEncoder<Dim>::write_bodies(const BodyStates<Dim>& states) {
-  write_unsigned(block_, states.size());
+  write_unsigned(block_, states.size() - known_.size());
   std::vector<BodyIndex> removed;
   std::vector<BodyIndex> flipped;
   for (auto body = static_cast<BodyIndex>(known_.size()); body < states.size(); ++body) {
@@ -244,16 +245,14 @@ void FrameEncoder<Dim>::write_pile(int number, const Pile<Dim>& pile, KnownPile&
   const std::vector<float> form = form_of(pile);
   const bool reshaped = form != known.form;
   write_unsigned(block_, number);
-  write_unsigned(block_, reshaped ? 1 : 0);
-  if (reshaped) {
-    constexpr std::ptrdiff_t before_layers = Dim + 4;
-    for (const float value : std::span(form).first(before_layers)) write_float(block_, value);
-    write_unsigned(block_, pile.layers.size());
-    for (const float value : std::span(form).subspan(before_layers)) write_float(block_, value);
-    known.form = form;
-  }
+  write_unsigned(block_, reshaped ? form.size() : 0);
   const std::vector<std::int32_t> counts = counts_of(pile);
-  known.counts.resize(counts.size());
+  if (reshaped) {
+    for (const float value : form) write_float(block_, value);
+    known.form = form;
+    known.counts.assign(counts.size(), 0);
+  }
+  write_unsigned(block_, counts.size());
   for (std::size_t i = 0; i < counts.size(); ++i) write_signed(block_, counts[i] - known.counts[i]);
   known.counts = counts;
 }

@@ -54,6 +54,7 @@ struct ViewFrame {
   std::span<const DoneEvent> scene_events = {};       // all so far
   double drift_estimate = -1.0;                       // of the sleeping bodies [D]; -1: not known
   std::span<const ObstaclePose<Dim>> obstacles = {};  // of those that move, all
+  double ms_per_step = -1.0;                          // wall time of a step; -1: not known
 };
 
 /// Writes frames as differences from the frame before: only what changed takes room, a sleeping body none. The first
@@ -63,18 +64,19 @@ struct ViewFrame {
 /// `u`, `f` a float of four bytes, low byte first. A list of bodies is their number (u) and the distance of each from
 /// the one before (u), counted from -1.
 ///
-///     u step; u bodies added so far; u shape of each new body
+///     u step; u number of new bodies; u shape of each
 ///     list of removed bodies; list of bodies that fell asleep or woke; list of bodies that became hidden
 ///     (hidden_bodies.h) or can be seen again; list of bodies with another pose, none of them hidden,
 ///     s change of each component of the pose, component by component
 ///         (2D: x, z, angle; 3D: x, y, z, quaternion w, x, y, z), in quanta
 ///     u number of events; of each: u body, u steps before this one, u cause * 2 + woke, u pile + 1, u layer + 1, f
-///     score u number of piles; u number of those that changed; of each: u number, u 1 where its form follows:
-///         f centre, f slope, f lift, f height, f radius, u layers, of each f bottom, f top, f radius, f capacity,
-///         f density up to which no body falls asleep, f density above which the pile wakes, both below 0 where the
-///         policy has none;
-///         s change of the count and s of the sleepers of each layer
-///     f kinetic energy; f estimate of drift [D], f slope measured of the largest pile [rad], -1 where not known
+///     score u number of piles; u number of those that changed; of each: u number; u numbers of its form, 0 where that
+///         is as before: f centre, f slope, f lift, f height, f radius, of each layer f bottom, f top, f radius,
+///         f capacity, f density up to which no body falls asleep, f density above which the pile wakes, both below 0
+///         where the policy has none; u twice the layers, of each s count and s sleepers where a form is given, else
+///         s change of them
+///     f kinetic energy; f estimate of drift [D], f slope measured of the largest pile [rad], f wall time of a step
+///         [ms], -1 where not known
 ///     u number of warnings that changed; of each: u kind, u step of the first, u bytes of its text, the text
 ///     u number of events of the scene since the frame before; of each: u number, f time
 ///     list of obstacles with another pose, s change of each component, component by component, as of bodies; an

@@ -43,6 +43,13 @@ void put(std::string& page, std::string_view mark, const std::string& text) {
   page.replace(at, mark.size(), text);
 }
 
+/// JSON that ends no script, whatever texts are in it.
+std::string in_script(const nlohmann::ordered_json& data) {
+  std::string text = data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+  return text;
+}
+
 std::string page_of(const std::string& data) {
   std::string page = built_file("page.html");
   put(page, "<!-- vendor -->", "<script>\n" + built_file("vendor.js") + "</script>");
@@ -67,8 +74,10 @@ std::string page_with(std::string_view stream) {
 
 std::string page_of_pair(const PairTexts& texts) {
   std::string page = built_file("pair.html");
-  const nlohmann::ordered_json data = {{"of_runs", texts.of_runs}, {"ms_per_step", texts.ms_per_step}};
-  put(page, "<!-- data -->", R"(<script type="application/json" id="pair-data">)" + data.dump() + "</script>");
+  nlohmann::ordered_json data = {{"of_runs", texts.of_runs}, {"ms_per_step", texts.ms_per_step}};
+  data["differences"] = nlohmann::ordered_json::array();
+  for (const SettingDifference& each : texts.differences) data["differences"].push_back({each.path, each.a, each.b});
+  put(page, "<!-- data -->", R"(<script type="application/json" id="pair-data">)" + in_script(data) + "</script>");
   return page;
 }
 

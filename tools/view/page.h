@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "common/scene/setting_differences.h"
 
 namespace talus {
 
@@ -21,8 +24,9 @@ enum class PageSource { record, run };
 
 /// Texts for a page that shows two others side by side.
 struct PairTexts {
-  bool of_runs = false;                        // of scenes that are simulated; else of records
-  std::array<double, 2> ms_per_step = {0, 0};  // of records: mean wall time; 0: not known
+  bool of_runs = false;                             // of scenes that are simulated; else of records
+  std::array<double, 2> ms_per_step = {0, 0};       // of records: mean wall time; 0: not known
+  std::vector<SettingDifference> differences = {};  // of the two scenes
 };
 
 /// The page with two pages of the server, at a/ and b/, which it plays in step.

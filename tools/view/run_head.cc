@@ -90,7 +90,7 @@ template <int Dim>
 Json coloured_shapes_of(const Scene<Dim>& scene) {
   Json legend = Json::array();
   for (const LegendEntry& entry : legend_of_shapes<Dim>(scene.world.shapes))
-    legend.push_back({{"name", entry.text}, {"colour", json_of(entry.fills.front())}});
+    legend.push_back({{"name", entry.text}, {"colour", json_of(entry.fill)}});
   return legend;
 }
 
@@ -175,6 +175,7 @@ Json run_head(const Scene<Dim>& scene, const RunTexts& texts, const Quantum& qua
           {"dimension", Dim},
           {"dt", scene.world.dt},
           {"steps", scene.steps()},
+          {"steps_per_frame", scene.steps_per_frame()},
           {"ground", {{"present", scene.world.ground.present}, {"height", scene.world.ground.height}}},
           {"quantum", {{"position", quantum.position}, {"angle", quantum.angle}, {"quaternion", quantum.quaternion}}},
           {"box", {json_of<Dim>(box.min()), json_of<Dim>(box.max())}},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 
 namespace talus {
 
@@ -18,6 +19,34 @@ void write_signed(std::string& bytes, std::int64_t value) {
 void write_float(std::string& bytes, float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((bits >> shift) & 0xFF);
+}
+
+std::uint64_t StreamReader::number() {
+  std::uint64_t value = 0;
+  for (int shift = 0; shift < 64; shift += 7) {
+    const auto byte = static_cast<unsigned char>(bytes_.at(at_++));
+    value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
+    if (byte < 0x80) break;
+  }
+  return value;
+}
+
+std::int64_t StreamReader::difference() {
+  const std::uint64_t value = number();
+  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+}
+
+float StreamReader::real() {
+  std::uint32_t bits = 0;
+  for (int shift = 0; shift < 32; shift += 8)
+    bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes_.at(at_++))) << shift;
+  return std::bit_cast<float>(bits);
+}
+
+std::string StreamReader::text(std::size_t size) {
+  if (size > bytes_.size() - at_) throw std::out_of_range("the bytes end within a text");
+  at_ += size;
+  return std::string(bytes_.substr(at_ - size, size));
 }
 
 std::int32_t in_quanta(double value, double quantum) {

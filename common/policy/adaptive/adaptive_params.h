@@ -10,7 +10,7 @@ namespace talus {
 
 /// Parameters of the policy `adaptive`. Lengths are in D, the typical body's extent, and times in sqrt(D/g), the time
 /// in which a body falls by D/2, so that they hold at any scale and in any gravity. adaptive_fields has the unit, range
-/// and effect of each. docs/method.md explains the rules, docs/research/ how the values were found.
+/// and effect of each. docs/method.md explains the rules, lab/notes/ how the values were found.
 struct AdaptiveParams {
   double tolerance = 0.05;
   double rest_distance = 0.01;
@@ -30,7 +30,7 @@ struct AdaptiveParams {
   double slope_max_damping = 4.0;
 
   /// Factor of the rest distances: a tolerance below the default is kept while a pour goes on, too, when there are few
-  /// checks (docs/research/tolerance_in_a_pour.md). 1 without a tolerance.
+  /// checks (lab/notes/tolerance_in_a_pour.md). 1 without a tolerance.
   double rest_distance_factor() const;
   /// Share of a region's sleeping bodies that must be unchecked before the region is checked while it moves. Above 1
   /// such a check never begins.

@@ -1,6 +1,7 @@
 #include "common/policy/adaptive/adaptive_policy.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "common/policy/paper_policy.h"
@@ -17,9 +18,8 @@ constexpr double max_turn_per_step = 1.5;  // [rad]; fastest_spin() allows pi / 
 template <int Dim>
 AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world,
                                     const TypicalBody& typical)
-    : rest_time_deep_(params.rest_period_deep * time_unit(typical, world)),
-      rest_time_surface_(params.rest_period_surface * time_unit(typical, world)),
-      rest_time_woken_(params.rest_period_woken * time_unit(typical, world)),
+    : rest_periods_(params.rest_period_deep, params.rest_period_surface, params.rest_period_woken),
+      extent_(typical.extent),
       ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
       max_speed_(speed_margin * fastest_speed<Dim>(world.dt)),
       max_spin_(max_turn_per_step / world.dt),
@@ -30,20 +30,22 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       support_loss_({params, typical, world}),
       avalanches_({params, typical, world}),
       slope_controller_({params, typical, world}),
-      checks_({params, typical, world}) {}
+      checks_({params, typical, world}),
+      sleepers_(params.avalanche_width * typical.extent) {}
 
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
-  if (frame.world.awake().empty() && !checks_.may_begin()) return;
+  assert(sleepers_.matches(frame.world.states()));
+  if (frame.world.awake().empty() && !checks_.may_begin(sleepers_)) return;
   const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
   output_.clear();
   rest_.update(in);
   impacts_ahead_.update(in, output_);
-  impacts_.update(in, output_);
+  impacts_.update(in, rest_, output_);
   support_loss_.update(in, output_);
-  avalanches_.update(in, output_);
+  avalanches_.update(in, sleepers_, output_);
   slope_controller_.update(in, output_);
-  checks_.update(in, rest_, output_);
+  checks_.update(in, rest_, sleepers_, output_);
   limit_velocities();
   for (const auto& [body, wake] : output_.wakes) {
     const Placement place = placement(frame, body);
@@ -52,8 +54,21 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   decision.velocities.swap(output_.velocities);
   choose_sleepers(frame, in, decision);
   rest_.expect_motion(output_.wakes);
-  avalanches_.count(in.states(), decision.freeze, decision.thaw);
-  checks_.count(in, decision.freeze, decision.thaw);
+}
+
+/// A body that sleeps by the user's wish was not put there by a rule: it makes no heap slide and waits for no check.
+template <int Dim>
+void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEvent> events) {
+  for (const SleepEvent& event : events) {
+    if (event.woke) {
+      sleepers_.take_out(event.body);
+      continue;
+    }
+    const Vec<Dim>& position = world.states().pose[event.body].position;
+    const bool by_rule = event.cause != SleepCause::user;
+    sleepers_.put_in(event.body, position, by_rule ? checks_.note_asleep(world, event.body) : Standing::settled);
+    if (by_rule) avalanches_.note_asleep(position);
+  }
 }
 
 template <int Dim>
@@ -67,9 +82,10 @@ void AdaptivePolicy<Dim>::limit_velocities() {
 template <int Dim>
 void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
   bodies_.clear();
+  const RestTimes times = rest_times_in(in.world);
   for (const BodyIndex body : in.world.awake()) {
-    if (checks_.holds(body) || below_ground(in, body)) continue;
-    if (rested_enough(frame, body)) bodies_.push_back(body);
+    if (checks_.holds(body) || below_ground(in, body) || !rested_enough(frame, body, times)) continue;
+    if (frame.may_sleep(body)) bodies_.push_back(body);
   }
   support_.keep_supported(in, bodies_);
   for (const BodyIndex body : bodies_) {
@@ -85,19 +101,26 @@ bool AdaptivePolicy<Dim>::below_ground(const RuleInput<Dim>& in, BodyIndex body)
   return height<Dim>(in.pose_of(body).position) < ground_;
 }
 
+/// [s]
+template <int Dim>
+typename AdaptivePolicy<Dim>::RestTimes AdaptivePolicy<Dim>::rest_times_in(const World<Dim>& world) const {
+  const double unit = time_unit(extent_, world);
+  return {rest_periods_.deep * unit, rest_periods_.surface * unit, rest_periods_.woken * unit};
+}
+
 /// The short time holds for a body that woke and did not move: it was found at rest before.
 template <int Dim>
-bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body) const {
+bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const {
   const double rested = rest_.time_at_rest(body);
-  if (rested >= rest_time_woken_ && rest_.unmoved_since_wake(body)) return true;
-  return rested >= rest_time_deep_ && rested >= rest_time_needed(frame, body);
+  if (rested >= times.woken && rest_.unmoved_since_wake(body)) return true;
+  return rested >= times.deep && rested >= rest_time_needed(frame, body, times);
 }
 
 /// Of a body that moved since it woke [s].
 template <int Dim>
-double AdaptivePolicy<Dim>::rest_time_needed(const Frame<Dim>& frame, BodyIndex body) const {
-  const double shortened = rest_time_surface_ - rest_time_deep_;
-  return rest_time_surface_ - shortened * placement(frame, body).score;
+double AdaptivePolicy<Dim>::rest_time_needed(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const {
+  const double shortened = times.surface - times.deep;
+  return times.surface - shortened * placement(frame, body).score;
 }
 
 template <int Dim>
@@ -112,8 +135,9 @@ std::vector<Reading> AdaptivePolicy<Dim>::readings(const Frame<Dim>& frame, Body
   if (checks_.holds(body)) readings.push_back({"held awake by a stability check", 1.0, std::nullopt, "", ""});
   if (!rest_.watches(body)) return readings;
   const bool unmoved = rest_.unmoved_since_wake(body);
-  const double needed =
-      unmoved ? std::min(rest_time_woken_, rest_time_needed(frame, body)) : rest_time_needed(frame, body);
+  const RestTimes times = rest_times_in(frame.world);
+  const double moved_needs = rest_time_needed(frame, body, times);
+  const double needed = unmoved ? std::min(times.woken, moved_needs) : moved_needs;
   readings.push_back({"at rest for", rest_.time_at_rest(body), needed, "s", "sleeps, if supported"});
   return readings;
 }

@@ -10,6 +10,7 @@
 #include "common/policy/adaptive/impacts_ahead.h"
 #include "common/policy/adaptive/local_avalanches.h"
 #include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/adaptive/sleep_ledger.h"
 #include "common/policy/adaptive/slope_controller.h"
 #include "common/policy/adaptive/stability_checks.h"
 #include "common/policy/adaptive/support_criterion.h"
@@ -32,9 +33,12 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool needs_contacts() const override { return true; }
   std::vector<Reading> readings(const Frame<Dim>& frame, BodyIndex body) const override;
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
+  void note(const World<Dim>& world, std::span<const SleepEvent> events) override;
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
     return checks_.drift_estimate(world);
   }
+  /// The bodies that sleep, as the policy was told.
+  const SleepLedger<Dim>& sleepers() const { return sleepers_; }
 
  private:
   /// A body's layer in the pile that scores it highest.
@@ -44,19 +48,26 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
     double score = 0.0;
   };
 
+  /// How long a body must have been at rest before it sleeps, in one gravity.
+  struct RestTimes {
+    double deep = 0.0;     // where the score is 1
+    double surface = 0.0;  // where it is 0
+    double woken = 0.0;    // of a body that woke and did not move
+  };
+
   void limit_velocities();
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
-  double rest_time_needed(const Frame<Dim>& frame, BodyIndex body) const;
-  bool rested_enough(const Frame<Dim>& frame, BodyIndex body) const;
+  RestTimes rest_times_in(const World<Dim>& world) const;
+  double rest_time_needed(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
+  bool rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
-  double rest_time_deep_;     // [s]
-  double rest_time_surface_;  // [s]
-  double rest_time_woken_;    // [s]
-  double ground_;             // its height [m]; without ground the lowest number
-  double max_speed_;          // [m/s]
-  double max_spin_;           // [rad/s]
+  RestTimes rest_periods_;  // in sqrt(D/g)
+  double extent_;           // D [m]
+  double ground_;           // its height [m]; without ground the lowest number
+  double max_speed_;        // [m/s]
+  double max_spin_;         // [rad/s]
   RestCriterion<Dim> rest_;
   SupportCriterion<Dim> support_;
   ImpactsAhead<Dim> impacts_ahead_;
@@ -65,6 +76,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   LocalAvalanches<Dim> avalanches_;
   SlopeController<Dim> slope_controller_;
   StabilityChecks<Dim> checks_;
+  SleepLedger<Dim> sleepers_;
   RuleOutput<Dim> output_;         // scratch
   std::vector<BodyIndex> bodies_;  // scratch
 };

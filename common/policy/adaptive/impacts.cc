@@ -13,13 +13,10 @@ bool pair_before(const ContactImpulse& l, const ContactImpulse& r) {
   return std::tie(l.awake, l.sleeper) < std::tie(r.awake, r.sleeper);
 }
 
-/// Part of an impact that counts, by the direction of the impulse on the awake body: 1/3 for an impact from straight
-/// above, since the sleeping body's supports take up the rest; 1 from the side; 5/3 from below, where nothing resists.
-/// The slope 2/3 separated the bodies that moved from the others best (docs/research/impact_rule.md).
-template <int Dim>
-double direction_factor(const Vec<Dim>& direction) {
-  return 1.0 - 2.0 / 3.0 * height<Dim>(direction);
-}
+/// Part of an impact that counts, by how steeply the impulse on the awake body rises, from -1 to 1: 1/3 for an impact
+/// from straight above, since the sleeping body's supports take up the rest; 1 from the side; 5/3 from below, where
+/// nothing resists. The slope 2/3 separated the bodies that moved from the others best (lab/notes/impact_rule.md).
+double direction_factor(double rise) { return 1.0 - 2.0 / 3.0 * rise; }
 
 /// Adds an impulse [N s] at a point [m] to the velocity that a body gets.
 template <int Dim>
@@ -32,24 +29,19 @@ void change_velocity(const RuleInput<Dim>& in, BodyIndex body, const Vec<Dim>& p
 }  // namespace
 
 template <int Dim>
-double wake_speed(const RuleSetup<Dim>& setup) {
-  return speed_to_rise(setup.world.gravity, setup.params.wake_height * setup.typical.extent);
-}
+Impacts<Dim>::Impacts(const RuleSetup<Dim>& setup) : wake_height_(setup.params.wake_height * setup.typical.extent) {}
 
 template <int Dim>
-Impacts<Dim>::Impacts(const RuleSetup<Dim>& setup) : wake_speed_(wake_speed(setup)) {}
-
-template <int Dim>
-void Impacts<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
+void Impacts<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out) {
   collect(in);
+  const double wake_speed = speed_to_rise(in.world.gravity_size(), wake_height_);
   for (const ContactImpulse& contact : impulses_) {
-    const Impact impact = evaluate(in, contact);
-    if (!(impact.speed > wake_speed_)) continue;
+    const Impact impact = evaluate(in, rest, contact);
+    if (!(impact.speed > wake_speed)) continue;
     out.wakes.add(contact.sleeper, {.cause = SleepCause::momentum});
     change_velocity<Dim>(in, contact.awake, contact.point, (impact.share - 1.0) * impact.impulse, out);
     change_velocity<Dim>(in, contact.sleeper, contact.point, -impact.share * impact.impulse, out);
   }
-  last_awake_.assign(in.world.awake().begin(), in.world.awake().end());
 }
 
 template <int Dim>
@@ -75,7 +67,8 @@ void Impacts<Dim>::collect(const RuleInput<Dim>& in) {
 /// one. Engines push harder than the motion explains where bodies overlap deeply, so the struck point gets no more than
 /// the fastest approach speed of the step.
 template <int Dim>
-typename Impacts<Dim>::Impact Impacts<Dim>::evaluate(const RuleInput<Dim>& in, const ContactImpulse& contact) const {
+typename Impacts<Dim>::Impact Impacts<Dim>::evaluate(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest,
+                                                     const ContactImpulse& contact) const {
   const double size = contact.impulse.norm();
   if (!(size > 0.0)) return {};
   const Vec<Dim> direction = contact.impulse / size;
@@ -87,26 +80,24 @@ typename Impacts<Dim>::Impact Impacts<Dim>::evaluate(const RuleInput<Dim>& in, c
   Impact impact;
   impact.share = awake / (awake + sleeper);
   const double most = fastest_approach_ / (impact.share * sleeper);
-  impact.impulse = std::clamp(increase(contact, direction, awake), 0.0, std::min(size, most)) * direction;
-  impact.speed = direction_factor<Dim>(direction) * impact.share * impact.impulse.norm() * sleeper;
+  impact.impulse = std::clamp(increase(rest, contact, direction, awake), 0.0, std::min(size, most)) * direction;
+  impact.speed = direction_factor(in.rise(direction)) * impact.share * impact.impulse.norm() * sleeper;
   return impact;
 }
 
 /// The part of the impulse that exceeds the load of the step before [N s]. The load of a body that has just woken is
 /// unknown; there the impulse that stops its approach is an upper bound.
 template <int Dim>
-double Impacts<Dim>::increase(const ContactImpulse& contact, const Vec<Dim>& direction,
+double Impacts<Dim>::increase(const RestCriterion<Dim>& rest, const ContactImpulse& contact, const Vec<Dim>& direction,
                               double awake_inverse_mass) const {
+  if (!rest.was_awake(contact.awake)) return contact.approach_speed / awake_inverse_mass;
   const auto last =
       std::lower_bound(last_impulses_.begin(), last_impulses_.end(), contact, pair_before<ContactImpulse>);
   if (last != last_impulses_.end() && !pair_before(contact, *last))
     return (contact.impulse - last->impulse).dot(direction);
-  if (std::binary_search(last_awake_.begin(), last_awake_.end(), contact.awake)) return contact.impulse.norm();
-  return contact.approach_speed / awake_inverse_mass;
+  return contact.impulse.norm();
 }
 
-template double wake_speed(const RuleSetup<2>&);
-template double wake_speed(const RuleSetup<3>&);
 template class Impacts<2>;
 template class Impacts<3>;
 

@@ -3,13 +3,10 @@
 
 #include <vector>
 
+#include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/adaptive/rule.h"
 
 namespace talus {
-
-/// Speed of the struck point above which an impact wakes a body [m/s]: enough to rise by `wake_height`.
-template <int Dim>
-double wake_speed(const RuleSetup<Dim>& setup);
 
 /// The engine treats a sleeping body as immovable, so a body that hits it is stopped as if by the ground. This rule
 /// finds the impacts that would have set a free body in motion, wakes the sleeping body, and gives both bodies the
@@ -18,14 +15,14 @@ double wake_speed(const RuleSetup<Dim>& setup);
 ///
 /// The measure is the speed that the struck point would get, weighted by direction. It counts that an impact off the
 /// centre topples a body. Of the quantities known when an impact lands it predicts best which bodies will move
-/// (docs/research/impact_rule.md).
+/// (lab/notes/impact_rule.md).
 template <int Dim>
 class Impacts {
  public:
   explicit Impacts(const RuleSetup<Dim>& setup);
 
   /// Costs O(contacts).
-  void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
+  void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out);
 
  private:
   /// The sum of one awake body's contacts with one sleeping body in a step.
@@ -45,13 +42,13 @@ class Impacts {
   };
 
   void collect(const RuleInput<Dim>& in);
-  Impact evaluate(const RuleInput<Dim>& in, const ContactImpulse& contact) const;
-  double increase(const ContactImpulse& contact, const Vec<Dim>& direction, double awake_inverse_mass) const;
+  Impact evaluate(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, const ContactImpulse& contact) const;
+  double increase(const RestCriterion<Dim>& rest, const ContactImpulse& contact, const Vec<Dim>& direction,
+                  double awake_inverse_mass) const;
 
-  double wake_speed_;                          // [m/s]
+  double wake_height_;                         // to which the struck point of a body must be able to rise [m]
   std::vector<ContactImpulse> impulses_;       // of this step, ascending by pair
-  std::vector<ContactImpulse> last_impulses_;  // of the step before
-  std::vector<BodyIndex> last_awake_;          // bodies awake in the step before
+  std::vector<ContactImpulse> last_impulses_;  // of the last update
   double fastest_approach_ = 0.0;              // of all contacts of this step [m/s]
 };
 

@@ -2,22 +2,28 @@
 
 #include <optional>
 
-#include "common/policy/adaptive/impacts.h"
+#include "common/shape/rigid_impulse.h"
 
 namespace talus {
 namespace {
 
 constexpr Wake before_impact{.cause = SleepCause::momentum, .before_impact = true};
 
+/// The part of a vector across gravity.
+template <int Dim>
+Vec<Dim> across_gravity(const RuleInput<Dim>& in, const Vec<Dim>& vector) {
+  return vector - vector.dot(in.world.down()) * in.world.down();
+}
+
 /// Horizontal unit vector from the body towards `other`; none for what lies more than 45 degrees below, since that has
 /// supports that take up the impact, and for what lies straight above.
 template <int Dim>
 std::optional<Vec<Dim>> direction_aside(const RuleInput<Dim>& in, BodyIndex body, BodyIndex other) {
-  Vec<Dim> to = in.pose_of(other).position - in.pose_of(body).position;
-  const double aside = horizontal<Dim>(to).norm();
-  if (height<Dim>(to) <= -aside || aside <= 0.0) return std::nullopt;
-  to[Dim - 1] = 0.0;
-  return to / aside;
+  const Vec<Dim> to = in.pose_of(other).position - in.pose_of(body).position;
+  const Vec<Dim> across = across_gravity<Dim>(in, to);
+  const double aside = across.norm();
+  if (in.rise(to) <= -aside || aside <= 0.0) return std::nullopt;
+  return across / aside;
 }
 
 /// Largest speed of a point of the body in a horizontal direction [m/s]: max over r of v . d + r . (d x w).
@@ -36,20 +42,21 @@ double speed_towards(const RuleInput<Dim>& in, BodyIndex body, const Vec<Dim>& d
 template <int Dim>
 double speed_aside(const RuleInput<Dim>& in, BodyIndex body) {
   const double reach = 0.5 * in.shape_of(body).extent;
-  return horizontal<Dim>(in.states().velocity[body]).norm() + reach * in.states().spin[body].norm();
+  return across_gravity<Dim>(in, in.states().velocity[body]).norm() + reach * in.states().spin[body].norm();
 }
 
 }  // namespace
 
 template <int Dim>
 ImpactsAhead<Dim>::ImpactsAhead(const RuleSetup<Dim>& setup)
-    : wake_speed_(wake_speed(setup)),
+    : wake_height_(setup.params.wake_height * setup.typical.extent),
       heavy_mass_(setup.params.heavy_impact * setup.typical.mass),
       dt_(setup.world.dt) {}
 
 template <int Dim>
 void ImpactsAhead<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   if (in.world.awake().size() == in.states().shape.size()) return;
+  wake_speed_ = speed_to_rise(in.world.gravity_size(), wake_height_);
   add_pushes(in);
   for (const BodyIndex body : in.world.awake()) {
     const double mass = in.shape_of(body).mass;

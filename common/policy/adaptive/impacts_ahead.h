@@ -29,7 +29,8 @@ class ImpactsAhead {
   void wake_path(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out);
   void wake_driven(const RuleInput<Dim>& in, BodyIndex body, RuleOutput<Dim>& out);
 
-  double wake_speed_;                  // [m/s]
+  double wake_height_;                 // to which the struck point of a body must be able to rise [m]
+  double wake_speed_ = 0.0;            // speed for that in the gravity of this step [m/s]
   double heavy_mass_;                  // that an impact must be able to move [kg]
   double dt_;                          // [s]
   std::vector<Vec<Dim>> pushes_;       // [body] scratch, all 0 between calls: impulse from awake bodies [N s]

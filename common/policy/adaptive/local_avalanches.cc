@@ -8,7 +8,7 @@ namespace {
 
 /// By how much a column of a controlled pile may exceed the pile's slope [D]. Tops are single bodies, each of which may
 /// stand out of the slope. Without it such piles became 2 degrees flatter in 2D and kept a fifth more bodies awake
-/// (docs/research/slope_control.md).
+/// (lab/notes/slope_control.md).
 constexpr double top_roughness = 2.0;
 
 /// Height [m] of the highest wall of a pile between two points, of which only the horizontal parts count; none if no
@@ -38,33 +38,17 @@ LocalAvalanches<Dim>::LocalAvalanches(const RuleSetup<Dim>& setup)
       ground_(setup.world.ground.height) {}
 
 template <int Dim>
-void LocalAvalanches<Dim>::count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
-                                 std::span<const SleepEvent> waking) {
-  const auto cell = [&](const SleepEvent& event) { return grid_.cell_of(states.pose[event.body].position); };
-  for (const SleepEvent& event : waking) --columns_[cell(event)].sleepers;
-  for (const SleepEvent& event : falling_asleep) {
-    grown_.push_back(cell(event));
-    ++columns_[grown_.back()].sleepers;
-  }
-}
-
-template <int Dim>
-void LocalAvalanches<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
-  for (const Cell& cell : grown_) check_column(in, cell, growth_ * columns_[cell].last_checked, out);
+void LocalAvalanches<Dim>::update(const RuleInput<Dim>& in, const SleepLedger<Dim>& sleepers, RuleOutput<Dim>& out) {
+  for (const Cell& cell : grown_)
+    if (sleepers.count(cell).sleeping >= growth_ * columns_[cell].last_checked) check_column(in, cell, out);
   grown_.clear();
 }
 
-/// Checks a column if it holds `enough` sleeping bodies, and wakes it with those around it if it is steep.
+/// Wakes a column with those around it if it is steep.
 template <int Dim>
-void LocalAvalanches<Dim>::check_column(const RuleInput<Dim>& in, const Cell& cell, double enough,
-                                        RuleOutput<Dim>& out) {
-  Column& column = columns_[cell];
-  if (column.sleepers < enough) return;
+void LocalAvalanches<Dim>::check_column(const RuleInput<Dim>& in, const Cell& cell, RuleOutput<Dim>& out) {
   collect_neighbourhood(in, cell);
-  const std::size_t found = neighbourhood_[cell].bodies.size();
-  column.sleepers = static_cast<int>(found);
-  if (column.sleepers < enough) return;
-  column.note_check(found);
+  columns_[cell].note_check(neighbourhood_[cell].bodies.size());
   if (mostly_awake() || !is_steep(in.piles, cell)) return;
   for (const auto& [place, stack] : neighbourhood_) {
     for (const BodyIndex body : stack.bodies) out.wakes.add(body, {.cause = SleepCause::avalanche});

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "common/policy/adaptive/grid.h"
 #include "common/policy/adaptive/rule.h"
+#include "common/policy/adaptive/sleep_ledger.h"
 
 namespace talus {
 
@@ -25,22 +25,20 @@ class LocalAvalanches {
  public:
   explicit LocalAvalanches(const RuleSetup<Dim>& setup);
 
-  /// Counts the bodies that fall asleep and that wake after this step. Costs O(events).
-  void count(const BodyStates<Dim>& states, std::span<const SleepEvent> falling_asleep,
-             std::span<const SleepEvent> waking);
+  /// A body fell asleep at `position` [m].
+  void note_asleep(const Vec<Dim>& position) { grown_.push_back(grid_.cell_of(position)); }
 
   /// Wakes the columns that may slide. Over the wall of a pile only what lies above its rim can slide; a pile whose
   /// slope is controlled may be as steep as that. Costs O(columns that grew), and a box query for each that is checked.
-  void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
+  void update(const RuleInput<Dim>& in, const SleepLedger<Dim>& sleepers, RuleOutput<Dim>& out);
 
  private:
-  using Columns = Grid<Dim - 1>;
+  using Columns = typename SleepLedger<Dim>::Columns;
   using Cell = typename Columns::Cell;
   struct Column {
     /// Sleeping bodies at the last check. The initial value is the least from which bodies make a heap (chosen, not
     /// measured): in a column 4 D wide fewer lie in about one layer.
     int last_checked = 8;
-    int sleepers = 0;  // as events count them; removed bodies are subtracted at the next check
 
     void note_check(std::size_t found) { last_checked = std::max(last_checked, static_cast<int>(found)); }
   };
@@ -50,7 +48,7 @@ class LocalAvalanches {
     std::optional<double> top;  // height of the highest centre of mass [m]; none if empty
   };
 
-  void check_column(const RuleInput<Dim>& in, const Cell& cell, double enough, RuleOutput<Dim>& out);
+  void check_column(const RuleInput<Dim>& in, const Cell& cell, RuleOutput<Dim>& out);
   void collect_neighbourhood(const RuleInput<Dim>& in, const Cell& cell);
   bool mostly_awake() const;
   bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;

@@ -24,9 +24,7 @@ template <int Dim>
 RestCriterion<Dim>::RestCriterion(const RuleSetup<Dim>& setup)
     : distance_(setup.params.rest_distance_factor() * setup.params.rest_distance * setup.typical.extent),
       distance_woken_(setup.params.rest_distance_factor() * setup.params.rest_distance_woken * setup.typical.extent),
-      dt_(setup.world.dt) {
-  for (const Shape<Dim>& shape : setup.world.shapes) reach_.push_back(0.5 * shape.extent);
-}
+      dt_(setup.world.dt) {}
 
 template <int Dim>
 void RestCriterion<Dim>::update(const RuleInput<Dim>& in) {
@@ -37,7 +35,7 @@ void RestCriterion<Dim>::update(const RuleInput<Dim>& in) {
   auto last = last_references_.begin();
   for (const BodyIndex body : in.world.awake()) {
     const Pose<Dim>& pose = in.pose_of(body);
-    const double reach = reach_[in.states().shape[body]];
+    const double reach = 0.5 * in.shape_of(body).extent;
     while (last != last_references_.end() && last->body < body) ++last;
     const bool was_awake = last != last_references_.end() && last->body == body;
     const double moved = was_awake ? max_displacement(last->pose, pose, reach) : 0.0;
@@ -69,6 +67,11 @@ double RestCriterion<Dim>::time_at_rest(BodyIndex body) const {
 template <int Dim>
 bool RestCriterion<Dim>::watches(BodyIndex body) const {
   return std::ranges::binary_search(references_, body, {}, &Reference::body);
+}
+
+template <int Dim>
+bool RestCriterion<Dim>::was_awake(BodyIndex body) const {
+  return std::ranges::binary_search(last_references_, body, {}, &Reference::body);
 }
 
 template <int Dim>

@@ -24,6 +24,8 @@ class RestCriterion {
 
   /// Whether the last update() found the body awake.
   bool watches(BodyIndex body) const;
+  /// Whether it was awake after the step before too.
+  bool was_awake(BodyIndex body) const;
 
   /// Time since the rest of an awake body began [s]; 0 for a body that moves.
   double time_at_rest(BodyIndex body) const;
@@ -45,7 +47,6 @@ class RestCriterion {
   double distance_;                         // [m]
   double distance_woken_;                   // [m]
   double dt_;                               // [s]
-  std::vector<double> reach_;               // [shape] largest distance of a point from the centre of mass [m]
   std::vector<Reference> references_;       // of the awake bodies, ascending
   std::vector<Reference> last_references_;  // of the step before
   std::int64_t last_step_ = -1;

@@ -17,7 +17,8 @@
 
 namespace talus {
 
-/// What a rule is made from; references are needed during the rule's constructor only.
+/// What a rule is made from; references are needed during the rule's constructor only. Gravity may change in a run, so
+/// a rule takes it from the world of each step.
 template <int Dim>
 struct RuleSetup {
   const AdaptiveParams& params;
@@ -25,12 +26,13 @@ struct RuleSetup {
   const WorldDescription<Dim>& world;
 };
 
-/// sqrt(D/g) [s], the time in which a body falls by D/2: the unit of the policy's times. In less than a thousandth of
-/// the Earth's gravity it no longer grows, since there nothing slides.
+/// sqrt(D/g) [s], the time in which a body falls by D/2, of a body of `extent` D [m] in the world's present gravity:
+/// the unit of the policy's times. In less than a thousandth of the Earth's gravity it no longer grows, since there
+/// nothing slides.
 template <int Dim>
-double time_unit(const TypicalBody& typical, const WorldDescription<Dim>& world) {
+double time_unit(double extent, const World<Dim>& world) {
   constexpr double least_gravity = 0.01;  // [m/s^2]
-  return std::sqrt(typical.extent / std::max(world.gravity, least_gravity));
+  return std::sqrt(extent / std::max(world.gravity_size(), least_gravity));
 }
 
 /// One finished step; references are valid during one update().
@@ -45,6 +47,8 @@ struct RuleInput {
   const Shape<Dim>& shape_of(BodyIndex body) const { return world.shape_of(body); }
   const Pose<Dim>& pose_of(BodyIndex body) const { return states().pose[body]; }
   bool asleep(BodyIndex body) const { return states().asleep[body] != 0; }
+  /// How far a vector reaches against gravity: of unit vectors from -1 to 1.
+  double rise(const Vec<Dim>& vector) const { return -vector.dot(world.down()); }
 };
 
 /// Why one sleeping body wakes.

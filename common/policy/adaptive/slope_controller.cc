@@ -14,7 +14,7 @@ namespace {
 constexpr double measuring_interval = 0.1;
 
 /// How far ahead a pile's sinking is foreseen [sqrt(D/g)]. Grids that land as one become too flat with less, too steep
-/// at 35 degrees with twice as much (docs/research/slope_control.md).
+/// at 35 degrees with twice as much (lab/notes/slope_control.md).
 constexpr double foreseen = 2.7;
 
 /// Whether a body at `position` may be part of the pile: within its reach, not below its base (fallen off a table), and
@@ -27,15 +27,24 @@ bool within_pile(const Pile<Dim>& pile, const Vec<Dim>& position) {
 
 }  // namespace
 
-// Rates are in units of sqrt(g / D), so that the same parameters hold for bodies of any size.
 template <int Dim>
 SlopeController<Dim>::SlopeController(const RuleSetup<Dim>& setup)
     : dt_(setup.world.dt),
       steps_between_(std::max<std::int64_t>(1, std::llround(measuring_interval / setup.world.dt))),
-      proportional_(setup.params.slope_proportional_gain * std::sqrt(setup.world.gravity / setup.typical.extent)),
-      integral_(setup.params.slope_integral_gain * setup.world.gravity / setup.typical.extent),
-      derivative_(foreseen * std::sqrt(setup.typical.extent / setup.world.gravity)),
-      max_damping_(setup.params.slope_max_damping * std::sqrt(setup.world.gravity / setup.typical.extent)) {}
+      extent_(setup.typical.extent),
+      proportional_gain_(setup.params.slope_proportional_gain),
+      integral_gain_(setup.params.slope_integral_gain),
+      max_damping_(setup.params.slope_max_damping) {}
+
+/// Rates are in units of sqrt(g / D), so that the same parameters hold for bodies of any size in any gravity.
+template <int Dim>
+typename SlopeController<Dim>::Gains SlopeController<Dim>::gains_in(const World<Dim>& world) const {
+  const double rate = std::sqrt(world.gravity_size() / extent_);
+  return {.proportional = proportional_gain_ * rate,
+          .integral = integral_gain_ * world.gravity_size() / extent_,
+          .derivative = foreseen * time_unit(extent_, world),
+          .max_damping = max_damping_ * rate};
+}
 
 template <int Dim>
 void SlopeController<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
@@ -44,7 +53,7 @@ void SlopeController<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out
   const bool due = in.step % steps_between_ == 0 || in.piles.size() != controls_.size();
   controls_.resize(in.piles.size());
   for (std::size_t p = 0; p < in.piles.size() && due; ++p)
-    if (std::ranges::find(touching_, p, &Touching::pile) != touching_.end()) update_damping(in, p);
+    if (std::ranges::find(touching_, p, &Touching::pile) != touching_.end()) update_damping(in, p, gains_in(in.world));
   damp(in.states(), out);
 }
 
@@ -71,11 +80,11 @@ void SlopeController<Dim>::find_touching(const RuleInput<Dim>& in) {
 /// still sink. A slope that rises is that of bodies that are about to roll down: it counts as it is. Too few bodies
 /// make no slope: they get the largest damping, and the integral stays as it is.
 template <int Dim>
-void SlopeController<Dim>::update_damping(const RuleInput<Dim>& in, std::size_t pile) {
+void SlopeController<Dim>::update_damping(const RuleInput<Dim>& in, std::size_t pile, const Gains& gains) {
   Control& control = controls_[pile];
   collect_positions(in, pile);
   if (positions_.size() < min_bodies_for_slope) {
-    control.damping = max_damping_;
+    control.damping = gains.max_damping;
     control.slope.reset();
     return;
   }
@@ -83,13 +92,13 @@ void SlopeController<Dim>::update_damping(const RuleInput<Dim>& in, std::size_t 
   const double interval = static_cast<double>(steps_between_) * dt_;
   const double sinking = control.slope ? std::max(0.0, (*control.slope - slope) / interval) : 0.0;
   control.slope = slope;
-  const double missing = in.piles[pile].alpha - slope + derivative_ * sinking;
-  control.integral = std::clamp(control.integral + integral_ * interval * missing, 0.0, max_damping_);
-  control.damping = std::clamp(control.integral + proportional_ * missing, 0.0, max_damping_);
+  const double missing = in.piles[pile].alpha - slope + gains.derivative * sinking;
+  control.integral = std::clamp(control.integral + gains.integral * interval * missing, 0.0, gains.max_damping);
+  control.damping = std::clamp(control.integral + gains.proportional * missing, 0.0, gains.max_damping);
 }
 
 /// Of the pile's bodies, asleep or in contact. Those at rest alone are the core, up to ten degrees steeper than the
-/// pile where most of it still moves (docs/research/slope_control.md).
+/// pile where most of it still moves (lab/notes/slope_control.md).
 template <int Dim>
 void SlopeController<Dim>::collect_positions(const RuleInput<Dim>& in, std::size_t pile) {
   const BodyStates<Dim>& states = in.states();

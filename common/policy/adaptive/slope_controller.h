@@ -39,17 +39,26 @@ class SlopeController {
     std::size_t pile = 0;
   };
 
+  /// The controller's coefficients in one gravity.
+  struct Gains {
+    double proportional = 0.0;  // k_p [1/(s rad)]
+    double integral = 0.0;      // k_i [1/(s^2 rad)]
+    double derivative = 0.0;    // T [s]
+    double max_damping = 0.0;   // [1/s]
+  };
+
+  Gains gains_in(const World<Dim>& world) const;
   void find_touching(const RuleInput<Dim>& in);
-  void update_damping(const RuleInput<Dim>& in, std::size_t pile);
+  void update_damping(const RuleInput<Dim>& in, std::size_t pile, const Gains& gains);
   void collect_positions(const RuleInput<Dim>& in, std::size_t pile);
   void damp(const BodyStates<Dim>& states, RuleOutput<Dim>& out) const;
 
   double dt_;                        // [s]
   std::int64_t steps_between_;       // two measurements
-  double proportional_;              // k_p [1/(s rad)]
-  double integral_;                  // k_i [1/(s^2 rad)]
-  double derivative_;                // T [s]
-  double max_damping_;               // [1/s]
+  double extent_;                    // D [m]
+  double proportional_gain_;         // [sqrt(g/D)]
+  double integral_gain_;             // [g/D]
+  double max_damping_;               // [sqrt(g/D)]
   std::vector<Control> controls_;    // [pile]
   std::vector<Touching> touching_;   // scratch, ascending
   std::vector<BodyIndex> bodies_;    // scratch

@@ -8,7 +8,7 @@
 namespace talus {
 namespace {
 
-// Times in time_unit() (docs/research/stability_checks.md).
+// Times in time_unit() (lab/notes/stability_checks.md).
 constexpr double sample_time = 0.8;       // between two samples of the displacement
 constexpr double shortest_time = 0.8;     // of a check
 constexpr double longest_time = 60.0;     // of a check: some contacts of an engine jitter for ever,
@@ -45,6 +45,12 @@ int awake_in_contact(const World<Dim>& world) {
   return static_cast<int>(std::ranges::count(found, 1));
 }
 
+/// How far a point of a body has moved from where it was at a pose [m], or more.
+template <int Dim>
+double displacement(const World<Dim>& world, BodyIndex body, const Pose<Dim>& from) {
+  return max_displacement<Dim>(from, world.states().pose[body], 0.5 * world.shape_of(body).extent);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -53,15 +59,20 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
       blocks_(block_width * setup.typical.extent),
       tolerance_(setup.params.tolerance * setup.typical.extent),
       angle_(setup.params.avalanche_angle),
-      loaded_share_(setup.params.loaded_share()) {
-  const double unit = time_unit(setup.typical, setup.world);
-  const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / setup.world.dt)); };
-  rest_time_ = rest_time * unit;
-  sample_steps_ = steps(sample_time);
-  shortest_check_ = steps(shortest_time);
-  longest_check_ = steps(longest_time);
-  longest_loaded_check_ = steps(longest_loaded);
-  arrival_steps_ = steps(arrival_time);
+      extent_(setup.typical.extent),
+      dt_(setup.world.dt),
+      loaded_share_(setup.params.loaded_share()) {}
+
+template <int Dim>
+typename StabilityChecks<Dim>::Times StabilityChecks<Dim>::times_in(const World<Dim>& world) const {
+  const double unit = time_unit(extent_, world);
+  const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / dt_)); };
+  return {.rest = rest_time * unit,
+          .sample = steps(sample_time),
+          .shortest_check = steps(shortest_time),
+          .longest_check = steps(longest_time),
+          .longest_loaded = steps(longest_loaded),
+          .arrival = steps(arrival_time)};
 }
 
 template <int Dim>
@@ -70,70 +81,50 @@ bool StabilityChecks<Dim>::holds(BodyIndex body) const {
 }
 
 template <int Dim>
-void StabilityChecks<Dim>::count(const RuleInput<Dim>& in, std::span<const SleepEvent> falling_asleep,
-                                 std::span<const SleepEvent> waking) {
-  if (tolerance_ <= 0.0) return;
-  checked_.resize(in.states().asleep.size());
-  for (const SleepEvent& event : waking) {
-    const Column column = columns_.cell_of(in.pose_of(event.body).position);
-    --sleeping_[column];
-    if (unchecked_.contains(column)) count_unchecked(column, event.body, -1);
-  }
-  for (const SleepEvent& event : falling_asleep) {
-    const Column column = columns_.cell_of(in.pose_of(event.body).position);
-    ++sleeping_[column];
-    std::optional<Release>& checked = checked_[event.body];
-    if (checked && displacement(in, event.body, checked->pose) > tolerance_) checked.reset();
-    count_unchecked(column, event.body, 1);
-  }
-}
-
-/// Adds a sleeping body that waits for a check to its column, or takes it out.
-template <int Dim>
-void StabilityChecks<Dim>::count_unchecked(const Column& column, BodyIndex body, int by) {
-  const std::optional<Release>& checked = checked_[body];
-  if (checked && !checked->loaded) return;
+Standing StabilityChecks<Dim>::note_asleep(const World<Dim>& world, BodyIndex body) {
+  if (tolerance_ <= 0.0) return Standing::settled;
+  checked_.resize(world.states().asleep.size());
+  std::optional<Release>& checked = checked_[body];
+  if (checked &&
+      (displacement(world, body, checked->pose) > tolerance_ || !same_gravity<Dim>(checked->gravity, world.gravity())))
+    checked.reset();
+  if (checked && !checked->loaded) return Standing::settled;
   may_begin_ = true;
-  Unchecked& unchecked = unchecked_[column];
-  unchecked.bodies += by;
-  if (!checked) unchecked.fresh = std::max(0, unchecked.fresh + by);
-  if (unchecked.bodies <= 0) unchecked_.erase(column);
+  return checked ? Standing::unchecked : Standing::fresh;
 }
 
 template <int Dim>
-void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out) {
+void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, SleepLedger<Dim>& sleepers,
+                                  RuleOutput<Dim>& out) {
   if (tolerance_ <= 0.0) return;
   held_.resize(in.states().asleep.size(), 0);
   arrived_.resize(held_.size(), 0);
   checked_.resize(held_.size());
-  if (in.step % sample_steps_ != 0) return;
+  times_ = times_in(in.world);
+  if (in.step % times_.sample != 0) return;
   for (Check& check : checks_) release_resting(in, check);
   std::erase_if(checks_, [](const Check& check) { return check.members.empty(); });
   observe_motion(in, rest);
-  std::map<Column, Unchecked> columns = unchecked_;
-  std::erase_if(columns, [&](const auto& column) {
-    return controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column.first)) > angle_;
-  });
-  while (!columns.empty()) {
-    const Region region = take_region(columns);
+  may_begin_ = false;
+  std::set<Column> waiting;
+  for (const auto& [column, count] : sleepers.counts()) {
+    if (count.unchecked == 0) continue;
+    may_begin_ = expects_arrivals(in.step) || !in.world.awake().empty();
+    if (controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column)) <= angle_) waiting.insert(column);
+  }
+  while (!waiting.empty()) {
+    const Region region = take_region(sleepers, waiting);
     if (is_quiet(region, in.step)) {
       begin(in, region, false, out);
     } else if (is_loaded(region, in.step)) {
       if (is_steep(in, region)) begin(in, region, true, out);
-      for (const Column& column : region.columns)
-        if (const auto waiting = unchecked_.find(column); waiting != unchecked_.end()) waiting->second.fresh = 0;
+      for (const Column& column : region.columns) sleepers.settle(column);
     }
   }
-  may_begin_ = !unchecked_.empty() && (expects_arrivals(in.step) || !in.world.awake().empty());
   for (const Contact<Dim>& contact : in.contacts) {
     contact_[contact.a] = 0;
     if (contact.b >= 0) contact_[contact.b] = 0;
   }
-}
-
-template <int Dim>
-double StabilityChecks<Dim>::displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const {
-  return max_displacement<Dim>(from, in.pose_of(body), 0.5 * in.shape_of(body).extent);
 }
 
 /// Takes a sample, and releases the members of the blocks that have come to rest.
@@ -141,22 +132,24 @@ template <int Dim>
 void StabilityChecks<Dim>::release_resting(const RuleInput<Dim>& in, Check& check) {
   std::erase_if(check.members, [&](const Member& member) { return in.states().removed[member.body] != 0; });
   std::map<Block, Motion> motion;
+  const double pace = static_cast<double>(times_.sample) / static_cast<double>(in.step - check.sampled);
+  check.sampled = in.step;
   for (Member& member : check.members) {
     const Pose<Dim>& pose = in.pose_of(member.body);
-    const double moved = displacement(in, member.body, member.sample);
+    const double moved = pace * displacement(in.world, member.body, member.sample);
     motion[blocks_.cell_of(pose.position)].add({.sum = moved, .before = member.moved, .bodies = 1});
     member.moved = moved;
     member.sample = pose;
   }
   const std::int64_t lasted = in.step - check.begun;
-  if (lasted < shortest_check_) return;
+  if (lasted < times_.shortest_check) return;
   std::map<Block, Motion> around;
   for (const auto& block : motion) around[block.first] = motion_around(motion, block.first);
   std::erase_if(check.members, [&](const Member& member) {
     const Motion& near = around[blocks_.cell_of(member.sample.position)];
     if (!has_passed(check, near, lasted)) return false;
     const double expected = near.mean() * horizon_estimate / sample_time;
-    release(in, member, {.pose = member.sample, .expected = expected, .loaded = check.loaded});
+    release(in, member, {member.sample, expected, check.loaded, in.world.gravity()});
     return true;
   });
 }
@@ -166,7 +159,7 @@ template <int Dim>
 bool StabilityChecks<Dim>::has_passed(const Check& check, const Motion& near, std::int64_t lasted) const {
   const bool slows = near.sum <= slowing * near.before;
   const double to_come = near.mean() * (slows || check.loaded ? horizon_slowing : horizon) / sample_time;
-  return to_come <= tolerance_ || lasted >= (check.loaded ? longest_loaded_check_ : longest_check_);
+  return to_come <= tolerance_ || lasted >= (check.loaded ? times_.longest_loaded : times_.longest_check);
 }
 
 /// That of the bodies in a block and in those around it: one body that is still moving does not keep the others awake,
@@ -186,7 +179,7 @@ void StabilityChecks<Dim>::release(const RuleInput<Dim>& in, const Member& membe
   checked_[member.body] = release;
   if (!member.slept || release.loaded) return;
   found_count_ = std::min(found_count_ + 1, averaged_bodies);
-  found_ += (displacement(in, member.body, *member.slept) - found_) / static_cast<double>(found_count_);
+  found_ += (displacement(in.world, member.body, *member.slept) - found_) / static_cast<double>(found_count_);
 }
 
 template <int Dim>
@@ -230,7 +223,7 @@ void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCr
   for (const BodyIndex body : in.world.awake()) {
     if (contact_[body] != 0) arrived_[body] = 1;
     if (arrived_[body] == 0) last_arrival_ = in.step;
-    const bool moves = !holds(body) && rest.time_at_rest(body) < rest_time_;
+    const bool moves = !holds(body) && rest.time_at_rest(body) < times_.rest;
     if (moves && (contact_[body] & touches_body) != 0) ++moving_[columns_.cell_of(in.pose_of(body).position)];
   }
   under_check_.clear();
@@ -238,32 +231,27 @@ void StabilityChecks<Dim>::observe_motion(const RuleInput<Dim>& in, const RestCr
     for (const Member& member : check.members) under_check_.insert(columns_.cell_of(member.sample.position));
 }
 
-/// Takes a set of connected columns out of `columns`, and adds the columns around them.
+/// Takes a set of connected columns out of `waiting`, and adds the columns around them.
 template <int Dim>
-typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(std::map<Column, Unchecked>& columns) const {
-  std::vector<Column> connected = {columns.begin()->first};
-  Unchecked unchecked = columns.begin()->second;
-  columns.erase(columns.begin());
+typename StabilityChecks<Dim>::Region StabilityChecks<Dim>::take_region(const SleepLedger<Dim>& sleepers,
+                                                                        std::set<Column>& waiting) const {
+  std::vector<Column> connected = {*waiting.begin()};
+  waiting.erase(waiting.begin());
   std::set<Column> all;
   for (std::size_t i = 0; i < connected.size(); ++i) {
     for (const Column& beside : Columns::around(connected[i])) {
       all.insert(beside);
-      const auto found = columns.find(beside);
-      if (found == columns.end()) continue;
-      connected.push_back(beside);
-      unchecked.bodies += found->second.bodies;
-      unchecked.fresh += found->second.fresh;
-      columns.erase(found);
+      if (waiting.erase(beside) > 0) connected.push_back(beside);
     }
   }
-  Region region{.columns = {all.begin(), all.end()}, .unchecked = unchecked};
-  const auto number_in = [](const std::map<Column, int>& numbers, const Column& column) {
-    const auto found = numbers.find(column);
-    return found == numbers.end() ? 0 : found->second;
-  };
+  Region region{.columns = {all.begin(), all.end()}, .sleepers = {}};
+  for (const Column& column : connected) {
+    region.sleepers.unchecked += sleepers.count(column).unchecked;
+    region.sleepers.fresh += sleepers.count(column).fresh;
+  }
   for (const Column& column : region.columns) {
-    region.moving += number_in(moving_, column);
-    region.sleeping += number_in(sleeping_, column);
+    region.sleepers.sleeping += sleepers.count(column).sleeping;
+    if (const auto moving = moving_.find(column); moving != moving_.end()) region.moving += moving->second;
     region.under_check = region.under_check || under_check_.contains(column);
   }
   return region;
@@ -273,20 +261,21 @@ template <int Dim>
 bool StabilityChecks<Dim>::is_quiet(const Region& region, std::int64_t step) const {
   if (region.under_check) return false;
   const bool arrivals = expects_arrivals(step);
-  if (region.unchecked.bodies < (arrivals ? unchecked_share : unchecked_share_calm) * region.sleeping) return false;
+  if (region.sleepers.unchecked < (arrivals ? unchecked_share : unchecked_share_calm) * region.sleepers.sleeping)
+    return false;
   if (region.moving == 0) return true;
-  return !arrivals && region.moving <= moving_share * (region.moving + region.sleeping);
+  return !arrivals && region.moving <= moving_share * (region.moving + region.sleepers.sleeping);
 }
 
 /// Whether enough bodies of a region are fresh for a check while others still arrive.
 template <int Dim>
 bool StabilityChecks<Dim>::is_loaded(const Region& region, std::int64_t step) const {
   if (region.under_check || !expects_arrivals(step)) return false;
-  return region.unchecked.fresh >= loaded_share_ * region.sleeping;
+  return region.sleepers.fresh >= loaded_share_ * region.sleepers.sleeping;
 }
 
 /// Whether the surface is steeper than friction alone holds: the root mean square of its slope from column to column,
-/// against the lowest friction of a body in the region, which is the tangent of the slope that it holds.
+/// against the tangent of the slope that two bodies of the lowest friction in the region hold on each other.
 template <int Dim>
 bool StabilityChecks<Dim>::is_steep(const RuleInput<Dim>& in, const Region& region) {
   std::map<Column, Surface> surfaces;
@@ -308,7 +297,7 @@ bool StabilityChecks<Dim>::is_steep(const RuleInput<Dim>& in, const Region& regi
     }
   }
   const double slope = std::sqrt((Dim - 1) * squares / std::max(1, pairs)) / columns_.width();
-  return slope > slope_roughness * friction;
+  return slope > slope_roughness * pair_friction(friction, friction);
 }
 
 /// None where no body sleeps.
@@ -331,23 +320,19 @@ std::optional<typename StabilityChecks<Dim>::Surface> StabilityChecks<Dim>::surf
 /// Wakes the bodies of a region and holds them, and those that are awake in contact.
 template <int Dim>
 void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region, bool loaded, RuleOutput<Dim>& out) {
-  Check check{.members = {}, .begun = in.step, .loaded = loaded};
+  Check check{.members = {}, .begun = in.step, .sampled = in.step, .loaded = loaded};
   for (const Column& column : region.columns) {
-    unchecked_.erase(column);
     near_.clear();
     in.world.query_box(columns_.template box_of<Dim>(column, column), near_);
-    int sleeping = 0;
     for (const BodyIndex body : near_) {
       const Pose<Dim>& pose = in.pose_of(body);
       if (columns_.cell_of(pose.position) != column) continue;
       const bool slept = in.asleep(body);
       if (!slept && contact_[body] == 0) continue;
       if (slept) out.wakes.add(body, {.cause = SleepCause::check});
-      sleeping += slept ? 1 : 0;
       check.members.push_back({.body = body, .sample = pose, .slept = slept ? std::optional(pose) : std::nullopt});
       held_[body] = 1;
     }
-    sleeping_[column] = sleeping;
   }
   if (!check.members.empty()) checks_.push_back(std::move(check));
 }

@@ -6,12 +6,12 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <vector>
 
 #include "common/policy/adaptive/grid.h"
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/adaptive/rule.h"
+#include "common/policy/adaptive/sleep_ledger.h"
 
 namespace talus {
 
@@ -20,7 +20,7 @@ namespace talus {
 /// awake until they have come to rest together. Parts of it are released as they come to rest: a block of space is when
 /// its bodies and those in the blocks around it have so little speed that they would move less than the tolerance, on
 /// average, within a fixed horizon, which is shorter if they slow down. Where the check leaves a body it counts as
-/// checked, until it falls asleep farther from there than the tolerance.
+/// checked, until it falls asleep farther from there than the tolerance or in another gravity.
 ///
 /// A region is a set of connected vertical columns with unchecked sleeping bodies, and the columns around these. It is
 /// quiet when no body moves in contact with another one. While bodies are on their way to a first contact, a check also
@@ -37,11 +37,11 @@ class StabilityChecks {
  public:
   explicit StabilityChecks(const RuleSetup<Dim>& setup);
 
-  /// Notes the bodies that fall asleep and that wake after this step. Costs O(events).
-  void count(const RuleInput<Dim>& in, std::span<const SleepEvent> falling_asleep, std::span<const SleepEvent> waking);
+  /// A body fell asleep. Whether it waits for a check where it lies; settled without checks.
+  Standing note_asleep(const World<Dim>& world, BodyIndex body);
 
   /// Whether a check may begin although all bodies sleep. update() must be called then.
-  bool may_begin() const { return may_begin_; }
+  bool may_begin(const SleepLedger<Dim>& sleepers) const { return may_begin_ && sleepers.unchecked() > 0; }
 
   /// Whether an awake body takes part in a check and must stay awake.
   bool holds(BodyIndex body) const;
@@ -60,11 +60,13 @@ class StabilityChecks {
 
   /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a
   /// few times in sqrt(D / g), and a box query for each column that is checked.
-  void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out);
+  void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, SleepLedger<Dim>& sleepers,
+              RuleOutput<Dim>& out);
 
  private:
-  using Columns = Grid<Dim - 1>;
+  using Columns = typename SleepLedger<Dim>::Columns;
   using Column = typename Columns::Cell;
+  using Count = typename SleepLedger<Dim>::Count;
   using Blocks = Grid<Dim>;
   using Block = typename Blocks::Cell;
 
@@ -78,18 +80,24 @@ class StabilityChecks {
   /// Where a check left a body.
   struct Release {
     Pose<Dim> pose{};
-    double expected = 0.0;  // motion from there on, mean over the blocks around [m]
-    bool loaded = false;    // by a loaded check
+    double expected = 0.0;                // motion from there on, mean over the blocks around [m]
+    bool loaded = false;                  // by a loaded check
+    Vec<Dim> gravity = Vec<Dim>::Zero();  // in which it was checked [m/s^2]
   };
   struct Check {
     std::vector<Member> members;
-    std::int64_t begun = 0;  // step
-    bool loaded = false;     // begun while the region moved
+    std::int64_t begun = 0;    // step
+    std::int64_t sampled = 0;  // step of the last sample
+    bool loaded = false;       // begun while the region moved
   };
-  /// Sleeping bodies that wait for a check.
-  struct Unchecked {
-    int bodies = 0;
-    int fresh = 0;  // of these, bodies that came to lie here after the last loaded check
+  /// Times in one gravity, in steps where not said.
+  struct Times {
+    double rest = 0.0;        // [s] at rest, after which an awake body no longer counts as moving
+    std::int64_t sample = 1;  // between two samples of the displacement
+    std::int64_t shortest_check = 1;
+    std::int64_t longest_check = 1;
+    std::int64_t longest_loaded = 1;  // check
+    std::int64_t arrival = 1;         // without arrivals after which a check need not wait
   };
   /// Displacements of bodies.
   struct Motion {
@@ -107,9 +115,8 @@ class StabilityChecks {
   /// Columns that one check covers.
   struct Region {
     std::vector<Column> columns;
-    int sleeping = 0;     // bodies
-    Unchecked unchecked;  // of these
-    int moving = 0;       // bodies that move in contact with others
+    Count sleepers;  // of all columns
+    int moving = 0;  // bodies that move in contact with others
     bool under_check = false;
   };
 
@@ -119,15 +126,14 @@ class StabilityChecks {
     double friction = std::numeric_limits<double>::infinity();  // lowest of them
   };
 
-  double displacement(const RuleInput<Dim>& in, BodyIndex body, const Pose<Dim>& from) const;
-  void count_unchecked(const Column& column, BodyIndex body, int by);
+  Times times_in(const World<Dim>& world) const;
   bool has_passed(const Check& check, const Motion& near, std::int64_t lasted) const;
   void release_resting(const RuleInput<Dim>& in, Check& check);
   Motion motion_around(const std::map<Block, Motion>& motion, const Block& block) const;
   void release(const RuleInput<Dim>& in, const Member& member, const Release& release);
   void observe_motion(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest);
-  Region take_region(std::map<Column, Unchecked>& columns) const;
-  bool expects_arrivals(std::int64_t step) const { return step - last_arrival_ <= arrival_steps_; }
+  Region take_region(const SleepLedger<Dim>& sleepers, std::set<Column>& waiting) const;
+  bool expects_arrivals(std::int64_t step) const { return step - last_arrival_ <= times_.arrival; }
   bool is_quiet(const Region& region, std::int64_t step) const;
   bool is_loaded(const Region& region, std::int64_t step) const;
   bool is_steep(const RuleInput<Dim>& in, const Region& region);
@@ -138,16 +144,11 @@ class StabilityChecks {
   Blocks blocks_;
   double tolerance_;                             // [m]; 0: no checks
   double angle_;                                 // [rad] above which a controlled slope is not checked
-  double rest_time_;                             // [s] at rest, after which an awake body no longer counts as moving
-  std::int64_t sample_steps_;                    // between two samples of the displacement
-  std::int64_t shortest_check_;                  // [steps]
-  std::int64_t longest_check_;                   // [steps]
-  std::int64_t longest_loaded_check_;            // [steps]
-  std::int64_t arrival_steps_;                   // without arrivals after which a check need not wait
+  double extent_;                                // D [m]
+  double dt_;                                    // [s]
+  Times times_;                                  // in the gravity of the last update()
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
-  bool may_begin_ = false;                       // false once all sleep and no check is due
-  std::map<Column, Unchecked> unchecked_;        // by column
-  std::map<Column, int> sleeping_;               // bodies, by column
+  bool may_begin_ = false;                       // false once a sample has found that no check is to come
   std::vector<Check> checks_;                    // under way
   std::vector<std::uint8_t> held_;               // [body]
   std::vector<std::uint8_t> arrived_;            // [body] whether it has touched anything

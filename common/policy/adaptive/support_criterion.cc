@@ -41,11 +41,11 @@ class SupportGraph {
   struct Edge {
     std::size_t supporter = 0;
     std::size_t supported = 0;
-    double load = 0.0;  // vertical impulse over the step [N s]
+    double load = 0.0;  // impulse against gravity over the step [N s]
   };
 
   void add(const Contact<Dim>& contact) {
-    const double lift = height<Dim>(contact.normal_impulse * contact.normal + contact.friction_impulse);
+    const double lift = in_.rise(contact.normal_impulse * contact.normal + contact.friction_impulse);
     const BodyIndex supporter = lift > 0.0 ? contact.b : contact.a;
     const std::size_t up = candidate_of(lift > 0.0 ? contact.a : contact.b);
     if (up == not_a_candidate) return;
@@ -71,10 +71,8 @@ class SupportGraph {
 }  // namespace
 
 template <int Dim>
-SupportCriterion<Dim>::SupportCriterion(const RuleSetup<Dim>& setup) : awake_share_(setup.params.awake_share) {
-  for (const Shape<Dim>& shape : setup.world.shapes)
-    weights_.push_back(shape.mass * setup.world.gravity * setup.world.dt);
-}
+SupportCriterion<Dim>::SupportCriterion(const RuleSetup<Dim>& setup)
+    : awake_share_(setup.params.awake_share), dt_(setup.world.dt) {}
 
 template <int Dim>
 void SupportCriterion<Dim>::keep_supported(const RuleInput<Dim>& in, std::vector<BodyIndex>& candidates) const {
@@ -84,8 +82,8 @@ void SupportCriterion<Dim>::keep_supported(const RuleInput<Dim>& in, std::vector
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const int shape = in.states().shape[candidates[i]];
-      if (kept[i] == 0 || graph.supported(i, weights_[shape], awake_share_)) continue;
+      const double weight = in.shape_of(candidates[i]).mass * in.world.gravity_size() * dt_;
+      if (kept[i] == 0 || graph.supported(i, weight, awake_share_)) continue;
       kept[i] = 0;
       graph.keep_awake(i);
       changed = true;

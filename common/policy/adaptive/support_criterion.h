@@ -9,8 +9,8 @@ namespace talus {
 
 /// A body may sleep when at least half of its weight is carried by bodies at rest: ground, obstacles, sleeping bodies,
 /// or others that fall asleep in the same step. Bodies that stay awake may carry at most `awake_share` of it. The
-/// contact forces of one step give each supporter's vertical share; that they balance is known from the body's rest.
-/// Without gravity no body needs support.
+/// contact forces of one step give each supporter's share against gravity; that they balance is known from the body's
+/// rest. Without gravity no body needs support.
 template <int Dim>
 class SupportCriterion {
  public:
@@ -22,7 +22,7 @@ class SupportCriterion {
 
  private:
   double awake_share_;
-  std::vector<double> weights_;  // [shape] times the time step [N s]
+  double dt_;  // [s]
 };
 
 }  // namespace talus

@@ -32,11 +32,13 @@ void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   }
 }
 
-/// A support ends when its supporter falls asleep or is removed, or when the supported body wakes.
+/// A support ends when its supporter falls asleep, when the supported body wakes, or when either leaves the world.
 template <int Dim>
 void SupportLoss<Dim>::forget_ended(const RuleInput<Dim>& in) {
+  const std::vector<std::uint8_t>& removed = in.states().removed;
   std::erase_if(contacts_, [&](const SupportContact& contact) {
-    return in.asleep(contact.supporter) || !in.asleep(contact.supported) || in.states().removed[contact.supporter] != 0;
+    return in.asleep(contact.supporter) || !in.asleep(contact.supported) || removed[contact.supporter] != 0 ||
+           removed[contact.supported] != 0;
   });
 }
 
@@ -45,7 +47,7 @@ void SupportLoss<Dim>::remember_new(const RuleInput<Dim>& in) {
   new_contacts_.clear();
   for (const Contact<Dim>& contact : in.contacts) {
     if (contact.b < 0 || !in.asleep(contact.b)) continue;
-    if (in.asleep(contact.a) || height<Dim>(contact.normal) > max_normal_height) continue;
+    if (in.asleep(contact.a) || in.rise(contact.normal) > max_normal_height) continue;
     const SupportContact support{.supporter = contact.a, .supported = contact.b};
     if (!new_contacts_.empty() && !supports_before(new_contacts_.back(), support)) continue;  // same pair, next point
     if (std::binary_search(contacts_.begin(), contacts_.end(), support, supports_before<SupportContact>)) continue;

@@ -90,13 +90,13 @@ export interface Warning {
   text: string;
 }
 
-/// What a block has beside the state.
 /// An event of the scene, by its number, with its time [s].
 export interface SceneEvent {
   number: number;
   time: number;
 }
 
+/// What a block has beside the state.
 export interface News {
   /// Bodies whose pose or sleep changed.
   changed: number[];
@@ -116,6 +116,8 @@ export class State {
   drift = -1;
   /// Of the largest pile [rad], fitted to its bodies at rest; below 0: not measured.
   measuredSlope = -1;
+  /// Wall time [ms], below 0: not known.
+  msPerStep = -1;
   piles: Pile[] = [];
   shape = new Uint16Array(64);
   asleep = new Uint8Array(64);
@@ -141,6 +143,7 @@ export class State {
     copy.kineticEnergy = this.kineticEnergy;
     copy.drift = this.drift;
     copy.measuredSlope = this.measuredSlope;
+    copy.msPerStep = this.msPerStep;
     copy.piles = this.piles;
     copy.shape = this.shape.slice(0, this.bodies);
     copy.asleep = this.asleep.slice(0, this.bodies);
@@ -154,7 +157,7 @@ export class State {
   apply(reader: Reader): News {
     this.step = reader.unsigned();
     const before = this.bodies;
-    this.grow(reader.unsigned());
+    this.grow(before + reader.unsigned());
     const changed: number[] = [];
     for (let body = before; body < this.bodies; ++body) {
       this.shape[body] = reader.unsigned();
@@ -181,6 +184,7 @@ export class State {
     this.kineticEnergy = reader.float();
     this.drift = reader.float();
     this.measuredSlope = reader.float();
+    this.msPerStep = reader.float();
     const warnings: Warning[] = [];
     for (let left = reader.unsigned(); left > 0; --left)
       warnings.push({ kind: reader.unsigned(), step: reader.unsigned(), text: reader.text() });
@@ -235,19 +239,20 @@ export class State {
     for (let left = reader.unsigned(); left > 0; --left) {
       const number = reader.unsigned();
       const old = piles[number];
-      const form = reader.unsigned() === 1 ? this.readForm(reader) : old;
-      const counts = new Int32Array(2 * form.layers.length);
-      if (old) counts.set(old.counts.subarray(0, counts.length));
+      const numbers = reader.unsigned();
+      const form = numbers > 0 ? this.readForm(reader, numbers) : old;
+      const counts = new Int32Array(reader.unsigned());
+      if (numbers === 0) counts.set(old.counts);
       for (let i = 0; i < counts.length; ++i) counts[i] += reader.signed();
       piles[number] = { ...form, counts };
     }
     this.piles = piles;
   }
 
-  private readForm(reader: Reader): Pile {
+  private readForm(reader: Reader, numbers: number): Pile {
     const centre = Array.from({ length: this.dimension }, () => reader.float());
     const [slope, lift, height, radius] = [reader.float(), reader.float(), reader.float(), reader.float()];
-    const layers = Array.from({ length: reader.unsigned() }, () => {
+    const layers = Array.from({ length: (numbers - this.dimension - 4) / 6 }, () => {
       const [bottom, top] = [reader.float(), reader.float()];
       return { bottom, top, radius: reader.float(), capacity: reader.float(), sleepDensity: reader.float(), wakeDensity: reader.float() };
     });

@@ -41,6 +41,8 @@ export interface Head {
   dimension: 2 | 3;
   dt: number;
   steps: number;
+  /// Between two frames of output; none where frames come as another process sends them.
+  steps_per_frame: number | null;
   ground: { present: boolean; height: number };
   quantum: { position: number; angle: number; quaternion: number };
   box: [Point, Point];

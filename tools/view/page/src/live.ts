@@ -2,6 +2,7 @@
 
 import type { Account } from "./body_panel";
 import { element } from "./element";
+import { Reader } from "./frames";
 import type { Head } from "./head";
 import { numbersOf, rangeOf, withNumber, type SceneNumber } from "./numbers";
 import { Player, type Simulation } from "./player";
@@ -10,6 +11,7 @@ interface Status {
   kind: "status";
   running: boolean;
   finished: boolean;
+  at_rest?: boolean; // and finished since the world came to rest
   reason: string;
   pace: number;
   policy: string;
@@ -32,7 +34,7 @@ interface Fault {
   text: string;
 }
 
-type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
+type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | { kind: "thinned"; steps: number; mebibytes: number } | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
 
 const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
 
@@ -91,9 +93,11 @@ class Live implements Simulation {
   private listNumbers(): void {
     const list = element<HTMLSelectElement>("number");
     const chosen = list.value;
-    this.numbers = numbersOf(element<HTMLTextAreaElement>("text").value);
+    this.numbers = numbersOf(element<HTMLTextAreaElement>("text").value).filter(({ path }) => path !== "dimension");
     list.replaceChildren(...this.numbers.map(({ path }) => new Option(path)));
-    if (this.numbers.some(({ path }) => path === chosen)) list.value = chosen;
+    const first = this.numbers.find(({ path }) => /\bfriction$/.test(path)) ?? this.numbers.find(({ path }) => path.startsWith("source"));
+    const kept = this.numbers.find(({ path }) => path === chosen) ?? first;
+    if (kept) list.value = kept.path;
     this.showNumber();
   }
 
@@ -131,6 +135,9 @@ class Live implements Simulation {
         element<HTMLTextAreaElement>("text").value = message.text;
         this.listNumbers();
         break;
+      case "thinned":
+        this.player?.thin(message.steps, message.mebibytes);
+        break;
       case "body":
         this.player?.takeAccount(message);
         break;
@@ -153,13 +160,16 @@ class Live implements Simulation {
     this.ready(this.player);
   }
 
-  /// A frame. The next one is sent once this one has been drawn.
-  private show(block: Uint8Array): void {
+  /// Frames: all that this page lacks, or as many as are sent at once. The next ones are sent once the last of these has
+  /// been drawn.
+  private show(bytes: Uint8Array): void {
     const { player } = this;
     if (player) {
-      const size = player.timeline.add(block);
-      player.timeline.msPerStep.push(this.status?.ms_per_step ?? null);
-      player.contacts.add(player.timeline.frames - 1, block.subarray(size));
+      const reader = new Reader(bytes);
+      const frames = reader.unsigned();
+      let { at } = reader;
+      for (let left = frames; left > 0; --left) at += player.timeline.add(bytes.subarray(at));
+      player.contacts.add(player.timeline.frames - 1, bytes.subarray(at));
       player.grown();
     }
     const acknowledge = (): void => {
@@ -176,15 +186,16 @@ class Live implements Simulation {
     this.behind = Math.max(0, status.step - (steps.at(-1) ?? 0));
     if (status.live) this.hideCommands();
     if (status.channels) showMessages(status.channels, status);
-    element("run").textContent = status.running ? "Pause" : "Run";
-    const stuck = status.finished || status.reason !== "";
-    for (const id of ["run", "single"]) element<HTMLButtonElement>(id).disabled = stuck;
+    element("run").textContent = this.ended() ? "Run again" : status.running ? "Pause" : "Run";
+    element<HTMLButtonElement>("single").disabled = this.ended();
     const policies = element<HTMLSelectElement>("policy");
     if (policies.options.length === 0) policies.append(...status.policies.map((name) => new Option(name)));
     policies.value = status.policy;
     element<HTMLSelectElement>("pace").value = String(status.pace);
     const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time, this page ${this.behind} steps behind`;
-    element("speed").textContent = status.reason || (status.finished ? "finished" : status.running ? speed : "paused");
+    const time = (status.step * (this.player?.timeline.head.dt ?? 0)).toFixed(2);
+    const end = status.at_rest ? `finished: all at rest after ${time} s` : "finished";
+    element("speed").textContent = status.reason || (status.finished ? end : status.running ? speed : "paused");
     this.player?.showPlaying();
   }
 
@@ -225,7 +236,11 @@ class Live implements Simulation {
   }
 
   running(): boolean {
-    return this.status?.running ?? false;
+    return (this.status?.running ?? false) && !this.ended();
+  }
+
+  ended(): boolean {
+    return this.status !== null && (this.status.finished || this.status.reason !== "");
   }
 
   msPerStep(): number {

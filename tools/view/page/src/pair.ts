@@ -6,6 +6,8 @@ import type { Player } from "./player";
 interface PairTexts {
   of_runs: boolean;
   ms_per_step: [number, number];
+  /// Path, value of A and of B as TOML, empty where it is not given; of all settings that differ.
+  differences: [string, string, string][];
 }
 
 const element = <T extends HTMLElement = HTMLElement>(id: string): T => document.getElementById(id) as T;
@@ -31,6 +33,7 @@ class Pair {
   /// Whether the newest time is shown, of runs that go on.
   private following = texts.of_runs;
   private clock = 0;
+  private measured = 0; // time of the browser at which the plots were given one scale [ms]
 
   constructor(private readonly players: [Player, Player]) {
     const click = (id: string, action: () => void): void => element(id).addEventListener("click", action);
@@ -40,8 +43,11 @@ class Pair {
     for (const pace of paces) element("pace").append(new Option(pace === 0 ? "as fast as possible" : `${pace}x`, String(pace), false, pace === 1));
     element("pace").addEventListener("change", () => this.both((player) => player.command({ do: "pace", value: this.pace() })));
     element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
-    document.addEventListener("keydown", (event) => this.key(event));
+    for (const page of [document, ...["a", "b"].map((side) => element<HTMLIFrameElement>(side).contentDocument!)])
+      page.addEventListener("keydown", (event) => this.key(event));
     this.both((player) => player.pause());
+    this.players[0].pairWith(this.players[1], (time) => this.seek(time));
+    this.showLabels();
     requestAnimationFrame((now) => this.tick(now));
   }
 
@@ -55,48 +61,82 @@ class Pair {
 
   private key(event: KeyboardEvent): void {
     if ((event.target as HTMLElement).tagName === "SELECT") return;
-    const actions: Record<string, () => void> = { " ": () => this.toggle(), ".": () => this.step(), r: () => this.restart() };
+    const actions: Record<string, () => void> = { " ": () => this.toggle(), ".": () => this.step(), r: () => this.restart(), f: () => this.players[0].resetCamera() };
     const action = actions[event.key];
     if (!action) return;
     event.preventDefault();
     action();
   }
 
-  private going(): boolean {
-    return texts.of_runs ? this.players.some((player) => player.simulates()) : this.playing;
+  /// Large above each run what it has otherwise than the other one, and its name where they have all in common.
+  private showLabels(): void {
+    const [a, b] = this.players.map(({ timeline }) => timeline.head);
+    const all: [string, string, string][] = [
+      ["policy", a.policy, b.policy],
+      ["engine", a.backend, b.backend],
+      ["seed", String(a.seed), String(b.seed)],
+      ["scene", a.title, b.title],
+      ...texts.differences.filter(([path]) => !["policy.kind", "seed", "title"].includes(path)),
+      ["talus", a.version, b.version],
+    ];
+    const different = all.filter(([, first, second]) => first !== second);
+    const rows = different.length > 0 ? different : [["run", a.name, b.name]];
+    ["a", "b"].forEach((side, i) => {
+      element(`label-${side}`).replaceChildren(
+        ...rows.map((row) => {
+          const line = Object.assign(document.createElement("div"), { textContent: `${row[0]} ` });
+          line.append(Object.assign(document.createElement("b"), { textContent: row[i + 1] || "(not given)" }));
+          return line;
+        }),
+      );
+    });
+  }
+
+  /// Whether a simulation goes on that is shown as it goes.
+  private runs(): boolean {
+    return this.following && this.players.some((player) => player.simulates());
+  }
+
+  private ended(): boolean {
+    return this.players.every((player) => player.ended());
   }
 
   toggle(): void {
-    if (!texts.of_runs) {
-      if (!this.playing && this.time >= this.end()) this.time = 0;
-      this.playing = !this.playing;
-      return;
+    if (this.playing) {
+      this.playing = false;
+    } else if (this.following && !this.ended()) {
+      const command = { do: this.runs() ? "pause" : "run" };
+      this.players.filter((player) => !player.ended()).forEach((player) => player.command(command));
+    } else {
+      if (this.time >= this.end()) this.time = 0;
+      this.playing = true;
+      this.following = false;
     }
-    const command = { do: this.going() ? "pause" : "run" };
-    this.following = true;
-    this.both((player) => player.command(command));
   }
 
+  /// One step of both simulations, else to the next time of which one of them has a frame.
   step(): void {
     this.playing = false;
-    if (texts.of_runs) {
-      this.following = true;
-      this.both((player) => player.command({ do: "step" }));
+    if (this.following && !this.ended()) {
+      this.players.filter((player) => !player.ended()).forEach((player) => player.command({ do: "step" }));
       return;
     }
-    const { timeline } = this.players[0];
-    this.seek(timeline.time(Math.min(timeline.frames - 1, timeline.shown + 1)));
+    const next = this.players.map(({ timeline }) => {
+      const frame = timeline.frameAt(this.time + 1e-9) + 1;
+      return frame < timeline.frames ? timeline.time(frame) : this.end();
+    });
+    this.seek(Math.min(this.end(), ...next));
   }
 
   restart(): void {
-    this.both((player) => player.command({ do: "restart" }));
+    this.both((player) => player.command({ do: texts.of_runs && player.ended() ? "run" : "restart" }));
     this.seek(0);
     this.following = texts.of_runs;
   }
 
-  /// Up to when both have frames.
+  /// Until when there are both runs.
   private end(): number {
-    return Math.min(...this.players.map(({ timeline }) => (timeline.frames === 0 ? 0 : timeline.time(timeline.frames - 1))));
+    return Math.min(...this.players.map(lastTime));
   }
 
   pause(): void {
@@ -105,7 +145,7 @@ class Pair {
 
   seek(time: number): void {
     this.following = false;
-    this.time = time;
+    this.time = Math.min(time, this.end());
     this.show();
   }
 
@@ -113,17 +153,31 @@ class Pair {
     const passed = this.clock > 0 ? (now - this.clock) / 1000 : 0;
     this.clock = now;
     const before = this.time;
-    if (this.following) this.time = this.end();
-    else if (this.playing) this.time = Math.min(this.end(), this.time + passed * this.pace());
-    if (this.playing && this.time >= this.end()) this.playing = false;
-    element("play").textContent = this.going() ? "\u2016" : "\u25B6";
+    if (this.following || this.time > this.end()) this.time = this.end();
+    else if (this.playing) this.time = Math.min(this.end(), this.time + passed * (this.pace() || 1));
+    if (this.playing && this.time >= this.end()) {
+      this.playing = false;
+      this.following = texts.of_runs;
+    }
+    element("play").textContent = this.playing || this.runs() ? "\u2016" : "\u25B6";
     element<HTMLInputElement>("scrub").max = String(this.end());
+    if (now - this.measured > 500) this.measure(now);
     if (this.time !== before) this.show();
     requestAnimationFrame((next) => this.tick(next));
   }
 
+  /// One scale for the plots of both.
+  private measure(now: number): void {
+    this.measured = now;
+    const [a, b] = this.players.map((player) => player.extent());
+    const larger = (of: (extent: typeof a) => number): number => Math.max(of(a), of(b));
+    const both = { time: larger(({ time }) => time), bodies: larger(({ bodies }) => bodies), ms: larger(({ ms }) => ms), top: larger(({ top }) => top) };
+    this.both((player) => player.reach(both));
+    this.showDifference();
+  }
+
   private show(): void {
-    this.both((player) => player.seekTime(this.time));
+    this.both((player) => player.showMoment(this.time));
     element<HTMLInputElement>("scrub").value = String(this.time);
     this.showDifference();
   }
@@ -131,7 +185,7 @@ class Pair {
   difference(): Difference {
     const [a, b] = this.players;
     const step = Math.round(this.time / a.timeline.head.dt);
-    const [mean, largest] = a.distanceTo(b, step);
+    const [mean, largest] = a.distanceTo(b);
     const [first, second] = texts.of_runs ? this.players.map((player) => player.msPerStep()) : texts.ms_per_step;
     return {
       time: this.time,
@@ -146,7 +200,7 @@ class Pair {
 
   private showDifference(): void {
     const { time, awake, bodies, mean, largest, speedUp } = this.difference();
-    element("time").textContent = `${time.toFixed(2)} s`;
+    element("time").textContent = `${time.toFixed(2)} s in both${this.whichEnds()}`;
     const length = (metres: number): string => `${metres.toPrecision(2)} m`;
     const cells = [
       ["awake", `${awake[0]} and ${awake[1]}`],
@@ -163,7 +217,18 @@ class Pair {
       }),
     );
   }
+
+  /// Where one run ends before the other there is nothing to compare from then on.
+  private whichEnds(): string {
+    const [a, b] = this.players.map(lastTime);
+    const [first, second] = this.players;
+    if (a < b && first.ended()) return `; the first run ends at ${a.toFixed(2)} s`;
+    if (b < a && second.ended()) return `; the second run ends at ${b.toFixed(2)} s`;
+    return "";
+  }
 }
+
+const lastTime = ({ timeline }: Player): number => (timeline.frames === 0 ? 0 : timeline.time(timeline.frames - 1));
 
 declare global {
   interface Window {

@@ -4,11 +4,11 @@ import { type Account, BodyPanel } from "./body_panel";
 import { ContactPanel } from "./contact_panel";
 import { element } from "./element";
 import type { Head, Rgb } from "./head";
-import { largest, Plots } from "./plots";
+import { type Extent, largest, Plots } from "./plots";
 import { css, type Paint } from "./colours";
 import { PointerTools } from "./pointer_tools";
 import { Stage } from "./stage";
-import { Timeline } from "./timeline";
+import { type Changed, Timeline } from "./timeline";
 
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
@@ -33,13 +33,21 @@ function cell(text: string, name = ""): HTMLTableCellElement {
   return td;
 }
 
-function swatch(colour: Rgb): HTMLTableCellElement {
+/// A box of each colour.
+function swatch(colours: Rgb[]): HTMLTableCellElement {
   const td = cell("");
-  const box = document.createElement("span");
-  box.className = "swatch";
-  box.style.background = css(colour);
-  td.append(box);
+  for (const colour of colours) {
+    const box = document.createElement("span");
+    box.className = "swatch";
+    box.style.background = css(colour);
+    td.append(box);
+  }
   return td;
+}
+
+/// Each colour once.
+function different(colours: Rgb[]): Rgb[] {
+  return [...new Map(colours.map((colour) => [css(colour), colour])).values()];
 }
 
 /// What a simulation that is still going on does with the controls.
@@ -48,6 +56,8 @@ export interface Simulation {
   step(): void;
   restart(): void;
   running(): boolean;
+  /// Whether it has come to its end.
+  ended(): boolean;
   /// Whether it takes commands.
   steered(): boolean;
   /// Mean time of a step since the start [ms].
@@ -78,6 +88,8 @@ export class Player {
   private simulation: Simulation | null = null;
   private playing = false;
   private following = false;
+  /// Of a page with two runs, which alone decides what time is shown: goes to a time.
+  private led: ((time: number) => void) | null = null;
   private clock = 0;
   private time = 0;
 
@@ -135,11 +147,12 @@ export class Player {
     const seed = `seed ${head.seed}`;
     element("subtitle").textContent = [head.name, head.backend, `policy ${head.policy}`, seed, head.version].filter((part) => part !== "").join(", ");
     element("status").textContent = head.damage;
+    element("history").hidden = true;
     this.stage.setRun(this.timeline);
     this.tools.setShapes(head.shapes.map(({ name }) => name));
     this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
     this.showWarnings();
-    return new Plots(element("plots"), head, this.timeline, this.simulation !== null, (time) => this.seekTime(time));
+    return new Plots(element("plots"), head, this.timeline, this.simulation !== null, (time) => (this.led ? this.led(time) : this.seekTime(time)));
   }
 
   private listen(): void {
@@ -188,7 +201,7 @@ export class Player {
 
   private key(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.altKey || event.metaKey || ["TEXTAREA", "SELECT"].includes(target.tagName) || (target as HTMLInputElement).type === "number") return;
+    if (this.led || event.ctrlKey || event.altKey || event.metaKey || ["TEXTAREA", "SELECT"].includes(target.tagName) || (target as HTMLInputElement).type === "number") return;
     const actions: Record<string, () => void> = {
       " ": () => this.toggle(),
       ".": () => this.stepBy(1),
@@ -215,7 +228,7 @@ export class Player {
     action();
   }
 
-  private resetCamera(): void {
+  resetCamera(): void {
     this.stage.follows = this.simulation !== null;
     this.stage.fit();
   }
@@ -224,22 +237,24 @@ export class Player {
   grown(): void {
     element<HTMLInputElement>("scrub").max = String(Math.max(0, this.timeline.frames - 1));
     this.showWarnings();
-    if (this.following) this.goTo(this.timeline.frames - 1);
+    if (this.following && !this.led) this.goTo(this.timeline.frames - 1);
   }
 
   private atEnd(): boolean {
     return this.timeline.shown >= this.timeline.frames - 1;
   }
 
-  /// A record: plays or pauses. A simulation: runs or pauses it where its newest frame is shown, else plays up to there.
+  /// A record or a simulation that has ended: plays or pauses. A simulation that goes on: runs or pauses it where its
+  /// newest frame is shown, else plays up to there.
   toggle(): void {
-    if (this.simulation && this.following) this.simulation.toggle();
-    else if (this.playing) this.pause();
+    if (this.playing) this.pause();
+    else if (this.simulation && this.following && !this.simulation.ended()) this.simulation.toggle();
     else this.play();
   }
 
   play(): void {
-    if (this.atEnd() && !this.simulation) this.seek(0);
+    if (this.atEnd() && (!this.simulation || this.simulation.ended())) this.seek(0);
+    this.following = false;
     this.playing = true;
     this.clock = 0;
     this.showPlaying();
@@ -252,12 +267,12 @@ export class Player {
 
   /// The play button follows what is going on: the simulation where the newest frame is shown.
   showPlaying(): void {
-    const going = this.simulation && this.following ? this.simulation.running() : this.playing;
+    const going = this.playing || (this.following && (this.simulation?.running() ?? false));
     element("play").textContent = going ? "\u2016" : "\u25B6";
   }
 
   stepBy(frames: number): void {
-    if (this.simulation && frames > 0 && this.atEnd()) {
+    if (this.simulation && frames > 0 && this.atEnd() && !this.simulation.ended()) {
       this.stepSimulation();
       return;
     }
@@ -292,6 +307,12 @@ export class Player {
     this.seek(this.timeline.frameAt(time));
   }
 
+  /// Shows the moment of a time, also between two frames.
+  showMoment(time: number): void {
+    this.following = false;
+    if (this.timeline.frames > 0) this.update(this.timeline.seekTime(time), time);
+  }
+
   /// Shows a frame; the nearest where there is none of that number.
   seek(frame: number): void {
     this.following = false;
@@ -303,12 +324,16 @@ export class Player {
   private goTo(frame: number): void {
     if (this.timeline.frames === 0) return;
     const changed = this.timeline.seek(Math.min(this.timeline.frames - 1, Math.max(0, frame)));
+    this.update(changed, this.timeline.time(this.timeline.shown));
+  }
+
+  private update(changed: Changed, time: number): void {
     this.stage.update(changed, this.paint());
     this.contacts.show(this.timeline.shown, this.stage);
     element<HTMLInputElement>("scrub").value = String(this.timeline.shown);
     this.showCounts();
     this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
-    this.plots.showTime();
+    this.plots.showTime(time);
   }
 
   private repaint(): void {
@@ -360,23 +385,24 @@ export class Player {
 
   private showCounts(): void {
     const { state } = this.timeline;
-    const { colours, coloured_shapes } = this.head;
+    const { coloured_shapes } = this.head;
     const now = state.step * this.head.dt;
     const last = this.timeline.happenedSoFar().at(-1);
     const note = last && now - last.time < 2 ? `: ${this.timeline.textOf(last)}` : "";
     element("time").textContent = `${now.toFixed(2)} s, step ${state.step}${note}`;
-    const rows: [Rgb, number | string, string][] = this.byCause()
-      ? this.countsByCause()
+    const { shapes } = this.head;
+    const rows: [Rgb[], number | string, string][] = this.byCause()
+      ? this.countsByCause().map(([colour, count, text]) => [[colour], count, text])
       : [
-          [colours.awake[0], state.awake, "awake"],
-          [colours.asleep, state.asleepCount, coloured_shapes.length > 0 ? "asleep (darker)" : "asleep"],
-          ...coloured_shapes.map(({ name, colour }): [Rgb, string, string] => [colour, "", name]),
+          [different(shapes.map(({ awake }) => awake)), state.awake, "awake"],
+          [different(shapes.map(({ asleep }) => asleep)), state.asleepCount, coloured_shapes.length > 0 ? "asleep (darker)" : "asleep"],
+          ...coloured_shapes.map(({ name, colour }): [Rgb[], string, string] => [[colour], "", name]),
         ];
     this.showMeasured();
     element("counts").replaceChildren(
-      ...rows.map(([colour, count, text]) => {
+      ...rows.map(([colours, count, text]) => {
         const row = document.createElement("tr");
-        row.append(swatch(colour), cell(String(count), "count"), cell(text));
+        row.append(swatch(colours), cell(String(count), "count"), cell(text));
         return row;
       }),
     );
@@ -427,13 +453,30 @@ export class Player {
   simulates(): boolean {
     return this.simulation?.running() ?? false;
   }
+  ended(): boolean {
+    return this.simulation?.ended() ?? true;
+  }
   msPerStep(): number {
     return this.simulation?.msPerStep() ?? 0;
   }
 
-  /// Mean and largest distance [m] from the places of the bodies in another player, both after `step` steps.
-  distanceTo(other: Player, step: number): [number, number] {
-    const [a, b] = [this.timeline.placesAt(step), other.timeline.placesAt(step)];
+  /// Both show one part of space at one scale from now on, and the times that they are told. `seek`: to where the user
+  /// clicks in a plot.
+  pairWith(other: Player, seek: (time: number) => void): void {
+    this.led = other.led = seek;
+    this.stage.pairWith(other.stage);
+  }
+  /// How far the plots reach, and to have them reach at least so far.
+  extent(): Extent {
+    return this.plots.extent();
+  }
+  reach(extent: Extent): void {
+    this.plots.reach(extent);
+  }
+
+  /// Mean and largest distance [m] from the places of the bodies that another player shows.
+  distanceTo(other: Player): [number, number] {
+    const [a, b] = [this.places(), other.places()];
     const axes = this.head.dimension;
     let [sum, largest, count] = [0, 0, 0];
     for (let body = 0; body * axes < Math.min(a.length, b.length); ++body) {
@@ -444,6 +487,25 @@ export class Player {
       ++count;
     }
     return [count > 0 ? sum / count : 0, largest];
+  }
+
+  /// Positions of all bodies [m] as drawn; NaN for removed ones.
+  private places(): Float64Array {
+    const { dimension, quantum } = this.head;
+    const { state, drawn } = this.timeline;
+    const components = dimension === 2 ? 3 : 7;
+    return Float64Array.from({ length: dimension * state.bodies }, (_, i) => {
+      const body = Math.floor(i / dimension);
+      return state.removed[body] !== 0 ? NaN : quantum.position * drawn.pose[components * body + (i % dimension)];
+    });
+  }
+
+  /// The server has left frames out: those that are left lie at most so many steps apart.
+  thin(steps: number, mebibytes: number): void {
+    this.timeline.thinned = steps;
+    const note = element("history");
+    note.hidden = false;
+    note.textContent = `The run has more frames than ${mebibytes} MiB hold: in the past they lie up to ${(steps * this.head.dt).toPrecision(3)} s apart (--history).`;
   }
 
   /// The run takes commands.

@@ -19,11 +19,23 @@ function shortened(text: string): string {
   return text.length > 40 ? `${text.slice(0, 39)}\u2026` : text;
 }
 
+/// How far plots reach: simulated time [s], bodies, time of a step [ms], height of the layers [m].
+export interface Extent {
+  time: number;
+  bodies: number;
+  ms: number;
+  top: number;
+}
+
+const most = (values: (number | null)[]): number => values.reduce<number>((high, value) => Math.max(high, value ?? 0), 0);
+
 export class Plots {
   private readonly counts: uPlot;
   private readonly densities: uPlot;
   private readonly heads: HTMLElement[];
   private frames = 0;
+  private time = 0;
+  private atLeast: Extent = { time: 0, bodies: 0, ms: 0, top: 0 };
 
   /// `timed`: the frames come with the wall time of a step. `seek` is called with a time where the user clicks.
   constructor(
@@ -34,6 +46,8 @@ export class Plots {
     seek: (time: number) => void,
   ) {
     parent.replaceChildren();
+    for (const [name, colour] of [["awake", head.colours.awake[1]], ["layer", head.colours.layer], ["dense", overfull]] as const)
+      document.querySelectorAll<HTMLElement>(`#caption .${name}`).forEach((text) => (text.style.color = css(colour)));
     const speed: uPlot.Series = { ...this.series("ms a step", css(head.colours.layer), 1), scale: "ms" };
     this.counts = this.plot(
       [
@@ -73,7 +87,7 @@ export class Plots {
         width: 400,
         height: 120,
         series: [{ label: "s" }, ...series],
-        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(1, high)] }, ms: { range: (_, __, high) => [0, high > 0 ? high : 1] } },
+        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(1, high, label === "bodies" ? this.atLeast.bodies : this.atLeast.top)] }, ms: { range: (_, __, high) => [0, Math.max(high, this.atLeast.ms) || 1] } },
         axes: [
           { ...axis, size: 26 },
           { ...axis, label, labelSize: 16, size: 40 },
@@ -93,7 +107,25 @@ export class Plots {
     const width = this.parent.clientWidth;
     const height = Math.max(60, Math.floor(this.parent.clientHeight / 2));
     if (width > 0) for (const plot of [this.counts, this.densities]) plot.setSize({ width, height });
-    this.showTime();
+    queueMicrotask(() => this.showTime(this.time)); // uPlot takes the new size over in a microtask of its own
+  }
+
+  extent(): Extent {
+    const { timeline } = this;
+    const time = timeline.frames > 0 ? timeline.time(timeline.frames - 1) : 0;
+    return { time, bodies: most([...timeline.awake, ...timeline.asleep]), ms: this.timed ? most(timeline.msPerStep) : 0, top: most(this.tops()) };
+  }
+
+  /// The plots reach at least so far from now on.
+  reach(extent: Extent): void {
+    const { time, bodies, ms, top } = this.atLeast;
+    if (time === extent.time && bodies === extent.bodies && ms === extent.ms && top === extent.top) return;
+    this.atLeast = extent;
+    this.draw();
+  }
+
+  private tops(): number[] {
+    return this.timeline.piles.map((piles) => largest(piles)?.layers.at(-1)?.top ?? 0);
   }
 
   /// Takes in the frames that came since the last call.
@@ -101,15 +133,34 @@ export class Plots {
     const { timeline } = this;
     if (this.frames === timeline.frames) return;
     this.frames = timeline.frames;
-    const time = timeline.step.map((step) => step * this.head.dt);
-    const top = timeline.piles.map((piles) => {
-      const pile = largest(piles);
-      return pile ? (pile.layers.at(-1)?.top ?? 0) : 0;
-    });
-    this.counts.setData([time, timeline.awake, timeline.asleep, timeline.woken, ...(this.timed ? [timeline.msPerStep] : [])]);
-    this.densities.setData([time, top]);
+    this.draw();
+  }
+
+  private draw(): void {
+    const { timeline } = this;
+    const series = [timeline.awake, timeline.asleep, timeline.woken, ...(this.timed ? [timeline.msPerStep] : [])];
+    const [time, ...lines] = this.withGaps([timeline.step.map((step) => step * this.head.dt), ...series]);
+    this.counts.setData([time as number[], ...lines]);
+    const [times, top] = this.withGaps([timeline.step.map((step) => step * this.head.dt), this.tops()]);
+    this.densities.setData([times as number[], top]);
     this.showScale();
-    queueMicrotask(() => this.showTime()); // uPlot takes the new range over in a microtask of its own
+    queueMicrotask(() => this.showTime(this.time)); // uPlot takes the new range over in a microtask of its own
+  }
+
+  /// The columns with an empty place wherever frames are missing, which no line crosses, and at both ends where plots of
+  /// two runs reach farther.
+  private withGaps(columns: (number | null)[][]): (number | null)[][] {
+    const { timeline } = this;
+    const result: (number | null)[][] = columns.map(() => []);
+    const put = (values: (number | null)[]): void => values.forEach((value, column) => result[column].push(value));
+    const nothing = (time: number): (number | null)[] => columns.map((_, column) => (column === 0 ? time : null));
+    if (this.atLeast.time > 0) put(nothing(0));
+    for (let frame = 0; frame < timeline.frames; ++frame) {
+      if (timeline.lacksBefore(frame)) put(nothing((timeline.time(frame - 1) + timeline.time(frame)) / 2));
+      put(columns.map((column) => column[frame]));
+    }
+    if (this.atLeast.time > (columns[0].at(-1) ?? 0)) put(nothing(this.atLeast.time));
+    return result;
   }
 
   /// What red means in the map of densities.
@@ -121,11 +172,11 @@ export class Plots {
     element("density-scale").replaceChildren("blue", wakes ? ` up to ${thresholds}` : " up to 1");
   }
 
-  /// Moves the line of the frame shown.
-  showTime(): void {
-    const { timeline } = this;
-    if (timeline.shown < 0) return;
-    const at = Math.min(this.counts.over.clientWidth, this.counts.valToPos(timeline.time(timeline.shown), "x"));
+  /// Moves the line of the time shown.
+  showTime(time: number): void {
+    this.time = time;
+    if (this.timeline.shown < 0) return;
+    const at = Math.min(this.counts.over.clientWidth, this.counts.valToPos(time, "x"));
     for (const line of this.heads) line.style.left = `${at}px`;
   }
 
@@ -136,11 +187,11 @@ export class Plots {
     paper.font = `${Math.round(11 * devicePixelRatio)}px system-ui`;
     paper.textAlign = "left";
     paper.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
-    let row = 0;
     const { timeline } = this;
+    const ends: number[] = new Array<number>(3).fill(-Infinity); // of the texts in each row
     const warnings = [...timeline.warnings.values()].map(({ step, text }) => ({ time: step * this.head.dt, text: shortened(text), warns: true }));
     const events = timeline.happened.map((event) => ({ time: event.time, text: timeline.textOf(event), warns: false }));
-    for (const { time, text, warns } of [...events, ...warnings]) {
+    for (const { time, text, warns } of [...events, ...warnings].sort((a, b) => a.time - b.time)) {
       paper.strokeStyle = paper.fillStyle = css(warns ? overfull : this.head.colours.text);
       const left = plot.valToPos(time, "x", true);
       if (left < plot.bbox.left || left > plot.bbox.left + plot.bbox.width) continue;
@@ -150,7 +201,11 @@ export class Plots {
       paper.stroke();
       const width = paper.measureText(text).width + 8 * devicePixelRatio;
       const fits = left + width < plot.bbox.left + plot.bbox.width;
-      paper.fillText(text, fits ? left + 4 * devicePixelRatio : left - width + 4 * devicePixelRatio, plot.bbox.top + (12 + 13 * (row++ % 3)) * devicePixelRatio);
+      const begin = fits ? left + 4 * devicePixelRatio : left - width + 4 * devicePixelRatio;
+      const row = ends.findIndex((end) => end < begin);
+      if (row < 0) continue; // no room: the line stands for it
+      ends[row] = begin + width;
+      paper.fillText(text, begin, plot.bbox.top + (12 + 13 * row) * devicePixelRatio);
     }
     paper.restore();
   }
@@ -169,7 +224,8 @@ export class Plots {
       if (!pile) continue;
       const pixel = (value: number, scale: string): number => Math.round(plot.valToPos(value, scale, true));
       const left = pixel(timeline.time(frame), "x");
-      const right = pixel(timeline.time(Math.min(timeline.frames - 1, frame + each)), "x");
+      const next = Math.min(timeline.frames - 1, frame + each);
+      const right = timeline.lacksBefore(next) ? left + 1 : pixel(timeline.time(next), "x");
       pile.layers.forEach((layer, i) => {
         const value = density(pile, i);
         if (value <= 0) return;

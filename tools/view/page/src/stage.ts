@@ -1,7 +1,7 @@
 // The pile on the screen, and the camera.
 
 import { colour, css, type Paint } from "./colours";
-import type { Head, Rgb } from "./head";
+import type { Head, Point, Rgb } from "./head";
 import type { Contact } from "./contacts";
 import { ContactMarks } from "./contact_marks";
 import { Instances, outlined } from "./instances";
@@ -59,6 +59,9 @@ export class Stage {
   private accompanied = -1;
   private accompaniedAt: Vector3 | null = null;
   private box: [Vector3, Vector3];
+  /// That of another run, which shows the same part of space at the same scale; null: none.
+  private partner: Stage | null = null;
+  private copying = false;
   /// Times at which frames were drawn [ms], the last few.
   readonly drawn: number[] = [];
 
@@ -82,7 +85,7 @@ export class Stage {
       this.renderer.shadowMap.type = PCFShadowMap;
       this.renderer.shadowMap.autoUpdate = false;
     }
-    this.surroundings = new Surroundings(head);
+    this.surroundings = new Surroundings(head, head.box);
     this.scene.add(this.surroundings.group);
     this.contactMarks = new ContactMarks(head);
     this.layers = new LayerView(head);
@@ -123,9 +126,69 @@ export class Stage {
     if (low.distanceTo(high) > before) this.fit(false);
   }
 
+  /// From now on both have one camera and one scale: what one shows, the other does.
+  pairWith(other: Stage): void {
+    [this.partner, other.partner] = [other, this];
+    this.surround();
+    other.surround();
+    this.fit();
+  }
+
+  /// Ground and obstacles; beside another run, ground with the same squares as there.
+  private surround(): void {
+    const boxes = [this.head, ...(this.partner ? [this.partner.head] : [])].map(({ box }) => box);
+    const along = (i: 0 | 1, of: (...values: number[]) => number): Point => this.head.box[i].map((_, axis) => of(...boxes.map((box) => box[i][axis])));
+    this.surroundings.group.removeFromParent();
+    this.surroundings = new Surroundings(this.head, [along(0, Math.min), along(1, Math.max)]);
+    this.surroundings.placeSun(...this.wholeBox());
+    this.scene.add(this.surroundings.group);
+    if (this.timeline && this.timeline.shown >= 0) this.updateObstacles();
+  }
+
+  /// What must be in sight.
+  private wholeBox(): [Vector3, Vector3] {
+    const [low, high] = [this.box[0].clone(), this.box[1].clone()];
+    if (this.partner) {
+      low.min(this.partner.box[0]);
+      high.max(this.partner.box[1]);
+    }
+    return [low, high];
+  }
+
+  private cameraMoved(): void {
+    this.redraw();
+    if (!this.copying) this.partner?.copyCamera(this);
+  }
+
+  private copyCamera(from: Stage): void {
+    this.copying = true;
+    this.camera.position.copy(from.camera.position);
+    this.controls.target.copy(from.controls.target);
+    if (this.camera instanceof OrthographicCamera) {
+      const { top, zoom } = from.camera as OrthographicCamera;
+      const metresPerPixel = top / zoom / from.canvas.clientHeight;
+      this.camera.zoom = this.camera.top / (metresPerPixel * this.canvas.clientHeight);
+    } else {
+      [this.camera.near, this.camera.far] = [from.camera.near, from.camera.far];
+    }
+    this.follows = from.follows;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.redraw();
+    this.copying = false;
+  }
+
+  /// For tests: metres that a pixel shows in the middle of the view, and from where.
+  view(): { metresPerPixel: number; eye: number[]; target: number[] } {
+    const { target } = this.controls;
+    const right = new Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion);
+    const metresPerPixel = 1 / this.onScreen(target.clone().add(right)).distanceTo(this.onScreen(target));
+    return { metresPerPixel, eye: this.camera.position.toArray(), target: target.toArray() };
+  }
+
   private prepareControls(): void {
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => this.redraw());
+    this.controls.addEventListener("change", () => this.cameraMoved());
     this.controls.addEventListener("start", () => (this.follows = false));
     if (this.flat) {
       this.controls.enableRotate = false;
@@ -140,7 +203,7 @@ export class Stage {
   /// Shows the whole box, from where the pictures do unless `turn` is false.
   fit(turn = true): void {
     this.surroundings.placeSun(...this.box);
-    const [low, high] = this.box;
+    const [low, high] = this.wholeBox();
     const middle = low.clone().add(high).multiplyScalar(0.5);
     if (this.camera instanceof PerspectiveCamera) {
       const { azimuth, elevation } = this.head.camera;
@@ -157,7 +220,7 @@ export class Stage {
     this.controls.target.copy(middle);
     this.camera.updateProjectionMatrix();
     this.controls.update();
-    this.redraw();
+    this.cameraMoved();
   }
 
   /// From which all corners of the box are in sight.
@@ -182,12 +245,10 @@ export class Stage {
     this.timeline = timeline;
     this.head = timeline.head;
     this.box = this.boxOf(this.head);
-    this.surroundings.group.removeFromParent();
-    this.surroundings = new Surroundings(this.head);
-    this.surroundings.placeSun(...this.box);
+    this.surround();
     this.contactMarks.group.removeFromParent();
     this.contactMarks = new ContactMarks(this.head);
-    this.scene.add(this.surroundings.group, this.contactMarks.group);
+    this.scene.add(this.contactMarks.group);
     const { awake_outline, asleep_outline } = this.head.colours;
     const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
     for (const shape of this.head.shapes) {
@@ -202,7 +263,7 @@ export class Stage {
   }
 
   private poseOf(body: number): number[] {
-    return this.inMetres(this.timeline!.state.pose, (this.flat ? 3 : 7) * body);
+    return this.inMetres(this.timeline!.drawn.pose, (this.flat ? 3 : 7) * body);
   }
 
   /// The pose that begins at a place of these counts of quanta.
@@ -231,12 +292,16 @@ export class Stage {
       this.shapes[mesh].set(this.place[body], matrixOf(this.poseOf(body)), colour(tint), asleep);
     }
     for (const shape of this.shapes) shape.upload();
-    const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => this.head.events[number]?.removes ?? []));
-    this.surroundings.hideObstacles(removed);
-    for (const [obstacle, counts] of state.obstacles) this.surroundings.placeObstacle(obstacle, this.inMetres(counts, 0));
+    this.updateObstacles();
     if (this.accompanied >= 0) this.goAlong();
     else if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
+  }
+
+  private updateObstacles(): void {
+    const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => this.head.events[number]?.removes ?? []));
+    this.surroundings.hideObstacles(removed);
+    for (const [obstacle, counts] of this.timeline!.drawn.obstacles) this.surroundings.placeObstacle(obstacle, this.inMetres(counts, 0));
   }
 
   /// Moves the camera along with a body from now on, none below 0.

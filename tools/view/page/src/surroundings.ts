@@ -1,7 +1,7 @@
 // What stands around the bodies: obstacles, ground, and the light.
 
 import { colour } from "./colours";
-import type { Head } from "./head";
+import type { Head, Point } from "./head";
 import { Instances, outlined } from "./instances";
 import { matrixOf } from "./pose";
 import { niceLength } from "./scale";
@@ -32,8 +32,12 @@ export class Surroundings {
   private readonly sun: DirectionalLight | null = null;
   private readonly size: number;
 
-  constructor(private readonly head: Head) {
-    const sizes = head.box[1].map((high, i) => high - head.box[0][i]);
+  /// `box`: the part of space about which ground is drawn.
+  constructor(
+    private readonly head: Head,
+    private readonly box: [Point, Point],
+  ) {
+    const sizes = box[1].map((high, i) => high - box[0][i]);
     this.size = Math.hypot(...sizes);
     this.gridLength = niceLength(Math.max(...sizes) / 5);
     this.addObstacles();
@@ -106,7 +110,8 @@ export class Surroundings {
   }
 
   private addGroundPlane(): void {
-    const { colours, ground, box } = this.head;
+    const { colours, ground } = this.head;
+    const { box } = this;
     const shadow = new Mesh(new PlaneGeometry(20 * this.size, 20 * this.size), new ShadowMaterial({ opacity: 0.3 }));
     shadow.position.set((box[0][0] + box[1][0]) / 2, (box[0][1] + box[1][1]) / 2, ground.height);
     shadow.receiveShadow = true;

@@ -26,15 +26,19 @@ export class Timeline {
   /// Kinds of warning that appeared first in it.
   readonly newWarnings: number[] = [];
   readonly piles: Pile[][] = [];
-  /// Wall time of a step when the frame came [ms]; empty for a record, which has none.
+  /// Mean wall time of a step since the frame before [ms]; null: not known.
   readonly msPerStep: (number | null)[] = [];
   /// The scene's events so far.
   readonly happened: SceneEvent[] = [];
   /// The last text of each kind, by kind.
   readonly warnings = new Map<number, Warning>();
+  /// Steps that neighbours lie apart at most where the server left frames out; 0: it did not.
+  thinned = 0;
   /// The frame shown, -1 before the first.
   shown = -1;
   state: State;
+  /// What is drawn: `state`, or one between it and the next.
+  drawn: State;
 
   private readonly blocks: Uint8Array[] = [];
   private readonly kept: State[] = [];
@@ -45,7 +49,7 @@ export class Timeline {
   private readonly avalanche: number;
 
   constructor(readonly head: Head) {
-    this.state = new State(head.dimension);
+    this.state = this.drawn = new State(head.dimension);
     this.last = new State(head.dimension);
     this.avalanche = head.causes.findIndex((cause) => cause?.name === "avalanche");
   }
@@ -78,6 +82,7 @@ export class Timeline {
     this.step.push(this.last.step);
     this.awake.push(this.last.awake);
     this.asleep.push(this.last.asleepCount);
+    this.msPerStep.push(this.last.msPerStep < 0 ? null : this.last.msPerStep);
     this.woken.push(woken.length);
     this.avalanches.push(woken.filter((event) => event.cause === this.avalanche).length);
     this.piles.push(this.last.piles);
@@ -86,6 +91,13 @@ export class Timeline {
 
   /// Shows a frame; returns what changed.
   seek(frame: number): Changed {
+    const between = this.drawn !== this.state;
+    const changed = this.goTo(frame);
+    this.drawn = this.state;
+    return between ? "all" : changed;
+  }
+
+  private goTo(frame: number): Changed {
     if (frame === this.shown) return [];
     if (frame === this.shown + 1) {
       const { changed } = this.state.apply(new Reader(this.blocks[frame]));
@@ -101,6 +113,21 @@ export class Timeline {
     return "all";
   }
 
+  /// Steps between two frames above which frames are missing between them: what happened there is not known.
+  gap(): number {
+    const usual = this.head.steps_per_frame ?? this.meanSteps();
+    return 2.5 * Math.max(usual, this.thinned);
+  }
+
+  private meanSteps(): number {
+    return this.frames > 1 ? (this.step[this.frames - 1] - this.step[0]) / (this.frames - 1) : 1;
+  }
+
+  /// Whether frames are missing before this one.
+  lacksBefore(frame: number): boolean {
+    return frame > 0 && this.step[frame] - this.step[frame - 1] > this.gap();
+  }
+
   /// The last frame at or before a time.
   frameAt(time: number): number {
     const step = time / this.head.dt + 1e-6;
@@ -113,22 +140,28 @@ export class Timeline {
     return Math.max(0, low - 1);
   }
 
-  /// Positions of all bodies [m] in the frame shown, moved on in a straight line to `step`, which must lie before the next
-  /// frame; NaN for removed ones.
-  placesAt(step: number): Float64Array {
-    const { dimension, quantum } = this.head;
-    const components = dimension === 2 ? 3 : 7;
+  /// Shows the moment of a time: poses between those of the two nearest frames, all else as in the one before.
+  seekTime(time: number): Changed {
+    this.seek(this.frameAt(time));
+    this.drawn = this.stateAt(time);
+    return "all";
+  }
+
+  private stateAt(time: number): State {
     const { state } = this;
-    const between = step > state.step && this.shown + 1 < this.frames;
-    const next = between ? state.copy() : state;
-    if (between) next.apply(new Reader(this.blocks[this.shown + 1]));
-    const share = between ? (step - state.step) / (next.step - state.step) : 0;
-    return Float64Array.from({ length: dimension * state.bodies }, (_, i) => {
-      const [body, axis] = [Math.floor(i / dimension), i % dimension];
-      if (state.removed[body] !== 0) return NaN;
-      const at = components * body + axis;
-      return quantum.position * (state.pose[at] + share * (next.pose[at] - state.pose[at]));
-    });
+    const step = time / this.head.dt;
+    if (step <= state.step + 1e-6 || this.shown + 1 >= this.frames) return state;
+    const next = state.copy();
+    next.apply(new Reader(this.blocks[this.shown + 1]));
+    const share = Math.min(1, (step - state.step) / Math.max(1e-9, next.step - state.step));
+    const between = state.copy();
+    const mixed = (a: number, b: number): number => a + share * (b - a);
+    for (let i = 0; i < between.pose.length; ++i) between.pose[i] = Math.round(mixed(state.pose[i], next.pose[i]));
+    for (const [obstacle, pose] of between.obstacles) {
+      const then = next.obstacles.get(obstacle) ?? pose;
+      between.obstacles.set(obstacle, pose.map((part, i) => mixed(part, then[i])));
+    }
+    return between;
   }
 
   /// What happened until the frame shown, and its text.

@@ -1,0 +1,184 @@
+#include "common/simulation/interventions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/scene/typical_body.h"
+
+namespace talus {
+namespace {
+
+/// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of a hundredth of it a body has
+/// then moved by 0.02 D and is so fast that it counts as moving.
+constexpr double awake_after_gravity = 2.0;
+
+/// How near to what was removed sleeping bodies wake, in extents: a body that rests on another one touches its box.
+constexpr double waking_reach = 0.05;
+
+template <int Dim>
+std::vector<BodyIndex> all_bodies(const World<Dim>& world) {
+  std::vector<BodyIndex> all(world.states().shape.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+template <int Dim>
+std::vector<BodyIndex> bodies_near(const World<Dim>& world, const Box<Dim>& bounds, double reach) {
+  const Vec<Dim> margin = Vec<Dim>::Constant(reach);
+  std::vector<BodyIndex> near;
+  world.query_box({bounds.min() - margin, bounds.max() + margin}, near);
+  return near;
+}
+
+template <int Dim>
+std::vector<BodyIndex> bodies_meant(const World<Dim>& world, const Event<Dim>& event) {
+  const BodyStates<Dim>& states = world.states();
+  const auto meant = [&](BodyIndex body) {
+    const Vec<Dim>& at = states.pose[body].position;
+    return states.removed[body] == 0 &&
+           (event.shapes.empty() || std::ranges::count(event.shapes, states.shape[body]) > 0) &&
+           (event.numbers.empty() || std::ranges::count(event.numbers, static_cast<double>(body)) > 0) &&
+           (event.box.empty() || Box<Dim>(event.box[0], event.box[1]).contains(at));
+  };
+  std::vector<BodyIndex> bodies = all_bodies(world);
+  std::erase_if(bodies, [&](BodyIndex body) { return !meant(body); });
+  return bodies;
+}
+
+}  // namespace
+
+template <int Dim>
+Interventions<Dim>::Interventions(const Scene<Dim>& scene)
+    : dt_(scene.world.dt),
+      extent_(typical_body(scene).extent),
+      events_(scene.events),
+      obstacle_names_(scene.obstacle_names),
+      clock_(scene.events),
+      obstacles_(scene),
+      gravity_motion_(scene.gravity_motion),
+      gravity_(scene.world.gravity_vector()),
+      gravity_of_sleepers_(gravity_) {}
+
+template <int Dim>
+void Interventions<Dim>::do_due_events(const Intervened<Dim>& run, bool at_rest, std::span<const Pile<Dim>> piles) {
+  for (const int number : clock_.update(run.time, run.emitter.emitted(), at_rest, piles)) {
+    act(run, events_[number]);
+    done_events_.push_back({number, run.time});
+  }
+}
+
+template <int Dim>
+void Interventions<Dim>::move(const Intervened<Dim>& run) {
+  time_ = run.time;
+  run.wake(obstacles_.move(run.world, run.time), SleepCause::lost_support);
+  if (gravity_motion_) change_gravity(run);
+  pulled_.clear();
+  if (pull_) pull_body(run);
+}
+
+/// Sleeping bodies do not feel that gravity changes: once it has by more than a little, all wake.
+template <int Dim>
+void Interventions<Dim>::change_gravity(const Intervened<Dim>& run) {
+  const Vec<Dim> now = gravity_motion_->turn_at(run.time) * (gravity_ + gravity_motion_->shift_at(run.time));
+  run.world.set_gravity(now);
+  if (!same_gravity<Dim>(now, gravity_of_sleepers_)) wake_for_gravity(run);
+}
+
+template <int Dim>
+void Interventions<Dim>::wake_for_gravity(const Intervened<Dim>& run) {
+  gravity_of_sleepers_ = run.world.gravity();
+  woken_for_gravity_ = run.time;
+  run.wake(all_bodies(run.world), SleepCause::user);
+}
+
+template <int Dim>
+bool Interventions<Dim>::must_stay_awake(const World<Dim>& world, BodyIndex body) const {
+  constexpr double longest = 10.0;  // [s]; with little gravity
+  const double unit = std::sqrt(extent_ / std::max(gravity_of_sleepers_.norm(), 1e-9));
+  const double since = woken_for_gravity_ ? time_ - *woken_for_gravity_ : longest;
+  return since < std::min(longest, awake_after_gravity * unit) || std::ranges::binary_search(pulled_, body) ||
+         obstacles_.touch(world, body);
+}
+
+template <int Dim>
+bool Interventions<Dim>::move_after(const World<Dim>& world, double time) const {
+  return obstacles_.moves_after(world, time) || (gravity_motion_ && gravity_motion_->moves_after(time));
+}
+
+/// Sleeping neighbours are woken: neither the loss of a support nor a slow push wakes a body by itself.
+template <int Dim>
+void Interventions<Dim>::pull_body(const Intervened<Dim>& run) {
+  const BodyIndex body = pull_->body;
+  if (run.world.states().removed[body] != 0) {
+    release();
+    return;
+  }
+  pulled_ = bodies_near<Dim>(run.world, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
+  run.wake(pulled_, SleepCause::user);
+  const VelocityChange<Dim> change = pulled(run.world, *pull_, dt_);
+  run.world.set_velocity(body, change.velocity, change.spin);
+}
+
+template <int Dim>
+void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event) {
+  switch (event.action) {
+    case EventAction::remove:
+      if (event.obstacle) {
+        const ObstacleName& name = obstacle_names_[*event.obstacle];
+        for (int k = name.first; k < name.first + name.count; ++k)
+          if (run.world.has_obstacle(k)) cut_obstacle(run, k);
+      } else {
+        for (const BodyIndex body : bodies_meant(run.world, event)) remove(run, body);
+      }
+      return;
+    case EventAction::wake:
+      return run.wake(bodies_meant(run.world, event), SleepCause::user);
+    case EventAction::kick:
+      return kick(run, event);
+    case EventAction::rate:
+      run.emitter.set_rate(event.source, event.rate, run.time);
+      return run.watchdog.note_source(event.source, run.emitter.source(event.source));
+    case EventAction::policy:
+      return run.switch_policy(event.policy);
+    case EventAction::gravity:
+      run.world.set_gravity(event.gravity);
+      return wake_for_gravity(run);
+    case EventAction::picture:
+      return;
+  }
+}
+
+template <int Dim>
+void Interventions<Dim>::remove(const Intervened<Dim>& run, BodyIndex body) const {
+  run.remove(body);
+  run.wake(bodies_near<Dim>(run.world, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent),
+           SleepCause::lost_support);
+}
+
+template <int Dim>
+void Interventions<Dim>::cut_obstacle(const Intervened<Dim>& run, int number) const {
+  const Box<Dim> bounds = bounds_at(run.world.obstacle_shape(number), run.world.obstacle_pose(number));
+  run.world.remove_obstacle(number);
+  run.wake(bodies_near<Dim>(run.world, bounds, waking_reach * extent_), SleepCause::lost_support);
+}
+
+/// The sum may be no faster than the engine allows.
+template <int Dim>
+void Interventions<Dim>::kick(const Intervened<Dim>& run, const Event<Dim>& event) const {
+  const std::vector<BodyIndex> bodies = bodies_meant(run.world, event);
+  run.wake(bodies, SleepCause::user);
+  const BodyStates<Dim>& states = run.world.states();
+  for (const BodyIndex body : bodies) {
+    Vec<Dim> velocity = states.velocity[body] + event.velocity;
+    Spin<Dim> spin = states.spin[body] + event.spin;
+    velocity *= std::min(1.0, fastest_speed<Dim>(dt_) / std::max(velocity.norm(), 1e-9));
+    spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
+    run.world.set_velocity(body, velocity, spin);
+  }
+}
+
+template class Interventions<2>;
+template class Interventions<3>;
+
+}  // namespace talus

@@ -1,0 +1,190 @@
+// Bodies so fast that they could get past each other within a step, on every engine.
+
+#include <fmt/format.h>
+
+#include "common/scene/read_scene.h"
+#include "common/simulation/make_policy.h"
+#include "common/simulation/simulation.h"
+#include "tests/backends/backend.h"
+
+namespace talus::fast_bodies_test {
+namespace {
+
+/// Fixture: boards of 0.1 m (shape 0), balls of 0.3 m and 14 times their density (shape 1) and rods of 4 m (shape 2),
+/// without gravity and ground.
+template <typename Backend>
+class FastBody : public ::testing::Test {
+ protected:
+  static constexpr int dimension = Backend::dim;
+  using V = Vec<dimension>;
+
+  static WorldDescription<dimension> description() {
+    const Material material{.friction = 0.5, .restitution = 0.0};
+    Material heavy = material;
+    heavy.density *= 14.0;
+    WorldDescription<dimension> world;
+    world.gravity = 0.0;
+    world.ground.present = false;
+    V board = V::Ones();
+    board[0] = 0.1;
+    V rod = V::Constant(0.2);
+    rod[dimension - 1] = 4.0;
+    world.shapes.push_back(make_shape<dimension>("board", box_pieces<dimension>(board), material));
+    world.shapes.push_back(make_shape<dimension>("ball", ball_pieces<dimension>(0.15), heavy));
+    world.shapes.push_back(make_shape<dimension>("rod", box_pieces<dimension>(rod), material));
+    return world;
+  }
+
+  /// A body at this place along x, in a row of its own.
+  static BodyDef<dimension> at(int shape, double x, int row, double speed = 0.0) {
+    BodyDef<dimension> body;
+    body.shape = shape;
+    body.pose.position = x * V::Unit(0) + up<dimension>(8.0 * row);
+    body.velocity = speed * V::Unit(0);
+    return body;
+  }
+  static double x(const World<dimension>& world, BodyIndex body) { return world.states().pose[body].position[0]; }
+  static double speed(const World<dimension>& world, BodyIndex body) { return world.states().velocity[body][0]; }
+  static void run(World<dimension>& world, int steps) {
+    for (int i = 0; i < steps; ++i) world.step();
+  }
+};
+TYPED_TEST_SUITE(FastBody, Backends, BackendName);
+
+constexpr std::array speeds = {5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 80.0, 110.0};
+constexpr int phases = 10;  // places within a step at which the two meet
+
+TYPED_TEST(FastBody, MeetsALooseBoardAtEverySpeedAndMoment) {
+  auto world = TypeParam::make(this->description());
+  int row = 0;
+  for (const double speed : speeds) {
+    for (int phase = 0; phase < phases; ++phase, ++row) {
+      world->add(this->at(0, 0.0, row));
+      world->add(this->at(1, -2.0 - phase * speed / 60.0 / phases, row, speed));
+    }
+  }
+  this->run(*world, 60);
+  for (BodyIndex board = 0; board < 2 * row; board += 2) {
+    const double speed = speeds[board / 2 / phases];
+    // Without restitution the two go on as one; at 5 m/s, sunk in, the ball may still be pushed back a little.
+    EXPECT_GT(this->speed(*world, board), 0.2 * speed) << "board " << board / 2 << ", ball of " << speed << " m/s";
+    EXPECT_LT(this->x(*world, board + 1), this->x(*world, board)) << speed << " m/s";
+  }
+}
+
+TYPED_TEST(FastBody, StopsAtASleepingBoard) {
+  auto world = TypeParam::make(this->description());
+  std::vector<BodyIndex> boards;
+  int row = 0;
+  for (const double speed : speeds) {
+    for (int phase = 0; phase < phases; ++phase, ++row) {
+      boards.push_back(world->add(this->at(0, 0.0, row)));
+      world->add(this->at(1, -2.0 - phase * speed / 60.0 / phases, row, speed));
+    }
+  }
+  world->freeze(boards);
+  this->run(*world, 60);
+  for (const BodyIndex board : boards) EXPECT_LT(this->x(*world, board + 1), 0.0) << "board " << board / 2;
+}
+
+TYPED_TEST(FastBody, MeetsOneThatIsAsFast) {
+  auto world = TypeParam::make(this->description());
+  int row = 0;
+  for (const double speed : speeds) {
+    for (int phase = 0; phase < phases; ++phase, ++row) {
+      world->add(this->at(1, 2.0 + phase * speed / 60.0 / phases, row, -speed));
+      world->add(this->at(1, -2.0, row, speed));
+    }
+  }
+  this->run(*world, 60);
+  for (BodyIndex ball = 0; ball < 2 * row; ball += 2) {
+    EXPECT_LT(this->x(*world, ball + 1), this->x(*world, ball)) << speeds[ball / 2 / phases] << " m/s";
+    EXPECT_NEAR(this->speed(*world, ball), 0.0, 1.0) << "equal masses without restitution stop each other";
+  }
+}
+
+// The board that is struck becomes fast within the step, and so meets the next one.
+TYPED_TEST(FastBody, DrivesABoardIntoTheNext) {
+  auto world = TypeParam::make(this->description());
+  int row = 0;
+  for (const double speed : speeds) {
+    for (int phase = 0; phase < phases; ++phase, ++row) {
+      world->add(this->at(1, -2.0 - phase * speed / 60.0 / phases, row, speed));
+      world->add(this->at(0, 0.0, row));
+      world->add(this->at(0, 0.5, row));
+    }
+  }
+  this->run(*world, 60);
+  for (BodyIndex ball = 0; ball < 3 * row; ball += 3) {
+    const double speed = speeds[ball / 3 / phases];
+    EXPECT_LT(this->x(*world, ball + 1), this->x(*world, ball + 2)) << speed << " m/s, phase " << ball / 3 % phases;
+    EXPECT_GT(this->speed(*world, ball + 2), 0.2 * speed) << speed << " m/s, phase " << ball / 3 % phases;
+  }
+}
+
+TYPED_TEST(FastBody, StaysBetweenTwoBoards) {
+  auto world = TypeParam::make(this->description());
+  int row = 0;
+  for (const double speed : speeds) {
+    for (int phase = 0; phase < phases; ++phase, ++row) {
+      world->add(this->at(0, -1.0, row));
+      world->add(this->at(1, 0.05 * phase, row, speed));
+      world->add(this->at(0, 1.0, row));
+    }
+  }
+  this->run(*world, 60);
+  for (BodyIndex board = 0; board < 3 * row; board += 3) {
+    EXPECT_LT(this->x(*world, board), this->x(*world, board + 1)) << "board " << board / 3;
+    EXPECT_LT(this->x(*world, board + 1), this->x(*world, board + 2)) << "board " << board / 3;
+  }
+}
+
+TYPED_TEST(FastBody, OfARodThatSpinsStrikesABallAtItsTip) {
+  constexpr int dim = TypeParam::dim;
+  constexpr std::array spins = {5.0, 10.0, 20.0, 30.0, 40.0, 60.0, 80.0};
+  auto world = TypeParam::make(this->description());
+  int row = 0;
+  for (const double spin : spins) {
+    for (int phase = 0; phase < phases; ++phase, ++row) {
+      BodyDef<dim> rod = this->at(2, 0.0, row);
+      rod.pose.rotation = tilted<dim>(phase * spin / 60.0 / phases);
+      rod.spin[dim == 2 ? 0 : 1] = dim == 2 ? spin : -spin;
+      world->add(rod);
+      world->add(this->at(1, -1.7, row));
+    }
+  }
+  this->run(*world, 60);
+  for (BodyIndex rod = 0; rod < 2 * row; rod += 2)
+    EXPECT_GT(world->states().velocity[rod + 1].norm(), 0.1)
+        << spins[rod / 2 / phases] << " rad/s, phase " << rod / 2 % phases;
+}
+
+// Bodies that a policy wakes before they are struck.
+TYPED_TEST(FastBody, DoesNotPassASleeperThatThePolicyWakes) {
+  constexpr int dim = TypeParam::dim;
+  std::string text = fmt::format(
+      "title = \"Boards\"\ndimension = {}\nworld.gravity = 0\nground.present = false\npolicy.kind = \"adaptive\"\n"
+      "shape.board = {{kind = \"box\", size = {}}}\nshape.ball = {{kind = \"ball\", radius = 0.15, density = 2000}}\n",
+      dim, dim == 2 ? "[0.1, 1]" : "[0.1, 1, 1]");
+  int row = 0;
+  const auto place = [](double x, int at_row) {
+    return dim == 2 ? fmt::format("[{}, {}]", x, 4 * at_row) : fmt::format("[{}, 0, {}]", x, 4 * at_row);
+  };
+  for (const double speed : speeds)
+    for (int phase = 0; phase < phases; ++phase, ++row)
+      text += fmt::format(
+          "[[body]]\nshape = \"board\"\nposition = {}\nasleep = true\n"
+          "[[body]]\nshape = \"ball\"\nposition = {}\nvelocity = [{}, 0{}]\n",
+          place(0.0, row), place(-2.0 - phase * speed / 60.0 / phases, row), speed, dim == 2 ? "" : ", 0");
+  const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
+  Simulation<dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
+  for (int step = 0; step < 60; ++step) simulation.step();
+  const World<dim>& world = simulation.world();
+  for (BodyIndex board = 0; board < 2 * row; board += 2) {
+    EXPECT_LT(this->x(world, board + 1), this->x(world, board)) << "board " << board / 2;
+    EXPECT_GT(this->x(world, board), 0.0) << "board " << board / 2;
+  }
+}
+
+}  // namespace
+}  // namespace talus::fast_bodies_test

@@ -1,0 +1,39 @@
+#include "tools/record/log_messages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "tools/output/json_text.h"
+#include "tools/output/output.h"
+#include "tools/record/record_file.h"
+
+namespace talus {
+namespace {
+
+bool is_wanted(const MessageChoice& choice, const LogEvent& event, std::int64_t begin) {
+  const auto& names = choice.channels;
+  if (!names.empty() && std::ranges::find(names, event.channel) == names.end()) return false;
+  const double time = 1e-6 * (static_cast<double>(event.timestamp) - static_cast<double>(begin));
+  return time >= choice.from && time <= choice.to;
+}
+
+}  // namespace
+
+void print_messages(const std::filesystem::path& file, const MessageChoice& choice) {
+  LogReader log(file.string());
+  std::optional<std::int64_t> begin;
+  for (LogEvent event; log.next(event);) {
+    if (!begin) begin = event.timestamp;
+    if (!is_wanted(choice, event, *begin)) continue;
+    nlohmann::ordered_json json = {
+        {"channel", event.channel}, {"stamp_us", event.timestamp}, {"bytes", event.data.size()}};
+    json["message"] = is_of_run(event) ? message_json(event) : nlohmann::ordered_json();
+    print_result("{}\n", json_text(json));
+  }
+  if (!begin && log.damage().bytes > 0) throw no_event_log(file);
+  if (log.damage().bytes > 0) print_message("{}: {} damaged bytes left out", file.string(), log.damage().bytes);
+}
+
+}  // namespace talus

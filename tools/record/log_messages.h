@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// Which messages of a log are wanted.
+struct MessageChoice {
+  std::vector<std::string> channels;  // empty: all
+  double from = 0.0;                  // [s] after the first stamp of the log; in a record the simulated time
+  double to = std::numeric_limits<double>::infinity();
+};
+
+/// Prints the chosen messages of an event log, a JSON object a line; `message` is null where talus cannot decode it.
+void print_messages(const std::filesystem::path& file, const MessageChoice& choice);
+
+}  // namespace talus

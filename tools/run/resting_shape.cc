@@ -1,0 +1,24 @@
+#include "tools/run/resting_shape.h"
+
+namespace talus {
+
+template <int Dim>
+std::vector<PlacedBody<Dim>> resting_bodies(const Scene<Dim>& scene, const BodyStates<Dim>& states) {
+  constexpr double fastest_at_rest = 1.0;  // [m/s]
+  return placed_bodies<Dim>(scene.world.shapes, states, fastest_at_rest);
+}
+
+template <int Dim>
+std::optional<ShapeStatistics<Dim>> resting_shape(const Scene<Dim>& scene, const BodyStates<Dim>& states,
+                                                  double extent) {
+  const auto bodies = resting_bodies(scene, states);
+  if (bodies.empty()) return std::nullopt;
+  return shape_statistics<Dim>(bodies, grid_around<Dim>(bodies, scene.world.ground.height, extent));
+}
+
+template std::vector<PlacedBody<2>> resting_bodies(const Scene<2>&, const BodyStates<2>&);
+template std::vector<PlacedBody<3>> resting_bodies(const Scene<3>&, const BodyStates<3>&);
+template std::optional<ShapeStatistics<2>> resting_shape(const Scene<2>&, const BodyStates<2>&, double);
+template std::optional<ShapeStatistics<3>> resting_shape(const Scene<3>&, const BodyStates<3>&, double);
+
+}  // namespace talus
