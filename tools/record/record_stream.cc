@@ -19,12 +19,8 @@ namespace talus {
 namespace {
 
 RunTexts texts_of(const std::string& name, std::uint64_t seed, const WalkResult& walk) {
-  RunTexts texts = {name,
-                    printable(walk.run.backend),
-                    printable(walk.run.policy),
-                    printable(walk.run.version),
-                    seed,
-                    printable(walk.run.reason)};
+  RunTexts texts = {name, printable(walk.run.backend), printable(walk.run.policy), printable(walk.run.version),
+                    seed, printable(walk.run.reason)};
   if (!walk.damage.none())
     texts.damage = fmt::format("{} damaged bytes and {} messages not decodable: frames may be missing",
                                walk.damage.bytes, walk.damage.undecodable);
