@@ -22,8 +22,7 @@ TEST(TableAsText, PadsByCharactersAndNumbersToTheRight) {
 }
 
 TEST(CsvLine, QuotesWhatWouldSplitACell) {
-  EXPECT_EQ(csv_line({"größte, \"x\" | y", "12.25"}), "\"größte, \"\"x\"\" | y\",12.25
-");
+  EXPECT_EQ(csv_line({"größte, \"x\" | y", "12.25"}), "\"größte, \"\"x\"\" | y\",12.25\n");
 }
 
 TEST(Table, RefusesARowOfTooFewCells) {
