@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/math/angle.h"
 #include "common/math/vector.h"
 
 namespace talus {
@@ -17,7 +18,7 @@ template <int Dim, class Number>
 void append_pose(const Pose<Dim>& pose, std::vector<Number>& values) {
   for (const double x : pose.position) values.push_back(static_cast<Number>(x));
   if constexpr (Dim == 2)
-    values.push_back(static_cast<Number>(pose.rotation.angle()));
+    values.push_back(static_cast<Number>(wrapped_angle(pose.rotation)));
   else
     for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
       values.push_back(static_cast<Number>(part));

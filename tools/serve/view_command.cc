@@ -221,7 +221,7 @@ CLI::Validator pace() {
             if (CLI::detail::lexical_cast(text, value) && value == 0.0) return std::string();
             return inside(text);
           },
-          fmt::format("NUMBER in {{0, [{:g}, {:g}]}}", RunLoop::slowest_pace, RunLoop::fastest_pace)};
+          fmt::format("0, or NUMBER from {:g} to {:g}", RunLoop::slowest_pace, RunLoop::fastest_pace)};
 }
 
 void add_options(CLI::App& command, ViewOptions& options) {
