@@ -57,7 +57,7 @@ class MomentReader {
   bool take(const talus_lcm::talus_obstacles& message);
   bool take(const talus_lcm::talus_scene& message);
 
-  /// Valid until the next call of take().
+  /// Valid until the next call of take(). A step that is told again, as at the end of a run, keeps its events.
   const Moment& moment() const { return moment_; }
   /// Those since the moment.
   const std::vector<SleepEvent>& later_events() const { return later_events_; }
