@@ -1,6 +1,7 @@
 #pragma once
 // A scene of a case under construction, and what is read from its run.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -68,7 +69,11 @@ class StageRun {
   const BodyStates<Dim>& states() const { return world().states(); }
   const Vec<Dim>& at(BodyIndex body) const { return states().pose[body].position; }
   double time() const { return simulation_.time(); }
-  int warnings() const { return static_cast<int>(simulation_.warnings().size()); }
+  /// Kinds of warnings but `overlap`, of which cases measure the depth themselves.
+  int warnings() const {
+    return static_cast<int>(std::ranges::count_if(
+        simulation_.warnings(), [](const Warning& warning) { return warning.kind != WarningKind::overlap; }));
+  }
   /// Sleeping bodies without a chain of contacts to the ground or an obstacle.
   int floating() const;
   /// Depth of the deepest overlap of two bodies, or of a body and what is fixed [m].
