@@ -85,7 +85,7 @@ class Publisher final : public Observer<Dim>, private MessageSink {
   void send_stats(const Frame<Dim>& frame, Clock::time_point now);
   void send_bodies(const Frame<Dim>& frame, Clock::time_point now);
 
-  std::int64_t run_id_;
+  std::int64_t run_id_ = 0;
   std::unique_ptr<SendQueue> queue_;
   MomentWriter<Dim> writer_;
   Pulse run_pulse_{1.0};
@@ -94,7 +94,7 @@ class Publisher final : public Observer<Dim>, private MessageSink {
   Pulse events_pulse_{1.0};
   Pulse piles_pulse_;
   Pulse bodies_pulse_;
-  double bodies_rate_;
+  double bodies_rate_ = 0.0;
   BodyIndex turn_ = 0;  // the body from which on poses of resting ones are sent next
   // Since the last statistics:
   PhaseTimes sum_;

@@ -396,7 +396,7 @@ class ValueReader {
     return point;
   }
   Pose<Dim> pose() {
-    const Pose<Dim> pose = pose_from<Dim>(rest_);
+    Pose<Dim> pose = pose_from<Dim>(rest_);
     rest_ = rest_.subspan(pose_values<Dim>);
     return pose;
   }

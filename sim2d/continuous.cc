@@ -92,8 +92,7 @@ bool ContinuousCollision::may_pass(b2Fixture& a, b2Fixture& b) const {
   input.transformA = start_of(*a.GetBody());
   input.transformB = start_of(*b.GetBody());
   input.useRadii = true;
-  b2SimplexCache cache;
-  cache.count = 0;
+  b2SimplexCache cache{};
   b2DistanceOutput output;
   b2Distance(&output, &cache, &input);
   return output.distance < (1.0F + rounding) * dt_ * beyond;

@@ -75,7 +75,7 @@ std::vector<PhysicsCase> sleeping_cases();
 
 /// A case in a cell.
 struct PhysicsTask {
-  const PhysicsCase* each;
+  const PhysicsCase* each = nullptr;
   PhysicsCell cell;
   int dimension = 2;
 

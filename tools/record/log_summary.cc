@@ -235,23 +235,23 @@ Json log_summary(const std::filesystem::path& file) {
   return json;
 }
 
-void print_log_summary(const Json& json) {
-  const bool empty = json["stamps"].is_null();
-  print_result("{}: {:.1f} MB, {}\n", shown_text(json["file"]), json["bytes"].get<double>() / 1e6,
-               empty ? "no message" : "stamps " + text_of_stamps(json["stamps"]));
-  if (!empty) print_stamps(json);
-  if (json["runs"].empty()) print_result("no run of talus is in it\n");
-  for (const Json& run : json["runs"]) print_run_of_log(run);
-  for (const Json& channel : json["channels"]) {
+void print_log_summary(const Json& summary) {
+  const bool empty = summary["stamps"].is_null();
+  print_result("{}: {:.1f} MB, {}\n", shown_text(summary["file"]), summary["bytes"].get<double>() / 1e6,
+               empty ? "no message" : "stamps " + text_of_stamps(summary["stamps"]));
+  if (!empty) print_stamps(summary);
+  if (summary["runs"].empty()) print_result("no run of talus is in it\n");
+  for (const Json& run : summary["runs"]) print_run_of_log(run);
+  for (const Json& channel : summary["channels"]) {
     print_result("  {:<14} {:>8} messages {:>12} bytes", shown_text(channel["name"]),
                  channel["messages"].get<std::int64_t>(), channel["bytes"].get<std::int64_t>());
     for (const char* fault : {"missing", "undecodable"})
       if (const auto number = channel[fault].get<std::int64_t>(); number > 0) print_result(", {} {}", number, fault);
     print_result("\n");
   }
-  if (const auto bytes = json["damaged_bytes"].get<std::uint64_t>(); bytes > 0)
+  if (const auto bytes = summary["damaged_bytes"].get<std::uint64_t>(); bytes > 0)
     print_result("damaged: {} bytes in {} places; `talus info --repair` writes what is whole\n", bytes,
-                 json["damaged_places"].get<std::uint64_t>());
+                 summary["damaged_places"].get<std::uint64_t>());
 }
 
 }  // namespace talus

@@ -147,7 +147,7 @@ Json drift_estimate_json(const std::optional<DriftProbe>& probe, const std::opti
 Json measured_json(const std::optional<MeasuredDrift>& drift) {
   if (!drift) return nullptr;
   const bool known = drift->missing.empty();
-  const auto where_known = [&](double drift_D) { return known ? Json(drift_D) : Json(); };
+  const auto where_known = [&](double in_extents) { return known ? Json(in_extents) : Json(); };
   return {{"missing", drift->missing},
           {"bodies", drift->bodies},
           {"simulated_s", drift->seconds},

@@ -159,7 +159,7 @@ void view_record(const ViewOptions& options) {
 }
 #endif
 
-bool is_record(const std::string& what) {
+bool is_record([[maybe_unused]] const std::string& what) {
 #ifdef TALUS_LCM
   return std::filesystem::is_directory(what) || is_event_log(what);
 #else

@@ -77,7 +77,7 @@ class BlockChanges {
 
 Numbers read_list(StreamReader& in) {
   Numbers list(in.number());
-  std::uint64_t number = static_cast<std::uint64_t>(-1);
+  auto number = static_cast<std::uint64_t>(-1);
   for (std::uint64_t& each : list) each = number += in.number();
   return list;
 }
@@ -85,7 +85,7 @@ Numbers read_list(StreamReader& in) {
 template <class Range, class NumberOf>
 void write_list(std::string& out, const Range& range, NumberOf number_of) {
   write_unsigned(out, range.size());
-  std::uint64_t before = static_cast<std::uint64_t>(-1);
+  auto before = static_cast<std::uint64_t>(-1);
   for (const auto& each : range) write_unsigned(out, number_of(each) - std::exchange(before, number_of(each)));
 }
 
