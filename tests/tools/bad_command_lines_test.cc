@@ -184,14 +184,15 @@ TEST_F(BadCommandLine, OfBenchIsRefused) {
           {"bench drop_in_a_pile_2d --set seed=1,2 --out new", {"--set seed", "--seeds"}},
           {"bench drop_in_a_pile_2d --set policy.kind=full --out new", {"--set policy.kind", "--policy"}},
           {"bench drop_in_a_pile_2d --set run.frames=2 --set run.frames=3 --out new", {"run.frames", "once"}},
-          {"bench drop_in_a_pile_2d --set world.steps_per_second=20 --out new", {"steps_per_second", "window"}},
           {"bench drop_in_a_pile_2d --out ''", {"--out"}},
           {"bench drop_in_a_pile_2d --out text", {"--out", "text"}}});
 }
 
 #ifdef TALUS_BULLET
-TEST_F(BadCommandLine, OfBenchOnAnEngineOfNoneOfItsScenesIsRefused) {
-  refuse({{"bench drop_in_a_pile_2d --backend bullet --out new", {"--backend", "no scene"}}});
+TEST_F(BadCommandLine, OfBenchOnBulletIsRefused) {
+  refuse({{"bench drop_in_a_pile_2d --backend bullet --out new", {"--backend", "no scene"}},
+          {"bench drop_in_a_pile_2d --backend bullet-planar --set world.solver.velocity_iterations=2 --out new",
+           {"velocity_iterations", "window"}}});
 }
 #endif
 
