@@ -177,6 +177,10 @@ TEST_F(SlopeControllerTest, ABodyFasterThanTheEnginesLimitIsSlowedToIt) {
   world_.record_contacts(true);
   world_.step();
   AdaptivePolicy<3> policy({}, cubes(), piles_.typical_body());
+  std::vector<SleepEvent> fallen_asleep;
+  for (BodyIndex body = 0; body < world_.states().size(); ++body)
+    if (world_.states().asleep[body] != 0) fallen_asleep.push_back({.body = body});
+  policy.note(world_, fallen_asleep);
   Decision<3> decision;
   policy.decide(frame(), decision);
   ASSERT_EQ(decision.velocities.size(), 1U);
