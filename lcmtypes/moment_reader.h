@@ -83,7 +83,7 @@ class MomentReader {
   std::int64_t slept() const { return slept_; }  // sleep events, all so far
   std::int64_t woken() const { return woken_; }
 
-  /// Whether a run of the same number begins anew with this message, as when a record is played twice.
+  /// Whether a run of the same number begins again with this message, as when a record is played twice.
   bool is_restart(const talus_lcm::talus_run& message) const;
 
  private:

@@ -246,7 +246,7 @@ void Simulation<Dim>::forget(BodyIndex body) {
     policy_->note(*world_, std::vector<SleepEvent>{{.body = body, .woke = true, .cause = SleepCause::user}});
 }
 
-/// A policy has no state of bodies that another one froze, so all wake, and the new one begins anew.
+/// A policy has no state of bodies that another one froze. So all wake, and the new one begins without state.
 template <int Dim>
 void Simulation<Dim>::switch_policy(const std::string& kind) {
   thaw_all();

@@ -8,7 +8,7 @@
 namespace talus {
 
 /// Each option puts work back that a step leaves out since it would change nothing, or the path of the engine itself in
-/// the place of a shorter one. `talus bench skips` measures what that costs. A run gives the same bits with any of
+/// the place of a shorter one. A run gives the same bits with any of
 /// them, but for `sweep_slow_bodies`. debug_fields says what each does.
 struct DebugOptions {
   bool step_when_idle = false;
