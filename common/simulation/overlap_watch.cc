@@ -32,9 +32,11 @@ auto OverlapWatch<Dim>::sample(const World<Dim>& world) -> std::span<const Findi
     const double depth = lasting_depth(world, before);
     overlap_.deepest = std::max(overlap_.deepest, depth);
     if (depth < overlap_limit) continue;
+    ++overlapping_;
     for (const BodyIndex body : {before.low, before.high})
       if (body >= 0) findings_.push_back({body, depth});
   }
+  if (pairs_ > 0) overlap_.share = static_cast<double>(overlapping_) / static_cast<double>(pairs_);
   last_.swap(now_);
   return findings_;
 }
@@ -51,11 +53,9 @@ void OverlapWatch<Dim>::find_pairs(const World<Dim>& world) {
     for (; i < contacts.size() && contacts[i].a == a && contacts[i].b == b; ++i)
       depth = std::max(depth, contacts[i].depth / extent_);
     ++pairs_;
-    if (depth >= overlap_limit) ++overlapping_;
     if (depth >= least_depth) now_.push_back({std::min(a, b), std::max(a, b), depth});
   }
   std::ranges::sort(now_, {}, &Pair::bodies);
-  if (pairs_ > 0) overlap_.share = static_cast<double>(overlapping_) / static_cast<double>(pairs_);
 }
 
 /// 0 where the pair no longer overlaps.

@@ -51,7 +51,7 @@ class OverlapWatch {
   std::vector<Pair> now_;
   std::vector<Finding> findings_;
   std::int64_t pairs_ = 0;        // in contact, over all samples
-  std::int64_t overlapping_ = 0;  // of these beyond the limit
+  std::int64_t overlapping_ = 0;  // pairs whose overlap lasted beyond the limit, over all samples
   RunOverlap overlap_;
 };
 

@@ -42,6 +42,7 @@ TEST_F(Overlaps, OfAnImpactDoNotCount) {
   EXPECT_TRUE(sample({{0, ground_index, 0.4}}).empty());
   EXPECT_TRUE(sample({{0, ground_index, 0.01}}).empty());
   EXPECT_TRUE(sample({{0, ground_index, 0.4}}).empty());
+  EXPECT_EQ(watch.overlap().share, 0.0);
 }
 
 TEST_F(Overlaps, ThatLastCountByTheirLesserDepth) {
@@ -68,7 +69,7 @@ TEST_F(Overlaps, OfOrdinaryContactsAreMeasuredWithoutAWarning) {
 TEST_F(Overlaps, CountThePointThatIsDeepest) {
   sample({{0, 1, 0.0}, {0, 1, 0.3}, {0, 2, 0.0}});
   EXPECT_EQ(sample({{0, 1, 0.2}, {0, 1, 0.3}}).size(), 2U);
-  EXPECT_NEAR(watch.overlap().share, 2.0 / 3.0, 1e-12) << "three pairs in two samples";
+  EXPECT_NEAR(watch.overlap().share, 1.0 / 3.0, 1e-12) << "one that lasted, of three pairs in two samples";
 }
 
 // Contacts of sleepers are in no list, so what they were pressed into shows only when they fall asleep.
