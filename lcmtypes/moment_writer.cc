@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/moment/moment.h"
+
 namespace talus {
 
 template <int Dim>
@@ -38,11 +40,12 @@ void MomentWriter<Dim>::shapes() {
 
 template <int Dim>
 void MomentWriter<Dim>::events(const Frame<Dim>& frame) {
-  for (const int number : frame.scene_events) {
-    if (number >= std::ssize(events_)) continue;
-    set_happened(frame, info_.dt, events_[number]);
-    send(events_[number], frame.step, frame.time);
-    removed_ = removed_ || events_[number].action == "remove";
+  for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
+    if (event.number >= std::ssize(events_)) continue;
+    talus_lcm::talus_event& message = events_[event.number];
+    set_happened(frame, info_.dt, message);
+    send(message, frame.step, frame.time);
+    removed_ = removed_ || message.action == "remove";
   }
   send_all(to_sleep(frame.events), frame.step, frame.time);
   if (!has_shapes()) return;
@@ -60,7 +63,7 @@ void MomentWriter<Dim>::events_again(const Frame<Dim>& frame, std::size_t most) 
 
 template <int Dim>
 void MomentWriter<Dim>::piles(const Frame<Dim>& frame) {
-  send_all(to_piles<Dim>(frame.piles.piles(), frame.policy), frame.step, frame.time);
+  send_all(to_piles(piles_in_space(frame)), frame.step, frame.time);
 }
 
 template <int Dim>

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "common/math/in_space.h"
 #include "common/math/pose_values.h"
 #include "common/scene/happened.h"
 #include "common/scene/write_scene.h"
@@ -64,12 +63,9 @@ talus_layer to_layer(const Layer& layer) {
   return message;
 }
 
-template <int Dim>
-talus_pile to_pile(Pile<Dim> pile, const SleepPolicy<Dim>* policy) {
-  if (policy != nullptr) set_thresholds(*policy, pile);
+talus_pile to_pile(const Pile<3>& pile) {
   talus_pile message{};
-  const Vec3 centre = in_space(pile.centre);
-  std::copy(centre.begin(), centre.end(), message.centre);
+  std::copy(pile.centre.begin(), pile.centre.end(), message.centre);
   message.alpha = pile.alpha;
   message.structure_size = pile.structure_size;
   message.lift = pile.lift;
@@ -120,12 +116,11 @@ talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason
   return message;
 }
 
-template <int Dim>
-std::vector<talus_piles> to_piles(std::span<const Pile<Dim>> piles, const SleepPolicy<Dim>* policy) {
+std::vector<talus_piles> to_piles(std::span<const Pile<3>> piles) {
   std::vector<talus_piles> messages(1);
   std::size_t used = 0;
   for (std::size_t i = 0; i < piles.size(); ++i) {
-    talus_pile pile = to_pile(piles[i], policy);
+    talus_pile pile = to_pile(piles[i]);
     const std::size_t bytes = pile_bytes + pile.layers.size() * layer_bytes;
     if (used + bytes > room<talus_piles>) {
       messages.emplace_back().first_pile = static_cast<std::int32_t>(i);
@@ -265,8 +260,6 @@ std::vector<talus_bodies> to_bodies(const BodyStates<Dim>& states, std::span<con
   return numbered(std::move(messages));
 }
 
-template std::vector<talus_piles> to_piles<2>(std::span<const Pile<2>>, const SleepPolicy<2>*);
-template std::vector<talus_piles> to_piles<3>(std::span<const Pile<3>>, const SleepPolicy<3>*);
 template talus_stats to_stats<2>(const Frame<2>&);
 template talus_stats to_stats<3>(const Frame<3>&);
 template std::vector<talus_bodies> to_bodies<2>(const BodyStates<2>&, std::span<const BodyIndex>, bool);

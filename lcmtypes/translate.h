@@ -21,10 +21,8 @@ namespace talus {
 talus_lcm::talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason,
                             std::span<const Channel> channels, const MessageEncoder& encoder);
 
-/// One message at least, also where there is no pile yet. Layers have the thresholds of `policy`, if given.
-template <int Dim>
-std::vector<talus_lcm::talus_piles> to_piles(std::span<const Pile<Dim>> piles,
-                                             const SleepPolicy<Dim>* policy = nullptr);
+/// One message at least, also where there is no pile yet.
+std::vector<talus_lcm::talus_piles> to_piles(std::span<const Pile<3>> piles);
 
 /// No message where there are no events.
 std::vector<talus_lcm::talus_sleep> to_sleep(std::span<const SleepEvent> events);

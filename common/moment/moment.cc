@@ -17,6 +17,14 @@ void PoseList::set(std::size_t i, std::span<const float> values) {
   std::copy_n(values.begin(), width_, values_.begin() + static_cast<std::ptrdiff_t>(i * width_));
 }
 
+template <int Dim>
+void PoseList::set(std::size_t i, const Pose<Dim>& pose) {
+  std::vector<float> values;
+  append_pose<Dim>(pose, values);
+  if constexpr (Dim == 2) values.back() = static_cast<float>(pose.rotation.angle());
+  set(i, values);
+}
+
 Pose<3> PoseList::in_space(std::size_t i) const { return dimension_ == 2 ? talus::in_space(pose<2>(i)) : pose<3>(i); }
 
 template <int Dim>
@@ -59,6 +67,8 @@ std::vector<ObstaclePose<Dim>> obstacles_of(const Moment& moment) {
   return obstacles;
 }
 
+template void PoseList::set<2>(std::size_t, const Pose<2>&);
+template void PoseList::set<3>(std::size_t, const Pose<3>&);
 template BodyStates<2> states_of<2>(const Moment&);
 template BodyStates<3> states_of<3>(const Moment&);
 template std::vector<Pile<2>> piles_of<2>(const Moment&);

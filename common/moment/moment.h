@@ -1,5 +1,5 @@
 #pragma once
-// A run at one step, in 2D or 3D, as all that shows, stores or exports it takes it. It knows neither engine nor policy.
+// A run at one step, in 2D or 3D, as all that shows, stores or exports it takes it.
 
 #include <cstdint>
 #include <optional>
@@ -16,6 +16,9 @@
 
 namespace talus {
 
+template <int Dim>
+struct Frame;
+
 /// Poses in single precision, which is what engines compute in: nothing of theirs is lost, whole turns included.
 class PoseList {
  public:
@@ -30,6 +33,8 @@ class PoseList {
   /// Its numbers (common/math/pose_values.h).
   std::span<const float> operator[](std::size_t i) const { return std::span(values_).subspan(i * width_, width_); }
   void set(std::size_t i, std::span<const float> values);
+  template <int Dim>
+  void set(std::size_t i, const Pose<Dim>& pose);
   /// In the list's own dimension.
   template <int Dim>
   Pose<Dim> pose(std::size_t i) const {
@@ -75,9 +80,17 @@ struct Moment {
   double kinetic_energy = 0.0;      // [J]
   std::optional<double> drift;      // mean distance that the sleeping bodies are expected to move once woken [D]
   std::vector<DoneEvent> done;      // events of the scene, all so far
-  std::vector<int> moved_obstacle;  // those that have moved, ascending
+  std::vector<int> moved_obstacle;  // those that may have moved, ascending
   PoseList obstacle_pose;           // theirs
 };
+
+/// The moment of a finished step: of the causes those of the step's own events, of the obstacles all that move by plan.
+template <int Dim>
+Moment moment_of(const Frame<Dim>& frame);
+
+/// The piles of a moment, before it is made.
+template <int Dim>
+std::vector<Pile<3>> piles_in_space(const Frame<Dim>& frame);
 
 /// The states of a moment of this dimension; velocities are zero.
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/math/in_space.h"
 #include "common/pile/profile.h"
 
 namespace talus {
@@ -107,6 +108,24 @@ double Pile<Dim>::occupation_ratio() const {
   int count = 0;
   for (const Layer& layer : layers) count += layer.count;
   return count / structure_size;
+}
+
+Pile<3> in_space(const Pile<2>& pile) {
+  Pile<3> made{.centre = in_space(pile.centre),
+               .alpha = pile.alpha,
+               .slope_controlled = pile.slope_controlled,
+               .structure_size = pile.structure_size,
+               .lift = pile.lift,
+               .height = pile.height,
+               .radius = pile.radius,
+               .boundary = {},
+               .layers = pile.layers,
+               .merged_into = pile.merged_into};
+  if (!pile.boundary) return made;
+  made.boundary.emplace(Boundary<3>{.rim = pile.boundary->rim});
+  for (const Wall<2>& wall : pile.boundary->walls)
+    made.boundary->walls.push_back({.normal = {wall.normal.x(), 0.0}, .distance = wall.distance});
+  return made;
 }
 
 template struct Pile<2>;

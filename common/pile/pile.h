@@ -78,6 +78,10 @@ struct Pile {
   double occupation_ratio() const;
 };
 
+/// A pile of a plane scene in space: it lies in y = 0, walls stand left and right of it.
+Pile<3> in_space(const Pile<2>& pile);
+inline Pile<3> in_space(const Pile<3>& pile) { return pile; }
+
 /// Number of the pile that a point belongs to: of the piles that reach it the one with the nearest axis; -1: none.
 template <int Dim>
 int nearest_pile(std::span<const Pile<Dim>> piles, const Vec<Dim>& point);

@@ -10,6 +10,7 @@
 
 #include "common/pile/pile_set.h"
 #include "common/policy/sleep_event.h"
+#include "common/world/done_event.h"
 #include "common/world/run_overlap.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
@@ -70,7 +71,8 @@ struct Frame {
   std::span<const Warning> warnings = {};          // one of each kind that the run has shown so far, if it is observed
   int bodies_planned = 0;                          // of the scene in all
   const SleepPolicy<Dim>* policy = nullptr;        // that of the run
-  std::span<const int> scene_events = {};          // numbers of Scene::events that happened just before this step
+  std::span<const DoneEvent> done_events = {};     // of the scene, so far
+  std::size_t done_now = 0;                        // of these, just before this step: the last ones
   std::optional<double> probed_drift = {};         // [D] of the last state of a run, once a probe has found it
   RunOverlap overlap = {};                         // that the run has shown so far, if it is observed
   std::function<bool(BodyIndex)> kept_awake = {};  // awake bodies that must stay so; empty: none

@@ -68,10 +68,10 @@ class SleepPolicy {
   virtual void note(const World<Dim>& /*world*/, std::span<const SleepEvent> /*events*/) {}
 };
 
-/// Writes the policy's thresholds into the layers.
+/// Writes the policy's thresholds into the layers of a pile.
 template <int Dim>
-void set_thresholds(const SleepPolicy<Dim>& policy, Pile<Dim>& pile) {
-  for (std::size_t i = 0; i < pile.layers.size(); ++i) pile.layers[i].thresholds = policy.thresholds(i);
+void set_thresholds(const SleepPolicy<Dim>& policy, std::span<Layer> layers) {
+  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].thresholds = policy.thresholds(i);
 }
 
 /// Leaves all sleeping to the engine: policy `full` (the engine never sleeps) and `engine` (its own rule).

@@ -5,14 +5,9 @@
 #include <string>
 
 #include "common/scene/scene.h"
+#include "common/world/done_event.h"
 
 namespace talus {
-
-/// An event of the scene that has happened.
-struct DoneEvent {
-  int number = 0;     // in Scene::events
-  double time = 0.0;  // [s]
-};
 
 /// One line, as "remove obstacle gate" or "gravity [0, -5]".
 template <int Dim>

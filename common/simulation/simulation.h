@@ -64,7 +64,8 @@ class Simulation {
             watchdog_.warnings(),
             watchdog_.bodies_planned(),
             policy_.get(),
-            interventions_.clock().due(),
+            interventions_.done_events(),
+            interventions_.clock().due().size(),
             probed_drift_,
             watchdog_.overlap(),
             [this](BodyIndex body) { return interventions_.must_stay_awake(*world_, body); }};

@@ -75,7 +75,8 @@ class World {
   /// Where an obstacle that may move goes within the next step, with the velocity that this takes; it pushes awake
   /// bodies. Sleeping ones stay asleep: the caller wakes them. `number` in WorldDescription::obstacles.
   void move_obstacle(int number, const Pose<Dim>& to);
-  /// Where an obstacle is.
+  /// All obstacles, where they are; those removed too.
+  std::span<const Obstacle<Dim>> obstacles() const { return description_.obstacles; }
   const Pose<Dim>& obstacle_pose(int number) const { return description_.obstacles[number].pose; }
 
   /// Takes an obstacle out of the world. Sleeping bodies that rested on it stay asleep; the caller decides whether to

@@ -112,7 +112,7 @@ TEST(Decoder, RefusesHugeAndNegativeCountsWithoutAllocating) {
 }
 
 TEST(Decoder, RefusesWhatIsNotFinite) {
-  talus_piles piles = to_piles<2>({}).front();
+  talus_piles piles = to_piles({}).front();
   MessageEncoder encoder(1);
   EXPECT_EQ(fault_of<talus_piles>(encoder.encode(piles, {0, 1, 0.5}).bytes), "");
   EXPECT_NE(fault_of<talus_piles>(encoder.encode(piles, {0, 1, std::nan("")}).bytes), "");

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "common/moment/moment.h"
 #include "lcmtypes/encode.h"
 #include "lcmtypes/translate.h"
 #include "tests/lcmtypes/still_run.h"
@@ -31,7 +32,7 @@ std::vector<Packet> sample_packets(int bodies) {
   };
   constexpr Channel channels[] = {Channel::run, Channel::piles};
   encode(std::vector{to_run(run_info(scene, "still", "none"), talus_lcm::talus_run::ALIVE, "", channels, encoder)});
-  encode(to_piles<Dim>(frame.piles.piles()));
+  encode(to_piles(piles_in_space(frame)));
   encode(to_sleep(frame.events));
   encode(std::vector{to_stats<Dim>(frame)});
   encode(to_bodies<Dim>(states, all, true));

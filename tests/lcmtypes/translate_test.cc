@@ -33,10 +33,11 @@ void expect_sendable(std::vector<Message>& messages) {
 }
 
 TEST(PilesMessage, SaysWhatThePileHolds) {
-  Pile<2> pile = make_pile<2>(Vec2(3.0, 1.0), 0.8, 100.0, {.bounding_volume = 0.5, .extent = 1.0, .mass = 1.0});
+  Pile<3> pile =
+      in_space(make_pile<2>(Vec2(3.0, 1.0), 0.8, 100.0, {.bounding_volume = 0.5, .extent = 1.0, .mass = 1.0}));
   pile.layers[0].count = 7;
   pile.layers[0].sleeping = 5;
-  const auto messages = to_piles<2>(std::span(&pile, 1));
+  const auto messages = to_piles(std::span(&pile, 1));
   ASSERT_EQ(messages.size(), 1U);
   ASSERT_EQ(messages[0].piles.size(), 1U);
   const talus_pile& told = messages[0].piles[0];
@@ -53,12 +54,13 @@ TEST(PilesMessage, SaysWhatThePileHolds) {
 }
 
 TEST(PilesMessage, HasTheThresholdsOfThePolicyForEachLayer) {
-  const Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
+  Pile<3> pile = in_space(make_pile<2>(Vec2::Zero(), 0.8, 100.0, {}));
   PaperParams params;
   params.tau = 0.4;
   params.avalanche_density = {0.75, 0.875};
   const PaperPolicy<2> paper(params, {});
-  const auto of_paper = to_piles<2>(std::span(&pile, 1), &paper);
+  set_thresholds<2>(paper, pile.layers);
+  const auto of_paper = to_piles(std::span(&pile, 1));
   const auto& layers = of_paper[0].piles[0].layers;
   ASSERT_GT(layers.size(), 2U);
   EXPECT_EQ(layers[0].wake_density, 0.75F);
@@ -66,7 +68,8 @@ TEST(PilesMessage, HasTheThresholdsOfThePolicyForEachLayer) {
   EXPECT_EQ(layers[1].sleep_density, 0.4F) << "the other factors of the score are at most 1";
   EXPECT_EQ(pile_of(of_paper[0].piles[0]).layers[2].thresholds.wake, 0.875);
   const NoPolicy<2> none;
-  const auto of_none = to_piles<2>(std::span(&pile, 1), &none);
+  set_thresholds<2>(none, pile.layers);
+  const auto of_none = to_piles(std::span(&pile, 1));
   EXPECT_EQ(of_none[0].piles[0].layers[0].wake_density, -1.0F);
 }
 
@@ -89,7 +92,7 @@ TEST(EventMessage, SaysWhatTheEventRemovesAndWhenItHappened) {
 
 TEST(PilesMessage, ComesInPartsWhenPilesAreMany) {
   const std::vector<Pile<3>> piles(500, make_pile<3>(Vec3::Zero(), 0.8, 5000.0, {}));
-  auto messages = to_piles<3>(piles);
+  auto messages = to_piles(piles);
   EXPECT_GT(messages.size(), 1U);
   std::int32_t piles_told = 0;
   for (const auto& message : messages) {
@@ -102,10 +105,10 @@ TEST(PilesMessage, ComesInPartsWhenPilesAreMany) {
 }
 
 TEST(PilesMessage, TellsTheLowestLayersOfAPileWithThousands) {
-  Pile<2> pile;
+  Pile<3> pile;
   pile.structure_size = 20000.0;
   pile.layers.resize(5000, {.top = 1.0, .radius = 1.0, .capacity = 4.0, .count = 2});
-  auto messages = to_piles<2>(std::span(&pile, 1));
+  auto messages = to_piles(std::span(&pile, 1));
   EXPECT_EQ(messages[0].piles[0].layer_total, 5000);
   EXPECT_EQ(messages[0].piles[0].layer_count, 1024);
   expect_sendable(messages);

@@ -35,12 +35,12 @@ std::vector<Packet> stream(int steps) {
     auto run = to_run(info, phase, "", channels, encoder);
     packets.push_back(encoder.encode(run, {.utime = step, .step = step, .sim_time = 0.1 * step}));
   };
-  const Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
+  const Pile<3> pile = in_space(make_pile<2>(Vec2::Zero(), 0.8, 100.0, {}));
   const SleepEvent event{.body = 3, .cause = SleepCause::score};
   say_run(talus_run::BEGIN, 0);
   for (int step = 1; step <= steps; ++step) {
     const Stamp stamp{.utime = step, .step = step, .sim_time = 0.1 * step};
-    for (auto& message : to_piles<2>(std::span(&pile, 1))) packets.push_back(encoder.encode(message, stamp));
+    for (auto& message : to_piles(std::span(&pile, 1))) packets.push_back(encoder.encode(message, stamp));
     for (auto& message : to_sleep(std::span(&event, 1))) packets.push_back(encoder.encode(message, stamp));
     talus_stats stats{};
     stats.awake = step;

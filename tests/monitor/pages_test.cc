@@ -64,7 +64,7 @@ class Sender {
     send(stats);
   }
   void pile(int layers, const LayerThresholds& thresholds = {}) {
-    Pile<2> pile = make_pile<2>(Vec2::Zero(), 0.8, 100.0, {});
+    Pile<3> pile = in_space(make_pile<2>(Vec2::Zero(), 0.8, 100.0, {}));
     pile.layers.assign(static_cast<std::size_t>(layers), {.bottom = 0.0,
                                                           .top = 1.0,
                                                           .radius = 3.0,
@@ -72,7 +72,7 @@ class Sender {
                                                           .count = 9,
                                                           .sleeping = 7,
                                                           .thresholds = thresholds});
-    for (auto& message : to_piles<2>(std::span(&pile, 1))) send(message);
+    for (auto& message : to_piles(std::span(&pile, 1))) send(message);
   }
   void event(int body, SleepCause cause, bool woke) {
     const SleepEvent event{

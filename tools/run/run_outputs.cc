@@ -56,10 +56,10 @@ class EventWatch final : public Observer<Dim> {
       : scene_(scene), backend_(std::move(backend)), folder_(std::move(folder)), prints_(prints) {}
 
   void on_frame(const Frame<Dim>& frame) override {
-    for (const int number : frame.scene_events) {
-      const EventAction action = scene_.events[number].action;
-      if (prints_) print_message("event {} at {:.4g} s: {}", number, frame.time - scene_.world.dt, to_string(action));
-      const std::string name = fmt::format("event_{}", number);
+    for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
+      const EventAction action = scene_.events[event.number].action;
+      if (prints_) print_message("event {} at {:.4g} s: {}", event.number, event.time, to_string(action));
+      const std::string name = fmt::format("event_{}", event.number);
       if (action == EventAction::picture)
         draw_pile(folder_ / (name + ".svg"), folder_ / (name + ".png"), picture_of(backend_, scene_, frame));
     }

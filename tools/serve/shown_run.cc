@@ -79,7 +79,7 @@ class SimulatedScene final : public ShownRun {
   ShownFrame frame(double ms_per_step) override {
     const Frame<Dim> frame = simulation_.frame();
     std::vector<Pile<Dim>> piles(frame.piles.piles().begin(), frame.piles.piles().end());
-    for (Pile<Dim>& pile : piles) set_thresholds(*frame.policy, pile);
+    for (Pile<Dim>& pile : piles) set_thresholds<Dim>(*frame.policy, pile.layers);
     const auto obstacles = moving_poses(scene_.world.obstacles, scene_.movers, frame.time);
     const std::optional<ToldDrift> drift = told_drift(frame);
     ShownFrame shown = {.step = frame.step,
