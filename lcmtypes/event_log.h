@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lcmtypes/encode.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/log_reader.h"
 
 namespace lcm {

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "lcmtypes/channels.h"
-#include "lcmtypes/decode.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/layout.h"
 
 namespace talus {

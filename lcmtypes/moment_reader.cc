@@ -6,8 +6,11 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "lcmtypes/decode.h"
-#include "lcmtypes/translate.h"
+#include "lcmtypes/piles_message.h"
+#include "lcmtypes/run_message.h"
+#include "lcmtypes/sleep_message.h"
+#include "lcmtypes/stats_message.h"
+#include "lcmtypes/wire.h"
 
 namespace talus {
 

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "common/moment/moment.h"
-#include "lcmtypes/bodies_reader.h"
+#include "lcmtypes/bodies_message.h"
+#include "lcmtypes/message.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/channels.h"
-#include "lcmtypes/parts.h"
 #include "lcmtypes/sequence_tracker.h"
 
 namespace talus {

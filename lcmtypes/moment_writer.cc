@@ -3,6 +3,12 @@
 #include <algorithm>
 
 #include "common/moment/moment.h"
+#include "lcmtypes/bodies_message.h"
+#include "lcmtypes/event_message.h"
+#include "lcmtypes/obstacles_message.h"
+#include "lcmtypes/piles_message.h"
+#include "lcmtypes/run_message.h"
+#include "lcmtypes/sleep_message.h"
 
 namespace talus {
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "lcmtypes/encode.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/live_link.h"
 
 namespace talus {

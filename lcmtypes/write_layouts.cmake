@@ -1,5 +1,5 @@
 # Run at build time: writes OUTPUT, a header with the layout of every message type, from the .lcm files TYPES.
-# The checks of decode.cc and the sizes in translate.cc follow from it, so a field is declared in its .lcm file alone.
+# The check of layouts in wire.cc and the room in message.h follow from it, so a field is declared in its .lcm file alone.
 
 cmake_minimum_required(VERSION 3.25)
 

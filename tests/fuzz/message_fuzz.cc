@@ -1,6 +1,6 @@
 // Input: a byte that chooses the message type, then the message between fingerprint and checksum. What decodes goes to
 // the view of a monitor, as a message that followed it.
-#include "lcmtypes/decode.h"
+#include "lcmtypes/wire.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/limits.h"
 #include "tests/fuzz/sealed_message.h"

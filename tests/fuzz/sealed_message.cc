@@ -1,6 +1,6 @@
 #include "tests/fuzz/sealed_message.h"
 
-#include "lcmtypes/encode.h"
+#include "lcmtypes/wire.h"
 
 namespace talus::fuzz {
 namespace {

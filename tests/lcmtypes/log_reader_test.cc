@@ -7,7 +7,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <system_error>
 
-#include "lcmtypes/decode.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/event_log.h"
 #include "tests/lcmtypes/sample_packets.h"
 #include "tests/lcmtypes/scratch_file.h"

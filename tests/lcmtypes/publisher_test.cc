@@ -8,7 +8,7 @@
 #include <set>
 
 #include "common/simulation/state_hash.h"
-#include "lcmtypes/decode.h"
+#include "lcmtypes/wire.h"
 #include "tests/lcmtypes/still_run.h"
 
 namespace talus::publisher_test {

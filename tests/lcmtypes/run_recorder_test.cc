@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "lcmtypes/decode.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/log_reader.h"
 #include "tests/lcmtypes/scratch_file.h"
 #include "tests/lcmtypes/still_run.h"

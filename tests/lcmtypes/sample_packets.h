@@ -4,8 +4,14 @@
 #include <vector>
 
 #include "common/moment/moment.h"
-#include "lcmtypes/encode.h"
-#include "lcmtypes/translate.h"
+#include "lcmtypes/bodies_message.h"
+#include "lcmtypes/obstacles_message.h"
+#include "lcmtypes/piles_message.h"
+#include "lcmtypes/run_message.h"
+#include "lcmtypes/shapes_message.h"
+#include "lcmtypes/sleep_message.h"
+#include "lcmtypes/stats_message.h"
+#include "lcmtypes/wire.h"
 #include "tests/lcmtypes/still_run.h"
 
 namespace talus {

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "lcmtypes/encode.h"
-#include "lcmtypes/translate.h"
+#include "lcmtypes/piles_message.h"
+#include "lcmtypes/run_message.h"
+#include "lcmtypes/sleep_message.h"
+#include "lcmtypes/wire.h"
 
 namespace talus::pages_test {
 namespace {

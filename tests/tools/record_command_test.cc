@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "lcmtypes/encode.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/layout.h"
 #include "tests/process/process.h"
 

@@ -13,7 +13,7 @@
 #include "tools/run/make_simulation.h"
 
 #ifdef TALUS_LCM
-#include "lcmtypes/translate.h"
+#include "lcmtypes/shapes_message.h"
 #endif
 
 namespace talus {

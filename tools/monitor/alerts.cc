@@ -4,7 +4,7 @@
 
 #include "common/policy/frame.h"
 #include "lcmtypes/run_info.h"
-#include "lcmtypes/translate.h"
+#include "lcmtypes/stats_message.h"
 #include "tools/monitor/text_view.h"
 
 namespace talus {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/policy/frame.h"
-#include "lcmtypes/translate.h"
+#include "lcmtypes/stats_message.h"
 
 namespace talus {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lcmtypes/run_info.h"
-#include "lcmtypes/translate.h"
+#include "lcmtypes/stats_message.h"
 #include "tools/output/json_text.h"
 
 namespace talus {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <type_traits>
 
-#include "lcmtypes/decode.h"
+#include "lcmtypes/wire.h"
 
 namespace talus {
 

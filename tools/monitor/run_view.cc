@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lcmtypes/translate.h"
+#include "lcmtypes/sleep_message.h"
 
 namespace talus {
 

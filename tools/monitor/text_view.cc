@@ -8,7 +8,7 @@
 
 #include "common/text/printable.h"
 #include "lcmtypes/run_info.h"
-#include "lcmtypes/translate.h"
+#include "lcmtypes/stats_message.h"
 
 namespace talus {
 

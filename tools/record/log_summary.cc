@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/text/printable.h"
-#include "lcmtypes/decode.h"
+#include "lcmtypes/wire.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/sequence_tracker.h"
 #include "tools/output/output.h"

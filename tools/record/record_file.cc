@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lcmtypes/channels.h"
-#include "lcmtypes/decode.h"
+#include "lcmtypes/run_message.h"
 #include "lcmtypes/layout.h"
 #include "lcmtypes/run_info.h"
 

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "common/scene/write_scene.h"
-#include "lcmtypes/decode.h"
+#include "lcmtypes/scene_message.h"
+#include "lcmtypes/wire.h"
 #include "tools/record/record_file.h"
 
 namespace talus {
@@ -17,33 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Puts the files of a scene together from their parts.
-class FilesReader {
- public:
-  void take(const talus_lcm::talus_scene& message) {
-    if (message.part != next_part_) {
-      whole_ = false;
-      return;
-    }
-    if (message.part == 0) files_.push_back({message.file, ""});
-    whole_ = whole_ && message.file == files_.back().name;
-    files_.back().text += message.text;
-    next_part_ = message.part + 1 < message.parts ? message.part + 1 : 0;
-  }
-
-  /// Empty where a part is missing.
-  std::vector<SceneFile> files() const { return whole_ && next_part_ == 0 ? files_ : std::vector<SceneFile>(); }
-
- private:
-  std::vector<SceneFile> files_;
-  std::int32_t next_part_ = 0;
-  bool whole_ = true;
-};
-
 /// They stand before the first state.
 std::vector<SceneFile> recorded_files(const fs::path& file) {
   LogReader log(file.string());
-  FilesReader reader;
+  SceneFilesReader reader;
   OneRun run;
   std::int64_t events = 0;
   for (LogEvent event; log.next(event); ++events) {

@@ -1,4 +1,12 @@
-#include "lcmtypes/translate.h"
+#include "lcmtypes/bodies_message.h"
+#include "lcmtypes/event_message.h"
+#include "lcmtypes/piles_message.h"
+#include "lcmtypes/run_message.h"
+#include "lcmtypes/scene_message.h"
+#include "lcmtypes/shapes_message.h"
+#include "lcmtypes/sleep_message.h"
+#include "lcmtypes/stats_message.h"
+#include "lcmtypes/wire.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +15,6 @@
 #include <numeric>
 
 #include "common/policy/paper_policy.h"
-#include "lcmtypes/decode.h"
 #include "tests/lcmtypes/still_run.h"
 
 namespace talus::translate_test {

@@ -1,13 +1,39 @@
-#include "lcmtypes/bodies_reader.h"
+#include "lcmtypes/bodies_message.h"
 
 #include <algorithm>
-#include <span>
 
+#include "common/math/pose_values.h"
 #include "lcmtypes/sequence_tracker.h"
 
 namespace talus {
 
 using talus_lcm::talus_bodies;
+
+template <int Dim>
+std::vector<talus_bodies> to_bodies(const BodyStates<Dim>& states, std::span<const BodyIndex> bodies, bool key_frame) {
+  constexpr std::span fields = layout<talus_bodies>;
+  constexpr std::size_t at_most = room<talus_bodies> / (bytes_per_entry(fields, "body_count") +
+                                                        pose_values<Dim> * bytes_per_entry(fields, "value_count"));
+  std::vector<talus_bodies> messages;
+  do {
+    const auto here = bodies.first(std::min(bodies.size(), at_most));
+    bodies = bodies.subspan(here.size());
+    talus_bodies& message = messages.emplace_back();
+    message.key_frame = key_frame ? 1 : 0;
+    message.dimension = Dim;
+    message.body_count = static_cast<std::int32_t>(here.size());
+    message.body.assign(here.begin(), here.end());
+    for (const BodyIndex body : here) {
+      message.shape.push_back(static_cast<std::int16_t>(states.shape[body]));
+      message.asleep.push_back(static_cast<std::int8_t>(states.asleep[body]));
+      append_pose<Dim>(states.pose[body], message.poses);
+    }
+    message.value_count = static_cast<std::int32_t>(message.poses.size());
+  } while (!bodies.empty());
+  return numbered(std::move(messages));
+}
+template std::vector<talus_bodies> to_bodies<2>(const BodyStates<2>&, std::span<const BodyIndex>, bool);
+template std::vector<talus_bodies> to_bodies<3>(const BodyStates<3>&, std::span<const BodyIndex>, bool);
 
 namespace {
 
@@ -69,6 +95,16 @@ void BodiesReader::set(const talus_bodies& message, std::size_t entry, MomentBod
   bodies.removed[body] = 0;
   bodies.unknown[body] = 0;
   seen_[body] = 1;
+}
+
+std::string_view range_fault(const talus_bodies& m) {
+  if (!header_holds(m) || !parts_hold(m)) return "header out of range";
+  if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
+  if (m.value_count != m.body_count * (m.dimension == 2 ? 3 : 7)) return "values do not match bodies";
+  if (!ascend(m.body)) return "bodies not ascending";
+  if (m.body_count > 0 && m.body.front() < 0) return "negative body";
+  if (std::any_of(m.shape.begin(), m.shape.end(), is_negative)) return "negative shape";
+  return {};
 }
 
 }  // namespace talus

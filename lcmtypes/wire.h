@@ -1,9 +1,11 @@
 #pragma once
-// From a message to the bytes that travel.
+// From a message to the bytes that travel, and from bytes of unknown origin, of a forged packet or a damaged file, to a
+// message that is safe to use.
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "lcmtypes/channels.h"
@@ -46,5 +48,15 @@ class MessageEncoder {
   std::int64_t run_id_;
   std::array<std::int64_t, channel_names.size()> next_{};
 };
+
+/// Whether the bytes are of a size that a message can have and match the checksum at their end.
+bool checksum_holds(std::span<const std::uint8_t> bytes);
+
+/// Decodes `bytes` and returns what is wrong with them, or nothing (then `message` is safe to use). Checks size,
+/// checksum, fingerprint and layout (layout.h: numbers are finite and booleans 0 or 1) before the generated decoder
+/// runs, which would resize to a count of 2^31 at once; then that every value is within its range, by range_fault() of
+/// the message. Throws nothing but bad_alloc.
+template <class Message>
+std::string_view decode(std::span<const std::uint8_t> bytes, Message& message);
 
 }  // namespace talus

@@ -1,10 +1,20 @@
-#include "lcmtypes/encode.h"
+#include "lcmtypes/wire.h"
 
 #include <fmt/core.h>
 #include <zlib.h>
 
 #include <cstdio>
 #include <cstdlib>
+
+#include "lcmtypes/bodies_message.h"
+#include "lcmtypes/event_message.h"
+#include "lcmtypes/obstacles_message.h"
+#include "lcmtypes/piles_message.h"
+#include "lcmtypes/run_message.h"
+#include "lcmtypes/scene_message.h"
+#include "lcmtypes/shapes_message.h"
+#include "lcmtypes/sleep_message.h"
+#include "lcmtypes/stats_message.h"
 
 namespace talus {
 namespace {
@@ -58,5 +68,27 @@ Packet MessageEncoder::encode(Message& message, const Stamp& stamp) {
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a type takes none
 #define TALUS_ENCODE(Message) template Packet MessageEncoder::encode(Message&, const Stamp&);
 TALUS_EACH_MESSAGE(TALUS_ENCODE)
+
+bool checksum_holds(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= header_bytes + checksum_bytes && bytes.size() <= max_message_bytes &&
+         big_endian(bytes.last(checksum_bytes)) == checksum(bytes.first(bytes.size() - checksum_bytes));
+}
+
+template <class Message>
+std::string_view decode(std::span<const std::uint8_t> bytes, Message& message) {
+  if (bytes.size() < header_bytes + checksum_bytes) return "too short";
+  if (bytes.size() > max_message_bytes) return "too long";
+  if (big_endian(bytes.first(fingerprint_bytes)) != static_cast<std::uint64_t>(Message::getHash()))
+    return "another type or version";
+  if (!checksum_holds(bytes)) return "wrong checksum";
+  if (const std::string_view fault = layout_fault(layout<Message>, bytes); !fault.empty()) return fault;
+  const int size = static_cast<int>(bytes.size());
+  if (message.decode(bytes.data(), 0, size) != size) return "not decodable";
+  return range_fault(message);
+}
+
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a type takes none
+#define TALUS_DECODE(Message) template std::string_view decode(std::span<const std::uint8_t>, Message&);
+TALUS_EACH_MESSAGE(TALUS_DECODE)
 
 }  // namespace talus

@@ -1,12 +1,20 @@
 #pragma once
+// talus_bodies: poses of the bodies that moved, or of all.
 
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/moment/moment.h"
 #include "lcmtypes/channels.h"
-#include "lcmtypes/parts.h"
+#include "lcmtypes/message.h"
 
 namespace talus {
+
+/// Poses of `bodies`, ascending. One message at least.
+template <int Dim>
+std::vector<talus_lcm::talus_bodies> to_bodies(const BodyStates<Dim>& states, std::span<const BodyIndex> bodies,
+                                               bool key_frame);
 
 /// Puts poses together again: a frame names only the bodies that moved. Where frames are missing, the pose of each body
 /// that may have moved in them is unknown until a later frame names it, at the latest the next key frame.
@@ -35,5 +43,8 @@ class BodiesReader {
   std::vector<BodyIndex> events_;   // bodies that fell asleep or woke since the last frame
   bool events_lost_ = false;        // since the last frame
 };
+
+/// The first value that is out of its range, or nothing (see decode()).
+std::string_view range_fault(const talus_lcm::talus_bodies& message);
 
 }  // namespace talus
