@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lcmtypes/wire.h"
 #include "lcmtypes/log_reader.h"
+#include "lcmtypes/wire.h"
 
 namespace lcm {
 class LogFile;

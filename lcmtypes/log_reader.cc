@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "lcmtypes/channels.h"
-#include "lcmtypes/wire.h"
 #include "lcmtypes/layout.h"
+#include "lcmtypes/wire.h"
 
 namespace talus {
 namespace {

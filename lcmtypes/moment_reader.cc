@@ -31,6 +31,8 @@ MomentLimits limits_of(const Scene<Dim>& scene) {
           .obstacles = static_cast<int>(scene.world.obstacles.size()),
           .events = static_cast<int>(scene.events.size()),
           .later_events = std::numeric_limits<std::size_t>::max(),
+          .piles = 100'000,
+          .layers = 10'000'000,
           .from_start = true};
 }
 template MomentLimits limits_of(const Scene<2>&);
@@ -64,8 +66,14 @@ MomentReader::Age MomentReader::count(const Message& message) {
   return numbers.received() > before ? Age::late : Age::duplicate;
 }
 
+template <class Message>
+bool MomentReader::counted_only(const Message& message) {
+  count(message);
+  return false;
+}
+
 void MomentReader::require_dimension(int dimension) const {
-  if (dimension != moment_.dimension())
+  if (limits_.poses && dimension != moment_.dimension())
     throw std::invalid_argument(
         fmt::format("a message of a run in {}D: must be {}D as its scene", dimension, moment_.dimension()));
 }
@@ -83,11 +91,23 @@ bool MomentReader::take(const talus_run& message) {
 }
 
 bool MomentReader::take(const talus_piles& message) {
-  if (count(message) == Age::duplicate || !piles_.take(message)) return false;
-  moment_.piles.clear();
-  for (const talus_piles& part : piles_.all())
-    for (const talus_lcm::talus_pile& pile : part.piles) moment_.piles.push_back(pile_of(pile));
+  if (count(message) == Age::duplicate || message.step < piles_step_) return false;
+  piles_step_ = message.step;
+  for (std::size_t i = 0; i < message.piles.size(); ++i)
+    place_pile(static_cast<std::size_t>(message.first_pile) + i, message.piles[i]);
   return false;
+}
+
+void MomentReader::place_pile(std::size_t number, const talus_lcm::talus_pile& message) {
+  std::vector<Pile<3>>& piles = moment_.piles;
+  const std::size_t before = number < piles.size() ? piles[number].layers.size() : 0;
+  if (number >= static_cast<std::size_t>(limits_.piles) || layers_ - before + message.layers.size() > limits_.layers) {
+    ++piles_left_out_;
+    return;
+  }
+  if (number >= piles.size()) piles.resize(number + 1);
+  layers_ += message.layers.size() - before;
+  piles[number] = pile_of(message);
 }
 
 bool MomentReader::take(const talus_sleep& message) {
@@ -96,10 +116,10 @@ bool MomentReader::take(const talus_sleep& message) {
   if (lost(Channel::sleep) > lost_before) bodies_.note_lost_events();
   const std::vector<SleepEvent> events = events_of(message);
   for (const SleepEvent& event : events) {
-    if (event.body >= limits_.bodies)
+    if (limits_.poses && event.body >= limits_.bodies)
       throw std::invalid_argument(
           fmt::format("sleep event of body {}, but the scene has {} bodies", event.body, limits_.bodies));
-    bodies_.note_event(event.body);
+    if (limits_.poses) bodies_.note_event(event.body);
     ++(event.woke ? woken_ : slept_);
   }
   if (later_events_.size() + events.size() > limits_.later_events) {
@@ -121,10 +141,7 @@ bool MomentReader::take(const talus_stats& message) {
 
 bool MomentReader::take(const talus_bodies& message) {
   require_dimension(message.dimension);
-  if (!limits_.shapes && !has_all_shapes()) {
-    count(message);
-    return false;
-  }
+  if (!limits_.poses || (!limits_.shapes && !has_all_shapes())) return counted_only(message);
   const int shapes = limits_.shapes.value_or(static_cast<int>(shapes_.size()));
   for (std::size_t entry = 0; entry < message.body.size(); ++entry) {
     if (message.body[entry] < limits_.bodies && message.shape[entry] < shapes) continue;
@@ -145,6 +162,7 @@ bool MomentReader::take(const talus_bodies& message) {
 
 /// Of an obstacle that moves the message has the present pose.
 bool MomentReader::take(const talus_shapes& message) {
+  if (!limits_.poses) return counted_only(message);
   require_dimension(message.dimension);
   constexpr int most_shapes = 32'767;  // that a body can name
   if (message.total > (message.obstacle != 0 ? limits_.obstacles : limits_.shapes.value_or(most_shapes)))
@@ -167,6 +185,7 @@ bool MomentReader::take(const talus_shapes& message) {
 
 /// What has happened stays so, whatever comes late.
 bool MomentReader::take(const talus_event& message) {
+  if (!limits_.poses) return counted_only(message);
   if (message.number >= limits_.events)
     throw std::invalid_argument(fmt::format("event {}, but the scene has {} events", message.number, limits_.events));
   if (count(message) == Age::duplicate) return false;
@@ -181,6 +200,7 @@ bool MomentReader::take(const talus_event& message) {
 
 /// Only of obstacles that are known: a forged message can name any number of others.
 bool MomentReader::take(const talus_obstacles& message) {
+  if (!limits_.poses) return counted_only(message);
   require_dimension(message.dimension);
   if (count(message) == Age::duplicate) return false;
   const std::size_t values = message.obstacle.empty() ? 0 : message.poses.size() / message.obstacle.size();
@@ -190,10 +210,7 @@ bool MomentReader::take(const talus_obstacles& message) {
   return false;
 }
 
-bool MomentReader::take(const talus_scene& message) {
-  count(message);
-  return false;
-}
+bool MomentReader::take(const talus_scene& message) { return counted_only(message); }
 
 void MomentReader::place_obstacle(int obstacle, std::span<const float> values) {
   std::vector<int>& moved = moment_.moved_obstacle;
@@ -209,6 +226,18 @@ void MomentReader::place_obstacle(int obstacle, std::span<const float> values) {
     }
   }
   moment_.obstacle_pose.set(index, values);
+}
+
+std::int64_t MomentReader::lost() const {
+  std::int64_t sum = 0;
+  for (const SequenceTracker& numbers : numbers_) sum = sum_of_counts(sum, numbers.lost());
+  return sum;
+}
+
+std::int64_t MomentReader::received() const {
+  std::int64_t sum = 0;
+  for (const SequenceTracker& numbers : numbers_) sum += numbers.received();
+  return sum;
 }
 
 bool MomentReader::has_all_shapes() const {

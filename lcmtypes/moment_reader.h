@@ -11,10 +11,9 @@
 
 #include "common/moment/moment.h"
 #include "lcmtypes/bodies_message.h"
-#include "lcmtypes/message.h"
-#include "lcmtypes/wire.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/sequence_tracker.h"
+#include "lcmtypes/wire.h"
 
 namespace talus {
 
@@ -25,6 +24,11 @@ struct MomentLimits {
   int obstacles = 100'000;
   int events = 10'000;                   // of the scene
   std::size_t later_events = 1'000'000;  // sleep events between two moments; beyond, they are dropped
+  int piles = 1000;
+  std::size_t layers = 64 * max_layers;  // of all piles
+  /// Without them messages of bodies, shapes, obstacles and events of the scene are counted only, and the run may be of
+  /// either dimension. No moment is whole then, but all else of it is the newest that is known.
+  bool poses = true;
   /// The messages are all that the run gave, as in a record: a number missing at the start is a loss too.
   bool from_start = false;
 };
@@ -33,7 +37,8 @@ struct MomentLimits {
 template <int Dim>
 MomentLimits limits_of(const Scene<Dim>& scene);
 
-/// Puts the moments of one run together from its messages, of a record or of the bus.
+/// Puts the moments of one run together from its messages, of a record or of the bus. Beyond the limits piles are left
+/// out and counted.
 class MomentReader {
  public:
   /// `dimension`: 2 or 3.
@@ -79,8 +84,13 @@ class MomentReader {
   std::int64_t form() const { return form_; }
 
   std::int64_t undecodable() const { return undecodable_; }
+  /// Piles received for which there was no room; each message counts.
+  std::int64_t piles_left_out() const { return piles_left_out_; }
   std::int64_t lost(Channel channel) const { return numbers_[static_cast<std::size_t>(channel)].lost(); }
   std::int64_t received(Channel channel) const { return numbers_[static_cast<std::size_t>(channel)].received(); }
+  /// Of all channels.
+  std::int64_t lost() const;
+  std::int64_t received() const;
   std::int64_t slept() const { return slept_; }  // sleep events, all so far
   std::int64_t woken() const { return woken_; }
 
@@ -91,13 +101,18 @@ class MomentReader {
   enum class Age : std::uint8_t { newest, late, duplicate };
   template <class Message>
   Age count(const Message& message);
+  template <class Message>
+  bool counted_only(const Message& message);
   void require_dimension(int dimension) const;
+  void place_pile(std::size_t number, const talus_lcm::talus_pile& message);
   void place_obstacle(int obstacle, std::span<const float> values);
 
   MomentLimits limits_;
   Moment moment_;
   BodiesReader bodies_;
-  Parts<talus_lcm::talus_piles> piles_;
+  std::int64_t piles_step_ = 0;
+  std::size_t layers_ = 0;  // of all piles
+  std::int64_t piles_left_out_ = 0;
   std::vector<SleepEvent> later_events_;
   std::optional<talus_lcm::talus_run> run_;
   std::optional<talus_lcm::talus_stats> stats_;

@@ -8,11 +8,11 @@
 #include "common/policy/frame.h"
 #include "common/scene/scene.h"
 #include "common/world/motion.h"
+#include "lcmtypes/run_info.h"
 #include "lcmtypes/scene_message.h"
 #include "lcmtypes/shapes_message.h"
 #include "lcmtypes/stats_message.h"
 #include "lcmtypes/wire.h"
-#include "lcmtypes/run_info.h"
 
 namespace talus {
 

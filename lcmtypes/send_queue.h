@@ -8,8 +8,8 @@
 #include <mutex>
 #include <thread>
 
-#include "lcmtypes/wire.h"
 #include "lcmtypes/live_link.h"
+#include "lcmtypes/wire.h"
 
 namespace talus {
 

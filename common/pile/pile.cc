@@ -105,7 +105,7 @@ double Pile<Dim>::closeness(const Vec<Dim>& point, const Layer& layer) const {
 
 template <int Dim>
 double Pile<Dim>::occupation_ratio() const {
-  int count = 0;
+  double count = 0.0;
   for (const Layer& layer : layers) count += layer.count;
   return count / structure_size;
 }

@@ -1,13 +1,12 @@
-#include "lcmtypes/piles_message.h"
-#include "lcmtypes/run_message.h"
-#include "lcmtypes/sleep_message.h"
-#include "lcmtypes/wire.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <string>
 
+#include "lcmtypes/piles_message.h"
+#include "lcmtypes/run_message.h"
+#include "lcmtypes/sleep_message.h"
+#include "lcmtypes/wire.h"
 #include "tests/lcmtypes/sample_packets.h"
 
 namespace talus::decode_test {

@@ -7,8 +7,8 @@
 #include <lcm/lcm-cpp.hpp>
 #include <system_error>
 
-#include "lcmtypes/wire.h"
 #include "lcmtypes/event_log.h"
+#include "lcmtypes/wire.h"
 #include "tests/lcmtypes/sample_packets.h"
 #include "tests/lcmtypes/scratch_file.h"
 

@@ -1,3 +1,10 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <numbers>
+#include <numeric>
+
+#include "common/policy/paper_policy.h"
 #include "lcmtypes/bodies_message.h"
 #include "lcmtypes/event_message.h"
 #include "lcmtypes/piles_message.h"
@@ -7,17 +14,9 @@
 #include "lcmtypes/sleep_message.h"
 #include "lcmtypes/stats_message.h"
 #include "lcmtypes/wire.h"
-
-#include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
-
-#include <numbers>
-#include <numeric>
-
-#include "common/policy/paper_policy.h"
 #include "tests/lcmtypes/still_run.h"
 
-namespace talus::translate_test {
+namespace talus::messages_test {
 namespace {
 
 using talus_lcm::talus_pile;
@@ -405,4 +404,4 @@ TEST(SceneFiles, ComeInPartsThatMakeTheWhole) {
 }
 
 }  // namespace
-}  // namespace talus::translate_test
+}  // namespace talus::messages_test

@@ -7,8 +7,8 @@
 
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/log_reader.h"
-#include "lcmtypes/run_recorder.h"
 #include "lcmtypes/obstacles_message.h"
+#include "lcmtypes/run_recorder.h"
 #include "lcmtypes/shapes_message.h"
 #include "lcmtypes/wire.h"
 #include "tests/lcmtypes/scratch_file.h"

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "lcmtypes/wire.h"
 #include "lcmtypes/log_reader.h"
+#include "lcmtypes/wire.h"
 #include "tests/lcmtypes/scratch_file.h"
 #include "tests/lcmtypes/still_run.h"
 

@@ -14,7 +14,6 @@
 namespace talus::listener_test {
 namespace {
 
-using talus_lcm::talus_layer;
 using talus_lcm::talus_run;
 using talus_lcm::talus_stats;
 
@@ -57,7 +56,7 @@ TEST(Listener, KnowsTheNewestStateAndThatNothingWasLost) {
   for (const Packet& packet : stream(50)) wire.send(packet);
   EXPECT_EQ(wire.run().step(), 50);
   EXPECT_EQ(wire.run().stats()->awake, 50);
-  EXPECT_EQ(wire.run().slept(), 50);
+  EXPECT_EQ(wire.run().reader().slept(), 50);
   EXPECT_TRUE(wire.run().ended());
   EXPECT_EQ(wire.listener.runs().lost(), 0);
   EXPECT_EQ(wire.listener.undecodable(), 0);
@@ -76,7 +75,7 @@ TEST(Listener, CountsARunThatIsPlayedAgainAnew) {
   const auto packets = stream(20);
   for (int time = 0; time < 2; ++time)
     for (const Packet& packet : packets) wire.send(packet);
-  EXPECT_EQ(wire.run().slept(), 20);
+  EXPECT_EQ(wire.run().reader().slept(), 20);
   EXPECT_EQ(wire.listener.runs().lost(), 0);
 }
 
@@ -118,7 +117,7 @@ RC_GTEST_PROP(ListenerProperty, CountsRepeatedAndReorderedMessagesOnce, ()) {
   }
   RC_ASSERT(wire.listener.runs().lost() == 0);
   RC_ASSERT(wire.run().received() == static_cast<std::int64_t>(packets.size()));
-  RC_ASSERT(wire.run().slept() == 30);
+  RC_ASSERT(wire.run().reader().slept() == 30);
   RC_ASSERT(wire.run().stats()->awake == 30);
 }
 
@@ -188,15 +187,15 @@ TEST(Listener, KeepsABoundedNumberOfLayers) {
   }
   EXPECT_EQ(wire.listener.undecodable(), 0) << wire.listener.last_fault();
   EXPECT_EQ(wire.run().piles().size(), 64U);
-  EXPECT_EQ(wire.run().piles_left_out(), 136);
+  EXPECT_EQ(wire.run().reader().piles_left_out(), 136);
 }
 
 TEST(DensityBar, HasABlockPerLayerAndGroupsMany) {
-  std::vector<talus_layer> layers(5);
-  const std::vector<float> densities = {1.5F, 0.5F, 0.1F, 0.01F, 0.0F};
-  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].density = densities[i];
+  std::vector<Layer> layers(5, {.capacity = 100.0});
+  const std::vector<int> counts = {150, 50, 10, 1, 0};
+  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].count = counts[i];
   EXPECT_EQ(density_bar(layers), "█▄▁▁ ");
-  layers.assign(100, talus_layer{});
+  layers.assign(100, Layer{});
   EXPECT_EQ(density_bar(layers).size(), 24U);  // 24 blanks
   EXPECT_EQ(density_bar({}), "");
 }

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "lcmtypes/wire.h"
 #include "lcmtypes/layout.h"
+#include "lcmtypes/wire.h"
 #include "tests/process/process.h"
 
 namespace talus::record_command_test {

@@ -1,10 +1,8 @@
-#include "tools/monitor/alerts.h"
-
 #include <fmt/format.h>
 
 #include "common/policy/frame.h"
 #include "lcmtypes/run_info.h"
-#include "lcmtypes/stats_message.h"
+#include "tools/monitor/panels.h"
 #include "tools/monitor/text_view.h"
 
 namespace talus {
@@ -19,7 +17,7 @@ void add_alerts(const Heard& heard, const HeardRun& run, std::vector<std::string
   const RunView& view = run.view();
   const std::string name = short_id(run.id);
   if (view.stats()) {
-    for (const Warning& warning : warnings_of(*view.stats()))
+    for (const Warning& warning : view.reader().moment().warnings)
       alerts.push_back(fmt::format("{}: warning: {}", name, account(warning)));
     if (view.stats()->dropped > 0)
       alerts.push_back(fmt::format("{}: the sender dropped {} messages", name, view.stats()->dropped));

@@ -1,9 +1,8 @@
-#include "tools/monitor/cost_tables.h"
-
 #include <fmt/format.h>
 
 #include "common/policy/frame.h"
 #include "lcmtypes/stats_message.h"
+#include "tools/monitor/panels.h"
 
 namespace talus {
 
@@ -25,7 +24,7 @@ void draw_phases(const RunView& view, const Area& area) {
 }
 
 std::vector<Channel> channels_of(const RunView& view) {
-  return channels_of_run(view.received(Channel::events) > 0, view.received(Channel::obstacles) > 0);
+  return channels_of_run(view.reader().received(Channel::events) > 0, view.reader().received(Channel::obstacles) > 0);
 }
 
 void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {
@@ -33,7 +32,7 @@ void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {
   int row = 1;
   for (const Channel channel : channels_of(run.view())) {
     const RateMeter::Rate rate = run.entry->rates[static_cast<std::size_t>(channel)].rate(heard.now);
-    const std::int64_t lost = run.view().lost(channel);
+    const std::int64_t lost = run.view().reader().lost(channel);
     const std::int64_t bad = heard.listener.undecodable(channel);
     area.put(row, 0, fmt::format("{:<12} {:>5.1f} {:>6.1f}", talus::name_of(channel), rate.messages, rate.bytes / 1e3));
     area.put(row, 25, fmt::format("{:>6}", count_text(static_cast<double>(lost))),

@@ -1,5 +1,3 @@
-#include "tools/monitor/count_graph.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <cmath>
 #include <span>
 #include <vector>
+
+#include "tools/monitor/panels.h"
 
 namespace talus {
 namespace {

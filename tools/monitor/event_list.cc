@@ -1,5 +1,3 @@
-#include "tools/monitor/event_list.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "common/policy/sleep_event.h"
+#include "tools/monitor/panels.h"
 
 namespace talus {
 namespace {
@@ -53,7 +52,7 @@ int event_filters(const RunView& view) { return static_cast<int>(filters_of(view
 void draw_events(const RunView& view, int filter, int first, const Area& area) {
   const Filter passing = filter_of(view.sleep(), filter);
   const int end = area.put(0, 0, fmt::format("events: {}", passing.name), Style::strong);
-  area.put(0, end, fmt::format(", slept {}, woke {}", view.slept(), view.woken()), Style::quiet);
+  area.put(0, end, fmt::format(", slept {}, woke {}", view.reader().slept(), view.reader().woken()), Style::quiet);
   area.put(1, 0, "   step   body event cause       score", Style::quiet);
   const Area list = area.lower(2);
   const auto accept = [&](const SleepEvent& event) { return passing.accepts(event); };

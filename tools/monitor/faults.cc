@@ -16,7 +16,7 @@ Faults faults_of(const Listener& listener, const ReceiverProcess& receiver) {
                 .last_dropped = runs.last_dropped(),
                 .unplaced_messages = runs.unplaced()};
   for (const auto& [run_id, entry] : runs.entries())
-    faults.piles_left_out = sum_of_counts(faults.piles_left_out, entry.view.piles_left_out());
+    faults.piles_left_out = sum_of_counts(faults.piles_left_out, entry.view.reader().piles_left_out());
   return faults;
 }
 

@@ -17,7 +17,7 @@ std::vector<HeardRun> runs_of(const Heard& heard) {
 }
 
 std::string name_of(const RunView& view) {
-  if (!view.run()) return "?";
+  if (!view.run()) return "?";  // until TALUS_RUN comes, which takes a second at most
   return fmt::format("{} {} {}", printable(view.run()->scene), printable(view.run()->backend),
                      printable(view.run()->policy));
 }

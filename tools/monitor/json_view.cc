@@ -8,32 +8,30 @@
 
 namespace talus {
 
-using talus_lcm::talus_layer;
-using talus_lcm::talus_pile;
 using talus_lcm::talus_run;
 using talus_lcm::talus_stats;
 using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json of(const talus_pile& pile) {
+Json of(const Pile<3>& pile) {
   Json counts = Json::array();
   Json sleeping = Json::array();
   Json densities = Json::array();
   Json capacities = Json::array();
   Json sleep_thresholds = Json::array();
   Json wake_thresholds = Json::array();
-  const auto threshold = [](float density) { return density >= 0.0F ? Json(density) : Json(); };
-  for (const talus_layer& layer : pile.layers) {
+  const auto threshold = [](double density) { return density >= 0.0 ? Json(density) : Json(); };
+  for (const Layer& layer : pile.layers) {
     counts.push_back(layer.count);
     sleeping.push_back(layer.sleeping);
-    densities.push_back(layer.density);
+    densities.push_back(layer.density());
     capacities.push_back(layer.capacity);
-    sleep_thresholds.push_back(threshold(layer.sleep_density));
-    wake_thresholds.push_back(threshold(layer.wake_density));
+    sleep_thresholds.push_back(threshold(layer.thresholds.sleep));
+    wake_thresholds.push_back(threshold(layer.thresholds.wake));
   }
-  return {{"layers", pile.layer_total},
-          {"occupation_ratio", pile.occupation_ratio},
+  return {{"layers", pile.layers.size()},
+          {"occupation_ratio", pile.occupation_ratio()},
           {"density", densities},
           {"sleep_density", sleep_thresholds},
           {"wake_density", wake_thresholds},
@@ -89,15 +87,15 @@ std::string json_line(std::int64_t run_id, const RunView& view, const Faults& fa
   if (view.run()) object.update(of(*view.run()));
   if (view.stats()) object.update(of(*view.stats()));
   object["piles"] = Json::array();
-  for (const auto& [number, pile] : view.piles()) {
-    object["piles"].push_back({{"number", number}});
-    object["piles"].back().update(of(pile));
+  for (const RunView::NumberedPile& each : view.piles()) {
+    object["piles"].push_back({{"number", each.number}});
+    object["piles"].back().update(of(*each.pile));
   }
-  object["piles_left_out"] = view.piles_left_out();
-  object["slept"] = view.slept();
-  object["woken"] = view.woken();
+  object["piles_left_out"] = view.reader().piles_left_out();
+  object["slept"] = view.reader().slept();
+  object["woken"] = view.reader().woken();
   object["received"] = view.received();
-  for (const Channel channel : all_channels) object["lost"][name_of(channel)] = view.lost(channel);
+  for (const Channel channel : all_channels) object["lost"][name_of(channel)] = view.reader().lost(channel);
   object["undecodable"] = faults.undecodable;
   object["receiver_crashes"] = faults.receiver_crashes;
   object["dropped_runs"] = faults.dropped_runs;

@@ -1,5 +1,3 @@
-#include "tools/monitor/layer_list.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,12 +8,9 @@
 #include <vector>
 
 #include "common/pile/pile.h"
-#include "tools/monitor/heard.h"
+#include "tools/monitor/panels.h"
 
 namespace talus {
-
-using talus_lcm::talus_layer;
-using talus_lcm::talus_pile;
 
 namespace {
 
@@ -32,7 +27,7 @@ struct LayerRow {
 double lower(double known, double more) { return known < 0.0 || (more >= 0.0 && more < known) ? more : known; }
 
 /// Bottom first, at most `rows`.
-std::vector<LayerRow> rows_of(std::span<const talus_layer> layers, std::size_t rows) {
+std::vector<LayerRow> rows_of(std::span<const Layer> layers, std::size_t rows) {
   const std::size_t number = std::min(layers.size(), rows);
   std::vector<LayerRow> result;
   for (std::size_t i = 0; i < number; ++i) {
@@ -41,8 +36,8 @@ std::vector<LayerRow> rows_of(std::span<const talus_layer> layers, std::size_t r
       row.capacity += layers[layer].capacity;
       row.count += layers[layer].count;
       row.sleeping += layers[layer].sleeping;
-      row.thresholds.sleep = lower(row.thresholds.sleep, layers[layer].sleep_density);
-      row.thresholds.wake = lower(row.thresholds.wake, layers[layer].wake_density);
+      row.thresholds.sleep = lower(row.thresholds.sleep, layers[layer].thresholds.sleep);
+      row.thresholds.wake = lower(row.thresholds.wake, layers[layer].thresholds.wake);
     }
     result.push_back(row);
   }
@@ -82,30 +77,31 @@ void draw_layer(const LayerRow& row, int number, const Area& area) {
 }
 
 /// Without the empty ones on top.
-std::span<const talus_layer> filled_layers(const talus_pile& pile) {
-  std::span<const talus_layer> layers = pile.layers;
+std::span<const Layer> filled_layers(const Pile<3>& pile) {
+  std::span<const Layer> layers = pile.layers;
   while (!layers.empty() && layers.back().count == 0) layers = layers.first(layers.size() - 1);
   return layers;
 }
 
-std::string heading_of(std::int32_t number, int place, std::size_t piles, const talus_pile& pile) {
+std::string heading_of(int number, int place, std::size_t piles, const Pile<3>& pile) {
   constexpr double degrees = 180.0 / std::numbers::pi;
   const std::string among = piles > 1 ? fmt::format(" ({} of {})", place + 1, piles) : "";
-  return fmt::format("pile {}{}: {} layers, {:.0f} deg, {:.0f} %", number, among, pile.layer_total,
-                     degrees * pile.alpha, 100.0 * pile.occupation_ratio);
+  return fmt::format("pile {}{}: {} layers, {:.0f} deg, {:.0f} %", number, among, pile.layers.size(),
+                     degrees * pile.alpha, 100.0 * pile.occupation_ratio());
 }
 
 }  // namespace
 
 void draw_layers(const RunView& view, int pile_place, const Area& area) {
-  if (view.piles().empty()) {
+  const std::vector<RunView::NumberedPile> piles = view.piles();
+  if (piles.empty()) {
     area.put(0, 0, "no pile yet", Style::quiet);
     return;
   }
-  const int place = pile_place % static_cast<int>(view.piles().size());
-  const auto& [pile_number, pile] = *std::next(view.piles().begin(), place);
-  area.put(0, 0, heading_of(pile_number, place, view.piles().size(), pile), Style::strong);
-  const bool has_thresholds = !pile.layers.empty() && pile.layers.front().wake_density >= 0.0F;
+  const int place = pile_place % static_cast<int>(piles.size());
+  const Pile<3>& pile = *piles[place].pile;
+  area.put(0, 0, heading_of(piles[place].number, place, piles.size(), pile), Style::strong);
+  const bool has_thresholds = pile.layers.front().thresholds.wake >= 0.0;
   if (!has_thresholds)
     area.put(1, 0, "layer dens.  bodies/cap sleep", Style::quiet);
   else

@@ -26,7 +26,7 @@ void Listener::hear(const Datagram& datagram, Message& message, Clock::time_poin
   entry->rates[static_cast<std::size_t>(datagram.channel)].add(datagram.bytes.size(), now);
   RunView& view = entry->view;
   if constexpr (std::is_same_v<Message, talus_lcm::talus_run>) {
-    if (view.is_restart(message)) runs_.restart(message.run_id);
+    if (view.reader().is_restart(message)) runs_.restart(message.run_id);
   }
   view.take(message);
 }

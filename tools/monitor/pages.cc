@@ -7,11 +7,7 @@
 
 #include "common/text/printable.h"
 #include "lcmtypes/run_info.h"
-#include "tools/monitor/alerts.h"
-#include "tools/monitor/cost_tables.h"
-#include "tools/monitor/count_graph.h"
-#include "tools/monitor/event_list.h"
-#include "tools/monitor/layer_list.h"
+#include "tools/monitor/panels.h"
 
 namespace talus {
 

@@ -1,73 +1,59 @@
 #pragma once
 
-#include <array>
-#include <chrono>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <type_traits>
+#include <vector>
 
-#include "lcmtypes/channels.h"
-#include "lcmtypes/sequence_tracker.h"
+#include "lcmtypes/moment_reader.h"
 #include "tools/monitor/run_history.h"
 
 namespace talus {
 
-/// What is known of one run: the newest message of each kind, and what was lost. Older messages than those known are
-/// counted but change nothing. Of poses, shapes and events of the scene it keeps only the count.
+/// What is known of one run: what its reader has of it, poses left out, and what a monitor remembers besides.
 class RunView {
  public:
-  void take(const talus_lcm::talus_run& message);
-  void take(const talus_lcm::talus_piles& message);
-  void take(const talus_lcm::talus_sleep& message);
-  void take(const talus_lcm::talus_stats& message);
-  void take(const talus_lcm::talus_bodies& message);
-  void take(const talus_lcm::talus_shapes& message);
-  void take(const talus_lcm::talus_event& message);
-  void take(const talus_lcm::talus_obstacles& message);
-  void take(const talus_lcm::talus_scene& message);
+  /// Takes a message that has passed decode().
+  template <class Message>
+  void take(const Message& message) {
+    const std::int64_t before = reader_.received(channel_of<Message>);
+    reader_.take(message);
+    if (reader_.received(channel_of<Message>) == before) return;  // a duplicate
+    if (message.step >= step_) {
+      step_ = message.step;
+      sim_time_ = message.sim_time;
+    }
+    if constexpr (std::is_same_v<Message, talus_lcm::talus_sleep> || std::is_same_v<Message, talus_lcm::talus_stats>)
+      remember(message);
+  }
 
-  /// The run's number was used before; nothing of that is left. A record that is played twice does so.
-  bool is_restart(const talus_lcm::talus_run& message) const;
-
-  const std::optional<talus_lcm::talus_run>& run() const { return run_; }
-  const std::optional<talus_lcm::talus_stats>& stats() const { return stats_; }
-  /// By number, as last heard of; without those that became part of another.
-  const std::map<std::int32_t, talus_lcm::talus_pile>& piles() const { return piles_; }
-
-  /// Piles received for which there is no room here; each message counts.
-  std::int64_t piles_left_out() const { return piles_left_out_; }
+  const MomentReader& reader() const { return reader_; }
+  const std::optional<talus_lcm::talus_run>& run() const { return reader_.run(); }
+  const std::optional<talus_lcm::talus_stats>& stats() const { return reader_.stats(); }
+  bool ended() const { return run() && run()->phase == talus_lcm::talus_run::END; }
+  std::int64_t lost() const { return reader_.lost(); }
+  std::int64_t received() const { return reader_.received(); }
 
   std::int64_t step() const { return step_; }    // the newest of any message
   double sim_time() const { return sim_time_; }  // [s] at that step
-  bool ended() const { return run_ && run_->phase == talus_lcm::talus_run::END; }
 
-  std::int64_t lost(Channel channel) const { return trackers_[static_cast<std::size_t>(channel)].lost(); }
-  std::int64_t lost() const;
-  std::int64_t received(Channel channel) const { return trackers_[static_cast<std::size_t>(channel)].received(); }
-  std::int64_t received() const;
-  std::int64_t slept() const { return slept_; }  // events, all so far
-  std::int64_t woken() const { return woken_; }
+  /// Piles with layers, by their number: without those that became part of another.
+  struct NumberedPile {
+    int number = 0;
+    const Pile<3>* pile = nullptr;
+  };
+  std::vector<NumberedPile> piles() const;
+
   const CountHistory& counts() const { return counts_; }
   const SleepHistory& sleep() const { return sleep_; }
 
  private:
-  /// Counts a message. Whether it is the newest of its channel.
-  template <class Message>
-  bool note(const Message& message);
-  void forget(std::int32_t number);
-  void keep(std::int32_t number, const talus_lcm::talus_pile& pile);
+  void remember(const talus_lcm::talus_sleep& message);
+  void remember(const talus_lcm::talus_stats& message);
 
-  std::array<SequenceTracker, channel_names.size()> trackers_;
-  std::optional<talus_lcm::talus_run> run_;
-  std::optional<talus_lcm::talus_stats> stats_;
-  std::map<std::int32_t, talus_lcm::talus_pile> piles_;
-  std::size_t layers_kept_ = 0;  // of all piles_
-  std::int64_t piles_left_out_ = 0;
-  std::int64_t piles_step_ = -1;
+  MomentReader reader_{2, {.later_events = 0, .poses = false}};
   std::int64_t step_ = 0;
   double sim_time_ = 0.0;
-  std::int64_t slept_ = 0;
-  std::int64_t woken_ = 0;
   CountHistory counts_;
   SleepHistory sleep_;
 };

@@ -8,12 +8,9 @@
 
 #include "common/text/printable.h"
 #include "lcmtypes/run_info.h"
-#include "lcmtypes/stats_message.h"
+#include "tools/monitor/heard.h"
 
 namespace talus {
-
-using talus_lcm::talus_layer;
-using talus_lcm::talus_run;
 
 namespace {
 
@@ -28,33 +25,26 @@ const char* block(double density) {
 }
 
 std::string bars(const RunView& view) {
+  const std::vector<RunView::NumberedPile> piles = view.piles();
   std::string text;
-  std::size_t shown = 0;
-  for (const auto& [number, pile] : view.piles()) {
-    if (shown == max_bars) return text + fmt::format(" and {} piles more", view.piles().size() - shown);
-    text += fmt::format(" [{}] {} {}", density_bar(pile.layers), pile.layer_total,
-                        pile.layer_total == 1 ? "layer" : "layers");
-    ++shown;
+  for (std::size_t i = 0; i < std::min(piles.size(), max_bars); ++i) {
+    const std::vector<Layer>& layers = piles[i].pile->layers;
+    text += fmt::format(" [{}] {} {}", density_bar(layers), layers.size(), layers.size() == 1 ? "layer" : "layers");
   }
+  if (piles.size() > max_bars) text += fmt::format(" and {} piles more", piles.size() - max_bars);
   return text.empty() ? " no pile yet" : text;
-}
-
-std::string name(const RunView& view) {
-  if (!view.run()) return "?";  // until TALUS_RUN comes, which takes a second at most
-  const talus_run& run = *view.run();
-  return fmt::format("{} {} {}", printable(run.scene), printable(run.backend), printable(run.policy));
 }
 
 }  // namespace
 
-std::string density_bar(std::span<const talus_layer> layers) {
+std::string density_bar(std::span<const Layer> layers) {
   const std::size_t number = std::min(layers.size(), max_blocks);
   std::string text;
   for (std::size_t i = 0; i < number; ++i) {
     const std::size_t begin = i * layers.size() / number;
     const std::size_t end = (i + 1) * layers.size() / number;
     double sum = 0.0;
-    for (const talus_layer& layer : layers.subspan(begin, end - begin)) sum += layer.density;
+    for (const Layer& layer : layers.subspan(begin, end - begin)) sum += layer.density();
     text += block(sum / static_cast<double>(end - begin));
   }
   return text;
@@ -62,14 +52,15 @@ std::string density_bar(std::span<const talus_layer> layers) {
 
 std::string text_line(std::int64_t run_id, const RunView& view) {
   std::string line =
-      fmt::format("{} {}  step {}  {:.2f} s ", short_id(run_id), name(view), view.step(), view.sim_time());
+      fmt::format("{} {}  step {}  {:.2f} s ", short_id(run_id), name_of(view), view.step(), view.sim_time());
   line += bars(view);
   if (view.stats()) {
     line += fmt::format("  awake {}  asleep {}", view.stats()->awake, view.stats()->asleep);
     if (view.stats()->timed != 0) line += fmt::format("  {:.2f} x real time", view.stats()->real_time_factor);
     if (view.stats()->drift_estimate >= 0.0)
       line += fmt::format("  estimated drift {:.2g} D", view.stats()->drift_estimate);
-    for (const Warning& warning : warnings_of(*view.stats())) line += fmt::format("  warning: {}", account(warning));
+    for (const Warning& warning : view.reader().moment().warnings)
+      line += fmt::format("  warning: {}", account(warning));
     if (view.stats()->dropped > 0) line += fmt::format("  dropped by the sender {}", view.stats()->dropped);
   }
   line += fmt::format("  lost {}", view.lost());

@@ -11,7 +11,7 @@ namespace talus {
 
 /// One block of eight heights per layer, bottom layer first: density 1 and above is a full block, an empty layer a
 /// blank. Of more than 24 layers, neighbours share a block with their mean.
-std::string density_bar(std::span<const talus_lcm::talus_layer> layers);
+std::string density_bar(std::span<const Layer> layers);
 
 /// A run in one line for people.
 std::string text_line(std::int64_t run_id, const RunView& view);

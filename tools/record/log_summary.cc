@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "common/text/printable.h"
-#include "lcmtypes/wire.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/sequence_tracker.h"
+#include "lcmtypes/wire.h"
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
 

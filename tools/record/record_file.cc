@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "lcmtypes/channels.h"
-#include "lcmtypes/run_message.h"
 #include "lcmtypes/layout.h"
 #include "lcmtypes/run_info.h"
+#include "lcmtypes/run_message.h"
 
 namespace talus {
 namespace {
