@@ -204,7 +204,7 @@ bool checksum_holds(std::span<const std::uint8_t> bytes) {
 }
 
 std::string text_of(const OtherFormat& other) {
-  const std::string version = other.version.empty() ? "an unknown version" : printable(other.version.substr(0, 100));
+  const std::string version = other.version.empty() ? "of an unknown version" : printable(other.version.substr(0, 100));
   return fmt::format("format {} of talus {}, must be format {}", other.format, version, talus_run::FORMAT);
 }
 
