@@ -49,10 +49,12 @@ struct BrokenRule {
 // gives are made on the way. `at`: the place of the part in `path`.
 BrokenRule missing_part(const toml::table& parent, const toml::path& path, std::size_t at) {
   const std::string& name = path[at].key();
-  if (is_index(path[at + 1])) return {.rule = fmt::format("[{}]: the scene has no {}", path[at + 1].index(), name)};
-  if (at != 1 || is_index(path[0]) || path[0].key() != "shape") return {};
   std::vector<std::string> known;
   for (const auto& [key, value] : parent) known.emplace_back(key.str());
+  if (is_index(path[at + 1]))
+    return {.rule = fmt::format("[{}]: the scene has no {}", path[at + 1].index(), name),
+            .suggestion = nearest_name(name, known)};
+  if (at != 1 || is_index(path[0]) || path[0].key() != "shape") return {};
   return {.rule = fmt::format("the scene has no shape \"{}\"", name), .suggestion = nearest_name(name, known)};
 }
 

@@ -82,6 +82,8 @@ TEST(WrongOverride, OfANameOrNumberThatTheSceneDoesNotHaveSaysSo) {
             "--set shape.l.friction=1: the scene has no shape \"l\" (did you mean \"L\"?)");
   EXPECT_EQ(error_of("shape.stone.friction=1"), "--set shape.stone.friction=1: the scene has no shape \"stone\"");
   EXPECT_EQ(error_of("obstacle[0].friction=1"), "--set obstacle[0].friction=1: [0]: the scene has no obstacle");
+  EXPECT_EQ(error_of("sorce[0].rate=1"),
+            "--set sorce[0].rate=1: [0]: the scene has no sorce (did you mean \"source\"?)");
   EXPECT_EQ(error_of("source[7].rate=1"), "--set source[7].rate=1: [7]: there are only 2, counted from 0");
   EXPECT_EQ(with({{"shape.disc={kind=\"ball\", radius=1}"}}).world.shapes.size(), 2U) << "a whole shape may be added";
 }

@@ -12,6 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "lcmtypes/channels.h"
+#include "lcmtypes/encode.h"
+#include "lcmtypes/log_reader.h"
 #include "tests/common/documented_names.h"
 #include "tests/process/process.h"
 
@@ -203,6 +206,31 @@ TEST_F(LogCommand, RepairMendsAFlippedBitInAStampWhereverItIs) {
     EXPECT_LT(stamps["longest_gap_s"], 0.1);
     EXPECT_EQ(stamps["backward"], 0);
   }
+}
+
+/// The record with its messages about the run in a format of a later version, all else as it was.
+std::string in_format_7(const fs::path& record) {
+  std::string log;
+  LogReader reader(record.string());
+  std::int64_t seq = 0;
+  for (LogEvent each; reader.next(each);) {
+    if (each.channel == name_of(Channel::run)) {
+      each.data[header_bytes + 3] = 7;
+      renumber(each.data, seq++);
+    }
+    log += event(each.timestamp, each.channel, std::string(each.data.begin(), each.data.end()));
+  }
+  return log;
+}
+
+TEST_F(LogCommand, InfoNamesTheFormatOfARunThatItCannotRead) {
+  std::ofstream(folder_.path() / "later.lcm", std::ios::binary) << in_format_7(folder_.path() / "run" / "run.lcm");
+  const Outcome outcome = talus_command("info " + (folder_ / "later.lcm"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("messages of format 7 of talus "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(": no message that describes it can be read"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("policy"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(info("run")["other_format"].is_null());
 }
 
 TEST_F(LogCommand, TellsOfStampsThatLeaveTheTimesOfTheirMessages) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <regex>
 
 #include "tests/process/process.h"
@@ -54,6 +55,18 @@ TEST(ViewCommand, RefusesBadInput) {
           "--lcm-url: must be of --live; drop_in_a_pile_2d is a scene");
   refused(folder.path().string(), "must be a folder that `talus run` left");
 #endif
+}
+
+TEST(ViewCommand, WarnsOfTheSceneAsARunDoes) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "boards.toml";
+  std::ofstream(scene) << "title = \"Boards\"\ndimension = 2\n"
+                          "shape.board = {kind = \"box\", size = [0.1, 1]}\nrun.frames = 1\n"
+                          "[[source]]\ncount = 3\nrate = 50\nposition = [0, 5]\n";
+  const std::string run = talus_command("run " + scene + " --no-telemetry --out " + (folder / "run")).err;
+  const std::string view = talus_command("view " + scene + " --seconds 0.1").err;
+  ASSERT_NE(run.find("warning: source[0]"), std::string::npos) << run;
+  EXPECT_EQ(view.substr(0, view.find("Open this address")), run);
 }
 
 #ifdef TALUS_LCM

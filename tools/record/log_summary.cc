@@ -146,6 +146,7 @@ class LogCount {
     ++channel.messages;
     channel.bytes += static_cast<std::int64_t>(event.data.size());
     if (!is_of_run(event)) return;
+    note_format(event);
     if (message_json(event).is_null()) {
       ++channel.undecodable;
       return;
@@ -157,7 +158,10 @@ class LogCount {
   }
 
   Json json() const {
-    Json json = {{"stamps", stamps_.json()}, {"runs", Json::array()}, {"channels", Json::array()}};
+    Json json = {{"stamps", stamps_.json()},
+                 {"other_format", other_format_.empty() ? Json() : Json(other_format_)},
+                 {"runs", Json::array()},
+                 {"channels", Json::array()}};
     for (const auto& [id, run] : runs_) json["runs"].push_back(run.json(id));
     for (const auto& [name, count] : channels_) {
       std::int64_t missing = 0;
@@ -172,7 +176,13 @@ class LogCount {
   }
 
  private:
+  void note_format(const LogEvent& event) {
+    if (!other_format_.empty() || event.channel != name_of(Channel::run)) return;
+    if (const auto other = other_format(event.data)) other_format_ = text_of(*other);
+  }
+
   StampCount stamps_;
+  std::string other_format_;  // of a run whose messages this talus does not read; empty: of none
   std::map<std::string, ChannelCount> channels_;
   std::vector<std::pair<std::int64_t, RunCount>> runs_;  // by id, in the order of the log
 };
@@ -206,9 +216,12 @@ void print_stamps(const Json& json) {
 
 void print_run_of_log(const Json& run) {
   const std::string reason = shown_text(run["reason"]);
-  print_result("run {}: {} on {}, policy {}, seed {}, {}\n", shown_text(run["run"]), shown_text(run["scene"]),
-               shown_text(run["backend"]), shown_text(run["policy"]), run["seed"].get<std::uint64_t>(),
-               reason.empty() ? "without an end" : "ended: " + reason);
+  if (run["dimension"] == 0)
+    print_result("run {}: no message that describes it can be read\n", shown_text(run["run"]));
+  else
+    print_result("run {}: {} on {}, policy {}, seed {}, {}\n", shown_text(run["run"]), shown_text(run["scene"]),
+                 shown_text(run["backend"]), shown_text(run["policy"]), run["seed"].get<std::uint64_t>(),
+                 reason.empty() ? "without an end" : "ended: " + reason);
   print_result("  {:.2f} to {:.2f} s simulated, {} bodies, {} frames of output, {} of them key frames\n",
                run["begin_s"].get<double>(), run["end_s"].get<double>(), run["bodies"].get<int>(),
                run["frames"].get<std::int64_t>(), run["key_frames"].get<std::int64_t>());
@@ -240,6 +253,8 @@ void print_log_summary(const Json& summary) {
   print_result("{}: {:.1f} MB, {}\n", shown_text(summary["file"]), summary["bytes"].get<double>() / 1e6,
                empty ? "no message" : "stamps " + text_of_stamps(summary["stamps"]));
   if (!empty) print_stamps(summary);
+  if (!summary["other_format"].is_null())
+    print_result("messages of {}: the scene must be run again\n", shown_text(summary["other_format"]));
   if (summary["runs"].empty()) print_result("no run of talus is in it\n");
   for (const Json& run : summary["runs"]) print_run_of_log(run);
   for (const Json& channel : summary["channels"]) {

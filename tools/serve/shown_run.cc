@@ -11,7 +11,6 @@
 #include "common/simulation/simulation.h"
 #include "common/text/printable.h"
 #include "common/world/energy.h"
-#include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/measured_drift.h"
@@ -213,8 +212,7 @@ std::unique_ptr<ShownRun> show_run(const AnyScene& scene, const std::string& bac
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> std::unique_ptr<ShownRun> {
         const std::vector<std::string> engines = backends(Dim);
         const std::string& engine = backend.empty() && !engines.empty() ? engines.front() : backend;
-        for (const SceneError& each : check_window(of_dimension, engine, file, force))
-          print_message("warning: {}{}", outside_prefix, to_string(each));
+        print_scene_warnings(check_window(of_dimension, engine, file, force), scene_warnings(of_dimension, engine));
         return std::make_unique<SimulatedScene<Dim>>(of_dimension, engine, file.stem().string());
       },
       scene);
