@@ -60,7 +60,7 @@ std::string_view range_fault(const talus_run& m) {
 }
 
 std::string text_of(const OtherFormat& other) {
-  const std::string version = other.version.empty() ? "an unknown version" : printable(other.version.substr(0, 100));
+  const std::string version = other.version.empty() ? "of an unknown version" : printable(other.version.substr(0, 100));
   return fmt::format("format {} of talus {}, must be format {}", other.format, version, talus_run::FORMAT);
 }
 
