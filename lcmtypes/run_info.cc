@@ -6,20 +6,18 @@
 #include <chrono>
 #include <string_view>
 
+#include "common/math/hash.h"
 #include "common/math/in_space.h"
 
 namespace talus {
 namespace {
 
-/// FNV-1a, 64 bits.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211U;
-  return hash;
+/// The lowest 62 bits of its hash: ids are positive, and differences of two do not overflow.
+std::int64_t id_of(std::string_view text) {
+  Fnv1a hash;
+  hash.add(text);
+  return static_cast<std::int64_t>(hash.value() & 0x3FFFFFFFFFFFFFFFU);
 }
-
-/// The lowest 62 bits: ids are positive, and differences of two do not overflow.
-std::int64_t to_id(std::uint64_t hash) { return static_cast<std::int64_t>(hash & 0x3FFFFFFFFFFFFFFFU); }
 
 std::string settings(const RunInfo& info) {
   return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", info.scene, info.backend, info.policy, info.seed, info.dimension,
@@ -47,11 +45,11 @@ RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const s
 template RunInfo run_info(const Scene<2>&, const std::string&, const std::string&);
 template RunInfo run_info(const Scene<3>&, const std::string&, const std::string&);
 
-std::int64_t record_id(const RunInfo& info) { return to_id(hash_of(settings(info))); }
+std::int64_t record_id(const RunInfo& info) { return id_of(settings(info)); }
 
 std::int64_t live_id(const RunInfo& info) {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
-  return to_id(hash_of(fmt::format("{}\n{}\n{}", settings(info), now, getpid())));
+  return id_of(fmt::format("{}\n{}\n{}", settings(info), now, getpid()));
 }
 
 std::string short_id(std::int64_t run_id) {

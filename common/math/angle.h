@@ -7,6 +7,9 @@
 
 namespace talus {
 
+constexpr double in_degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+constexpr double in_radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
 /// An angle [rad] brought into [-pi, pi]. Such an angle stays as it is, bit for bit.
 inline double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "common/math/angle.h"
+#include "common/math/pose_values.h"
 #include "common/math/require.h"
 
 namespace talus {
@@ -44,11 +44,7 @@ void Trajectory<Dim>::append(const BodyStates<Dim>& states, std::int64_t step_nu
   shape_.assign(states.shape.begin(), states.shape.end());
   for (std::size_t i = 0; i < states.shape.size(); ++i) {
     const Pose<Dim>& pose = states.pose[i];
-    for (int axis = 0; axis < Dim; ++axis) poses_.push_back(static_cast<float>(pose.position[axis]));
-    if constexpr (Dim == 2)
-      poses_.push_back(static_cast<float>(wrapped_angle(pose.rotation)));
-    else
-      for (int k = 0; k < 4; ++k) poses_.push_back(static_cast<float>(pose.rotation.coeffs()[k]));
+    append_pose(pose, poses_);
     const bool is_unknown = !unknown.empty() && unknown[i] != 0;
     const int here = states.removed[i] || is_unknown ? 0 : present_flag;
     const int sleeps = states.asleep[i] ? asleep_flag : 0;
@@ -64,7 +60,7 @@ BodyIndex Trajectory<Dim>::bodies(int frame) const {
 
 template <int Dim>
 Vec<Dim> Trajectory<Dim>::position(int frame, BodyIndex body) const {
-  const float* values = &poses_[entry(frame, body) * floats_per_body];
+  const float* values = &poses_[entry(frame, body) * pose_values<Dim>];
   Vec<Dim> position;
   for (int axis = 0; axis < Dim; ++axis) position[axis] = values[axis];
   return position;
@@ -72,19 +68,19 @@ Vec<Dim> Trajectory<Dim>::position(int frame, BodyIndex body) const {
 
 template <int Dim>
 Rotation<Dim> Trajectory<Dim>::rotation(int frame, BodyIndex body) const {
-  const float* values = &poses_[entry(frame, body) * floats_per_body + Dim];
+  const float* values = &poses_[entry(frame, body) * pose_values<Dim> + Dim];
   if constexpr (Dim == 2)
     return Rotation<2>(values[0]);
   else
-    return Rotation<3>(values[3], values[0], values[1], values[2]).normalized();
+    return Rotation<3>(values[0], values[1], values[2], values[3]).normalized();
 }
 
 template <int Dim>
 bool Trajectory<Dim>::same(int frame, const Trajectory& other, BodyIndex body) const {
   if (unknown(frame, body) || other.unknown(frame, body)) return true;
   if (!present(frame, body) || !other.present(frame, body)) return present(frame, body) == other.present(frame, body);
-  return std::memcmp(&poses_[entry(frame, body) * floats_per_body],
-                     &other.poses_[other.entry(frame, body) * floats_per_body], floats_per_body * sizeof(float)) == 0;
+  return std::memcmp(&poses_[entry(frame, body) * pose_values<Dim>],
+                     &other.poses_[other.entry(frame, body) * pose_values<Dim>], pose_values<Dim> * sizeof(float)) == 0;
 }
 
 template class Trajectory<2>;

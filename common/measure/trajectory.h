@@ -61,7 +61,6 @@ class Trajectory {
   static constexpr std::uint8_t present_flag = 1;
   static constexpr std::uint8_t asleep_flag = 2;
   static constexpr std::uint8_t unknown_flag = 4;
-  static constexpr std::size_t floats_per_body = Dim == 2 ? 3 : 7;  // position, then angle or quaternion (x, y, z, w)
   std::size_t entry(int frame, BodyIndex body) const { return first_[frame] + body; }
 
   bool unknown(int frame, BodyIndex body) const {

@@ -4,12 +4,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <vector>
 
 #include "common/math/require.h"
+#include "common/text/file.h"
 
 namespace talus {
 namespace {
@@ -112,9 +111,9 @@ std::string contents_of(const std::filesystem::path& file) {
   require(readable && !error, "mesh file", file.string(), "must be a readable Wavefront OBJ file");
   require(size <= largest_obj_file, "mesh file", file.string(),
           fmt::format("must be at most {} MiB; simplify the mesh", largest_obj_file >> 20));
-  std::ifstream in(file, std::ios::binary);
-  require(static_cast<bool>(in), "mesh file", file.string(), "must be a readable Wavefront OBJ file");
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::optional<std::string> contents = file_contents(file);
+  require(contents.has_value(), "mesh file", file.string(), "must be a readable Wavefront OBJ file");
+  return std::move(*contents);
 }
 
 void require_utf8(std::string_view all, const std::filesystem::path& file) {

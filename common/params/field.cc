@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numbers>
+
+#include "common/math/angle.h"
 
 namespace talus {
 namespace {
@@ -36,14 +37,26 @@ void check_choice(const Key& key, const std::string& text, std::string_view path
 
 }  // namespace
 
+std::string Range::rule() const {
+  const Range any;
+  const bool bounded_below = low > any.low;
+  const bool bounded_above = high < any.high;
+  if (!bounded_below && !bounded_above) return "must be finite";
+  std::string text = "must be ";
+  if (bounded_below) text += fmt::format("{} {}", low_excluded ? "above" : "at least", low);
+  if (bounded_above)
+    text += fmt::format("{}{} {}", bounded_below ? " and " : "", high_excluded ? "below" : "at most", high);
+  return text;
+}
+
 double as_written(const Key& key, double kept) {
   if (key.stored == Stored::as_written) return kept;
-  const double converted = key.stored == Stored::in_radians ? kept * 180.0 / std::numbers::pi : 1.0 / kept;
+  const double converted = key.stored == Stored::in_radians ? in_degrees(kept) : 1.0 / kept;
   return std::strtod(fmt::format("{:.15g}", converted).c_str(), nullptr);
 }
 
 double as_kept(const Key& key, double written) {
-  if (key.stored == Stored::in_radians) return written * std::numbers::pi / 180.0;
+  if (key.stored == Stored::in_radians) return in_radians(written);
   return key.stored == Stored::as_inverse ? 1.0 / written : written;
 }
 

@@ -3,6 +3,7 @@
 // come from these declarations; a parameter is written nowhere else.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,9 +14,41 @@
 
 #include "common/math/require.h"
 #include "common/math/vector.h"
-#include "common/params/range.h"
 
 namespace talus {
+
+/// Values that a number of a scene may have. Never NaN, never infinite.
+struct Range {
+  double low = std::numeric_limits<double>::lowest();
+  double high = std::numeric_limits<double>::max();
+  bool low_excluded = false;
+  bool high_excluded = false;
+
+  constexpr bool holds(double value) const {
+    return (low_excluded ? value > low : value >= low) && (high_excluded ? value < high : value <= high);
+  }
+
+  /// As in "must be above 0 and at most 1".
+  std::string rule() const;
+};
+
+constexpr Range at_least(double low) { return {.low = low}; }
+constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
+/// Without `low` itself.
+constexpr Range above(double low, double high) { return {.low = low, .high = high, .low_excluded = true}; }
+/// From 0 on, without `high` itself.
+constexpr Range below(double high) { return {.low = 0.0, .high = high, .high_excluded = true}; }
+
+/// Of gravity and of each of its components [m/s^2].
+inline constexpr Range gravity_range = between(0.0, 1e3);
+inline constexpr Range gravity_component_range = between(-gravity_range.high, gravity_range.high);
+/// Beyond 10 km from the origin a single-precision engine places bodies a millimetre off.
+inline constexpr Range coordinate_range = between(-1e4, 1e4);
+/// Sizes that both engines can simulate; `talus check` warns of those for which contacts are inaccurate.
+inline constexpr Range length_range = between(0.01, 1e4);
+inline constexpr Range spread_range = between(0.0, 1e4);
+/// Faster, and a step of 1/60 s is longer than any pile.
+inline constexpr Range speed_range = between(-1e3, 1e3);
 
 /// How a struct keeps a number of a scene file.
 enum class Stored { as_written, in_radians, as_inverse };
@@ -23,8 +56,6 @@ enum class Stored { as_written, in_radians, as_inverse };
 /// A key of a scene file. An empty member does not apply to the key.
 struct Key {
   std::string_view name;
-  /// Earlier name, which is still read, with a warning.
-  std::string_view old_name = {};
   bool required = false;
   /// 2 or 3: the key has a meaning in scenes of this dimension only.
   int dimension = 0;

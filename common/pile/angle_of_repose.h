@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/math/angle.h"
 #include "common/math/vector.h"
 
 namespace talus {
@@ -13,10 +14,10 @@ namespace talus {
 inline constexpr double default_angle_of_repose = std::numbers::pi / 6.0;
 
 /// A flatter layer is no pile [rad].
-inline constexpr double min_angle_of_repose = 5.0 * std::numbers::pi / 180.0;
+inline constexpr double min_angle_of_repose = in_radians(5.0);
 
 /// Largest slope that is ever measured [rad].
-inline constexpr double max_angle_of_repose = 75.0 * std::numbers::pi / 180.0;
+inline constexpr double max_angle_of_repose = in_radians(75.0);
 
 /// Least number of bodies whose slope means something. Chosen, not measured.
 inline constexpr std::size_t min_bodies_for_slope = 16;

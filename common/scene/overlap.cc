@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/hash.h"
 #include "common/shape/convex_distance.h"
 
 namespace talus {
@@ -28,9 +29,9 @@ double box_overlap(const Box<Dim>& a, const Box<Dim>& b) {
 
 template <int Dim>
 std::size_t OverlapCheck<Dim>::CellHash::operator()(const Cell& cell) const {
-  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
-  for (const int number : cell) hash = (hash ^ static_cast<std::uint32_t>(number)) * 0x100000001b3U;
-  return hash;
+  Fnv1a hash;
+  for (const int number : cell) hash.add(static_cast<std::uint64_t>(number));
+  return hash.value();
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include "common/scene/overlap.h"
 #include "common/scene/read_shape.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/table_reader.h"
 
 namespace talus {

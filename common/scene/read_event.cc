@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/scene_fields.h"
+
 namespace talus {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/scene/read_shape.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/table_reader.h"
 #include "common/world/motion.h"
 

@@ -5,6 +5,7 @@
 
 #include "common/scene/read_motion.h"
 #include "common/shape/polygon.h"
+#include "common/shape/shape_fields.h"
 
 namespace talus {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "common/pile/boundary.h"
 #include "common/scene/read_shape.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/table_reader.h"
 #include "common/world/container.h"
 #include "common/world/world_description.h"
@@ -44,6 +45,48 @@ inline constexpr auto obstacle_fields = std::to_array<Field<Pose<Dim>>>({
       .type = "table",
       .default_text = "none",
       .meaning = "how it moves by plan: `[obstacle.motion]`"}},
+});
+
+inline constexpr Key wall_key = {.name = "wall",
+                                 .unit = "m",
+                                 .range = length_range,
+                                 .meaning = "thickness. Thin: fast bodies go through it within one step"};
+inline constexpr Key floor_key = {.name = "floor",
+                                  .meaning = "a slab beneath as thick as the walls; without, the ground is the floor"};
+
+template <int Dim>
+inline constexpr auto container_fields = std::to_array<Field<ContainerParams<Dim>>>({
+    {&ContainerParams<Dim>::inner_size,
+     {.name = "inner_size",
+      .required = true,
+      .type = "lengths",
+      .unit = "m",
+      .range = length_range,
+      .meaning = "inside, the last number the height of the walls"}},
+    {&ContainerParams<Dim>::wall, wall_key},
+    {&ContainerParams<Dim>::floor, floor_key},
+});
+
+/// Keys of an outline, of which one is given.
+inline constexpr Key outline_radius_key = {.name = "radius",
+                                           .required = true,
+                                           .unit = "m",
+                                           .range = length_range,
+                                           .meaning = "of a cylinder of 32 walls that touch the circle"};
+inline constexpr Key outline_corners_key = {.name = "corners",
+                                            .required = true,
+                                            .type = "points",
+                                            .unit = "m",
+                                            .range = coordinate_range,
+                                            .meaning = "`[x, y]` of a convex polygon; each angle 5 degrees or more"};
+
+inline constexpr auto convex_container_fields = std::to_array<Field<ConvexContainerParams>>({
+    {{}, outline_radius_key},
+    {{}, outline_corners_key},
+    {&ConvexContainerParams::height,
+     {.name = "height", .required = true, .unit = "m", .range = length_range, .meaning = "of the walls"}},
+    {&ConvexContainerParams::wall, wall_key},
+    {&ConvexContainerParams::floor, floor_key},
 });
 
 /// Keys of `[pile.boundary]`.

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "common/pile/angle_of_repose.h"
+#include "common/pile/pile_fields.h"
+#include "common/policy/policy_fields.h"
 #include "common/scene/include.h"
 #include "common/scene/read_body.h"
 #include "common/scene/read_event.h"
@@ -18,9 +20,12 @@
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_shape.h"
 #include "common/scene/read_source.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/table_reader.h"
 #include "common/scene/text_limits.h"
 #include "common/scene/toml_text.h"
+#include "common/shape/shape_fields.h"
+#include "common/world/world_fields.h"
 
 namespace talus {
 namespace {
@@ -134,43 +139,6 @@ void read_run(TableReader& table, double dt, RunParams& run) {
     table.error("frames", fmt::format("must make at most {} steps, here {:.3g} steps a frame", most_steps, steps));
 }
 
-/// The keys of `[skip]`, as `[debug]` was named before, in which true meant that the work is left out. Read for one
-/// version more.
-constexpr std::array<std::pair<std::string_view, bool DebugOptions::*>, 12> old_skips = {{
-    {"idle", &DebugOptions::step_when_idle},
-    {"sleepers", &DebugOptions::keep_sleepers},
-    {"counts", &DebugOptions::recount_sleepers},
-    {"contacts", &DebugOptions::gather_contacts},
-    {"flight", &DebugOptions::collide_in_flight},
-    {"continuous", &DebugOptions::sweep_slow_bodies},
-    {"islands", &DebugOptions::bullet_islands},
-    {"rows", &DebugOptions::bullet_solver},
-    {"levels", &DebugOptions::bullet_row_order},
-    {"row_setup", &DebugOptions::bullet_row_setup},
-    {"places", &DebugOptions::bullet_compounds},
-    {"idle_pairs", &DebugOptions::visit_separate_pairs},
-}};
-
-void read_old_skips(TableReader& table, DebugOptions& options) {
-  for (const auto& [old_name, option] : old_skips) {
-    if (!table.has(old_name)) continue;
-    bool skipped = true;
-    table.read({.name = old_name}, skipped);
-    options.*option = !skipped;
-    const auto* field = std::ranges::find(debug_fields, Member<DebugOptions>(option), &Field<DebugOptions>::member);
-    table.warn_of_old_name(old_name, fmt::format("debug.{}, which is true where this is false", field->key.name));
-  }
-}
-
-void read_debug(TableReader& root, DebugOptions& options) {
-  const bool old_given = root.has_old("skip");
-  if (old_given && root.has("debug"))
-    root.error("skip", "must not be given beside [debug], its new name");
-  else if (old_given)
-    root.table("skip", [&](TableReader& table) { read_old_skips(table, options); });
-  root.table("debug", [&](TableReader& table) { table.read_fields(options, debug_fields); });
-}
-
 /// Rules that concern the world as a whole, as masses that are too different.
 template <int Dim>
 void check_world(TableReader& root, const WorldDescription<Dim>& world) {
@@ -201,7 +169,6 @@ Scene<Dim> read_root(TableReader& root) {
   root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
   scene.world.engine_sleep = scene.policy.kind == "engine";
   root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });
-  read_debug(root, scene.world.debug);
   check_world(root, scene.world);
   return scene;
 }
@@ -305,7 +272,7 @@ std::string with_every_default(std::string_view text, std::string_view file_name
   if (!reading.diagnostics.errors.empty()) throw SceneErrors(std::move(reading.diagnostics.errors));
   std::string filled;
   for (const FilledTable& table : reading.diagnostics.filled) {
-    if (table.values.empty() || table.head == "[skip]") continue;  // it is written as [debug]
+    if (table.values.empty()) continue;
     if (!table.head.empty()) filled += fmt::format("\n{}\n", table.head);
     for (const auto& [key, value] : table.values) filled += fmt::format("{} = {}\n", key, value);
   }

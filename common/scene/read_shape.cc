@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "common/mesh/mesh_file.h"
-#include "common/mesh/mesh_shape.h"
 #include "common/mesh/parts_volume.h"
 #include "common/scene/overlap.h"
 #include "common/shape/catalogue.h"
 #include "common/shape/colour.h"
 #include "common/shape/convex_distance.h"
 #include "common/shape/convex_piece.h"
+#include "common/shape/shape_fields.h"
 
 namespace talus {
 namespace {

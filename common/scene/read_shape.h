@@ -13,11 +13,39 @@
 #include <string_view>
 #include <vector>
 
+#include "common/mesh/mesh_shape.h"
 #include "common/scene/scene.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/table_reader.h"
 #include "common/world/world_description.h"
 
 namespace talus {
+
+inline constexpr std::array<std::string_view, 2> mesh_axes = {"y", "z"};
+
+inline constexpr auto mesh_fields = std::to_array<Field<MeshParams>>({
+    {{},
+     {.name = "file",
+      .required = true,
+      .type = "text",
+      .further_rule = "in or below the scene's folder, or absolute",
+      .meaning = "Wavefront OBJ file of a closed surface; one with holes is refused with number and place. The folder "
+                 "of a run gets a copy"}},
+    {&MeshParams::size,
+     {.name = "longest_side",
+      .unit = "m",
+      .range = length_range,
+      .meaning = "the mesh is scaled until its longest side has this length: few files say what their unit is"}},
+    {&MeshParams::up, {.name = "up", .choices = mesh_axes, .meaning = "the file's axis that points up"}},
+    {&MeshParams::detail,
+     {.name = "detail",
+      .dimension = 2,
+      .elsewhere = "`talus decompose` has made the parts",
+      .unit = "m",
+      .range = between(1e-3, 1e4),
+      .meaning = "how far the outline may deviate from the mesh's silhouette along y. Fine: many pieces, each costs in "
+                 "contacts"}},
+});
 
 /// A kind of shape that is made of convex pieces.
 template <int Dim>

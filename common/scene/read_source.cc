@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "common/scene/read_shape.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/spout_rate.h"
 
 namespace talus {

@@ -9,12 +9,17 @@
 #include <vector>
 
 #include "common/mesh/mesh_shape.h"
+#include "common/pile/pile_fields.h"
+#include "common/policy/policy_fields.h"
 #include "common/scene/read_body.h"
 #include "common/scene/read_motion.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/read_source.h"
+#include "common/scene/scene_fields.h"
 #include "common/shape/catalogue.h"
+#include "common/shape/shape_fields.h"
+#include "common/world/world_fields.h"
 
 namespace talus {
 namespace {
@@ -82,7 +87,6 @@ std::string rules_of(const Key& key) {
 std::string row_of(const Key& key, std::string_view type, const std::string& standard) {
   std::string meaning = key.dimension == 0 ? "" : fmt::format("{}D only: ", key.dimension);
   meaning += key.meaning;
-  if (!key.old_name.empty()) meaning += fmt::format(". Before: `{}`", key.old_name);
   const std::string unit = key.unit.empty() ? "" : fmt::format(", {}", key.unit);
   return fmt::format("| `{}` | {}{} | {} | {} | {} |\n", key.name, key.type.empty() ? type : key.type, unit,
                      key.required ? "required" : standard, rules_of(key), meaning);
@@ -178,7 +182,6 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[policy] paper", rows_of<PaperParams>(paper_fields)},
       {"[policy.adaptive]", rows_of<AdaptiveParams>(adaptive_fields)},
       {"[run]", rows_of<RunParams>(run_fields)},
-      {"[debug]", rows_of<DebugOptions>(debug_fields)},
   };
   const auto of_shapes = tables_of_shapes();
   const auto bodies = std::ranges::find(rows, "[[body]]", [](const auto& row) { return row.first; });

@@ -55,18 +55,12 @@ std::string TableReader::field(std::string_view key) const { return below(path_,
 const toml::node* TableReader::find(std::string_view key) {
   known_.emplace_back(key);
   if (diagnostics_.fills) diagnostics_.keys.insert(below(generic_path_, key));
-  return node_of(key);
+  return table_.get(key);
 }
 
 const toml::node* TableReader::find(const Key& key) {
-  if (!key.old_name.empty()) use_old_name(key.old_name, key.name);
   if (key.required) require(key.name);
   return find(key.name);
-}
-
-const toml::node* TableReader::node_of(std::string_view key) const {
-  const auto old = old_names_.find(key);
-  return table_.get(old == old_names_.end() ? key : std::string_view(old->second));
 }
 
 bool TableReader::has_meaning(const Key& key) {
@@ -80,29 +74,10 @@ bool TableReader::in_range(const Key& key, std::span<const double> numbers) {
   return std::ranges::all_of(numbers, [&](double kept) { return key.range.holds(as_written(key, kept)); });
 }
 
-void TableReader::use_old_name(std::string_view old_key, std::string_view key) {
-  const toml::node* node = table_.get(old_key);
-  if (node == nullptr) return;
-  known_.emplace_back(old_key);
-  if (table_.contains(key)) {
-    error_at(*node, field(old_key), fmt::format("must not be given beside {}, its new name", key));
-    return;
-  }
-  old_names_.emplace(key, old_key);
-  warn_of_old_name(old_key, key);
-}
-
-void TableReader::warn_of_old_name(std::string_view old_key, std::string_view now) {
-  const toml::node* node = table_.get(old_key);
-  warn_at(node == nullptr ? location_ : locate(node->source()),
-          fmt::format("{} is now named {}; only this version still reads the old name", field(old_key), now));
-}
-
-void TableReader::warn(std::string_view warning) { warn_at(location_, fmt::format("{}: {}", path_, warning)); }
-
-void TableReader::warn_at(const Location& at, const std::string& warning) {
-  const std::string place = at.line > 0 ? fmt::format("{}:{}:{}", at.file, at.line, at.column) : at.file;
-  diagnostics_.warnings.push_back(fmt::format("{}: {}", place, warning));
+void TableReader::warn(std::string_view warning) {
+  const std::string place =
+      location_.line > 0 ? fmt::format("{}:{}:{}", location_.file, location_.line, location_.column) : location_.file;
+  diagnostics_.warnings.push_back(fmt::format("{}: {}: {}", place, path_, warning));
 }
 
 void TableReader::fill(std::string_view key, std::string_view toml) {
@@ -168,8 +143,6 @@ bool TableReader::is_array(std::string_view key) {
   return node != nullptr && node->is_array();
 }
 
-bool TableReader::has_old(std::string_view key) { return table_.contains(key) && has(key); }
-
 void TableReader::require(std::string_view key) {
   if (!has(key)) error_at_table(field(key), "must be given");
 }
@@ -182,7 +155,7 @@ void TableReader::forbid(std::string_view key, std::string rule) {
 }
 
 void TableReader::error(std::string_view key, std::string rule) {
-  const toml::node* node = key.empty() ? nullptr : node_of(key);
+  const toml::node* node = key.empty() ? nullptr : table_.get(key);
   if (node != nullptr)
     error_at(*node, field(key), std::move(rule));
   else
@@ -195,7 +168,7 @@ void TableReader::check(const std::function<void()>& body, std::string_view key)
   } catch (const InvalidValue& invalid) {
     const std::string_view name = invalid.field();
     if (key.empty()) key = name.substr(name.find_last_of('.') + 1);
-    const bool given = node_of(key) != nullptr;
+    const bool given = table_.get(key) != nullptr;
     error(given ? key : "", given ? invalid.rule() : invalid.what());
   } catch (const std::invalid_argument& refusal) {
     error(key, refusal.what());

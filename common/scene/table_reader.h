@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -69,8 +68,6 @@ class TableReader {
   bool has(std::string_view key);
   /// Whether the key is given as an array.
   bool is_array(std::string_view key);
-  /// Whether a key of earlier versions is given; only then it is known.
-  bool has_old(std::string_view key);
   /// Adds an error if the key is absent.
   void require(std::string_view key);
   /// Adds an error if the key is given, for keys that many will try.
@@ -82,8 +79,6 @@ class TableReader {
   void check(const std::function<void()>& body, std::string_view key = {});
   /// Adds a warning about the whole table, with its place in the file.
   void warn(std::string_view warning);
-  /// Adds a warning that `old_key`, which is given here, has the new name `now`.
-  void warn_of_old_name(std::string_view old_key, std::string_view now);
   /// The value of a key in the text with all defaults, where read() has not the right one.
   void fill(std::string_view key, std::string_view toml);
   /// Keys that were not read are no errors, since it cannot be decided which belong here.
@@ -142,8 +137,6 @@ class TableReader {
 
   const toml::node* find(const Key& key);
   const toml::node* find(std::string_view key);
-  const toml::node* node_of(std::string_view key) const;
-  void use_old_name(std::string_view old_key, std::string_view key);
   /// A table below this one as messages, the manual and TOML name it: source[2], source[], [[source]].
   struct Child {
     std::string name;
@@ -153,7 +146,6 @@ class TableReader {
   };
   void read_child(const toml::node& node, const Child& child, const Body& body);
   void add_unknown_keys();
-  void warn_at(const Location& at, const std::string& warning);
   void error_at(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
   void error_at_table(std::string name, std::string rule);
   /// The name of `known` that was most likely meant; empty if none is near or the budget is spent.
@@ -173,7 +165,6 @@ class TableReader {
   std::size_t errors_before_;
   std::size_t filled_ = 0;  // index of this table in Diagnostics::filled
   std::vector<std::string> known_;
-  std::map<std::string, std::string, std::less<>> old_names_;  // of keys that are given under one
   bool unknown_keys_allowed_ = false;
 };
 

@@ -1,11 +1,11 @@
 #include "common/scene/write_scene.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
+#include <optional>
+#include <utility>
 
 #include "common/math/require.h"
+#include "common/text/file.h"
 
 namespace talus {
 
@@ -19,9 +19,9 @@ std::vector<SceneFile> scene_files(const Scene<Dim>& scene) {
     const fs::path file = scene.folder / referred;
     const bool named_before = std::ranges::find(files, referred.string(), &SceneFile::name) != files.end();
     if (named_before || !fs::exists(file)) continue;  // in 2D a mesh may lack its parts, which are not used
-    std::ifstream stream(file, std::ios::binary);
-    files.push_back({referred.string(), std::string(std::istreambuf_iterator<char>(stream), {})});
-    require(static_cast<bool>(stream), "file of the scene", file.string(), "must be readable");
+    std::optional<std::string> text = file_contents(file);
+    require(text.has_value(), "file of the scene", file.string(), "must be readable");
+    files.push_back({referred.string(), std::move(*text)});
   }
   return files;
 }
@@ -33,10 +33,7 @@ void write_scene_files(const std::vector<SceneFile>& files, const fs::path& fold
     require(below, "file of the scene", each.name, "must be in or below the scene's folder");
     const fs::path file = folder / name;
     fs::create_directories(file.parent_path());
-    std::ofstream stream(file, std::ios::binary);
-    stream << each.text;
-    stream.close();
-    if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+    write_file(file, each.text);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "common/shape/convex_hull.h"
 #include "common/shape/polygon.h"
 #include "common/shape/polygon_partition.h"
+#include "common/shape/shape_fields.h"
 
 namespace talus {
 namespace {

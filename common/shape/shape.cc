@@ -6,6 +6,7 @@
 
 #include "common/math/require.h"
 #include "common/shape/moments.h"
+#include "common/shape/shape_fields.h"
 
 namespace talus {
 

@@ -1,12 +1,10 @@
 #pragma once
 // A body's shape: convex pieces that do not overlap, in axes whose origin is the centre of mass.
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "common/math/vector.h"
-#include "common/params/field.h"
 #include "common/shape/piece.h"
 
 namespace talus {
@@ -20,37 +18,6 @@ struct Material {
   double restitution = 0.0;
   double rolling_friction = 0.0;
 };
-
-inline constexpr auto surface_fields = std::to_array<Field<Material>>({
-    {&Material::friction,
-     {.name = "friction",
-      .range = between(0.0, 1e3),
-      .meaning = "Coulomb's coefficient; see [conventions](#conventions) on pairs. Few real materials are above 1"}},
-    {&Material::restitution,
-     {.name = "restitution",
-      .range = between(0.0, 1.0),
-      .meaning = "share of the approach speed given back. Above 0.99 impacts add energy, see "
-                 "[limits](#limits-of-the-engines)"}},
-});
-
-/// What only bodies have.
-inline constexpr auto body_material_fields = std::to_array<Field<Material>>({
-    {&Material::density,
-     {.name = "density",
-      .unit = "kg/m^3, in 2D kg/m^2",
-      .range = above(0.0, 1e6),
-      .meaning =
-          "only ratios matter to a pile: masses of a scene's shapes must be within a factor of 100, better 10, or "
-          "heavy bodies sink through light ones. Mass and inertia must be at least 1e-20 kg and kg m^2"}},
-    {&Material::rolling_friction,
-     {.name = "rolling_friction",
-      .range = between(0.0, 10.0),
-      .meaning = "tangent of the steepest slope on which a ball of this shape does not roll. Each contact resists "
-                 "turning, rolling as well as spinning, by a torque of up to this times the normal force times half "
-                 "the width of the thinnest part; two bodies take the geometric mean of both. Without it heaps of "
-                 "balls and discs do not come to rest. Bullet then starts friction warm and takes its own solver's "
-                 "way, a third slower"}},
-});
 
 /// Throws on a value outside its range.
 void check_material(const Material& material, const std::string& field);

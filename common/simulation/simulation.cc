@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/pile/pile_fields.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/stopwatch.h"

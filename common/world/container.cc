@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/math/angle.h"
 #include "common/math/require.h"
 #include "common/shape/catalogue.h"
 #include "common/shape/polygon.h"
@@ -20,7 +21,7 @@ std::vector<Vec2> widened(std::span<const Vec2> outline, double by) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2 before = outward_normal(outline, (i + outline.size() - 1) % outline.size());
     const Vec2 after = outward_normal(outline, i);
-    const double angle = std::acos(std::clamp(-before.dot(after), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+    const double angle = in_degrees(std::acos(std::clamp(-before.dot(after), -1.0, 1.0)));
     require(angle >= sharpest, "corners", angle,
             fmt::format("must meet at {} degrees or more, here {:.3g}: walls around a sharper corner have no end",
                         sharpest, angle));

@@ -1,21 +1,12 @@
 #pragma once
 // Containers without a lid, made of obstacles.
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "common/params/field.h"
 #include "common/world/world_description.h"
 
 namespace talus {
-
-inline constexpr Key wall_key = {.name = "wall",
-                                 .unit = "m",
-                                 .range = length_range,
-                                 .meaning = "thickness. Thin: fast bodies go through it within one step"};
-inline constexpr Key floor_key = {.name = "floor",
-                                  .meaning = "a slab beneath as thick as the walls; without, the ground is the floor"};
 
 /// A box of upright walls. container_fields has the unit, range and effect of each field.
 template <int Dim>
@@ -24,19 +15,6 @@ struct ContainerParams {
   double wall = 1.0;
   bool floor = false;
 };
-
-template <int Dim>
-inline constexpr auto container_fields = std::to_array<Field<ContainerParams<Dim>>>({
-    {&ContainerParams<Dim>::inner_size,
-     {.name = "inner_size",
-      .required = true,
-      .type = "lengths",
-      .unit = "m",
-      .range = length_range,
-      .meaning = "inside, the last number the height of the walls"}},
-    {&ContainerParams<Dim>::wall, wall_key},
-    {&ContainerParams<Dim>::floor, floor_key},
-});
 
 /// The walls, each an obstacle. `pose`: middle of the inside's lower face.
 template <int Dim>
@@ -50,28 +28,6 @@ struct ConvexContainerParams {
   double wall = 1.0;
   bool floor = false;
 };
-
-/// Keys of an outline, of which one is given.
-inline constexpr Key outline_radius_key = {.name = "radius",
-                                           .required = true,
-                                           .unit = "m",
-                                           .range = length_range,
-                                           .meaning = "of a cylinder of 32 walls that touch the circle"};
-inline constexpr Key outline_corners_key = {.name = "corners",
-                                            .required = true,
-                                            .type = "points",
-                                            .unit = "m",
-                                            .range = coordinate_range,
-                                            .meaning = "`[x, y]` of a convex polygon; each angle 5 degrees or more"};
-
-inline constexpr auto convex_container_fields = std::to_array<Field<ConvexContainerParams>>({
-    {{}, outline_radius_key},
-    {{}, outline_corners_key},
-    {&ConvexContainerParams::height,
-     {.name = "height", .required = true, .unit = "m", .range = length_range, .meaning = "of the walls"}},
-    {&ConvexContainerParams::wall, wall_key},
-    {&ConvexContainerParams::floor, floor_key},
-});
 
 /// One wall for each side of the outline, joined on slanted cuts, and the floor. `pose`: where the outline's origin
 /// goes, at the height of the inside's lower face. Throws InvalidValue for a sharp corner.

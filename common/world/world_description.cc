@@ -8,6 +8,7 @@
 #include "common/math/require.h"
 #include "common/shape/piece.h"
 #include "common/world/engine_traits.h"
+#include "common/world/world_fields.h"
 
 namespace talus {
 namespace {

@@ -2,13 +2,11 @@
 // All that an engine needs before the first body exists.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <vector>
 
-#include "common/params/field.h"
 #include "common/shape/shape.h"
 #include "common/world/body.h"
 #include "common/world/debug_options.h"
@@ -25,31 +23,6 @@ struct SolverParams {
   double restitution_threshold = 0.5;
 };
 
-inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
-    {&SolverParams::velocity_iterations,
-     {.name = "velocity_iterations",
-      .range = between(1.0, 1000.0),
-      .meaning = "too few: piles melt and tall stacks sink. Cost grows in proportion"}},
-    {&SolverParams::position_iterations,
-     {.name = "position_iterations",
-      .range = between(1.0, 1000.0),
-      .meaning = "Box2D only. Too few: bodies stay inside each other"}},
-    {&SolverParams::friction_directions,
-     {.name = "friction_directions",
-      .range = between(1.0, 2.0),
-      .meaning = "Bullet in 3D only. 1: piles creep without end and become 20 % too low"}},
-    {&SolverParams::warm_friction,
-     {.name = "warm_friction",
-      .meaning = "Bullet only. true: friction starts each step at the last step's impulse. 10 iterations then hold a "
-                 "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time; the 3D scenes of this "
-                 "project but `million_3d` have it. Towers one body wide sway more than without"}},
-    {&SolverParams::restitution_threshold,
-     {.name = "restitution_threshold",
-      .unit = "m/s",
-      .range = between(0.0, 1e3),
-      .meaning = "slower approaches do not bounce. Too low: piles never come to rest"}},
-});
-
 /// The plane z = height, infinite for all practical purposes. ground_fields and surface_fields have the unit, range and
 /// effect of each field.
 struct Ground {
@@ -57,11 +30,6 @@ struct Ground {
   double height = 0.0;
   Material material;  // its density means nothing
 };
-
-inline constexpr auto ground_fields = std::to_array<Field<Ground>>({
-    {&Ground::present, {.name = "present", .meaning = "false: bodies that miss the obstacles fall without end"}},
-    {&Ground::height, {.name = "height", .unit = "m", .range = coordinate_range, .meaning = "height of the plane"}},
-});
 
 /// A shape that no body moves.
 template <int Dim>
@@ -111,36 +79,6 @@ inline double pair_friction(double a, double b) { return std::sqrt(a * b); }
 inline double arm_of_pair(std::optional<double> a, std::optional<double> b) {
   return a && b ? std::sqrt(*a * *b) : a.value_or(b.value_or(0.0));
 }
-
-inline constexpr Key gravity_vector_key = {.name = "gravity", .unit = "m/s^2", .range = gravity_component_range};
-
-template <int Dim>
-inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>({
-    {&WorldDescription<Dim>::gravity,
-     {.name = "gravity",
-      .type = "number or vector",
-      .unit = "m/s^2",
-      .range = gravity_range,
-      .meaning =
-          "downwards, or a vector: `[1.7, -9.66]` is the same as everything tilted by 10 degrees. Piles, and in the "
-          "policies `paper` and `adaptive` layers and columns, take the last axis as up all the same. Large: bodies "
-          "sink into the "
-          "ground, see [limits](#limits-of-the-engines)"}},
-    {&WorldDescription<Dim>::dt,
-     {.name = "steps_per_second",
-      .unit = "1/s",
-      .stored = Stored::as_inverse,
-      .range = between(30.0, 1e5),
-      .meaning =
-          "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m, below by a third of a "
-          "metre; cost grows in proportion"}},
-    {{},
-     {.name = "gravity_motion",
-      .type = "table",
-      .default_text = "none",
-      .meaning = "how gravity changes by plan: `[world.gravity_motion]`"}},
-    {{}, {.name = "solver", .type = "table", .default_text = "see below", .meaning = "`[world.solver]`"}},
-});
 
 /// Throws InvalidValue; backends call it first, since Bullet would swallow a bad
 /// value and Box2D abort the process.

@@ -153,7 +153,7 @@ TYPED_TEST(AdaptiveTest, ABodyOnASteepSlopeSlidesOnceWhatHeldItIsTakenAway) {
   const Material material{.friction = 0.2};
   Scene<dim> slope = this->scene(material);
   slope.world.ground.present = false;
-  const Rotation<dim> tilt = tilted<dim>(radians(35.0));  // atan(0.2) is 11 degrees
+  const Rotation<dim> tilt = tilted<dim>(in_radians(35.0));  // atan(0.2) is 11 degrees
   const Vec<dim> plank = Vec<dim>::Constant(40.0);
   slope.world.obstacles.push_back({make_shape<dim>("plank", box_pieces<dim>(plank), material),
                                    {.position = tilt * up<dim>(-20.0), .rotation = tilt}});

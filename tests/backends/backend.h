@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "common/math/angle.h"
 #include "common/shape/catalogue.h"
 #include "common/world/world.h"
 #include "docs/examples/toy_engine.h"
@@ -68,8 +69,6 @@ struct BackendName {
     return Backend::name;
   }
 };
-
-inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 template <int Dim>
 Vec<Dim> up(double height) {

@@ -59,7 +59,7 @@ double slide(double degrees, double seconds) {
   description.shapes.push_back(make_shape<dim>("box", box_pieces<dim>(Vec<dim>::Ones()), material));
   Vec<dim> plank = Vec<dim>::Constant(60.0);
   plank[dim - 1] = 1.0;
-  const Rotation<dim> tilt = tilted<dim>(radians(degrees));
+  const Rotation<dim> tilt = tilted<dim>(in_radians(degrees));
   description.obstacles.push_back({make_shape<dim>("plank", box_pieces<dim>(plank), material), {.rotation = tilt}});
   auto world = Backend::make(description);
   BodyDef<dim> box;
@@ -77,7 +77,7 @@ TYPED_TEST(Motion, OnASlopeBelowTheAngleOfFrictionSticks) {
 
 TYPED_TEST(Motion, OnASlopeAboveTheAngleOfFrictionSlidesAsCoulombSays) {
   for (const double degrees : {28.0, 30.0, 35.0}) {
-    const double angle = radians(degrees);
+    const double angle = in_radians(degrees);
     const double acceleration = 2.0 * slide<TypeParam>(degrees, 3.0) / 9.0;
     const double friction = (std::sin(angle) - acceleration / 10.0) / std::cos(angle);
     // 2 %: Bullet limits friction by a normal impulse that is not yet converged, which costs up to 1.7 %.

@@ -155,7 +155,7 @@ double carried_around(const Carry& carry, bool upright) {
   while (simulation.time() < 2.5 - 1e-9) simulation.step();
   const double before = angle();
   while (simulation.time() < 8.5 - 1e-9) simulation.step();
-  return (angle() - before) / radians(6.0 * carry.speed);
+  return (angle() - before) / in_radians(6.0 * carry.speed);
 }
 
 // Within 1 % over 2 s, from half a second after the start on, when friction has brought the cube to speed: it needs

@@ -66,7 +66,7 @@ TYPED_TEST(RollingFriction, HoldsABallOnASlopeUpToItsTangent) {
   constexpr int dim = TypeParam::dim;
   for (const double degrees : {5.0, 7.0}) {  // atan(0.1) is 5.7 degrees
     SCOPED_TRACE(degrees);
-    const std::string gravity = at<dim>(9.81 * std::sin(radians(degrees)), -9.81 * std::cos(radians(degrees)));
+    const std::string gravity = at<dim>(9.81 * std::sin(in_radians(degrees)), -9.81 * std::cos(in_radians(degrees)));
     const auto simulation = TestFixture::run(
         ball<dim>(0.1, "full", fmt::format("world.gravity = {}\nbody = [{{position = {}}}]", gravity, at<dim>(0, 0.5))),
         5.0);

@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "common/math/angle.h"
 #include "common/pile/profile.h"
 
 namespace talus::pile_test {
@@ -14,10 +15,8 @@ namespace {
 
 constexpr TypicalBody body{.bounding_volume = 0.4, .extent = 1.4, .mass = 1.0};
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-
 /// Slope of 5 to 80 degrees and room for 1 to 100,000 bodies.
-double any_alpha() { return radians(*rc::gen::inRange(50, 800) / 10.0); }
+double any_alpha() { return in_radians(*rc::gen::inRange(50, 800) / 10.0); }
 double any_size() { return *rc::gen::inRange(10, 1000000) / 10.0; }
 
 template <int Dim>
@@ -44,26 +43,26 @@ void expect_sound_structure() {
 }
 
 TEST(ConeProfile, FollowsEquationOne) {
-  const double alpha = radians(35.0);
+  const double alpha = in_radians(35.0);
   const double radius = Profile<3>::base_radius(50.0, alpha);
   EXPECT_NEAR(std::numbers::pi / 3.0 * std::pow(radius, 3) * std::tan(alpha), 50.0, 1e-12 * 50.0);
 }
 
 TEST(WedgeProfile, FollowsEquationOnesTwin) {
-  const double alpha = radians(35.0);
+  const double alpha = in_radians(35.0);
   const double radius = Profile<2>::base_radius(50.0, alpha);
   EXPECT_NEAR(radius * radius * std::tan(alpha), 50.0, 1e-12 * 50.0);
 }
 
 TEST(PileLayer, HoldsTheVolumeOfItsFrustum) {
-  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1000.0, body);
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), in_radians(45.0), 1000.0, body);
   const Layer& layer = pile.layers[1];
   const double frustum = Profile<3>::slice_volume(layer.radius, pile.layers[2].radius, layer.top - layer.bottom);
   EXPECT_NEAR(layer.volume, frustum, 1e-12 * frustum);
 }
 
 TEST(Closeness, IsOneOnTheAxisAndZeroOutsideTheLayer) {
-  const Pile<3> pile = make_pile<3>(Vec3(1.0, 2.0, 0.0), radians(45.0), 1000.0, body);
+  const Pile<3> pile = make_pile<3>(Vec3(1.0, 2.0, 0.0), in_radians(45.0), 1000.0, body);
   const Layer& layer = pile.layers[0];
   EXPECT_DOUBLE_EQ(pile.closeness(Vec3(1.0, 2.0, 0.3), layer), 1.0);
   EXPECT_DOUBLE_EQ(pile.closeness(Vec3(1.0 + 0.25 * layer.radius, 2.0, 0.3), layer), 0.75);
@@ -75,18 +74,18 @@ RC_GTEST_PROP(PileStructure, HoldsJustItsBodiesIn3D, ()) { expect_sound_structur
 
 TEST(PileStructure, HasAsManyLayersAsExtentsFitIntoItsHeight) {
   // alpha 45: h = r = cbrt(3 N v / pi); N v = 400 gives h = 7.256, and 7.256 / 1.4 = 5.18.
-  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1000.0, body);
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), in_radians(45.0), 1000.0, body);
   EXPECT_NEAR(pile.height, std::cbrt(3.0 * 400.0 / std::numbers::pi), 1e-12);
   EXPECT_EQ(pile.layers.size(), 5U);
 }
 
 TEST(PileStructure, KeepsOneLayerWhenLowerThanABody) {
-  EXPECT_EQ(make_pile<3>(Vec3::Zero(), radians(45.0), 1.0, body).layers.size(), 1U);
+  EXPECT_EQ(make_pile<3>(Vec3::Zero(), in_radians(45.0), 1.0, body).layers.size(), 1U);
 }
 
 TEST(PileLayer, OfAPointGoesByHeightThenRadius) {
   const Vec3 centre(10.0, -5.0, 2.0);
-  const Pile<3> pile = make_pile<3>(centre, radians(45.0), 1000.0, body);
+  const Pile<3> pile = make_pile<3>(centre, in_radians(45.0), 1000.0, body);
   const Layer& second = pile.layers[1];
   const double height = 0.5 * (second.bottom + second.top);
   EXPECT_EQ(pile.layer_of(centre + Vec3(0.0, 0.0, height)), 1);
@@ -96,7 +95,7 @@ TEST(PileLayer, OfAPointGoesByHeightThenRadius) {
 }
 
 TEST(PileLayer, AboveTheApexIsTheTopLayer) {
-  const Pile<2> pile = make_pile<2>(Vec2::Zero(), radians(45.0), 1000.0, body);
+  const Pile<2> pile = make_pile<2>(Vec2::Zero(), in_radians(45.0), 1000.0, body);
   EXPECT_EQ(pile.layer_of(Vec2(0.0, 10.0 * pile.height)), static_cast<int>(pile.layers.size()) - 1);
 }
 
@@ -110,14 +109,14 @@ double volume(const Pile<Dim>& pile) {
 
 TEST(WalledPile, IsAnOrdinaryConeUntilItTouchesAWall) {
   const auto walls = box_boundary<3>(Vec2(40.0, 60.0), 5.0);
-  const Pile<3> inside = make_pile<3>(Vec3::Zero(), radians(45.0), 1000.0, body, walls);
+  const Pile<3> inside = make_pile<3>(Vec3::Zero(), in_radians(45.0), 1000.0, body, walls);
   EXPECT_FALSE(inside.boundary.has_value());
-  EXPECT_EQ(inside.radius, make_pile<3>(Vec3::Zero(), radians(45.0), 1000.0, body).radius);
+  EXPECT_EQ(inside.radius, make_pile<3>(Vec3::Zero(), in_radians(45.0), 1000.0, body).radius);
 }
 
 TEST(WalledPile, RisesInItsContainerWithATipAboveIt) {
   // 4 m x 6 m, tip 2 m high at 45 degrees: 24 m^2 * 2 m / 3 = 16 m^3; 100 bodies of 0.4 m^3 leave 24 m^3 = 1 m of lift.
-  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 100.0, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), in_radians(45.0), 100.0, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
   EXPECT_NEAR(pile.lift, 1.0, 1e-12);
   EXPECT_NEAR(pile.height, 3.0, 1e-12);
   EXPECT_NEAR(volume(pile), 40.0, 1e-12 * 40.0);
@@ -125,20 +124,20 @@ TEST(WalledPile, RisesInItsContainerWithATipAboveIt) {
 
 TEST(WalledPile, WhoseLowestLayerTouchesTheWallsGrowsUpwardsOnly) {
   const auto walls = box_boundary<3>(Vec2(4.0, 6.0), 5.0);
-  const Pile<3> before = make_pile<3>(Vec3::Zero(), radians(45.0), 100.0, body, walls);
-  const Pile<3> after = make_pile<3>(Vec3::Zero(), radians(45.0), 160.0, body, walls);
+  const Pile<3> before = make_pile<3>(Vec3::Zero(), in_radians(45.0), 100.0, body, walls);
+  const Pile<3> after = make_pile<3>(Vec3::Zero(), in_radians(45.0), 160.0, body, walls);
   EXPECT_EQ(after.layers.front().radius, before.layers.front().radius);
   EXPECT_NEAR(after.lift - before.lift, 60.0 * 0.4 / 24.0, 1e-12);  // 60 bodies of 0.4 m^3 on 24 m^2
 }
 
 TEST(WalledPile, StopsAtTheRim) {
-  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1e6, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), in_radians(45.0), 1e6, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
   EXPECT_DOUBLE_EQ(pile.lift, 5.0);
   EXPECT_NEAR(pile.structure_size, (24.0 * 5.0 + 16.0) / 0.4, 1e-9);
 }
 
 TEST(WalledPile, CountsOnlyWhatLiesWithinTheWalls) {
-  const Pile<3> pile = make_pile<3>(Vec3::Zero(), radians(45.0), 1e6, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
+  const Pile<3> pile = make_pile<3>(Vec3::Zero(), in_radians(45.0), 1e6, body, box_boundary<3>(Vec2(4.0, 6.0), 5.0));
   EXPECT_EQ(pile.layer_of(Vec3(1.9, 2.9, 0.1)), 0) << "in a corner of the container";
   EXPECT_EQ(pile.layer_of(Vec3(2.1, 0.0, 0.1)), -1);
   EXPECT_EQ(pile.layer_of(Vec3(0.0, 3.1, 0.1)), -1);

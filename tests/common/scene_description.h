@@ -5,8 +5,13 @@
 
 #include <string>
 
+#include "common/pile/pile_fields.h"
+#include "common/policy/policy_fields.h"
 #include "common/scene/scene.h"
+#include "common/scene/scene_fields.h"
 #include "common/scene/toml_text.h"
+#include "common/shape/shape_fields.h"
+#include "common/world/world_fields.h"
 
 namespace talus {
 
@@ -48,8 +53,7 @@ std::string description(const S& params, std::type_identity_t<Fields<S>> fields)
 template <int Dim>
 std::string description(const WorldDescription<Dim>& world) {
   std::string text = description(world, world_fields<Dim>) + description(world.solver, solver_fields) +
-                     description(world.debug, debug_fields) + description(world.ground, ground_fields) +
-                     description(world.ground.material, surface_fields) +
+                     description(world.ground, ground_fields) + description(world.ground.material, surface_fields) +
                      fmt::format("engine_sleep {} dt {}\n", world.engine_sleep, world.dt);
   for (const Obstacle<Dim>& obstacle : world.obstacles)
     text += "obstacle at" + numbers(obstacle.pose) + " " + description(obstacle.shape);

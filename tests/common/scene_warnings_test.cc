@@ -66,31 +66,6 @@ TEST(Warnings, DoNotMindOneLargeBodyThatIsThrownIntoAPile) {
   EXPECT_EQ(warnings_with({large, sources, {"run.frames=1200"}}), "");
 }
 
-TEST(Warnings, NameTheNewNameOfAKeyThatIsGivenUnderItsOldOne) {
-  const std::string text =
-      "title = \"A scene\"\ndimension = 3\nshape.ball = {kind = \"ball\", radius = 0.5}\n"
-      "source = [{rate = 2, count = 10}]\n[[pile]]\nalpha_deg = 20\nhold_slope = true\n";
-  const auto scene = std::get<Scene<3>>(parse_scene(text, "text"));
-  EXPECT_TRUE(scene.piles.front().control_slope);
-  EXPECT_EQ(warnings(scene), std::vector<std::string>{"text:7:14: pile[0].hold_slope is now named control_slope; only "
-                                                      "this version still reads the old name"});
-  expect_one(warnings_with({{"policy.adaptive.heavy_blow=3"}}), "policy.adaptive.heavy_blow is now named heavy_impact");
-}
-
-TEST(Warnings, NameTheDebugOptionOfASkipThatIsGivenUnderItsOldName) {
-  const Override skip{"skip.idle=false"};
-  expect_one(warnings_with({skip}), "skip.idle is now named debug.step_when_idle, which is true where this is false");
-  const std::string text =
-      "title = \"A scene\"\ndimension = 3\nshape.ball = {kind = \"ball\", radius = 0.5}\n"
-      "source = [{rate = 2, count = 10}]\n[skip]\nidle = false\nrows = true\n";
-  const auto scene = std::get<Scene<3>>(parse_scene(text, "text"));
-  EXPECT_TRUE(scene.world.debug.step_when_idle);
-  EXPECT_FALSE(scene.world.debug.bullet_solver);
-  const auto again = std::get<Scene<3>>(parse_scene(with_every_default(text, "text"), "text"));
-  EXPECT_TRUE(again.world.debug.step_when_idle);
-  EXPECT_EQ(warnings(again), std::vector<std::string>());
-}
-
 TEST(Warnings, TellOfAPolicyThatControlsNoSlopes) {
   expect_one(warnings_with({{"pile[0].control_slope=true"}, {"policy.kind=full"}}), "controls no slope");
   EXPECT_EQ(warnings_with({{"pile[0].control_slope=true"}}), "");

@@ -7,8 +7,13 @@
 #include <functional>
 #include <limits>
 
+#include "common/pile/pile_fields.h"
+#include "common/policy/policy_fields.h"
 #include "common/scene/scene.h"
+#include "common/scene/scene_fields.h"
 #include "common/shape/catalogue.h"
+#include "common/shape/shape_fields.h"
+#include "common/world/world_fields.h"
 
 namespace talus::world_description_test {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "common/math/angle.h"
 #include "common/math/random.h"
 #include "common/measure/shape_statistics.h"
 #include "tests/physics/stage.h"
@@ -77,7 +78,7 @@ double slope_of_heap(const PhysicsCell& cell, double friction, std::uint64_t see
   const auto bodies = placed_bodies<Dim>(run.world().shapes(), run.states());
   const double extent = run.world().shape_of(0).extent;
   const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, 0.0, extent);
-  return shape_statistics<Dim>(bodies, grid).repose.angle * 180.0 / std::numbers::pi;
+  return in_degrees(shape_statistics<Dim>(bodies, grid).repose.angle);
 }
 
 /// Mean slope of four heaps [degrees].

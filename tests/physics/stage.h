@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/math/angle.h"
 #include "common/shape/catalogue.h"
 #include "common/simulation/simulation.h"
 #include "tests/physics/physics_case.h"
 
 namespace talus {
-
-inline double in_radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// The point at x and height z; in 3D y is 0.
 template <int Dim>

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "common/measure/ensemble.h"
+#include "common/text/file.h"
 #include "tools/bench/bench_plan.h"
 #include "tools/output/csv.h"
 #include "tools/plot/plot.h"
@@ -66,13 +66,6 @@ std::string cell_of(double number) { return std::isfinite(number) ? fmt::format(
 std::vector<std::string> key_cells(const BenchCase& run) {
   return {run.scene_name(), run.backend, run.policy, fmt::format("{}", fmt::join(run.settings, " ")),
           fmt::format("{}", run.seed)};
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 /// "2.91 ± 0.08"; "-" for what was not measured.

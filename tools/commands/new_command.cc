@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 
+#include "common/text/file.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/validators.h"
@@ -101,10 +101,7 @@ void write_new_scene(const std::string& name, int dimension) {
   if (file.extension() != ".toml") file += ".toml";
   if (std::filesystem::exists(file))
     throw std::invalid_argument(fmt::format("NAME = {}: must be new; nothing is overwritten", file.string()));
-  std::ofstream out(file, std::ios::binary);
-  out << (dimension == 2 ? flat_scene : space_scene);
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  write_file(file, dimension == 2 ? flat_scene : space_scene);
   print_result("{0}: now `talus run {0}`\n", printable(file.string()));
 }
 

@@ -1,10 +1,9 @@
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 
 #include "common/scene/reference.h"
+#include "common/text/file.h"
 #include "tools/commands/command_line_text.h"
 #include "tools/commands/commands.h"
 #include "tools/output/output.h"
@@ -17,15 +16,10 @@ void print_reference() {
 }
 
 void update(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string before(std::istreambuf_iterator<char>(in), {});
-  if (!in && before.empty()) throw std::invalid_argument(file.string() + ": must be a file that can be read");
-  const std::string after = with_reference(before);
-  if (after == before) return;
-  std::ofstream out(file, std::ios::binary);
-  out << after;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  const std::optional<std::string> before = file_contents(file);
+  if (!before) throw std::invalid_argument(file.string() + ": must be a file that can be read");
+  const std::string after = with_reference(*before);
+  if (after != before) write_file(file, after);
 }
 
 }  // namespace

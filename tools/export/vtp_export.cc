@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "common/math/pose_values.h"
 #include "common/text/base64.h"
 #include "tools/export/exporter.h"
 #include "tools/export/output_file.h"
@@ -118,7 +119,7 @@ class VtpExport final : public Exporter {
   static void add_body(PointArrays& arrays, const MomentBodies& bodies, BodyIndex body) {
     const Pose<3> pose = bodies.pose.in_space(body);
     append_point(arrays.points, pose.position);
-    for (const double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
+    for (const double part : quaternion_values(pose.rotation))
       append_bytes(arrays.orientation, static_cast<float>(part));
     append_bytes(arrays.body, static_cast<std::int32_t>(body));
     append_bytes(arrays.shape, static_cast<std::int32_t>(bodies.shape[body]));

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/text/file.h"
 #include "common/world/energy.h"
 
 namespace talus {
@@ -53,14 +54,12 @@ template class FramesCsv<2>;
 template class FramesCsv<3>;
 
 void write_avalanches(const std::filesystem::path& file, std::span<const Avalanche> avalanches) {
-  std::ofstream out(file);
-  out << "step,pile,layer,density,woken,seconds_until_quiet,mean_way_m,longest_way_m\n";
+  std::string table = "step,pile,layer,density,woken,seconds_until_quiet,mean_way_m,longest_way_m\n";
   for (const Avalanche& a : avalanches) {
-    out << fmt::format("{},{},{},{:.4f},{},{},{:.6g},{:.6g}\n", a.step, a.pile, a.layer, a.density, a.woken,
-                       a.seconds < 0.0 ? "" : fmt::format("{:.4f}", a.seconds), a.mean_way, a.longest_way);
+    table += fmt::format("{},{},{},{:.4f},{},{},{:.6g},{:.6g}\n", a.step, a.pile, a.layer, a.density, a.woken,
+                         a.seconds < 0.0 ? "" : fmt::format("{:.4f}", a.seconds), a.mean_way, a.longest_way);
   }
-  out.flush();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_file(file, table);
 }
 
 }  // namespace talus

@@ -10,6 +10,7 @@
 
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
+#include "common/text/file.h"
 #include "tools/run/resting_shape.h"
 #include "tools/run/shape_json.h"
 #include "tools/run/version.h"
@@ -205,9 +206,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
   summary["measured"] = measured_json(input.measured);
   summary["piles"] = piles_json(simulation.piles());
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
-  std::ofstream out(file);
-  out << summary.dump(2) << '\n';
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_file(file, summary.dump(2) + '\n');
 }
 
 template void write_summary(const fs::path&, const SummaryInput&, const Scene<2>&, const Simulation<2>&,

@@ -1,6 +1,6 @@
 #include "tools/run/shape_json.h"
 
-#include <numbers>
+#include "common/math/angle.h"
 
 namespace talus {
 namespace {
@@ -16,13 +16,12 @@ Json shape_json(std::span<const PlacedBody<Dim>> bodies, const ShapeStatistics<D
                 const ProfileGrid<Dim>& grid, const WorldDescription<Dim>& world, double extent) {
   const PileForm form = pile_form<Dim>(bodies, shape, grid, world, extent);
   const auto& slope = form.slope.value;
-  const double degrees = 180.0 / std::numbers::pi;
   return {{"height_m", shape.peak},
           {"centre_height_m", shape.centre_height},
           {"r50_m", shape.r50},
           {"r95_m", shape.r95},
-          {"angle_of_repose_deg", slope ? Json(slope->angle * degrees) : Json()},
-          {"angle_of_repose_standard_error_deg", slope ? Json(slope->standard_error * degrees) : Json()},
+          {"angle_of_repose_deg", slope ? Json(in_degrees(slope->angle)) : Json()},
+          {"angle_of_repose_standard_error_deg", slope ? Json(in_degrees(slope->standard_error)) : Json()},
           {"angle_of_repose_reason", or_null(form.slope.why_not)},
           {"packing", form.packing.value ? Json(*form.packing.value) : Json()},
           {"packing_reason", or_null(form.packing.why_not)}};

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "common/scene/read_scene.h"
+#include "common/text/file.h"
 #include "common/text/printable.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
@@ -96,11 +97,9 @@ void check_runs(const SweepOptions& options, const fs::path& scene, const std::v
 
 /// What makes a sweep the same when it is started again.
 std::string identity(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes) {
-  std::ifstream stream(scene, std::ios::binary);
-  nlohmann::json json = {
-      {"scene", scene.stem().string()},     {"text", std::string(std::istreambuf_iterator<char>(stream), {})},
-      {"backend", options.backend},         {"measure_drift", options.measure_drift},
-      {"probe_drift", options.probe_drift}, {"axes", nlohmann::json::array()}};
+  nlohmann::json json = {{"scene", scene.stem().string()},     {"text", file_contents(scene).value_or("")},
+                         {"backend", options.backend},         {"measure_drift", options.measure_drift},
+                         {"probe_drift", options.probe_drift}, {"axes", nlohmann::json::array()}};
   for (const SweepAxis& axis : axes) json["axes"].push_back({{"path", axis.path}, {"values", axis.values}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -110,17 +109,13 @@ void enter_folder(const fs::path& folder, const std::string& same) {
   const fs::path file = folder / "sweep.json";
   std::error_code unused;
   if (fs::is_directory(folder, unused) && !fs::is_empty(folder, unused)) {
-    std::ifstream stream(file, std::ios::binary);
-    if (std::string(std::istreambuf_iterator<char>(stream), {}) != same)
+    if (file_contents(file) != same)
       throw std::invalid_argument(
           fmt::format("--out {}: must be new, empty, or of the same sweep of the same scene", folder.string()));
     return;
   }
   fs::create_directories(folder);
-  std::ofstream out(file, std::ios::binary);
-  out << same;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  write_file(file, same);
 }
 
 fs::path folder_of(const fs::path& sweep, int number) { return sweep / fmt::format("run_{:04}", number); }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "common/text/file.h"
 #include "tools/output/csv.h"
 #include "tools/plot/plot.h"
 
@@ -121,18 +122,16 @@ SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path&
 
 void write_sweep_csv(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
                      const std::vector<SweepRow>& rows) {
-  std::ofstream out(file, std::ios::binary);
-  out << csv_line(columns_of(axes));
+  std::string table = csv_line(columns_of(axes));
   for (const SweepRow& row : rows) {
     std::vector<std::string> cells = {fmt::format("{}", row.run)};
     cells.insert(cells.end(), row.values.begin(), row.values.end());
     cells.insert(cells.end(), {row.reason, row.end_hash});
     for (const std::optional<double>& number : row.numbers)
       cells.push_back(number ? fmt::format("{:.9g}", *number) : "");
-    out << csv_line(cells);
+    table += csv_line(cells);
   }
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  write_file(file, table);
 }
 
 bool write_sweep_plot(const std::filesystem::path& file, const std::string& title, const std::vector<SweepAxis>& axes,
@@ -158,10 +157,7 @@ bool write_sweep_plot(const std::filesystem::path& file, const std::string& titl
       most_seeds > 1 ? fmt::format(" (bars: standard error of the mean of {} seeds)", most_seeds) : "";
   Plot plot{.title = title, .x_label = axes[*along].path + bars, .y_label = std::string(which->label), .series = {}};
   for (const auto& [name, points] : curves) plot.series.push_back(series_of(name, points));
-  std::ofstream out(file, std::ios::binary);
-  out << svg_of(plot);
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  write_file(file, svg_of(plot));
   return true;
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+// Whole files.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace talus {
+
+/// All bytes of a file; none where it cannot be read. Not for what may be a device, whose bytes may have no end.
+std::optional<std::string> file_contents(const std::filesystem::path& file);
+
+/// Makes the file or replaces it. Throws std::runtime_error with its name where it cannot be written.
+void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace talus
