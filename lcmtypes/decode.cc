@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -98,6 +99,7 @@ std::string_view range_fault(const talus_run& m) {
   if (m.ground_friction < 0 || m.ground_restitution < 0 || m.restitution_threshold < 0) return "world out of range";
   if (m.velocity_iterations < 0 || m.position_iterations < 0 || m.friction_directions < 0) return "solver out of range";
   if (!(m.tolerance >= 0.0 || m.tolerance == -1.0)) return "tolerance out of range";
+  if (!(m.score_threshold >= 0.0 || m.score_threshold == -1.0)) return "threshold out of range";
   if (std::any_of(m.sent.begin(), m.sent.end(), is_negative)) return "negative number of messages";
   return {};
 }
@@ -136,6 +138,7 @@ std::string_view range_fault(const talus_stats& m) {
   if (!(m.checked_share >= 0.0 && m.checked_share <= 1.0)) return "share out of range";
   if (!(m.overlap >= 0.0)) return "overlap out of range";
   if (!(m.overlap_share >= 0.0 && m.overlap_share <= 1.0)) return "share out of range";
+  if (!((m.slope >= 0.0 && m.slope <= std::numbers::pi / 2.0) || m.slope == -1.0)) return "slope out of range";
   if (m.warning_count > talus_stats::OVERLAP + 1) return "more warnings than kinds";
   const auto known = [](auto kind) { return kind >= talus_stats::BELOW_GROUND && kind <= talus_stats::OVERLAP; };
   if (!std::all_of(m.warning_kind.begin(), m.warning_kind.end(), known)) return "unknown kind of warning";

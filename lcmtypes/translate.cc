@@ -93,6 +93,7 @@ talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason
   message.phase = phase;
   message.reason = clipped(reason);
   message.scene = clipped(info.scene);
+  message.title = clipped(info.title);
   message.backend = clipped(info.backend);
   message.policy = clipped(info.policy);
   message.version = clipped(info.version);
@@ -102,6 +103,7 @@ talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason
   message.dt = info.dt;
   message.steps = info.steps;
   message.tolerance = info.tolerance.value_or(-1.0);
+  message.score_threshold = info.score_threshold.value_or(-1.0);
   std::copy(info.gravity.begin(), info.gravity.end(), message.gravity);
   message.ground = info.ground.present ? 1 : 0;
   message.ground_height = info.ground.present ? info.ground.height : 0.0;
@@ -214,12 +216,14 @@ talus_stats to_stats(const Frame<Dim>& frame) {
   message.checked_share = drift ? drift->checked_share : 0.0;
   message.overlap = frame.overlap.deepest;
   message.overlap_share = frame.overlap.share;
+  message.slope = -1.0;
   for (const Warning& warning : frame.warnings) {
     message.warning_kind.push_back(static_cast<std::int8_t>(warning.kind));
     message.warning_step.push_back(warning.step);
     message.warning_body.push_back(warning.body);
     message.warning_bodies.push_back(warning.bodies);
     message.warning_value.push_back(warning.value);
+    message.warning_text.push_back(account(warning));
   }
   message.warning_count = static_cast<std::int32_t>(frame.warnings.size());
   return message;
