@@ -7,6 +7,28 @@
 
 namespace talus {
 
+namespace {
+
+template <class Number>
+void append_big_endian(std::string& bytes, Number number) {
+  for (int shift = 8 * (static_cast<int>(sizeof number) - 1); shift >= 0; shift -= 8)
+    bytes += static_cast<char>(static_cast<std::uint64_t>(number) >> shift);
+}
+
+}  // namespace
+
+void append_event(std::string& log, std::int64_t number, std::int64_t stamp, Channel channel,
+                  std::span<const std::uint8_t> data) {
+  const std::string_view name = name_of(channel);
+  log.append(std::begin(log_sync_word), std::end(log_sync_word));
+  append_big_endian(log, number);
+  append_big_endian(log, stamp);
+  append_big_endian(log, static_cast<std::uint32_t>(name.size()));
+  append_big_endian(log, static_cast<std::uint32_t>(data.size()));
+  log += name;
+  log.append(data.begin(), data.end());
+}
+
 EventLog::EventLog(std::string path) : path_(std::move(path)), file_(std::make_unique<lcm::LogFile>(path_, "w")) {
   if (!file_->good()) fail();
 }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +16,10 @@ class LogFile;
 }
 
 namespace talus {
+
+/// Adds an event to a log in memory, laid out as in a file (log_reader.h).
+void append_event(std::string& log, std::int64_t number, std::int64_t stamp, Channel channel,
+                  std::span<const std::uint8_t> data);
 
 /// An LCM event log being written: lcm-logplayer plays it, lcm-spy shows it. Each event's stamp is its message's utime.
 class EventLog {

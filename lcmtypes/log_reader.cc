@@ -13,16 +13,13 @@
 namespace talus {
 namespace {
 
-// An event in the file, all numbers big-endian: sync word (4 bytes), number (8), stamp (8), length of the channel's
-// name (4), length of the data (4), name, data (LCM 1.3.1, lcm/eventlog.c).
-constexpr std::uint8_t sync_word[4] = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t header_size = 4 + 8 + 8 + 4 + 4;
 constexpr std::size_t max_channel_length = 63;         // LCM_MAX_CHANNEL_NAME_LENGTH
 constexpr std::size_t max_foreign_bytes = 16U << 20U;  // of a message that is not ours
 constexpr std::size_t chunk = 1U << 16U;               // [bytes] that are read at once
 
 bool is_sync(std::span<const std::uint8_t> bytes) {
-  return std::equal(std::begin(sync_word), std::end(sync_word), bytes.begin());
+  return std::equal(std::begin(log_sync_word), std::end(log_sync_word), bytes.begin());
 }
 
 bool is_ours(std::string_view channel) { return channel_named(channel).has_value(); }
@@ -83,7 +80,7 @@ void LogReader::skip_to_candidate() {
   if (!in_damage_) ++damage_.places;
   in_damage_ = true;
   const auto after = rest().subspan(1);
-  const auto found = std::find(after.begin(), after.end(), sync_word[0]);
+  const auto found = std::find(after.begin(), after.end(), log_sync_word[0]);
   const auto skipped = found - after.begin() + 1;
   damage_.bytes += skipped;
   at_ += skipped;

@@ -10,6 +10,10 @@
 
 namespace talus {
 
+/// What an event begins with in a file, where all numbers are big-endian: this (4 bytes), number (8), stamp (8), length
+/// of the channel's name (4), length of the data (4), name, data (LCM 1.3.1, lcm/eventlog.c).
+inline constexpr std::uint8_t log_sync_word[4] = {0xED, 0xA1, 0xDA, 0x01};
+
 /// One event of a log. The header (number, stamp) is under no checksum; messages carry stamp and number of their own.
 struct LogEvent {
   std::int64_t number = 0;     // as written, from 0

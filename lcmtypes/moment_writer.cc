@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "common/measure/resting_shape.h"
 #include "common/moment/moment.h"
+#include "common/world/motion.h"
 #include "lcmtypes/bodies_message.h"
 #include "lcmtypes/event_message.h"
 #include "lcmtypes/obstacles_message.h"
@@ -14,14 +16,13 @@ namespace talus {
 
 template <int Dim>
 void MomentWriter<Dim>::set_scene(const Scene<Dim>& scene) {
+  scene_ = scene;
   events_ = to_events(scene);
-  movers_ = scene.movers;
-  obstacles_ = scene.world.obstacles;
 }
 
 template <int Dim>
 void MomentWriter<Dim>::run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto channels = channels_of_run(!events_.empty(), !movers_.empty());
+  auto channels = channels_of_run(!events_.empty(), scene_ && !scene_->movers.empty());
   if (!files_.empty()) channels.push_back(Channel::scene);
   send(to_run(info_, phase, reason, channels, encoder_), step, time);
 }
@@ -48,15 +49,19 @@ template <int Dim>
 void MomentWriter<Dim>::events(const Frame<Dim>& frame) {
   for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
     if (event.number >= std::ssize(events_)) continue;
-    talus_lcm::talus_event& message = events_[event.number];
-    set_happened(frame, info_.dt, message);
-    send(message, frame.step, frame.time);
-    removed_ = removed_ || message.action == "remove";
+    this->event(events_[event.number], frame);
+    removed_ = removed_ || events_[event.number].action == "remove";
   }
   send_all(to_sleep(frame.events), frame.step, frame.time);
   if (!has_shapes()) return;
   for (const SleepEvent& event : frame.events)
     if (!event.woke) fell_asleep_.push_back(event.body);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::event(talus_lcm::talus_event& message, const Frame<Dim>& frame) {
+  set_happened(frame, info_.dt, message);
+  send(message, frame.step, frame.time);
 }
 
 template <int Dim>
@@ -68,15 +73,37 @@ void MomentWriter<Dim>::events_again(const Frame<Dim>& frame, std::size_t most) 
 }
 
 template <int Dim>
+void MomentWriter<Dim>::stats(talus_lcm::talus_stats message, const Frame<Dim>& frame) {
+  constexpr double between_slopes = 1.0;  // [s] simulated
+  if (scene_ && (slope_time_ < 0.0 || frame.time >= slope_time_ + between_slopes)) measure_slope(frame);
+  if (slope_.value) message.slope = slope_.value->angle;
+  message.slope_reason = slope_.why_not;
+  send(message, frame.step, frame.time);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::measure_slope(const Frame<Dim>& frame) {
+  if (!scene_) return;
+  WorldDescription<Dim> world = world_at<Dim>(*scene_, frame.done_events, frame.time);
+  world.obstacles.clear();  // also by hand they are taken away
+  for (int k = 0; k < std::ssize(scene_->world.obstacles); ++k)
+    if (frame.world.has_obstacle(k))
+      world.obstacles.push_back({scene_->world.obstacles[k].shape, frame.world.obstacle_pose(k)});
+  slope_ = resting_form(*scene_, frame.world.states(), world, frame.piles.typical_body().extent).slope;
+  slope_time_ = frame.time;
+}
+
+template <int Dim>
 void MomentWriter<Dim>::piles(const Frame<Dim>& frame) {
   send_all(to_piles(piles_in_space(frame)), frame.step, frame.time);
 }
 
 template <int Dim>
 void MomentWriter<Dim>::obstacles(const Frame<Dim>& frame, bool all) {
-  if (!all && !any_moves_after<Dim>(movers_, obstacles_time_)) return;
+  if (!scene_ || (!all && !any_moves_after<Dim>(scene_->movers, obstacles_time_))) return;
   obstacles_time_ = frame.time;
-  send_all(to_obstacles<Dim>(moving_poses(obstacles_, movers_, frame.time)), frame.step, frame.time);
+  const std::vector<ObstaclePose<Dim>> poses = moving_poses(scene_->world.obstacles, scene_->movers, frame.time);
+  send_all(to_obstacles<Dim>(poses), frame.step, frame.time);
 }
 
 template <int Dim>

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "common/measure/pile_form.h"
 #include "common/policy/frame.h"
+#include "common/scene/happened.h"
 #include "common/scene/scene.h"
 #include "common/world/motion.h"
 #include "lcmtypes/run_info.h"
@@ -36,7 +39,7 @@ class MomentWriter {
 
   /// Before shapes() and bodies(). Throws std::invalid_argument on a shape too large for a message.
   void set_world(const WorldDescription<Dim>& world) { shapes_ = to_shapes<Dim>(world); }
-  /// The scene's events, and its obstacles that move.
+  /// The scene's events, its obstacles that move, and what its slope is measured of.
   void set_scene(const Scene<Dim>& scene);
   /// The files of the scene, which is written down then.
   void set_files(const Scene<Dim>& scene) { files_ = to_scene_files(scene); }
@@ -52,12 +55,17 @@ class MomentWriter {
 
   /// After each step: events of the scene and sleep events of it.
   void events(const Frame<Dim>& frame);
+  /// An event that happened just before the frame's step.
+  void event(talus_lcm::talus_event& message, const Frame<Dim>& frame);
   /// Some of the scene's events again, in turn.
   void events_again(const Frame<Dim>& frame, std::size_t most);
 
   void piles(const Frame<Dim>& frame);
-  void stats(const Frame<Dim>& frame) { send(to_stats<Dim>(frame), frame.step, frame.time); }
-  void stats(talus_lcm::talus_stats message, const Frame<Dim>& frame) { send(message, frame.step, frame.time); }
+  void stats(const Frame<Dim>& frame) { stats(to_stats<Dim>(frame), frame); }
+  /// Adds the slope, where the scene is known.
+  void stats(talus_lcm::talus_stats message, const Frame<Dim>& frame);
+  /// Measures the slope at this frame; else stats() does so once a second of simulated time.
+  void measure_slope(const Frame<Dim>& frame);
   /// Of obstacles that have moved since the last time; all that ever move where `all` is set.
   void obstacles(const Frame<Dim>& frame, bool all = false);
   /// Poses of the bodies awake, of those that fell asleep since the last time, and of `more`; how many these are and in
@@ -88,10 +96,11 @@ class MomentWriter {
   std::vector<talus_lcm::talus_shapes> shapes_;  // and obstacles; empty: not known
   std::vector<talus_lcm::talus_event> events_;   // of the scene, as far as they have happened
   std::size_t event_turn_ = 0;                   // the one from which on they are sent again
-  std::vector<Mover<Dim>> movers_;
-  std::vector<Obstacle<Dim>> obstacles_;  // before they moved
-  double obstacles_time_ = -1.0;          // when their poses were sent last [s]; below 0: never
-  std::vector<BodyIndex> fell_asleep_;    // since poses were sent last
+  std::optional<Scene<Dim>> scene_;
+  Applicable<AngleOfRepose> slope_;
+  double slope_time_ = -1.0;            // when it was measured last [s]; below 0: never
+  double obstacles_time_ = -1.0;        // when their poses were sent last [s]; below 0: never
+  std::vector<BodyIndex> fell_asleep_;  // since poses were sent last
   std::vector<talus_lcm::talus_scene> files_;
   bool removed_ = false;
 };

@@ -106,6 +106,7 @@ template <int Dim>
 void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   if (!queue_) return;
   writer_.piles(last);
+  writer_.measure_slope(last);
   send_stats(last, Clock::now());  // before the poses, which are shown with them
   if (writer_.has_shapes()) {
     writer_.shapes(last);

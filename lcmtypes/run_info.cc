@@ -29,6 +29,7 @@ std::string settings(const RunInfo& info) {
 template <int Dim>
 RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const std::string& backend) {
   return {.scene = scene_name,
+          .title = scene.title,
           .backend = backend,
           .policy = scene.policy.kind,
           .version = TALUS_VERSION,
@@ -37,6 +38,7 @@ RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const s
           .dt = scene.world.dt,
           .steps = scene.steps(),
           .tolerance = scene.policy.tolerance(),
+          .score_threshold = scene.policy.kind == "paper" ? std::optional(scene.policy.paper.tau) : std::nullopt,
           .gravity = in_space(scene.world.gravity_vector()),
           .ground = scene.world.ground,
           .solver = scene.world.solver};

@@ -11,15 +11,17 @@ namespace talus {
 /// Identity of a run, as in TALUS_RUN.
 struct RunInfo {
   std::string scene;  // a short name, such as the scene file's without its ending
+  std::string title = {};
   std::string backend;
   std::string policy;
   std::string version;
   std::uint64_t seed = 1;
   int dimension = 2;
-  double dt = 1.0 / 60.0;                // [s]
-  std::int64_t steps = 0;                // planned
-  std::optional<double> tolerance = {};  // [D] of policy `adaptive`
-  Vec3 gravity = Vec3(0.0, 0.0, -9.81);  // [m/s^2], y = 0 in 2D; at the start
+  double dt = 1.0 / 60.0;                      // [s]
+  std::int64_t steps = 0;                      // planned
+  std::optional<double> tolerance = {};        // [D] of policy `adaptive`
+  std::optional<double> score_threshold = {};  // of policy `paper`
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);        // [m/s^2], y = 0 in 2D; at the start
   Ground ground = {};
   SolverParams solver = {};
 };

@@ -19,6 +19,7 @@ talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason
   message.phase = phase;
   message.reason = clipped(reason);
   message.scene = clipped(info.scene);
+  message.title = clipped(info.title);
   message.backend = clipped(info.backend);
   message.policy = clipped(info.policy);
   message.version = clipped(info.version);
@@ -28,6 +29,7 @@ talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason
   message.dt = info.dt;
   message.steps = info.steps;
   message.tolerance = info.tolerance.value_or(-1.0);
+  message.score_threshold = info.score_threshold.value_or(-1.0);
   std::copy(info.gravity.begin(), info.gravity.end(), message.gravity);
   message.ground = info.ground.present ? 1 : 0;
   message.ground_height = info.ground.present ? info.ground.height : 0.0;
@@ -55,6 +57,7 @@ std::string_view range_fault(const talus_run& m) {
   if (m.ground_friction < 0 || m.ground_restitution < 0 || m.restitution_threshold < 0) return "world out of range";
   if (m.velocity_iterations < 0 || m.position_iterations < 0 || m.friction_directions < 0) return "solver out of range";
   if (!(m.tolerance >= 0.0 || m.tolerance == -1.0)) return "tolerance out of range";
+  if (!(m.score_threshold >= 0.0 || m.score_threshold == -1.0)) return "threshold out of range";
   if (std::any_of(m.sent.begin(), m.sent.end(), is_negative)) return "negative number of messages";
   return {};
 }

@@ -57,6 +57,7 @@ void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
 
 template <int Dim>
 void RunRecorder<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
+  writer_.measure_slope(last);
   write_output(last, true);
   writer_.run(talus_run::END, reason, last.step, last.time);
   log_.flush();

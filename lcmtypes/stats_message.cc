@@ -1,6 +1,7 @@
 #include "lcmtypes/stats_message.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "common/policy/sleep_policy.h"
 #include "common/world/energy.h"
@@ -26,12 +27,14 @@ talus_stats to_stats(const Frame<Dim>& frame) {
   message.checked_share = drift ? drift->checked_share : 0.0;
   message.overlap = frame.overlap.deepest;
   message.overlap_share = frame.overlap.share;
+  message.slope = -1.0;
   for (const Warning& warning : frame.warnings) {
     message.warning_kind.push_back(static_cast<std::int8_t>(warning.kind));
     message.warning_step.push_back(warning.step);
     message.warning_body.push_back(warning.body);
     message.warning_bodies.push_back(warning.bodies);
     message.warning_value.push_back(warning.value);
+    message.warning_text.push_back(account(warning));
   }
   message.warning_count = static_cast<std::int32_t>(frame.warnings.size());
   return message;
@@ -89,6 +92,7 @@ std::string_view range_fault(const talus_stats& m) {
   if (!(m.checked_share >= 0.0 && m.checked_share <= 1.0)) return "share out of range";
   if (!(m.overlap >= 0.0)) return "overlap out of range";
   if (!(m.overlap_share >= 0.0 && m.overlap_share <= 1.0)) return "share out of range";
+  if (!((m.slope >= 0.0 && m.slope <= std::numbers::pi / 2.0) || m.slope == -1.0)) return "slope out of range";
   if (m.warning_count > talus_stats::OVERLAP + 1) return "more warnings than kinds";
   const auto known = [](auto kind) { return kind >= talus_stats::BELOW_GROUND && kind <= talus_stats::OVERLAP; };
   if (!std::all_of(m.warning_kind.begin(), m.warning_kind.end(), known)) return "unknown kind of warning";

@@ -42,11 +42,11 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_stress_command(app, exit_code);
   talus::add_sweep_command(app, exit_code);
   talus::add_reference_command(app, exit_code);
-  talus::add_view_command(app, exit_code);
 #ifdef TALUS_BULLET
   talus::add_decompose_command(app);
 #endif
 #ifdef TALUS_LCM
+  talus::add_view_command(app, exit_code);
   talus::add_monitor_command(app);
   talus::add_compare_command(app, exit_code);
   talus::add_film_command(app, exit_code);

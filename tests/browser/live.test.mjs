@@ -76,6 +76,7 @@ test("obstacles that move are shown where they are, on the page of a live run, o
   talus("run", scene, "--no-telemetry", "--out", join(folder, "record"));
   const recorded = await serve(join(folder, "record"));
   const record = await openPage(recorded.url);
+  await record.evaluate(() => (window.talus.pause(), window.talus.seek(0)));
   assert.deepEqual((await obstacles(record)).map((place) => place.map((part) => Math.round(100 * part) / 100)), [[-20, 2], [6, 2]]);
   await record.click("#last");
   await moved(record);

@@ -1,5 +1,6 @@
 // A recorded run in the browser: the file that `talus replay` makes, and the same page from `talus view RUN`.
 import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -121,6 +122,72 @@ test("colours by cause have a count for each cause, together all bodies", async 
   const counts = (await page.locator("#counts td.count").allTextContents()).map(Number);
   assert.equal(counts.reduce((sum, count) => sum + count, 0), (await shown(page)).bodies);
   await page.close();
+});
+
+/// Of a record, as `talus info` prints them, the messages of one channel.
+const messages = (run, channel) =>
+  talus("info", run, "--messages", "--channel", channel)
+    .trim()
+    .split("\n")
+    .map((line) => JSON.parse(line).message);
+
+for (const [name, { run, url }] of Object.entries({ flat, solid })) {
+  test(`${name}: poses, piles and numbers are those of the messages in the record`, async () => {
+    const page = await openAt(url, 0);
+    const step = 600;
+    const [poses, piles, stats] = ["TALUS_BODIES", "TALUS_PILES", "TALUS_STATS"].map((channel) => messages(run, channel).find((message) => message.step === step));
+    const seen = await page.evaluate(([wanted, bodies]) => {
+      const { timeline } = window.talus;
+      window.talus.seek(timeline.step.indexOf(wanted));
+      const { state } = timeline;
+      const width = timeline.head.dimension === 2 ? 3 : 7;
+      return {
+        poses: bodies.flatMap((body) => Array.from(state.pose.slice(width * body, width * (body + 1)))),
+        asleep: bodies.map((body) => state.asleep[body] === 1),
+        layers: state.piles[0].layers.map(({ bottom, top, count, wake_density }) => [bottom, top, count, wake_density]),
+        slope: [state.stats.slope, state.stats.slope_reason],
+        shapes: timeline.head.shapes.map(({ name, extent }) => [name, extent]),
+      };
+    }, [step, poses.body]);
+    assert.ok(poses.body.length > 0 && piles.piles[0].layers.length > 0);
+    assert.deepEqual(seen.poses, poses.poses.map(Math.fround));
+    assert.deepEqual(seen.asleep, poses.asleep);
+    assert.deepEqual(seen.layers, piles.piles[0].layers.map(({ bottom, top, count, wake_density }) => [bottom, top, count, wake_density].map(Math.fround)));
+    assert.deepEqual(seen.slope, [stats.slope, stats.slope_reason]);
+    await page.close();
+  });
+
+  test(`${name}: the slope at the end is that of the summary, or there is its reason`, async () => {
+    const page = await openAt(url, 449);
+    const { angle_of_repose_deg, angle_of_repose_reason } = JSON.parse(readFileSync(join(run, "summary.json"), "utf8")).shape;
+    const text = await page.textContent("#measured");
+    assert.ok(text.includes(angle_of_repose_deg === null ? `Slope not measured: ${angle_of_repose_reason}` : `Slope ${angle_of_repose_deg.toFixed(1)}\u00B0 measured`), text);
+    await page.close();
+  });
+}
+
+test("a page refuses messages of another version, with both versions", async () => {
+  const html = readFileSync(flat.url, "utf8");
+  const other = join(folder, "other.html");
+  writeFileSync(other, html.replace(/("TALUS_RUN":\{"fingerprint":")[0-9a-f]{16}/, "$10123456789abcdef").replace('{"format":1,"version":"', '{"format":7,"version":"9.9'));
+  const page = await openPage(pathToFileURL(other), { talus: false });
+  await page.waitForFunction(() => document.getElementById("status").textContent !== "");
+  assert.match(await page.textContent("#status"), /^cannot be shown: format 1 of talus [\d.]+.*; this page reads format 7 of talus 9\.9/);
+  await page.close();
+});
+
+test("a damaged record is shown, and says what is missing", async () => {
+  const run = join(folder, "damaged");
+  talus("run", "drop_in_a_pile_2d", "--no-telemetry", "--set", "run.frames=60", "--out", run);
+  const log = readFileSync(join(run, "run.lcm"));
+  log.fill(0x55, log.length - 9000, log.length - 8900);
+  writeFileSync(join(run, "run.lcm"), log);
+  const { url, child } = await serve(run);
+  const page = await openPage(url);
+  assert.match(await page.textContent("#status"), /^\d+ damaged bytes and 0 messages not decodable: frames may be missing$/);
+  assert.ok((await shown(page)).frames >= 58);
+  await page.close();
+  child.kill();
 });
 
 test("talus view shows a run folder", async () => {

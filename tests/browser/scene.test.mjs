@@ -127,9 +127,9 @@ test("a body is thrown by shift and drag, and removed by Delete", async () => {
   await page.keyboard.up("Shift");
   for (let i = 0; i < 12; ++i) await page.click("#single");
   await until(page, ({ step }) => step >= before.step + 12);
-  const now = await page.evaluate((i) => ({ height: window.talus.timeline.state.pose[3 * i + 1], asleep: window.talus.timeline.state.asleep[i] }), body.i);
+  const now = await page.evaluate((i) => ({ height: window.talus.timeline.state.pose[3 * i + 1], asleep: window.talus.timeline.state.asleep[i], extent: window.talus.timeline.head.shapes[0].extent }), body.i);
   assert.equal(now.asleep, 0, "a thrown body wakes");
-  assert.ok(now.height > body.height + 500, `${now.height} from ${body.height} thousandths of a body`);
+  assert.ok(now.height > body.height + 0.5 * now.extent, `${now.height} m from ${body.height} m`);
   await page.keyboard.press("Delete");
   await until(page, ({ bodies }) => bodies < before.bodies + 2 && bodies > 0);
   await page.waitForFunction((i) => window.talus.timeline.state.removed[i] === 1, body.i);

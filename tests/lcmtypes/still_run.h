@@ -22,7 +22,7 @@ class InTurnPolicy final : public SleepPolicy<Dim> {
     const bool wake = frame.step % 8 == 0;
     const BodyStates<Dim>& states = frame.world.states();
     for (BodyIndex body = 0; body < states.size(); ++body) {
-      if ((states.asleep[body] != 0) != wake) continue;
+      if (states.removed[body] != 0 || (states.asleep[body] != 0) != wake) continue;
       const auto cause = wake ? SleepCause::avalanche : SleepCause::score;
       (wake ? decision.thaw : decision.freeze).push_back({.body = body, .pile = 0, .cause = cause, .score = 0.625});
     }

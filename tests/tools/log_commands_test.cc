@@ -13,8 +13,8 @@
 #include <sstream>
 
 #include "lcmtypes/channels.h"
-#include "lcmtypes/encode.h"
 #include "lcmtypes/log_reader.h"
+#include "lcmtypes/wire.h"
 #include "tests/common/documented_names.h"
 #include "tests/process/process.h"
 

@@ -1,5 +1,7 @@
 // `talus view` without a browser. What its page shows and what its server lets in is tested in tests/browser.
 
+#ifdef TALUS_LCM
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -49,12 +51,10 @@ TEST(ViewCommand, RefusesBadInput) {
   refused("drop_in_a_pile_2d --port 70000", "--port");
   refused("drop_in_a_pile_2d drop_in_a_pile_3d", "must be two run folders");
   refused("drop_in_a_pile_2d --against sleepy", "policy.kind");
-#ifdef TALUS_LCM
   refused(folder.path().string() + " --against full", "--against: must be of a scene");
   refused("drop_in_a_pile_2d --lcm-url udpm://239.255.76.67:7667",
           "--lcm-url: must be of --live; drop_in_a_pile_2d is a scene");
   refused(folder.path().string(), "must be a folder that `talus run` left");
-#endif
 }
 
 TEST(ViewCommand, WarnsOfTheSceneAsARunDoes) {
@@ -69,7 +69,6 @@ TEST(ViewCommand, WarnsOfTheSceneAsARunDoes) {
   EXPECT_EQ(view.substr(0, view.find("Open this address")), run);
 }
 
-#ifdef TALUS_LCM
 // Each would change nothing of what is shown.
 TEST(ViewCommand, RefusesOptionsThatDoNotApplyToWhatIsShown) {
   const TemporaryFolder folder;
@@ -106,7 +105,6 @@ TEST(ViewCommand, ShowsNoRunInThePlaneBesideOneInSpace) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("must be of one dimension"), std::string::npos) << outcome.err;
 }
-#endif
 #endif
 
 // The script gives the command a terminal, and a desktop whose browser writes down what it is to open.
@@ -149,3 +147,5 @@ TEST(ViewCommand, SaysThatAPortIsTaken) {
 
 }  // namespace
 }  // namespace talus::view_command_test
+
+#endif

@@ -1,7 +1,5 @@
 // A run of another process, put together from its messages for the pages.
 
-#ifdef TALUS_LCM
-
 #include "tools/serve/live_run.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +9,10 @@
 #include <lcm/lcm-cpp.hpp>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "lcmtypes/log_reader.h"
+#include "lcmtypes/moment_reader.h"
 #include "lcmtypes/publisher.h"
 #include "tests/lcmtypes/still_run.h"
 
@@ -31,7 +32,7 @@ class Socket final : public PageSocket {
   }
   bool send_bytes(std::string_view bytes) override {
     const std::lock_guard lock(mutex_);
-    blocks_.emplace_back(bytes);
+    log_ += bytes;
     changed_.notify_all();
     return true;
   }
@@ -49,16 +50,18 @@ class Socket final : public PageSocket {
     });
     return found;
   }
-  bool has_block() {
+  /// The first moments that come, as log events; empty: none within five seconds.
+  std::string log() {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(5), [&] { return !blocks_.empty(); });
+    changed_.wait_for(lock, std::chrono::seconds(5), [&] { return !log_.empty(); });
+    return log_;
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Json> texts_;
-  std::vector<std::string> blocks_;
+  std::string log_;
 };
 
 /// The messages of a run of so many steps.
@@ -94,6 +97,17 @@ std::vector<Datagram> messages_of_a_run(int steps) {
   return ear.heard;
 }
 
+/// What a page puts together.
+template <int Dim>
+MomentReader moments_of(const std::string& log) {
+  MomentReader moments(Dim, {});
+  LogReader reader(std::make_unique<std::istringstream>(log));
+  for (LogEvent event; reader.next(event);) moments.take(*channel_named(event.channel), event.data);
+  EXPECT_EQ(reader.damage().bytes, 0U);
+  EXPECT_EQ(moments.undecodable(), 0);
+  return moments;
+}
+
 template <int Dim>
 void expect_shown() {
   Socket socket;  // must stay until the hub's threads have ended
@@ -105,17 +119,18 @@ void expect_shown() {
   const std::vector<Datagram> messages = messages_of_a_run<Dim>(40);
   for (const Datagram& message : messages) live.hear(message);
   EXPECT_EQ(live.undecodable(), 0);
-  const Json head = socket.text("head", any);
-  ASSERT_FALSE(head.is_null());
-  EXPECT_EQ(head["title"], "still");
-  EXPECT_EQ(head["dimension"], Dim);
-  EXPECT_EQ(head["shapes"].size(), 2U);
-  EXPECT_EQ(head["obstacles"][0]["pose"][0], 7.0);
-  ASSERT_EQ(head["events"].size(), 2U);
-  EXPECT_EQ(head["events"][0]["text"], "wake all bodies");
-  EXPECT_EQ(head["events"][1]["text"], "remove obstacle gate");
-  EXPECT_EQ(head["events"][1]["removes"], Json::array({0}));
-  EXPECT_TRUE(socket.has_block());
+  ASSERT_FALSE(socket.text("begin", any).is_null());
+  const MomentReader heard = moments_of<Dim>(socket.log());
+  EXPECT_EQ(heard.run().value().title, "bodies that stand still");
+  EXPECT_EQ(heard.run().value().dimension, Dim);
+  EXPECT_TRUE(heard.has_all_shapes());
+  EXPECT_EQ(heard.shapes().size(), 2U);
+  EXPECT_EQ(heard.obstacles().at(0).pose[0], 7.0);
+  ASSERT_EQ(heard.events().size(), 2U);
+  EXPECT_EQ(heard.events().at(0).text, "wake all bodies");
+  EXPECT_EQ(heard.events().at(1).text, "remove obstacle gate");
+  EXPECT_EQ(heard.events().at(1).removed, std::vector<std::int32_t>{0});
+  EXPECT_EQ(heard.moment().bodies.size(), 12);
   const Json end = socket.text("status", [](const Json& status) { return status["finished"].get<bool>(); });
   EXPECT_EQ(end["live"], true);
   EXPECT_EQ(end["running"], false);
@@ -135,7 +150,7 @@ TEST(LiveRun, StartsLateWithTheShapesThatAreSentAgain) {
   // Who comes late has the identity of the run and what is sent at its end.
   live.hear(messages.front());
   for (std::size_t i = messages.size() / 2; i < messages.size(); ++i) live.hear(messages[i]);
-  EXPECT_TRUE(socket.has_block());
+  EXPECT_EQ(moments_of<3>(socket.log()).moment().bodies.size(), 12);
 }
 
 TEST(LiveRun, LeavesOutWhatIsDamaged) {
@@ -151,5 +166,3 @@ TEST(LiveRun, LeavesOutWhatIsDamaged) {
 
 }  // namespace
 }  // namespace talus::live_run_test
-
-#endif

@@ -13,8 +13,6 @@
 #include <thread>
 #include <vector>
 
-#include "tools/view/stream_numbers.h"
-
 namespace talus::page_hub_test {
 namespace {
 
@@ -29,8 +27,8 @@ class Browser final : public PageSocket {
   bool send_text(std::string_view text) override {
     const std::lock_guard lock(mutex_);
     const auto message = nlohmann::json::parse(text);
-    if (message["kind"] == "head") {
-      heads_.push_back(message["title"]);
+    if (message["kind"] == "begin") {
+      runs_.push_back(message["title"]);
       frames_.clear();
     }
     if (message["kind"] == "thinned") thinned_ = true;
@@ -40,12 +38,10 @@ class Browser final : public PageSocket {
 
   /// Blocks of this test have one letter each.
   bool send_bytes(std::string_view bytes) override {
-    StreamReader reader(bytes);
-    const std::uint64_t frames = reader.number();
     {
       const std::lock_guard lock(mutex_);
-      largest_ = std::max(largest_, frames);
-      frames_ += bytes.substr(bytes.size() - frames);
+      largest_ = std::max(largest_, bytes.size());
+      frames_ += bytes;
       changed_.notify_all();
     }
     if (!slow_) acknowledge();
@@ -65,11 +61,11 @@ class Browser final : public PageSocket {
     const std::lock_guard lock(mutex_);
     return frames_;
   }
-  std::vector<std::string> heads() {
+  std::vector<std::string> runs() {
     const std::lock_guard lock(mutex_);
-    return heads_;
+    return runs_;
   }
-  std::uint64_t largest() {
+  std::size_t largest() {
     const std::lock_guard lock(mutex_);
     return largest_;
   }
@@ -83,14 +79,14 @@ class Browser final : public PageSocket {
   bool slow_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<std::string> heads_;
-  std::string frames_;         // since the last head
-  std::uint64_t largest_ = 0;  // frames that came at once
+  std::vector<std::string> runs_;
+  std::string frames_;       // of the last run
+  std::size_t largest_ = 0;  // frames that came at once
   bool thinned_ = false;
   std::atomic<int> number_ = -1;
 };
 
-std::string head(const std::string& title) { return nlohmann::json{{"kind", "head"}, {"title", title}}.dump(); }
+std::string beginning(const std::string& title) { return nlohmann::json{{"kind", "begin"}, {"title", title}}.dump(); }
 
 std::string first_of_both(std::string_view a, std::string_view /*b*/) { return std::string(a); }
 
@@ -100,8 +96,8 @@ void publish(PageHub& hub, const std::string& frames) {
 }
 
 TEST(PageHub, SendsALatePageAllFramesOfTheRun) {
-  PageHub hub;
-  hub.begin(head("run"), first_of_both);
+  PageHub hub(PageHub::usual_history_bytes, first_of_both);
+  hub.begin(beginning("run"));
   Browser early(hub);
   publish(hub, "abc");
   EXPECT_TRUE(early.has("abc"));
@@ -113,8 +109,8 @@ TEST(PageHub, SendsALatePageAllFramesOfTheRun) {
 }
 
 TEST(PageHub, SendsASlowPageAllThatItMissedAtOnce) {
-  PageHub hub;
-  hub.begin(head("run"), first_of_both);
+  PageHub hub(PageHub::usual_history_bytes, first_of_both);
+  hub.begin(beginning("run"));
   Browser slow(hub, true);
   publish(hub, "a");
   EXPECT_TRUE(slow.has("a"));
@@ -127,35 +123,22 @@ TEST(PageHub, SendsASlowPageAllThatItMissedAtOnce) {
 }
 
 TEST(PageHub, ForgetsTheFramesOfTheRunBefore) {
-  PageHub hub;
-  hub.begin(head("first"), first_of_both);
+  PageHub hub(PageHub::usual_history_bytes, first_of_both);
+  hub.begin(beginning("first"));
   Browser page(hub);
   publish(hub, "abc");
   EXPECT_TRUE(page.has("abc"));
-  hub.begin(head("second"), first_of_both);
+  hub.begin(beginning("second"));
   publish(hub, "xy");
   EXPECT_TRUE(page.has("xy"));
   Browser late(hub);
   EXPECT_TRUE(late.has("xy"));
-  EXPECT_EQ(late.heads(), std::vector<std::string>{"second"});
-}
-
-TEST(PageHub, SendsAllFramesAgainAfterANewHeadOfTheSameRun) {
-  PageHub hub;
-  hub.begin(head("run"), first_of_both);
-  Browser page(hub);
-  publish(hub, "abc");
-  EXPECT_TRUE(page.has("abc"));
-  hub.set_head(head("run, with events"));
-  EXPECT_TRUE(page.has("abc"));
-  publish(hub, "d");
-  EXPECT_TRUE(page.has("abcd"));
-  EXPECT_EQ(page.heads().back(), "run, with events");
+  EXPECT_EQ(late.runs(), std::vector<std::string>{"second"});
 }
 
 TEST(PageHub, TellsPagesThatFramesWereLeftOut) {
-  PageHub hub(4000);
-  hub.begin(head("run"), first_of_both);
+  PageHub hub(4000, first_of_both);
+  hub.begin(beginning("run"));
   Browser early(hub);
   for (int i = 0; i < 100; ++i) publish(hub, "a");
   Browser late(hub);

@@ -7,6 +7,7 @@
 
 #include "common/measure/compare.h"
 #include "common/measure/ensemble.h"
+#include "common/measure/resting_shape.h"
 #include "common/scene/happened.h"
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
@@ -15,7 +16,6 @@
 #include "tools/run/backends.h"
 #include "tools/run/measured_drift.h"
 #include "tools/run/processor_watch.h"
-#include "tools/run/resting_shape.h"
 
 namespace talus {
 namespace {

@@ -14,9 +14,9 @@ void add_list_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
 void add_reference_command(CLI::App& app, int& exit_code);
 void add_new_command(CLI::App& app, int& exit_code);
-void add_view_command(CLI::App& app, int& exit_code);
 
-// On recorded runs; where talus is built with LCM.
+// On the messages of runs; where talus is built with LCM.
+void add_view_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
 void add_export_command(CLI::App& app, int& exit_code);
 void add_film_command(CLI::App& app, int& exit_code);

@@ -3,11 +3,6 @@
 #include "tools/picture/canvas.h"
 
 namespace talus {
-namespace {
-
-constexpr double sleep_shade = 0.55;  // of the way to black
-
-}  // namespace
 
 Colour colour_of(const std::string& text) {
   const auto part = [&](std::size_t at) { return std::stoi(text.substr(at, 2), nullptr, 16) / 255.0; };
@@ -17,7 +12,7 @@ Colour colour_of(const std::string& text) {
 BodyPaint body_paint(const PictureParams& params, int shape, const std::string& own, bool asleep) {
   if (!own.empty()) {
     const Colour awake = colour_of(own);
-    return {asleep ? mix(awake, {}, sleep_shade) : awake, asleep ? params.asleep_outline : params.awake_outline};
+    return {asleep ? mix(awake, {}, params.sleep_shade) : awake, asleep ? params.asleep_outline : params.awake_outline};
   }
   if (asleep) return {params.asleep, params.asleep_outline};
   return {params.awake[shape % params.awake.size()], params.awake_outline};

@@ -28,6 +28,7 @@ struct PictureParams {
   Colour quiet_text = {0.38, 0.40, 0.43};
   Colour asleep = {0.17, 0.18, 0.20};
   Colour asleep_outline = {0.60, 0.62, 0.65};
+  double sleep_shade = 0.55;  // 0..1: how much darker a sleeping body is whose shape has a colour of its own
   std::vector<Colour> awake = {{0.96, 0.68, 0.26}, {0.91, 0.47, 0.31}, {0.96, 0.83, 0.50}, {0.85, 0.56, 0.50}};
   Colour awake_outline = {0.42, 0.23, 0.06};  // `awake` by shape, in turn; not empty
   Colour layer = {0.16, 0.44, 0.82};          // opacity follows the layer's density

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 
@@ -68,6 +70,18 @@ std::invalid_argument no_frame(const fs::path& folder, std::uint64_t damaged_byt
       fmt::format("{}: run.lcm holds no frame; the run ended before its first one, or all are damaged ({} damaged "
                   "bytes)",
                   folder.string(), damaged_bytes));
+}
+
+std::string record_bytes(const fs::path& folder) {
+  LogReader log(record_file(folder).string());
+  bool any = false;
+  const auto visit = [&any](const Moment&) { any = true; };
+  const WalkResult walk =
+      std::visit([&]<int Dim>(const Scene<Dim>& scene) { return walk_record<Dim>(scene, log, folder, visit); },
+                 scene_of_run(folder));
+  if (!any) throw no_frame(folder, walk.damage.bytes);
+  std::ifstream in(record_file(folder), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 AnyRecordedRun read_run(const fs::path& folder) {

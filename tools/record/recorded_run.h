@@ -65,4 +65,8 @@ AnyRecordedRun read_run(const std::filesystem::path& folder);
 /// Reads the record of a run of this scene; `folder` is for messages. Throws as read_run() does.
 AnyRecordedRun read_record(const AnyScene& scene, LogReader& log, const std::filesystem::path& folder);
 
+/// The bytes of the log of a run folder, or of a record without its folder, from which read_run() can read a run.
+/// Throws as that does.
+std::string record_bytes(const std::filesystem::path& folder);
+
 }  // namespace talus

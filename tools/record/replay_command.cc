@@ -10,7 +10,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
-#include "tools/record/record_stream.h"
+#include "tools/record/recorded_run.h"
 #include "tools/view/page.h"
 
 namespace talus {
@@ -23,7 +23,7 @@ struct ReplayOptions {
 
 void write_replay(const ReplayOptions& options) {
   require(options.out.ends_with(".html"), "--out", options.out, "must end in .html");
-  const std::string page = page_with(record_stream(options.run));
+  const std::string page = page_with(record_bytes(options.run), name_of_run(options.run));
   std::ofstream out(options.out, std::ios::binary);
   out << page << std::flush;
   if (!out) throw std::system_error(errno, std::generic_category(), options.out);

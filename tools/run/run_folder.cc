@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "common/measure/resting_shape.h"
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
 #include "common/text/file.h"
-#include "tools/run/resting_shape.h"
 #include "tools/run/shape_json.h"
 #include "tools/run/version.h"
 

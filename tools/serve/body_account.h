@@ -5,7 +5,7 @@
 
 #include "common/scene/scene.h"
 #include "common/simulation/simulation.h"
-#include "tools/view/contact_stream.h"
+#include "tools/serve/contact_memory.h"
 
 namespace talus {
 

@@ -4,9 +4,20 @@
 #include <vector>
 
 #include "common/simulation/observer.h"
-#include "tools/view/contact_stream.h"
+#include "common/world/body.h"
 
 namespace talus {
+
+/// A point of contact with its forces.
+template <int Dim>
+struct ShownContact {
+  BodyIndex a = 0;
+  BodyIndex b = ground_index;                  // as in Contact
+  Vec<Dim> point = Vec<Dim>::Zero();           // [m]
+  Vec<Dim> normal_force = Vec<Dim>::Zero();    // on a [N], mean over the step
+  Vec<Dim> friction_force = Vec<Dim>::Zero();  // on a [N], mean over the step
+  bool kept = false;                           // of bodies that sleep: as it was in the last step before
+};
 
 /// Contacts to show, while they are wanted: of awake bodies those of the last step; between sleeping bodies, of which
 /// engines compute none, those of the last step before both slept.

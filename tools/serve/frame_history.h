@@ -11,9 +11,9 @@
 
 namespace talus {
 
-/// Frames as blocks of bytes, each of which has a meaning only after those before it; what is in them only `merge`
-/// knows. Once they take more than `most_bytes`, neighbours are merged until they take at most three quarters of that:
-/// the frames that are left lie about evenly over the whole run. The first and the newest frame always stay.
+/// Frames as blocks of bytes, each of which has a meaning only after those before it. Once they take more than
+/// `most_bytes`, neighbours are merged until they take at most three quarters of that: the frames that are left lie
+/// about evenly over the whole run. The first and the newest frame always stay.
 class FrameHistory {
  public:
   /// Of two blocks that follow each other, one that does what both do.

@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// Puts one run together from its messages, and gives its states to the pages of a hub. Follows the first run that it
+/// Relays the messages of one run to the pages of a hub, moment by moment. Follows the first run that it
 /// hears, and another one once that has ended or was silent for two seconds.
 class LiveRun {
  public:
@@ -25,15 +25,15 @@ class LiveRun {
 
   std::int64_t undecodable() const { return undecodable_; }
 
-  /// A run of either dimension.
-  class Assembly;
-
  private:
+  class Followed;
   template <class Message>
   void hear(const Datagram& datagram, Message& message, Clock::time_point now);
 
+  void show_status();
+
   PageHub& hub_;
-  std::unique_ptr<Assembly> assembly_;
+  std::unique_ptr<Followed> followed_;
   Clock::time_point heard_{};
   std::int64_t undecodable_ = 0;
 };

@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "tools/view/stream_numbers.h"
-
 namespace talus {
 namespace {
 
@@ -23,18 +21,13 @@ PageHub::~PageHub() {
   for (const int number : numbers) remove(number);
 }
 
-void PageHub::begin(const std::string& head, FrameHistory::Merge merge) {
+void PageHub::begin(const std::string& text) {
   const std::lock_guard lock(mutex_);
   for (Page& page : pages_) page.body = -1;
-  head_ = std::make_shared<std::string>(head);
-  history_ = FrameHistory(most_history_bytes_, std::move(merge));
+  ++run_;
+  beginning_ = text;
+  history_ = FrameHistory(most_history_bytes_, merge_);
   contacts_.clear();
-  changed_.notify_all();
-}
-
-void PageHub::set_head(const std::string& head) {
-  const std::lock_guard lock(mutex_);
-  head_ = std::make_shared<std::string>(head);
   changed_.notify_all();
 }
 
@@ -42,7 +35,7 @@ void PageHub::publish(ShownFrame frame) {
   const std::lock_guard lock(mutex_);
   std::vector<std::int64_t> held;
   for (const Page& page : pages_)
-    if (page.head == head_) held.push_back(page.frame);
+    if (page.run == run_) held.push_back(page.frame);
   history_.add(frame.step, std::move(frame.block), held);
   contacts_ = std::move(frame.contacts);
   changed_.notify_all();
@@ -153,11 +146,11 @@ PageHub::Parcel PageHub::take(Page& page) {
   parcel.texts = std::exchange(page.replies, {});
   if (page.status != status_) parcel.texts.push_back(page.status = status_);
   if (!due(page)) return parcel;
-  if (page.head != head_) {
-    page.head = head_;
+  if (page.run != run_) {
+    page.run = run_;
     page.frame = -1;
     page.spacing = 0;
-    parcel.texts.push_back(*head_);
+    parcel.texts.push_back(beginning_);
   }
   if (page.spacing != history_.spacing()) {
     page.spacing = history_.spacing();
@@ -166,13 +159,12 @@ PageHub::Parcel PageHub::take(Page& page) {
     parcel.texts.push_back(text.dump());
   }
   if (!page.account.empty()) parcel.texts.push_back(std::exchange(page.account, ""));
-  const FrameHistory::Run run = history_.after(page.frame, most_parcel_bytes);
+  FrameHistory::Run run = history_.after(page.frame, most_parcel_bytes);
   if (run.frames == 0) return parcel;
   page.frame = run.last;
   page.ready = false;
-  write_unsigned(parcel.frames, run.frames);
-  parcel.frames += run.bytes;
-  if (page.contacts && run.last == history_.newest()) parcel.frames += contacts_;
+  parcel.frames = std::move(run.bytes);
+  if (page.contacts && run.last == history_.newest() && !contacts_.empty()) parcel.texts.push_back(contacts_);
   return parcel;
 }
 

@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <list>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "tools/serve/frame_history.h"
+#include "tools/serve/merge_messages.h"
 
 namespace talus {
 
@@ -27,8 +27,8 @@ class PageSocket {
 /// One state of a run, as pages are sent it.
 struct ShownFrame {
   std::int64_t step = 0;
-  std::string block;          // what it changes of the frame before (frame_stream.h)
-  std::string contacts = {};  // contact_stream.h; empty: none
+  std::string block;          // the log events (event_log.h) of what is new since the frame before
+  std::string contacts = {};  // a text for pages that want contacts; empty: none
 };
 
 /// Keeps the frames of a run and sends each page all of them, so that a page that comes late or again has the whole
@@ -41,16 +41,15 @@ class PageHub {
   /// Of memory that the frames of a run take; beyond, some are left out (FrameHistory).
   static constexpr std::size_t usual_history_bytes = std::size_t{256} << 20U;
 
-  explicit PageHub(std::size_t most_history_bytes = usual_history_bytes) : most_history_bytes_(most_history_bytes) {}
+  /// `merge`: of the blocks of two frames.
+  explicit PageHub(std::size_t most_history_bytes = usual_history_bytes, FrameHistory::Merge merge = merge_messages)
+      : most_history_bytes_(most_history_bytes), merge_(std::move(merge)) {}
   ~PageHub();
   PageHub(const PageHub&) = delete;
   PageHub& operator=(const PageHub&) = delete;
 
-  /// A run begins; frames of the last one are forgotten. `head`: what pages know before the first frame. `merge`: of
-  /// its blocks.
-  void begin(const std::string& head, FrameHistory::Merge merge);
-  /// More is known of the same run: pages begin again with this head and all frames.
-  void set_head(const std::string& head);
+  /// A run begins; frames of the last one are forgotten. `text`: what pages are told before its first frame.
+  void begin(const std::string& text);
   void publish(ShownFrame frame);
   /// Whether a page has acknowledged all frames and waits for a newer one.
   bool wanted() const;
@@ -87,20 +86,20 @@ class PageHub {
     std::int64_t body = -1;  // of which it is sent an account
     std::string account;     // of it; empty: sent
     std::vector<std::string> replies;
-    std::string status;                       // sent last
-    std::shared_ptr<const std::string> head;  // sent last
-    std::int64_t frame = -1;                  // sent last, of the run of that head
-    std::int64_t spacing = 0;                 // of the history, as it was told last
+    std::string status;        // sent last
+    std::int64_t run = 0;      // whose beginning was sent last; 0: none
+    std::int64_t frame = -1;   // sent last, of that run
+    std::int64_t spacing = 0;  // of the history, as it was told last
     std::jthread sender;
   };
   /// What a sender takes under the lock and sends without it.
   struct Parcel {
     std::vector<std::string> texts;
-    std::string frames;  // u their number, their blocks, contacts of the last one; empty: none is due
+    std::string frames;  // their blocks, after contacts of the last one; empty: none is due
   };
 
   void send(Page& page);
-  bool due(const Page& page) const { return page.ready && (page.head != head_ || page.frame < history_.newest()); }
+  bool due(const Page& page) const { return page.ready && (page.run != run_ || page.frame < history_.newest()); }
   Parcel take(Page& page);
   Page* find(int number);
 
@@ -109,7 +108,9 @@ class PageHub {
   std::list<Page> pages_;
   int next_page_ = 0;
   std::size_t most_history_bytes_;
-  std::shared_ptr<const std::string> head_;  // null: no run
+  FrameHistory::Merge merge_;
+  std::int64_t run_ = 0;   // number of the run; 0: there was none yet
+  std::string beginning_;  // of it
   FrameHistory history_{0, {}};
   std::string contacts_;  // of the newest frame
   std::string status_;

@@ -276,8 +276,6 @@ void RunLoop::step() {
   ++steps_since_;
   ++steps_of_run_;
   published_ = !reason.empty();
-  seconds_since_frame_ += seconds;
-  ++steps_since_frame_;
   if (run_->finished() && reason.empty()) probe_drift();
   if (!published_ && (hub_.wanted() || run_->is_output() || run_->finished())) publish();
   if (run_->finished() || !reason.empty()) {
@@ -304,19 +302,13 @@ void RunLoop::probe_drift() {
 }
 
 void RunLoop::begin_run() {
-  seconds_since_frame_ = 0.0;
-  steps_since_frame_ = 0;
-  hub_.begin(run_->head(), run_->merge());
+  hub_.begin(run_->beginning());
   publish();
 }
 
 void RunLoop::publish() {
   for (const auto& [page, body] : hub_.chosen_bodies()) hub_.set_account(page, run_->account(body));
-  const double ms =
-      steps_since_frame_ > 0 ? 1e3 * seconds_since_frame_ / static_cast<double>(steps_since_frame_) : -1.0;
-  hub_.publish(run_->frame(ms));
-  seconds_since_frame_ = 0.0;
-  steps_since_frame_ = 0;
+  hub_.publish(run_->frame());
   published_ = true;
 }
 

@@ -98,9 +98,7 @@ class RunLoop {
   std::int64_t steps_since_ = 0;   // the last note of the speed
   double seconds_in_steps_ = 0.0;  // since then
   std::int64_t steps_of_run_ = 0;
-  double seconds_of_run_ = 0.0;         // in its steps
-  std::int64_t steps_since_frame_ = 0;  // the last one published
-  double seconds_since_frame_ = 0.0;    // in these
+  double seconds_of_run_ = 0.0;  // in its steps
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;

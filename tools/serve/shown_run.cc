@@ -10,7 +10,10 @@
 
 #include "common/simulation/simulation.h"
 #include "common/text/printable.h"
-#include "common/world/energy.h"
+#include "lcmtypes/event_log.h"
+#include "lcmtypes/moment_writer.h"
+#include "tools/output/json_text.h"
+#include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/measured_drift.h"
@@ -19,26 +22,80 @@
 #include "tools/serve/contact_memory.h"
 #include "tools/serve/free_place.h"
 #include "tools/serve/saved_scene.h"
-#include "tools/view/contact_stream.h"
-#include "tools/view/frame_stream.h"
-#include "tools/view/merge_blocks.h"
-#include "tools/view/run_head.h"
 
 namespace talus {
 namespace {
 
-/// Keeps what happened since the last frame for the pages; with an observer a simulation counts piles and looks for
-/// warnings.
-template <int Dim>
-class SinceShown final : public Observer<Dim> {
+using Json = nlohmann::ordered_json;
+
+/// Gathers the messages of a frame as log events.
+class MessageBuffer final : public MessageSink {
  public:
-  void on_frame(const Frame<Dim>& frame) override {
-    events.insert(events.end(), frame.events.begin(), frame.events.end());
-    body_steps += static_cast<double>(frame.world.awake().size());
-  }
-  std::vector<SleepEvent> events;
-  double body_steps = 0.0;  // of awake bodies, since the start
+  std::int64_t stamp(double time) override { return std::llround(1e6 * time); }
+  void put(Packet packet) override { append_event(events_, 0, packet.utime, packet.channel, packet.bytes); }
+  std::string take() { return std::exchange(events_, {}); }
+
+ private:
+  std::string events_;
 };
+
+/// Writes down what happens in each step; with an observer a simulation counts piles and looks for warnings.
+template <int Dim>
+class StepWriter final : public Observer<Dim> {
+ public:
+  explicit StepWriter(MomentWriter<Dim>& writer) : writer_(writer) {}
+  void on_frame(const Frame<Dim>& frame) override {
+    writer_.events(frame);
+    phases_ += frame.phases;
+    ++steps_;
+    body_steps_ += static_cast<double>(frame.world.awake().size());
+  }
+  double body_steps() const { return body_steps_; }
+
+  /// The numbers of a frame, with the mean wall times of the steps since the last call.
+  talus_lcm::talus_stats stats(const Frame<Dim>& frame) {
+    talus_lcm::talus_stats message = to_stats<Dim>(frame);
+    if (steps_ == 0) return message;
+    message.timed = 1;
+    set_phase_times(std::exchange(phases_, {}), std::exchange(steps_, 0), message);
+    return message;
+  }
+
+ private:
+  MomentWriter<Dim>& writer_;
+  PhaseTimes phases_;
+  std::int64_t steps_ = 0;
+  double body_steps_ = 0.0;  // of awake bodies, since the start
+};
+
+/// What a scene without bodies shows: its obstacles, sources and first bodies, and the origin.
+template <int Dim>
+Box<Dim> box_of(const Scene<Dim>& scene) {
+  Box<Dim> box;
+  box.extend(Vec<Dim>::Zero().eval());
+  for (const Source<Dim>& source : scene.sources) {
+    const Vec<Dim> reach = source.sweep.cwiseAbs() + source.grid_extent();
+    box.extend(Vec<Dim>(source.position - source.sweep.cwiseAbs()));
+    box.extend(Vec<Dim>(source.position + reach));
+  }
+  for (const InitialBody<Dim>& body : scene.bodies)
+    box.extend(bounds_at(scene.world.shapes[body.def.shape], body.def.pose));
+  for (const Obstacle<Dim>& obstacle : scene.world.obstacles) box.extend(bounds_at(obstacle.shape, obstacle.pose));
+  return box;
+}
+
+/// {"kind": "contacts", "step", "contacts": [[a, b as in Contact, 1 where it is kept, point [m], normal force on a [N],
+/// friction force on a [N]]]}, each of the last three a number for each axis.
+template <int Dim>
+std::string contacts_text(std::span<const ShownContact<Dim>> contacts, std::int64_t step) {
+  Json list = Json::array();
+  for (const ShownContact<Dim>& contact : contacts) {
+    Json& row = list.emplace_back(Json::array({contact.a, contact.b, contact.kept ? 1 : 0}));
+    for (const Vec<Dim>& vector : {contact.point, contact.normal_force, contact.friction_force})
+      for (const double part : vector) row.push_back(static_cast<float>(part));
+  }
+  return json_text({{"kind", "contacts"}, {"step", step}, {"contacts", list}});
+}
 
 template <int Dim>
 class SimulatedScene final : public ShownRun {
@@ -46,55 +103,47 @@ class SimulatedScene final : public ShownRun {
   SimulatedScene(const Scene<Dim>& scene, const std::string& backend, const std::string& name)
       : scene_(scene),
         backend_(backend),
-        form_(frame_form(scene)),
-        head_(head_of(scene, backend, name)),
-        encoder_(form_),
+        writer_(info_of(scene, name, backend), 0, messages_),
+        steps_(writer_),
         contacts_(scene.world.dt),
         simulation_(make_simulation(scene, backend)) {
-    simulation_.add_observer(since_);
+    writer_.set_world(scene.world);
+    writer_.set_scene(scene);
+    writer_.run(talus_lcm::talus_run::BEGIN, {}, 0, 0.0);
+    writer_.shapes();
+    simulation_.add_observer(steps_);
     simulation_.add_observer(contacts_);
   }
 
-  void step() override {
-    simulation_.step();
-    for (const auto done = simulation_.done_events(); known_events_ < done.size(); ++known_events_)
-      happened_.push_back(done[known_events_]);
-  }
+  void step() override { simulation_.step(); }
   bool finished() const override { return simulation_.finished(); }
   bool at_rest() const override { return simulation_.at_rest(); }
 
   void probe_drift(const std::function<bool()>& stop) override {
     if (scene_.policy.tolerance().value_or(0.0) <= 0.0) return;
-    const auto probe = probe_end_drift<Dim>(simulation_, scene_, backend_, probe_allowance(since_.body_steps), stop);
+    const auto probe = probe_end_drift<Dim>(simulation_, scene_, backend_, probe_allowance(steps_.body_steps()), stop);
     if (probe) simulation_.set_probed_drift(probe->expected());
   }
 
   std::int64_t step_number() const override { return simulation_.frame().step; }
   bool is_output() const override { return step_number() % scene_.steps_per_frame() == 0; }
   double dt() const override { return scene_.world.dt; }
-  const std::string& head() const override { return head_; }
-  FrameHistory::Merge merge() const override { return merge_blocks<Dim>; }
+  std::string beginning() const override {
+    const Box<Dim> box = box_of(scene_);
+    const auto corner = [](const Vec<Dim>& point) { return std::vector<double>(point.begin(), point.end()); };
+    return json_text({{"kind", "begin"}, {"box", {corner(box.min()), corner(box.max())}}});
+  }
 
-  ShownFrame frame(double ms_per_step) override {
+  /// The first frame and that after a body was taken away by hand name all bodies.
+  ShownFrame frame() override {
     const Frame<Dim> frame = simulation_.frame();
-    std::vector<Pile<Dim>> piles(frame.piles.piles().begin(), frame.piles.piles().end());
-    for (Pile<Dim>& pile : piles) set_thresholds<Dim>(*frame.policy, pile.layers);
-    const auto obstacles = moving_poses(scene_.world.obstacles, scene_.movers, frame.time);
-    const std::optional<ToldDrift> drift = told_drift(frame);
-    ShownFrame shown = {.step = frame.step,
-                        .block = encoder_.encode({.step = frame.step,
-                                                  .states = frame.world.states(),
-                                                  .events = since_.events,
-                                                  .piles = piles,
-                                                  .warnings = frame.warnings,
-                                                  .kinetic_energy = kinetic_energy(frame.world),
-                                                  .scene_events = happened_,
-                                                  .drift_estimate = drift ? drift->drift : -1.0,
-                                                  .obstacles = obstacles,
-                                                  .ms_per_step = ms_per_step})};
-    since_.events.clear();
-    if (contacts_.needs_contacts())
-      shown.contacts = encode_contacts<Dim>(contacts_.contacts(frame.world), form_->quantum);
+    const bool all = std::exchange(all_due_, false) || writer_.owes_key_frame();
+    writer_.piles(frame);
+    writer_.stats(steps_.stats(frame), frame);
+    writer_.obstacles(frame, all);
+    all ? writer_.all_bodies(frame) : void(writer_.bodies(frame));
+    ShownFrame shown = {.step = frame.step, .block = messages_.take()};
+    if (contacts_.needs_contacts()) shown.contacts = contacts_text<Dim>(contacts_.contacts(frame.world), frame.step);
     return shown;
   }
 
@@ -102,8 +151,7 @@ class SimulatedScene final : public ShownRun {
 
   std::string account(std::int64_t body) const override {
     const std::vector<ShownContact<Dim>> contacts = contacts_.contacts(simulation_.world());
-    return body_account<Dim>(simulation_, scene_, contacts, body)
-        .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+    return json_text(body_account<Dim>(simulation_, scene_, contacts, body));
   }
 
   std::string kick(std::int64_t body, std::span<const double> velocity) override {
@@ -123,6 +171,7 @@ class SimulatedScene final : public ShownRun {
   std::string remove(std::int64_t body) override {
     if (!present(body)) return no_body(body);
     simulation_.remove(static_cast<BodyIndex>(body));
+    all_due_ = true;
     return {};
   }
 
@@ -153,13 +202,21 @@ class SimulatedScene final : public ShownRun {
     return {};
   }
 
-  /// Pages are told of it as of an event of the scene.
+  /// Pages are told of it as of an event of the scene, with a number after those of the scene's own.
   std::string cut(std::int64_t obstacle) override {
     if (obstacle < 0 || obstacle >= std::ssize(scene_.world.obstacles) ||
         !simulation_.world().has_obstacle(static_cast<int>(obstacle)))
       return fmt::format("obstacle {}: is not in the world", obstacle);
     simulation_.cut_obstacle(static_cast<int>(obstacle));
-    happened_.push_back({static_cast<int>(std::ssize(scene_.events) + obstacle), simulation_.time() - scene_.world.dt});
+    const auto own = static_cast<std::int32_t>(scene_.events.size());
+    talus_lcm::talus_event event{};
+    event.number = own + static_cast<std::int32_t>(obstacle);
+    event.total = own + static_cast<std::int32_t>(scene_.world.obstacles.size());
+    event.action = to_string(EventAction::remove);
+    event.text = fmt::format("obstacle {} cut away by hand", obstacle);
+    event.removed_count = 1;
+    event.removed = {static_cast<std::int32_t>(obstacle)};
+    writer_.event(event, simulation_.frame());
     return {};
   }
 
@@ -179,27 +236,18 @@ class SimulatedScene final : public ShownRun {
   }
   static std::string no_body(std::int64_t body) { return fmt::format("body {}: is not in the world", body); }
 
-  std::string head_of(const Scene<Dim>& scene, const std::string& backend, const std::string& name) const {
-    const RunTexts texts = {.name = printable(name),
-                            .backend = backend,
-                            .policy = scene.policy.kind,
-                            .version = version_text(),
-                            .seed = scene.seed};
-    nlohmann::ordered_json head = run_head(scene, texts, form_->quantum, box_of(scene));
-    head["kind"] = "head";
-    for (std::size_t k = 0; k < scene.world.obstacles.size(); ++k)
-      head["events"].push_back({{"text", fmt::format("obstacle {} cut away by hand", k)}, {"removes", {k}}});
-    return head.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  static RunInfo info_of(const Scene<Dim>& scene, const std::string& name, const std::string& backend) {
+    RunInfo info = run_info(scene, printable(name), backend);
+    info.version = version_text();
+    return info;
   }
 
   Scene<Dim> scene_;
   std::string backend_;
-  std::shared_ptr<const FrameForm<Dim>> form_;
-  std::string head_;
-  FrameEncoder<Dim> encoder_;
-  SinceShown<Dim> since_;
-  std::vector<DoneEvent> happened_;  // events of the scene, and after their numbers obstacles that were cut
-  std::size_t known_events_ = 0;     // of the simulation
+  MessageBuffer messages_;
+  MomentWriter<Dim> writer_;
+  StepWriter<Dim> steps_;
+  bool all_due_ = true;  // the next frame must name all bodies
   ContactMemory<Dim> contacts_;
   Simulation<Dim> simulation_;
 };

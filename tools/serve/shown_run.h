@@ -32,12 +32,11 @@ class ShownRun {
   virtual bool is_output() const = 0;
   /// Length of a step [s].
   virtual double dt() const = 0;
-  /// What pages know before the first frame.
-  virtual const std::string& head() const = 0;
-  /// Of the blocks of frames.
-  virtual FrameHistory::Merge merge() const = 0;
-  /// The present state, with all that happened since the last call. `ms_per_step`: wall time, -1: not known.
-  virtual ShownFrame frame(double ms_per_step) = 0;
+  /// What pages are told before the first frame, as JSON: {"kind": "begin", "box": corners of what is to be seen at
+  /// first [m]}.
+  virtual std::string beginning() const = 0;
+  /// The present state, with all that happened since the last call.
+  virtual ShownFrame frame() = 0;
   /// Whether frames have contacts from now on. Costs nothing while false.
   virtual void show_contacts(bool show) = 0;
   /// What is known of a body here only (body_account.h), as JSON.
@@ -52,7 +51,7 @@ class ShownRun {
   virtual void release() = 0;
   /// Adds a body of a shape of the scene at rest, at the lowest free place from `position` [m] upwards.
   virtual std::string add(const std::string& shape, std::span<const double> position) = 0;
-  /// Takes an obstacle away, by its number in the page's head.
+  /// Takes an obstacle away, by its number in the scene.
   virtual std::string cut(std::int64_t obstacle) = 0;
   /// The present state as a scene file (saved_scene.h), which throws as that does.
   virtual std::string saved() const = 0;

@@ -11,18 +11,15 @@
 #include <stdexcept>
 #include <thread>
 
+#include "common/scene/setting_differences.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
-#ifdef TALUS_LCM
-#include "common/scene/setting_differences.h"
 #include "tools/record/record_file.h"
-#include "tools/record/record_stream.h"
 #include "tools/record/recorded_run.h"
-#include "tools/serve/live_view.h"
-#endif
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
+#include "tools/serve/live_view.h"
 #include "tools/serve/open_browser.h"
 #include "tools/serve/run_loop.h"
 #include "tools/serve/server.h"
@@ -93,8 +90,7 @@ ServedPage pair_page(const PairTexts& texts) { return {.path = "/", .page = page
 void view_scene(const ViewOptions& options) {
   PageHub hub(options.history_bytes());
   RunLoop loop(choice_of(options), hub);
-  const ViewServer server(options.port,
-                          {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub, .loop = &loop}},
+  const ViewServer server(options.port, {{.path = "/", .page = page_of_run(), .hub = &hub, .loop = &loop}},
                           options.listen);
   serve(options, server);
 }
@@ -107,7 +103,7 @@ void view_policies(const ViewOptions& options) {
   other.policy = options.against;
   RunLoop a(choice_of(options), hub_a);
   RunLoop b(choice_of(other), hub_b);
-  const std::string page = page_of_server(PageSource::run);
+  const std::string page = page_of_run();
   const ViewServer server(options.port,
                           {pair_page({.of_runs = true}),
                            {.path = "/a/", .page = page, .hub = &hub_a, .loop = &a},
@@ -116,12 +112,10 @@ void view_policies(const ViewOptions& options) {
   serve(options, server);
 }
 
-#ifdef TALUS_LCM
 void view_live(const ViewOptions& options) {
   PageHub hub(options.history_bytes());
   LiveView live(options.lcm_url, hub);  // before the threads of the server: it forks
-  const ViewServer server(options.port, {{.path = "/", .page = page_of_server(PageSource::run), .hub = &hub}},
-                          options.listen);
+  const ViewServer server(options.port, {{.path = "/", .page = page_of_run(), .hub = &hub}}, options.listen);
   serve(options, server, [&] { live.listen(std::chrono::milliseconds(50)); });
 }
 
@@ -134,10 +128,11 @@ double ms_per_step_of(const std::string& folder) {
 }
 
 void view_record(const ViewOptions& options) {
-  const std::string page = page_of_server(PageSource::record);
+  const auto served = [](const char* path, const std::string& run) {
+    return ServedPage{.path = path, .page = page_of_record(name_of_run(run)), .record = record_bytes(run)};
+  };
   if (options.other.empty()) {
-    const ViewServer server(options.port, {{.path = "/", .page = page, .record = record_stream(options.what)}},
-                            options.listen);
+    const ViewServer server(options.port, {served("/", options.what)}, options.listen);
     serve(options, server);
     return;
   }
@@ -150,22 +145,12 @@ void view_record(const ViewOptions& options) {
   const PairTexts texts = {.of_runs = false,
                            .ms_per_step = {ms_per_step_of(options.what), ms_per_step_of(options.other)},
                            .differences = setting_differences(toml_of(a), toml_of(b))};
-  const ViewServer server(options.port,
-                          {pair_page(texts),
-                           {.path = "/a/", .page = page, .record = record_stream(options.what)},
-                           {.path = "/b/", .page = page, .record = record_stream(options.other)}},
+  const ViewServer server(options.port, {pair_page(texts), served("/a/", options.what), served("/b/", options.other)},
                           options.listen);
   serve(options, server);
 }
-#endif
 
-bool is_record([[maybe_unused]] const std::string& what) {
-#ifdef TALUS_LCM
-  return std::filesystem::is_directory(what) || is_event_log(what);
-#else
-  return false;
-#endif
-}
+bool is_record(const std::string& what) { return std::filesystem::is_directory(what) || is_event_log(what); }
 
 /// What stands in the place of a scene.
 enum class Shown : std::uint8_t { scene, record, live };
@@ -195,10 +180,8 @@ void view(const CLI::App& command, const ViewOptions& options) {
   if (!options.other.empty() && !(record && is_record(options.other)))
     throw std::invalid_argument("talus view: what stands side by side must be two run folders or records");
   refuse_idle_options(command, options, options.live ? Shown::live : record ? Shown::record : Shown::scene);
-#ifdef TALUS_LCM
   if (options.live) return view_live(options);
   if (record) return view_record(options);
-#endif
   options.against.empty() ? view_scene(options) : view_policies(options);
 }
 
@@ -230,13 +213,11 @@ void add_options(CLI::App& command, ViewOptions& options) {
                   "Run folder or its record, scene file, or the name of a scene that `talus list` shows")
       ->check(not_empty());
   command.add_option("other", options.other, "Second run folder, shown beside the first in step")->check(not_empty());
-#ifdef TALUS_LCM
   command.add_flag("--live", options.live, "Show a run of another process, as it goes on");
   command
       .add_option("--lcm-url", options.lcm_url,
                   "Of --live: where to listen; else LCM_DEFAULT_URL, else this machine's runs")
       ->check(not_empty());
-#endif
   command.add_option("-b,--backend", options.backend, "Of a scene: engine, as in `talus run`")->check(not_empty());
   command.add_option("-p,--policy", options.policy, "Of a scene: which bodies may sleep")->check(not_empty());
   command.add_option("--against", options.against, "Of a scene: another policy, shown beside the first")

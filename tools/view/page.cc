@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -14,6 +12,7 @@
 
 #include "common/text/base64.h"
 #include "tools/run/data_folder.h"
+#include "tools/view/page_settings.h"
 
 namespace talus {
 namespace {
@@ -50,26 +49,23 @@ std::string in_script(const nlohmann::ordered_json& data) {
   return text;
 }
 
-std::string page_of(const std::string& data) {
+std::string data_in_page(const char* id, const nlohmann::ordered_json& data) {
+  return fmt::format(R"(<script type="application/json" id="{}">{}</script>)", id, in_script(data));
+}
+
+/// `source`: whether the page shows a "run" or a "record", and the name of that; `held`: the record, else empty.
+std::string page_of(const nlohmann::ordered_json& source, const std::string& held) {
   std::string page = built_file("page.html");
   put(page, "<!-- vendor -->", "<script>\n" + built_file("vendor.js") + "</script>");
-  put(page, "<!-- data -->", data);
+  put(page, "<!-- data -->", data_in_page("settings", page_settings()) + data_in_page("source", source) + held);
   return page;
 }
 
 }  // namespace
 
-std::string stream_bytes(const nlohmann::ordered_json& head, std::string_view blocks) {
-  const std::string text = head.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
-  std::string bytes;
-  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((text.size() >> shift) & 0xFF);
-  bytes += text;
-  bytes += blocks;
-  return deflated(bytes);
-}
-
-std::string page_with(std::string_view stream) {
-  return page_of(R"(<script type="application/octet-stream" id="stream">)" + base64(stream) + "</script>");
+std::string page_with(std::string_view log, const std::string& name) {
+  return page_of({{"kind", "record"}, {"name", name}},
+                 R"(<script type="application/octet-stream" id="log">)" + base64(deflated(log)) + "</script>");
 }
 
 std::string page_of_pair(const PairTexts& texts) {
@@ -77,13 +73,12 @@ std::string page_of_pair(const PairTexts& texts) {
   nlohmann::ordered_json data = {{"of_runs", texts.of_runs}, {"ms_per_step", texts.ms_per_step}};
   data["differences"] = nlohmann::ordered_json::array();
   for (const SettingDifference& each : texts.differences) data["differences"].push_back({each.path, each.a, each.b});
-  put(page, "<!-- data -->", R"(<script type="application/json" id="pair-data">)" + in_script(data) + "</script>");
+  put(page, "<!-- data -->", data_in_page("pair-data", data));
   return page;
 }
 
-std::string page_of_server(PageSource source) {
-  return page_of(fmt::format(R"(<script type="application/json" id="source">"{}"</script>)",
-                             source == PageSource::run ? "run" : "record"));
-}
+std::string page_of_run() { return page_of({{"kind", "run"}}, ""); }
+
+std::string page_of_record(const std::string& name) { return page_of({{"kind", "record"}, {"name", name}}, ""); }
 
 }  // namespace talus

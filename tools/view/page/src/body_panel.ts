@@ -1,6 +1,7 @@
 // What is known of the body that was clicked, and why it sleeps or not.
 
 import { element } from "./element";
+import { causes } from "./causes";
 import { withUnit } from "./scale";
 import type { Timeline } from "./timeline";
 
@@ -58,10 +59,10 @@ export class BodyPanel {
     const lines = [`Body ${body}, shape ${head.shapes[state.shape[body]]?.name ?? ""}`];
     if (state.removed[body] !== 0) return [...lines, "removed"];
     lines.push(`${awake ? "Awake" : "Asleep"} ${event ? since : `${since}, when it appeared`}`);
-    const cause = event ? head.causes[event.cause] : null;
+    const cause = event ? causes[event.cause] : null;
     if (event && cause) lines.push(`Cause: ${cause.name} (${event.woke ? cause.woke : cause.slept})`);
     if (event && event.score > 0) {
-      const threshold = typeof head.score_threshold === "number" && cause?.name === "score" ? `, threshold ${digits(head.score_threshold)}` : "";
+      const threshold = head.score_threshold >= 0 && cause?.name === "score" ? `, threshold ${digits(head.score_threshold)}` : "";
       lines.push(`Score ${digits(event.score)} when it fell asleep${threshold}`);
     }
     const layer = layerOf(timeline, body);
@@ -85,15 +86,14 @@ export class BodyPanel {
 
 /// Layer in which the centre of a body lies; the first pile counts.
 function layerOf({ state, head }: Timeline, body: number): { pile: number; layer: number; density: number; wake: number } | null {
-  const { position } = head.quantum;
   const axes = head.dimension;
   const components = axes === 2 ? 3 : 7;
-  const at = Array.from({ length: axes }, (_, i) => state.pose[components * body + i] * position);
-  for (const [pile, { centre, layers, counts }] of state.piles.entries()) {
+  const at = Array.from({ length: axes }, (_, i) => state.pose[components * body + i]);
+  for (const [pile, { centre, layers }] of state.piles.entries()) {
     const height = at[axes - 1] - centre[axes - 1];
-    const away = Math.hypot(...centre.slice(0, -1).map((value, i) => at[i] - value));
+    const away = Math.hypot(...at.slice(0, -1).map((value, i) => value - centre[i]));
     const layer = layers.findIndex(({ bottom, top, radius }) => height >= bottom && height < top && away <= radius);
-    if (layer >= 0) return { pile, layer, density: counts[2 * layer] / layers[layer].capacity, wake: layers[layer].wakeDensity };
+    if (layer >= 0) return { pile, layer, density: layers[layer].density, wake: layers[layer].wake_density };
   }
   return null;
 }

@@ -1,6 +1,6 @@
 // The switch for contacts, and what is said of those shown.
 
-import { type Contact, Contacts } from "./contacts";
+import { type Contact, Contacts, type ContactsText } from "./contacts";
 import type { Head } from "./head";
 import { element } from "./element";
 import { withUnit } from "./scale";
@@ -11,7 +11,7 @@ export class ContactPanel {
   private simulates = false;
 
   constructor(head: Head) {
-    this.contacts = new Contacts(head);
+    this.contacts = new Contacts(head.dimension);
   }
 
   /// Of a simulation that takes commands; `ask`: for contacts, or for none any more; `changed`: to draw what is wanted.
@@ -28,26 +28,22 @@ export class ContactPanel {
 
   /// Another run.
   replace(head: Head): void {
-    this.contacts = new Contacts(head);
+    this.contacts = new Contacts(head.dimension);
   }
 
   private wanted(): boolean {
     return element<HTMLInputElement>("contacts").checked;
   }
 
-  /// Contacts that came with a frame; no bytes: it has none.
-  add(frame: number, bytes: Uint8Array): void {
-    if (bytes.length > 0) this.contacts.add(frame, bytes);
+  /// Contacts of a frame that is to come.
+  add(text: ContactsText): void {
+    this.contacts.add(text);
   }
 
-  /// Of a frame, where they are shown; else null.
-  of(frame: number): Contact[] | null {
-    return this.wanted() ? this.contacts.of(frame) : null;
-  }
-
-  show(frame: number, stage: Stage): void {
+  /// Those of the frame of a step, where they are wanted.
+  show(step: number, stage: Stage): void {
     if (!this.simulates) return;
-    const contacts = this.of(frame);
+    const contacts = this.wanted() ? this.contacts.of(step) : null;
     const { force, length } = stage.showContacts(contacts ?? []);
     this.note(contacts, force, length);
   }

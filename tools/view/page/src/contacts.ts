@@ -1,9 +1,8 @@
-// Contacts of the frames of a simulation (tools/view/contact_stream.h).
+// Contacts of the frames of a simulation, as the server sends them (tools/serve/shown_run.cc).
 
-import { Reader } from "./frames";
-import type { Head, Point } from "./head";
+import type { Point } from "./head";
 
-/// Frames whose contacts are kept, the newest: a frame of many bodies has more bytes of contacts than of poses.
+/// Frames whose contacts are kept, the newest.
 const mostFrames = 1000;
 
 export interface Contact {
@@ -15,36 +14,30 @@ export interface Contact {
   point: Point;
   /// On `a` [N].
   normalForce: Point;
-  frictionForce: Point;
+}
+
+/// Of each contact a, b, 1 where it is kept, then a number for each axis of point, normal force and friction force.
+export interface ContactsText {
+  step: number;
+  contacts: number[][];
 }
 
 export const magnitude = (force: Point): number => Math.hypot(...force);
 
 export class Contacts {
-  private readonly frames = new Map<number, Uint8Array>();
+  /// By step, in the order in which they came.
+  private readonly frames = new Map<number, number[][]>();
 
-  constructor(private readonly head: Head) {}
+  constructor(private readonly dimension: 2 | 3) {}
 
-  add(frame: number, bytes: Uint8Array): void {
-    this.frames.set(frame, bytes);
-    this.frames.delete(frame - mostFrames);
+  add({ step, contacts }: ContactsText): void {
+    this.frames.set(step, contacts);
+    if (this.frames.size > mostFrames) this.frames.delete(this.frames.keys().next().value!);
   }
 
-  /// Of a frame; null where none were sent with it, or no longer are kept.
-  of(frame: number): Contact[] | null {
-    const bytes = this.frames.get(frame);
-    if (!bytes) return null;
-    const reader = new Reader(bytes);
-    const { dimension, quantum } = this.head;
-    const each = (read: (axis: number) => number): Point => Array.from({ length: dimension }, (_, axis) => read(axis));
-    const counts = each(() => 0);
-    return Array.from({ length: reader.unsigned() }, () => ({
-      a: reader.unsigned(),
-      b: reader.signed(),
-      kept: reader.unsigned() === 1,
-      point: each((axis) => quantum.position * (counts[axis] += reader.signed())),
-      normalForce: each(() => reader.float()),
-      frictionForce: each(() => reader.float()),
-    }));
+  /// Of the frame of a step; null where none were sent with it, or no longer are kept.
+  of(step: number): Contact[] | null {
+    const axes = this.dimension;
+    return this.frames.get(step)?.map(([a, b, kept, ...values]) => ({ a, b, kept: kept === 1, point: values.slice(0, axes), normalForce: values.slice(axes, 2 * axes) })) ?? null;
   }
 }

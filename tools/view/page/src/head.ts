@@ -1,8 +1,16 @@
-// What is known of a run before its first frame (tools/view/run_head.h).
+// What is known of a run before its first moment.
+
+import type { Layouts } from "./messages";
+import type { EventMessage, MomentReader, ShapeMessage, State } from "./moments";
+import { matrixOf } from "./pose";
+import { piecesOf } from "./surface";
+import { Vector3 } from "./vendor";
 
 export type Point = number[];
 export type Rgb = [number, number, number];
+export type Box = [Point, Point];
 
+/// A convex piece: its polygons, and of a round one the ends of the line that it is round about.
 export interface Piece {
   loops: Point[][];
   core?: [Point, Point];
@@ -12,7 +20,7 @@ export interface ShapeHead {
   name: string;
   awake: Rgb;
   asleep: Rgb;
-  mass: number;
+  /// D: diagonal of the box around it [m].
   extent: number;
   pieces: Piece[];
 }
@@ -23,29 +31,8 @@ export interface ObstacleHead {
   pieces: Piece[];
 }
 
-export interface Cause {
-  name: string;
-  slept: string;
-  woke: string;
-}
-
-export interface Head {
-  title: string;
-  name: string;
-  backend: string;
-  policy: string;
-  version: string;
-  seed: number;
-  reason: string;
-  damage: string;
-  dimension: 2 | 3;
-  dt: number;
-  steps: number;
-  /// Between two frames of output; none where frames come as another process sends them.
-  steps_per_frame: number | null;
-  ground: { present: boolean; height: number };
-  quantum: { position: number; angle: number; quaternion: number };
-  box: [Point, Point];
+/// What the page knows of any run (tools/view/page_settings.h).
+export interface Settings extends Layouts {
   camera: { azimuth: number; elevation: number };
   colours: {
     paper: Rgb;
@@ -59,30 +46,127 @@ export interface Head {
     obstacle: Rgb;
     obstacle_outline: Rgb;
     ground: Rgb;
+    /// How much darker sleeping bodies of a shape with a colour of its own are.
+    sleep_shade: number;
   };
-  /// Of policy `paper`: the score above which a body sleeps; none of other policies.
-  score_threshold: number | null;
-  /// Of policy `adaptive`: how far a sleeping body may move once it is woken [D]; none where it is not known.
-  tolerance: number | null;
-  causes: (Cause | null)[];
-  /// The scene's events, with the numbers of the obstacles that they remove; none where the scene is not known.
-  events: { text: string; removes: number[] }[];
+}
+
+export interface Head extends Pick<Settings, "camera" | "colours"> {
+  title: string;
+  name: string;
+  backend: string;
+  policy: string;
+  version: string;
+  seed: number;
+  /// What of a record cannot be shown; empty: nothing is missing.
+  damage: string;
+  dimension: 2 | 3;
+  dt: number;
+  ground: { present: boolean; height: number };
+  /// What is to be seen at first.
+  box: Box;
+  /// Of policy `paper`: the score above which a body sleeps; below 0 of other policies.
+  score_threshold: number;
+  /// Of policy `adaptive`: how far a sleeping body may move once it is woken [D]; below 0 of other policies.
+  tolerance: number;
+  /// Of the scene, as far as they are known.
+  events: EventMessage[];
   coloured_shapes: { name: string; colour: Rgb }[];
   shapes: ShapeHead[];
   obstacles: ObstacleHead[];
 }
 
-/// A run before its first frame, and its frames.
-export interface Stream {
-  head: Head;
-  blocks: Uint8Array;
+const manyBodies = 1500; // of which round shapes get fewer faces
+const mostNames = 7; // of colours
+
+const colourOf = (text: string): Rgb => [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16) / 255) as Rgb;
+
+function extend(box: Box, point: Point): void {
+  point.forEach((value, axis) => {
+    box[0][axis] = Math.min(box[0][axis], value);
+    box[1][axis] = Math.max(box[1][axis], value);
+  });
 }
 
-/// Reads what stream_bytes() of tools/view/page.h wrote.
-export async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Stream> {
-  const plain = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const all = new Uint8Array(await new Response(plain).arrayBuffer());
-  const size = new DataView(all.buffer).getUint32(0, true);
-  const head = JSON.parse(new TextDecoder().decode(all.subarray(4, 4 + size))) as Head;
-  return { head, blocks: all.subarray(4 + size) };
+const emptyBox = (axes: number): Box => [new Array<number>(axes).fill(Infinity), new Array<number>(axes).fill(-Infinity)];
+const diagonal = ([low, high]: Box): number => Math.hypot(...low.map((value, axis) => high[axis] - value));
+
+function boundsOf(pieces: Piece[], pose: number[]): Box {
+  const axes = pose.length === 3 ? 2 : 3;
+  const box = emptyBox(axes);
+  const matrix = matrixOf(pose);
+  for (const corner of pieces.flatMap(({ loops }) => loops.flat())) extend(box, new Vector3(corner[0], corner[1], corner[2] ?? 0).applyMatrix4(matrix).toArray().slice(0, axes));
+  return box;
+}
+
+const middlePose = (flat: boolean): number[] => (flat ? [0, 0, 0] : [0, 0, 0, 1, 0, 0, 0]);
+
+function shapeHead(shape: ShapeMessage, { colours }: Settings, flat: boolean, segments: number): ShapeHead {
+  const pieces = piecesOf(shape, flat, segments);
+  const own = shape.colour === "" ? null : colourOf(shape.colour);
+  return {
+    name: shape.name,
+    awake: own ?? colours.awake[shape.index % colours.awake.length],
+    asleep: own ? (own.map((part) => (1 - colours.sleep_shade) * part) as Rgb) : colours.asleep,
+    extent: diagonal(boundsOf(pieces, middlePose(flat))),
+    pieces,
+  };
+}
+
+/// Shapes with colours of their own: each once, variants and sizes under the name that the scene gives them.
+function colouredShapes(shapes: ShapeMessage[]): { name: string; colour: Rgb }[] {
+  const named = new Map<string, Rgb>();
+  for (const { name, colour } of shapes) {
+    const plain = name.replace(/[#*].*/, "");
+    if (colour !== "" && !named.has(plain) && named.size < mostNames) named.set(plain, colourOf(colour));
+  }
+  return Array.from(named, ([name, colour]) => ({ name, colour }));
+}
+
+export const obstaclesOf = ({ run, obstacles }: MomentReader): ObstacleHead[] =>
+  obstacles.map((obstacle) => ({ name: obstacle.name, pose: Array.from(obstacle.pose.subarray(0, run!.dimension === 2 ? 3 : 7)), pieces: piecesOf(obstacle, run!.dimension === 2, 48) }));
+
+/// Of a run whose shapes are known; `box` is for boxOf().
+export function headOf(reader: MomentReader, settings: Settings, name: string): Head {
+  const { title, backend, policy, version, seed, dimension, dt, ground, ground_height, score_threshold, tolerance } = reader.run!;
+  const segments = reader.planned > manyBodies ? 12 : 24;
+  return {
+    ...{ title, name, backend, policy, version, seed, dimension, dt, score_threshold, tolerance },
+    ...{ camera: settings.camera, colours: settings.colours, damage: "", box: emptyBox(dimension), events: reader.sceneEvents },
+    ground: { present: ground === 1, height: ground_height },
+    coloured_shapes: colouredShapes(reader.shapes),
+    shapes: reader.shapes.map((shape) => shapeHead(shape, settings, dimension === 2, segments)),
+    obstacles: obstaclesOf(reader),
+  };
+}
+
+/// What to show of a state: bodies within 1.5 times the width of the middle half of all and two bodies more, so that one
+/// that was shot away does not make a dot of all others; layers of piles; obstacles unless they are much larger.
+export function boxOf({ dimension, shapes, obstacles }: Head, { bodies, removed, pose, shape, piles }: State): Box {
+  const width = dimension === 2 ? 3 : 7;
+  const box = emptyBox(dimension);
+  for (const { centre, layers } of piles)
+    for (const { top, radius } of layers) {
+      const across = Array.from({ length: dimension - 1 }, (_, axis) => centre[axis]);
+      extend(box, [...across.map((value) => value - radius), centre[dimension - 1]]);
+      extend(box, [...across.map((value) => value + radius), centre[dimension - 1] + top]);
+    }
+  const present = Array.from({ length: bodies }, (_, body) => body).filter((body) => removed[body] === 0);
+  const at = (body: number, axis: number): number => pose[width * body + axis];
+  const reach = 2 * Math.max(0, ...shapes.map(({ extent }) => extent));
+  const fences = Array.from({ length: dimension }, (_, axis) => {
+    const values = present.map((body) => at(body, axis)).sort((a, b) => a - b);
+    const [lower, upper] = [0.25, 0.75].map((share) => values[Math.round(share * (values.length - 1))] ?? 0);
+    return { low: lower - 1.5 * (upper - lower) - reach, high: upper + 1.5 * (upper - lower) + reach };
+  });
+  const near = present.filter((body) => fences.every(({ low, high }, axis) => at(body, axis) >= low && at(body, axis) <= high));
+  for (const body of near.length > 0 ? near : present)
+    for (const side of [-0.5, 0.5]) extend(box, fences.map((_, axis) => at(body, axis) + side * shapes[shape[body]].extent));
+  const size = box[0][0] <= box[1][0] ? diagonal(box) : 0;
+  for (const obstacle of obstacles) {
+    const bounds = boundsOf(obstacle.pieces, obstacle.pose);
+    if (size === 0 || diagonal(bounds) < 2.5 * size) for (const corner of bounds) extend(box, corner);
+  }
+  if (box[0][0] > box[1][0]) for (const side of [-1, 1]) extend(box, fences.map(() => side));
+  return box;
 }

@@ -1,7 +1,7 @@
 // The layers of piles: translucent slices with their densities beside them.
 
 import { colour, css, overfull } from "./colours";
-import { density, type Pile } from "./frames";
+import type { Pile } from "./moments";
 import type { Head } from "./head";
 import { type Camera, CylinderGeometry, DoubleSide, Group, type Material, Mesh, MeshBasicMaterial, PlaneGeometry, type Vector2, Vector3 } from "./vendor";
 
@@ -52,7 +52,7 @@ export class LayerView {
     for (const pile of piles) {
       for (const { layer, bottom, top, value, count, wakeDensity } of coarse(pile)) {
         if (count === 0) continue;
-        const middle = new Vector3(...pile.centre, 0).setComponent(up, pile.centre[up] + (bottom + top) / 2);
+        const middle = new Vector3(...Array.from(pile.centre), 0).setComponent(up, pile.centre[up] + (bottom + top) / 2);
         if (this.flat()) middle.z = 0;
         const at = onScreen(middle.addScaledVector(right, pile.layers[layer].radius));
         if (Math.abs(above - at.y) < 13) continue;
@@ -85,13 +85,13 @@ function coarse(pile: Pile): Slice[] {
   const slices = [];
   for (let layer = 0; layer < pile.layers.length; layer += together) {
     const end = Math.min(pile.layers.length, layer + together);
-    let [count, capacity, wakeDensity] = [0, 0, pile.layers[layer].wakeDensity];
+    let [count, capacity, wakeDensity] = [0, 0, pile.layers[layer].wake_density];
     for (let i = layer; i < end; ++i) {
-      count += pile.counts[2 * i];
+      count += pile.layers[i].count;
       capacity += pile.layers[i].capacity;
-      wakeDensity = Math.min(wakeDensity, pile.layers[i].wakeDensity);
+      wakeDensity = Math.min(wakeDensity, pile.layers[i].wake_density);
     }
-    const value = together === 1 ? density(pile, layer) : capacity > 0 ? count / capacity : 0;
+    const value = together === 1 ? pile.layers[layer].density : capacity > 0 ? count / capacity : 0;
     slices.push({ layer, bottom: pile.layers[layer].bottom, top: pile.layers[end - 1].top, value, count, wakeDensity });
   }
   return slices;

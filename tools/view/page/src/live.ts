@@ -1,11 +1,14 @@
-// A run that goes on in `talus view`: frames come over a WebSocket, commands go back (tools/view/run_loop.h).
+// A run that goes on: its messages come over a WebSocket, commands go back (tools/serve/run_loop.h).
 
 import type { Account } from "./body_panel";
 import { element } from "./element";
-import { Reader } from "./frames";
-import type { Head } from "./head";
+import { type Box, boxOf, headOf, obstaclesOf, type Settings } from "./head";
+import { LogReader } from "./messages";
+import { type Moment, MomentReader } from "./moments";
 import { numbersOf, rangeOf, withNumber, type SceneNumber } from "./numbers";
 import { Player, type Simulation } from "./player";
+import type { ContactsText } from "./contacts";
+import { Timeline } from "./timeline";
 
 interface Status {
   kind: "status";
@@ -34,7 +37,10 @@ interface Fault {
   text: string;
 }
 
-type Message = Status | (Head & { kind: "head" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | { kind: "thinned"; steps: number; mebibytes: number } | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
+/// A run begins; `box`: what is to be seen at first, none where the page sees to it.
+type Begin = { kind: "begin"; box: Box | null };
+
+type Message = Status | Begin | (ContactsText & { kind: "contacts" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | { kind: "thinned"; steps: number; mebibytes: number } | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
 
 const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
 
@@ -44,7 +50,17 @@ class Live implements Simulation {
   private behind = 0; // steps that the newest frame here lay behind the run when the last status came
   private readonly socket: WebSocket;
 
-  constructor(private readonly ready: (player: Player) => void) {
+  private reader: MomentReader;
+  private box: Box | null = null;
+  /// Whether the player shows another run, since frames of this one have not come yet.
+  private begun = false;
+  private form = 0;
+
+  constructor(
+    private readonly settings: Settings,
+    private readonly ready: (player: Player) => void,
+  ) {
+    this.reader = new MomentReader(settings);
     this.socket = new WebSocket(`ws://${location.host}${location.pathname}stream${location.search}`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
@@ -128,8 +144,13 @@ class Live implements Simulation {
       case "status":
         this.showStatus(message);
         break;
-      case "head":
-        this.begin(message);
+      case "begin":
+        this.reader = new MomentReader(this.settings);
+        this.box = message.box;
+        this.begun = false;
+        break;
+      case "contacts":
+        if (this.begun) this.player?.contacts.add(message);
         break;
       case "scene":
         element<HTMLTextAreaElement>("text").value = message.text;
@@ -149,29 +170,43 @@ class Live implements Simulation {
     }
   }
 
-  private begin(head: Head): void {
+  private begin(moment: Moment): void {
+    const { reader } = this;
+    const name = this.status?.live ? reader.id : reader.run!.scene;
+    const timeline = new Timeline(headOf(reader, this.settings, name), this.settings);
+    timeline.add(moment);
+    timeline.head.box = this.box ?? boxOf(timeline.head, timeline.newest);
+    this.form = reader.form;
+    this.begun = true;
     if (this.player) {
-      this.player.replace(head);
+      this.player.replace(timeline);
       return;
     }
-    this.player = new Player(head);
+    this.player = new Player(timeline);
     this.player.attach(this);
     if (this.steered()) this.player.steer();
     this.ready(this.player);
   }
 
-  /// Frames: all that this page lacks, or as many as are sent at once. The next ones are sent once the last of these has
-  /// been drawn.
+  private add(moment: Moment): void {
+    if (!this.begun) return this.begin(moment);
+    const { timeline, stage } = this.player!;
+    timeline.add(moment);
+    if (this.form === this.reader.form) return;
+    this.form = this.reader.form;
+    timeline.head.obstacles = obstaclesOf(this.reader);
+    stage.surround();
+  }
+
+  /// Messages of frames: of all that this page lacks, or of as many as are sent at once. The next ones are sent once the
+  /// last of these has been drawn.
   private show(bytes: Uint8Array): void {
-    const { player } = this;
-    if (player) {
-      const reader = new Reader(bytes);
-      const frames = reader.unsigned();
-      let { at } = reader;
-      for (let left = frames; left > 0; --left) at += player.timeline.add(bytes.subarray(at));
-      player.contacts.add(player.timeline.frames - 1, bytes.subarray(at));
-      player.grown();
+    const events = new LogReader(bytes, this.settings);
+    for (let message = events.next(); message; message = events.next()) {
+      const moment = this.reader.take(message);
+      if (moment && this.reader.ready()) this.add(moment);
     }
+    this.player?.grown();
     const acknowledge = (): void => {
       if (this.socket.readyState === WebSocket.OPEN) this.socket.send("shown");
     };
@@ -284,6 +319,6 @@ function selectLine(area: HTMLTextAreaElement, line: number): void {
   area.scrollTop = Math.max(0, (line - 4) * lineHeight);
 }
 
-export function connect(ready: (player: Player) => void): void {
-  new Live(ready);
+export function connect(settings: Settings, ready: (player: Player) => void): void {
+  new Live(settings, ready);
 }

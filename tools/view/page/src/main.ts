@@ -1,6 +1,9 @@
-import { inflate } from "./head";
+import { boxOf, headOf, obstaclesOf, type Settings } from "./head";
 import { connect } from "./live";
+import { LogReader } from "./messages";
+import { MomentReader } from "./moments";
 import { Player } from "./player";
+import { Timeline } from "./timeline";
 
 declare global {
   interface Window {
@@ -16,18 +19,48 @@ function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
   return bytes;
 }
 
-/// A page that holds its record, else a page of the server: its address says what it shows.
+async function inflated(bytes: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> {
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+}
+
+/// What is known of a record: all that its log has.
+function timelineOf(log: Uint8Array, settings: Settings, name: string): Timeline {
+  const events = new LogReader(log, settings);
+  const reader = new MomentReader(settings);
+  let timeline: Timeline | null = null;
+  let undecodable = 0;
+  for (let message = events.next(); message; message = events.next()) {
+    try {
+      const moment = reader.take(message);
+      if (!moment || !reader.ready()) continue;
+      timeline ??= new Timeline(headOf(reader, settings, name), settings);
+      timeline.add(moment);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      ++undecodable;
+    }
+  }
+  if (!timeline) throw new Error("the record holds no frame");
+  if (events.damage + undecodable > 0) timeline.head.damage = `${events.damage} damaged bytes and ${undecodable} messages not decodable: frames may be missing`;
+  timeline.head.obstacles = obstaclesOf(reader);
+  timeline.head.box = boxOf(timeline.head, timeline.newest);
+  return timeline;
+}
+
+const dataOf = <Data>(id: string): Data => JSON.parse(document.getElementById(id)!.textContent) as Data;
+
+/// A page that holds its record, else a page of the server.
 async function start(): Promise<void> {
   document.body.classList.toggle("half", /^\/[ab]\/$/.test(location.pathname));
-  const held = document.getElementById("stream")?.textContent;
-  if (!held && JSON.parse(document.getElementById("source")!.textContent) === "run") {
-    connect((player) => (window.talus = player));
+  const settings = dataOf<Settings>("settings");
+  const { kind, name } = dataOf<{ kind: "run" | "record"; name: string }>("source");
+  if (kind === "run") {
+    connect(settings, (player) => (window.talus = player));
     return;
   }
-  const bytes = held ? bytesOf(held) : new Uint8Array(await (await fetch(`record${location.search}`)).arrayBuffer());
-  const { head, blocks } = await inflate(bytes);
-  const player = new Player(head);
-  player.timeline.addAll(blocks);
+  const held = document.getElementById("log")?.textContent;
+  const log = held ? await inflated(bytesOf(held)) : await (await fetch(`record${location.search}`)).arrayBuffer();
+  const player = new Player(timelineOf(new Uint8Array(log), settings, name));
   player.grown();
   player.seek(0);
   player.play();

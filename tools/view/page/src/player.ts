@@ -3,6 +3,7 @@
 import { type Account, BodyPanel } from "./body_panel";
 import { ContactPanel } from "./contact_panel";
 import { element } from "./element";
+import { causes } from "./causes";
 import type { Head, Rgb } from "./head";
 import { type Extent, largest, Plots } from "./plots";
 import { css, type Paint } from "./colours";
@@ -79,7 +80,6 @@ export interface Shown {
 }
 
 export class Player {
-  timeline: Timeline;
   stage: Stage;
   readonly contacts: ContactPanel;
   readonly body = new BodyPanel();
@@ -93,8 +93,8 @@ export class Player {
   private clock = 0;
   private time = 0;
 
-  constructor(private head: Head) {
-    this.timeline = new Timeline(head);
+  constructor(public timeline: Timeline) {
+    const { head } = timeline;
     this.contacts = new ContactPanel(head);
     this.tools = new PointerTools({
       stage: () => this.stage,
@@ -109,10 +109,10 @@ export class Player {
   }
 
   /// Another run on the same page: everything from the start.
-  replace(head: Head): void {
-    const dimension = this.head.dimension;
-    this.head = head;
-    this.timeline = new Timeline(head);
+  replace(timeline: Timeline): void {
+    const { dimension } = this.head;
+    const { head } = timeline;
+    this.timeline = timeline;
     this.contacts.replace(head);
     this.pause();
     this.following = this.simulation !== null;
@@ -128,6 +128,10 @@ export class Player {
     this.stage.follows = this.following;
     this.listenToStage();
     this.plots = this.show();
+  }
+
+  private get head(): Head {
+    return this.timeline.head;
   }
 
   attach(simulation: Simulation): void {
@@ -329,7 +333,7 @@ export class Player {
 
   private update(changed: Changed, time: number): void {
     this.stage.update(changed, this.paint());
-    this.contacts.show(this.timeline.shown, this.stage);
+    this.showContacts();
     element<HTMLInputElement>("scrub").value = String(this.timeline.shown);
     this.showCounts();
     this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
@@ -414,11 +418,11 @@ export class Player {
     const degrees = (angle: number): string => `${((180 * angle) / Math.PI).toFixed(1)}\u00B0`;
     const lines: string[] = [];
     const pile = largest(state.piles);
-    if (pile) lines.push(`Slope ${state.measuredSlope < 0 ? "not measured yet" : `${degrees(state.measuredSlope)} measured`}, ${degrees(pile.slope)} of the layers (alpha)`);
+    if (pile) lines.push(`Slope ${state.slope < 0 ? `not measured${state.noSlope}` : `${degrees(state.slope)} measured`}, ${degrees(pile.alpha)} of the layers (alpha)`);
     const { tolerance } = this.head;
-    if (tolerance !== null || state.drift >= 0)
-      lines.push(`Drift ${state.drift < 0 ? "not estimated until bodies rest" : `estimated ${state.drift.toPrecision(2)} D`}${tolerance === null ? "" : `, tolerance ${tolerance} D`}`);
-    const hidden = state.hidden.subarray(0, state.bodies).reduce((sum, flag) => sum + flag, 0);
+    if (tolerance >= 0 || state.drift >= 0)
+      lines.push(`Drift ${state.drift < 0 ? "not estimated until bodies rest" : `estimated ${state.drift.toPrecision(2)} D`}${tolerance < 0 ? "" : `, tolerance ${tolerance} D`}`);
+    const { hidden } = this.stage.enclosed;
     if (hidden > 0) lines.push(`${hidden} enclosed bodies not drawn`);
     element("measured").replaceChildren(...lines.map((text) => Object.assign(document.createElement("p"), { className: "hint", textContent: text })));
   }
@@ -431,7 +435,7 @@ export class Player {
       if (state.removed[body] !== 0) continue;
       const { event } = this.timeline.since(body);
       const awake = state.asleep[body] === 0;
-      const named = event && event.woke === awake ? `${awake ? "awake" : "asleep"}: ${this.head.causes[event.cause]?.name}` : awake ? "awake since it appeared" : "asleep";
+      const named = event && event.woke === awake ? `${awake ? "awake" : "asleep"}: ${causes[event.cause]?.name}` : awake ? "awake since it appeared" : "asleep";
       const row = counts.get(named) ?? [paint(body), 0, named];
       ++row[1];
       counts.set(named, row);
@@ -491,12 +495,12 @@ export class Player {
 
   /// Positions of all bodies [m] as drawn; NaN for removed ones.
   private places(): Float64Array {
-    const { dimension, quantum } = this.head;
+    const { dimension } = this.head;
     const { state, drawn } = this.timeline;
     const components = dimension === 2 ? 3 : 7;
     return Float64Array.from({ length: dimension * state.bodies }, (_, i) => {
       const body = Math.floor(i / dimension);
-      return state.removed[body] !== 0 ? NaN : quantum.position * drawn.pose[components * body + (i % dimension)];
+      return state.removed[body] !== 0 ? NaN : drawn.pose[components * body + (i % dimension)];
     });
   }
 
@@ -508,11 +512,15 @@ export class Player {
     note.textContent = `The run has more frames than ${mebibytes} MiB hold: in the past they lie up to ${(steps * this.head.dt).toPrecision(3)} s apart (--history).`;
   }
 
+  private showContacts(): void {
+    this.contacts.show(this.timeline.state.step, this.stage);
+  }
+
   /// The run takes commands.
   steer(): void {
     this.contacts.listen(
       (wanted) => this.command({ do: "contacts", value: wanted }),
-      () => this.contacts.show(this.timeline.shown, this.stage),
+      () => this.showContacts(),
     );
   }
 

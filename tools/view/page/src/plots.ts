@@ -1,6 +1,6 @@
 // Counts and layer densities over time.
 
-import { density, type Pile } from "./frames";
+import type { Pile } from "./moments";
 import type { Head } from "./head";
 import { css, overfull } from "./colours";
 import { element } from "./element";
@@ -11,7 +11,7 @@ const mostColumns = 800; // drawn of a density map
 
 /// The pile with the most bodies.
 export function largest(piles: Pile[]): Pile | undefined {
-  const bodies = (pile: Pile): number => pile.counts.reduce((sum, count, i) => (i % 2 === 0 ? sum + count : sum), 0);
+  const bodies = (pile: Pile): number => pile.layers.reduce((sum, { count }) => sum + count, 0);
   return piles.reduce<Pile | undefined>((best, pile) => (best === undefined || bodies(pile) > bodies(best) ? pile : best), undefined);
 }
 
@@ -167,8 +167,8 @@ export class Plots {
   private showScale(): void {
     const { timeline } = this;
     const layer = largest(timeline.piles[timeline.frames - 1] ?? [])?.layers[0];
-    const wakes = layer !== undefined && layer.wakeDensity > 0;
-    const thresholds = wakes ? `the threshold of ${layer.wakeDensity.toFixed(2)}, above which the pile wakes; up to ${layer.sleepDensity.toFixed(2)} no body of a layer falls asleep` : "";
+    const wakes = layer !== undefined && layer.wake_density > 0;
+    const thresholds = wakes ? `the threshold of ${layer.wake_density.toFixed(2)}, above which the pile wakes; up to ${layer.sleep_density.toFixed(2)} no body of a layer falls asleep` : "";
     element("density-scale").replaceChildren("blue", wakes ? ` up to ${thresholds}` : " up to 1");
   }
 
@@ -226,11 +226,11 @@ export class Plots {
       const left = pixel(timeline.time(frame), "x");
       const next = Math.min(timeline.frames - 1, frame + each);
       const right = timeline.lacksBefore(next) ? left + 1 : pixel(timeline.time(next), "x");
-      pile.layers.forEach((layer, i) => {
-        const value = density(pile, i);
+      pile.layers.forEach((layer) => {
+        const value = layer.density;
         if (value <= 0) return;
         const top = pixel(layer.top, "y");
-        const most = layer.wakeDensity > 0 ? layer.wakeDensity : 1;
+        const most = layer.wake_density > 0 ? layer.wake_density : 1;
         paper.fillStyle = value > most ? css(overfull, Math.min(1, 0.4 + 0.5 * (value / most - 1))) : css(this.head.colours.layer, (0.9 * value) / most);
         paper.fillRect(left, top, Math.max(1, right - left), pixel(layer.bottom, "y") - top);
       });

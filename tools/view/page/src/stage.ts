@@ -1,6 +1,7 @@
 // The pile on the screen, and the camera.
 
 import { colour, css, type Paint } from "./colours";
+import { Enclosed } from "./enclosed";
 import type { Head, Point, Rgb } from "./head";
 import type { Contact } from "./contacts";
 import { ContactMarks } from "./contact_marks";
@@ -27,6 +28,7 @@ import {
   WebGLRenderer,
 } from "./vendor";
 
+const updatesBetweenSearches = 8; // for what is hidden
 const highlight: Rgb = [0.1, 0.5, 0.95];
 
 export class Stage {
@@ -47,6 +49,8 @@ export class Stage {
   private head: Head;
   private timeline: Timeline | null = null;
   private waiting = false;
+  readonly enclosed = new Enclosed();
+  private updates = 0;
   /// Whether the layers of piles are drawn.
   showLayers = true;
   selected = -1;
@@ -115,7 +119,7 @@ export class Stage {
     const [low, high] = this.box;
     const before = low.distanceTo(high);
     for (const body of bodies) {
-      const [x, y, z] = this.poseOf(body);
+      const [x, y, z] = Array.from(this.poseOf(body));
       const at = new Vector3(x, y, this.flat ? 0 : z);
       const reach = 0.6 * this.head.shapes[this.timeline!.state.shape[body]].extent;
       low.min(at.clone().subScalar(reach));
@@ -134,8 +138,8 @@ export class Stage {
     this.fit();
   }
 
-  /// Ground and obstacles; beside another run, ground with the same squares as there.
-  private surround(): void {
+  /// Draws ground and obstacles anew; beside another run, ground with the same squares as there.
+  surround(): void {
     const boxes = [this.head, ...(this.partner ? [this.partner.head] : [])].map(({ box }) => box);
     const along = (i: 0 | 1, of: (...values: number[]) => number): Point => this.head.box[i].map((_, axis) => of(...boxes.map((box) => box[i][axis])));
     this.surroundings.group.removeFromParent();
@@ -262,15 +266,9 @@ export class Stage {
     this.redraw();
   }
 
-  private poseOf(body: number): number[] {
-    return this.inMetres(this.timeline!.drawn.pose, (this.flat ? 3 : 7) * body);
-  }
-
-  /// The pose that begins at a place of these counts of quanta.
-  private inMetres(counts: ArrayLike<number>, at: number): number[] {
-    const { position, angle, quaternion } = this.head.quantum;
-    if (this.flat) return [counts[at] * position, counts[at + 1] * position, counts[at + 2] * angle];
-    return Array.from({ length: 7 }, (_, i) => counts[at + i] * (i < 3 ? position : quaternion));
+  private poseOf(body: number): ArrayLike<number> {
+    const width = this.flat ? 3 : 7;
+    return this.timeline!.drawn.pose.subarray(width * body, width * (body + 1));
   }
 
   /// Brings bodies to where the timeline's state has them. Those that sleep are drawn apart from those that are awake, so
@@ -281,9 +279,12 @@ export class Stage {
       this.place.push(-1);
       this.mesh.push(-1);
     }
-    const bodies = changed === "all" ? Array.from(this.place.keys()) : changed;
+    // What moves away from a sleeping body needs longer than until the next search to show it.
+    const flipped = changed === "all" || this.updates++ % updatesBetweenSearches === 0 ? this.enclosed.update(state, this.head) : [];
+    const bodies = changed === "all" ? Array.from(this.place.keys()) : [...changed, ...flipped];
     for (const body of bodies) {
-      const gone = body >= state.bodies || state.removed[body] !== 0 || state.hidden[body] !== 0;
+      const hidden = this.enclosed.has(body) && state.asleep[body] !== 0;
+      const gone = body >= state.bodies || state.removed[body] !== 0 || hidden;
       const asleep = !gone && state.asleep[body] !== 0;
       const mesh = gone ? -1 : 2 * state.shape[body] + (asleep ? 1 : 0);
       if (mesh !== this.mesh[body]) this.putInto(mesh, body);
@@ -299,9 +300,9 @@ export class Stage {
   }
 
   private updateObstacles(): void {
-    const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => this.head.events[number]?.removes ?? []));
+    const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => Array.from(this.head.events[number]?.removed ?? [])));
     this.surroundings.hideObstacles(removed);
-    for (const [obstacle, counts] of this.timeline!.drawn.obstacles) this.surroundings.placeObstacle(obstacle, this.inMetres(counts, 0));
+    for (const [obstacle, pose] of this.timeline!.drawn.obstacles) this.surroundings.placeObstacle(obstacle, pose);
   }
 
   /// Moves the camera along with a body from now on, none below 0.
@@ -314,7 +315,7 @@ export class Stage {
   private goAlong(): void {
     const { state } = this.timeline!;
     if (this.accompanied < 0 || this.accompanied >= state.bodies || state.removed[this.accompanied] !== 0) return;
-    const [x, y, z] = this.poseOf(this.accompanied);
+    const [x, y, z] = Array.from(this.poseOf(this.accompanied));
     const at = new Vector3(x, y, this.flat ? 0 : z);
     if (this.accompaniedAt) {
       const way = at.clone().sub(this.accompaniedAt);

@@ -68,7 +68,7 @@ export class Surroundings {
   }
 
   /// `pose` in m and rad.
-  placeObstacle(number: number, pose: number[]): void {
+  placeObstacle(number: number, pose: ArrayLike<number>): void {
     const instance = this.obstacles[number];
     instance?.set(0, matrixOf(pose), colour(this.head.colours.obstacle), false);
     instance?.upload();

@@ -1,10 +1,15 @@
 // All frames of a run so far, and the one that is shown.
 
-import { type Pile, Reader, type SceneEvent, type SleepEvent, State, type Warning } from "./frames";
+import { causes } from "./causes";
 import type { Head } from "./head";
+import type { Layouts } from "./messages";
+import { mixedPose } from "./pose";
+import { type Moment, type Pile, type SceneEvent, type SleepEvent, State, type Warning } from "./moments";
 
-/// Frames between two kept states: a step back costs at most as many blocks.
+/// Frames between two kept states: a step back costs at most as many moments.
 const keepEvery = 32;
+
+const avalanche = causes.findIndex((cause) => cause?.name === "avalanche");
 
 /// Bodies whose pose or sleep differs from the state shown before.
 export type Changed = number[] | "all";
@@ -36,22 +41,27 @@ export class Timeline {
   thinned = 0;
   /// The frame shown, -1 before the first.
   shown = -1;
+  /// More is known of the frame shown than is drawn.
+  private stale = false;
   state: State;
+  /// The state after the last frame.
+  readonly newest: State;
   /// What is drawn: `state`, or one between it and the next.
   drawn: State;
 
-  private readonly blocks: Uint8Array[] = [];
+  /// Of each frame; more than one where a step was told again.
+  private readonly moments: Moment[][] = [];
   private readonly kept: State[] = [];
   /// By body. While a run goes on, an event may come before the frame in which its body appears.
   private readonly events: SleepEvent[][] = [];
   private readonly born: number[] = [];
-  private readonly last: State;
-  private readonly avalanche: number;
 
-  constructor(readonly head: Head) {
-    this.state = this.drawn = new State(head.dimension);
-    this.last = new State(head.dimension);
-    this.avalanche = head.causes.findIndex((cause) => cause?.name === "avalanche");
+  constructor(
+    readonly head: Head,
+    layouts: Layouts,
+  ) {
+    this.state = this.drawn = new State(head.dimension, layouts);
+    this.newest = new State(head.dimension, layouts);
   }
 
   get frames(): number {
@@ -62,31 +72,38 @@ export class Timeline {
     return this.step[frame] * this.head.dt;
   }
 
-  /// Frames one after the other.
-  addAll(blocks: Uint8Array): void {
-    for (let at = 0; at < blocks.length; ) at += this.add(blocks.subarray(at));
+  /// Adds a moment: as a frame, or to the last frame where that is of the same step.
+  add(moment: Moment): void {
+    const again = this.step.at(-1) === moment.step;
+    const frame = again ? this.frames - 1 : this.frames;
+    this.newest.apply(moment);
+    if (again) this.moments[frame].push(moment);
+    else this.moments.push([moment]);
+    if (frame % keepEvery === 0) this.kept[frame / keepEvery] = this.newest.copy();
+    if (again && this.shown === frame) this.stale = true;
+    this.happened.push(...moment.sceneEvents);
+    for (let body = this.born.length; body < this.newest.bodies; ++body) this.born.push(moment.step);
+    for (const event of moment.events) (this.events[event.body] ??= []).push(event);
+    const woken = moment.events.filter((event) => event.woke);
+    const put = <Value>(list: Value[], value: Value, sum: (before: Value) => Value = () => value): void => {
+      list[frame] = again ? sum(list[frame]) : value;
+    };
+    const count = (list: number[], value: number): void => put(list, value, (before) => before + value);
+    put(this.step, moment.step);
+    put(this.awake, this.newest.awake);
+    put(this.asleep, this.newest.asleepCount);
+    put(this.msPerStep, this.newest.msPerStep, (before) => before ?? this.newest.msPerStep);
+    put(this.piles, moment.piles);
+    count(this.newWarnings, this.takeWarnings(moment));
+    count(this.woken, woken.length);
+    count(this.avalanches, woken.filter((event) => event.cause === avalanche).length);
   }
 
-  /// Takes the frame at the begin of `bytes`; returns its size.
-  add(bytes: Uint8Array): number {
-    const reader = new Reader(bytes);
-    const { events, warnings, sceneEvents } = this.last.apply(reader);
-    this.happened.push(...sceneEvents);
-    this.blocks.push(bytes.slice(0, reader.at)); // a copy: more may follow it in `bytes`, which is not kept
-    if (this.frames % keepEvery === 0) this.kept.push(this.last.copy());
-    for (let body = this.born.length; body < this.last.bodies; ++body) this.born.push(this.last.step);
-    for (const event of events) (this.events[event.body] ??= []).push(event);
-    this.newWarnings.push(warnings.filter(({ kind }) => !this.warnings.has(kind)).length);
-    for (const warning of warnings) this.warnings.set(warning.kind, warning);
-    const woken = events.filter((event) => event.woke);
-    this.step.push(this.last.step);
-    this.awake.push(this.last.awake);
-    this.asleep.push(this.last.asleepCount);
-    this.msPerStep.push(this.last.msPerStep < 0 ? null : this.last.msPerStep);
-    this.woken.push(woken.length);
-    this.avalanches.push(woken.filter((event) => event.cause === this.avalanche).length);
-    this.piles.push(this.last.piles);
-    return reader.at;
+  /// How many kinds of warning are new.
+  private takeWarnings({ stats }: Moment): number {
+    const before = this.warnings.size;
+    stats?.warning_kind.forEach((kind, i) => this.warnings.set(kind, { kind, step: stats.warning_step[i], text: stats.warning_text[i] }));
+    return this.warnings.size - before;
   }
 
   /// Shows a frame; returns what changed.
@@ -98,25 +115,24 @@ export class Timeline {
   }
 
   private goTo(frame: number): Changed {
-    if (frame === this.shown) return [];
+    if (frame === this.shown && !this.stale) return [];
+    this.stale = false;
     if (frame === this.shown + 1) {
-      const { changed } = this.state.apply(new Reader(this.blocks[frame]));
       this.shown = frame;
-      return changed;
+      return this.moments[frame].flatMap((moment) => this.state.apply(moment));
     }
     const nearest = Math.floor(frame / keepEvery);
     const forward = this.shown < frame && this.shown >= nearest * keepEvery;
     if (!forward) this.state = this.kept[nearest].copy();
     for (let next = forward ? this.shown + 1 : nearest * keepEvery + 1; next <= frame; ++next)
-      this.state.apply(new Reader(this.blocks[next]));
+      for (const moment of this.moments[next]) this.state.apply(moment);
     this.shown = frame;
     return "all";
   }
 
   /// Steps between two frames above which frames are missing between them: what happened there is not known.
   gap(): number {
-    const usual = this.head.steps_per_frame ?? this.meanSteps();
-    return 2.5 * Math.max(usual, this.thinned);
+    return 2.5 * Math.max(this.meanSteps(), this.thinned);
   }
 
   private meanSteps(): number {
@@ -152,15 +168,13 @@ export class Timeline {
     const step = time / this.head.dt;
     if (step <= state.step + 1e-6 || this.shown + 1 >= this.frames) return state;
     const next = state.copy();
-    next.apply(new Reader(this.blocks[this.shown + 1]));
+    for (const moment of this.moments[this.shown + 1]) next.apply(moment);
     const share = Math.min(1, (step - state.step) / Math.max(1e-9, next.step - state.step));
     const between = state.copy();
-    const mixed = (a: number, b: number): number => a + share * (b - a);
-    for (let i = 0; i < between.pose.length; ++i) between.pose[i] = Math.round(mixed(state.pose[i], next.pose[i]));
-    for (const [obstacle, pose] of between.obstacles) {
-      const then = next.obstacles.get(obstacle) ?? pose;
-      between.obstacles.set(obstacle, pose.map((part, i) => mixed(part, then[i])));
-    }
+    const width = this.head.dimension === 2 ? 3 : 7;
+    for (let at = 0; at < between.pose.length; at += width)
+      between.pose.set(mixedPose(state.pose.subarray(at, at + width), next.pose.subarray(at, at + width), share), at);
+    for (const [obstacle, pose] of between.obstacles) between.obstacles.set(obstacle, mixedPose(pose, next.obstacles.get(obstacle) ?? pose, share));
     return between;
   }
 

@@ -33,5 +33,6 @@ export {
   WebGLRenderer,
 } from "three";
 export type { Camera, Material } from "three";
+export { ConvexHull } from "three/addons/math/ConvexHull.js";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";
 export { default as uPlot } from "uplot";

@@ -1,9 +1,10 @@
 #pragma once
+// The shape of what lies still enough to be part of the pile.
 
 #include <optional>
 #include <vector>
 
-#include "common/measure/shape_statistics.h"
+#include "common/measure/pile_form.h"
 #include "common/scene/scene.h"
 
 namespace talus {
@@ -16,5 +17,10 @@ std::vector<PlacedBody<Dim>> resting_bodies(const Scene<Dim>& scene, const BodyS
 template <int Dim>
 std::optional<ShapeStatistics<Dim>> resting_shape(const Scene<Dim>& scene, const BodyStates<Dim>& states,
                                                   double extent);
+
+/// Slope and packing of that shape, where they apply (pile_form()). `world` is as it is at that moment (world_at()).
+template <int Dim>
+PileForm resting_form(const Scene<Dim>& scene, const BodyStates<Dim>& states, const WorldDescription<Dim>& world,
+                      double extent);
 
 }  // namespace talus
