@@ -13,6 +13,7 @@
 
 #include "common/text/printable.h"
 #include "lcmtypes/run_info.h"
+#include "lcmtypes/run_message.h"
 #include "lcmtypes/sequence_tracker.h"
 #include "lcmtypes/wire.h"
 #include "tools/output/output.h"
