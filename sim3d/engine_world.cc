@@ -69,18 +69,30 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
       mass_scale_(mass_scale<Dim>(description.shapes)),
       rebounds_(has_restitution(description)),
       engine_(gravity_of(description), description.solver, description.debug, has_rolling_friction(description)) {
+  if (description.solver.kind == SolverKind::small_steps)
+    small_steps_.emplace(description.solver, description.dt, has_rolling_friction(description));
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
     if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;
   }
   if (description.ground.present) add_ground();
   add_obstacles();
+  if (small_steps_) use_small_steps();
   engine_.world.set_after_collision([this] {
     swap_.restore_contacts();
+    if (small_steps_) return;
     if (auto* rolling = dynamic_cast<RollingSolver*>(engine_.solver.get())) rolling->start_step();
     if (rebounds_)
       set_rebounds(engine_.dispatcher, engine_.world.getSolverInfo(), static_cast<btScalar>(this->description().dt));
   });
+}
+
+template <int Dim>
+void EngineWorld<Dim>::use_small_steps() {
+  engine_.world.set_contact_step(
+      {.solve = [this] { small_steps_->solve(engine_.dispatcher, rigid_, engine_.world.getGravity()); },
+       .finish = [this] { small_steps_->finish(rigid_); }},
+      this->description().engine_sleep);
 }
 
 // Bullet holds the bodies by address: they leave it before they are destroyed.
