@@ -2,7 +2,6 @@
 // World<Dim> on Bullet.
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "common/world/world.h"
@@ -66,8 +65,8 @@ class EngineWorld final : public World<Dim> {
   std::vector<std::unique_ptr<btCollisionObject>> objects_;  // by body; null once removed
   Engine engine_;
   BodySwap swap_{engine_};
-  std::optional<SmallSteps<Dim>> small_steps_;  // null: Bullet's own solver
-  Contacts<Dim> contacts_{mass_scale_, small_steps_.has_value()};
+  std::unique_ptr<SmallSteps<Dim>> small_steps_;  // null: Bullet's own solver
+  Contacts<Dim> contacts_{mass_scale_, small_steps_ != nullptr};
   std::vector<BodyIndex> listed_;           // bodies in Bullet's lists, ascending: all but the frozen
   std::vector<btRigidBody*> rigid_;         // the same
   mutable std::vector<BodyIndex> strayed_;  // see find_strayed()

@@ -1,6 +1,7 @@
 #include "sim3d/small_steps.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "sim3d/body_template.h"
 #include "sim3d/friction_impulse.h"
@@ -24,10 +25,17 @@ SpinF<Dim> spin_to_solver(const btVector3& spin) {
   else
     return to_solver<3>(spin);
 }
-btVector3 from_solver(const VecF<2>& v) { return {v.x(), 0, v.y()}; }
-btVector3 from_solver(const VecF<3>& v) { return {v.x(), v.y(), v.z()}; }
-btVector3 spin_from_solver(const SpinF<2>& spin) { return {0, -spin[0], 0}; }
-btVector3 spin_from_solver(const SpinF<3>& spin) { return from_solver(spin); }
+template <int Dim>
+btVector3 from_solver(const VecF<Dim>& v) {
+  return {v[0], Dim == 2 ? 0.0F : v[1], v[Dim - 1]};
+}
+template <int Dim>
+btVector3 spin_from_solver(const SpinF<Dim>& spin) {
+  if constexpr (Dim == 2)
+    return {0.0F, -spin[0], 0.0F};
+  else
+    return from_solver<3>(spin);
+}
 
 template <int Dim>
 InertiaF<Dim> inertia_to_solver(const btMatrix3x3& inverse) {
@@ -48,7 +56,7 @@ SolverBody<Dim> awake_body(btRigidBody& rigid, float dt) {
   if constexpr (Dim == 3) body.free_spin_change = to_solver<3>(rigid.computeGyroscopicImpulseImplicit_Body(dt));
   body.inverse_mass = rigid.getInvMass();
   body.inverse_inertia = inertia_to_solver<Dim>(rigid.getInvInertiaTensorWorld());
-  body.moves = rigid.isActive();
+  body.moves = true;
   return body;
 }
 
@@ -86,7 +94,8 @@ void fetch_head(const btPersistentManifold& manifold) {
 
 // Two points of a planar pair that are nearer are one, at the front and the back of the bodies [m].
 constexpr float one_point = 0.005F;
-// In the plane, a normal that points out of it by more (60 degrees) is of the bodies' flat faces, which must not matter.
+// In the plane, a normal that points out of it by more (60 degrees) is of the bodies' flat faces, which must not
+// matter.
 constexpr float least_in_plane = 0.5F;
 
 /// The arm of an object; none of what is no body.
@@ -99,8 +108,7 @@ std::optional<double> arm_of(const btCollisionObject& object) {
 
 template <int Dim>
 SmallSteps<Dim>::SmallSteps(const SolverParams& params, double dt, bool rolling_friction)
-    : params_{.sub_steps = params.sub_steps,
-              .restitution_threshold = static_cast<float>(params.restitution_threshold)},
+    : params_{.sub_steps = params.sub_steps, .restitution_threshold = static_cast<float>(params.restitution_threshold)},
       dt_(static_cast<float>(dt)),
       rolling_friction_(rolling_friction) {}
 
@@ -182,14 +190,14 @@ void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b) {
       contact.rolling_arm = static_cast<float>(arm);
       contact.rolling_impulse = rolling_of_last_step(point);
     }
-    sources_.push_back({&point, add_point(point, contact, first)});
+    sources_.push_back({&point, add_point(contact, first)});
   }
   for (const ContactPoint<Dim>& contact : contacts_) solver_.add(contact);
 }
 
 /// Joins the point with one of the same manifold, of which `first` is the first, where both are one in the plane.
 template <int Dim>
-int SmallSteps<Dim>::add_point(btManifoldPoint& /*point*/, const ContactPoint<Dim>& contact, int first) {
+int SmallSteps<Dim>::add_point(const ContactPoint<Dim>& contact, int first) {
   if constexpr (Dim == 2) {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       ContactPoint<2>& known = contacts_[i];
@@ -222,8 +230,8 @@ void SmallSteps<Dim>::write_points() {
     btManifoldPoint& point = *source.point;
     const float share = 1.0F / static_cast<float>(parts_[source.contact]);
     point.m_appliedImpulse = share * contact.normal_impulse;
-    set_friction_impulse(point, from_solver(share * contact.friction_impulse));
-    set_impulse_of_step(point, share * contact.normal_sum, from_solver(share * contact.friction_sum));
+    set_friction_impulse(point, from_solver<Dim>(share * contact.friction_impulse));
+    set_impulse_of_step(point, share * contact.normal_sum, from_solver<Dim>(share * contact.friction_sum));
   }
   if (!rolling_friction_) return;
   // The mark outlives the point's finding anew in the next step. Nothing is called for it when the point goes.
@@ -240,9 +248,8 @@ template <int Dim>
 void SmallSteps<Dim>::set_mean_velocities(std::span<btRigidBody* const> bodies) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const SolverBody<Dim>& solved = solver_.body(static_cast<int>(i) + 1);
-    if (!solved.moves) continue;
-    bodies[i]->setLinearVelocity(from_solver(solved.way / dt_));
-    bodies[i]->setAngularVelocity(spin_from_solver(solved.turn / dt_));
+    bodies[i]->setLinearVelocity(from_solver<Dim>(solved.way / dt_));
+    bodies[i]->setAngularVelocity(spin_from_solver<Dim>(solved.turn / dt_));
   }
 }
 
@@ -250,9 +257,8 @@ template <int Dim>
 void SmallSteps<Dim>::finish(std::span<btRigidBody* const> bodies) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const SolverBody<Dim>& solved = solver_.body(static_cast<int>(i) + 1);
-    if (!solved.moves) continue;
-    bodies[i]->setLinearVelocity(from_solver(solved.velocity));
-    bodies[i]->setAngularVelocity(spin_from_solver(solved.spin));
+    bodies[i]->setLinearVelocity(from_solver<Dim>(solved.velocity));
+    bodies[i]->setAngularVelocity(spin_from_solver<Dim>(solved.spin));
   }
 }
 

@@ -24,8 +24,8 @@ class SmallSteps {
   /// `rolling_friction`: whether a shape has any.
   SmallSteps(const SolverParams& params, double dt, bool rolling_friction);
 
-  /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves them with the mean velocity of the step, by
-  /// which Bullet is to move them.
+  /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves them with the mean velocity of the step,
+  /// by which Bullet is to move them.
   void solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const btVector3& gravity);
 
   /// After they have moved: gives them the velocity at the end of the step.
@@ -35,7 +35,7 @@ class SmallSteps {
   void add_bodies(std::span<btRigidBody* const> bodies);
   void add_points(btDispatcher& dispatcher);
   void add_points(btPersistentManifold& manifold, int a, int b);
-  int add_point(btManifoldPoint& point, const ContactPoint<Dim>& contact, int first);
+  int add_point(const ContactPoint<Dim>& contact, int first);
   int slot_of(const btCollisionObject& object);
   void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
   void write_points();

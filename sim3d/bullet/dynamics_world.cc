@@ -41,14 +41,13 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
 }
 
 void DynamicsWorld::calculateSimulationIslands() {
-  if (!contact_step_ || engine_sleep_) btDiscreteDynamicsWorld::calculateSimulationIslands();
+  if (!contact_step_) btDiscreteDynamicsWorld::calculateSimulationIslands();
 }
 
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
-  if (contact_step_) {
-    if (engine_sleep_) islands_.settle(*this, getSimulationIslandManager()->getUnionFind());
+  if (contact_step_)
     contact_step_->solve();
-  } else if (!debug_.bullet_islands)
+  else if (!debug_.bullet_islands)
     islands_.solve(*this, getSimulationIslandManager()->getUnionFind(), *getConstraintSolver(), info);
   else
     btDiscreteDynamicsWorld::solveConstraints(info);

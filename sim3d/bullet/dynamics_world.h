@@ -45,11 +45,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   /// What is to happen between collision detection and solver.
   void set_after_collision(std::function<void()> action) { after_collision_ = std::move(action); }
 
-  /// `engine_sleep`: whether Bullet's own sleeping, of whole islands, is in use.
-  void set_contact_step(ContactStep step, bool engine_sleep) {
-    contact_step_ = std::move(step);
-    engine_sleep_ = engine_sleep;
-  }
+  /// Not for a world in which Bullet's own sleeping, of whole islands, is in use.
+  void set_contact_step(ContactStep step) { contact_step_ = std::move(step); }
 
   void performDiscreteCollisionDetection() override;
   void calculateSimulationIslands() override;
@@ -67,7 +64,6 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   double collide_seconds_ = 0.0;
   std::function<void()> after_collision_ = [] {};
   std::optional<ContactStep> contact_step_;
-  bool engine_sleep_ = false;
 };
 
 }  // namespace talus::bullet

@@ -20,7 +20,9 @@ void fetch_head(const btPersistentManifold& manifold) {
 
 void Islands::solve(btCollisionWorld& world, btUnionFind& sets, btConstraintSolver& solver, btContactSolverInfo& info) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  settle(world, sets);
+  sets.sortIslands();
+  find_ranges(sets);
+  settle(sets, objects);
   gather(*world.getDispatcher());
   int next = 0;
   for (const Range& range : ranges_) {
@@ -31,12 +33,6 @@ void Islands::solve(btCollisionWorld& world, btUnionFind& sets, btConstraintSolv
     if (batch_ > info.m_minimumSolverBatchSize) flush(world, solver, info);
   }
   flush(world, solver, info);
-}
-
-void Islands::settle(const btCollisionWorld& world, btUnionFind& sets) {
-  sets.sortIslands();
-  find_ranges(sets);
-  settle(sets, world.getCollisionObjectArray());
 }
 
 void Islands::find_ranges(const btUnionFind& sets) {

@@ -20,9 +20,6 @@ class Islands {
   /// manifolds.
   void solve(btCollisionWorld& world, btUnionFind& sets, btConstraintSolver& solver, btContactSolverInfo& info);
 
-  /// Sets which bodies are asleep, without a solve.
-  void settle(const btCollisionWorld& world, btUnionFind& sets);
-
  private:
   /// A manifold and the island that it belongs to.
   struct Member {
