@@ -2,6 +2,7 @@
 // The contact solver of all engines: small steps with soft contacts.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <span>
 #include <vector>
