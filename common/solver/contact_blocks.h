@@ -39,11 +39,11 @@ struct PointBlock {
   Eight tangent[Dim];  // unit; in 3D the second is normal x tangent
   Eight arm_a[Dim];
   Eight arm_b[Dim];
-  Eight gap;                             // at the start of the step
-  Eight gain;                            // impulse over change of normal speed; 0 in an unused lane
-  Eight soft_gain;                       // the same of the spring
-  Eight soft_keep;                       // share of the impulse that the spring takes back
-  Eight tangent_gain[Dim == 2 ? 1 : 3];  // 11, 12, 22
+  Eight gap;           // at the start of the step
+  Eight gain;          // impulse over change of normal speed; 0 in an unused lane
+  Eight soft_gain;     // the same of the spring
+  Eight soft_keep;     // share of the impulse that the spring takes back
+  Eight tangent_gain;  // the same in both directions, else sliding friction would not point against the slip
   Eight friction;
   Eight bounce;  // normal speed after the impact, with the sign of the speed before; 0: none
   Eight impulse;

@@ -170,18 +170,16 @@ void solve_friction(Pair<Dim>& pair, PointBlock<Dim>& point) {
   const Several<Dim> slip = Pair<Dim>::relative(pair.a, pair.b, arm_a, arm_b);
   const Lanes limit = load(point.friction) * load(point.impulse);
   const Several<Dim - 1> impulse = load(point.tangent_impulse);
-  const auto gain = load(point.tangent_gain);
+  const Lanes gain = load(point.tangent_gain);
   if constexpr (Dim == 2) {
-    const Lanes free = impulse.x[0] - gain.x[0] * dot(tangent, slip);
+    const Lanes free = impulse.x[0] - gain * dot(tangent, slip);
     const Lanes next = larger(smaller(free, limit), splat(0.0F) - limit);
     pair.push((next - impulse.x[0]) * tangent, arm_a, arm_b);
     store(point.tangent_impulse[0], next);
   } else {
     const Several<Dim> second = second_tangent(load(point.normal), tangent);
-    const Lanes slip_1 = dot(tangent, slip);
-    const Lanes slip_2 = dot(second, slip);
-    const Lanes free_1 = impulse.x[0] - (gain.x[0] * slip_1 + gain.x[1] * slip_2);
-    const Lanes free_2 = impulse.x[1] - (gain.x[1] * slip_1 + gain.x[2] * slip_2);
+    const Lanes free_1 = impulse.x[0] - gain * dot(tangent, slip);
+    const Lanes free_2 = impulse.x[1] - gain * dot(second, slip);
     const Lanes length = root(free_1 * free_1 + free_2 * free_2);
     const Lanes share = if_below(limit, length, limit / length, splat(1.0F));
     const Several<2> next = {{share * free_1, share * free_2}};

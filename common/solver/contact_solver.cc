@@ -43,11 +43,11 @@ std::array<VecF<3>, 2> tangents_of(const VecF<3>& normal) {
   return {first, normal.cross(first)};
 }
 
-/// Velocity that a unit impulse along `direction` at the point gives it there, of one body.
+/// Velocity along `direction` that a unit impulse in it at the point gives it there, of one body.
 template <int Dim>
-float yield(const SolverBody<Dim>& body, const VecF<Dim>& arm, const VecF<Dim>& along, const VecF<Dim>& direction) {
-  const SpinF<Dim> spin = body.inverse_inertia * torque(arm, along);
-  return body.inverse_mass * along.dot(direction) + turned(spin, arm).dot(direction);
+float yield(const SolverBody<Dim>& body, const VecF<Dim>& arm, const VecF<Dim>& direction) {
+  const SpinF<Dim> twist = torque(arm, direction);
+  return body.inverse_mass + twist.dot(body.inverse_inertia * twist);
 }
 
 void put(Eight* to, const InertiaF<2>& m, int lane) { to[0].v[lane] = m(0, 0); }
@@ -277,29 +277,20 @@ void ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int l
   put(to.arm_a, point.arm_a, lane);
   put(to.arm_b, point.arm_b, lane);
   to.gap.v[lane] = point.gap;
-  const float yield_a = yield<Dim>(a, point.arm_a, n, n);
-  const float yield_b = yield<Dim>(b, point.arm_b, n, n);
+  const float yield_a = yield<Dim>(a, point.arm_a, n);
+  const float yield_b = yield<Dim>(b, point.arm_b, n);
   const float here = (a.moves ? yield_a : 0.0F) + (b.moves ? yield_b : 0.0F);
   const float gain = inverse(here);
   const float stiff = of_contact.stiff * here * inverse(yield_a + yield_b);  // as with both awake
   to.gain.v[lane] = gain;
   to.soft_gain.v[lane] = gain * (stiff / (1.0F + stiff));
   to.soft_keep.v[lane] = 1.0F / (1.0F + stiff);
-  const auto tangential = [&](int i, int j) {
-    return (a.moves ? yield<Dim>(a, point.arm_a, tangents[i], tangents[j]) : 0.0F) +
-           (b.moves ? yield<Dim>(b, point.arm_b, tangents[i], tangents[j]) : 0.0F);
-  };
-  if constexpr (Dim == 2) {
-    to.tangent_gain[0].v[lane] = inverse(tangential(0, 0));
-  } else {
-    const float k11 = tangential(0, 0);
-    const float k12 = tangential(0, 1);
-    const float k22 = tangential(1, 1);
-    const float scale = inverse(k11 * k22 - k12 * k12);
-    to.tangent_gain[0].v[lane] = k22 * scale;
-    to.tangent_gain[1].v[lane] = -k12 * scale;
-    to.tangent_gain[2].v[lane] = k11 * scale;
+  float slip = 0.0F;  // by a unit impulse, mean of both directions
+  for (const VecF<Dim>& tangent : tangents) {
+    if (a.moves) slip += yield<Dim>(a, point.arm_a, tangent) / static_cast<float>(Dim - 1);
+    if (b.moves) slip += yield<Dim>(b, point.arm_b, tangent) / static_cast<float>(Dim - 1);
   }
+  to.tangent_gain.v[lane] = inverse(slip);
   to.friction.v[lane] = point.friction;
   const auto velocity_at = [](const SolverBody<Dim>& body, const VecF<Dim>& arm) -> VecF<Dim> {
     return body.velocity + turned(body.spin, arm);

@@ -65,7 +65,8 @@ class Tower {
   Tower(const std::vector<float>& masses, SolverLanes lanes, const ContactSolverParams& params = {})
       : params_(params), solver_(lanes) {
     for (std::size_t i = 0; i < masses.size(); ++i)
-      things_.push_back({(0.5F + static_cast<float>(i)) * up<Dim>(), body_of<Dim>(masses[i], masses[i] / 6.0F), {}});
+      things_.push_back(
+          {(0.5F + static_cast<float>(i)) * up<Dim>(), body_of<Dim>(masses[i], masses[i] / 6.0F), SpinF<Dim>::Zero()});
   }
 
   void step(const VecF<Dim>& gravity = -g * up<Dim>()) {
@@ -106,6 +107,7 @@ class Tower {
       if (upper > 0) {
         const Thing<Dim>& below = things_[upper - 1];
         point.arm_a = at - below.at;
+        point.normal = (up<Dim>() + turned(below.turn, up<Dim>())).normalized();
         VecF<Dim> top = point.arm_a;
         top[Dim - 1] = 0.5F;
         floor = below.at[Dim - 1] + 0.5F + turned(below.turn, top)[Dim - 1];
