@@ -167,6 +167,7 @@ void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b) {
   const btVector3& centre_b = manifold.getBody0()->getWorldTransform().getOrigin();
   const double arm = rolling_friction_ ? arm_of_pair(arm_of(*manifold.getBody0()), arm_of(*manifold.getBody1())) : 0.0;
   const auto first = static_cast<int>(parts_.size());
+  SpinF<Dim> rolling = SpinF<Dim>::Zero();
   contacts_.clear();
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     btManifoldPoint& point = manifold.getContactPoint(i);
@@ -186,11 +187,12 @@ void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b) {
     contact.restitution = point.m_combinedRestitution;
     contact.normal_impulse = point.m_appliedImpulse;
     contact.friction_impulse = to_solver<Dim>(friction_impulse(point));
-    if (arm > 0.0) {
-      contact.rolling_arm = static_cast<float>(arm);
-      contact.rolling_impulse = rolling_of_last_step(point);
-    }
+    if (arm > 0.0) rolling += rolling_of_last_step(point);
     sources_.push_back({&point, add_point(contact, first)});
+  }
+  if (!contacts_.empty()) {
+    contacts_[0].rolling_arm = static_cast<float>(arm);
+    contacts_[0].rolling_impulse = rolling;
   }
   for (const ContactPoint<Dim>& contact : contacts_) solver_.add(contact);
 }
