@@ -26,8 +26,6 @@ float margin_of(const b2Fixture& fixture) {
   return fixture.GetType() == b2Shape::e_polygon ? fixture.GetShape()->m_radius - b2_polygonRadius : 0.0F;
 }
 
-bool is_dynamic(const b2Body& body) { return body.GetType() == b2_dynamicBody; }
-
 /// Collects the fixtures in a box.
 class FixtureFinder final : public b2QueryCallback {
  public:

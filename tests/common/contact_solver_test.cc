@@ -42,8 +42,6 @@ SolverBody<Dim> body_of(float mass, float inertia) {
 
 VecF<2> turned(const SpinF<2>& spin, const VecF<2>& arm) { return spin[0] * VecF<2>(-arm.y(), arm.x()); }
 VecF<3> turned(const SpinF<3>& spin, const VecF<3>& arm) { return spin.cross(arm); }
-SpinF<2> torque(const VecF<2>& arm, const VecF<2>& p) { return SpinF<2>(arm.x() * p.y() - arm.y() * p.x()); }
-SpinF<3> torque(const VecF<3>& arm, const VecF<3>& p) { return arm.cross(p); }
 
 /// Corners of the lower face of a cube of 1 m.
 template <int Dim>
@@ -156,19 +154,19 @@ using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_
 TYPED_TEST_SUITE(ContactSolverTest, Dimensions);
 
 TYPED_TEST(ContactSolverTest, ABallBouncesOffTheGroundWithItsRestitution) {
-  constexpr int dim = TypeParam::value;
+  constexpr int D = TypeParam::value;
   for (const float restitution : {0.0F, 0.5F, 1.0F})
-    EXPECT_NEAR(this->impact(4.0F, restitution, 0.0F).first.velocity[dim - 1], 4.0F * restitution, 1e-5F);
+    EXPECT_NEAR(this->impact(4.0F, restitution, 0.0F).first.velocity[D - 1], 4.0F * restitution, 1e-5F);
 }
 
 // Momentum is kept, and the balls part at e times the speed at which they met: v = (m1 - e m2)/(m1 + m2) u.
 TYPED_TEST(ContactSolverTest, AHeadOnImpactOfUnequalBallsIsThatOfNewton) {
-  constexpr int dim = TypeParam::value;
+  constexpr int D = TypeParam::value;
   for (const float restitution : {0.0F, 0.3F, 1.0F}) {
     const auto [above, below] = this->impact(3.0F, restitution, 4.0F);
     const float common = -3.0F / 5.0F;
-    EXPECT_NEAR(above.velocity[dim - 1], common + restitution * 3.0F * 4.0F / 5.0F, 1e-5F);
-    EXPECT_NEAR(below.velocity[dim - 1], common - restitution * 3.0F / 5.0F, 1e-5F);
+    EXPECT_NEAR(above.velocity[D - 1], common + restitution * 3.0F * 4.0F / 5.0F, 1e-5F);
+    EXPECT_NEAR(below.velocity[D - 1], common - restitution * 3.0F / 5.0F, 1e-5F);
   }
 }
 
@@ -196,11 +194,11 @@ TYPED_TEST(ContactSolverTest, LightBoxesCarryOneOfAHundredTimesTheirMass) {
 
 // Gravity of slope tan(a): a box slides once tan(a) exceeds its friction, with the acceleration g (sin a - mu cos a).
 TYPED_TEST(ContactSolverTest, ABoxSlidesOnASlopeAboveItsFrictionAngleOnly) {
-  constexpr int dim = TypeParam::value;
+  constexpr int D = TypeParam::value;
   for (const float slope : {0.45F, 0.6F}) {
-    Tower<dim> tower({1.0F}, solver_lanes().back());
+    Tower<D> tower({1.0F}, solver_lanes().back());
     const float angle = std::atan(slope);
-    VecF<dim> gravity = -g * std::cos(angle) * up<dim>();
+    VecF<D> gravity = -g * std::cos(angle) * up<D>();
     gravity[0] = g * std::sin(angle);
     for (int i = 0; i < 60; ++i) tower.step(gravity);
     const float expected = std::max(0.0F, 0.5F * g * (std::sin(angle) - 0.5F * std::cos(angle)));
@@ -228,38 +226,38 @@ TEST(ContactSolverTest, FrictionInSpaceIsTheSameInAllDirections) {
 
 // A spinning ball under its weight is slowed by the torque arm * m g.
 TYPED_TEST(ContactSolverTest, RollingResistanceSlowsASpinByItsArm) {
-  constexpr int dim = TypeParam::value;
-  ContactSolver<dim> solver;
-  SolverBody<dim> ball = body_of<dim>(2.0F, 0.5F);
+  constexpr int D = TypeParam::value;
+  ContactSolver<D> solver;
+  SolverBody<D> ball = body_of<D>(2.0F, 0.5F);
   ball.spin[0] = 3.0F;
   const int slot = solver.add(ball);
-  ContactPoint<dim> point;
+  ContactPoint<D> point;
   point.b = slot;
   point.rolling_arm = 0.1F;
   point.normal_impulse = 2.0F * g * dt;
   solver.add(point);
-  solver.solve({}, -g * up<dim>(), dt);
+  solver.solve({}, -g * up<D>(), dt);
   EXPECT_NEAR(solver.body(slot).spin[0], 3.0F - 0.1F * 2.0F * g * dt / 0.5F, 1e-3F);
 }
 
 TYPED_TEST(ContactSolverTest, ContactsWithSleepersAreAsStiffAsWithTheSameBodiesAwake) {
-  constexpr int dim = TypeParam::value;
+  constexpr int D = TypeParam::value;
   // An overlap between two bodies at rest parts at the same speed in the first step, shared by their masses.
   const auto parting = [](bool other_moves) {
-    ContactSolver<dim> solver;
-    SolverBody<dim> one = body_of<dim>(1.0F, 0.1F);
-    SolverBody<dim> other = one;
+    ContactSolver<D> solver;
+    SolverBody<D> one = body_of<D>(1.0F, 0.1F);
+    SolverBody<D> other = one;
     other.moves = other_moves;
     const int a = solver.add(other);
     const int b = solver.add(one);
-    ContactPoint<dim> point;
+    ContactPoint<D> point;
     point.a = a;
     point.b = b;
     point.gap = -0.004F;
     point.normal_impulse = 0.0F;
     solver.add(point);
-    solver.solve({}, VecF<dim>::Zero(), dt);
-    return (solver.body(b).way - solver.body(a).way)[dim - 1];
+    solver.solve({}, VecF<D>::Zero(), dt);
+    return (solver.body(b).way - solver.body(a).way)[D - 1];
   };
   EXPECT_GT(parting(true), 0.0F);
   EXPECT_NEAR(parting(false), parting(true), 0.05F * parting(true));
@@ -293,7 +291,7 @@ std::vector<SolverBody<Dim>> random_step(SolverLanes lanes, int bodies, float gr
       ContactPoint<Dim> point;
       point.a = static_cast<int>(number(0.0F, static_cast<float>(bodies)));
       point.b = i % 5 == 0 ? 1 : static_cast<int>(number(1.0F, static_cast<float>(bodies) + 0.99F));
-      if (point.a == point.b || gravity == 0.0F && point.a == 0) continue;
+      if (point.a == point.b) continue;
       point.normal = vector(1.0F).normalized();
       point.friction = number(0.0F, 1.0F);
       point.restitution = i % 4 == 0 ? 0.5F : 0.0F;
@@ -321,13 +319,13 @@ std::vector<SolverBody<Dim>> random_step(SolverLanes lanes, int bodies, float gr
 }
 
 TYPED_TEST(ContactSolverTest, AllLanesGiveTheSameBits) {
-  constexpr int dim = TypeParam::value;
+  constexpr int D = TypeParam::value;
   for (const int bodies : {3, 40, 300}) {
     std::vector<float> expected;
-    const auto plain = random_step<dim>(SolverLanes::plain, bodies, -g, &expected);
+    const auto plain = random_step<D>(SolverLanes::plain, bodies, -g, &expected);
     for (const SolverLanes lanes : solver_lanes()) {
       std::vector<float> impulses;
-      const auto other = random_step<dim>(lanes, bodies, -g, &impulses);
+      const auto other = random_step<D>(lanes, bodies, -g, &impulses);
       ASSERT_EQ(impulses.size(), expected.size());
       for (std::size_t i = 0; i < impulses.size(); ++i)
         ASSERT_EQ(std::bit_cast<std::uint32_t>(impulses[i]), std::bit_cast<std::uint32_t>(expected[i]));
@@ -342,29 +340,29 @@ TYPED_TEST(ContactSolverTest, AllLanesGiveTheSameBits) {
 }
 
 TYPED_TEST(ContactSolverTest, BodiesAmongThemselvesKeepTheirMomentum) {
-  constexpr int dim = TypeParam::value;
-  ContactSolver<dim> solver;
-  VecF<dim> before = VecF<dim>::Zero();
+  constexpr int D = TypeParam::value;
+  ContactSolver<D> solver;
+  VecF<D> before = VecF<D>::Zero();
   for (int i = 0; i < 6; ++i) {
-    SolverBody<dim> body = body_of<dim>(1.0F + static_cast<float>(i), 1.0F);
-    body.velocity = (i % 2 == 0 ? -2.0F : 3.0F) * up<dim>();
+    SolverBody<D> body = body_of<D>(1.0F + static_cast<float>(i), 1.0F);
+    body.velocity = (i % 2 == 0 ? -2.0F : 3.0F) * up<D>();
     body.velocity[0] = static_cast<float>(i) - 2.0F;
     before += body.velocity / body.inverse_mass;
     solver.add(body);
   }
   for (int i = 1; i < 6; ++i) {
-    ContactPoint<dim> point;
+    ContactPoint<D> point;
     point.a = i;
     point.b = i + 1;
-    point.arm_a = 0.5F * up<dim>();
-    point.arm_b = -0.5F * up<dim>();
+    point.arm_a = 0.5F * up<D>();
+    point.arm_b = -0.5F * up<D>();
     point.friction = 0.4F;
     point.restitution = 0.3F;
     point.gap = -0.02F;
     solver.add(point);
   }
-  solver.solve({}, VecF<dim>::Zero(), dt);
-  VecF<dim> after = VecF<dim>::Zero();
+  solver.solve({}, VecF<D>::Zero(), dt);
+  VecF<D> after = VecF<D>::Zero();
   for (int i = 1; i <= 6; ++i) after += solver.body(i).velocity / solver.body(i).inverse_mass;
   EXPECT_LT((after - before).norm(), 1e-4F);  // 21 kg at 3 m/s, some hundred roundings
 }
@@ -372,17 +370,17 @@ TYPED_TEST(ContactSolverTest, BodiesAmongThemselvesKeepTheirMomentum) {
 // A box of restitution 0 that falls flat must lie still: a spring that carried the impulse of the impact on would throw
 // it up again.
 TYPED_TEST(ContactSolverTest, AnImpactIsNotThrownBack) {
-  constexpr int dim = TypeParam::value;
-  Tower<dim> tower({1.0F}, solver_lanes().back());
-  tower.things()[0].at[dim - 1] = 0.51F;
-  tower.things()[0].body.velocity = -10.0F * up<dim>();
+  constexpr int D = TypeParam::value;
+  Tower<D> tower({1.0F}, solver_lanes().back());
+  tower.things()[0].at[D - 1] = 0.51F;
+  tower.things()[0].body.velocity = -10.0F * up<D>();
   float fastest = -1.0F;
   for (int i = 0; i < 60; ++i) {
     tower.step();
-    fastest = std::max(fastest, tower.things()[0].body.velocity[dim - 1]);
+    fastest = std::max(fastest, tower.things()[0].body.velocity[D - 1]);
   }
   EXPECT_LT(fastest, 0.1F);
-  EXPECT_NEAR(tower.things()[0].at[dim - 1], 0.5F, 0.002F);
+  EXPECT_NEAR(tower.things()[0].at[D - 1], 0.5F, 0.002F);
 }
 
 }  // namespace
