@@ -106,7 +106,11 @@ BodyTemplate make_body_template(const Shape<2>& shape, const SolverParams& solve
   mass.mass = static_cast<float>(shape.mass);
   mass.center.SetZero();
   mass.I = static_cast<float>(shape.inertia(0, 0));
-  return {engine_pieces(shape), fixture_of(shape.material, solver), mass};
+  BodyTemplate made{engine_pieces(shape), fixture_of(shape.material, solver), mass};
+  if (solver.small_steps())
+    for (EnginePiece& piece : made.pieces)
+      if (auto* polygon = std::get_if<b2PolygonShape>(&piece)) polygon->m_radius += contact_margin;
+  return made;
 }
 
 }  // namespace talus::box2d

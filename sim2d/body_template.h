@@ -41,6 +41,10 @@ struct BodyTemplate {
   b2MassData mass;        // and inertia about the origin, which is the centre of mass
 };
 
+/// Added to the skins of bodies under small steps, and taken off again from their gaps: contacts are known this long
+/// before they bear, so none is lost while a corner lifts by less [m].
+inline constexpr float contact_margin = 0.005F;
+
 BodyTemplate make_body_template(const Shape<2>& shape, const SolverParams& solver);
 
 }  // namespace talus::box2d

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/shape/convex_piece.h"
+#include "sim2d/conversions.h"
 #include "sim2d/tag.h"
 
 namespace talus::box2d {
@@ -16,8 +17,6 @@ namespace {
 constexpr float rounding = 1e-4F;
 
 bool is_sleeper(b2Fixture& fixture) { return fixture.GetBody()->GetType() == b2_staticBody && owner_of(fixture) >= 0; }
-
-bool is_dynamic(const b2Body& body) { return body.GetType() == b2_dynamicBody; }
 
 double least_width(const Shape<2>& shape) {
   double least = std::numeric_limits<double>::infinity();

@@ -19,4 +19,6 @@ inline float engine_angle(double angle) {
   return static_cast<float>(small ? angle : std::remainder(angle, 2.0 * std::numbers::pi));
 }
 
+inline bool is_dynamic(const b2Body& body) { return body.GetType() == b2_dynamicBody; }
+
 }  // namespace talus::box2d

@@ -52,6 +52,7 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
       listener_(description, warm_start_, continuous_),
       rolling_(description, world_) {
   for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
+  if (description.solver.small_steps()) small_steps_.emplace(description);
   world_.SetAllowSleeping(description.engine_sleep);
   world_.SetAutoClearForces(false);  // there are none
   world_.SetContactListener(&listener_);
@@ -136,9 +137,16 @@ void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, co
 
 EngineTimes EngineWorld::engine_step() {
   warm_start_.start_step(states().asleep);
-  listener_.start_step(!description().debug.sweep_slow_bodies && hosts_.hosts() > 0, records_contacts());
+  const bool own = !small_steps_;
+  listener_.start_step(own && !description().debug.sweep_slow_bodies && hosts_.hosts() > 0, own && records_contacts());
   if (!description().debug.step_when_idle && awake().empty()) return {};
   check_memory();
+  const EngineTimes times = own ? box2d_step() : small_step();
+  warm_start_.end_step();
+  return times;
+}
+
+EngineTimes EngineWorld::box2d_step() {
   rolling_.start_step(states().shape);
   find_new_contacts();
   for (const BodyIndex body : awake()) continuous_.note_body(*at(body).body, states().shape[body]);
@@ -146,11 +154,20 @@ EngineTimes EngineWorld::engine_step() {
   world_.Step(static_cast<float>(description().dt), description().solver.velocity_iterations,
               description().solver.position_iterations);
   continuous_.end_step();
-  warm_start_.end_step();
   proxies_moved_ = false;
   const b2Profile& profile = world_.GetProfile();
   return {.collide = milliseconds * static_cast<double>(profile.collide + profile.broadphase),
           .solve = milliseconds * static_cast<double>(profile.solve - profile.broadphase + profile.solveTOI)};
+}
+
+EngineTimes EngineWorld::small_step() {
+  find_new_contacts();
+  stepped_.clear();
+  for (const BodyIndex body : awake()) stepped_.push_back(at(body).body);
+  const StepInput input{awake(), states(), templates_, obstacles_};
+  const EngineTimes times = small_steps_->step(world_, input, stepped_);
+  proxies_moved_ = true;
+  return times;
 }
 
 std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
@@ -166,7 +183,12 @@ std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
   return std::nullopt;
 }
 
-void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) { listener_.gather(states().asleep, contacts); }
+void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
+  if (small_steps_)
+    small_steps_->gather(states(), contacts);
+  else
+    listener_.gather(states().asleep, contacts);
+}
 
 bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
 

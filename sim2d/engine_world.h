@@ -3,6 +3,7 @@
 
 #include <box2d/box2d.h>
 
+#include <optional>
 #include <vector>
 
 #include "common/world/memory_reserve.h"
@@ -12,6 +13,7 @@
 #include "sim2d/continuous.h"
 #include "sim2d/conversions.h"
 #include "sim2d/rolling_resistance.h"
+#include "sim2d/small_steps.h"
 #include "sim2d/static_hosts.h"
 #include "sim2d/warm_start.h"
 
@@ -48,6 +50,8 @@ class EngineWorld final : public World<2> {
   void engine_remove_obstacle(int number) override;
   void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
 
+  EngineTimes box2d_step();
+  EngineTimes small_step();
   void add_ground();
   void add_obstacles();
   b2Body* create(BodyIndex index, int shape, const Pose<2>& pose);
@@ -71,9 +75,11 @@ class EngineWorld final : public World<2> {
   ContinuousCollision continuous_;
   ContactListener listener_;
   RollingResistance rolling_;
+  std::optional<SmallSteps> small_steps_;  // instead of Box2D's solver
   std::vector<EngineBody> bodies_;
   std::vector<b2Body*> obstacles_;
-  bool proxies_moved_ = false;  // since the last step
+  std::vector<b2Body*> stepped_;  // scratch
+  bool proxies_moved_ = false;    // since the last step
 };
 
 }  // namespace talus::box2d

@@ -7,7 +7,7 @@ void set_common(btCollisionObject& object, const Surface& surface, BodyIndex ind
   object.setFriction(surface.friction);
   object.setRestitution(surface.restitution);
   object.setSpinningFriction(
-      surface.rolling_arm);  // read by RollingSolver; Bullet uses it only beside its rolling friction
+      surface.rolling_arm);  // read by RollingSolver and SmallSteps; Bullet uses it only beside its rolling friction
   object.setUserIndex(index);
 }
 

@@ -11,8 +11,9 @@ void BodySwap::freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemp
     warm_start_.save(*engine_.pairs.findPair(proxy, partner));
     engine_.pairs.removeOverlappingPair(proxy, partner, &engine_.dispatcher);
   }
-  exchange(object,
-           make_static_object(*shape.whole, shape.surface, object->getWorldTransform(), object->getUserIndex()));
+  auto frozen = make_static_object(*shape.whole, shape.surface, object->getWorldTransform(), object->getUserIndex());
+  frozen->setUserPointer(const_cast<BodyTemplate*>(&shape));  // of a frozen body: its mass
+  exchange(object, std::move(frozen));
 }
 
 void BodySwap::thaw(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, bool may_sleep) {

@@ -53,9 +53,10 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
   const Motion motion_of_b = motion_before(*touch.b);
   for (int i = 0; i < touch.manifold->getNumContacts(); ++i) {
     const btManifoldPoint& point = touch.manifold->getContactPoint(i);
-    if (point.getDistance() > 0 && point.m_appliedImpulse <= 0) continue;
+    const btScalar push = small_steps_ ? impulse_of_step(point) : point.m_appliedImpulse;
+    if (point.getDistance() > 0 && push <= 0) continue;
     const btVector3 normal = touch.swap ? -point.m_normalWorldOnB : point.m_normalWorldOnB;  // from second to first
-    const btVector3 friction = friction_impulse(point);
+    const btVector3 friction = small_steps_ ? friction_of_step(point) : friction_impulse(point);
     const btVector3& where = point.getPositionWorldOnB();
     const btVector3 approach = motion_of_b.at(*touch.b, where) - motion_of_a.at(*touch.a, where);
     Contact<Dim>& contact = contacts.emplace_back();
@@ -63,7 +64,7 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
     contact.b = touch.b->getUserIndex();
     contact.point = from_bullet<Dim>(where);
     contact.normal = from_bullet<Dim>(normal);
-    contact.normal_impulse = impulse_unit_ * point.m_appliedImpulse;
+    contact.normal_impulse = impulse_unit_ * push;
     contact.friction_impulse = impulse_unit_ * from_bullet<Dim>(touch.swap ? -friction : friction);
     contact.approach_speed = std::max(btScalar(0), normal.dot(approach));
     contact.depth = -point.getDistance();

@@ -16,8 +16,8 @@ namespace talus::bullet {
 template <int Dim>
 class Contacts {
  public:
-  /// `mass_scale`: of the world; impulses are divided by it.
-  explicit Contacts(double mass_scale) : impulse_unit_(1.0 / mass_scale) {}
+  /// `mass_scale`: of the world; impulses are divided by it. `small_steps`: whether SmallSteps solves them.
+  Contacts(double mass_scale, bool small_steps) : impulse_unit_(1.0 / mass_scale), small_steps_(small_steps) {}
 
   /// Before a step whose contacts will be gathered: notes the velocities, from which the approach speeds follow.
   /// `bodies` are those that stand one after the other in Bullet's list.
@@ -50,6 +50,7 @@ class Contacts {
   std::vector<Motion> motion_;  // before the step
   int first_ = 0;               // place of the first body of motion_ in Bullet's list
   double impulse_unit_;         // [N s]
+  bool small_steps_;
 };
 
 }  // namespace talus::bullet

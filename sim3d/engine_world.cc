@@ -54,6 +54,13 @@ bool has_restitution(const WorldDescription<Dim>& description) {
                              [](const Shape<Dim>& shape) { return shape.material.restitution > 0.0; });
 }
 
+/// Null: Bullet's own solver is to be used.
+template <int Dim>
+std::unique_ptr<SmallSteps<Dim>> make_small_steps(const WorldDescription<Dim>& description) {
+  if (!description.solver.small_steps()) return nullptr;
+  return std::make_unique<SmallSteps<Dim>>(description.solver, description.dt, has_rolling_friction(description));
+}
+
 template <int Dim>
 void give_velocity(btRigidBody& body, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
   body.setLinearVelocity(to_bullet(velocity));
@@ -68,19 +75,29 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     : World<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
       rebounds_(has_restitution(description)),
-      engine_(gravity_of(description), description.solver, description.debug, has_rolling_friction(description)) {
+      engine_(gravity_of(description), description.solver, description.debug, has_rolling_friction(description)),
+      small_steps_(make_small_steps(description)) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
     if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;
   }
   if (description.ground.present) add_ground();
   add_obstacles();
+  if (small_steps_) use_small_steps();
   engine_.world.set_after_collision([this] {
     swap_.restore_contacts();
+    if (small_steps_) return;
     if (auto* rolling = dynamic_cast<RollingSolver*>(engine_.solver.get())) rolling->start_step();
     if (rebounds_)
       set_rebounds(engine_.dispatcher, engine_.world.getSolverInfo(), static_cast<btScalar>(this->description().dt));
   });
+}
+
+template <int Dim>
+void EngineWorld<Dim>::use_small_steps() {
+  engine_.world.set_contact_step(
+      {.solve = [this] { small_steps_->solve(engine_.dispatcher, rigid_, engine_.world.getGravity()); },
+       .finish = [this] { small_steps_->finish(rigid_); }});
 }
 
 // Bullet holds the bodies by address: they leave it before they are destroyed.

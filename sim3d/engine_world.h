@@ -9,6 +9,7 @@
 #include "sim3d/body_template.h"
 #include "sim3d/contacts.h"
 #include "sim3d/engine.h"
+#include "sim3d/small_steps.h"
 
 namespace talus::bullet {
 
@@ -40,6 +41,7 @@ class EngineWorld final : public World<Dim> {
   void engine_contacts(std::vector<Contact<Dim>>& contacts) override { contacts_.gather(engine_, contacts); }
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
 
+  void use_small_steps();
   void add_ground();
   void add_obstacles();
   void update_lists();
@@ -63,7 +65,8 @@ class EngineWorld final : public World<Dim> {
   std::vector<std::unique_ptr<btCollisionObject>> objects_;  // by body; null once removed
   Engine engine_;
   BodySwap swap_{engine_};
-  Contacts<Dim> contacts_{mass_scale_};
+  std::unique_ptr<SmallSteps<Dim>> small_steps_;  // null: Bullet's own solver
+  Contacts<Dim> contacts_{mass_scale_, small_steps_ != nullptr};
   std::vector<BodyIndex> listed_;           // bodies in Bullet's lists, ascending: all but the frozen
   std::vector<btRigidBody*> rigid_;         // the same
   mutable std::vector<BodyIndex> strayed_;  // see find_strayed()

@@ -1,5 +1,5 @@
 #pragma once
-// The friction impulse that is stored in a contact point of Bullet.
+// The impulses that are stored in a contact point of Bullet.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -16,6 +16,18 @@ inline void set_friction_impulse(btManifoldPoint& point, const btVector3& impuls
   btPlaneSpace1(point.m_normalWorldOnB, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
   point.m_appliedImpulseLateral1 = impulse.dot(point.m_lateralFrictionDir1);
   point.m_appliedImpulseLateral2 = impulse.dot(point.m_lateralFrictionDir2);
+}
+
+/// Small steps (small_steps.h) keep the impulses of the whole step beside those that the next one starts at, in numbers
+/// of the point that only Bullet's own solver uses.
+inline void set_impulse_of_step(btManifoldPoint& point, btScalar normal, const btVector3& friction) {
+  point.m_prevRHS = normal;
+  point.m_contactMotion1 = friction.dot(point.m_lateralFrictionDir1);
+  point.m_contactMotion2 = friction.dot(point.m_lateralFrictionDir2);
+}
+inline btScalar impulse_of_step(const btManifoldPoint& point) { return point.m_prevRHS; }
+inline btVector3 friction_of_step(const btManifoldPoint& point) {
+  return point.m_lateralFrictionDir1 * point.m_contactMotion1 + point.m_lateralFrictionDir2 * point.m_contactMotion2;
 }
 
 }  // namespace talus::bullet

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/shape/shape.h"
@@ -13,14 +15,22 @@
 
 namespace talus {
 
-/// Settings of the engine's solver. An engine ignores what it does not have. solver_fields has the unit, range and
+inline constexpr std::string_view engine_solver = "engine";
+inline constexpr std::string_view small_steps_solver = "small_steps";
+inline constexpr std::array<std::string_view, 2> solver_kinds = {engine_solver, small_steps_solver};
+
+/// Settings of the contact solver. An engine ignores what it does not have. solver_fields has the unit, range and
 /// effect of each.
 struct SolverParams {
+  std::string kind = std::string(engine_solver);
+  int sub_steps = 8;
   int velocity_iterations = 10;
   int position_iterations = 4;
   int friction_directions = 2;
   bool warm_friction = false;
   double restitution_threshold = 0.5;
+
+  bool small_steps() const { return kind == small_steps_solver; }
 };
 
 /// The plane z = height, infinite for all practical purposes. ground_fields and surface_fields have the unit, range and

@@ -9,6 +9,17 @@
 namespace talus {
 
 inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
+    {&SolverParams::kind,
+     {.name = "kind",
+      .choices = solver_kinds,
+      .meaning = "the solver of contacts: the engine's own solver, or the one of this project on the engine's "
+                 "collision detection, in `sub_steps` short steps a step. Small steps bring a heap to rest and hold "
+                 "towers; `velocity_iterations`, `position_iterations`, `friction_directions` and `warm_friction` "
+                 "mean nothing to it. Not with the policy `engine`"}},
+    {&SolverParams::sub_steps,
+     {.name = "sub_steps",
+      .range = between(1.0, 100.0),
+      .meaning = "of `small_steps` only. 4: faster, towers of twenty fall; 2: bodies sink into each other"}},
     {&SolverParams::velocity_iterations,
      {.name = "velocity_iterations",
       .range = between(1.0, 1000.0),

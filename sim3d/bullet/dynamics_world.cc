@@ -40,11 +40,22 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
   collide_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+void DynamicsWorld::calculateSimulationIslands() {
+  if (!contact_step_) btDiscreteDynamicsWorld::calculateSimulationIslands();
+}
+
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
-  if (!debug_.bullet_islands)
+  if (contact_step_)
+    contact_step_->solve();
+  else if (!debug_.bullet_islands)
     islands_.solve(*this, getSimulationIslandManager()->getUnionFind(), *getConstraintSolver(), info);
   else
     btDiscreteDynamicsWorld::solveConstraints(info);
+}
+
+void DynamicsWorld::integrateTransforms(btScalar time_step) {
+  btDiscreteDynamicsWorld::integrateTransforms(time_step);
+  if (contact_step_) contact_step_->finish();
 }
 
 }  // namespace talus::bullet

@@ -4,6 +4,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -12,6 +13,12 @@
 #include "sim3d/bullet/near_pairs.h"
 
 namespace talus::bullet {
+
+/// What solves the contacts of a step in the place of Bullet's islands and solver.
+struct ContactStep {
+  std::function<void()> solve;   // leaves bodies with the velocity by which they are to move in this step
+  std::function<void()> finish;  // gives them that at its end, once they have moved
+};
 
 /// btDiscreteDynamicsWorld visits all bodies of its two lists in each step. A sleeping body is in neither: its entry in
 /// the broad phase alone makes it solid.
@@ -38,8 +45,13 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   /// What is to happen between collision detection and solver.
   void set_after_collision(std::function<void()> action) { after_collision_ = std::move(action); }
 
+  /// Not for a world in which Bullet's own sleeping, of whole islands, is in use.
+  void set_contact_step(ContactStep step) { contact_step_ = std::move(step); }
+
   void performDiscreteCollisionDetection() override;
+  void calculateSimulationIslands() override;
   void solveConstraints(btContactSolverInfo& info) override;
+  void integrateTransforms(btScalar time_step) override;
   /// Leaves the velocities of moving obstacles as they were given. Bullet takes them from the difference of two poses
   /// in single precision, in which a turn below 0.0007 rad a step is none.
   void saveKinematicState(btScalar /*time_step*/) override {}
@@ -51,6 +63,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   int statics_ = 0;
   double collide_seconds_ = 0.0;
   std::function<void()> after_collision_ = [] {};
+  std::optional<ContactStep> contact_step_;
 };
 
 }  // namespace talus::bullet

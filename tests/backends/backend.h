@@ -5,6 +5,7 @@
 
 #include <numbers>
 #include <string>
+#include <string_view>
 
 #include "common/math/angle.h"
 #include "common/shape/catalogue.h"
@@ -23,6 +24,7 @@ namespace talus {
 struct Box2d {
   static constexpr int dim = 2;
   static constexpr const char* name = "box2d";
+  static constexpr const char* small_steps_name = "box2d_small_steps";
   static auto make(const WorldDescription<2>& description) { return make_box2d_world(description); }
 };
 #endif
@@ -30,22 +32,41 @@ struct Box2d {
 struct Bullet {
   static constexpr int dim = 3;
   static constexpr const char* name = "bullet";
+  static constexpr const char* small_steps_name = "bullet_small_steps";
   static auto make(const WorldDescription<3>& description) { return make_bullet_world(description); }
 };
 struct BulletPlanar {
   static constexpr int dim = 2;
   static constexpr const char* name = "bullet_planar";
+  static constexpr const char* small_steps_name = "bullet_planar_small_steps";
   static auto make(const WorldDescription<2>& description) { return make_bullet_planar_world(description); }
 };
 #endif
 
+/// An engine with the solver of common/solver/ in the place of its own.
+template <typename Engine>
+struct SmallSteps {
+  static constexpr int dim = Engine::dim;
+  static constexpr const char* name = Engine::small_steps_name;
+  static auto make(WorldDescription<dim> description) {
+    description.solver.kind = small_steps_solver;
+    return Engine::make(description);
+  }
+};
+
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
-using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar>;
+using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
 #elif defined(TALUS_BOX2D)
 using Backends = ::testing::Types<Box2d>;
 #else
-using Backends = ::testing::Types<Bullet, BulletPlanar>;
+using Backends = ::testing::Types<Bullet, BulletPlanar, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
 #endif
+
+/// Whether it can run a policy: only an engine's own solver has the engine's sleep.
+template <typename Backend>
+bool has_policy(std::string_view policy) {
+  return policy != "engine" || !std::string_view(Backend::name).ends_with("small_steps");
+}
 
 /// The example of docs/extending.md. Its bodies do not collide, so it runs in the suites on the seam alone.
 struct Toy {

@@ -73,11 +73,20 @@ TYPED_TEST(WorldDescriptionTest, ATimeStepOutsideItsRangeIsRefused) {
     this->refuse_world("world.steps_per_second", [&](auto& world) { world.dt = dt; });
 }
 
+TYPED_TEST(WorldDescriptionTest, TheEnginesOwnSleepNeedsItsOwnSolver) {
+  this->refuse_world("world.solver.kind", [](auto& world) {
+    world.solver.kind = "small_steps";
+    world.engine_sleep = true;
+  });
+}
+
 TYPED_TEST(WorldDescriptionTest, GravityGroundAndSolverMustBeInRange) {
   for (const double gravity : {nan, infinity, -9.81})
     this->refuse_world("world.gravity", [&](auto& world) { world.gravity = gravity; });
   this->refuse_world("world.ground.height", [](auto& world) { world.ground.height = nan; });
   this->refuse_world("world.ground.material.friction", [](auto& world) { world.ground.material.friction = -0.1; });
+  this->refuse_world("sub_steps", [](auto& world) { world.solver.sub_steps = 0; });
+  this->refuse_world("world.solver.kind", [](auto& world) { world.solver.kind = "exact"; });
   this->refuse_world("velocity_iterations", [](auto& world) { world.solver.velocity_iterations = 0; });
   this->refuse_world("position_iterations", [](auto& world) { world.solver.position_iterations = 1001; });
   this->refuse_world("friction_directions", [](auto& world) { world.solver.friction_directions = 3; });

@@ -71,6 +71,8 @@ Json settings_json(const Scene<Dim>& scene) {
   return {{"dimension", Dim},
           {"gravity", scene.world.gravity},
           {"dt_s", scene.world.dt},
+          {"solver", solver.kind},
+          {"sub_steps", solver.sub_steps},
           {"velocity_iterations", solver.velocity_iterations},
           {"position_iterations", solver.position_iterations},
           {"friction_directions", solver.friction_directions},

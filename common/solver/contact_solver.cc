@@ -1,0 +1,493 @@
+#include "common/solver/contact_solver.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "common/solver/contact_blocks.h"
+
+namespace talus {
+
+using namespace solver;
+
+namespace {
+
+constexpr int colours = 64;             // bits of a mask; contacts beyond are solved one by one
+constexpr float damping_ratio = 10.0F;  // of a contact's spring: overlap goes away without bouncing
+constexpr float spring = 0.125F;        // its frequency, over that of the sub-steps; from 0.15 on pyramids buckle
+constexpr float fixed_spring = 2.0F;    // how many times that frequency is higher against what never moves
+constexpr float carry = 2.0F;           // an impulse is carried into the next sub-step at this times its last at most
+constexpr int first_passes = 3;         // of the first sub-step, in which contacts begin
+constexpr int bounce_passes = 4;
+constexpr int deep_passes = 3;
+constexpr float deep_share = 0.2F;  // of a deep overlap, moved apart in each of them
+
+float inverse(float x) { return x > 0.0F ? 1.0F / x : 0.0F; }
+
+float cross(const VecF<2>& a, const VecF<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+SpinF<2> torque(const VecF<2>& arm, const VecF<2>& impulse) { return SpinF<2>(cross(arm, impulse)); }
+SpinF<3> torque(const VecF<3>& arm, const VecF<3>& impulse) { return arm.cross(impulse); }
+VecF<2> turned(const SpinF<2>& spin, const VecF<2>& arm) { return spin[0] * VecF<2>(-arm.y(), arm.x()); }
+VecF<3> turned(const SpinF<3>& spin, const VecF<3>& arm) { return spin.cross(arm); }
+
+std::array<VecF<2>, 1> tangents_of(const VecF<2>& normal) { return {VecF<2>(normal.y(), -normal.x())}; }
+std::array<VecF<3>, 2> tangents_of(const VecF<3>& normal) {
+  // Away from the axis that is nearest to the normal.
+  Eigen::Index nearest = 0;
+  normal.cwiseAbs().maxCoeff(&nearest);
+  const VecF<3> first = normal.cross(VecF<3>::Unit((nearest + 1) % 3)).normalized();
+  return {first, normal.cross(first)};
+}
+
+/// Velocity along `direction` that a unit impulse in it at the point gives it there, of one body.
+template <int Dim>
+float yield(const SolverBody<Dim>& body, const VecF<Dim>& arm, const VecF<Dim>& direction) {
+  const SpinF<Dim> twist = torque(arm, direction);
+  return body.inverse_mass + twist.dot(body.inverse_inertia * twist);
+}
+
+void put(Eight* to, const InertiaF<2>& m, int lane) { to[0].v[lane] = m(0, 0); }
+void put(Eight* to, const InertiaF<3>& m, int lane) {
+  const std::array<float, 6> numbers = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+  for (int i = 0; i < 6; ++i) to[i].v[lane] = numbers[i];
+}
+template <int Dim>
+void put(Eight (&to)[Dim], const VecF<Dim>& vector, int lane) {
+  for (int i = 0; i < Dim; ++i) to[i].v[lane] = vector[i];
+}
+
+/// A velocity or displacement, as the inner loops have it.
+template <int Dim>
+VecF<Dim> linear_of(const Quad* quads) {
+  return VecF<Dim>(quads->v);
+}
+template <int Dim>
+SpinF<Dim> angular_of(const Quad* quads) {
+  return SpinF<Dim>(Dim == 2 ? quads->v + 2 : quads[1].v);
+}
+template <int Dim>
+void set(Quad* quads, const VecF<Dim>& linear, const SpinF<Dim>& angular) {
+  VecF<Dim>::Map(quads->v) = linear;
+  SpinF<Dim>::Map(Dim == 2 ? quads->v + 2 : quads[1].v) = angular;
+}
+template <int Dim>
+void add_to(Quad* quads, const VecF<Dim>& linear, const SpinF<Dim>& angular) {
+  VecF<Dim>::Map(quads->v) += linear;
+  SpinF<Dim>::Map(Dim == 2 ? quads->v + 2 : quads[1].v) += angular;
+}
+
+/// A contact's spring, Box2D v3's soft constraint, for a step of `h` [s].
+struct Spring {
+  float rate;   // speed of separation over overlap [1/s]
+  float stiff;  // of an infinitely stiff one: 1 over 1 + this is its softness
+};
+Spring spring_of(float frequency, float h) {
+  const float omega = 2.0F * std::numbers::pi_v<float> * frequency;
+  const float a = 2.0F * damping_ratio + h * omega;
+  return {omega / a, h * omega * a};
+}
+
+std::span<const SolverLanes> available_lanes() {
+  static constexpr std::array all = {SolverLanes::plain, SolverLanes::sse2, SolverLanes::avx2};
+#if defined(TALUS_AVX2_LANES)
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  return std::span(all).first(has_avx2 ? 3 : 2);
+#elif defined(__SSE2__) && !defined(TALUS_PLAIN_LANES)
+  return std::span(all).first(2);
+#else
+  return std::span(all).first(1);
+#endif
+}
+
+template <int Dim>
+Kernel<Dim> kernel_of(SolverLanes lanes) {
+#if defined(TALUS_AVX2_LANES)
+  if (lanes == SolverLanes::avx2) return static_cast<Kernel<Dim>>(solve_avx2);
+#endif
+#if defined(__SSE2__) && !defined(TALUS_PLAIN_LANES)
+  if (lanes != SolverLanes::plain) return static_cast<Kernel<Dim>>(solve_sse2);
+#endif
+  return static_cast<Kernel<Dim>>(solve_plain);
+}
+
+}  // namespace
+
+std::span<const SolverLanes> solver_lanes() { return available_lanes(); }
+
+/// The step at hand: its points sorted into blocks, and the motion of its bodies.
+template <int Dim>
+struct ContactSolver<Dim>::Work {
+  static constexpr int quads = quads_of_a_body<Dim>;
+
+  /// Points of one pair, solved together.
+  struct Group {
+    int first = 0;
+    int count = 0;
+    int colour = 0;  // groups of one colour share no body that moves
+    int block = 0;
+    int lane = 0;
+  };
+  struct DeepPoint {
+    int point = 0;
+    float gain = 0.0F;
+  };
+
+  explicit Work(SolverLanes kind) : kernel(kernel_of<Dim>(kind)) {}
+
+  void sort();
+  void make_blocks();
+  void fill_blocks();
+  void fill_body(const SolverBody<Dim>& body, Eight& mass, Eight* inertia, int lane) const;
+  void fill_point(int number, PointBlock<Dim>& to, int lane, const Spring& of_contact);
+  void fill_rolling(const ContactPoint<Dim>& point, ContactBlock<Dim>& block, int lane);
+  void load_bodies();
+  void begin_sub_step(const VecF<Dim>& gravity);
+  void move();
+  void keep_changes();
+  void push_deep();
+  void read_bodies();
+  void read_points();
+
+  void run(Pass pass) {
+    kernel({velocity.data(), moved.data(), free.data(), blocks.data(), static_cast<int>(blocks.size()), lanes.data(),
+            rolling.data(), 1.0F / h, params.deep, carry},
+           pass);
+  }
+
+  Kernel<Dim> kernel;
+  // Given.
+  std::span<SolverBody<Dim>> bodies;
+  std::span<ContactPoint<Dim>> points;
+  ContactSolverParams params;
+  float h = 0.0F;  // length of a sub-step [s]
+  // Made from it.
+  std::vector<Group> groups;
+  std::vector<int> order;           // of the groups, by colour and number of points
+  std::vector<std::uint64_t> used;  // by body: colours of its groups
+  std::vector<ContactBlock<Dim>> blocks;
+  std::vector<PointBlock<Dim>> lanes;
+  std::vector<RollingBlock<Dim>> rolling;
+  std::vector<DeepPoint> deep_points;
+  bool bounces = false;
+  std::vector<Quad> velocity;
+  std::vector<Quad> moved;
+  std::vector<Quad> free;  // between sub-steps what the contacts gave in the last one, within one velocity without them
+};
+
+/// Puts points that stand side by side into groups and gives each the first colour that no group of its bodies has.
+template <int Dim>
+void ContactSolver<Dim>::Work::sort() {
+  used.assign(bodies.size(), 0);
+  groups.clear();
+  const int count = static_cast<int>(points.size());
+  for (int i = 0; i < count;) {
+    const int a = points[i].a;
+    const int b = points[i].b;
+    int end = i + 1;
+    while (end < count && end - i < points_of_a_group<Dim> && points[end].a == a && points[end].b == b) ++end;
+    const int colour = std::countr_one(used[a] | used[b]);
+    for (const int slot : {a, b})
+      if (bodies[slot].moves && colour < colours) used[slot] |= std::uint64_t{1} << colour;
+    groups.push_back({.first = i, .count = end - i, .colour = colour});
+    i = end;
+  }
+  constexpr int sizes = points_of_a_group<Dim>;
+  std::array<int, (colours + 1) * sizes + 1> start{};
+  const auto bin = [](const Group& group) { return group.colour * sizes + sizes - group.count; };
+  for (const Group& group : groups) ++start[bin(group) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  order.resize(groups.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) order[start[bin(groups[i])]++] = static_cast<int>(i);
+}
+
+/// Gives each group its block and lane. Those that got no colour have a block each.
+template <int Dim>
+void ContactSolver<Dim>::Work::make_blocks() {
+  blocks.clear();
+  int point_blocks = 0;
+  int lane = lanes_of_a_block;
+  int last_colour = -1;
+  for (const int number : order) {
+    Group& group = groups[number];
+    if (lane == lanes_of_a_block || group.colour != last_colour || group.colour == colours) {
+      ContactBlock<Dim>& block = blocks.emplace_back(ContactBlock<Dim>{});
+      block.first_point = point_blocks;
+      block.points = group.count;  // the most of all in it, see sort()
+      block.rolling = -1;
+      point_blocks += group.count;
+      lane = 0;
+      last_colour = group.colour;
+    }
+    group.block = static_cast<int>(blocks.size()) - 1;
+    group.lane = lane++;
+  }
+  lanes.assign(point_blocks, PointBlock<Dim>{});
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::fill_blocks() {
+  const float frequency = spring / h;
+  const Spring between = spring_of(frequency, h);
+  const Spring fixed = spring_of(fixed_spring * frequency, h);
+  rolling.clear();
+  deep_points.clear();
+  bounces = false;
+  for (const int number : order) {
+    const Group& group = groups[number];
+    ContactBlock<Dim>& block = blocks[group.block];
+    const ContactPoint<Dim>& first = points[group.first];
+    const SolverBody<Dim>& a = bodies[first.a];
+    const SolverBody<Dim>& b = bodies[first.b];
+    block.a[group.lane] = first.a;
+    block.b[group.lane] = first.b;
+    fill_body(a, block.inverse_mass_a, block.inverse_inertia_a, group.lane);
+    fill_body(b, block.inverse_mass_b, block.inverse_inertia_b, group.lane);
+    const Spring& of_contact = a.inverse_mass > 0.0F && b.inverse_mass > 0.0F ? between : fixed;
+    block.rate.v[group.lane] = of_contact.rate;
+    for (int i = 0; i < group.count; ++i) {
+      PointBlock<Dim>& to = lanes[block.first_point + i];
+      fill_point(group.first + i, to, group.lane, of_contact);
+      block.bounces = block.bounces || to.bounce.v[group.lane] < 0.0F;
+    }
+    bounces = bounces || block.bounces;
+    if (first.rolling_arm > 0.0F) fill_rolling(first, block, group.lane);
+  }
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::fill_body(const SolverBody<Dim>& body, Eight& mass, Eight* inertia, int lane) const {
+  if (!body.moves) return;  // the block is all 0
+  mass.v[lane] = body.inverse_mass;
+  put(inertia, body.inverse_inertia, lane);
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int lane, const Spring& of_contact) {
+  ContactPoint<Dim>& point = points[number];
+  const SolverBody<Dim>& a = bodies[point.a];
+  const SolverBody<Dim>& b = bodies[point.b];
+  const VecF<Dim>& n = point.normal;
+  const auto tangents = tangents_of(n);
+  put(to.normal, n, lane);
+  put(to.tangent, tangents[0], lane);
+  put(to.arm_a, point.arm_a, lane);
+  put(to.arm_b, point.arm_b, lane);
+  to.gap.v[lane] = point.gap;
+  const float yield_a = yield<Dim>(a, point.arm_a, n);
+  const float yield_b = yield<Dim>(b, point.arm_b, n);
+  const float here = (a.moves ? yield_a : 0.0F) + (b.moves ? yield_b : 0.0F);
+  const float gain = inverse(here);
+  const float stiff = of_contact.stiff * here * inverse(yield_a + yield_b);  // as with both awake
+  to.gain.v[lane] = gain;
+  to.soft_gain.v[lane] = gain * (stiff / (1.0F + stiff));
+  to.soft_keep.v[lane] = 1.0F / (1.0F + stiff);
+  float slip = 0.0F;  // by a unit impulse, mean of both directions
+  for (const VecF<Dim>& tangent : tangents) {
+    if (a.moves) slip += yield<Dim>(a, point.arm_a, tangent) / static_cast<float>(Dim - 1);
+    if (b.moves) slip += yield<Dim>(b, point.arm_b, tangent) / static_cast<float>(Dim - 1);
+  }
+  to.tangent_gain.v[lane] = inverse(slip);
+  to.friction.v[lane] = point.friction;
+  const auto velocity_at = [](const SolverBody<Dim>& body, const VecF<Dim>& arm) -> VecF<Dim> {
+    return body.velocity + turned(body.spin, arm);
+  };
+  point.approach_speed = n.dot(velocity_at(a, point.arm_a) - velocity_at(b, point.arm_b));
+  if (point.restitution > 0.0F && point.approach_speed > params.restitution_threshold)
+    to.bounce.v[lane] = -point.restitution * point.approach_speed;
+  const float share = 1.0F / static_cast<float>(params.sub_steps);
+  to.impulse.v[lane] = to.before.v[lane] = share * point.normal_impulse;
+  for (int i = 0; i < Dim - 1; ++i)
+    to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] = share * point.friction_impulse.dot(tangents[i]);
+  if (point.gap < -params.deep) deep_points.push_back({number, gain});
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::fill_rolling(const ContactPoint<Dim>& point, ContactBlock<Dim>& block, int lane) {
+  if (block.rolling < 0) {
+    block.rolling = static_cast<std::int32_t>(rolling.size());
+    rolling.push_back(RollingBlock<Dim>{});
+  }
+  RollingBlock<Dim>& to = rolling[block.rolling];
+  InertiaF<Dim> yields = InertiaF<Dim>::Zero();
+  for (const int slot : {point.a, point.b})
+    if (bodies[slot].moves) yields += bodies[slot].inverse_inertia;
+  to.arm.v[lane] = point.rolling_arm;
+  if (yields.trace() > 0.0F) put(to.gain, InertiaF<Dim>(yields.inverse()), lane);
+  for (int i = 0; i < spin_size<Dim>; ++i)
+    to.impulse[i].v[lane] = point.rolling_impulse[i] / static_cast<float>(params.sub_steps);
+}
+
+/// With what the impulses of the last sub-step gave them: applying those to each body once is what applying them in
+/// each sub-step, contact by contact, would come to.
+template <int Dim>
+void ContactSolver<Dim>::Work::load_bodies() {
+  velocity.resize(quads * bodies.size());
+  moved.assign(quads * bodies.size(), Quad{});
+  free.assign(quads * bodies.size(), Quad{});
+  for (std::size_t i = 0; i < bodies.size(); ++i) set<Dim>(&velocity[quads * i], bodies[i].velocity, bodies[i].spin);
+  const float share = 1.0F / static_cast<float>(params.sub_steps);
+  for (const ContactPoint<Dim>& point : points) {
+    if (point.normal_impulse == 0.0F && point.rolling_arm == 0.0F) continue;
+    // Friction lies in the plane of contact, as it was loaded.
+    VecF<Dim> impulse = share * point.normal_impulse * point.normal;
+    for (const VecF<Dim>& tangent : tangents_of(point.normal))
+      impulse += share * point.friction_impulse.dot(tangent) * tangent;
+    const SpinF<Dim> twist = point.rolling_arm > 0.0F ? SpinF<Dim>(share * point.rolling_impulse) : SpinF<Dim>::Zero();
+    const auto push = [&](int slot, const VecF<Dim>& arm, float sign) {
+      const SolverBody<Dim>& body = bodies[slot];
+      if (!body.moves) return;
+      Quad* to = &free[quads * slot];
+      const SpinF<Dim> spin = body.inverse_inertia * SpinF<Dim>(torque(arm, impulse) + twist);
+      add_to<Dim>(to, sign * body.inverse_mass * impulse, sign * spin);
+    };
+    push(point.a, point.arm_a, -1.0F);
+    push(point.b, point.arm_b, 1.0F);
+  }
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::begin_sub_step(const VecF<Dim>& gravity) {
+  std::array<Quad, quads> fall{};
+  const float share = 1.0F / static_cast<float>(params.sub_steps);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].moves) continue;
+    set<Dim>(fall.data(), h * gravity, share * bodies[i].free_spin_change);
+    for (int j = 0; j < quads; ++j) {
+      for (int k = 0; k < 4; ++k) {
+        const float alone = velocity[quads * i + j].v[k] + fall[j].v[k];
+        velocity[quads * i + j].v[k] = alone + free[quads * i + j].v[k];
+        free[quads * i + j].v[k] = alone;
+      }
+    }
+  }
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::move() {
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    for (int k = 0; k < 4; ++k) moved[i].v[k] += h * velocity[i].v[k];
+}
+
+/// After a sub-step: what its contacts gave the bodies.
+template <int Dim>
+void ContactSolver<Dim>::Work::keep_changes() {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].moves) continue;
+    for (std::size_t j = quads * i; j < quads * (i + 1); ++j)
+      for (int k = 0; k < 4; ++k) free[j].v[k] = velocity[j].v[k] - free[j].v[k];
+  }
+}
+
+/// Moves what overlaps by more than `deep` apart. It gets no velocity by that: as a spring it would be thrown.
+template <int Dim>
+void ContactSolver<Dim>::Work::push_deep() {
+  for (int pass = 0; pass < deep_passes; ++pass) {
+    for (const DeepPoint& deep : deep_points) {
+      const ContactPoint<Dim>& point = points[deep.point];
+      Quad* const a = &moved[quads * point.a];
+      Quad* const b = &moved[quads * point.b];
+      const VecF<Dim>& n = point.normal;
+      const auto way = [&](const Quad* of, const VecF<Dim>& arm) -> VecF<Dim> {
+        return linear_of<Dim>(of) + turned(angular_of<Dim>(of), arm);
+      };
+      const float gap = point.gap + n.dot(way(b, point.arm_b) - way(a, point.arm_a));
+      if (gap >= -params.deep) continue;
+      const VecF<Dim> push = deep.gain * deep_share * -(gap + params.deep) * n;
+      const auto shift = [&](int slot, Quad* to, const VecF<Dim>& arm, float sign) {
+        const SolverBody<Dim>& body = bodies[slot];
+        if (!body.moves) return;
+        const SpinF<Dim> turn = body.inverse_inertia * torque(arm, push);
+        add_to<Dim>(to, sign * body.inverse_mass * push, sign * turn);
+      };
+      shift(point.a, a, point.arm_a, -1.0F);
+      shift(point.b, b, point.arm_b, 1.0F);
+    }
+  }
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::read_bodies() {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    SolverBody<Dim>& body = bodies[i];
+    body.way = linear_of<Dim>(&moved[quads * i]);
+    body.turn = angular_of<Dim>(&moved[quads * i]);
+    if (!body.moves) continue;
+    body.velocity = linear_of<Dim>(&velocity[quads * i]);
+    body.spin = angular_of<Dim>(&velocity[quads * i]);
+  }
+}
+
+template <int Dim>
+void ContactSolver<Dim>::Work::read_points() {
+  const auto times = static_cast<float>(params.sub_steps);
+  for (const Group& group : groups) {
+    const ContactBlock<Dim>& block = blocks[group.block];
+    const int lane = group.lane;
+    for (int i = 0; i < group.count; ++i) {
+      ContactPoint<Dim>& point = points[group.first + i];
+      const PointBlock<Dim>& from = lanes[block.first_point + i];
+      const auto tangents = tangents_of(point.normal);
+      const bool bounced = from.bounce.v[lane] < 0.0F && from.highest.v[lane] > 0.0F;
+      const float kept = bounced ? 0.0F : times;
+      point.normal_sum = from.sum.v[lane];
+      point.normal_impulse = kept * from.impulse.v[lane];
+      point.friction_sum = from.tangent_sum[0].v[lane] * tangents[0];
+      point.friction_impulse = kept * from.tangent_impulse[0].v[lane] * tangents[0];
+      if constexpr (Dim == 3) {
+        point.friction_sum += from.tangent_sum[1].v[lane] * tangents[1];
+        point.friction_impulse += kept * from.tangent_impulse[1].v[lane] * tangents[1];
+      }
+    }
+    ContactPoint<Dim>& first = points[group.first];
+    if (first.rolling_arm > 0.0F)
+      for (int i = 0; i < spin_size<Dim>; ++i)
+        first.rolling_impulse[i] = times * rolling[block.rolling].impulse[i].v[lane];
+  }
+}
+
+template <int Dim>
+ContactSolver<Dim>::ContactSolver(SolverLanes lanes) : bodies_(1), work_(std::make_unique<Work>(lanes)) {}
+template <int Dim>
+ContactSolver<Dim>::~ContactSolver() = default;
+
+template <int Dim>
+void ContactSolver<Dim>::start() {
+  bodies_.resize(1);
+  points_.clear();
+}
+
+template <int Dim>
+void ContactSolver<Dim>::solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt) {
+  Work& work = *work_;
+  work.bodies = bodies_;
+  work.points = points_;
+  work.params = params;
+  work.h = dt / static_cast<float>(params.sub_steps);
+  work.sort();
+  work.make_blocks();
+  work.fill_blocks();
+  work.load_bodies();
+  for (int step = 0; step < params.sub_steps; ++step) {
+    const int passes = step == 0 ? first_passes : 1;
+    work.begin_sub_step(gravity);
+    for (int i = 0; i < passes; ++i) work.run(Pass::soft);
+    work.move();
+    for (int i = 1; i < passes; ++i) work.run(Pass::relax);
+    work.run(Pass::end);
+    work.keep_changes();
+  }
+  if (work.bounces)
+    for (int i = 0; i < bounce_passes; ++i) work.run(Pass::bounce);
+  work.push_deep();
+  work.read_bodies();
+  work.read_points();
+}
+
+template class ContactSolver<2>;
+template class ContactSolver<3>;
+
+}  // namespace talus

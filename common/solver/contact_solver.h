@@ -1,0 +1,116 @@
+#pragma once
+// The contact solver of all engines: small steps with soft contacts.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// Single precision, as the engines have it. Spins and turns are one number in 2D (counter-clockwise), a vector in 3D.
+template <int Dim>
+using VecF = Eigen::Matrix<float, Dim, 1>;
+template <int Dim>
+using SpinF = Eigen::Matrix<float, Dim == 2 ? 1 : 3, 1>;
+template <int Dim>
+using InertiaF = Eigen::Matrix<float, Dim == 2 ? 1 : 3, Dim == 2 ? 1 : 3>;
+
+/// A body in the solver.
+///
+/// Awake: its mass, and `moves`. Asleep: its mass too, but it does not move, so that contacts with it are as stiff as
+/// when it was awake (else each sleep under load would shift what rests on it). An obstacle: no inverse mass; one that
+/// moves has its velocity, which stays.
+template <int Dim>
+struct SolverBody {
+  VecF<Dim> velocity = VecF<Dim>::Zero();                 // [m/s], before and after
+  SpinF<Dim> spin = SpinF<Dim>::Zero();                   // [rad/s], before and after
+  SpinF<Dim> free_spin_change = SpinF<Dim>::Zero();       // within the step without contacts: gyroscopic [rad/s]
+  float inverse_mass = 0.0F;                              // [1/kg]
+  InertiaF<Dim> inverse_inertia = InertiaF<Dim>::Zero();  // in world axes [1/(kg m^2)]
+  bool moves = false;                                     // impulses and gravity act on it
+  VecF<Dim> way = VecF<Dim>::Zero();                      // after: motion in the step [m]
+  SpinF<Dim> turn = SpinF<Dim>::Zero();                   // after: rotation in the step [rad]
+};
+
+/// A point where two bodies touch or may touch within the step. All impulses act on b, their opposites on a.
+///
+/// What is carried from step to step is kept by the caller with the point: impulses of the last sub-step times the
+/// number of sub-steps, so that they are of the size of a step's.
+template <int Dim>
+struct ContactPoint {
+  int a = 0;  // slots of the bodies; 0 never moves
+  int b = 0;
+  VecF<Dim> normal = VecF<Dim>::Unit(Dim - 1);  // unit, from a to b
+  VecF<Dim> arm_a = VecF<Dim>::Zero();          // from the centre of a to the point [m]
+  VecF<Dim> arm_b = VecF<Dim>::Zero();
+  float gap = 0.0F;  // at the start of the step; overlap is negative [m]
+  float friction = 0.0F;
+  float restitution = 0.0F;
+  float rolling_arm =
+      0.0F;  // largest torque against relative spin, over the normal force [m]; of the pair's first point
+
+  // Carried in and out.
+  float normal_impulse = 0.0F;                      // [N s]
+  VecF<Dim> friction_impulse = VecF<Dim>::Zero();   // in the world's axes [N s]
+  SpinF<Dim> rolling_impulse = SpinF<Dim>::Zero();  // of the pair's first point [N m s]
+
+  // After the step.
+  float normal_sum = 0.0F;                     // impulse of the whole step [N s]
+  VecF<Dim> friction_sum = VecF<Dim>::Zero();  // [N s]
+  float approach_speed = 0.0F;                 // before the step [m/s]
+};
+
+/// What the steps of one world have in common.
+struct ContactSolverParams {
+  int sub_steps = 8;
+  float restitution_threshold = 0.5F;  // slower approaches do not bounce [m/s]
+  float deep = 0.01F;                  // overlap beyond this is moved apart without giving velocity [m]
+};
+
+/// Which version of the solver's inner loops: all give the same bits.
+enum class SolverLanes { plain, sse2, avx2 };
+/// The versions that this build and this processor have, the fastest last.
+std::span<const SolverLanes> solver_lanes();
+
+/// Solves the contacts of one step at a time: `sub_steps` short steps of one pass over the contacts each (Macklin et
+/// al. 2019, "Small steps in physics simulation"), with contacts as stiff springs and a second pass without the springs
+/// ("soft step" of Box2D v3). No detection between them: gaps follow from the bodies' motion. Measured in its own tests
+/// and in docs/method.md.
+///
+/// Fill: start(), add bodies, then points; those of one pair side by side are solved together. Then solve(), then read
+/// bodies and points. Memory is kept from step to step.
+template <int Dim>
+class ContactSolver {
+ public:
+  explicit ContactSolver(SolverLanes lanes = solver_lanes().back());
+  ContactSolver(const ContactSolver&) = delete;
+  ContactSolver& operator=(const ContactSolver&) = delete;
+  ~ContactSolver();
+
+  /// Forgets bodies and points, but for body 0, which never moves.
+  void start();
+  /// Returns the body's slot.
+  int add(const SolverBody<Dim>& body) {
+    bodies_.push_back(body);
+    return static_cast<int>(bodies_.size()) - 1;
+  }
+  void add(const ContactPoint<Dim>& point) { points_.push_back(point); }
+
+  /// Advances velocities by `dt` [s] under `gravity` [m/s^2]. The caller moves the bodies by `way` and `turn`.
+  void solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt);
+
+  const SolverBody<Dim>& body(int slot) const { return bodies_[slot]; }
+  /// In the order in which they were added.
+  std::span<const ContactPoint<Dim>> points() const { return points_; }
+
+ private:
+  struct Work;
+
+  std::vector<SolverBody<Dim>> bodies_;
+  std::vector<ContactPoint<Dim>> points_;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace talus

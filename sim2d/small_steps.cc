@@ -1,0 +1,353 @@
+#include "sim2d/small_steps.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "common/shape/piece.h"
+#include "sim2d/conversions.h"
+
+namespace talus::box2d {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+VecF<2> vector(const b2Vec2& v) { return {v.x, v.y}; }
+b2Vec2 to_box2d(const VecF<2>& v) { return {v.x(), v.y()}; }
+
+float skin_of(const b2Fixture& fixture) {
+  return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
+}
+
+/// What contact_margin has added to a fixture's skin.
+float margin_of(const b2Fixture& fixture) {
+  return fixture.GetType() == b2Shape::e_polygon ? fixture.GetShape()->m_radius - b2_polygonRadius : 0.0F;
+}
+
+/// Collects the fixtures in a box.
+class FixtureFinder final : public b2QueryCallback {
+ public:
+  explicit FixtureFinder(std::vector<b2Fixture*>& found) : found_(&found) {}
+  bool ReportFixture(b2Fixture* fixture) override {
+    found_->push_back(fixture);
+    return true;
+  }
+
+ private:
+  std::vector<b2Fixture*>* found_;
+};
+
+/// A copy of a fixture's shape whose skin is `more` thicker.
+EnginePiece thickened(const b2Fixture& fixture, float more) {
+  if (fixture.GetType() == b2Shape::e_circle) {
+    b2CircleShape circle = static_cast<const b2CircleShape&>(*fixture.GetShape());
+    circle.m_radius += more;
+    return circle;
+  }
+  b2PolygonShape polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
+  polygon.m_radius += more;
+  return polygon;
+}
+
+/// Contact of two shapes, of which the second is a disc or a polygon and the first may be a line too. Returns whether
+/// they were swapped, as Box2D has it.
+bool collide(b2Manifold& manifold, const b2Shape& a, const b2Transform& at_a, const b2Shape& b,
+             const b2Transform& at_b) {
+  const auto disc = [](const b2Shape& shape) { return static_cast<const b2CircleShape*>(&shape); };
+  const auto polygon = [](const b2Shape& shape) { return static_cast<const b2PolygonShape*>(&shape); };
+  const bool b_is_disc = b.GetType() == b2Shape::e_circle;
+  switch (a.GetType()) {
+    case b2Shape::e_edge:
+      if (b_is_disc)
+        b2CollideEdgeAndCircle(&manifold, static_cast<const b2EdgeShape*>(&a), at_a, disc(b), at_b);
+      else
+        b2CollideEdgeAndPolygon(&manifold, static_cast<const b2EdgeShape*>(&a), at_a, polygon(b), at_b);
+      return false;
+    case b2Shape::e_circle:
+      if (b_is_disc) {
+        b2CollideCircles(&manifold, disc(a), at_a, disc(b), at_b);
+        return false;
+      }
+      b2CollidePolygonAndCircle(&manifold, polygon(b), at_b, disc(a), at_a);
+      return true;
+    default:
+      if (b_is_disc)
+        b2CollidePolygonAndCircle(&manifold, polygon(a), at_a, disc(b), at_b);
+      else
+        b2CollidePolygons(&manifold, polygon(a), at_a, polygon(b), at_b);
+      return false;
+  }
+}
+
+}  // namespace
+
+SmallSteps::SmallSteps(const WorldDescription<2>& description)
+    : params_{.sub_steps = description.solver.sub_steps,
+              .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
+      dt_(static_cast<float>(description.dt)) {
+  double thinnest = std::numeric_limits<double>::infinity();
+  bool rolls = false;
+  for (const Shape<2>& shape : description.shapes) {
+    reach_ = std::max(reach_, static_cast<float>(shape.extent));
+    for (const Piece<2>& piece : shape.pieces) thinnest = std::min(thinnest, smallest_width(piece));
+    arms_.push_back(rolling_arm(shape));
+    rolls = rolls || arms_.back() > 0.0;
+  }
+  if (!rolls) arms_.clear();
+  fast_ = static_cast<float>(thinnest / 4.0);
+}
+
+EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
+  const double start = now();
+  // Box2D gives access to its contact manager for reading only.
+  const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
+  solver_.start();
+  sources_.clear();
+  add_bodies(input, bodies);
+  find_ahead(world, input, bodies);
+  const double collided = now();
+  add_contacts(world, input);
+  solver_.solve(params_, vector(world.GetGravity()), dt_);
+  write_impulses();
+  const double solved = now();
+  move_bodies(input.awake, bodies);
+  for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
+  sleepers_.clear();
+  for (const BodyIndex body : input.awake) slots_[body] = 0;
+  const double end = now();
+  return {.collide = collided - start + end - solved, .solve = solved - collided};
+}
+
+void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bodies) {
+  slots_.resize(input.states.shape.size(), 0);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const b2Body& from = *bodies[i];
+    const b2MassData& mass = input.templates[input.states.shape[input.awake[i]]].mass;
+    SolverBody<2> body;
+    body.velocity = vector(from.GetLinearVelocity());
+    body.spin[0] = from.GetAngularVelocity();
+    body.inverse_mass = 1.0F / mass.mass;
+    body.inverse_inertia(0, 0) = 1.0F / mass.I;
+    body.moves = true;
+    slots_[input.awake[i]] = solver_.add(body);
+  }
+  obstacle_slots_.assign(input.obstacles.size(), 0);
+  for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
+    const b2Body* from = input.obstacles[i];
+    if (from == nullptr || from->GetType() != b2_kinematicBody) continue;
+    SolverBody<2> body;
+    body.velocity = vector(from->GetLinearVelocity());
+    body.spin[0] = from->GetAngularVelocity();
+    obstacle_slots_[i] = solver_.add(body);
+  }
+}
+
+int SmallSteps::slot_of(b2Fixture& fixture, const StepInput& input) {
+  const BodyIndex owner = owner_of(fixture);
+  if (owner <= first_obstacle) return obstacle_slots_[first_obstacle - owner];
+  if (owner < 0) return 0;
+  if (slots_[owner] == 0) {
+    const b2MassData& mass = input.templates[input.states.shape[owner]].mass;
+    SolverBody<2> sleeper;
+    sleeper.inverse_mass = 1.0F / mass.mass;
+    sleeper.inverse_inertia(0, 0) = 1.0F / mass.I;
+    slots_[owner] = solver_.add(sleeper);
+    sleepers_.push_back(owner);
+  }
+  return slots_[owner];
+}
+
+/// A sleeper's body in Box2D is one that it shares with others.
+b2Vec2 SmallSteps::centre_of(b2Fixture& fixture, const BodyStates<2>& states) const {
+  const BodyIndex owner = owner_of(fixture);
+  return owner >= 0 && !is_dynamic(*fixture.GetBody()) ? to_engine(states.pose[owner].position)
+                                                       : fixture.GetBody()->GetWorldCenter();
+}
+
+void SmallSteps::add_contacts(b2World& world, const StepInput& input) {
+  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext()) {
+    if (!contact->IsTouching()) continue;
+    b2WorldManifold place;
+    contact->GetWorldManifold(&place);
+    add_points(
+        {contact->GetFixtureA(), contact->GetFixtureB(), contact->GetFriction(), contact->GetRestitution(), contact},
+        *contact->GetManifold(), place, input);
+  }
+}
+
+void SmallSteps::add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
+                            const StepInput& input) {
+  ContactPoint<2> point;
+  point.a = slot_of(*pair.a, input);
+  point.b = slot_of(*pair.b, input);
+  point.normal = vector(place.normal);
+  point.friction = pair.friction;
+  point.restitution = pair.restitution;
+  if (!arms_.empty()) add_rolling(pair, input, point);
+  const b2Vec2 centre_a = centre_of(*pair.a, input.states);
+  const b2Vec2 centre_b = centre_of(*pair.b, input.states);
+  const VecF<2> tangent = vector(b2Cross(place.normal, 1.0F));
+  const float margin = margin_of(*pair.a) + margin_of(*pair.b);
+  for (int i = 0; i < manifold.pointCount; ++i) {
+    point.arm_a = vector(place.points[i] - centre_a);
+    point.arm_b = vector(place.points[i] - centre_b);
+    point.gap = place.separations[i] + margin;
+    if (pair.contact != nullptr) {
+      point.normal_impulse = manifold.points[i].normalImpulse;
+      point.friction_impulse = manifold.points[i].tangentImpulse * tangent;
+    }
+    solver_.add(point);
+    sources_.push_back(
+        {tag_of(*pair.a), tag_of(*pair.b), pair.contact, i, skin_of(*pair.a) + skin_of(*pair.b) - margin});
+  }
+}
+
+void SmallSteps::add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const {
+  const auto arm_of = [&](b2Fixture& fixture) {
+    const BodyIndex owner = owner_of(fixture);
+    return owner >= 0 ? std::optional(arms_[input.states.shape[owner]]) : std::optional<double>();
+  };
+  point.rolling_arm = static_cast<float>(arm_of_pair(arm_of(*pair.a), arm_of(*pair.b)));
+  const Tag a = tag_of(*pair.a);
+  const Tag b = tag_of(*pair.b);
+  const auto key = [](const Rolling& each) { return std::tuple(each.low, each.high); };
+  const auto found = std::ranges::lower_bound(rolling_, std::tuple(std::min(a, b), std::max(a, b)), {}, key);
+  if (found != rolling_.end() && key(*found) == std::tuple(std::min(a, b), std::max(a, b)))
+    point.rolling_impulse[0] = b == found->high ? found->impulse : -found->impulse;
+}
+
+float SmallSteps::way_of(const b2Body& body) const {
+  return dt_ * (body.GetLinearVelocity().Length() + reach_ * std::abs(body.GetAngularVelocity()));
+}
+
+bool SmallSteps::is_fast(const b2Body& body) const { return is_dynamic(body) && way_of(body) > fast_; }
+
+/// Contacts of fast bodies that begin within the step: found once they overlap, they might be beyond each other.
+void SmallSteps::find_ahead(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
+  for (b2Body* body : bodies) {
+    if (!is_fast(*body)) continue;
+    for (b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
+      find_ahead(world, input, *fixture);
+  }
+}
+
+void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture) {
+  const b2Body& body = *fixture.GetBody();
+  const b2Vec2 way = dt_ * body.GetLinearVelocity();
+  const float turn = dt_ * reach_ * std::abs(body.GetAngularVelocity());
+  b2AABB box = fixture.GetAABB(0);
+  b2AABB end = {box.lowerBound + way, box.upperBound + way};
+  box.Combine(end);
+  box.lowerBound -= b2Vec2(turn, turn);
+  box.upperBound += b2Vec2(turn, turn);
+  found_.clear();
+  FixtureFinder finder(found_);
+  world.QueryAABB(&finder, box);
+  std::erase_if(found_, [&](b2Fixture* other) {
+    const b2Body& of_other = *other->GetBody();
+    return &of_other == &body || (is_fast(of_other) && tag_of(*other) < tag_of(fixture));  // found from there
+  });
+  for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next)
+    if (edge->contact->IsTouching() &&
+        (edge->contact->GetFixtureA() == &fixture || edge->contact->GetFixtureB() == &fixture))
+      std::erase(found_, edge->contact->GetFixtureA() == &fixture ? edge->contact->GetFixtureB()
+                                                                  : edge->contact->GetFixtureA());
+  std::ranges::sort(found_, {}, [](b2Fixture* other) { return tag_of(*other); });
+  for (b2Fixture* other : found_) {
+    const b2Body& of_other = *other->GetBody();
+    const float ahead = (of_other.GetLinearVelocity() - body.GetLinearVelocity()).Length() * dt_ + turn +
+                        dt_ * reach_ * std::abs(of_other.GetAngularVelocity());
+    const EnginePiece thick = thickened(fixture, ahead);
+    b2Manifold manifold;
+    manifold.pointCount = 0;
+    const bool swapped =
+        collide(manifold, *other->GetShape(), of_other.GetTransform(), base(thick), body.GetTransform());
+    if (manifold.pointCount == 0) continue;
+    Fixtures pair{other, &fixture, b2MixFriction(other->GetFriction(), fixture.GetFriction()),
+                  std::sqrt(other->GetRestitution() * fixture.GetRestitution()), nullptr};
+    if (swapped) std::swap(pair.a, pair.b);
+    b2WorldManifold place;
+    place.Initialize(&manifold, pair.a->GetBody()->GetTransform(), pair.a->GetShape()->m_radius,
+                     pair.b->GetBody()->GetTransform(), pair.b->GetShape()->m_radius);
+    add_points(pair, manifold, place, input);
+  }
+}
+
+void SmallSteps::write_impulses() {
+  rolling_.clear();
+  const auto points = solver_.points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContactPoint<2>& point = points[i];
+    const Source& source = sources_[i];
+    if (source.contact != nullptr) {
+      b2ManifoldPoint& stored = source.contact->GetManifold()->points[source.number];
+      stored.normalImpulse = point.normal_impulse;
+      stored.tangentImpulse = point.friction_impulse.dot(VecF<2>(point.normal.y(), -point.normal.x()));
+    }
+    if (point.rolling_arm > 0.0F && source.number == 0 && point.rolling_impulse[0] != 0.0F)
+      rolling_.push_back({std::min(source.a, source.b), std::max(source.a, source.b),
+                          source.b > source.a ? point.rolling_impulse[0] : -point.rolling_impulse[0]});
+  }
+  std::ranges::sort(rolling_, {}, [](const Rolling& each) { return std::tuple(each.low, each.high); });
+}
+
+/// Box2D's own limits of a step hold.
+void SmallSteps::move_bodies(std::span<const BodyIndex> awake, std::span<b2Body* const> bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const SolverBody<2>& from = solver_.body(slots_[awake[i]]);
+    b2Body& body = *bodies[i];
+    const float longest = b2_maxTranslation / std::max(from.way.norm(), b2_maxTranslation);
+    const float largest = b2_maxRotation / std::max(std::abs(from.turn[0]), b2_maxRotation);
+    body.SetLinearVelocity(to_box2d(longest * from.velocity));
+    body.SetAngularVelocity(largest * from.spin[0]);
+    const b2Vec2 to = body.GetPosition() + to_box2d(longest * from.way);
+    const float angle = body.GetAngle() + largest * from.turn[0];
+    if (to.IsValid() && b2IsValid(angle)) body.SetTransform(to, angle);  // else the velocity tells it
+  }
+}
+
+void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& out) {
+  const auto awake = [&](BodyIndex body) { return body >= 0 && states.asleep[body] == 0; };
+  const auto swapped = [&](const Source& source) {
+    const BodyIndex a = owner_of(source.a);
+    const BodyIndex b = owner_of(source.b);
+    return !awake(a) || (awake(b) && b < a);
+  };
+  ordered_.resize(sources_.size());
+  for (std::size_t i = 0; i < ordered_.size(); ++i) ordered_[i] = i;
+  std::ranges::stable_sort(ordered_, {}, [&](std::size_t i) {
+    const Source& source = sources_[i];
+    const bool swap = swapped(source);
+    const Tag first = swap ? source.b : source.a;
+    const Tag second = swap ? source.a : source.b;
+    return std::tuple(owner_of(first), owner_of(second), second, first);
+  });
+  for (const std::size_t i : ordered_) {
+    const Source& source = sources_[i];
+    const ContactPoint<2>& point = solver_.points()[i];
+    const SolverBody<2>& a = solver_.body(point.a);
+    const SolverBody<2>& b = solver_.body(point.b);
+    const auto moved = [](const SolverBody<2>& body, const VecF<2>& arm) -> VecF<2> {
+      return body.way + body.turn[0] * VecF<2>(-arm.y(), arm.x());
+    };
+    const float gap = point.gap + point.normal.dot(moved(b, point.arm_b) - moved(a, point.arm_a));
+    if (source.contact == nullptr && point.normal_sum == 0.0F) continue;  // did not touch
+    const bool swap = swapped(source);
+    const double sign = swap ? 1.0 : -1.0;  // the result's normal points to its first body
+    Contact<2>& contact = out.emplace_back();
+    contact.a = owner_of(swap ? source.b : source.a);
+    contact.b = owner_of(swap ? source.a : source.b);
+    const BodyIndex mover = contact.a;
+    const VecF<2>& arm = swap ? point.arm_b : point.arm_a;
+    contact.point = states.pose[mover].position + arm.cast<double>();
+    contact.normal = sign * point.normal.cast<double>();
+    contact.normal_impulse = point.normal_sum;
+    contact.friction_impulse = sign * point.friction_sum.cast<double>();
+    contact.approach_speed = std::max(0.0F, point.approach_speed);
+    contact.depth = -static_cast<double>(gap + source.skins);
+  }
+}
+
+}  // namespace talus::box2d

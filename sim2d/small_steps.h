@@ -1,0 +1,90 @@
+#pragma once
+// A step of a Box2D world in which Box2D detects contacts and the common solver solves them.
+
+#include <box2d/box2d.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/solver/contact_solver.h"
+#include "common/world/world.h"
+#include "sim2d/body_template.h"
+#include "sim2d/tag.h"
+
+namespace talus::box2d {
+
+/// What the solver is given of a world, besides what Box2D keeps.
+struct StepInput {
+  std::span<const BodyIndex> awake;
+  const BodyStates<2>& states;              // of the start of the step
+  std::span<const BodyTemplate> templates;  // by shape
+  std::span<b2Body* const> obstacles;       // null: removed
+};
+
+/// Box2D keeps its bodies, broad phase, narrow phase and manifolds, in which the impulses are carried from step to
+/// step. Sleepers are in the solver with their mass, see SolverBody.
+class SmallSteps {
+ public:
+  explicit SmallSteps(const WorldDescription<2>& description);
+
+  /// In place of b2World::Step(); Box2D must know all pairs.
+  EngineTimes step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
+
+  /// Appends the contacts of the last step, sorted by their bodies and pieces. Each is listed once: that of two awake
+  /// bodies under the one with the lower index.
+  void gather(const BodyStates<2>& states, std::vector<Contact<2>>& out);
+
+ private:
+  /// Where a point of the solver comes from.
+  struct Source {
+    Tag a{};
+    Tag b{};
+    b2Contact* contact = nullptr;  // null: found ahead
+    int number = 0;                // of the manifold's point
+    float skins = 0.0F;            // of both shapes [m]
+  };
+  /// A rolling impulse, from the last step to the next.
+  struct Rolling {
+    Tag low{};
+    Tag high{};
+    float impulse = 0.0F;  // on the owner of `high` [N m s]
+  };
+  struct Fixtures {
+    b2Fixture* a = nullptr;
+    b2Fixture* b = nullptr;
+    float friction = 0.0F;
+    float restitution = 0.0F;
+    b2Contact* contact = nullptr;
+  };
+
+  void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
+  int slot_of(b2Fixture& fixture, const StepInput& input);
+  b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states) const;
+  void add_contacts(b2World& world, const StepInput& input);
+  void add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
+                  const StepInput& input);
+  void add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const;
+  void find_ahead(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
+  void find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture);
+  bool is_fast(const b2Body& body) const;
+  float way_of(const b2Body& body) const;
+  void write_impulses();
+  void move_bodies(std::span<const BodyIndex> awake, std::span<b2Body* const> bodies);
+
+  ContactSolverParams params_;
+  float dt_;
+  float fast_ = 0.0F;         // way in a step of any point of a body beyond which its contacts are sought ahead [m]
+  float reach_ = 0.0F;        // from a body's centre to any point of it at most, over all shapes [m]
+  std::vector<double> arms_;  // by shape [m]; empty: no rolling friction
+  ContactSolver<2> solver_;
+  std::vector<Source> sources_;       // by point
+  std::vector<int> slots_;            // by body; 0: not in this step yet
+  std::vector<BodyIndex> sleepers_;   // in this step
+  std::vector<int> obstacle_slots_;   // by number
+  std::vector<Rolling> rolling_;      // of the last step, sorted
+  std::vector<b2Fixture*> found_;     // scratch
+  std::vector<std::size_t> ordered_;  // scratch
+};
+
+}  // namespace talus::box2d

@@ -1,0 +1,62 @@
+#pragma once
+// Bullet's contact points through the solver of all engines.
+
+#include <btBulletDynamicsCommon.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/solver/contact_solver.h"
+#include "common/world/world_description.h"
+
+namespace talus::bullet {
+
+/// In the place of Bullet's islands and solver (solver.kind = small_steps): the points of all manifolds go through
+/// ContactSolver once a step. In the plane through that of two dimensions: points that lie behind each other, at the
+/// front and the back of two bodies, are one there.
+///
+/// A point keeps the impulses of the last sub-step as Bullet's applied impulses, so that they stay with it from step to
+/// step and over a sleep (WarmStart); impulse_of_step() and friction_of_step() are the sums.
+template <int Dim>
+class SmallSteps {
+ public:
+  /// `rolling_friction`: whether a shape has any.
+  SmallSteps(const SolverParams& params, double dt, bool rolling_friction);
+
+  /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves them with the mean velocity of the step,
+  /// by which Bullet is to move them.
+  void solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const btVector3& gravity);
+
+  /// After they have moved: gives them the velocity at the end of the step.
+  void finish(std::span<btRigidBody* const> bodies) const;
+
+ private:
+  void add_bodies(std::span<btRigidBody* const> bodies);
+  void add_points(btDispatcher& dispatcher);
+  void add_points(btPersistentManifold& manifold, int a, int b);
+  int add_point(const ContactPoint<Dim>& contact, int first);
+  int slot_of(const btCollisionObject& object);
+  void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
+  void write_points();
+  SpinF<Dim> rolling_of_last_step(const btManifoldPoint& point) const;
+
+  /// A point of Bullet's and the solver's that it is part of.
+  struct Source {
+    btManifoldPoint* point;
+    int contact;
+  };
+
+  ContactSolverParams params_;
+  float dt_;
+  bool rolling_friction_;
+  ContactSolver<Dim> solver_;
+  std::vector<ContactPoint<Dim>> contacts_;  // to come, of one manifold
+  std::vector<Source> sources_;
+  std::vector<int> parts_;                  // by contact: its points of Bullet's
+  std::vector<btCollisionObject*> others_;  // sleepers and moving obstacles that have a slot
+  std::vector<SpinF<Dim>> rolling_;         // by contact of the last step: its impulse [N m s times the mass scale]
+  std::uint32_t step_ = 0;
+};
+
+}  // namespace talus::bullet
