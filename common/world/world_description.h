@@ -41,7 +41,7 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
       .choices = solver_kinds,
       .meaning = "the solver of contacts: the engine's own solver, or the one of this project on the engine's "
                  "collision detection, in `sub_steps` short steps a step. Small steps bring a heap to rest and hold "
-                 "towers and any mass ratio; `velocity_iterations`, `position_iterations`, `friction_directions` and "
+                 "towers; `velocity_iterations`, `position_iterations`, `friction_directions` and "
                  "`warm_friction` mean nothing to it. Not with the policy `engine`"}},
     {&SolverParams::sub_steps,
      {.name = "sub_steps",
