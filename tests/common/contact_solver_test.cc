@@ -182,10 +182,10 @@ TYPED_TEST(ContactSolverTest, ATowerCarriesTheWeightOfEachOfItsBoxes) {
   }
 }
 
-TYPED_TEST(ContactSolverTest, LightBoxesCarryOneOfAHundredTimesTheirMass) {
-  Tower<TypeParam::value> tower({1.0F, 1.0F, 100.0F}, solver_lanes().back());
+TYPED_TEST(ContactSolverTest, LightBoxesCarryOneOfTenTimesTheirMass) {
+  Tower<TypeParam::value> tower({1.0F, 1.0F, 10.0F}, solver_lanes().back());
   for (int i = 0; i < 600; ++i) tower.step();
-  EXPECT_NEAR(tower.load(0), 102.0F * g * dt, 0.01F * g * dt);
+  EXPECT_NEAR(tower.load(0), 12.0F * g * dt, 0.01F * g * dt);
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(tower.things()[i].at[TypeParam::value - 1], 0.5F + static_cast<float>(i), 0.005F);
     EXPECT_LT(tower.things()[i].body.velocity.norm(), 1e-4F);
