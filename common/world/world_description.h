@@ -2,6 +2,7 @@
 // All that an engine needs before the first body exists.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
