@@ -21,10 +21,10 @@ using talus_lcm::talus_stats;
 std::uint64_t fingerprint(std::int64_t hash) { return static_cast<std::uint64_t>(hash); }
 
 TEST(Fingerprint, OfEachTypeIsPinned) {
-  EXPECT_EQ(fingerprint(talus_run::getHash()), 0x3A8303AAF107E103U);
+  EXPECT_EQ(fingerprint(talus_run::getHash()), 0xE650608B22C8C68AU);
   EXPECT_EQ(fingerprint(talus_piles::getHash()), 0x9478FDAFE464F6D2U);
   EXPECT_EQ(fingerprint(talus_sleep::getHash()), 0x81A04516E02D7E80U);
-  EXPECT_EQ(fingerprint(talus_stats::getHash()), 0xC80DBD6204EA8130U);
+  EXPECT_EQ(fingerprint(talus_stats::getHash()), 0x2045780C8D6043CDU);
   EXPECT_EQ(fingerprint(talus_bodies::getHash()), 0xC6FA8471FD1162E7U);
   EXPECT_EQ(fingerprint(talus_shapes::getHash()), 0xAB1C584AF8545F4CU);
   EXPECT_EQ(fingerprint(talus_event::getHash()), 0x08CAFE02AB0A6093U);
