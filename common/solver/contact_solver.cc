@@ -11,7 +11,20 @@
 
 namespace talus {
 
-using namespace solver;
+using solver::ContactBlock;
+using solver::Eight;
+using solver::Kernel;
+using solver::Pass;
+using solver::PointBlock;
+using solver::Quad;
+using solver::RollingBlock;
+using solver::lanes_of_a_block;
+using solver::points_of_a_group;
+using solver::quads_of_a_body;
+using solver::solve_avx2;
+using solver::solve_plain;
+using solver::solve_sse2;
+using solver::spin_size;
 
 namespace {
 

@@ -79,7 +79,7 @@ void check(const WorldDescription<Dim>& description) {
   check_fields(description.solver, solver_fields, "world.solver");
   require(!description.engine_sleep || !description.solver.small_steps(), "world.solver.kind",
           fmt::format("\"{}\"", description.solver.kind),
-          "must be \"engine\" with the policy \"engine\": the engine's own sleep follows its own solver");
+          R"(must be "engine" with the policy "engine": the engine's own sleep follows its own solver)");
   if (description.ground.present) {
     check_fields(description.ground, ground_fields, "world.ground");
     check_material(description.ground.material, "world.ground.material");
