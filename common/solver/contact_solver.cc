@@ -14,13 +14,13 @@ namespace talus {
 using solver::ContactBlock;
 using solver::Eight;
 using solver::Kernel;
+using solver::lanes_of_a_block;
 using solver::Pass;
 using solver::PointBlock;
-using solver::Quad;
-using solver::RollingBlock;
-using solver::lanes_of_a_block;
 using solver::points_of_a_group;
+using solver::Quad;
 using solver::quads_of_a_body;
+using solver::RollingBlock;
 using solver::solve_avx2;
 using solver::solve_plain;
 using solver::solve_sse2;
