@@ -12,8 +12,8 @@
 
 #include "common/pile/angle_of_repose.h"
 #include "common/pile/pile_fields.h"
-#include "common/policy/policy_fields.h"
 #include "common/scene/include.h"
+#include "common/scene/policy_fields.h"
 #include "common/scene/read_body.h"
 #include "common/scene/read_event.h"
 #include "common/scene/read_motion.h"

@@ -10,7 +10,7 @@
 
 #include "common/mesh/mesh_shape.h"
 #include "common/pile/pile_fields.h"
-#include "common/policy/policy_fields.h"
+#include "common/scene/policy_fields.h"
 #include "common/scene/read_body.h"
 #include "common/scene/read_motion.h"
 #include "common/scene/read_obstacle.h"

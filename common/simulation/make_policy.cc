@@ -2,7 +2,7 @@
 
 #include "common/policy/adaptive/adaptive_policy.h"
 #include "common/policy/paper_policy.h"
-#include "common/policy/policy_fields.h"
+#include "common/scene/policy_fields.h"
 #include "common/scene/scene_fields.h"
 #include "common/scene/typical_body.h"
 

@@ -55,11 +55,11 @@ struct SmallSteps {
 };
 
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
-using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar>;
 #elif defined(TALUS_BOX2D)
 using Backends = ::testing::Types<Box2d>;
 #else
-using Backends = ::testing::Types<Bullet, BulletPlanar, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+using Backends = ::testing::Types<Bullet, BulletPlanar>;
 #endif
 
 /// Whether it can run a policy: only an engine's own solver has the engine's sleep.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/pile/pile_fields.h"
-#include "common/policy/policy_fields.h"
+#include "common/scene/policy_fields.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_fields.h"
 #include "common/scene/toml_text.h"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "common/pile/pile_fields.h"
-#include "common/policy/policy_fields.h"
+#include "common/scene/policy_fields.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_fields.h"
 #include "common/shape/catalogue.h"

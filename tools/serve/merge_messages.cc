@@ -67,6 +67,7 @@ std::vector<BodyEntry> merged(std::span<const BodyEntry> older, std::span<const 
   return all;
 }
 
+/// Its last message has the number of `header`, those before the numbers below: a reader drops what it has had.
 void append_bodies(std::span<const BodyEntry> entries, const talus_bodies& header, bool key_frame, std::string& log) {
   constexpr std::size_t most = 1500;  // in one message: in 3D of 35 bytes each
   MessageEncoder encoder(header.run_id);
@@ -85,8 +86,8 @@ void append_bodies(std::span<const BodyEntry> entries, const talus_bodies& heade
     }
     message.body_count = static_cast<std::int32_t>(message.body.size());
     message.value_count = static_cast<std::int32_t>(message.poses.size());
-    const Packet packet =
-        encoder.encode(message, {.utime = header.utime, .step = header.step, .sim_time = header.sim_time});
+    Packet packet = encoder.encode(message, {.utime = header.utime, .step = header.step, .sim_time = header.sim_time});
+    renumber(packet.bytes, std::max<std::int64_t>(0, header.seq - static_cast<std::int64_t>(parts - 1 - part)));
     append_event(log, 0, packet.utime, packet.channel, packet.bytes);
   }
 }
@@ -108,7 +109,7 @@ std::string merge_messages(std::string_view first, std::string_view second) {
   }
   for (const LogEvent& event : b.others) append(event, log);
   if (a.bodies.empty() && b.bodies.empty()) return log;
-  const talus_bodies& header = b.bodies.empty() ? a.bodies.front() : b.bodies.front();
+  const talus_bodies& header = b.bodies.empty() ? a.bodies.back() : b.bodies.back();
   const std::vector<BodyEntry> newer = entries_of(b.bodies);
   append_bodies(b.key_frame() ? newer : merged(entries_of(a.bodies), newer), header, a.key_frame() || b.key_frame(),
                 log);
