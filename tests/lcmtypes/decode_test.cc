@@ -185,6 +185,7 @@ TEST(Decoder, RefusesWarningsThatNoRunGives) {
     stats.warning_body.assign(number, 0);
     stats.warning_bodies.assign(number, 1);
     stats.warning_value.assign(number, value);
+    stats.warning_text.assign(number, "");
     return fault_of<talus_stats>(encoder.encode(stats, {0, 1, 0.5}).bytes);
   };
   EXPECT_EQ(fault(talus_stats::OVERLAP, 1, 1.0, 7), "");
