@@ -102,6 +102,7 @@ void MomentReader::place_pile(std::size_t number, const talus_lcm::talus_pile& m
   std::vector<Pile<3>>& piles = moment_.piles;
   const std::size_t before = number < piles.size() ? piles[number].layers.size() : 0;
   if (number >= static_cast<std::size_t>(limits_.piles) || layers_ - before + message.layers.size() > limits_.layers) {
+    if (limits_.from_start) throw std::invalid_argument("more piles or layers than a run can have");
     ++piles_left_out_;
     return;
   }

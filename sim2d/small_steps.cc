@@ -226,22 +226,26 @@ bool SmallSteps::is_fast(const b2Body& body) const { return is_dynamic(body) && 
 
 /// Contacts of fast bodies that begin within the step: found once they overlap, they might be beyond each other.
 void SmallSteps::find_ahead(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
+  float longest = 0.0F;
+  for (const b2Body* body : bodies) longest = std::max(longest, way_of(*body));
   for (b2Body* body : bodies) {
     if (!is_fast(*body)) continue;
     for (b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
-      find_ahead(world, input, *fixture);
+      find_ahead(world, input, *fixture, longest);
   }
 }
 
-void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture) {
+/// `others`: the longest way of any body in the step [m].
+void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture, float others) {
   const b2Body& body = *fixture.GetBody();
   const b2Vec2 way = dt_ * body.GetLinearVelocity();
   const float turn = dt_ * reach_ * std::abs(body.GetAngularVelocity());
   b2AABB box = fixture.GetAABB(0);
   b2AABB end = {box.lowerBound + way, box.upperBound + way};
   box.Combine(end);
-  box.lowerBound -= b2Vec2(turn, turn);
-  box.upperBound += b2Vec2(turn, turn);
+  const b2Vec2 around(turn + others, turn + others);
+  box.lowerBound -= around;
+  box.upperBound += around;
   found_.clear();
   FixtureFinder finder(found_);
   world.QueryAABB(&finder, box);

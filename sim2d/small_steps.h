@@ -66,7 +66,7 @@ class SmallSteps {
                   const StepInput& input);
   void add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const;
   void find_ahead(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
-  void find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture);
+  void find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture, float others);
   bool is_fast(const b2Body& body) const;
   float way_of(const b2Body& body) const;
   void write_impulses();

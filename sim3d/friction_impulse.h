@@ -18,8 +18,8 @@ inline void set_friction_impulse(btManifoldPoint& point, const btVector3& impuls
   point.m_appliedImpulseLateral2 = impulse.dot(point.m_lateralFrictionDir2);
 }
 
-/// Small steps (small_steps.h) keep the impulses of the whole step beside those that the next one starts at, in numbers
-/// of the point that only Bullet's own solver uses.
+/// Small steps (small_steps.h) store the impulses of the whole step beside those at which the next step starts: in
+/// fields of the point that only Bullet's own solver uses.
 inline void set_impulse_of_step(btManifoldPoint& point, btScalar normal, const btVector3& friction) {
   point.m_prevRHS = normal;
   point.m_contactMotion1 = friction.dot(point.m_lateralFrictionDir1);

@@ -24,15 +24,6 @@ void check_for_bullet(const WorldDescription<3>& description) {
   }
 }
 
-/// Free or held in a plane.
-template <int Dim>
-void check_small_steps(const WorldDescription<Dim>& description) {
-  if (!description.solver.small_steps()) return;
-  for (const Shape<Dim>& shape : description.shapes)
-    require(shape.material.rolling_friction == 0.0, "shape." + shape.name + ".rolling_friction",
-            shape.material.rolling_friction, R"(must be 0 on Bullet with the solver "small_steps")");
-}
-
 // Memory and time: 4000 boxes of 1 m that land at once, in their first two seconds.
 constexpr EngineTraits in_space = {
     .name = "bullet",
@@ -57,14 +48,12 @@ EngineTraits bullet_traits() { return in_space; }
 EngineTraits bullet_planar_traits() { return in_the_plane; }
 
 std::unique_ptr<World<3>> make_bullet_world(const WorldDescription<3>& description) {
-  check_small_steps(description);
   auto world = std::make_unique<bullet::EngineWorld<3>>(description);  // checks what every engine demands
   check_for_bullet(description);
   return world;
 }
 
 std::unique_ptr<World<2>> make_bullet_planar_world(const WorldDescription<2>& description) {
-  check_small_steps(description);
   return std::make_unique<bullet::EngineWorld<2>>(description);
 }
 

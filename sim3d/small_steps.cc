@@ -184,16 +184,14 @@ void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b) {
     contact.arm_b = to_solver<Dim>(point.getPositionWorldOnA() - centre_b);
     contact.gap = point.getDistance();
     contact.friction = point.m_combinedFriction;
+    contact.rolling_arm = static_cast<float>(arm);
     contact.restitution = point.m_combinedRestitution;
     contact.normal_impulse = point.m_appliedImpulse;
     contact.friction_impulse = to_solver<Dim>(friction_impulse(point));
     if (arm > 0.0) rolling += rolling_of_last_step(point);
     sources_.push_back({&point, add_point(contact, first)});
   }
-  if (!contacts_.empty()) {
-    contacts_[0].rolling_arm = static_cast<float>(arm);
-    contacts_[0].rolling_impulse = rolling;
-  }
+  if (!contacts_.empty()) contacts_[0].rolling_impulse = rolling;
   for (const ContactPoint<Dim>& contact : contacts_) solver_.add(contact);
 }
 
@@ -236,14 +234,15 @@ void SmallSteps<Dim>::write_points() {
     set_impulse_of_step(point, share * contact.normal_sum, from_solver<Dim>(share * contact.friction_sum));
   }
   if (!rolling_friction_) return;
-  // The mark outlives the point's finding anew in the next step. Nothing is called for it when the point goes.
+  // Bullet keeps the mark when it finds the point again in the next step, and calls nothing when the point ends.
   static_assert(sizeof(std::uintptr_t) == 8);
   for (const Source& source : sources_) {
     const std::uintptr_t mark = (std::uintptr_t{step_} << 32U) | static_cast<std::uint32_t>(source.contact);
     source.point->m_userPersistentData = reinterpret_cast<void*>(mark);  // NOLINT(performance-no-int-to-ptr)
   }
   rolling_.clear();
-  for (const ContactPoint<Dim>& contact : points) rolling_.push_back(contact.rolling_impulse);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    rolling_.push_back(points[i].rolling_impulse / static_cast<float>(parts_[i]));
 }
 
 template <int Dim>

@@ -55,8 +55,9 @@ class SmallSteps {
   std::vector<Source> sources_;
   std::vector<int> parts_;                  // by contact: its points of Bullet's
   std::vector<btCollisionObject*> others_;  // sleepers and moving obstacles that have a slot
-  std::vector<SpinF<Dim>> rolling_;         // by contact of the last step: its impulse [N m s times the mass scale]
-  std::uint32_t step_ = 0;
+  std::vector<SpinF<Dim>>
+      rolling_;  // by contact of the last step: share of each of its points of Bullet's [N m s times the mass scale]
+  std::uint32_t step_ = 1;  // number of the last one, from 2 on: the mark of a new point is 0
 };
 
 }  // namespace talus::bullet

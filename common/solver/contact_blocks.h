@@ -72,7 +72,7 @@ struct ContactBlock {
   Eight inverse_mass_b;
   Eight inverse_inertia_a[inertia_size<Dim>];
   Eight inverse_inertia_b[inertia_size<Dim>];
-  Eight rate;  // of the spring: speed of separation over overlap [1/s]
+  Eight rate;  // of the spring: the speed at which it separates the bodies, per metre of overlap [1/s]
   std::int32_t first_point;
   std::int32_t points;
   std::int32_t rolling;  // number of its RollingBlock; -1: none

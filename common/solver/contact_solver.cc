@@ -95,7 +95,7 @@ void add_to(Quad* quads, const VecF<Dim>& linear, const SpinF<Dim>& angular) {
 
 /// A contact's spring, Box2D v3's soft constraint, for a step of `h` [s].
 struct Spring {
-  float rate;   // speed of separation over overlap [1/s]
+  float rate;   // speed at which the spring separates the bodies, per metre of overlap [1/s]
   float stiff;  // of an infinitely stiff one: 1 over 1 + this is its softness
 };
 Spring spring_of(float frequency, float h) {
@@ -188,7 +188,8 @@ struct ContactSolver<Dim>::Work {
   bool bounces = false;
   std::vector<Quad> velocity;
   std::vector<Quad> moved;
-  std::vector<Quad> free;  // between sub-steps what the contacts gave in the last one, within one velocity without them
+  // In a sub-step: velocity without contacts. Between two: the change of velocity by the contacts of the last.
+  std::vector<Quad> free;
 };
 
 /// Puts points that stand side by side into groups and gives each the first colour that no group of its bodies has.

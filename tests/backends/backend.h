@@ -24,7 +24,6 @@ namespace talus {
 struct Box2d {
   static constexpr int dim = 2;
   static constexpr const char* name = "box2d";
-  static constexpr const char* small_steps_name = "box2d_small_steps";
   static auto make(const WorldDescription<2>& description) { return make_box2d_world(description); }
 };
 #endif
@@ -38,7 +37,6 @@ struct Bullet {
 struct BulletPlanar {
   static constexpr int dim = 2;
   static constexpr const char* name = "bullet_planar";
-  static constexpr const char* small_steps_name = "bullet_planar_small_steps";
   static auto make(const WorldDescription<2>& description) { return make_bullet_planar_world(description); }
 };
 #endif
@@ -54,19 +52,27 @@ struct SmallSteps {
   }
 };
 
+// Small steps on Box2D and in the plane do not pass yet: lab/notes/small_steps.md has the tests that fail.
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
-using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar>;
+using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar, SmallSteps<Bullet>>;
 #elif defined(TALUS_BOX2D)
 using Backends = ::testing::Types<Box2d>;
 #else
-using Backends = ::testing::Types<Bullet, BulletPlanar>;
+using Backends = ::testing::Types<Bullet, BulletPlanar, SmallSteps<Bullet>>;
 #endif
+
+template <typename Backend>
+constexpr bool has_small_steps = std::string_view(Backend::name).ends_with("small_steps");
 
 /// Whether it can run a policy: only an engine's own solver has the engine's sleep.
 template <typename Backend>
 bool has_policy(std::string_view policy) {
-  return policy != "engine" || !std::string_view(Backend::name).ends_with("small_steps");
+  return policy != "engine" || !has_small_steps<Backend>;
 }
+
+/// How often in a step a backend adds gravity to the velocity.
+template <typename Backend>
+constexpr int falls_in_a_step = has_small_steps<Backend> ? SolverParams{}.sub_steps : 1;
 
 /// The example of docs/extending.md. Its bodies do not collide, so it runs in the suites on the seam alone.
 struct Toy {

@@ -100,7 +100,7 @@ TYPED_TEST(DebugOptionsTest, ABouncingBodyHitsTheGroundAsIfItCollidedInFlight) {
 
 TYPED_TEST(DebugOptionsTest, TheTestSceneRestsInBetweenAndWakes) {
   const Outcome outcome = this->run(this->two_strings("adaptive"));
-  EXPECT_GT(outcome.idle_steps, 20);
+  EXPECT_GT(outcome.idle_steps, 10);
   EXPECT_GT(outcome.woken, 0);
   EXPECT_EQ(outcome.frames_seen, 900) << "observers see each step of a world at rest";
 }

@@ -135,7 +135,8 @@ TYPED_TEST(WatchedRun, WarnsOfABodyAtTheSpinLimit) {
   EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 1, &body), WarningKind::spin_limit));
 }
 
-TYPED_TEST(WatchedRun, WarnsOfEnergyThatTheEngineCreates) {
+// The engines' own solvers create energy in bounces without end; small steps do not.
+TYPED_TEST(WatchedRun, WarnsOfEnergyThatTheSolverCreates) {
   auto scene = TestFixture::scene();
   scene.world.gravity = 9.81;
   scene.world.solver.restitution_threshold = 0.0;
@@ -144,7 +145,7 @@ TYPED_TEST(WatchedRun, WarnsOfEnergyThatTheEngineCreates) {
   scene.sources.resize(1);
   scene.sources[0].count = 5;
   scene.sources[0].position = up<TypeParam::dim>(12.0);
-  EXPECT_TRUE(TestFixture::has(TestFixture::warnings(scene, 10'000), WarningKind::energy));
+  EXPECT_EQ(TestFixture::has(TestFixture::warnings(scene, 10'000), WarningKind::energy), !has_small_steps<TypeParam>);
 }
 
 // What is pressed between two walls has no way out: it sinks into them, or the engine throws it out.

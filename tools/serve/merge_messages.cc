@@ -67,7 +67,7 @@ std::vector<BodyEntry> merged(std::span<const BodyEntry> older, std::span<const 
   return all;
 }
 
-/// Its last message has the number of `header`, those before the numbers below: a reader drops what it has had.
+/// Numbers the messages so that the last one has the number of `header`. A reader ignores numbers that it has received.
 void append_bodies(std::span<const BodyEntry> entries, const talus_bodies& header, bool key_frame, std::string& log) {
   constexpr std::size_t most = 1500;  // in one message: in 3D of 35 bytes each
   MessageEncoder encoder(header.run_id);

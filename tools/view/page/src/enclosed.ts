@@ -3,7 +3,7 @@
 import type { Head } from "./head";
 import type { State } from "./moments";
 
-const cover = 2; // full cells around a hidden one
+const cover = 2; // a hidden body has so many full cells on each side
 const range = 2 ** 17; // of cells along an axis
 
 /// The cells that are enclosed along one axis: each of the neighbours on both sides, `step` away each, is full.
@@ -28,7 +28,7 @@ export class Enclosed {
     return this.flags[body] === 1;
   }
 
-  /// Finds anew what is hidden; returns the bodies that became hidden or can be seen again.
+  /// Updates which bodies are hidden; returns those that became hidden or visible.
   update(state: State, head: Head): number[] {
     const before = this.flags;
     this.flags = this.find(state, head);

@@ -76,8 +76,8 @@ export interface Head extends Pick<Settings, "camera" | "colours"> {
   obstacles: ObstacleHead[];
 }
 
-const manyBodies = 1500; // of which round shapes get fewer faces
-const mostNames = 7; // of colours
+const manyBodies = 1500; // from so many bodies on, round shapes get fewer faces
+const mostNames = 7; // colours that the legend names
 
 const colourOf = (text: string): Rgb => [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16) / 255) as Rgb;
 
