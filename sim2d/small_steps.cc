@@ -160,7 +160,7 @@ int SmallSteps::slot_of(b2Fixture& fixture, const StepInput& input) {
 }
 
 /// A sleeper's body in Box2D is one that it shares with others.
-b2Vec2 SmallSteps::centre_of(b2Fixture& fixture, const BodyStates<2>& states) const {
+b2Vec2 SmallSteps::centre_of(b2Fixture& fixture, const BodyStates<2>& states) {
   const BodyIndex owner = owner_of(fixture);
   return owner >= 0 && !is_dynamic(*fixture.GetBody()) ? to_engine(states.pose[owner].position)
                                                        : fixture.GetBody()->GetWorldCenter();

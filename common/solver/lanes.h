@@ -59,7 +59,7 @@ struct Lanes {
 };
 
 #define TALUS_EACH_PART(expression)                           \
-  Lanes out;                                                  \
+  Lanes out = {};                                             \
   for (int i = 0; i < lane_parts; ++i) out.v[i] = expression; \
   return out
 inline Lanes splat(float x) { TALUS_EACH_PART(native_splat(x)); }
