@@ -1,7 +1,7 @@
 // A run that goes on: its messages come over a WebSocket, commands go back (tools/serve/run_loop.h).
 
 import type { Account } from "./body_panel";
-import { element } from "./element";
+import { element, showPace } from "./element";
 import { type Box, boxOf, headOf, obstaclesOf, type Settings } from "./head";
 import { LogReader } from "./messages";
 import { type Moment, MomentReader } from "./moments";
@@ -238,7 +238,7 @@ class Live implements Simulation {
     const policies = element<HTMLSelectElement>("policy");
     if (policies.options.length === 0) policies.append(...status.policies.map((name) => new Option(name)));
     policies.value = status.policy;
-    element<HTMLSelectElement>("pace").value = String(status.pace);
+    showPace(element<HTMLSelectElement>("pace"), status.pace);
     const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time, this page ${this.behind} steps behind`;
     const time = (status.step * (this.player?.timeline.head.dt ?? 0)).toFixed(2);
     const end = status.at_rest ? `finished: all at rest after ${time} s` : "finished";
@@ -288,6 +288,10 @@ class Live implements Simulation {
 
   ended(): boolean {
     return this.status !== null && (this.status.finished || this.status.reason !== "");
+  }
+
+  pace(): number {
+    return this.status?.pace ?? 1;
   }
 
   msPerStep(): number {
