@@ -161,7 +161,7 @@ class Pair {
       this.following = texts.of_runs;
     }
     element("play").textContent = this.playing || this.runs() ? "\u2016" : "\u25B6";
-    element<HTMLInputElement>("scrub").max = String(this.end());
+    Object.assign(element<HTMLInputElement>("scrub"), { max: String(this.end()), value: String(this.time) });
     if (now - this.measured > 500) this.measure(now);
     if (this.time !== before) this.show();
     requestAnimationFrame((next) => this.tick(next));
@@ -180,7 +180,6 @@ class Pair {
 
   private show(): void {
     this.both((player) => player.showMoment(this.time));
-    element<HTMLInputElement>("scrub").value = String(this.time);
     this.showDifference();
   }
 
