@@ -60,7 +60,7 @@ class SmallSteps {
 
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
   int slot_of(b2Fixture& fixture, const StepInput& input);
-  static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states) const;
+  static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);
   void add_contacts(b2World& world, const StepInput& input);
   void add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
                   const StepInput& input);
