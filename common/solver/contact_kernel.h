@@ -148,9 +148,13 @@ void solve_normal(const ContactArrays<Dim>& arrays, const ContactBlock<Dim>& blo
   const Lanes closing = larger(gap, zero) * splat(arrays.inverse_h);  // speed at which the gap closes in a sub-step
   Lanes next;
   if constexpr (Of == Pass::soft) {
-    const Lanes parting = load(block.rate) * smaller(larger(gap, splat(-arrays.deep)), zero);
+    // What the spring gives beyond the load that it carries is limited, and not the spring: under a heavy body it must
+    // stay one.
+    const Lanes soft_gain = load(point.soft_gain);
+    const Lanes stiffness = soft_gain * load(block.rate);
+    const Lanes spring = stiffness * (zero - gap) - load(point.soft_keep) * impulse;
+    const Lanes soft = soft_gain * speed - smaller(spring, stiffness * splat(arrays.deep));
     const Lanes hard = load(point.gain) * (speed + closing);
-    const Lanes soft = load(point.soft_gain) * (speed + parting) + load(point.soft_keep) * impulse;
     next = impulse - if_below(zero, gap, hard, soft);
   } else {
     next = impulse - load(point.gain) * (speed + closing);
