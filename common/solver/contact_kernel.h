@@ -8,7 +8,7 @@ namespace {
 
 template <int Size>
 struct Several {
-  Lanes x[Size];
+  Lanes x[Size] = {};
 };
 
 inline Lanes dot(const Several<2>& a, const Several<2>& b) { return a.x[0] * b.x[0] + a.x[1] * b.x[1]; }
