@@ -34,9 +34,11 @@ constexpr float spring = 0.125F;        // its frequency, over that of the sub-s
 constexpr float fixed_spring = 1.4F;  // how many times that frequency is higher against what never moves: at 2 one pass
                                       // no longer carries a body a hundred times as heavy as the one below it
 constexpr float carry = 2.0F;         // an impulse is carried into the next sub-step at this times its last at most
-constexpr int first_passes = 3;       // of the first sub-step, in which contacts begin
+constexpr int first_passes = 2;       // of the first sub-step, in which contacts begin
 constexpr int bounce_passes = 4;
 constexpr int deep_passes = 3;
+constexpr float deepest = 0.04F;    // overlap that a spring sees at most [m]: that of a hundred times a body's weight.
+                                    // Two that press on a body from both sides would else grow without end
 constexpr float deep_share = 0.2F;  // of a deep overlap, moved apart in each of them
 
 float inverse(float x) { return x > 0.0F ? 1.0F / x : 0.0F; }
@@ -169,7 +171,7 @@ struct ContactSolver<Dim>::Work {
 
   void run(Pass pass) {
     kernel({velocity.data(), moved.data(), free.data(), blocks.data(), static_cast<int>(blocks.size()), lanes.data(),
-            rolling.data(), 1.0F / h, params.deep, carry},
+            rolling.data(), 1.0F / h, params.deep, deepest, carry},
            pass);
   }
 
@@ -319,7 +321,7 @@ void ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int l
   for (int i = 0; i < Dim - 1; ++i)
     to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] = share * point.friction_impulse.dot(tangents[i]);
   if (const float stiffness = gain * stiff * of_contact.rate; point.gap < -params.deep && stiffness > 0.0F)
-    deep_points.push_back({number, gain, to.impulse.v[lane] / stiffness});
+    deep_points.push_back({number, gain, std::min(to.impulse.v[lane] / stiffness, deepest)});
 }
 
 template <int Dim>

@@ -219,6 +219,22 @@ TYPED_TEST(ContactSolverTest, ABoxSlidesOnASlopeAboveItsFrictionAngleOnly) {
   }
 }
 
+// An impact at the friction angle: friction takes mu times the normal momentum, so that a box that lands on the slope
+// stops. The passes leave up to a tenth of the tangential speed.
+TYPED_TEST(ContactSolverTest, ABoxThatLandsOnASlopeAtItsFrictionAngleStops) {
+  constexpr int D = TypeParam::value;
+  const float angle = std::atan(0.5F);
+  VecF<D> gravity = -g * std::cos(angle) * up<D>();
+  gravity[0] = g * std::sin(angle);
+  for (const float height : {0.003F, 0.01F, 0.02F, 0.03F}) {
+    Tower<D> tower({1.0F}, solver_lanes().back());
+    tower.things()[0].at[D - 1] += height;
+    const float speed = std::sqrt(2.0F * g * std::cos(angle) * height) * std::tan(angle);  // along the slope
+    for (int i = 0; i < 60; ++i) tower.step(gravity);
+    EXPECT_LT(tower.things()[0].body.velocity[0], 0.1F * speed) << height;
+  }
+}
+
 // On the friction angle itself nothing decides; in two directions at once the limit is a cone, not a pyramid.
 TEST(ContactSolverTest, FrictionInSpaceIsTheSameInAllDirections) {
   for (const float angle : {0.0F, 0.4F, 0.785F}) {
