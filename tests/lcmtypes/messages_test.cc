@@ -301,6 +301,7 @@ TEST(StatsMessage, NumbersKindsOfWarningAsTheCoreDoes) {
   EXPECT_EQ(talus_stats::SPIN_LIMIT, static_cast<int>(WarningKind::spin_limit));
   EXPECT_EQ(talus_stats::NOT_APPEARED, static_cast<int>(WarningKind::not_appeared));
   EXPECT_EQ(talus_stats::OVERLAP, static_cast<int>(WarningKind::overlap));
+  EXPECT_EQ(talus_stats::PASSED, static_cast<int>(WarningKind::passed));
 }
 
 TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {

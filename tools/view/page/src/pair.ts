@@ -1,6 +1,7 @@
 // Two runs side by side, played in step: the pages a/ and b/ show them, this one steers both and compares what they
 // show.
 
+import { showPace } from "./element";
 import type { Player } from "./player";
 
 interface PairTexts {
@@ -173,6 +174,7 @@ class Pair {
     const larger = (of: (extent: typeof a) => number): number => Math.max(of(a), of(b));
     const both = { time: larger(({ time }) => time), bodies: larger(({ bodies }) => bodies), ms: larger(({ ms }) => ms), top: larger(({ top }) => top) };
     this.both((player) => player.reach(both));
+    if (this.following) showPace(element<HTMLSelectElement>("pace"), this.players[0].pace());
     this.showDifference();
   }
 

@@ -61,6 +61,8 @@ export interface Simulation {
   ended(): boolean;
   /// Whether it takes commands.
   steered(): boolean;
+  /// Times real time; 0: as fast as possible.
+  pace(): number;
   /// Mean time of a step since the start [ms].
   msPerStep(): number;
   /// Of tools/serve/run_loop.h.
@@ -460,6 +462,11 @@ export class Player {
   ended(): boolean {
     return this.simulation?.ended() ?? true;
   }
+  /// Of the simulation.
+  pace(): number {
+    return this.simulation?.pace() ?? 1;
+  }
+
   msPerStep(): number {
     return this.simulation?.msPerStep() ?? 0;
   }
