@@ -10,8 +10,8 @@
 namespace talus {
 namespace {
 
-constexpr double largest_turn = 0.2;  // [rad], within which a path is taken as straight
-constexpr double depth_limit = 0.25;  // of the smallest width
+constexpr double largest_turn = 0.2;  // of a part of a path that is taken as straight [rad]
+constexpr double depth_limit = 0.25;  // that a path may lead into a body [its smallest width]
 
 /// Of a point at distance 1 from the axis [m].
 double chord(const Rotation<2>& from, const Rotation<2>& to) {
@@ -105,7 +105,7 @@ auto PassingWatch<Dim>::end_step(const World<Dim>& world) -> std::span<const Fin
   double farthest = 0.0;
   const auto note = [&](const Mover& mover) {
     const double way = (mover.to.position - mover.from.position).norm() + turn(mover);
-    if (way < 0.5 * smallest_core_) return;  // the other one may come against it
+    if (way < 0.5 * smallest_core_) return;  // two such bodies together stay below the limit of a pair
     farthest = std::max(farthest, way);
     fast_.push_back(mover);
   };
