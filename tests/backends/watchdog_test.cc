@@ -229,7 +229,7 @@ class LongWatchedRun : public WatchedRun<Backend> {};
 
 TYPED_TEST_SUITE(LongWatchedRun, Backends, BackendName);
 
-TYPED_TEST(LongWatchedRun, IsSilentOverShippedScenes) { TestFixture::expect_silence(600); }
+TYPED_TEST(LongWatchedRun, IsSilentOverShippedScenes) { TestFixture::expect_silence(200); }
 
 }  // namespace
 }  // namespace talus::watchdog_on_engines_test
