@@ -140,7 +140,10 @@ EngineTimes EngineWorld::engine_step() {
   warm_start_.start_step(states().asleep, ring() == nullptr);
   const bool own = !small_steps_;
   listener_.start_step(own && !description().debug.sweep_slow_bodies && hosts_.hosts() > 0, own && records_contacts());
-  if (!description().debug.step_when_idle && idle()) return {};
+  if (!description().debug.step_when_idle && idle()) {
+    if (small_steps_) small_steps_->skip();
+    return {};
+  }
   check_memory();
   const EngineTimes times = own ? box2d_step() : small_step();
   warm_start_.end_step();

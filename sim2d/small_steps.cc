@@ -203,6 +203,10 @@ SolverBody<2> SmallSteps::thaw(BodyIndex body, WarmStart& warm) {
   return state;
 }
 
+void SmallSteps::skip() {
+  if (ring_) ring_->start();
+}
+
 void SmallSteps::forget(BodyIndex side) {
   if (ring_) ring_->forget(side);
 }

@@ -44,6 +44,9 @@ class SmallSteps {
   /// A body or an obstacle leaves the world.
   void forget(BodyIndex side);
 
+  /// In place of a step in which nothing moves.
+  void skip();
+
   /// Appends the contacts of the last step, sorted by their bodies and pieces. Each is listed once: that of two awake
   /// bodies under the one with the lower index.
   void gather(const BodyStates<2>& states, std::vector<Contact<2>>& out);

@@ -11,6 +11,8 @@ namespace {
 constexpr float wake_distance = 0.01F;
 /// Or is faster than this, at which it would rise by that distance [sqrt(g D)].
 constexpr float wake_speed = 0.14F;
+/// Or has come to rest in the ring farther than this from where it fell asleep [D]: the engine is to know its place.
+constexpr float settle_distance = 0.002F;
 /// While obstacles move, bodies that are faster than this share of the slowest count as moving: else what a slow one
 /// carries would be held back by what has not begun to move.
 constexpr float obstacle_share = 0.3F;
@@ -155,6 +157,7 @@ void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
     } else {
       sleeper.body.velocity.setZero();
       sleeper.body.spin.setZero();
+      if (far_of(sleeper) > settle_distance * static_cast<float>(params_.extent)) stirred_.push_back(body);
     }
   }
   before_.clear();
@@ -191,6 +194,12 @@ int Ring<Dim>::slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<con
   return sleeper.slot;
 }
 
+/// How far a point of it has moved at most [m].
+template <int Dim>
+float Ring<Dim>::far_of(const Sleeper& sleeper) {
+  return sleeper.body.way.norm() + sleeper.reach * sleeper.body.turn.norm();
+}
+
 template <int Dim>
 VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
   return way_of(sleepers_[body].body, arm);
@@ -212,8 +221,7 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity) {
     sleeper.body.way += solved.way;
     sleeper.body.turn += solved.turn;
     const float speed = solved.velocity.norm() + sleeper.reach * solved.spin.norm();
-    const float far = sleeper.body.way.norm() + sleeper.reach * sleeper.body.turn.norm();
-    if (speed > wake_speed * unit || far > distance) stirred_.push_back(body);
+    if (speed > wake_speed * unit || far_of(sleeper) > distance) stirred_.push_back(body);
     if (speed > still) moving_.push_back(body);
   }
   read_points(solver, distance);

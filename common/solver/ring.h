@@ -75,6 +75,7 @@ class Ring {
   void hold_back(ContactSolver<Dim>& solver);
   void add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   int slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
+  static float far_of(const Sleeper& sleeper);
   void read_points(const ContactSolver<Dim>& solver, float distance);
 
   SleepRing params_;

@@ -104,6 +104,7 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInp
   const RestTimes times = rest_times_in(in.world);
   for (const BodyIndex body : in.world.awake()) {
     if (checks_.holds(body) || below_ground(in, body) || !rested_enough(frame, body, times)) continue;
+    if (ring_ && is_fast(in, body)) continue;
     if (frame.may_sleep(body)) bodies_.push_back(body);
   }
   support_.keep_supported(in, bodies_);
@@ -118,6 +119,14 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInp
 template <int Dim>
 bool AdaptivePolicy<Dim>::below_ground(const RuleInput<Dim>& in, BodyIndex body) const {
   return height<Dim>(in.pose_of(body).position) < ground_;
+}
+
+/// Whether it would count as moving in the ring.
+template <int Dim>
+bool AdaptivePolicy<Dim>::is_fast(const RuleInput<Dim>& in, BodyIndex body) const {
+  const double speed =
+      in.states().velocity[body].norm() + 0.5 * in.shape_of(body).extent * in.states().spin[body].norm();
+  return speed > ring_->still_speed * std::sqrt(in.world.gravity_size() * extent_);
 }
 
 /// [s]

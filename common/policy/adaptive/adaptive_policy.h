@@ -61,6 +61,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   void limit_velocities();
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
+  bool is_fast(const RuleInput<Dim>& in, BodyIndex body) const;
   RestTimes rest_times_in(const World<Dim>& world) const;
   double rest_time_needed(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
   bool rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
