@@ -57,32 +57,35 @@ b2PolygonShape convex_polygon(const HullPiece<2>& hull) {
   return polygon;
 }
 
-void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b, double radius) {
+void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b, double radius, double skin) {
   out.emplace_back(disc(a, radius));
   out.emplace_back(disc(b, radius));
   const Vec2 along = b - a;
   const Pose<2> middle{(a + b) / 2.0, Rotation<2>(std::atan2(along.y(), along.x()))};
-  // Box2D gives polygons a skin and discs none; less the skin, the straight sides lie flush with the round ends.
-  const double half_width = std::max(radius - b2_polygonRadius, radius / 4.0);
+  // Less the skin, the straight sides lie flush with the round ends.
+  const double half_width = std::max(radius - skin, radius / 4.0);
   out.emplace_back(rectangle(middle, {along.norm() / 2.0, half_width}));
 }
 
-void append(std::vector<EnginePiece>& out, const BoxPiece<2>& box) { out.emplace_back(rectangle(box.pose, box.half)); }
+void append(std::vector<EnginePiece>& out, const BoxPiece<2>& box, double /*skin*/) {
+  out.emplace_back(rectangle(box.pose, box.half));
+}
 
-void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull) {
+void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull, double skin) {
   if (hull.corners.size() == 1)
     out.emplace_back(disc(hull.corners[0], hull.radius));
   else if (hull.corners.size() == 2)
-    append_capsule(out, hull.corners[0], hull.corners[1], hull.radius);
+    append_capsule(out, hull.corners[0], hull.corners[1], hull.radius, skin);
   else
     out.emplace_back(convex_polygon(hull));
 }
 
 }  // namespace
 
-std::vector<EnginePiece> engine_pieces(const Shape<2>& shape) {
+std::vector<EnginePiece> engine_pieces(const Shape<2>& shape, const SolverParams& solver) {
+  const double skin = solver.small_steps() ? 0.0 : b2_polygonRadius;
   std::vector<EnginePiece> out;
-  for (const Piece<2>& piece : shape.pieces) std::visit([&out](const auto& kind) { append(out, kind); }, piece);
+  for (const Piece<2>& piece : shape.pieces) std::visit([&](const auto& kind) { append(out, kind, skin); }, piece);
   return out;
 }
 
@@ -106,11 +109,7 @@ BodyTemplate make_body_template(const Shape<2>& shape, const SolverParams& solve
   mass.mass = static_cast<float>(shape.mass);
   mass.center.SetZero();
   mass.I = static_cast<float>(shape.inertia(0, 0));
-  BodyTemplate made{engine_pieces(shape), fixture_of(shape.material, solver), mass};
-  if (solver.small_steps())
-    for (EnginePiece& piece : made.pieces)
-      if (auto* polygon = std::get_if<b2PolygonShape>(&piece)) polygon->m_radius += contact_margin;
-  return made;
+  return {engine_pieces(shape, solver), fixture_of(shape.material, solver), mass};
 }
 
 }  // namespace talus::box2d

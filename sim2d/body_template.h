@@ -28,8 +28,9 @@ inline const b2Shape& base(const EnginePiece& piece) {
   return std::visit([](const auto& one) -> const b2Shape& { return one; }, piece);
 }
 
-/// The pieces of a shape, in their order; a capsule becomes two discs and the rectangle between.
-std::vector<EnginePiece> engine_pieces(const Shape<2>& shape);
+/// The pieces of a shape, in their order; a capsule becomes two discs and the rectangle between. Box2D gives polygons a
+/// skin, which its own solver keeps between bodies, and discs none. Under small steps bodies touch without it.
+std::vector<EnginePiece> engine_pieces(const Shape<2>& shape, const SolverParams& solver);
 
 /// The same piece after the motion `pose`. Corners keep their order.
 EnginePiece moved(const EnginePiece& piece, const b2Transform& pose);
@@ -40,10 +41,6 @@ struct BodyTemplate {
   b2FixtureDef material;  // of all fixtures; without shape and user data
   b2MassData mass;        // and inertia about the origin, which is the centre of mass
 };
-
-/// Added to the skins of bodies under small steps, and taken off again from their gaps: contacts are known this long
-/// before they bear, so none is lost while a corner lifts by less [m].
-inline constexpr float contact_margin = 0.005F;
 
 BodyTemplate make_body_template(const Shape<2>& shape, const SolverParams& solver);
 

@@ -83,7 +83,7 @@ void EngineWorld::add_obstacles() {
     obstacles_.push_back(&body);
     b2FixtureDef fixture = fixture_of(obstacle.shape.material, description().solver);
     int number = 0;
-    for (const EnginePiece& piece : engine_pieces(obstacle.shape)) {
+    for (const EnginePiece& piece : engine_pieces(obstacle.shape, description().solver)) {
       fixture.shape = &base(piece);
       fixture.userData = to_user_data(make_tag(index, number++));
       body.CreateFixture(&fixture);

@@ -12,18 +12,19 @@
 namespace talus::box2d {
 namespace {
 
+// A step is solved again when a body that was struck in it gets past something out of its expected reach: a
+// chain of so many may be struck in a step.
+constexpr int rounds = 8;
+
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 VecF<2> vector(const b2Vec2& v) { return {v.x, v.y}; }
 b2Vec2 to_box2d(const VecF<2>& v) { return {v.x(), v.y()}; }
 
+/// Of a polygon or line: contacts are known so long before the bodies touch, and none is lost while a corner lifts by
+/// less [m].
 float skin_of(const b2Fixture& fixture) {
   return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
-}
-
-/// What contact_margin has added to a fixture's skin.
-float margin_of(const b2Fixture& fixture) {
-  return fixture.GetType() == b2Shape::e_polygon ? fixture.GetShape()->m_radius - b2_polygonRadius : 0.0F;
 }
 
 /// As Box2D has it.
@@ -118,24 +119,78 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   // Box2D gives access to its contact manager for reading only.
   const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
   detected_ = input.states.size();
-  solver_.start();
+  expect_motion(world, input, bodies);
   if (ring_) ring_->start();
-  sources_.clear();
-  add_bodies(input, bodies);
-  find_ahead(world, input, bodies);
-  const double collided = now();
-  add_contacts(world, input);
-  if (ring_) ring_->extend(solver_, obstacle_slots_);
-  solver_.solve(params_, vector(world.GetGravity()), dt_);
+  double solving = 0.0;
+  for (int round = 0; round < rounds; ++round) {
+    add_bodies(input, bodies);
+    for (const Ahead& each : ahead_) add_points(each.pair, each.manifold, each.place, input);
+    add_contacts(world, input);
+    if (ring_) ring_->extend(solver_, obstacle_slots_);
+    const double added = now();
+    solver_.solve(params_, vector(world.GetGravity()), dt_);
+    solving += now() - added;
+    if (!passes_unseen(world, bodies)) break;
+    if (ring_) ring_->start_again();
+  }
   if (ring_) ring_->read(solver_, world.GetGravity().Length());
   write_impulses();
-  const double solved = now();
-  move_bodies(input.awake, bodies);
+  move_bodies(bodies);
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
   sleepers_.clear();
   for (const BodyIndex body : input.awake) slots_[body] = 0;
-  const double end = now();
-  return {.collide = collided - start + end - solved, .solve = solved - collided};
+  return {.collide = now() - start - solving, .solve = solving};
+}
+
+/// From the velocities; finds the contacts ahead of what is fast.
+void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
+  slots_.resize(input.states.shape.size(), 0);
+  expected_.clear();
+  ahead_.clear();
+  fast_bodies_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    slots_[input.awake[i]] = static_cast<int>(i) + 1;
+    expected_.push_back(motion_by_velocity(*bodies[i]));
+    if (is_fast(expected_[i])) fast_bodies_.push_back(bodies[i]);
+  }
+  find_ahead(world, true);
+}
+
+SmallSteps::Motion SmallSteps::motion_by_velocity(const b2Body& body) const {
+  return {dt_ * body.GetLinearVelocity(), dt_ * reach_ * std::abs(body.GetAngularVelocity())};
+}
+
+/// After a step is solved: whether a body that was struck, and so moves fast, gets past something. Finds what is ahead
+/// of it.
+bool SmallSteps::passes_unseen(b2World& world, std::span<b2Body* const> bodies) {
+  fast_bodies_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const SolverBody<2>& body = solver_.body(static_cast<int>(i) + 1);
+    const Motion motion{to_box2d(body.way), reach_ * std::abs(body.turn[0])};
+    if (is_fast(expected_[i]) || !is_fast(motion)) continue;
+    expected_[i] = motion;
+    fast_bodies_.push_back(bodies[i]);
+  }
+  const auto known = static_cast<std::ptrdiff_t>(ahead_.size());
+  find_ahead(world, false);
+  return std::any_of(ahead_.begin() + known, ahead_.end(), [&](const Ahead& each) { return is_passed(each); });
+}
+
+/// Whether the motion of the step brings the two as far into each other as makes a body fast.
+bool SmallSteps::is_passed(const Ahead& ahead) const {
+  const auto way = [&](b2Fixture& fixture, const b2Vec2& at) {
+    const BodyIndex owner = owner_of(fixture);
+    if (owner < 0 || slots_[owner] == 0) return dt_ * fixture.GetBody()->GetLinearVelocityFromWorldPoint(at);
+    const SolverBody<2>& body = solver_.body(slots_[owner]);
+    return to_box2d(body.way) + b2Cross(body.turn[0], at - fixture.GetBody()->GetWorldCenter());
+  };
+  const float skins = skin_of(*ahead.pair.a) + skin_of(*ahead.pair.b);
+  for (int i = 0; i < ahead.manifold.pointCount; ++i) {
+    const b2Vec2& at = ahead.place.points[i];
+    const b2Vec2 apart = way(*ahead.pair.b, at) - way(*ahead.pair.a, at);
+    if (ahead.place.separations[i] + skins + b2Dot(apart, ahead.place.normal) < -fast_) return true;
+  }
+  return false;
 }
 
 void SmallSteps::set_ring(const std::optional<SleepRing>& ring) {
@@ -212,10 +267,13 @@ void SmallSteps::forget(BodyIndex side) {
 }
 
 void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bodies) {
-  slots_.resize(input.states.shape.size(), 0);
+  solver_.start();
+  sources_.clear();
+  for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
+  sleepers_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const b2MassData& mass = input.templates[input.states.shape[input.awake[i]]].mass;
-    slots_[input.awake[i]] = solver_.add(solver_body(*bodies[i], mass));
+    solver_.add(solver_body(*bodies[i], mass));
   }
   obstacle_slots_.assign(input.obstacles.size(), 0);
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
@@ -266,13 +324,12 @@ void SmallSteps::add_points(const Fixtures& pair, const b2Manifold& manifold, co
                             const StepInput& input) {
   const int a = slot_of(*pair.a, input);
   const int b = slot_of(*pair.b, input);
-  const float skins = skin_of(*pair.a) + skin_of(*pair.b) - margin_of(*pair.a) - margin_of(*pair.b);
   int number = 0;
   for (ContactPoint<2> point : points_of(pair, manifold, place, input)) {
     point.a = a;
     point.b = b;
     solver_.add(point);
-    sources_.push_back({tag_of(*pair.a), tag_of(*pair.b), pair.contact, number++, skins});
+    sources_.push_back({tag_of(*pair.a), tag_of(*pair.b), pair.contact, number++});
   }
 }
 
@@ -288,11 +345,12 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
   const b2Vec2 centre_a = centre_of(*pair.a, input.states);
   const b2Vec2 centre_b = centre_of(*pair.b, input.states);
   const VecF<2> tangent = vector(b2Cross(place.normal, 1.0F));
-  const float margin = margin_of(*pair.a) + margin_of(*pair.b);
+  const float skins = skin_of(*pair.a) + skin_of(*pair.b);
   for (int i = 0; i < manifold.pointCount; ++i) {
-    point.arm_a = vector(place.points[i] - centre_a);
-    point.arm_b = vector(place.points[i] - centre_b);
-    point.gap = place.separations[i] + margin;
+    point.gap = place.separations[i] + skins;
+    const b2Vec2 half = 0.5F * point.gap * place.normal;  // Box2D's point is in the middle of the gap
+    point.arm_a = vector(place.points[i] - half - centre_a);
+    point.arm_b = vector(place.points[i] + half - centre_b);
     if (pair.contact != nullptr) {
       point.normal_impulse = manifold.points[i].normalImpulse;
       point.friction_impulse = manifold.points[i].tangentImpulse * tangent;
@@ -323,28 +381,36 @@ void SmallSteps::add_rolling(const Fixtures& pair, const StepInput& input, Conta
     point.rolling_impulse[0] = b == found->high ? found->impulse : -found->impulse;
 }
 
-float SmallSteps::way_of(const b2Body& body) const {
-  return dt_ * (body.GetLinearVelocity().Length() + reach_ * std::abs(body.GetAngularVelocity()));
+/// Of an awake body as expected.
+SmallSteps::Motion SmallSteps::motion_of(b2Fixture& fixture) const {
+  const BodyIndex owner = owner_of(fixture);
+  if (owner < 0) return motion_by_velocity(*fixture.GetBody());
+  return is_dynamic(*fixture.GetBody()) ? expected_[slots_[owner] - 1] : Motion{};
 }
 
-bool SmallSteps::is_fast(const b2Body& body) const { return is_dynamic(body) && way_of(body) > fast_; }
+bool SmallSteps::is_fast(const Motion& motion) const { return motion.longest() > fast_; }
 
-/// Contacts of fast bodies that begin within the step: found once they overlap, they might be beyond each other.
-void SmallSteps::find_ahead(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
+/// Contacts of `fast_bodies_` that begin within the step: found once they overlap, they might be beyond each other.
+/// `first`: the first time in the step.
+void SmallSteps::find_ahead(b2World& world, bool first) {
+  if (fast_bodies_.empty()) return;
   float longest = 0.0F;
-  for (const b2Body* body : bodies) longest = std::max(longest, way_of(*body));
-  for (b2Body* body : bodies) {
-    if (!is_fast(*body)) continue;
+  for (const Motion& motion : expected_) longest = std::max(longest, motion.longest());
+  for (b2Body* body : fast_bodies_)
     for (b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
-      find_ahead(world, input, *fixture, longest);
-  }
+      find_ahead(world, *fixture, longest, first);
+}
+
+bool SmallSteps::is_known(const b2Fixture& one, const b2Fixture& other) const {
+  return std::ranges::any_of(ahead_, [&](const Ahead& each) {
+    return (each.pair.a == &one && each.pair.b == &other) || (each.pair.a == &other && each.pair.b == &one);
+  });
 }
 
 /// `others`: the longest way of any body in the step [m].
-void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture, float others) {
+void SmallSteps::find_ahead(b2World& world, b2Fixture& fixture, float others, bool first) {
   const b2Body& body = *fixture.GetBody();
-  const b2Vec2 way = dt_ * body.GetLinearVelocity();
-  const float turn = dt_ * reach_ * std::abs(body.GetAngularVelocity());
+  const auto [way, turn] = motion_of(fixture);
   b2AABB box = fixture.GetAABB(0);
   b2AABB end = {box.lowerBound + way, box.upperBound + way};
   box.Combine(end);
@@ -355,8 +421,9 @@ void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Fixture& f
   FixtureFinder finder(found_);
   world.QueryAABB(&finder, box);
   std::erase_if(found_, [&](b2Fixture* other) {
-    const b2Body& of_other = *other->GetBody();
-    return &of_other == &body || (is_fast(of_other) && tag_of(*other) < tag_of(fixture));  // found from there
+    if (other->GetBody() == &body) return true;
+    if (!is_dynamic(*other->GetBody()) || !is_fast(motion_of(*other))) return false;
+    return first ? tag_of(*other) < tag_of(fixture) : is_known(fixture, *other);  // found from there
   });
   for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next)
     if (edge->contact->IsTouching() &&
@@ -366,21 +433,22 @@ void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Fixture& f
   std::ranges::sort(found_, {}, [](b2Fixture* other) { return tag_of(*other); });
   for (b2Fixture* other : found_) {
     const b2Body& of_other = *other->GetBody();
-    const float ahead = (of_other.GetLinearVelocity() - body.GetLinearVelocity()).Length() * dt_ + turn +
-                        dt_ * reach_ * std::abs(of_other.GetAngularVelocity());
+    const Motion of = motion_of(*other);
+    const float ahead = (of.way - way).Length() + turn + of.turn;
     const EnginePiece thick = thickened(fixture, ahead);
-    b2Manifold manifold;
-    manifold.pointCount = 0;
+    Ahead found;
+    found.manifold.pointCount = 0;
     const bool swapped =
-        collide(manifold, *other->GetShape(), of_other.GetTransform(), base(thick), body.GetTransform());
-    if (manifold.pointCount == 0) continue;
-    Fixtures pair{other, &fixture, b2MixFriction(other->GetFriction(), fixture.GetFriction()),
+        collide(found.manifold, *other->GetShape(), of_other.GetTransform(), base(thick), body.GetTransform());
+    if (found.manifold.pointCount == 0) continue;
+    found.pair = {other, &fixture, b2MixFriction(other->GetFriction(), fixture.GetFriction()),
                   std::sqrt(other->GetRestitution() * fixture.GetRestitution()), nullptr};
-    if (swapped) std::swap(pair.a, pair.b);
-    b2WorldManifold place;
-    place.Initialize(&manifold, pair.a->GetBody()->GetTransform(), pair.a->GetShape()->m_radius,
-                     pair.b->GetBody()->GetTransform(), pair.b->GetShape()->m_radius);
-    add_points(pair, manifold, place, input);
+    if (swapped) std::swap(found.pair.a, found.pair.b);
+    const b2Fixture& a = *found.pair.a;
+    const b2Fixture& b = *found.pair.b;
+    found.place.Initialize(&found.manifold, a.GetBody()->GetTransform(), a.GetShape()->m_radius,
+                           b.GetBody()->GetTransform(), b.GetShape()->m_radius);
+    ahead_.push_back(found);
   }
 }
 
@@ -406,9 +474,9 @@ void SmallSteps::sort_rolling() {
 }
 
 /// Box2D's own limits of a step hold.
-void SmallSteps::move_bodies(std::span<const BodyIndex> awake, std::span<b2Body* const> bodies) {
+void SmallSteps::move_bodies(std::span<b2Body* const> bodies) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const SolverBody<2>& from = solver_.body(slots_[awake[i]]);
+    const SolverBody<2>& from = solver_.body(static_cast<int>(i) + 1);
     b2Body& body = *bodies[i];
     const float longest = b2_maxTranslation / std::max(from.way.norm(), b2_maxTranslation);
     const float largest = b2_maxRotation / std::max(std::abs(from.turn[0]), b2_maxRotation);
@@ -458,7 +526,7 @@ void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& ou
     contact.normal_impulse = point.normal_sum;
     contact.friction_impulse = sign * point.friction_sum.cast<double>();
     contact.approach_speed = std::max(0.0F, point.approach_speed);
-    contact.depth = -static_cast<double>(gap + source.skins);
+    contact.depth = -gap;
   }
 }
 

@@ -58,7 +58,6 @@ class SmallSteps {
     Tag b{};
     b2Contact* contact = nullptr;  // null: found ahead
     int number = 0;                // of the manifold's point
-    float skins = 0.0F;            // of both shapes [m]
   };
   /// A rolling impulse, from the last step to the next.
   struct Rolling {
@@ -74,6 +73,23 @@ class SmallSteps {
     b2Contact* contact = nullptr;
   };
 
+  /// Of a body in the step.
+  struct Motion {
+    b2Vec2 way{0.0F, 0.0F};  // of its centre [m]
+    float turn = 0.0F;       // way of its farthest point around the centre at most [m]
+    float longest() const { return way.Length() + turn; }
+  };
+
+  /// A contact that may begin within the step.
+  struct Ahead {
+    Fixtures pair;
+    b2Manifold manifold;
+    b2WorldManifold place;
+  };
+
+  void expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
+  bool passes_unseen(b2World& world, std::span<b2Body* const> bodies);
+  bool is_passed(const Ahead& ahead) const;
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
   void keep(b2Contact& contact, const StepInput& input);
   int slot_of(b2Fixture& fixture, const StepInput& input);
@@ -84,14 +100,16 @@ class SmallSteps {
   std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
                                              const b2WorldManifold& place, const StepInput& input);
   void add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const;
-  void find_ahead(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
-  void find_ahead(b2World& world, const StepInput& input, b2Fixture& fixture, float others);
-  bool is_fast(const b2Body& body) const;
-  float way_of(const b2Body& body) const;
+  void find_ahead(b2World& world, bool first);
+  void find_ahead(b2World& world, b2Fixture& fixture, float others, bool first);
+  bool is_known(const b2Fixture& one, const b2Fixture& other) const;
+  Motion motion_by_velocity(const b2Body& body) const;
+  Motion motion_of(b2Fixture& fixture) const;
+  bool is_fast(const Motion& motion) const;
   VecF<2> shift_of(b2Fixture& fixture, const VecF<2>& arm) const;
   void write_impulses();
   void sort_rolling();
-  void move_bodies(std::span<const BodyIndex> awake, std::span<b2Body* const> bodies);
+  void move_bodies(std::span<b2Body* const> bodies) const;
 
   ContactSolverParams params_;
   float dt_;
@@ -101,6 +119,9 @@ class SmallSteps {
   std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
   ContactSolver<2> solver_;
   std::optional<Ring<2>> ring_;
+  std::vector<Motion> expected_;      // by number among the awake
+  std::vector<b2Body*> fast_bodies_;  // of which contacts ahead are to be found
+  std::vector<Ahead> ahead_;
   std::vector<Source> sources_;             // by point
   std::vector<int> slots_;                  // by body; 0: not in this step yet
   std::vector<BodyIndex> sleepers_;         // in this step

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/angle.h"
 #include "common/shape/piece.h"
 #include "sim3d/conversions.h"
 
@@ -30,7 +31,7 @@ PlacedPiece make_ball(const Vec3& centre, double radius) {
 PlacedPiece make_capsule(const Vec3& a, const Vec3& b, double radius) {
   const Vec3 axis = b - a;
   return {std::make_unique<btCapsuleShapeX>(static_cast<btScalar>(radius), static_cast<btScalar>(axis.norm())),
-          0.5 * (a + b), Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), axis)};
+          0.5 * (a + b), turn_to(axis)};
 }
 
 PlacedPiece make(const HullPiece<3>& hull) {

@@ -58,7 +58,7 @@ bool has_restitution(const WorldDescription<Dim>& description) {
 template <int Dim>
 std::unique_ptr<SmallSteps<Dim>> make_small_steps(const WorldDescription<Dim>& description) {
   if (!description.solver.small_steps()) return nullptr;
-  return std::make_unique<SmallSteps<Dim>>(description.solver, description.dt, has_rolling_friction(description));
+  return std::make_unique<SmallSteps<Dim>>(description, fastest_spin(description.dt));
 }
 
 template <int Dim>

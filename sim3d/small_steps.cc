@@ -1,6 +1,7 @@
 #include "sim3d/small_steps.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "sim3d/body_template.h"
@@ -92,8 +93,9 @@ void fetch_head(const btPersistentManifold& manifold) {
   __builtin_prefetch(end - 1);
 }
 
-// Two points of a planar pair that are nearer are one, at the front and the back of the bodies [m].
-constexpr float one_point = 0.005F;
+// Two points of a planar pair that are nearer are one, at the front and the back of the bodies [extents of the
+// smallest].
+constexpr double one_point = 0.005;
 // In the plane, a normal that points out of it by more (60 degrees) is of the bodies' flat faces, which must not
 // matter.
 constexpr float least_in_plane = 0.5F;
@@ -107,10 +109,18 @@ std::optional<double> arm_of(const btCollisionObject& object) {
 }  // namespace
 
 template <int Dim>
-SmallSteps<Dim>::SmallSteps(const SolverParams& params, double dt, bool rolling_friction)
-    : params_{.sub_steps = params.sub_steps, .restitution_threshold = static_cast<float>(params.restitution_threshold)},
-      dt_(static_cast<float>(dt)),
-      rolling_friction_(rolling_friction) {}
+SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fastest_spin)
+    : params_{.sub_steps = description.solver.sub_steps,
+              .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
+      dt_(static_cast<float>(description.dt)),
+      fastest_spin_(static_cast<float>(fastest_spin)) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Shape<Dim>& shape : description.shapes) {
+    smallest = std::min(smallest, shape.extent);
+    rolling_friction_ = rolling_friction_ || shape.material.rolling_friction > 0.0;
+  }
+  one_point_ = static_cast<float>(one_point * smallest);
+}
 
 template <int Dim>
 void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const btVector3& gravity) {
@@ -201,7 +211,7 @@ int SmallSteps<Dim>::add_point(const ContactPoint<Dim>& contact, int first) {
   if constexpr (Dim == 2) {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       ContactPoint<2>& known = contacts_[i];
-      if ((known.arm_a - contact.arm_a).cwiseAbs().maxCoeff() > one_point) continue;
+      if ((known.arm_a - contact.arm_a).cwiseAbs().maxCoeff() > one_point_) continue;
       known.normal_impulse += contact.normal_impulse;
       known.friction_impulse += contact.friction_impulse;
       known.gap = std::min(known.gap, contact.gap);
@@ -259,7 +269,8 @@ void SmallSteps<Dim>::finish(std::span<btRigidBody* const> bodies) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const SolverBody<Dim>& solved = solver_.body(static_cast<int>(i) + 1);
     bodies[i]->setLinearVelocity(from_solver<Dim>(solved.velocity));
-    bodies[i]->setAngularVelocity(spin_from_solver<Dim>(solved.spin));
+    const float share = fastest_spin_ / std::max(solved.spin.norm(), fastest_spin_);
+    bodies[i]->setAngularVelocity(spin_from_solver<Dim>(share * solved.spin));
   }
 }
 

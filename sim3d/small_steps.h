@@ -21,8 +21,8 @@ namespace talus::bullet {
 template <int Dim>
 class SmallSteps {
  public:
-  /// `rolling_friction`: whether a shape has any.
-  SmallSteps(const SolverParams& params, double dt, bool rolling_friction);
+  /// `fastest_spin`: to which a body's is cut [rad/s].
+  SmallSteps(const WorldDescription<Dim>& description, double fastest_spin);
 
   /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves them with the mean velocity of the step,
   /// by which Bullet is to move them.
@@ -49,7 +49,9 @@ class SmallSteps {
 
   ContactSolverParams params_;
   float dt_;
-  bool rolling_friction_;
+  float fastest_spin_;             // [rad/s]
+  float one_point_ = 0.0F;         // points of a planar pair that are nearer are one [m]
+  bool rolling_friction_ = false;  // of a shape
   ContactSolver<Dim> solver_;
   std::vector<ContactPoint<Dim>> contacts_;  // to come, of one manifold
   std::vector<Source> sources_;

@@ -17,4 +17,8 @@ inline double wrapped(double angle) { return std::remainder(angle, 2.0 * std::nu
 /// not.
 inline double wrapped_angle(const Rotation<2>& rotation) { return wrapped(rotation.angle()); }
 
+/// Rotation that turns the first axis into a direction of any length.
+Rotation<2> turn_to(const Vec2& direction);
+Rotation<3> turn_to(const Vec3& direction);
+
 }  // namespace talus

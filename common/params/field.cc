@@ -60,6 +60,17 @@ double as_kept(const Key& key, double written) {
   return key.stored == Stored::as_inverse ? 1.0 / written : written;
 }
 
+ConstValue read_only(const Value& value) {
+  return std::visit(
+      [](auto where) {
+        if constexpr (std::is_same_v<decltype(where), std::monostate>)
+          return ConstValue();
+        else
+          return ConstValue(std::in_place_type<const std::remove_pointer_t<decltype(where)>*>, where);
+      },
+      value);
+}
+
 std::vector<double> numbers_of(const ConstValue& value) {
   std::vector<double> numbers;
   const auto add = [&](auto where) {

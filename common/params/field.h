@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -95,19 +96,20 @@ using ConstPointer = const T*;
 using Value = OneOf<Pointer>;
 using ConstValue = OneOf<ConstPointer>;
 
-template <typename S>
-struct MemberOf {
-  template <typename T>
-  using Type = T S::*;
-};
-/// A member of a struct; none for a key that code of its own reads and that is declared for the manual only.
-template <typename S>
-using Member = OneOf<MemberOf<S>::template Type>;
+/// The same place, to be read only.
+ConstValue read_only(const Value& value);
+
+/// Where a struct has a member, named by a pointer to it: place_of<&Material::friction>.
+template <auto member, typename S>
+Value place_of(S& params) {
+  return Value(std::in_place_type<std::remove_reference_t<decltype(params.*member)>*>, &(params.*member));
+}
 
 /// A member with its key.
 template <typename S>
 struct Field {
-  Member<S> member = {};
+  /// None for a key that code of its own reads and that is declared for the manual only.
+  Value (*place)(S&) = nullptr;
   Key key;
 };
 
@@ -115,26 +117,14 @@ struct Field {
 template <typename S>
 using Fields = std::span<const Field<S>>;
 
-namespace detail {
-template <typename Where, typename S, typename... Members>
-Where locate(S& params, const std::variant<std::monostate, Members...>& member) {
-  Where where;
-  const auto try_one = [&](const auto* one) {
-    if (one != nullptr) where = &(params.**one);
-  };
-  (try_one(std::get_if<Members>(&member)), ...);
-  return where;
-}
-}  // namespace detail
-
 /// Where the member is; none where the field has none.
 template <typename S>
 Value value_of(S& params, const Field<S>& field) {
-  return detail::locate<Value>(params, field.member);
+  return field.place == nullptr ? Value() : field.place(params);
 }
 template <typename S>
 ConstValue value_of(const S& params, const Field<S>& field) {
-  return detail::locate<ConstValue>(params, field.member);
+  return read_only(value_of(const_cast<S&>(params), field));  // looked up only
 }
 
 /// A number as it is written in a scene file, from the one that the struct keeps. A conversion is rounded to 15 digits,

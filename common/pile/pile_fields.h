@@ -10,7 +10,7 @@ namespace talus {
 
 template <int Dim>
 inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
-    {&PileParams<Dim>::alpha,
+    {place_of<&PileParams<Dim>::alpha>,
      {.name = "alpha_deg",
       .unit = "degrees",
       .stored = Stored::in_radians,
@@ -18,41 +18,41 @@ inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
       .default_text = "[angle of repose](extending.md#glossary) of the bodies",
       .meaning = "slope of the cone, in 2D of the wedge; within walls it must be given. Far above the angle of repose "
                  "`paper` lets few bodies sleep"}},
-    {&PileParams<Dim>::control_slope,
+    {place_of<&PileParams<Dim>::control_slope>,
      {.name = "control_slope",
       .meaning =
           "whether `adaptive` holds the pile at `alpha_deg`, which must then be given, where that is steeper than "
           "the angle of repose ([how](method.md#slope-control)). It damps the bodies, which no real force does, "
           "and the pile sinks once it is woken as a whole. Not within walls"}},
-    {&PileParams<Dim>::at,
+    {place_of<&PileParams<Dim>::at>,
      {.name = "at",
       .type = "point",
       .unit = "m",
       .range = coordinate_range,
       .default_text = "where the first body lands",
       .meaning = "middle of the base"}},
-    {&PileParams<Dim>::initial_size,
+    {place_of<&PileParams<Dim>::initial_size>,
      {.name = "initial_size",
       .range = between(1.0, 1e7),
       .meaning = "number of bodies, [`N`](extending.md#glossary), for which the layers have room at the start. Larger: "
                  "the first "
                  "bodies wait longer for a dense layer"}},
-    {&PileParams<Dim>::growth_ratio,
+    {place_of<&PileParams<Dim>::growth_ratio>,
      {.name = "growth_ratio",
       .range = between(0.01, 1.0),
       .meaning = "[occupation ratio](extending.md#glossary) above which `N` doubles"}},
-    {&PileParams<Dim>::merge_distance,
+    {place_of<&PileParams<Dim>::merge_distance>,
      {.name = "merge_distance",
       .unit = "D",
       .range = between(0.0, 1e6),
       .meaning = "piles of one slope whose centres stay nearer than this become one; 0: never"}},
-    {&PileParams<Dim>::drift_rate,
+    {place_of<&PileParams<Dim>::drift_rate>,
      {.name = "drift_rate",
       .unit = "1/s",
       .range = between(0.0, 1e3),
       .meaning = "share of the way to its bodies' mean position that the centre goes per second. High: layers change "
                  "while bodies sleep by them"}},
-    {&PileParams<Dim>::count_flying,
+    {place_of<&PileParams<Dim>::count_flying>,
      {.name = "count_flying",
       .default_text = "false with `adaptive`, else true",
       .meaning =

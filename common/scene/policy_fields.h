@@ -10,7 +10,7 @@
 namespace talus {
 
 inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
-    {&AdaptiveParams::tolerance,
+    {place_of<&AdaptiveParams::tolerance>,
      {.name = "tolerance",
       .unit = "D",
       .range = between(0.0, 10.0),
@@ -19,20 +19,20 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
           "checked for it when it comes to rest; one that moves and is steeper than its friction holds, when 10 times "
           "this share of it is unchecked; below 0.05 both rest distances shrink in proportion. Large: heaps come "
           "to rest too steep; small: checks take long and more is awake; 0: no checks"}},
-    {&AdaptiveParams::rest_distance,
+    {place_of<&AdaptiveParams::rest_distance>,
      {.name = "rest_distance",
       .unit = "D",
       .range = above(0.0, 10.0),
       .meaning =
           "a body is at rest while no point of it moves farther. Large: bodies that topple slowly fall asleep on "
           "edge; small: solver noise keeps the pile awake"}},
-    {&AdaptiveParams::rest_period_deep,
+    {place_of<&AdaptiveParams::rest_period_deep>,
      {.name = "rest_period_deep",
       .unit = "sqrt(D/g)",
       .range = between(0.0, 1e3),
       .meaning = "time at rest before sleep where the score is 1: deep in the pile, where layers are dense and the "
                  "centre is near"}},
-    {&AdaptiveParams::rest_period_surface,
+    {place_of<&AdaptiveParams::rest_period_surface>,
      {.name = "rest_period_surface",
       .unit = "sqrt(D/g)",
       .range = between(0.0, 1e3),
@@ -40,71 +40,71 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .meaning =
           "the same where the score is 0: at the surface and outside the pile. Short: the peak becomes too high; "
           "long: slow"}},
-    {&AdaptiveParams::rest_distance_woken,
+    {place_of<&AdaptiveParams::rest_distance_woken>,
      {.name = "rest_distance_woken",
       .unit = "D",
       .range = above(0.0, 10.0),
       .meaning = "a woken body that has moved no farther after `rest_period_woken` may sleep again. Large: slides are "
                  "stopped as they begin; small: much stays awake for nothing"}},
-    {&AdaptiveParams::rest_period_woken,
+    {place_of<&AdaptiveParams::rest_period_woken>,
      {.name = "rest_period_woken",
       .unit = "sqrt(D/g)",
       .range = between(0.0, 1e3),
       .meaning = "that time. Short: slow slides are stopped; long: much stays awake for nothing"}},
-    {&AdaptiveParams::wake_height,
+    {place_of<&AdaptiveParams::wake_height>,
      {.name = "wake_height",
       .unit = "D",
       .range = above(0.0, 10.0),
       .meaning = "an impact wakes a body if it would give the struck point enough speed to rise by this height; an "
                  "impact from straight above counts by a third. Low: much wakes for nothing; high: impacts end as on "
                  "rock, and the pile stays too steep"}},
-    {&AdaptiveParams::heavy_impact,
+    {place_of<&AdaptiveParams::heavy_impact>,
      {.name = "heavy_impact",
       .unit = "bodies",
       .range = above(0.0, 1e9),
       .meaning = "number of typical bodies that an impact must be able to move to wake them before it lands. Low: each "
                  "drop wakes a heap; high: a heavy fast body is stopped as by rock"}},
-    {&AdaptiveParams::support_slack,
+    {place_of<&AdaptiveParams::support_slack>,
      {.name = "support_slack",
       .unit = "D",
       .range = above(0.0, 10.0),
       .meaning =
           "how far a supporting contact may move before the supported body wakes. Large: bodies hang in the air"}},
-    {&AdaptiveParams::awake_share,
+    {place_of<&AdaptiveParams::awake_share>,
      {.name = "awake_share",
       .range = below(1.0),
       .meaning = "part of a body's weight that awake bodies may carry when it falls asleep"}},
-    {&AdaptiveParams::avalanche_width,
+    {place_of<&AdaptiveParams::avalanche_width>,
      {.name = "avalanche_width",
       .unit = "D",
       .range = above(0.0, 1e3),
       .meaning =
           "width of the columns of local avalanches. Narrow: heaps do not slide as a whole; wide: much is awake"}},
-    {&AdaptiveParams::avalanche_growth,
+    {place_of<&AdaptiveParams::avalanche_growth>,
      {.name = "avalanche_growth",
       .range = above(1.0, 1e3),
       .meaning = "growth of a column's sleeping bodies, as a factor, from one check to the next, from which the column "
                  "may slide. Large: heaps become too steep; small: much wakes for nothing; 1000: in effect never"}},
-    {&AdaptiveParams::avalanche_angle,
+    {place_of<&AdaptiveParams::avalanche_angle>,
      {.name = "avalanche_angle_deg",
       .unit = "degrees",
       .stored = Stored::in_radians,
       .range = between(0.0, 89.0),
       .meaning = "slope from the top of one column to the top of the next from which bodies may slide. Low: plains "
                  "wake; high: heaps become too steep"}},
-    {&AdaptiveParams::slope_proportional_gain,
+    {place_of<&AdaptiveParams::slope_proportional_gain>,
      {.name = "slope_proportional_gain",
       .unit = "sqrt(g/D)",
       .range = between(0.0, 1e6),
       .meaning =
           "in a pile with `control_slope`: damping of bodies in contact, per radian of missing slope. Low: late; "
           "high: a thin tower on a broad foot"}},
-    {&AdaptiveParams::slope_integral_gain,
+    {place_of<&AdaptiveParams::slope_integral_gain>,
      {.name = "slope_integral_gain",
       .unit = "g/D",
       .range = between(0.0, 1e6),
       .meaning = "growth of that damping in a second, per radian of missing slope. Low: piles too flat; high: waves"}},
-    {&AdaptiveParams::slope_max_damping,
+    {place_of<&AdaptiveParams::slope_max_damping>,
      {.name = "slope_max_damping",
       .unit = "sqrt(g/D)",
       .range = between(0.0, 1e6),
@@ -125,18 +125,18 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
 });
 
 inline constexpr auto paper_fields = std::to_array<Field<PaperParams>>({
-    {&PaperParams::tau,
+    {place_of<&PaperParams::tau>,
      {.name = "tau", .range = below(1.0), .meaning = "sleep score to exceed. Low: bodies freeze before they rest"}},
-    {&PaperParams::avalanche_density,
+    {place_of<&PaperParams::avalanche_density>,
      {.name = "avalanche_density",
       .range = above(0.0, 1e3),
       .meaning = "layer density above which the pile wakes; of several, bottom-up, each for a layer and the last for "
                  "all above. Must exceed what a good pile reaches"}},
-    {&PaperParams::awake_steps,
+    {place_of<&PaperParams::awake_steps>,
      {.name = "awake_steps",
       .range = between(0.0, 1e9),
       .meaning = "steps before a woken body may sleep again. Few: forces find no balance; many: little is saved"}},
-    {&PaperParams::wake_speed,
+    {place_of<&PaperParams::wake_speed>,
      {.name = "wake_speed",
       .unit = "m/s",
       .range = above(0.0, 1e6),

@@ -32,10 +32,10 @@ inline constexpr Range time_range = between(0.0, 1e6);
 
 template <int Dim>
 inline constexpr Field<Motion<Dim>> motion_start_field = {
-    &Motion<Dim>::start,
+    place_of<&Motion<Dim>::start>,
     {.name = "start", .unit = "s", .range = time_range, .meaning = "until then it stays as it is"}};
 template <int Dim>
-inline constexpr Field<Motion<Dim>> motion_end_field = {&Motion<Dim>::end,
+inline constexpr Field<Motion<Dim>> motion_end_field = {place_of<&Motion<Dim>::end>,
                                                         {.name = "end",
                                                          .unit = "s",
                                                          .range = time_range,
@@ -45,7 +45,7 @@ inline constexpr Field<Motion<Dim>> motion_end_field = {&Motion<Dim>::end,
 
 template <int Dim>
 inline constexpr Field<Motion<Dim>> motion_frequency_field = {
-    &Motion<Dim>::frequency,
+    place_of<&Motion<Dim>::frequency>,
     {.name = "frequency", .required = true, .unit = "1/s", .range = above(0.0, 1e3), .meaning = "of that"}};
 constexpr Key speed_of_turn(std::string_view meaning) {
   return {.name = "speed_deg",
@@ -75,7 +75,7 @@ constexpr Key angles_of_path(std::string_view rule, std::string_view otherwise, 
 
 template <int Dim>
 inline constexpr auto sine_fields = std::to_array<Field<Motion<Dim>>>({
-    {&Motion<Dim>::amplitude,
+    {place_of<&Motion<Dim>::amplitude>,
      {.name = "amplitude",
       .required = true,
       .unit = "m",
@@ -88,7 +88,7 @@ inline constexpr auto sine_fields = std::to_array<Field<Motion<Dim>>>({
 
 template <int Dim>
 inline constexpr auto turn_fields = std::to_array<Field<Motion<Dim>>>({
-    {&Motion<Dim>::speed, speed_of_turn("of a steady turn about `position`, counter-clockwise")},
+    {place_of<&Motion<Dim>::speed>, speed_of_turn("of a steady turn about `position`, counter-clockwise")},
     {{}, motion_axis_key},
     motion_start_field<Dim>,
     motion_end_field<Dim>,
@@ -96,25 +96,25 @@ inline constexpr auto turn_fields = std::to_array<Field<Motion<Dim>>>({
 
 template <int Dim>
 inline constexpr auto path_fields = std::to_array<Field<Motion<Dim>>>({
-    {&Motion<Dim>::times,
+    {place_of<&Motion<Dim>::times>,
      times_of_path(
          "when the obstacle is at each of the `shifts`. Between two of them it moves steadily, before the first "
          "and after the last it stands still")},
-    {&Motion<Dim>::shifts,
+    {place_of<&Motion<Dim>::shifts>,
      {.name = "shifts",
       .required = true,
       .unit = "m",
       .range = coordinate_range,
       .further_rule = "as many as `times`, the first 0",
       .meaning = "from `position`"}},
-    {&Motion<Dim>::angles,
+    {place_of<&Motion<Dim>::angles>,
      angles_of_path("as many as `times`, the first 0", "no turn", "turn about `position`, counter-clockwise")},
     {{}, motion_axis_key},
 });
 
 template <int Dim>
 inline constexpr auto gravity_sine_fields = std::to_array<Field<Motion<Dim>>>({
-    {&Motion<Dim>::amplitude,
+    {place_of<&Motion<Dim>::amplitude>,
      {.name = "amplitude",
       .required = true,
       .unit = "m/s^2",
@@ -127,7 +127,7 @@ inline constexpr auto gravity_sine_fields = std::to_array<Field<Motion<Dim>>>({
 
 template <int Dim>
 inline constexpr auto gravity_turn_fields = std::to_array<Field<Motion<Dim>>>({
-    {&Motion<Dim>::speed,
+    {place_of<&Motion<Dim>::speed>,
      speed_of_turn("of a steady turn of `gravity`, counter-clockwise: a box that tilts clockwise")},
     {{}, gravity_motion_axis_key},
     motion_start_field<Dim>,
@@ -136,10 +136,10 @@ inline constexpr auto gravity_turn_fields = std::to_array<Field<Motion<Dim>>>({
 
 template <int Dim>
 inline constexpr auto gravity_path_fields = std::to_array<Field<Motion<Dim>>>({
-    {&Motion<Dim>::times,
+    {place_of<&Motion<Dim>::times>,
      times_of_path("when gravity has each of the values. Between two of them it changes steadily, before the first and "
                    "after the last it stays")},
-    {&Motion<Dim>::shifts,
+    {place_of<&Motion<Dim>::shifts>,
      {.name = "gravity",
       .type = "vectors",
       .unit = "m/s^2",
@@ -147,7 +147,8 @@ inline constexpr auto gravity_path_fields = std::to_array<Field<Motion<Dim>>>({
       .further_rule = "as many as `times`",
       .default_text = "none",
       .meaning = "gravity itself, in the place of `world.gravity`. One of `gravity` and `angles_deg` is given"}},
-    {&Motion<Dim>::angles, angles_of_path("as many as `times`", "none", "turn of `world.gravity`, counter-clockwise")},
+    {place_of<&Motion<Dim>::angles>,
+     angles_of_path("as many as `times`", "none", "turn of `world.gravity`, counter-clockwise")},
     {{}, gravity_motion_axis_key},
 });
 

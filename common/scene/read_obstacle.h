@@ -22,7 +22,7 @@ inline constexpr auto obstacle_fields = std::to_array<Field<Pose<Dim>>>({
       .type = "text",
       .further_rule = "a kind of shape, or `\"container\"`",
       .meaning = "decides which keys of a shape or of a container belong here"}},
-    {&Pose<Dim>::position,
+    {place_of<&Pose<Dim>::position>,
      {.name = "position",
       .type = "point",
       .unit = "m",
@@ -56,15 +56,15 @@ inline constexpr Key floor_key = {.name = "floor",
 
 template <int Dim>
 inline constexpr auto container_fields = std::to_array<Field<ContainerParams<Dim>>>({
-    {&ContainerParams<Dim>::inner_size,
+    {place_of<&ContainerParams<Dim>::inner_size>,
      {.name = "inner_size",
       .required = true,
       .type = "lengths",
       .unit = "m",
       .range = length_range,
       .meaning = "inside, the last number the height of the walls"}},
-    {&ContainerParams<Dim>::wall, wall_key},
-    {&ContainerParams<Dim>::floor, floor_key},
+    {place_of<&ContainerParams<Dim>::wall>, wall_key},
+    {place_of<&ContainerParams<Dim>::floor>, floor_key},
 });
 
 /// Keys of an outline, of which one is given.
@@ -83,10 +83,10 @@ inline constexpr Key outline_corners_key = {.name = "corners",
 inline constexpr auto convex_container_fields = std::to_array<Field<ConvexContainerParams>>({
     {{}, outline_radius_key},
     {{}, outline_corners_key},
-    {&ConvexContainerParams::height,
+    {place_of<&ConvexContainerParams::height>,
      {.name = "height", .required = true, .unit = "m", .range = length_range, .meaning = "of the walls"}},
-    {&ConvexContainerParams::wall, wall_key},
-    {&ConvexContainerParams::floor, floor_key},
+    {place_of<&ConvexContainerParams::wall>, wall_key},
+    {place_of<&ConvexContainerParams::floor>, floor_key},
 });
 
 /// Keys of `[pile.boundary]`.
@@ -110,7 +110,7 @@ inline constexpr auto boundary_fields = std::to_array<Field<BoundaryParams>>({
       .type = "text",
       .further_rule = R"(`"box"`, in 3D also `"cylinder"`, `"convex"`)",
       .meaning = "box: `size`; cylinder: `radius`; convex: `corners`, seen from `at`, which lies inside"}},
-    {&BoundaryParams::rim,
+    {place_of<&BoundaryParams::rim>,
      {.name = "rim",
       .required = true,
       .unit = "m",
@@ -119,13 +119,13 @@ inline constexpr auto boundary_fields = std::to_array<Field<BoundaryParams>>({
     {{}, boundary_size_key},
     {{}, outline_radius_key},
     {{}, outline_corners_key},
-    {&BoundaryParams::wall,
+    {place_of<&BoundaryParams::wall>,
      {.name = "wall",
       .unit = "m",
       .range = length_range,
       .default_text = "none are built",
       .meaning = "thickness. Thin: fast bodies go through it within one step"}},
-    {&BoundaryParams::floor,
+    {place_of<&BoundaryParams::floor>,
      {.name = "floor",
       .default_text = "false",
       .meaning = "a slab beneath as thick as the walls; without, the ground is the floor. Not without `wall`"}},

@@ -22,27 +22,27 @@ struct ScaleParams {
 
 inline constexpr Range factor_range = between(0.01, 100.0);
 inline constexpr auto scale_fields = std::to_array<Field<ScaleParams>>({
-    {&ScaleParams::uniform,
+    {place_of<&ScaleParams::uniform>,
      {.name = "uniform",
       .range = factor_range,
       .further_rule = "two, the smaller first",
       .default_text = "none",
       .meaning = "factors of the size, uniformly distributed between these two. One of `uniform`, `lognormal` and "
                  "`factors` is given"}},
-    {&ScaleParams::lognormal,
+    {place_of<&ScaleParams::lognormal>,
      {.name = "lognormal",
       .range = above(0.0, 1.0),
       .default_text = "none",
       .meaning = "standard deviation of the logarithm of the factor, whose median is 1"}},
-    {&ScaleParams::factors,
+    {place_of<&ScaleParams::factors>,
      {.name = "factors", .range = factor_range, .default_text = "none", .meaning = "these factors only"}},
-    {&ScaleParams::shares,
+    {place_of<&ScaleParams::shares>,
      {.name = "shares",
       .range = above(0.0, 1e6),
       .further_rule = "as many as `factors`",
       .default_text = "equal",
       .meaning = "of the bodies of each of the `factors`; only ratios matter"}},
-    {&ScaleParams::classes,
+    {place_of<&ScaleParams::classes>,
      {.name = "classes",
       .range = between(2.0, 100.0),
       .meaning = "sizes that stand for the distribution, at the middle of shares of equal probability: with 12 the "

@@ -9,11 +9,11 @@
 namespace talus {
 
 inline constexpr auto surface_fields = std::to_array<Field<Material>>({
-    {&Material::friction,
+    {place_of<&Material::friction>,
      {.name = "friction",
       .range = between(0.0, 1e3),
       .meaning = "Coulomb's coefficient; see [conventions](#conventions) on pairs. Few real materials are above 1"}},
-    {&Material::restitution,
+    {place_of<&Material::restitution>,
      {.name = "restitution",
       .range = between(0.0, 1.0),
       .meaning = "share of the approach speed given back. Above 0.99 impacts add energy, see "
@@ -22,14 +22,14 @@ inline constexpr auto surface_fields = std::to_array<Field<Material>>({
 
 /// What only bodies have.
 inline constexpr auto body_material_fields = std::to_array<Field<Material>>({
-    {&Material::density,
+    {place_of<&Material::density>,
      {.name = "density",
       .unit = "kg/m^3, in 2D kg/m^2",
       .range = above(0.0, 1e6),
       .meaning =
           "only ratios matter to a pile: masses of a scene's shapes must be within a factor of 100, better 10, or "
           "heavy bodies sink through light ones. Mass and inertia must be at least 1e-20 kg and kg m^2"}},
-    {&Material::rolling_friction,
+    {place_of<&Material::rolling_friction>,
      {.name = "rolling_friction",
       .range = between(0.0, 10.0),
       .meaning = "tangent of the steepest slope on which a ball of this shape does not roll. Each contact resists "
@@ -41,7 +41,7 @@ inline constexpr auto body_material_fields = std::to_array<Field<Material>>({
 
 template <int Dim>
 inline constexpr auto box_fields = std::to_array<Field<BoxParams<Dim>>>({
-    {&BoxParams<Dim>::size,
+    {place_of<&BoxParams<Dim>::size>,
      {.name = "size",
       .required = true,
       .type = "lengths",
@@ -51,24 +51,24 @@ inline constexpr auto box_fields = std::to_array<Field<BoxParams<Dim>>>({
 });
 
 inline constexpr auto l_fields = std::to_array<Field<LParams>>({
-    {&LParams::arm_x,
+    {place_of<&LParams::arm_x>,
      {.name = "arm_x",
       .unit = "m",
       .range = length_range,
       .further_rule = "above `thickness`",
       .meaning = "outer length of the horizontal arm"}},
-    {&LParams::arm_z,
+    {place_of<&LParams::arm_z>,
      {.name = "arm_z",
       .unit = "m",
       .range = length_range,
       .further_rule = "above `thickness`",
       .meaning = "outer length of the vertical arm"}},
-    {&LParams::thickness,
+    {place_of<&LParams::thickness>,
      {.name = "thickness",
       .unit = "m",
       .range = length_range,
       .meaning = "of both arms. A thin L interlocks more and needs smaller time steps"}},
-    {&LParams::depth,
+    {place_of<&LParams::depth>,
      {.name = "depth",
       .dimension = 3,
       .unit = "m",
@@ -77,32 +77,32 @@ inline constexpr auto l_fields = std::to_array<Field<LParams>>({
 });
 
 inline constexpr auto ball_fields = std::to_array<Field<BallParams>>({
-    {&BallParams::radius,
+    {place_of<&BallParams::radius>,
      {.name = "radius", .required = true, .unit = "m", .range = length_range, .meaning = "in 2D of a disc"}},
 });
 
 inline constexpr auto capsule_fields = std::to_array<Field<CapsuleParams>>({
-    {&CapsuleParams::length,
+    {place_of<&CapsuleParams::length>,
      {.name = "length",
       .required = true,
       .unit = "m",
       .range = length_range,
       .further_rule = "above 2 `radius`",
       .meaning = "from tip to tip, along x"}},
-    {&CapsuleParams::radius,
+    {place_of<&CapsuleParams::radius>,
      {.name = "radius", .required = true, .unit = "m", .range = length_range, .meaning = "of the two ends"}},
 });
 
 inline constexpr auto cylinder_fields = std::to_array<Field<CylinderParams>>({
-    {&CylinderParams::length,
+    {place_of<&CylinderParams::length>,
      {.name = "length", .required = true, .unit = "m", .range = length_range, .meaning = "along z"}},
-    {&CylinderParams::radius,
+    {place_of<&CylinderParams::radius>,
      {.name = "radius",
       .required = true,
       .unit = "m",
       .range = length_range,
       .meaning = "of the circle on which the corners of the prism lie; in 2D half the width of a rectangle"}},
-    {&CylinderParams::sides,
+    {place_of<&CylinderParams::sides>,
      {.name = "sides",
       .dimension = 3,
       .range = between(3.0, 64.0),
@@ -112,15 +112,15 @@ inline constexpr auto cylinder_fields = std::to_array<Field<CylinderParams>>({
 });
 
 inline constexpr auto cone_fields = std::to_array<Field<ConeParams>>({
-    {&ConeParams::height,
+    {place_of<&ConeParams::height>,
      {.name = "height", .required = true, .unit = "m", .range = length_range, .meaning = "along z, the tip on top"}},
-    {&ConeParams::radius,
+    {place_of<&ConeParams::radius>,
      {.name = "radius",
       .required = true,
       .unit = "m",
       .range = length_range,
       .meaning = "of the circle on which the corners of the base lie; in 2D half the base of a triangle"}},
-    {&ConeParams::sides,
+    {place_of<&ConeParams::sides>,
      {.name = "sides",
       .dimension = 3,
       .range = between(3.0, 64.0),
@@ -129,14 +129,14 @@ inline constexpr auto cone_fields = std::to_array<Field<ConeParams>>({
 
 template <int Dim>
 inline constexpr auto ellipse_fields = std::to_array<Field<EllipseParams<Dim>>>({
-    {&EllipseParams<Dim>::size,
+    {place_of<&EllipseParams<Dim>::size>,
      {.name = "size",
       .required = true,
       .type = "lengths",
       .unit = "m",
       .range = length_range,
       .meaning = "full width along each axis of the ellipse, in 3D the ellipsoid, on which the corners lie"}},
-    {&EllipseParams<Dim>::corners,
+    {place_of<&EllipseParams<Dim>::corners>,
      {.name = "corners",
       .range = between(6.0, 200.0),
       .default_text = "16 in 2D, 42 in 3D",
@@ -145,26 +145,26 @@ inline constexpr auto ellipse_fields = std::to_array<Field<EllipseParams<Dim>>>(
 });
 
 inline constexpr auto stone_fields = std::to_array<Field<StoneParams>>({
-    {&StoneParams::size,
+    {place_of<&StoneParams::size>,
      {.name = "size",
       .unit = "m",
       .range = length_range,
       .meaning = "diameter of the disc or ball of the area or volume of the ellipse or ellipsoid that it is cut from"}},
-    {&StoneParams::elongation,
+    {place_of<&StoneParams::elongation>,
      {.name = "elongation",
       .range = between(1.0, 5.0),
       .meaning = "length over width of that ellipse or, with two equal short axes, ellipsoid"}},
-    {&StoneParams::roughness,
+    {place_of<&StoneParams::roughness>,
      {.name = "roughness",
       .range = between(0.0, 0.9),
       .meaning = "each corner lies inwards by a random share of up to this. Corners that are not convex are left out"}},
-    {&StoneParams::corners,
+    {place_of<&StoneParams::corners>,
      {.name = "corners",
       .range = between(5.0, 64.0),
       .further_rule = "at most 8 in 2D",
       .default_text = "7 in 2D, 16 in 3D",
       .meaning = "random points on the ellipse or ellipsoid"}},
-    {&StoneParams::variants,
+    {place_of<&StoneParams::variants>,
      {.name = "variants",
       .range = between(1.0, 100.0),
       .meaning =
@@ -174,7 +174,7 @@ inline constexpr auto stone_fields = std::to_array<Field<StoneParams>>({
 
 template <int Dim>
 inline constexpr auto hull_fields = std::to_array<Field<HullParams<Dim>>>({
-    {&HullParams<Dim>::corners,
+    {place_of<&HullParams<Dim>::corners>,
      {.name = "corners",
       .required = true,
       .unit = "m",
@@ -185,14 +185,14 @@ inline constexpr auto hull_fields = std::to_array<Field<HullParams<Dim>>>({
 });
 
 inline constexpr auto polygon_fields = std::to_array<Field<PolygonParams>>({
-    {&PolygonParams::corners,
+    {place_of<&PolygonParams::corners>,
      {.name = "corners",
       .required = true,
       .unit = "m",
       .range = coordinate_range,
       .meaning = "three or more points `[x, z]` in order, convex or not, no edge touching another; cut into convex "
                  "pieces of at most 8 corners"}},
-    {&PolygonParams::depth,
+    {place_of<&PolygonParams::depth>,
      {.name = "depth",
       .dimension = 3,
       .unit = "m",
@@ -201,32 +201,32 @@ inline constexpr auto polygon_fields = std::to_array<Field<PolygonParams>>({
 });
 
 inline constexpr auto ring_fields = std::to_array<Field<RingParams>>({
-    {&RingParams::outer_radius,
+    {place_of<&RingParams::outer_radius>,
      {.name = "outer_radius",
       .required = true,
       .unit = "m",
       .range = length_range,
       .meaning = "of the circle, in the x-z plane, on which the outer corners of the parts lie"}},
-    {&RingParams::inner_radius,
+    {place_of<&RingParams::inner_radius>,
      {.name = "inner_radius",
       .required = true,
       .unit = "m",
       .range = length_range,
       .further_rule = "below `outer_radius`",
       .meaning = "of the circle on which the inner corners lie"}},
-    {&RingParams::parts,
+    {place_of<&RingParams::parts>,
      {.name = "parts",
       .range = between(3.0, 64.0),
       .meaning = "convex parts around. In a pile a ring's cost grows nearly in proportion; few parts make it angular, "
                  "and the hole narrower by cos(180 degrees / `parts`)"}},
-    {&RingParams::depth,
+    {place_of<&RingParams::depth>,
      {.name = "depth",
       .dimension = 3,
       .unit = "m",
       .range = length_range,
       .default_text = "width of the tube",
       .meaning = "along y, half of it to each side"}},
-    {&RingParams::section_corners,
+    {place_of<&RingParams::section_corners>,
      {.name = "section_corners",
       .dimension = 3,
       .range = between(4.0, 8.0),

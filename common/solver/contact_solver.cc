@@ -31,11 +31,14 @@ namespace {
 constexpr int colours = 64;             // bits of a mask; contacts beyond are solved one by one
 constexpr float damping_ratio = 10.0F;  // of a contact's spring: overlap goes away without bouncing
 constexpr float spring = 0.125F;        // its frequency, over that of the sub-steps; from 0.15 on pyramids buckle
-constexpr float fixed_spring = 2.0F;    // how many times that frequency is higher against what never moves
-constexpr float carry = 2.0F;           // an impulse is carried into the next sub-step at this times its last at most
-constexpr int first_passes = 3;         // of the first sub-step, in which contacts begin
+constexpr float fixed_spring = 1.4F;  // how many times that frequency is higher against what never moves: at 2 one pass
+                                      // no longer carries a body a hundred times as heavy as the one below it
+constexpr float carry = 2.0F;         // an impulse is carried into the next sub-step at this times its last at most
+constexpr int first_passes = 2;       // of the first sub-step, in which contacts begin
 constexpr int bounce_passes = 4;
 constexpr int deep_passes = 3;
+constexpr float deepest = 0.04F;    // overlap that a spring sees at most [m]: that of a hundred times a body's weight.
+                                    // Two that press on a body from both sides would else grow without end
 constexpr float deep_share = 0.2F;  // of a deep overlap, moved apart in each of them
 
 float inverse(float x) { return x > 0.0F ? 1.0F / x : 0.0F; }
@@ -145,6 +148,7 @@ struct ContactSolver<Dim>::Work {
   struct DeepPoint {
     int point = 0;
     float gain = 0.0F;
+    float sag = 0.0F;  // overlap by the load that the point carries [m]
   };
 
   explicit Work(SolverLanes kind) : kernel(kernel_of<Dim>(kind)) {}
@@ -165,7 +169,7 @@ struct ContactSolver<Dim>::Work {
 
   void run(Pass pass) {
     kernel({velocity.data(), moved.data(), free.data(), blocks.data(), static_cast<int>(blocks.size()), lanes.data(),
-            rolling.data(), 1.0F / h, params.deep, carry},
+            rolling.data(), 1.0F / h, params.deep, deepest, carry},
            pass);
   }
 
@@ -314,7 +318,8 @@ void ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int l
   to.impulse.v[lane] = to.before.v[lane] = share * point.normal_impulse;
   for (int i = 0; i < Dim - 1; ++i)
     to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] = share * point.friction_impulse.dot(tangents[i]);
-  if (point.gap < -params.deep) deep_points.push_back({number, gain});
+  if (const float stiffness = gain * stiff * of_contact.rate; point.gap < -params.deep && stiffness > 0.0F)
+    deep_points.push_back({number, gain, std::min(to.impulse.v[lane] / stiffness, deepest)});
 }
 
 template <int Dim>
@@ -394,7 +399,8 @@ void ContactSolver<Dim>::Work::keep_changes() {
   }
 }
 
-/// Moves what overlaps by more than `deep` apart. It gets no velocity by that: as a spring it would be thrown.
+/// Moves what overlaps by more than `deep` beyond its load apart. It gets no velocity by that: as a spring it would be
+/// thrown.
 template <int Dim>
 void ContactSolver<Dim>::Work::push_deep() {
   for (int pass = 0; pass < deep_passes; ++pass) {
@@ -407,8 +413,9 @@ void ContactSolver<Dim>::Work::push_deep() {
         return linear_of<Dim>(of) + turned(angular_of<Dim>(of), arm);
       };
       const float gap = point.gap + n.dot(way(b, point.arm_b) - way(a, point.arm_a));
-      if (gap >= -params.deep) continue;
-      const VecF<Dim> push = deep.gain * deep_share * -(gap + params.deep) * n;
+      const float excess = -(gap + params.deep + deep.sag);
+      if (excess <= 0.0F) continue;
+      const VecF<Dim> push = deep.gain * deep_share * excess * n;
       const auto shift = [&](int slot, Quad* to, const VecF<Dim>& arm, float sign) {
         const SolverBody<Dim>& body = bodies[slot];
         if (!body.moves) return;

@@ -55,11 +55,11 @@ constexpr int lane_parts = lanes_of_a_block / lane_width;
 
 /// Each operation works lane by lane and rounds as the scalar one does.
 struct Lanes {
-  Native v[lane_parts];
+  Native v[lane_parts] = {};
 };
 
 #define TALUS_EACH_PART(expression)                           \
-  Lanes out = {};                                             \
+  Lanes out;                                                  \
   for (int i = 0; i < lane_parts; ++i) out.v[i] = expression; \
   return out
 inline Lanes splat(float x) { TALUS_EACH_PART(native_splat(x)); }

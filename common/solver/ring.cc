@@ -73,16 +73,21 @@ bool Ring<Dim>::idle(std::span<const BodyIndex> moving) const {
 
 template <int Dim>
 void Ring<Dim>::start() {
+  before_.insert(before_.end(), members_.begin(), members_.end());
+  stirred_.clear();
+  last_touched_.swap(touched_);
+  start_again();
+}
+
+template <int Dim>
+void Ring<Dim>::start_again() {
   for (const BodyIndex body : border_) sleepers_[body].slot = 0;
   for (const BodyIndex body : members_) {
     sleepers_[body].slot = 0;
     sleepers_[body].depth = -1;
-    before_.push_back(body);
   }
   border_.clear();
   members_.clear();
-  stirred_.clear();
-  last_touched_.swap(touched_);
   touched_.clear();
   slowest_obstacle_ = 0.0F;
 }
@@ -132,7 +137,6 @@ void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle
   }
   for (const BodyIndex body : disturbed_) enter(body, 1, solver);
   for (const BodyIndex body : last_touched_) enter(body, 1, solver);
-  disturbed_.clear();
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const int depth = sleepers_[members_[i]].depth;
     if (depth > 0 && depth < params_.rings) enter_partners(members_[i], depth + 1, solver);
@@ -160,7 +164,6 @@ void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
       if (far_of(sleeper) > settle_distance * static_cast<float>(params_.extent)) stirred_.push_back(body);
     }
   }
-  before_.clear();
 }
 
 template <int Dim>
@@ -213,6 +216,8 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity) {
   float still = static_cast<float>(params_.still_speed) * unit;
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);
   moving_.clear();
+  before_.clear();
+  disturbed_.clear();
   for (const BodyIndex body : members_) {
     Sleeper& sleeper = sleepers_[body];
     const SolverBody<Dim>& solved = solver.body(sleeper.slot);

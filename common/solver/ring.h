@@ -43,6 +43,8 @@ class Ring {
   /// Whether no sleeping body would be solved if nothing is awake. `moving`: the obstacles that move in the step.
   bool idle(std::span<const BodyIndex> moving) const;
   void start();
+  /// In place of start() when the same step is solved again.
+  void start_again();
   /// The slot of a body that sleeps here and touches one that is awake.
   int join(BodyIndex body, ContactSolver<Dim>& solver);
   /// After all awake bodies and their points: adds the other bodies of the ring, and the points between bodies that

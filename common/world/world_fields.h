@@ -9,35 +9,35 @@
 namespace talus {
 
 inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
-    {&SolverParams::kind,
+    {place_of<&SolverParams::kind>,
      {.name = "kind",
       .choices = solver_kinds,
       .meaning = "the solver of contacts: the engine's own solver, or the one of this project on the engine's "
                  "collision detection, in `sub_steps` short steps a step. Small steps bring a heap to rest and hold "
                  "towers; `velocity_iterations`, `position_iterations`, `friction_directions` and `warm_friction` "
                  "mean nothing to it. Not with the policy `engine`"}},
-    {&SolverParams::sub_steps,
+    {place_of<&SolverParams::sub_steps>,
      {.name = "sub_steps",
       .range = between(1.0, 100.0),
       .meaning = "of `small_steps` only. 4: faster, towers of twenty fall; 2: bodies sink into each other"}},
-    {&SolverParams::velocity_iterations,
+    {place_of<&SolverParams::velocity_iterations>,
      {.name = "velocity_iterations",
       .range = between(1.0, 1000.0),
       .meaning = "too few: piles melt and tall stacks sink. Cost grows in proportion"}},
-    {&SolverParams::position_iterations,
+    {place_of<&SolverParams::position_iterations>,
      {.name = "position_iterations",
       .range = between(1.0, 1000.0),
       .meaning = "Box2D only. Too few: bodies stay inside each other"}},
-    {&SolverParams::friction_directions,
+    {place_of<&SolverParams::friction_directions>,
      {.name = "friction_directions",
       .range = between(1.0, 2.0),
       .meaning = "Bullet in 3D only. 1: piles creep without end and become 20 % too low"}},
-    {&SolverParams::warm_friction,
+    {place_of<&SolverParams::warm_friction>,
      {.name = "warm_friction",
       .meaning = "Bullet only. true: friction starts each step at the last step's impulse. 10 iterations then hold a "
                  "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time; the 3D scenes of this "
                  "project but `million_3d` have it. Towers one body wide sway more than without"}},
-    {&SolverParams::restitution_threshold,
+    {place_of<&SolverParams::restitution_threshold>,
      {.name = "restitution_threshold",
       .unit = "m/s",
       .range = between(0.0, 1e3),
@@ -45,15 +45,17 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
 });
 
 inline constexpr auto ground_fields = std::to_array<Field<Ground>>({
-    {&Ground::present, {.name = "present", .meaning = "false: bodies that miss the obstacles fall without end"}},
-    {&Ground::height, {.name = "height", .unit = "m", .range = coordinate_range, .meaning = "height of the plane"}},
+    {place_of<&Ground::present>,
+     {.name = "present", .meaning = "false: bodies that miss the obstacles fall without end"}},
+    {place_of<&Ground::height>,
+     {.name = "height", .unit = "m", .range = coordinate_range, .meaning = "height of the plane"}},
 });
 
 inline constexpr Key gravity_vector_key = {.name = "gravity", .unit = "m/s^2", .range = gravity_component_range};
 
 template <int Dim>
 inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>({
-    {&WorldDescription<Dim>::gravity,
+    {place_of<&WorldDescription<Dim>::gravity>,
      {.name = "gravity",
       .type = "number or vector",
       .unit = "m/s^2",
@@ -63,7 +65,7 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
           "policies `paper` and `adaptive` layers and columns, take the last axis as up all the same. Large: bodies "
           "sink into the "
           "ground, see [limits](#limits-of-the-engines)"}},
-    {&WorldDescription<Dim>::dt,
+    {place_of<&WorldDescription<Dim>::dt>,
      {.name = "steps_per_second",
       .unit = "1/s",
       .stored = Stored::as_inverse,

@@ -24,6 +24,7 @@ namespace talus {
 struct Box2d {
   static constexpr int dim = 2;
   static constexpr const char* name = "box2d";
+  static constexpr const char* small_steps_name = "box2d_small_steps";
   static auto make(const WorldDescription<2>& description) { return make_box2d_world(description); }
 };
 #endif
@@ -37,6 +38,7 @@ struct Bullet {
 struct BulletPlanar {
   static constexpr int dim = 2;
   static constexpr const char* name = "bullet_planar";
+  static constexpr const char* small_steps_name = "bullet_planar_small_steps";
   static auto make(const WorldDescription<2>& description) { return make_bullet_planar_world(description); }
 };
 #endif
@@ -52,13 +54,13 @@ struct SmallSteps {
   }
 };
 
-// Small steps on Box2D and in the plane do not pass yet: lab/notes/small_steps.md has the tests that fail.
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
-using Backends = ::testing::Types<Box2d, Bullet, BulletPlanar, SmallSteps<Bullet>>;
+using Backends =
+    ::testing::Types<Box2d, Bullet, BulletPlanar, SmallSteps<Box2d>, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
 #elif defined(TALUS_BOX2D)
-using Backends = ::testing::Types<Box2d>;
+using Backends = ::testing::Types<Box2d, SmallSteps<Box2d>>;
 #else
-using Backends = ::testing::Types<Bullet, BulletPlanar, SmallSteps<Bullet>>;
+using Backends = ::testing::Types<Bullet, BulletPlanar, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
 #endif
 
 template <typename Backend>

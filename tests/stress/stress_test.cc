@@ -79,7 +79,7 @@ void expect_documented(const std::string& page, const EngineTraits& engine) {
 }
 
 TEST(LimitsPage, HasTheWindowOfEachEngine) {
-  const std::string page = contents(std::string(TALUS_SOURCE_DIR) + "/docs/limits.md");
+  const std::string page = contents(TALUS_SOURCE_DIR "/docs/limits.md");
   for (const std::string& engine : backends(2)) expect_documented(page, engine_traits<2>(engine));
   for (const std::string& engine : backends(3)) expect_documented(page, engine_traits<3>(engine));
 }

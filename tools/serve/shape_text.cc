@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "common/math/angle.h"
 #include "common/scene/read_shape.h"
 #include "common/scene/toml_text.h"
 
@@ -18,10 +19,6 @@ std::string point_text(const Vec<Dim>& point) {
   for (const double part : point) parts.push_back(toml_text(part));
   return toml_array(parts);
 }
-
-/// Rotation that turns the first axis into a direction.
-Rotation<2> turn_to(const Vec2& direction) { return Rotation<2>(std::atan2(direction.y(), direction.x())); }
-Rotation<3> turn_to(const Vec3& direction) { return Rotation<3>::FromTwoVectors(Vec3::UnitX(), direction); }
 
 /// Kind and size of a piece, in axes that `at` gives.
 template <int Dim>
