@@ -20,8 +20,8 @@ std::int64_t id_of(std::string_view text) {
 }
 
 std::string settings(const RunInfo& info) {
-  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", info.scene, info.backend, info.policy, info.seed, info.dimension,
-                     info.dt, info.steps);
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", info.scene, info.backend, info.solver.kind, info.policy,
+                     info.seed, info.dimension, info.dt, info.steps);
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ std::string_view range_fault(const talus_stats& m) {
   if (!(m.overlap >= 0.0)) return "overlap out of range";
   if (!(m.overlap_share >= 0.0 && m.overlap_share <= 1.0)) return "share out of range";
   if (!((m.slope >= 0.0 && m.slope <= std::numbers::pi / 2.0) || m.slope == -1.0)) return "slope out of range";
-  if (m.warning_count > talus_stats::OVERLAP + 1) return "more warnings than kinds";
-  const auto known = [](auto kind) { return kind >= talus_stats::BELOW_GROUND && kind <= talus_stats::OVERLAP; };
+  if (m.warning_count > talus_stats::PASSED + 1) return "more warnings than kinds";
+  const auto known = [](auto kind) { return kind >= talus_stats::BELOW_GROUND && kind <= talus_stats::PASSED; };
   if (!std::all_of(m.warning_kind.begin(), m.warning_kind.end(), known)) return "unknown kind of warning";
   if (std::any_of(m.warning_step.begin(), m.warning_step.end(), is_negative)) return "negative step of a warning";
   if (std::any_of(m.warning_bodies.begin(), m.warning_bodies.end(), is_negative)) return "negative count";

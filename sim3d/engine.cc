@@ -46,11 +46,6 @@ Engine::Engine(const btVector3& gravity, const SolverParams& params, const Debug
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE, &ground_pairs);
     dispatcher.registerCollisionCreateFunc(STATIC_PLANE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &swapped_ground_pairs);
   }
-  // Bullet's own for two spheres forgets the contact, and the impulse in it, in each step.
-  if (params.small_steps())
-    dispatcher.registerCollisionCreateFunc(
-        SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE,
-        configuration.getCollisionAlgorithmCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE));
   world.setGravity(gravity);
   // Static bodies do not move: without this, Bullet refreshes their bounding boxes in every step.
   world.setForceUpdateAllAabbs(false);
@@ -58,6 +53,17 @@ Engine::Engine(const btVector3& gravity, const SolverParams& params, const Debug
   info.m_numIterations = params.velocity_iterations;
   info.m_restitutionVelocityThreshold = static_cast<btScalar>(params.restitution_threshold);
   if (params.friction_directions == 2) info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+}
+
+void Engine::keep_points_of_spheres() {
+  dispatcher.registerCollisionCreateFunc(
+      SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE,
+      configuration.getCollisionAlgorithmCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE));
+}
+
+void Engine::find_points_on_ground() {
+  constexpr int points = 4;
+  configuration.setPlaneConvexMultipointIterations(points, points);
 }
 
 }  // namespace talus::bullet

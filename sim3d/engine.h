@@ -20,6 +20,12 @@ struct Engine {
   /// `rolling_friction`: whether a shape has any.
   Engine(const btVector3& gravity, const SolverParams& params, const DebugOptions& debug, bool rolling_friction);
 
+  /// Bullet's own detection for two spheres forgets their point, and the impulse in it, in each step.
+  void keep_points_of_spheres();
+  /// All points of a body on the ground at once. Bullet finds one a step, and a box that slides out of its old ones is
+  /// without support.
+  void find_points_on_ground();
+
   btDefaultCollisionConfiguration configuration;
   CompoundPair::Maker compound_pairs;
   GroundPair::Maker ground_pairs{false};

@@ -95,6 +95,8 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
 
 template <int Dim>
 void EngineWorld<Dim>::use_small_steps() {
+  engine_.keep_points_of_spheres();
+  if constexpr (Dim == 3) engine_.find_points_on_ground();
   engine_.world.set_contact_step(
       {.solve = [this] { small_steps_->solve(engine_.dispatcher, rigid_, engine_.world.getGravity()); },
        .finish = [this] { small_steps_->finish(rigid_); }});

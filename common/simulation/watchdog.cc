@@ -32,6 +32,7 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
       initial_bodies_(static_cast<int>(scene.bodies.size())),
       ledger_(scene.world),
       overlap_(scene),
+      passing_(scene.world),
       lowest_(lowest_centre(scene.world.ground)),
       ground_(scene.world.ground.height),
       dt_(scene.world.dt),
@@ -47,8 +48,15 @@ void Watchdog<Dim>::note_added(const World<Dim>& world, std::int64_t step) {
 }
 
 template <int Dim>
+void Watchdog<Dim>::start_step(const World<Dim>& world) {
+  ledger_.start_step(world);
+  passing_.start_step(world);
+}
+
+template <int Dim>
 void Watchdog<Dim>::end_step(const World<Dim>& world, std::int64_t step) {
   ledger_.end_step(world);
+  for (const auto& [body, way] : passing_.end_step(world)) note(WarningKind::passed, body, step, way);
   if (!overlap_.due(step)) return;
   for (const auto& [body, depth] : overlap_.sample(world)) note(WarningKind::overlap, body, step, depth);
 }

@@ -7,6 +7,7 @@
 #include "common/scene/scene.h"
 #include "common/simulation/energy_ledger.h"
 #include "common/simulation/overlap_watch.h"
+#include "common/simulation/passing_watch.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
 
@@ -25,7 +26,7 @@ class Watchdog {
   bool needs_contacts(std::int64_t step) const { return overlap_.due(step); }
 
   /// Just before World::step(), once all that acts in the step is set.
-  void start_step(const World<Dim>& world) { ledger_.start_step(world); }
+  void start_step(const World<Dim>& world);
   /// Just after it; `step` is its number.
   void end_step(const World<Dim>& world, std::int64_t step);
 
@@ -55,6 +56,7 @@ class Watchdog {
   int initial_bodies_;  // in the world from the start
   EnergyLedger<Dim> ledger_;
   OverlapWatch<Dim> overlap_;
+  PassingWatch<Dim> passing_;
   double lowest_;         // height that no centre may lie below [m]
   double ground_;         // [m]
   double dt_;             // [s]

@@ -7,8 +7,9 @@
 namespace talus {
 namespace {
 
-constexpr std::array<std::string_view, 8> kind_names = {"below_ground", "outside_world", "energy",  "speed_limit",
-                                                        "spin_limit",   "not_appeared",  "overlap", "drift"};
+constexpr std::array<std::string_view, 9> kind_names = {"below_ground", "outside_world", "energy",
+                                                        "speed_limit",  "spin_limit",    "not_appeared",
+                                                        "overlap",      "passed",        "drift"};
 
 /// What is the case, with the value.
 std::string finding(const Warning& warning) {
@@ -27,6 +28,9 @@ std::string finding(const Warning& warning) {
       return fmt::format("{:.0f} bodies that were due never appeared: their source found no free place", warning.value);
     case WarningKind::overlap:
       return fmt::format("the overlap with a body, the ground or an obstacle is {:.2g} D and lasts", warning.value);
+    case WarningKind::passed:
+      return fmt::format("in a step of {:.2g} m it got through another body or an obstacle, or deep into it",
+                         warning.value);
     case WarningKind::drift:
       return fmt::format("once woken, the sleeping bodies move by {:.2g} D on average, farther than the tolerance",
                          warning.value);
@@ -51,6 +55,8 @@ std::string_view remedy(WarningKind kind) {
     case WarningKind::overlap:
       return "raise world.solver.velocity_iterations or world.steps_per_second, or lower the fall or the depth of the "
              "pile";
+    case WarningKind::passed:
+      return "raise world.steps_per_second, or lower the speeds of fast and the density of heavy bodies";
     case WarningKind::drift:
       return "lower policy.adaptive.tolerance, or simulate for longer so that the bodies come to rest";
   }

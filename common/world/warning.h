@@ -17,6 +17,7 @@ enum class WarningKind : std::uint8_t {
   spin_limit,     // a body that turns as fast as the engine turns one
   not_appeared,   // bodies that were due and found no free place until the end
   overlap,        // a body that lies deep in another one, in the ground or in an obstacle
+  passed,         // a body that got through another one or an obstacle, or deep into it, within a step
   drift,          // sleeping bodies that move farther than the tolerance once woken, where that is measured
 };
 
@@ -30,7 +31,8 @@ struct Warning {
   BodyIndex body = -1;      // the first; of `energy` the one with the most kinetic energy then; -1: none
   std::int64_t bodies = 0;  // different ones so far; of `energy` those awake at the first step
   double value = 0.0;  // the largest so far: depth of the centre [m], coordinate [m], energy gained [J], speed [m/s],
-                       // spin [rad/s], number of bodies, depth of overlap [D], mean drift [D]
+                       // spin [rad/s], number of bodies, depth of overlap [D],
+                       // way within the step, relative to the other body [m], mean drift [D]
 };
 
 /// First step, body, value, and what to change in the scene; one line without end.

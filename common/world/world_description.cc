@@ -73,6 +73,10 @@ void check_masses(const std::vector<Shape<Dim>>& shapes) {
 
 }  // namespace
 
+std::string solved_by(std::string_view backend, std::string_view solver_kind) {
+  return solver_kind == engine_solver ? std::string(backend) : fmt::format("{} with {}", backend, solver_kind);
+}
+
 template <int Dim>
 void check(const WorldDescription<Dim>& description) {
   check_fields(description, world_fields<Dim>, "world");

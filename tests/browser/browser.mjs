@@ -44,6 +44,7 @@ export async function openPage(url, { offline = false, talus = true, viewport = 
   browser ??= await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", ...software, ...quiet] });
   const context = await browser.newContext({ viewport, offline });
   const page = await context.newPage();
+  page.setDefaultTimeout(60_000);
   page.faults = [];
   page.on("pageerror", (error) => page.faults.push(error.message));
   page.on("console", (message) => message.type() === "error" && page.faults.push(message.text()));
@@ -99,6 +100,17 @@ export function statusOf(url, headers = {}) {
 }
 
 export const upgrade = { Connection: "Upgrade", Upgrade: "websocket", "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==" };
+
+/// Of a run that is paused: it lasts longer than the test, however slow the machine is.
+export const endless = ["--set", "run.frames=20000", "--set", "run.until=frames"];
+
+/// Pauses a run; resolves once the page shows where it stands.
+export async function pause(page) {
+  await page.click("#run");
+  await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
+  await page.waitForFunction(() => window.talus.shown().step >= window.talus.simulation.status.step);
+  await page.waitForTimeout(500); // a step that the pause met half-way
+}
 
 /// Waits until `holds` of what is shown, at most so many seconds.
 export async function until(page, holds, seconds = 20) {

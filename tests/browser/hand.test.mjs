@@ -1,13 +1,11 @@
 // Bodies pulled along and added with the pointer.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { openPage, serve, shown, until } from "./browser.mjs";
+import { endless, openPage, pause, serve, shown, until } from "./browser.mjs";
 
 /// Pauses, and finds the highest body that the pointer reaches, with its place on the page.
 async function highest(page) {
-  await page.click("#run");
-  await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
-  await page.waitForTimeout(500);
+  await pause(page);
   const body = await page.evaluate(() => {
     const { state, head } = window.talus.timeline;
     const { stage } = window.talus;
@@ -28,7 +26,7 @@ const onScreen = (page, body) => page.evaluate((i) => window.talus.stage.placeOf
 
 for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   test(`${scene}: a body is pulled along by the pointer, and stays awake`, async () => {
-    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", "--set", "run.until=frames");
+    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", ...endless);
     const page = await openPage(url);
     await until(page, ({ asleep }) => asleep > 3, 60);
     const body = await highest(page);
@@ -56,7 +54,7 @@ for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   });
 
   test(`${scene}: a click adds a body of the shape chosen`, async () => {
-    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", "--set", "run.until=frames");
+    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", ...endless);
     const page = await openPage(url);
     await until(page, ({ asleep }) => asleep > 3, 60);
     const body = await highest(page);

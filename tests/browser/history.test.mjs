@@ -5,7 +5,7 @@ import { once } from "node:events";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { awakeBySteps, openPage, serve, shown, talus, temporaryFolder, until } from "./browser.mjs";
+import { awakeBySteps, endless, openPage, pause, serve, shown, talus, temporaryFolder, until } from "./browser.mjs";
 
 const bus = "udpm://239.255.76.67:7673?ttl=0";
 const finished = (page) => page.waitForFunction(() => document.getElementById("speed").textContent.startsWith("finished"), null, { timeout: 60_000 });
@@ -46,11 +46,10 @@ test("a page of a scene that is loaded again, or comes late, has the run from it
 });
 
 test("after a restart and after another scene a page has the frames of the new run only", async () => {
-  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "16");
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "16", ...endless);
   const page = await openPage(url);
   await until(page, ({ bodies }) => bodies > 30);
-  await page.click("#run");
-  await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
+  await pause(page);
   await page.click("#restart");
   await until(page, ({ step }) => step === 0);
   await page.click("#run");

@@ -146,6 +146,7 @@ test("keys and clicks on one side go to both runs", async () => {
 test("two simulations are shown at one moment while they run, paused and after a restart", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d", "--against", "full", "--pace", "8", "--set", "run.frames=150");
   const page = await openPair(url);
+  await page.waitForFunction(() => document.getElementById("pace").value === "8");
   for (let i = 0; i < 5; ++i) {
     await page.waitForTimeout(200);
     await assertTogether(page);
@@ -153,6 +154,7 @@ test("two simulations are shown at one moment while they run, paused and after a
   await page.waitForFunction(() => window.pair.ended() && window.pair.difference().step === 300, null, { timeout: 60_000 });
   await assertTogether(page, 5);
   assert.equal(await page.textContent("#play"), "\u25B6", "a run that has ended offers to play it");
+  await page.selectOption("#pace", "1"); // so that what follows lasts long enough to be seen before its end
   await page.click("#play");
   await page.waitForFunction(() => window.pair.difference().step > 5 && window.pair.difference().step < 300);
   await page.evaluate(() => (window.pair.pause(), window.pair.seek(2.01)));

@@ -166,6 +166,27 @@ for (const [name, { run, url }] of Object.entries({ flat, solid })) {
   });
 }
 
+test("layers are named where there are piles, and those that a message has no room for", async () => {
+  const page = await openAt(flat.url, 449);
+  assert.ok(await page.isVisible("#of-layers"));
+  assert.doesNotMatch(await page.textContent("#measured"), /layers: the lowest/);
+  const layers = await page.evaluate(() => {
+    const { talus } = window;
+    talus.timeline.state.piles[0].layer_total = 2000; // as of a pile so high
+    talus.showMeasured();
+    return talus.timeline.state.piles[0].layers.length;
+  });
+  assert.ok((await page.textContent("#measured")).includes(`A pile has 2000 layers: the lowest ${layers} are shown`));
+  await page.close();
+  const without = record("rings_in_a_box_2d", "--set", "pile=[]", "--set", "run.frames=30");
+  const other = await openAt(without.url, 20);
+  assert.ok(await other.isHidden("#of-layers"));
+  assert.ok(await other.isHidden("#layers"));
+  assert.equal(await other.locator("#plots .uplot:visible").count(), 1);
+  assert.deepEqual(other.faults, []);
+  await other.close();
+});
+
 test("a page refuses messages of another version, with both versions", async () => {
   const html = readFileSync(flat.url, "utf8");
   const other = join(folder, "other.html");

@@ -3,13 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { openPage, serve, shown, talus, temporaryFolder, until } from "./browser.mjs";
-
-async function pause(page) {
-  await page.click("#run");
-  await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
-  await page.waitForTimeout(500);
-}
+import { endless, openPage, pause, serve, shown, talus, temporaryFolder, until } from "./browser.mjs";
 
 /// Position [m], sleep and shape of each body that is there.
 const bodiesOf = (page) =>
@@ -23,7 +17,7 @@ const bodiesOf = (page) =>
 
 for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   test(`${scene}: the scene saved begins with the bodies as they are, without the one deleted`, async () => {
-    const { url, child } = await serve(scene, "--pace", "16", "--set", "source[0].count=12", "--set", "run.frames=20000", "--set", "run.until=frames"); // longer than the test
+    const { url, child } = await serve(scene, "--pace", "16", "--set", "source[0].count=12", ...endless);
     const page = await openPage(url);
     await until(page, ({ bodies, asleep }) => bodies === 12 && asleep === 12, 120);
     await pause(page);
@@ -57,9 +51,10 @@ for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
 }
 
 test("a wall is cut away by a click, and the others stay", async () => {
-  const { url, child } = await serve("rings_in_a_box_2d", "--set", "source[0].count=4");
+  const { url, child } = await serve("rings_in_a_box_2d", "--set", "source[0].count=4", ...endless);
   const page = await openPage(url);
   await until(page, ({ bodies }) => bodies > 0);
+  await pause(page); // else the camera moves on between the search for a place and the click
   const obstacles = () => page.evaluate(() => window.talus.stage.surroundings.obstacles.map(({ mesh }) => mesh.visible));
   const before = await obstacles();
   assert.ok(before.length > 1 && before.every((visible) => visible));
@@ -111,7 +106,7 @@ test("enclosed bodies of a large pile are not drawn, and the pile looks the same
   const edge = 30;
   const file = join(temporaryFolder(), "cubes.toml");
   const pile = `[[body]]\nposition = [0, 0, 0.5]\nrepeat = [${edge}, ${edge}, ${edge}]\nstep = [1, 1, 1]\nasleep = true\n`;
-  const head = `title = "cubes"\ndimension = 3\nshape.cube = {kind = "box", size = [1, 1, 1]}\nrun = {frames = 300}\n`;
+  const head = `title = "cubes"\ndimension = 3\nshape.cube = {kind = "box", size = [1, 1, 1]}\nrun = {frames = 100000}\n`; // longer than the test
   writeFileSync(file, head + pile);
   const { url, child } = await serve(file);
   const page = await openPage(url);

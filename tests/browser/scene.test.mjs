@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { openPage, serve, shown, statusOf, talus, temporaryFolder, until, upgrade } from "./browser.mjs";
+import { endless, openPage, pause, serve, shown, statusOf, talus, temporaryFolder, until, upgrade } from "./browser.mjs";
 
 test("something moves within three seconds of the command", async () => {
   await (await openPage("about:blank", { talus: false })).close(); // the browser is running
@@ -21,12 +21,10 @@ test("something moves within three seconds of the command", async () => {
 });
 
 test("run, pause, step, restart, pace and policy steer the simulation", async () => {
-  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "16");
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "16", ...endless);
   const page = await openPage(url);
   await until(page, ({ bodies }) => bodies > 30);
-  await page.click("#run");
-  await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
-  await page.waitForTimeout(300);
+  await pause(page);
   const paused = await shown(page);
   await page.click("#single");
   await until(page, ({ step }) => step === paused.step + 1);
@@ -100,12 +98,10 @@ test("a scene of the other dimension can follow", async () => {
 
 test("a body is thrown by shift and drag, and removed by Delete", async () => {
   // Few bodies, so that none falls onto the one thrown.
-  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--set", "source[0].count=12", "--set", "run.until=frames");
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--set", "source[0].count=12", ...endless);
   const page = await openPage(url);
   await until(page, ({ bodies, asleep }) => bodies === 12 && asleep > 8, 60);
-  await page.click("#run");
-  await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
-  await page.waitForTimeout(500);
+  await pause(page);
   const before = await shown(page);
   // The highest one that sleeps: nothing lies on it.
   const body = await page.evaluate(() => {
@@ -143,12 +139,10 @@ for (const [policy, wanted] of [
   ["paper", /Asleep.*Cause: score.*Score [\d.]+ when it fell asleep, threshold 0\.5.*Rests on .*Density of its layer: [\d.e-]+ \(above 0\.8/s],
 ]) {
   test(`a click under policy ${policy} names cause, score, supports and thresholds`, async () => {
-    const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--policy", policy);
+    const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--policy", policy, ...endless);
     const page = await openPage(url);
     await until(page, ({ asleep }) => asleep > 3, 60);
-    await page.click("#run");
-    await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
-    await page.waitForTimeout(500);
+    await pause(page);
     const place = await page.evaluate(() => {
       const { state } = window.talus.timeline;
       const { stage } = window.talus;
@@ -282,16 +276,16 @@ test("after a resize the line of the time shown and the cursor are where they sh
 });
 
 test("two pages show the same run", async () => {
-  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8");
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", ...endless);
   const pages = [await openPage(url)];
   await until(pages[0], ({ bodies }) => bodies > 10);
   pages.push(await openPage(url));
   await until(pages[1], ({ bodies }) => bodies > 10);
-  await pages[1].click("#run");
-  for (const page of pages) await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
-  await pages[0].waitForTimeout(500);
-  const [a, b] = await Promise.all(pages.map(shown));
-  assert.deepEqual([a.step, a.awake, a.asleep], [b.step, b.awake, b.asleep]);
+  await pause(pages[1]);
+  await pages[0].waitForFunction(() => document.getElementById("speed").textContent === "paused");
+  const b = await shown(pages[1]);
+  const a = await until(pages[0], ({ step }) => step === b.step);
+  assert.deepEqual([a.awake, a.asleep], [b.awake, b.asleep]);
   for (const page of pages) await page.close();
   child.kill();
 });

@@ -188,12 +188,12 @@ TEST(Decoder, RefusesWarningsThatNoRunGives) {
     stats.warning_text.assign(number, "");
     return fault_of<talus_stats>(encoder.encode(stats, {0, 1, 0.5}).bytes);
   };
-  EXPECT_EQ(fault(talus_stats::OVERLAP, 1, 1.0, 7), "");
-  EXPECT_NE(fault(talus_stats::OVERLAP + 1, 1, 1.0, 1), "");
+  EXPECT_EQ(fault(talus_stats::PASSED, 1, 1.0, 8), "");
+  EXPECT_NE(fault(talus_stats::PASSED + 1, 1, 1.0, 1), "");
   EXPECT_NE(fault(-1, 1, 1.0, 1), "");
   EXPECT_NE(fault(0, -1, 1.0, 1), "");
   EXPECT_NE(fault(0, 1, std::nan(""), 1), "");
-  EXPECT_NE(fault(0, 1, 1.0, 8), "");
+  EXPECT_NE(fault(0, 1, 1.0, 9), "");
 }
 
 RC_GTEST_PROP(DecoderProperty, SurvivesAnything, (Bytes bytes, bool sealed)) {

@@ -302,6 +302,7 @@ TEST(StatsMessage, NumbersKindsOfWarningAsTheCoreDoes) {
   EXPECT_EQ(talus_stats::SPIN_LIMIT, static_cast<int>(WarningKind::spin_limit));
   EXPECT_EQ(talus_stats::NOT_APPEARED, static_cast<int>(WarningKind::not_appeared));
   EXPECT_EQ(talus_stats::OVERLAP, static_cast<int>(WarningKind::overlap));
+  EXPECT_EQ(talus_stats::PASSED, static_cast<int>(WarningKind::passed));
 }
 
 TEST(ShapesMessage, CarriesEveryPieceAndTheObstacles) {
@@ -365,6 +366,8 @@ TEST(RunMessage, CarriesAllThatTheWorldIsMadeWith) {
   scene.world.down = Vec2(0.6, -0.8);
   scene.world.ground.height = -2.0;
   scene.world.ground.material.friction = 0.25;
+  scene.world.solver.kind = small_steps_solver;
+  scene.world.solver.sub_steps = 6;
   scene.world.solver.velocity_iterations = 37;
   scene.policy.kind = "adaptive";
   scene.policy.adaptive.tolerance = 0.125;
@@ -377,6 +380,8 @@ TEST(RunMessage, CarriesAllThatTheWorldIsMadeWith) {
   EXPECT_DOUBLE_EQ(message.gravity[2], -3.2);
   EXPECT_EQ(message.ground_height, -2.0);
   EXPECT_EQ(message.ground_friction, 0.25);
+  EXPECT_EQ(message.solver, "small_steps");
+  EXPECT_EQ(message.sub_steps, 6);
   EXPECT_EQ(message.velocity_iterations, 37);
   scene.policy.kind = "full";
   EXPECT_EQ(to_run(run_info(scene, "", ""), 0, "", {}, encoder).tolerance, -1.0);

@@ -190,6 +190,24 @@ TEST(MonitorPages, AlertToLossSilenceWavesAndFaults) {
   EXPECT_TRUE(shows(text, "undecodable 1, the last one on TALUS_RUN: too short"));
 }
 
+TEST(MonitorPages, WrapAnAlertThatIsWiderThanTheScreen) {
+  Screen screen;
+  Sender run(screen, 42, "heap");
+  talus_stats stats{};
+  stats.warning_count = 1;
+  stats.warning_kind = {talus_stats::OVERLAP};
+  stats.warning_step = {299};
+  stats.warning_body = {45};
+  stats.warning_bodies = {8};
+  stats.warning_value = {0.14};
+  stats.warning_text = {""};
+  run.send(stats);
+  screen.press('a');
+  const std::string text = screen.text();
+  EXPECT_TRUE(shows(text, "2a: warning: 8 bodies since step 299, at worst the overlap with"));
+  EXPECT_TRUE(shows(text, "is 0.14 D and lasts"));
+}
+
 TEST(MonitorPages, QuitOnlyOnRequest) {
   Screen screen;
   EXPECT_EQ(screen.press('x'), Effect::redraw);

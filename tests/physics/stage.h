@@ -67,10 +67,11 @@ class StageRun {
   const BodyStates<Dim>& states() const { return world().states(); }
   const Vec<Dim>& at(BodyIndex body) const { return states().pose[body].position; }
   double time() const { return simulation_.time(); }
-  /// Kinds of warnings but `overlap`, of which cases measure the depth themselves.
+  /// Kinds of warnings but `overlap` and `passed`: cases measure the depth of overlap themselves.
   int warnings() const {
-    return static_cast<int>(std::ranges::count_if(
-        simulation_.warnings(), [](const Warning& warning) { return warning.kind != WarningKind::overlap; }));
+    return static_cast<int>(std::ranges::count_if(simulation_.warnings(), [](const Warning& warning) {
+      return warning.kind != WarningKind::overlap && warning.kind != WarningKind::passed;
+    }));
   }
   /// Sleeping bodies without a chain of contacts to the ground or an obstacle.
   int floating() const;

@@ -42,13 +42,9 @@ Json of(const Pile<3>& pile) {
 
 Json of(const talus_run& run) {
   constexpr const char* phases[] = {"begin", "alive", "end"};
-  return {{"scene", run.scene},
-          {"backend", run.backend},
-          {"policy", run.policy},
-          {"version", run.version},
-          {"seed", static_cast<std::uint64_t>(run.seed)},
-          {"phase", phases[run.phase]},
-          {"reason", run.reason}};
+  return {{"scene", run.scene},         {"backend", run.backend}, {"solver", run.solver},
+          {"policy", run.policy},       {"version", run.version}, {"seed", static_cast<std::uint64_t>(run.seed)},
+          {"phase", phases[run.phase]}, {"reason", run.reason}};
 }
 
 /// As in summary.json.

@@ -66,6 +66,22 @@ void draw_list(const std::vector<std::string>& lines, int first, Style style, co
     area.put(row, 0, lines[first + row], style);
 }
 
+/// Cut at spaces where a line is too long for the screen.
+std::vector<std::string> wrapped(const std::vector<std::string>& lines, int columns) {
+  const std::string indent = "  ";
+  std::vector<std::string> result;
+  for (std::string line : lines) {
+    while (std::ssize(line) > columns) {
+      const std::size_t space = line.rfind(' ', columns);
+      if (space == std::string::npos || space < indent.size()) break;
+      result.push_back(line.substr(0, space));
+      line = indent + line.substr(space + 1);
+    }
+    result.push_back(std::move(line));
+  }
+  return result;
+}
+
 void draw_first_alert(const std::vector<std::string>& alerts, const Area& area) {
   if (alerts.empty()) return;
   const std::string more = alerts.size() > 1 ? fmt::format("  a: {} more", alerts.size() - 1) : "";
@@ -157,7 +173,7 @@ void draw_page(const Heard& heard, const std::vector<HeardRun>& runs, const Choi
     case Page::runs:
       return draw_runs(heard, runs, run, choice.first_row, area);
     case Page::alerts:
-      return draw_list(alerts_of(heard), choice.first_row, Style::alert, area);
+      return draw_list(wrapped(alerts_of(heard), area.columns()), choice.first_row, Style::alert, area);
     case Page::help:
       return draw_help(area);
   }
@@ -167,7 +183,7 @@ void draw_waiting(const Heard& heard, const Area& area) {
   area.put(0, 0, "talus monitor", Style::strong);
   area.put(2, 0, fmt::format("waiting on {}", printable(heard.address)));
   area.put(3, 0, "Start a run in another terminal: talus run drop_in_a_pile_2d --pace 1", Style::quiet);
-  draw_list(alerts_of(heard), 0, Style::alert, area.lower(5));
+  draw_list(wrapped(alerts_of(heard), area.columns()), 0, Style::alert, area.lower(5));
   area.put(area.rows() - 1, 0, "q quit", Style::quiet);
 }
 

@@ -110,14 +110,15 @@ std::string event_note(const RecordedRun<Dim>& run, double time) {
 template <int Dim>
 PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame) {
   const double time = static_cast<double>(run.frames.step(frame)) * run.frames.step_time();
-  return {run.scene.world.shapes,
-          states,
-          {},
-          world_at<Dim>(run.scene, run.done, time).obstacles,
-          run.scene.world.ground,
-          printable(run.scene.title),
-          printable(fmt::format("{}, policy {}, seed {}, {:.1f} s{}", run.backend, run.policy, run.scene.seed, time,
-                                event_note(run, time)))};
+  return {
+      run.scene.world.shapes,
+      states,
+      {},
+      world_at<Dim>(run.scene, run.done, time).obstacles,
+      run.scene.world.ground,
+      printable(run.scene.title),
+      printable(fmt::format("{}, policy {}, seed {}, {:.1f} s{}", solved_by(run.backend, run.scene.world.solver.kind),
+                            run.policy, run.scene.seed, time, event_note(run, time)))};
 }
 
 /// Calls make(i) for i from 0 to below `count`, on all cores, and take() here with the results in order.

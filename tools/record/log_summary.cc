@@ -91,6 +91,7 @@ class RunCount {
     return {{"run", short_id(id)},
             {"scene", run.scene},
             {"backend", run.backend},
+            {"solver", run.solver},
             {"policy", run.policy},
             {"version", run.version},
             {"seed", static_cast<std::uint64_t>(run.seed)},
@@ -221,8 +222,8 @@ void print_run_of_log(const Json& run) {
     print_result("run {}: no message that describes it can be read\n", shown_text(run["run"]));
   else
     print_result("run {}: {} on {}, policy {}, seed {}, {}\n", shown_text(run["run"]), shown_text(run["scene"]),
-                 shown_text(run["backend"]), shown_text(run["policy"]), run["seed"].get<std::uint64_t>(),
-                 reason.empty() ? "without an end" : "ended: " + reason);
+                 solved_by(shown_text(run["backend"]), shown_text(run["solver"])), shown_text(run["policy"]),
+                 run["seed"].get<std::uint64_t>(), reason.empty() ? "without an end" : "ended: " + reason);
   print_result("  {:.2f} to {:.2f} s simulated, {} bodies, {} frames of output, {} of them key frames\n",
                run["begin_s"].get<double>(), run["end_s"].get<double>(), run["bodies"].get<int>(),
                run["frames"].get<std::int64_t>(), run["key_frames"].get<std::int64_t>());

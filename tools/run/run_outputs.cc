@@ -44,8 +44,9 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
           present_obstacles(scene, world, frame.time),
           scene.world.ground,
           printable(scene.title),
-          fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep", backend, scene.policy.kind,
-                      scene.seed, frame.time, bodies, bodies - world.awake().size())};
+          fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep",
+                      solved_by(backend, scene.world.solver.kind), scene.policy.kind, scene.seed, frame.time, bodies,
+                      bodies - world.awake().size())};
 }
 
 /// Draws the pictures that events want, and prints a line for each event.
@@ -176,7 +177,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   const World<Dim>& world = simulation.world();
   const auto bodies = world.states().shape.size();
   print_result("{}: {}, {} on {}, policy {}\n", printable(summary.scene_name), printable(summary.reason),
-               printable(scene.title), summary.backend, scene.policy.kind);
+               printable(scene.title), solved_by(summary.backend, scene.world.solver.kind), scene.policy.kind);
   print_result(
       "  {} bodies, {} asleep at the end; over {} steps {:.1f} awake in the mean, {:.1f} % of body-steps skipped\n",
       bodies, bodies - world.awake().size(), statistics.steps(), statistics.mean_awake(),

@@ -1,3 +1,11 @@
 // Parts of the page.
 
 export const element = <T extends HTMLElement = HTMLElement>(id: string): T => document.getElementById(id) as T;
+
+/// Shows a pace, which need not be one of those to choose from.
+export function showPace(list: HTMLSelectElement, pace: number): void {
+  const value = String(pace);
+  if (document.activeElement === list || list.value === value) return;
+  if (![...list.options].some((option) => option.value === value)) list.append(new Option(`${value}x`, value));
+  list.value = value;
+}

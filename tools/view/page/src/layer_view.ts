@@ -12,7 +12,7 @@ export class LayerView {
   private drawn: Pile[] | null = null;
 
   constructor(private readonly head: Head) {
-    this.group.renderOrder = 10;
+    this.group.renderOrder = this.flat() ? -1 : 10;
   }
 
   private flat(): boolean {
@@ -38,7 +38,7 @@ export class LayerView {
       ? new Mesh(new PlaneGeometry(2 * radius, 0.97 * (top - bottom)), material)
       : new Mesh(new CylinderGeometry(radius, radius, 0.97 * (top - bottom), 48, 1, true).rotateX(0.5 * Math.PI), material);
     const height = (bottom + top) / 2;
-    if (this.flat()) mesh.position.set(pile.centre[0], pile.centre[1] + height, 0.5);
+    if (this.flat()) mesh.position.set(pile.centre[0], pile.centre[1] + height, -0.5); // behind the bodies
     else mesh.position.set(pile.centre[0], pile.centre[1], pile.centre[2] + height);
     this.group.add(mesh);
   }

@@ -1,7 +1,7 @@
 // A run that goes on: its messages come over a WebSocket, commands go back (tools/serve/run_loop.h).
 
 import type { Account } from "./body_panel";
-import { element } from "./element";
+import { element, showPace } from "./element";
 import { type Box, boxOf, headOf, obstaclesOf, type Settings } from "./head";
 import { LogReader } from "./messages";
 import { type Moment, MomentReader } from "./moments";
@@ -40,7 +40,14 @@ interface Fault {
 /// A run begins; `box`: what is to be seen at first, none where the page sees to it.
 type Begin = { kind: "begin"; box: Box | null };
 
-type Message = Status | Begin | (ContactsText & { kind: "contacts" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | { kind: "thinned"; steps: number; mebibytes: number } | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
+/// The server left frames out: those that are left lie at most so many steps apart.
+interface Thinned {
+  kind: "thinned";
+  steps: number;
+  mebibytes: number;
+}
+
+type Message = Status | Begin | (ContactsText & { kind: "contacts" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | Thinned | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
 
 const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
 
@@ -54,6 +61,8 @@ class Live implements Simulation {
   private box: Box | null = null;
   /// Whether the player shows another run, since frames of this one have not come yet.
   private begun = false;
+  /// Of this run, once frames were left out.
+  private thinned: Thinned | null = null;
   private form = 0;
 
   constructor(
@@ -148,6 +157,7 @@ class Live implements Simulation {
         this.reader = new MomentReader(this.settings);
         this.box = message.box;
         this.begun = false;
+        this.thinned = null;
         break;
       case "contacts":
         if (this.begun) this.player?.contacts.add(message);
@@ -157,7 +167,8 @@ class Live implements Simulation {
         this.listNumbers();
         break;
       case "thinned":
-        this.player?.thin(message.steps, message.mebibytes);
+        this.thinned = message;
+        if (this.begun) this.player!.thin(message.steps, message.mebibytes);
         break;
       case "body":
         this.player?.takeAccount(message);
@@ -180,12 +191,13 @@ class Live implements Simulation {
     this.begun = true;
     if (this.player) {
       this.player.replace(timeline);
-      return;
+    } else {
+      this.player = new Player(timeline);
+      this.player.attach(this);
+      if (this.steered()) this.player.steer();
+      this.ready(this.player);
     }
-    this.player = new Player(timeline);
-    this.player.attach(this);
-    if (this.steered()) this.player.steer();
-    this.ready(this.player);
+    if (this.thinned) this.player.thin(this.thinned.steps, this.thinned.mebibytes);
   }
 
   private add(moment: Moment): void {
@@ -226,7 +238,7 @@ class Live implements Simulation {
     const policies = element<HTMLSelectElement>("policy");
     if (policies.options.length === 0) policies.append(...status.policies.map((name) => new Option(name)));
     policies.value = status.policy;
-    element<HTMLSelectElement>("pace").value = String(status.pace);
+    showPace(element<HTMLSelectElement>("pace"), status.pace);
     const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time, this page ${this.behind} steps behind`;
     const time = (status.step * (this.player?.timeline.head.dt ?? 0)).toFixed(2);
     const end = status.at_rest ? `finished: all at rest after ${time} s` : "finished";
@@ -276,6 +288,10 @@ class Live implements Simulation {
 
   ended(): boolean {
     return this.status !== null && (this.status.finished || this.status.reason !== "");
+  }
+
+  pace(): number {
+    return this.status?.pace ?? 1;
   }
 
   msPerStep(): number {

@@ -96,6 +96,8 @@ export interface Pile {
   /// As many numbers as the run has axes.
   centre: ArrayLike<number>;
   alpha: number;
+  /// How many layers it has; `layers` are the lowest of them.
+  layer_total: number;
   layers: Layer[];
 }
 

@@ -1,6 +1,7 @@
 // Two runs side by side, played in step: the pages a/ and b/ show them, this one steers both and compares what they
 // show.
 
+import { showPace } from "./element";
 import type { Player } from "./player";
 
 interface PairTexts {
@@ -160,7 +161,7 @@ class Pair {
       this.following = texts.of_runs;
     }
     element("play").textContent = this.playing || this.runs() ? "\u2016" : "\u25B6";
-    element<HTMLInputElement>("scrub").max = String(this.end());
+    Object.assign(element<HTMLInputElement>("scrub"), { max: String(this.end()), value: String(this.time) });
     if (now - this.measured > 500) this.measure(now);
     if (this.time !== before) this.show();
     requestAnimationFrame((next) => this.tick(next));
@@ -173,12 +174,12 @@ class Pair {
     const larger = (of: (extent: typeof a) => number): number => Math.max(of(a), of(b));
     const both = { time: larger(({ time }) => time), bodies: larger(({ bodies }) => bodies), ms: larger(({ ms }) => ms), top: larger(({ top }) => top) };
     this.both((player) => player.reach(both));
+    if (this.following) showPace(element<HTMLSelectElement>("pace"), this.players[0].pace());
     this.showDifference();
   }
 
   private show(): void {
     this.both((player) => player.showMoment(this.time));
-    element<HTMLInputElement>("scrub").value = String(this.time);
     this.showDifference();
   }
 

@@ -61,6 +61,8 @@ export interface Simulation {
   ended(): boolean;
   /// Whether it takes commands.
   steered(): boolean;
+  /// Times real time; 0: as fast as possible.
+  pace(): number;
   /// Mean time of a step since the start [ms].
   msPerStep(): number;
   /// Of tools/serve/run_loop.h.
@@ -418,10 +420,12 @@ export class Player {
     const degrees = (angle: number): string => `${((180 * angle) / Math.PI).toFixed(1)}\u00B0`;
     const lines: string[] = [];
     const pile = largest(state.piles);
-    if (pile) lines.push(`Slope ${state.slope < 0 ? `not measured${state.noSlope}` : `${degrees(state.slope)} measured`}, ${degrees(pile.alpha)} of the layers (alpha)`);
+    if (pile) lines.push(`Slope ${state.slope < 0 ? `not measured${state.noSlope}` : `${degrees(state.slope)} measured`}; layers: ${degrees(pile.alpha)} (alpha)`);
     const { tolerance } = this.head;
     if (tolerance >= 0 || state.drift >= 0)
       lines.push(`Drift ${state.drift < 0 ? "not estimated until bodies rest" : `estimated ${state.drift.toPrecision(2)} D`}${tolerance < 0 ? "" : `, tolerance ${tolerance} D`}`);
+    for (const { layers, layer_total } of state.piles)
+      if (layers.length < layer_total) lines.push(`A pile has ${layer_total} layers: the lowest ${layers.length} are shown, which a message holds`);
     const { hidden } = this.stage.enclosed;
     if (hidden > 0) lines.push(`${hidden} enclosed bodies not drawn`);
     element("measured").replaceChildren(...lines.map((text) => Object.assign(document.createElement("p"), { className: "hint", textContent: text })));
@@ -460,6 +464,11 @@ export class Player {
   ended(): boolean {
     return this.simulation?.ended() ?? true;
   }
+  /// Of the simulation.
+  pace(): number {
+    return this.simulation?.pace() ?? 1;
+  }
+
   msPerStep(): number {
     return this.simulation?.msPerStep() ?? 0;
   }

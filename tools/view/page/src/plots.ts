@@ -34,6 +34,7 @@ export class Plots {
   private readonly densities: uPlot;
   private readonly heads: HTMLElement[];
   private frames = 0;
+  private piled = false; // whether the run has had a pile
   private time = 0;
   private atLeast: Extent = { time: 0, bodies: 0, ms: 0, top: 0 };
 
@@ -89,8 +90,8 @@ export class Plots {
         series: [{ label: "s" }, ...series],
         scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(1, high, label === "bodies" ? this.atLeast.bodies : this.atLeast.top)] }, ms: { range: (_, __, high) => [0, Math.max(high, this.atLeast.ms) || 1] } },
         axes: [
-          { ...axis, size: 26 },
-          { ...axis, label, labelSize: 16, size: 40 },
+          { ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
+          { ...axis, label, labelSize: 16, size: 40, space: 18 },
           ...(speed ? [{ ...axis, scale: "ms", side: 1 as const, grid: { show: false }, label: "ms a step", labelSize: 16, size: 44 }] : []),
         ],
         padding: [null, this.timed && !speed ? 60 : null, null, null], // both plots have the same time line
@@ -105,7 +106,9 @@ export class Plots {
 
   private resize(): void {
     const width = this.parent.clientWidth;
-    const height = Math.max(60, Math.floor(this.parent.clientHeight / 2));
+    const height = Math.max(60, Math.floor(this.parent.clientHeight / (this.piled ? 2 : 1)));
+    this.densities.root.hidden = !this.piled;
+    element("of-layers").hidden = element("layers").parentElement!.hidden = !this.piled;
     if (width > 0) for (const plot of [this.counts, this.densities]) plot.setSize({ width, height });
     queueMicrotask(() => this.showTime(this.time)); // uPlot takes the new size over in a microtask of its own
   }
@@ -143,6 +146,11 @@ export class Plots {
     this.counts.setData([time as number[], ...lines]);
     const [times, top] = this.withGaps([timeline.step.map((step) => step * this.head.dt), this.tops()]);
     this.densities.setData([times as number[], top]);
+    const piled = timeline.piles.some((piles) => piles.length > 0);
+    if (piled !== this.piled) {
+      this.piled = piled;
+      this.resize();
+    }
     this.showScale();
     queueMicrotask(() => this.showTime(this.time)); // uPlot takes the new range over in a microtask of its own
   }

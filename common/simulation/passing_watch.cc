@@ -1,0 +1,181 @@
+#include "common/simulation/passing_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/shape/convex_distance.h"
+#include "common/shape/shape.h"
+
+namespace talus {
+namespace {
+
+constexpr double largest_turn = 0.2;  // [rad], within which a path is taken as straight
+constexpr double depth_limit = 0.25;  // of the smallest width
+
+/// Of a point at distance 1 from the axis [m].
+double chord(const Rotation<2>& from, const Rotation<2>& to) {
+  return 2.0 * std::abs(std::sin(0.5 * (to.angle() - from.angle())));
+}
+double chord(const Rotation<3>& from, const Rotation<3>& to) {
+  const double cosine = from.dot(to);
+  return 2.0 * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+}
+
+template <int Dim>
+Vec<Dim> into_axes_of(const Pose<Dim>& pose, const Vec<Dim>& point) {
+  return pose.rotation.inverse() * (point - pose.position);
+}
+
+}  // namespace
+
+template <int Dim>
+auto PassingWatch<Dim>::solid_of(const Shape<Dim>& shape) -> Solid {
+  Solid solid;
+  for (ConvexPiece<Dim>& piece : convex_pieces(shape)) {
+    const Box<Dim> bounds = piece.bounds();
+    solid.pieces.push_back({std::move(piece), bounds});
+  }
+  solid.width = solid.core = std::numeric_limits<double>::infinity();
+  double widest = 0.0;
+  for (const Piece<Dim>& piece : shape.pieces) {
+    widest = std::max(widest, smallest_width<Dim>(piece));
+    solid.width = std::min(solid.width, smallest_width<Dim>(piece));
+    solid.reach = std::max(solid.reach, reach_of<Dim>(piece));
+  }
+  for (const Piece<Dim>& piece : shape.pieces) {
+    const double width = smallest_width<Dim>(piece);
+    if (width < 0.5 * widest) continue;
+    solid.middles.push_back(mass_properties<Dim>(piece).centre);
+    solid.core = std::min(solid.core, 0.5 * width);
+  }
+  return solid;
+}
+
+template <int Dim>
+PassingWatch<Dim>::PassingWatch(const WorldDescription<Dim>& world)
+    : smallest_core_(std::numeric_limits<double>::infinity()) {
+  for (const Shape<Dim>& shape : world.shapes) {
+    solids_.push_back(solid_of(shape));
+    smallest_core_ = std::min(smallest_core_, solids_.back().core);
+  }
+  for (const Obstacle<Dim>& obstacle : world.obstacles) {
+    obstacles_.push_back(solid_of(obstacle.shape));
+    obstacles_from_.push_back(obstacle.pose);
+  }
+}
+
+template <int Dim>
+void PassingWatch<Dim>::start_step(const World<Dim>& world) {
+  const std::vector<Pose<Dim>>& pose = world.states().pose;
+  from_.resize(pose.size());
+  for (const BodyIndex body : world.awake()) from_[body] = pose[body];
+  for (std::size_t k = 0; k < obstacles_.size(); ++k) obstacles_from_[k] = world.obstacle_pose(static_cast<int>(k));
+}
+
+template <int Dim>
+auto PassingWatch<Dim>::mover(const World<Dim>& world, BodyIndex index) const -> Mover {
+  if (index <= first_obstacle) {
+    const int number = first_obstacle - index;
+    return {index, &obstacles_[number], obstacles_from_[number], world.obstacle_pose(number)};
+  }
+  const BodyStates<Dim>& states = world.states();
+  const Pose<Dim>& to = states.pose[index];
+  return {index, &solids_[states.shape[index]], states.asleep[index] != 0 ? to : from_[index], to};
+}
+
+/// How far any point of it goes by its rotation, at most.
+template <int Dim>
+double PassingWatch<Dim>::turn(const Mover& mover) {
+  return mover.solid->reach * chord(mover.from.rotation, mover.to.rotation);
+}
+
+template <int Dim>
+Box<Dim> PassingWatch<Dim>::swept(const Mover& mover) {
+  Box<Dim> box(mover.from.position);
+  box.extend(mover.to.position);
+  const Vec<Dim> reach = Vec<Dim>::Constant(mover.solid->reach);
+  return {box.min() - reach, box.max() + reach};
+}
+
+template <int Dim>
+auto PassingWatch<Dim>::end_step(const World<Dim>& world) -> std::span<const Finding> {
+  findings_.clear();
+  fast_.clear();
+  double farthest = 0.0;
+  const auto note = [&](const Mover& mover) {
+    const double way = (mover.to.position - mover.from.position).norm() + turn(mover);
+    if (way < 0.5 * smallest_core_) return;  // the other one may come against it
+    farthest = std::max(farthest, way);
+    fast_.push_back(mover);
+  };
+  for (const BodyIndex body : world.awake()) note(mover(world, body));
+  for (int k = 0; k < std::ssize(obstacles_); ++k)
+    if (world.obstacles()[k].moves && world.has_obstacle(k)) note(mover(world, first_obstacle - k));
+  for (const Mover& fast : fast_) test_neighbours(world, fast, farthest);
+  return findings_;
+}
+
+template <int Dim>
+void PassingWatch<Dim>::test_neighbours(const World<Dim>& world, const Mover& fast, double margin) {
+  const Box<Dim> box = swept(fast);
+  near_.clear();
+  world.query_box({box.min().array() - margin, box.max().array() + margin}, near_);
+  for (const BodyIndex other : near_)
+    if (other != fast.index) test(fast, mover(world, other));
+  if (fast.index < 0) return;
+  for (int k = 0; k < std::ssize(obstacles_); ++k)
+    if (world.has_obstacle(k)) test(fast, mover(world, first_obstacle - k));
+}
+
+template <int Dim>
+void PassingWatch<Dim>::test(const Mover& fast, const Mover& other) {
+  if (!swept(fast).intersects(swept(other)) || way(fast, other) < smallest_core_) return;
+  if (!passes(fast, other) && !passes(other, fast)) return;
+  findings_.push_back({fast.index >= 0 ? fast.index : other.index, way(fast, other)});
+}
+
+template <int Dim>
+double PassingWatch<Dim>::way(const Mover& a, const Mover& b) {
+  return (a.to.position - a.from.position - b.to.position + b.from.position).norm() + turn(a) + turn(b);
+}
+
+/// Whether a middle of `a` goes through `b`.
+template <int Dim>
+bool PassingWatch<Dim>::passes(const Mover& a, const Mover& b) {
+  const double angle = std::max(chord(a.from.rotation, a.to.rotation), chord(b.from.rotation, b.to.rotation));
+  const int parts = 1 + static_cast<int>(angle / largest_turn);
+  const auto at = [](const Mover& mover, double share) -> Pose<Dim> {
+    return {mover.from.position + share * (mover.to.position - mover.from.position),
+            mover.from.rotation.slerp(share, mover.to.rotation)};
+  };
+  for (const Vec<Dim>& middle : a.solid->middles) {
+    Vec<Dim> before = into_axes_of<Dim>(b.from, a.from * middle);
+    if ((into_axes_of<Dim>(b.to, a.to * middle) - before).norm() < a.solid->core) continue;
+    for (int part = 1; part <= parts; ++part) {
+      const double share = static_cast<double>(part) / parts;
+      const Vec<Dim> after = into_axes_of<Dim>(at(b, share), at(a, share) * middle);
+      if (enters(before, after, *b.solid)) return true;
+      before = after;
+    }
+  }
+  return false;
+}
+
+/// Whether the path leads through a piece, or so far into it that later steps may push the body out at the far side. A
+/// hard impact gets a little way in, and the engine pushes the body back.
+template <int Dim>
+bool PassingWatch<Dim>::enters(const Vec<Dim>& from, const Vec<Dim>& to, const Solid& solid) {
+  Box<Dim> bounds(from);
+  bounds.extend(to);
+  return std::ranges::any_of(solid.pieces, [&](const auto& part) {
+    if (from == to || !bounds.intersects(part.bounds)) return false;
+    const ConvexPiece<Dim> path = convex_piece<Dim>(HullPiece<Dim>{.corners = {from, to}, .radius = 0.0});
+    return signed_distance<Dim>(path, part.piece, 0.0) < -depth_limit * solid.width;
+  });
+}
+
+template class PassingWatch<2>;
+template class PassingWatch<3>;
+
+}  // namespace talus
