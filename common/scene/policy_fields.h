@@ -109,14 +109,14 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .unit = "sqrt(g/D)",
       .range = between(0.0, 1e6),
       .meaning = "the largest damping. Low: piles too flat; high: bodies stick wherever they touch"}},
-    {&AdaptiveParams::rings,
+    {place_of<&AdaptiveParams::rings>,
      {.name = "rings",
       .range = between(0.0, 100.0),
       .meaning = "sleeping bodies up to this number of contacts from what moves take part in the contact solve, and "
                  "wake when it moves them; impacts, lost supports, avalanches and stability checks then wake none. 0: "
                  "none does. 1: momentum and loads pass on too slowly; 3 and more: slow. Only with the solver "
                  "`small_steps`"}},
-    {&AdaptiveParams::ring_still_speed,
+    {place_of<&AdaptiveParams::ring_still_speed>,
      {.name = "ring_still_speed",
       .unit = "sqrt(gD)",
       .range = above(0.0, 1.0),
