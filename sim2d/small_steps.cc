@@ -176,7 +176,7 @@ bool SmallSteps::passes_unseen(b2World& world, std::span<b2Body* const> bodies) 
   return std::any_of(ahead_.begin() + known, ahead_.end(), [&](const Ahead& each) { return is_passed(each); });
 }
 
-/// Whether the motion of the step brings the two as far into each other as makes a body fast.
+/// Whether the motion of the step presses the two into each other by more than `fast_`.
 bool SmallSteps::is_passed(const Ahead& ahead) const {
   const auto way = [&](b2Fixture& fixture, const b2Vec2& at) {
     const BodyIndex owner = owner_of(fixture);

@@ -10,16 +10,19 @@
 namespace talus {
 namespace {
 
-constexpr double largest_turn = 0.2;  // [rad], within which a path is taken as straight
-constexpr double depth_limit = 0.25;  // of the smallest width
+constexpr double largest_turn = 0.2;  // of a part of a path that is taken as straight [rad]
+constexpr double depth_limit = 0.25;  // that a path may lead into a body [its smallest width]
 
-/// Of a point at distance 1 from the axis [m].
-double chord(const Rotation<2>& from, const Rotation<2>& to) {
-  return 2.0 * std::abs(std::sin(0.5 * (to.angle() - from.angle())));
+/// Square of the way of a point at distance 1 from the axis, at most [m²].
+double squared_turn(const Rotation<2>& from, const Rotation<2>& to) {
+  const double angle = to.angle() - from.angle();
+  if (std::abs(angle) < 1.0) return angle * angle;
+  const double half_chord = std::sin(0.5 * angle);  // an engine may have wrapped the angle
+  return 4.0 * half_chord * half_chord;
 }
-double chord(const Rotation<3>& from, const Rotation<3>& to) {
+double squared_turn(const Rotation<3>& from, const Rotation<3>& to) {
   const double cosine = from.dot(to);
-  return 2.0 * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  return 4.0 * std::max(0.0, 1.0 - cosine * cosine);
 }
 
 template <int Dim>
@@ -70,7 +73,8 @@ void PassingWatch<Dim>::start_step(const World<Dim>& world) {
   const std::vector<Pose<Dim>>& pose = world.states().pose;
   from_.resize(pose.size());
   for (const BodyIndex body : world.awake()) from_[body] = pose[body];
-  for (std::size_t k = 0; k < obstacles_.size(); ++k) obstacles_from_[k] = world.obstacle_pose(static_cast<int>(k));
+  for (int k = 0; k < std::ssize(obstacles_); ++k)
+    if (world.obstacles()[k].moves) obstacles_from_[k] = world.obstacle_pose(k);
 }
 
 template <int Dim>
@@ -87,7 +91,7 @@ auto PassingWatch<Dim>::mover(const World<Dim>& world, BodyIndex index) const ->
 /// How far any point of it goes by its rotation, at most.
 template <int Dim>
 double PassingWatch<Dim>::turn(const Mover& mover) {
-  return mover.solid->reach * chord(mover.from.rotation, mover.to.rotation);
+  return mover.solid->reach * std::sqrt(squared_turn(mover.from.rotation, mover.to.rotation));
 }
 
 template <int Dim>
@@ -103,13 +107,22 @@ auto PassingWatch<Dim>::end_step(const World<Dim>& world) -> std::span<const Fin
   findings_.clear();
   fast_.clear();
   double farthest = 0.0;
+  // (a + b)² is at most 2 (a² + b²): most bodies are slow, and are found to be without a root.
+  const double slow = 0.125 * smallest_core_ * smallest_core_;
   const auto note = [&](const Mover& mover) {
     const double way = (mover.to.position - mover.from.position).norm() + turn(mover);
-    if (way < 0.5 * smallest_core_) return;  // the other one may come against it
+    if (way < 0.5 * smallest_core_) return;  // two such bodies together stay below the limit of a pair
     farthest = std::max(farthest, way);
     fast_.push_back(mover);
   };
-  for (const BodyIndex body : world.awake()) note(mover(world, body));
+  const BodyStates<Dim>& states = world.states();
+  for (const BodyIndex body : world.awake()) {
+    const Pose<Dim>&from = from_[body], &to = states.pose[body];
+    const double reach = solids_[states.shape[body]].reach;
+    const double squared_way =
+        (to.position - from.position).squaredNorm() + reach * reach * squared_turn(from.rotation, to.rotation);
+    if (squared_way >= slow) note(mover(world, body));
+  }
   for (int k = 0; k < std::ssize(obstacles_); ++k)
     if (world.obstacles()[k].moves && world.has_obstacle(k)) note(mover(world, first_obstacle - k));
   for (const Mover& fast : fast_) test_neighbours(world, fast, farthest);
@@ -143,7 +156,8 @@ double PassingWatch<Dim>::way(const Mover& a, const Mover& b) {
 /// Whether a middle of `a` goes through `b`.
 template <int Dim>
 bool PassingWatch<Dim>::passes(const Mover& a, const Mover& b) {
-  const double angle = std::max(chord(a.from.rotation, a.to.rotation), chord(b.from.rotation, b.to.rotation));
+  const double angle =
+      std::sqrt(std::max(squared_turn(a.from.rotation, a.to.rotation), squared_turn(b.from.rotation, b.to.rotation)));
   const int parts = 1 + static_cast<int>(angle / largest_turn);
   const auto at = [](const Mover& mover, double share) -> Pose<Dim> {
     return {mover.from.position + share * (mover.to.position - mover.from.position),

@@ -2,7 +2,7 @@
 
 export const element = <T extends HTMLElement = HTMLElement>(id: string): T => document.getElementById(id) as T;
 
-/// Shows a pace, which need not be one of those to choose from.
+/// Selects a pace in the list, which gets an entry for it where it has none.
 export function showPace(list: HTMLSelectElement, pace: number): void {
   const value = String(pace);
   if (document.activeElement === list || list.value === value) return;

@@ -117,6 +117,7 @@ export class Player {
     this.timeline = timeline;
     this.contacts.replace(head);
     this.pause();
+    this.plots.dispose();
     this.following = this.simulation !== null;
     if (head.dimension === dimension) {
       this.plots = this.show();

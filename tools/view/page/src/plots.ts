@@ -33,6 +33,7 @@ export class Plots {
   private readonly counts: uPlot;
   private readonly densities: uPlot;
   private readonly heads: HTMLElement[];
+  private readonly resizes = new ResizeObserver(() => this.resize());
   private frames = 0;
   private piled = false; // whether the run has had a pile
   private time = 0;
@@ -46,7 +47,6 @@ export class Plots {
     private readonly timed: boolean,
     seek: (time: number) => void,
   ) {
-    parent.replaceChildren();
     for (const [name, colour] of [["awake", head.colours.awake[1]], ["layer", head.colours.layer], ["dense", overfull]] as const)
       document.querySelectorAll<HTMLElement>(`#caption .${name}`).forEach((text) => (text.style.color = css(colour)));
     const speed: uPlot.Series = { ...this.series("ms a step", css(head.colours.layer), 1), scale: "ms" };
@@ -72,8 +72,14 @@ export class Plots {
       });
       return line;
     });
-    new ResizeObserver(() => this.resize()).observe(parent);
+    this.resizes.observe(parent);
     this.refresh();
+  }
+
+  /// Takes them off the page.
+  dispose(): void {
+    this.resizes.disconnect();
+    for (const plot of [this.counts, this.densities]) plot.destroy();
   }
 
   private series(label: string, stroke: string, width: number): uPlot.Series {

@@ -48,7 +48,8 @@ export class Stage {
   private readonly flat: boolean;
   private head: Head;
   private timeline: Timeline | null = null;
-  private waiting = false;
+  private picture = 0; // the browser's number of the picture that will be drawn, 0: none
+  private readonly resizes = new ResizeObserver(() => this.resize());
   readonly enclosed = new Enclosed();
   private updates = 0;
   /// Whether the layers of piles are drawn.
@@ -94,13 +95,15 @@ export class Stage {
     this.contactMarks = new ContactMarks(head);
     this.layers = new LayerView(head);
     this.scene.add(this.layers.group);
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resizes.observe(canvas.parentElement!);
     this.resize();
     this.fit();
   }
 
-  /// Frees what the graphics card holds.
+  /// Frees what the graphics card holds, and draws no more.
   dispose(): void {
+    this.resizes.disconnect();
+    cancelAnimationFrame(this.picture);
     this.controls.dispose();
     this.renderer.dispose();
   }
@@ -346,10 +349,9 @@ export class Stage {
 
   /// Draws when the browser has time for the next picture.
   redraw(): void {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
+    if (this.picture !== 0) return;
+    this.picture = requestAnimationFrame(() => {
+      this.picture = 0;
       this.draw();
     });
   }
@@ -384,6 +386,7 @@ export class Stage {
   }
 
   private onScreen(point: Vector3): Vector2 {
+    this.camera.updateMatrixWorld(); // drawing does it too, but the camera may have moved since
     const seen = point.clone().project(this.camera);
     return new Vector2(((seen.x + 1) / 2) * this.canvas.clientWidth, ((1 - seen.y) / 2) * this.canvas.clientHeight);
   }
