@@ -34,6 +34,7 @@ void Ring<Dim>::put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float
   Sleeper& sleeper = sleepers_[body];
   sleeper = {.body = state, .reach = reach, .asleep = true, .hold = hold_steps};
   sleeper.body.moves = true;
+  sleeper.body.free_spin_change.setZero();
   sleeper.body.way.setZero();
   sleeper.body.turn.setZero();
   before_.push_back(body);
@@ -67,7 +68,7 @@ bool Ring<Dim>::touch(BodyIndex body, BodyIndex obstacle) const {
 
 template <int Dim>
 bool Ring<Dim>::idle(std::span<const BodyIndex> moving) const {
-  return touched_.empty() && disturbed_.empty() && moving_.empty() &&
+  return members_.empty() && before_.empty() && touched_.empty() && disturbed_.empty() && moving_.empty() &&
          std::ranges::all_of(moving, [this](BodyIndex obstacle) { return contacts_.of(obstacle).empty(); });
 }
 

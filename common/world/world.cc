@@ -151,16 +151,16 @@ void World<Dim>::thaw(std::span<const BodyIndex> bodies) {
 
 template <int Dim>
 void World<Dim>::set_ring(const std::optional<SleepRing>& ring) {
-  require(!ring || description_.solver.small_steps(), "rings", ring->rings,
-          "must be 0 unless the solver is small_steps");
   if (!ring && !has_ring_) return;
+  if (ring)
+    require(description_.solver.small_steps(), "rings", ring->rings, "must be 0 unless the solver is small_steps");
   engine_set_ring(ring);
   has_ring_ = ring.has_value();
 }
 
 template <int Dim>
 void World<Dim>::engine_set_ring(const std::optional<SleepRing>& ring) {
-  require(!ring, "rings", ring->rings, "must be 0: in this engine sleeping bodies feel nothing");
+  if (ring) require(false, "rings", ring->rings, "must be 0: in this engine sleeping bodies feel nothing");
 }
 
 template <int Dim>
