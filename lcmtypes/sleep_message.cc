@@ -46,7 +46,7 @@ std::string_view range_fault(const talus_sleep& m) {
   if (std::any_of(m.body.begin(), m.body.end(), is_negative)) return "negative body";
   if (!std::all_of(m.pile.begin(), m.pile.end(), is_index_or_none)) return "pile out of range";
   if (!std::all_of(m.layer.begin(), m.layer.end(), is_index_or_none)) return "layer out of range";
-  const auto known = [](std::int8_t cause) { return cause >= talus_sleep::SCORE && cause <= talus_sleep::CHECK; };
+  const auto known = [](std::int8_t cause) { return cause >= talus_sleep::SCORE && cause <= talus_sleep::MOTION; };
   if (!std::all_of(m.cause.begin(), m.cause.end(), known)) return "unknown cause";
   return {};
 }

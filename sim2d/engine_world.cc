@@ -129,6 +129,7 @@ void EngineWorld::engine_remove(BodyIndex body) {
     world_.DestroyBody(at(body).body);
   at(body) = {};
   warm_start_.forget(body);
+  if (small_steps_) small_steps_->forget(body);
 }
 
 void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, const Spin<2>& spin) {
@@ -136,15 +137,21 @@ void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, co
 }
 
 EngineTimes EngineWorld::engine_step() {
-  warm_start_.start_step(states().asleep);
+  warm_start_.start_step(states().asleep, ring() == nullptr);
   const bool own = !small_steps_;
   listener_.start_step(own && !description().debug.sweep_slow_bodies && hosts_.hosts() > 0, own && records_contacts());
-  if (!description().debug.step_when_idle && awake().empty()) return {};
+  if (!description().debug.step_when_idle && idle()) {
+    if (small_steps_) small_steps_->skip();
+    return {};
+  }
   check_memory();
   const EngineTimes times = own ? box2d_step() : small_step();
   warm_start_.end_step();
   return times;
 }
+
+/// Whether nothing moves in the coming step.
+bool EngineWorld::idle() const { return awake().empty() && (ring() == nullptr || ring()->idle(moving_obstacles_)); }
 
 EngineTimes EngineWorld::box2d_step() {
   rolling_.start_step(states().shape);
@@ -164,8 +171,7 @@ EngineTimes EngineWorld::small_step() {
   find_new_contacts();
   stepped_.clear();
   for (const BodyIndex body : awake()) stepped_.push_back(at(body).body);
-  const StepInput input{awake(), states(), templates_, obstacles_};
-  const EngineTimes times = small_steps_->step(world_, input, stepped_);
+  const EngineTimes times = small_steps_->step(world_, step_input(), stepped_);
   proxies_moved_ = true;
   return times;
 }
@@ -194,6 +200,7 @@ bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != n
 
 void EngineWorld::engine_move_obstacle(int number, const Vec<2>& velocity, const Spin<2>& spin) {
   give_velocity(*obstacles_[number], velocity, spin);
+  moving_obstacles_.push_back(first_obstacle - number);
   continuous_.note_moving_obstacle();
 }
 
@@ -201,6 +208,7 @@ void EngineWorld::engine_place_obstacle(int number, const Pose<2>& at) {
   b2Body& body = *obstacles_[number];
   body.SetTransform(to_engine(at.position), engine_angle(at.rotation.angle()));
   give_velocity(body, Vec<2>::Zero(), Spin<2>::Zero());
+  moving_obstacles_.clear();
   proxies_moved_ = true;
 }
 
@@ -208,12 +216,11 @@ void EngineWorld::engine_remove_obstacle(int number) {
   find_new_contacts();
   world_.DestroyBody(obstacles_[number]);
   obstacles_[number] = nullptr;
+  if (small_steps_) small_steps_->forget(first_obstacle - number);
 }
 
 void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
-  for (const BodyIndex body : bodies)
-    for (const b2ContactEdge* edge = at(body).body->GetContactList(); edge != nullptr; edge = edge->next)
-      warm_start_.save(*edge->contact);
+  keep_contacts(bodies);
   // All are destroyed before the first is made again, last first: so every fixture gets its old number in the broad
   // phase again, which decides the side that Box2D measures a contact from.
   find_new_contacts();
@@ -223,6 +230,42 @@ void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
     at(body) = {nullptr, hosts_.add(body, template_of_body(body), stored_pose(pose))};
   }
   proxies_moved_ = true;
+}
+
+/// Before they are destroyed: of the contacts of awake bodies that fall asleep.
+void EngineWorld::keep_contacts(std::span<const BodyIndex> bodies) {
+  for (const BodyIndex body : bodies)
+    for (const b2ContactEdge* edge = at(body).body->GetContactList(); edge != nullptr; edge = edge->next)
+      warm_start_.save(*edge->contact);
+  if (ring() == nullptr) return;
+  find_new_contacts();
+  stepped_.clear();
+  for (const BodyIndex body : bodies) stepped_.push_back(at(body).body);
+  small_steps_->freeze(world_, step_input(), bodies, stepped_);
+}
+
+/// A body that felt forces in its sleep wakes where these have moved it.
+void EngineWorld::resume(BodyIndex body) {
+  const SolverBody<2> state = small_steps_->thaw(body, warm_start_);
+  BodyStates<2>& all = writable_states();
+  all.pose[body].position += state.way.cast<double>();
+  all.pose[body].rotation.angle() += static_cast<double>(state.turn[0]);
+  all.velocity[body] = state.velocity.cast<double>();
+  all.spin[body] = state.spin.cast<double>();
+}
+
+std::span<const BodyIndex> EngineWorld::engine_stirred() const {
+  return ring() != nullptr ? ring()->stirred() : std::span<const BodyIndex>();
+}
+
+bool EngineWorld::engine_feels_forces(BodyIndex body) const { return ring() != nullptr && ring()->has(body); }
+
+bool EngineWorld::engine_feels_obstacle(BodyIndex body, int number) const {
+  return ring() != nullptr && ring()->touch(body, first_obstacle - number);
+}
+
+int EngineWorld::engine_solved_sleepers() const {
+  return ring() != nullptr ? static_cast<int>(ring()->members().size()) : 0;
 }
 
 void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
@@ -237,6 +280,8 @@ void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
   find_new_contacts();
   std::ranges::reverse(fixtures);  // see engine_freeze()
   for (b2Fixture* fixture : fixtures) hosts_.remove(fixture, template_of_body(owner_of(*fixture)));
+  for (const BodyIndex body : bodies)
+    if (engine_feels_forces(body)) resume(body);
   create_thawed(bodies);
   proxies_moved_ = true;
 }
@@ -252,7 +297,10 @@ std::vector<b2Fixture*> EngineWorld::fixtures_of(std::span<const BodyIndex> bodi
 /// Creates a Box2D body for each of `bodies` that has none yet.
 void EngineWorld::create_thawed(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies)
-    if (at(body).body == nullptr) at(body) = {create(body, states().shape[body], states().pose[body]), nullptr};
+    if (at(body).body == nullptr) {
+      at(body) = {create(body, states().shape[body], states().pose[body]), nullptr};
+      give_velocity(*at(body).body, states().velocity[body], states().spin[body]);
+    }
 }
 
 void EngineWorld::check_memory() const { reserve_.check(bodies_.size(), world_.GetContactCount()); }

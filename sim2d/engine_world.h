@@ -49,9 +49,19 @@ class EngineWorld final : public World<2> {
   void engine_place_obstacle(int number, const Pose<2>& at) override;
   void engine_remove_obstacle(int number) override;
   void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
+  void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
+  std::span<const BodyIndex> engine_stirred() const override;
+  bool engine_feels_forces(BodyIndex body) const override;
+  bool engine_feels_obstacle(BodyIndex body, int number) const override;
+  int engine_solved_sleepers() const override;
 
   EngineTimes box2d_step();
   EngineTimes small_step();
+  const Ring<2>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
+  bool idle() const;
+  void keep_contacts(std::span<const BodyIndex> bodies);
+  StepInput step_input() const { return {awake(), states(), templates_, obstacles_}; }
+  void resume(BodyIndex body);
   void add_ground();
   void add_obstacles();
   b2Body* create(BodyIndex index, int shape, const Pose<2>& pose);
@@ -78,8 +88,9 @@ class EngineWorld final : public World<2> {
   std::optional<SmallSteps> small_steps_;  // instead of Box2D's solver
   std::vector<EngineBody> bodies_;
   std::vector<b2Body*> obstacles_;
-  std::vector<b2Body*> stepped_;  // scratch
-  bool proxies_moved_ = false;    // since the last step
+  std::vector<b2Body*> stepped_;             // scratch
+  std::vector<BodyIndex> moving_obstacles_;  // in the next step
+  bool proxies_moved_ = false;               // since the last step
 };
 
 }  // namespace talus::box2d

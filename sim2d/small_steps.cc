@@ -27,6 +27,19 @@ float skin_of(const b2Fixture& fixture) {
   return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
 }
 
+/// As Box2D has it.
+VecF<2> tangent_of(const ContactPoint<2>& point) { return {point.normal.y(), -point.normal.x()}; }
+
+SolverBody<2> solver_body(const b2Body& from, const b2MassData& mass) {
+  SolverBody<2> body;
+  body.velocity = vector(from.GetLinearVelocity());
+  body.spin[0] = from.GetAngularVelocity();
+  body.inverse_mass = 1.0F / mass.mass;
+  body.inverse_inertia(0, 0) = 1.0F / mass.I;
+  body.moves = true;
+  return body;
+}
+
 /// Collects the fixtures in a box.
 class FixtureFinder final : public b2QueryCallback {
  public:
@@ -92,6 +105,7 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description)
   bool rolls = false;
   for (const Shape<2>& shape : description.shapes) {
     reach_ = std::max(reach_, static_cast<float>(shape.extent));
+    reaches_.push_back(static_cast<float>(0.5 * shape.extent));
     for (const Piece<2>& piece : shape.pieces) thinnest = std::min(thinnest, smallest_width(piece));
     arms_.push_back(rolling_arm(shape));
     rolls = rolls || arms_.back() > 0.0;
@@ -104,17 +118,22 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   const double start = now();
   // Box2D gives access to its contact manager for reading only.
   const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
+  detected_ = input.states.size();
   expect_motion(world, input, bodies);
+  if (ring_) ring_->start();
   double solving = 0.0;
   for (int round = 0; round < rounds; ++round) {
     add_bodies(input, bodies);
     for (const Ahead& each : ahead_) add_points(each.pair, each.manifold, each.place, input);
     add_contacts(world, input);
+    if (ring_) ring_->extend(solver_, obstacle_slots_);
     const double added = now();
     solver_.solve(params_, vector(world.GetGravity()), dt_);
     solving += now() - added;
     if (!passes_unseen(world, bodies)) break;
+    if (ring_) ring_->start_again();
   }
+  if (ring_) ring_->read(solver_, world.GetGravity().Length());
   write_impulses();
   move_bodies(bodies);
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
@@ -174,21 +193,87 @@ bool SmallSteps::is_passed(const Ahead& ahead) const {
   return false;
 }
 
+void SmallSteps::set_ring(const std::optional<SleepRing>& ring) {
+  ring_.reset();
+  if (ring) ring_.emplace(*ring);
+}
+
+void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const BodyIndex> bodies,
+                        std::span<b2Body* const> from) {
+  // A body may fall asleep before its first step.
+  if (bodies.back() >= detected_)
+    const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
+  detected_ = input.states.size();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const int shape = input.states.shape[bodies[i]];
+    ring_->put_to_sleep(bodies[i], solver_body(*from[i], input.templates[shape].mass), reaches_[shape]);
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const b2ContactEdge* edge = from[i]->GetContactList(); edge != nullptr; edge = edge->next) {
+      const BodyIndex other =
+          owner_of(edge->contact->GetFixtureA()->GetBody() == from[i] ? *edge->contact->GetFixtureB()
+                                                                      : *edge->contact->GetFixtureA());
+      if (other >= 0 && input.states.asleep[other] == 0) continue;
+      const bool falls_asleep_too = is_dynamic(*edge->other);
+      if (edge->contact->IsTouching() && !(falls_asleep_too && other < bodies[i])) keep(*edge->contact, input);
+    }
+  }
+}
+
+void SmallSteps::keep(b2Contact& contact, const StepInput& input) {
+  b2WorldManifold place;
+  contact.GetWorldManifold(&place);
+  const Fixtures pair{contact.GetFixtureA(), contact.GetFixtureB(), contact.GetFriction(), contact.GetRestitution(),
+                      &contact};
+  int number = 0;
+  for (const ContactPoint<2>& point : points_of(pair, *contact.GetManifold(), place, input)) {
+    SleepingPoint<2> kept{.a = owner_of(*pair.a), .b = owner_of(*pair.b), .contact = point, .key = {}};
+    if (number > 0) kept.contact.rolling_impulse.setZero();
+    kept.key = {static_cast<std::uint64_t>(tag_of(*pair.a)), static_cast<std::uint64_t>(tag_of(*pair.b)),
+                contact.GetManifold()->points[number].id.key};
+    ring_->keep(kept);
+    ++number;
+  }
+}
+
+SolverBody<2> SmallSteps::thaw(BodyIndex body, WarmStart& warm) {
+  released_.clear();
+  const SolverBody<2> state = ring_->wake(body, released_);
+  for (std::size_t i = 0; i < released_.size();) {
+    const PointKey& pair = released_[i].key;
+    const Tag a{pair.a};
+    const Tag b{pair.b};
+    SavedContact saved{std::min(a, b), std::max(a, b), {}};
+    const float rolling = released_[i].contact.rolling_impulse[0];
+    if (rolling != 0.0F) rolling_.push_back({saved.low, saved.high, b > a ? rolling : -rolling});
+    for (int k = 0; k < b2_maxManifoldPoints && i < released_.size() && released_[i].key.a == pair.a &&
+                    released_[i].key.b == pair.b;
+         ++k, ++i) {
+      const ContactPoint<2>& point = released_[i].contact;
+      saved.points[k] = {released_[i].key.point, point.normal_impulse, point.friction_impulse.dot(tangent_of(point))};
+    }
+    warm.save(saved);
+  }
+  sort_rolling();
+  return state;
+}
+
+void SmallSteps::skip() {
+  if (ring_) ring_->start();
+}
+
+void SmallSteps::forget(BodyIndex side) {
+  if (ring_) ring_->forget(side);
+}
+
 void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bodies) {
   solver_.start();
   sources_.clear();
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
   sleepers_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const b2Body& from = *bodies[i];
     const b2MassData& mass = input.templates[input.states.shape[input.awake[i]]].mass;
-    SolverBody<2> body;
-    body.velocity = vector(from.GetLinearVelocity());
-    body.spin[0] = from.GetAngularVelocity();
-    body.inverse_mass = 1.0F / mass.mass;
-    body.inverse_inertia(0, 0) = 1.0F / mass.I;
-    body.moves = true;
-    solver_.add(body);
+    solver_.add(solver_body(*bodies[i], mass));
   }
   obstacle_slots_.assign(input.obstacles.size(), 0);
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
@@ -205,6 +290,7 @@ int SmallSteps::slot_of(b2Fixture& fixture, const StepInput& input) {
   const BodyIndex owner = owner_of(fixture);
   if (owner <= first_obstacle) return obstacle_slots_[first_obstacle - owner];
   if (owner < 0) return 0;
+  if (ring_ && ring_->has(owner)) return ring_->join(owner, solver_);
   if (slots_[owner] == 0) {
     const b2MassData& mass = input.templates[input.states.shape[owner]].mass;
     SolverBody<2> sleeper;
@@ -236,9 +322,22 @@ void SmallSteps::add_contacts(b2World& world, const StepInput& input) {
 
 void SmallSteps::add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
                             const StepInput& input) {
+  const int a = slot_of(*pair.a, input);
+  const int b = slot_of(*pair.b, input);
+  int number = 0;
+  for (ContactPoint<2> point : points_of(pair, manifold, place, input)) {
+    point.a = a;
+    point.b = b;
+    solver_.add(point);
+    sources_.push_back({tag_of(*pair.a), tag_of(*pair.b), pair.contact, number++});
+  }
+}
+
+/// Without their slots; valid until the next call.
+std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, const b2Manifold& manifold,
+                                                       const b2WorldManifold& place, const StepInput& input) {
+  points_.clear();
   ContactPoint<2> point;
-  point.a = slot_of(*pair.a, input);
-  point.b = slot_of(*pair.b, input);
   point.normal = vector(place.normal);
   point.friction = pair.friction;
   point.restitution = pair.restitution;
@@ -256,9 +355,16 @@ void SmallSteps::add_points(const Fixtures& pair, const b2Manifold& manifold, co
       point.normal_impulse = manifold.points[i].normalImpulse;
       point.friction_impulse = manifold.points[i].tangentImpulse * tangent;
     }
-    solver_.add(point);
-    sources_.push_back({tag_of(*pair.a), tag_of(*pair.b), pair.contact, i});
+    if (ring_) point.gap += point.normal.dot(shift_of(*pair.b, point.arm_b) - shift_of(*pair.a, point.arm_a));
+    points_.push_back(point);
   }
+  return points_;
+}
+
+/// Of a sleeper's point, which Box2D does not know.
+VecF<2> SmallSteps::shift_of(b2Fixture& fixture, const VecF<2>& arm) const {
+  const BodyIndex owner = owner_of(fixture);
+  return owner >= 0 && ring_->has(owner) ? ring_->shift(owner, arm) : VecF<2>::Zero();
 }
 
 void SmallSteps::add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const {
@@ -348,19 +454,22 @@ void SmallSteps::find_ahead(b2World& world, b2Fixture& fixture, float others, bo
 
 void SmallSteps::write_impulses() {
   rolling_.clear();
-  const auto points = solver_.points();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const ContactPoint<2>& point = points[i];
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const ContactPoint<2>& point = solver_.points()[i];
     const Source& source = sources_[i];
     if (source.contact != nullptr) {
       b2ManifoldPoint& stored = source.contact->GetManifold()->points[source.number];
       stored.normalImpulse = point.normal_impulse;
-      stored.tangentImpulse = point.friction_impulse.dot(VecF<2>(point.normal.y(), -point.normal.x()));
+      stored.tangentImpulse = point.friction_impulse.dot(tangent_of(point));
     }
     if (point.rolling_arm > 0.0F && source.number == 0 && point.rolling_impulse[0] != 0.0F)
       rolling_.push_back({std::min(source.a, source.b), std::max(source.a, source.b),
                           source.b > source.a ? point.rolling_impulse[0] : -point.rolling_impulse[0]});
   }
+  sort_rolling();
+}
+
+void SmallSteps::sort_rolling() {
   std::ranges::sort(rolling_, {}, [](const Rolling& each) { return std::tuple(each.low, each.high); });
 }
 

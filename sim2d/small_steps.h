@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "common/solver/contact_solver.h"
+#include "common/solver/ring.h"
 #include "common/world/world.h"
 #include "sim2d/body_template.h"
 #include "sim2d/tag.h"
+#include "sim2d/warm_start.h"
 
 namespace talus::box2d {
 
@@ -30,6 +32,20 @@ class SmallSteps {
 
   /// In place of b2World::Step(); Box2D must know all pairs.
   EngineTimes step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
+
+  /// Whether sleepers feel forces, see Ring: those that fall asleep from now on.
+  void set_ring(const std::optional<SleepRing>& ring);
+  /// Null without.
+  const Ring<2>* ring() const { return ring_ ? &*ring_ : nullptr; }
+  /// With a ring, before their bodies in Box2D go: awake bodies fall asleep. Box2D must know all pairs.
+  void freeze(b2World& world, const StepInput& input, std::span<const BodyIndex> bodies, std::span<b2Body* const> from);
+  /// With a ring: a body wakes. Returns its velocity and its displacement; the impulses of its contacts go to `warm`.
+  SolverBody<2> thaw(BodyIndex body, WarmStart& warm);
+  /// A body or an obstacle leaves the world.
+  void forget(BodyIndex side);
+
+  /// In place of a step in which nothing moves.
+  void skip();
 
   /// Appends the contacts of the last step, sorted by their bodies and pieces. Each is listed once: that of two awake
   /// bodies under the one with the lower index.
@@ -75,11 +91,14 @@ class SmallSteps {
   bool passes_unseen(b2World& world, std::span<b2Body* const> bodies);
   bool is_passed(const Ahead& ahead) const;
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
+  void keep(b2Contact& contact, const StepInput& input);
   int slot_of(b2Fixture& fixture, const StepInput& input);
   static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);
   void add_contacts(b2World& world, const StepInput& input);
   void add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
                   const StepInput& input);
+  std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
+                                             const b2WorldManifold& place, const StepInput& input);
   void add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const;
   void find_ahead(b2World& world, bool first);
   void find_ahead(b2World& world, b2Fixture& fixture, float others, bool first);
@@ -87,25 +106,32 @@ class SmallSteps {
   Motion motion_by_velocity(const b2Body& body) const;
   Motion motion_of(b2Fixture& fixture) const;
   bool is_fast(const Motion& motion) const;
+  VecF<2> shift_of(b2Fixture& fixture, const VecF<2>& arm) const;
   void write_impulses();
+  void sort_rolling();
   void move_bodies(std::span<b2Body* const> bodies) const;
 
   ContactSolverParams params_;
   float dt_;
-  float fast_ = 0.0F;         // way in a step of any point of a body beyond which its contacts are sought ahead [m]
-  float reach_ = 0.0F;        // from a body's centre to any point of it at most, over all shapes [m]
-  std::vector<double> arms_;  // by shape [m]; empty: no rolling friction
+  float fast_ = 0.0F;           // way in a step of any point of a body beyond which its contacts are sought ahead [m]
+  float reach_ = 0.0F;          // from a body's centre to any point of it at most, over all shapes [m]
+  std::vector<double> arms_;    // by shape [m]; empty: no rolling friction
+  std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
   ContactSolver<2> solver_;
+  std::optional<Ring<2>> ring_;
   std::vector<Motion> expected_;      // by number among the awake
   std::vector<b2Body*> fast_bodies_;  // of which contacts ahead are to be found
   std::vector<Ahead> ahead_;
-  std::vector<Source> sources_;       // by point
-  std::vector<int> slots_;            // by body; 0: not in this step yet
-  std::vector<BodyIndex> sleepers_;   // in this step
-  std::vector<int> obstacle_slots_;   // by number
-  std::vector<Rolling> rolling_;      // of the last step, sorted
-  std::vector<b2Fixture*> found_;     // scratch
-  std::vector<std::size_t> ordered_;  // scratch
+  std::vector<Source> sources_;             // by point
+  std::vector<int> slots_;                  // by body; 0: not in this step yet
+  std::vector<BodyIndex> sleepers_;         // in this step
+  std::vector<int> obstacle_slots_;         // by number
+  std::vector<Rolling> rolling_;            // of the last step, sorted
+  BodyIndex detected_ = 0;                  // number of bodies whose contacts Box2D has found
+  std::vector<b2Fixture*> found_;           // scratch
+  std::vector<ContactPoint<2>> points_;     // scratch
+  std::vector<SleepingPoint<2>> released_;  // scratch
+  std::vector<std::size_t> ordered_;        // scratch
 };
 
 }  // namespace talus::box2d

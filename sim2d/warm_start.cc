@@ -92,7 +92,7 @@ void WarmStart::forget(BodyIndex body) {
                 [body](const SavedContact& c) { return owner_of(c.low) == body || owner_of(c.high) == body; });
 }
 
-void WarmStart::start_step(std::span<const std::uint8_t> asleep) {
+void WarmStart::start_step(std::span<const std::uint8_t> asleep, bool keeps) {
   const auto sleeps = [asleep](Tag tag) {
     const BodyIndex owner = owner_of(tag);
     return owner < 0 || asleep[owner] != 0;
@@ -103,7 +103,7 @@ void WarmStart::start_step(std::span<const std::uint8_t> asleep) {
   waiting_.erase(std::unique(waiting_.begin(), waiting_.end(), same), waiting_.end());
   std::erase_if(waiting_, [&](const SavedContact& contact) {
     const bool put_away = sleeps(contact.low) && sleeps(contact.high);
-    if (put_away) sleeping_.keep(contact);
+    if (put_away && keeps) sleeping_.keep(contact);
     return put_away;
   });
 }

@@ -63,11 +63,12 @@ class SleepingContacts {
 class WarmStart {
  public:
   void save(b2Contact& contact);
+  void save(const SavedContact& contact) { waiting_.push_back(contact); }
   void wake(BodyIndex body) { sleeping_.release(body, waiting_); }
   void forget(BodyIndex body);
 
-  /// Before a step: contacts between sleepers are put away, the others made ready to be found.
-  void start_step(std::span<const std::uint8_t> asleep);
+  /// Before a step: contacts between sleepers are put away where `keeps` says so, the others made ready to be found.
+  void start_step(std::span<const std::uint8_t> asleep, bool keeps);
   void end_step() { waiting_.clear(); }
   /// From PreSolve of a contact that has just begun.
   void apply(b2Contact& contact) const;

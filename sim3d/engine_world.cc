@@ -98,7 +98,8 @@ void EngineWorld<Dim>::use_small_steps() {
   engine_.keep_points_of_spheres();
   if constexpr (Dim == 3) engine_.find_points_on_ground();
   engine_.world.set_contact_step(
-      {.solve = [this] { small_steps_->solve(engine_.dispatcher, rigid_, engine_.world.getGravity()); },
+      {.solve =
+           [this] { small_steps_->solve(engine_.dispatcher, rigid_, moving_obstacles_, engine_.world.getGravity()); },
        .finish = [this] { small_steps_->finish(rigid_); }});
 }
 
@@ -150,6 +151,7 @@ Pose<Dim> EngineWorld<Dim>::engine_add(BodyIndex body, const BodyDef<Dim>& def) 
 template <int Dim>
 void EngineWorld<Dim>::engine_remove(BodyIndex body) {
   swap_.forget(body);
+  if (small_steps_) small_steps_->forget(body);
   engine_.broadphase.destroyProxy(at(body)->getBroadphaseHandle(), &engine_.dispatcher);
   const bool frozen = rigid_body(body) == nullptr;
   const auto leaving = std::move(at(body));  // outlives Bullet's lists of it
@@ -165,7 +167,8 @@ void EngineWorld<Dim>::engine_set_velocity(BodyIndex body, const Vec<Dim>& veloc
 template <int Dim>
 EngineTimes EngineWorld<Dim>::engine_step() {
   if (this->records_contacts()) contacts_.note_motion(rigid_);
-  if (!this->description().debug.step_when_idle && rigid_.empty()) {
+  if (!this->description().debug.step_when_idle && idle()) {
+    if (small_steps_) small_steps_->skip();
     // Upkeep of the broadphase's trees: their form decides the order of pairs, and so how a run continues after a thaw.
     engine_.broadphase.calculateOverlappingPairs(&engine_.dispatcher);
     return {};
@@ -193,7 +196,9 @@ std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) 
 
 template <int Dim>
 void EngineWorld<Dim>::engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
-  give_velocity<Dim>(*btRigidBody::upcast(&obstacle(number)), velocity, spin);
+  btRigidBody* body = btRigidBody::upcast(&obstacle(number));
+  give_velocity<Dim>(*body, velocity, spin);
+  moving_obstacles_.push_back(body);
 }
 
 template <int Dim>
@@ -201,6 +206,7 @@ void EngineWorld<Dim>::engine_place_obstacle(int number, const Pose<Dim>& at) {
   btRigidBody& body = *btRigidBody::upcast(&obstacle(number));
   body.setWorldTransform(to_bullet(at, obstacles_[number].frame));
   give_velocity<Dim>(body, Vec<Dim>::Zero(), Spin<Dim>::Zero());
+  moving_obstacles_.clear();
 }
 
 /// It stays in Bullet's list of objects, without an entry in the broad phase: nothing meets it any more.
@@ -208,6 +214,7 @@ template <int Dim>
 void EngineWorld<Dim>::engine_remove_obstacle(int number) {
   btCollisionObject& object = obstacle(number);
   swap_.forget(first_obstacle - number);
+  if (small_steps_) small_steps_->forget(first_obstacle - number);
   engine_.pairs.remove_pairs_of_obstacle(object.getBroadphaseHandle(), &engine_.dispatcher);
   engine_.broadphase.destroyProxy(object.getBroadphaseHandle(), &engine_.dispatcher);
   object.setBroadphaseHandle(nullptr);
@@ -223,6 +230,15 @@ void EngineWorld<Dim>::engine_set_gravity(const Vec<Dim>& gravity) {
 
 template <int Dim>
 void EngineWorld<Dim>::engine_freeze(std::span<const BodyIndex> bodies) {
+  if (ring() != nullptr) {
+    std::vector<btRigidBody*> falling_asleep;
+    std::vector<int> shapes;
+    for (const BodyIndex body : bodies) {
+      falling_asleep.push_back(rigid_body(body));
+      shapes.push_back(this->states().shape[body]);
+    }
+    small_steps_->freeze(engine_.dispatcher, falling_asleep, shapes);
+  }
   for (const BodyIndex body : bodies) swap_.freeze(at(body), template_of_body(body));
   std::erase_if(listed_, [this](BodyIndex body) { return rigid_body(body) == nullptr; });
   update_lists();
@@ -233,13 +249,45 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
   const auto before = static_cast<std::ptrdiff_t>(listed_.size());
   for (const BodyIndex body : bodies) {
     if (rigid_body(body) == nullptr) {
+      const bool moves = this->feels_forces(body);
+      btVector3 velocity;
+      btVector3 spin;
+      if (moves) at(body)->setWorldTransform(small_steps_->thaw(*at(body), velocity, spin));
       swap_.thaw(at(body), template_of_body(body), this->description().engine_sleep);
       listed_.push_back(body);
+      if (moves) resume(body, velocity, spin);
     }
     at(body)->activate(true);
   }
   std::inplace_merge(listed_.begin(), listed_.begin() + before, listed_.end());
   update_lists();
+}
+
+/// A body that felt forces in its sleep wakes where these have moved it.
+template <int Dim>
+void EngineWorld<Dim>::resume(BodyIndex body, const btVector3& velocity, const btVector3& spin) {
+  btRigidBody& rigid = *rigid_body(body);
+  rigid.setLinearVelocity(velocity);
+  rigid.setAngularVelocity(spin);
+  BodyStates<Dim>& all = this->writable_states();
+  all.pose[body] = from_bullet<Dim>(rigid.getWorldTransform(), template_of_body(body).frame_inverse);
+  all.velocity[body] = from_bullet<Dim>(velocity);
+  all.spin[body] = spin_from_bullet<Dim>(spin);
+}
+
+template <int Dim>
+std::span<const BodyIndex> EngineWorld<Dim>::engine_stirred() const {
+  return ring() != nullptr ? ring()->stirred() : std::span<const BodyIndex>();
+}
+
+template <int Dim>
+bool EngineWorld<Dim>::engine_feels_obstacle(BodyIndex body, int number) const {
+  return ring() != nullptr && ring()->touch(body, first_obstacle - number);
+}
+
+template <int Dim>
+int EngineWorld<Dim>::engine_solved_sleepers() const {
+  return ring() != nullptr ? static_cast<int>(ring()->members().size()) : 0;
 }
 
 // Bullet's lists in the order of indices, whatever the order of freezing and thawing was.

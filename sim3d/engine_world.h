@@ -40,8 +40,16 @@ class EngineWorld final : public World<Dim> {
   void engine_set_gravity(const Vec<Dim>& gravity) override;
   void engine_contacts(std::vector<Contact<Dim>>& contacts) override { contacts_.gather(engine_, contacts); }
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
+  void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
+  std::span<const BodyIndex> engine_stirred() const override;
+  bool engine_feels_forces(BodyIndex body) const override { return ring() != nullptr && ring()->has(body); }
+  bool engine_feels_obstacle(BodyIndex body, int number) const override;
+  int engine_solved_sleepers() const override;
 
   void use_small_steps();
+  const Ring<Dim>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
+  bool idle() const { return rigid_.empty() && (!small_steps_ || small_steps_->idle(moving_obstacles_)); }
+  void resume(BodyIndex body, const btVector3& velocity, const btVector3& spin);
   void add_ground();
   void add_obstacles();
   void update_lists();
@@ -67,9 +75,10 @@ class EngineWorld final : public World<Dim> {
   BodySwap swap_{engine_};
   std::unique_ptr<SmallSteps<Dim>> small_steps_;  // null: Bullet's own solver
   Contacts<Dim> contacts_{mass_scale_, small_steps_ != nullptr};
-  std::vector<BodyIndex> listed_;           // bodies in Bullet's lists, ascending: all but the frozen
-  std::vector<btRigidBody*> rigid_;         // the same
-  mutable std::vector<BodyIndex> strayed_;  // see find_strayed()
+  std::vector<BodyIndex> listed_;               // bodies in Bullet's lists, ascending: all but the frozen
+  std::vector<btRigidBody*> rigid_;             // the same
+  std::vector<btRigidBody*> moving_obstacles_;  // in the next step
+  mutable std::vector<BodyIndex> strayed_;      // see find_strayed()
   mutable bool strayed_known_ = true;
 };
 

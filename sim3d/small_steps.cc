@@ -117,30 +117,39 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
   double smallest = std::numeric_limits<double>::infinity();
   for (const Shape<Dim>& shape : description.shapes) {
     smallest = std::min(smallest, shape.extent);
+    reaches_.push_back(static_cast<float>(0.5 * shape.extent));
     rolling_friction_ = rolling_friction_ || shape.material.rolling_friction > 0.0;
   }
   one_point_ = static_cast<float>(one_point * smallest);
+  obstacle_slots_.assign(description.obstacles.size(), 0);
 }
 
 template <int Dim>
-void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const btVector3& gravity) {
+void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies,
+                            std::span<btRigidBody* const> moving, const btVector3& gravity) {
   ++step_;
   solver_.start();
   sources_.clear();
   parts_.clear();
-  add_bodies(bodies);
+  if (ring_) ring_->start();
+  add_bodies(bodies, moving);
   add_points(dispatcher);
+  if (ring_) ring_->extend(solver_, obstacle_slots_);
   solver_.solve(params_, to_solver<Dim>(gravity), dt_);
+  if (ring_) ring_->read(solver_, gravity.length());
   write_points();
   set_mean_velocities(bodies);
   for (btCollisionObject* other : others_) other->setCompanionId(-1);
   others_.clear();
 }
 
-/// Their slots are 1 and up.
+/// The slots of the bodies are 1 and up.
 template <int Dim>
-void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies) {
+void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving) {
   for (btRigidBody* body : bodies) body->setCompanionId(solver_.add(awake_body<Dim>(*body, dt_)));
+  std::ranges::fill(obstacle_slots_, 0);
+  for (const btRigidBody* obstacle : moving)
+    obstacle_slots_[first_obstacle - obstacle->getUserIndex()] = slot_of(*obstacle);
 }
 
 template <int Dim>
@@ -148,6 +157,8 @@ int SmallSteps<Dim>::slot_of(const btCollisionObject& object) {
   if (object.getCompanionId() >= 0) return object.getCompanionId();
   const btRigidBody* rigid = btRigidBody::upcast(&object);
   if (rigid == nullptr && object.getUserIndex() < 0) return 0;
+  if (rigid == nullptr && ring_ && ring_->has(object.getUserIndex()))
+    return ring_->join(object.getUserIndex(), solver_);
   auto& other = const_cast<btCollisionObject&>(object);  // manifolds give const access only
   other.setCompanionId(solver_.add(rigid != nullptr ? moving_obstacle<Dim>(*rigid) : sleeper<Dim>(object)));
   others_.push_back(&other);
@@ -173,17 +184,28 @@ void SmallSteps<Dim>::add_points(btDispatcher& dispatcher) {
 
 template <int Dim>
 void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b) {
-  const btVector3& centre_a = manifold.getBody1()->getWorldTransform().getOrigin();
-  const btVector3& centre_b = manifold.getBody0()->getWorldTransform().getOrigin();
-  const double arm = rolling_friction_ ? arm_of_pair(arm_of(*manifold.getBody0()), arm_of(*manifold.getBody1())) : 0.0;
+  collect(manifold, step_ - 1);
+  for (ContactPoint<Dim>& contact : contacts_) {
+    contact.a = a;
+    contact.b = b;
+    solver_.add(contact);
+  }
+}
+
+/// The points of a manifold, without their slots.
+template <int Dim>
+void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last_step) {
+  const btCollisionObject& object_a = *manifold.getBody1();
+  const btCollisionObject& object_b = *manifold.getBody0();
+  const btVector3& centre_a = object_a.getWorldTransform().getOrigin();
+  const btVector3& centre_b = object_b.getWorldTransform().getOrigin();
+  const double arm = rolling_friction_ ? arm_of_pair(arm_of(object_b), arm_of(object_a)) : 0.0;
   const auto first = static_cast<int>(parts_.size());
   SpinF<Dim> rolling = SpinF<Dim>::Zero();
   contacts_.clear();
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     btManifoldPoint& point = manifold.getContactPoint(i);
     ContactPoint<Dim> contact;
-    contact.a = a;
-    contact.b = b;
     contact.normal = to_solver<Dim>(point.m_normalWorldOnB);
     if constexpr (Dim == 2) {
       const float length = contact.normal.norm();
@@ -193,21 +215,28 @@ void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b) {
     contact.arm_a = to_solver<Dim>(point.getPositionWorldOnB() - centre_a);
     contact.arm_b = to_solver<Dim>(point.getPositionWorldOnA() - centre_b);
     contact.gap = point.getDistance();
+    if (ring_) contact.gap += contact.normal.dot(shift_of(object_b, contact.arm_b) - shift_of(object_a, contact.arm_a));
     contact.friction = point.m_combinedFriction;
     contact.rolling_arm = static_cast<float>(arm);
     contact.restitution = point.m_combinedRestitution;
     contact.normal_impulse = point.m_appliedImpulse;
     contact.friction_impulse = to_solver<Dim>(friction_impulse(point));
-    if (arm > 0.0) rolling += rolling_of_last_step(point);
-    sources_.push_back({&point, add_point(contact, first)});
+    if (arm > 0.0) rolling += rolling_of(point, last_step);
+    sources_.push_back({&point, collect(contact, first)});
   }
   if (!contacts_.empty()) contacts_[0].rolling_impulse = rolling;
-  for (const ContactPoint<Dim>& contact : contacts_) solver_.add(contact);
+}
+
+/// Of a sleeper's point, which Bullet does not know.
+template <int Dim>
+VecF<Dim> SmallSteps<Dim>::shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const {
+  const BodyIndex body = object.getUserIndex();
+  return body >= 0 && ring_->has(body) ? ring_->shift(body, arm) : VecF<Dim>::Zero();
 }
 
 /// Joins the point with one of the same manifold, of which `first` is the first, where both are one in the plane.
 template <int Dim>
-int SmallSteps<Dim>::add_point(const ContactPoint<Dim>& contact, int first) {
+int SmallSteps<Dim>::collect(const ContactPoint<Dim>& contact, int first) {
   if constexpr (Dim == 2) {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       ContactPoint<2>& known = contacts_[i];
@@ -224,11 +253,11 @@ int SmallSteps<Dim>::add_point(const ContactPoint<Dim>& contact, int first) {
   return first + static_cast<int>(contacts_.size()) - 1;
 }
 
-/// Zero for a point that was not part of the last step.
+/// Zero for a point that was not part of that step.
 template <int Dim>
-SpinF<Dim> SmallSteps<Dim>::rolling_of_last_step(const btManifoldPoint& point) const {
+SpinF<Dim> SmallSteps<Dim>::rolling_of(const btManifoldPoint& point, std::uint32_t step) const {
   const auto mark = reinterpret_cast<std::uintptr_t>(point.m_userPersistentData);
-  if (mark >> 32U != step_ - 1) return SpinF<Dim>::Zero();
+  if (mark >> 32U != step) return SpinF<Dim>::Zero();
   return rolling_[mark & 0xffffffffU];
 }
 
@@ -251,7 +280,7 @@ void SmallSteps<Dim>::write_points() {
     source.point->m_userPersistentData = reinterpret_cast<void*>(mark);  // NOLINT(performance-no-int-to-ptr)
   }
   rolling_.clear();
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < parts_.size(); ++i)
     rolling_.push_back(points[i].rolling_impulse / static_cast<float>(parts_[i]));
 }
 
@@ -272,6 +301,67 @@ void SmallSteps<Dim>::finish(std::span<btRigidBody* const> bodies) const {
     const float share = fastest_spin_ / std::max(solved.spin.norm(), fastest_spin_);
     bodies[i]->setAngularVelocity(spin_from_solver<Dim>(share * solved.spin));
   }
+}
+
+template <int Dim>
+void SmallSteps<Dim>::set_ring(const std::optional<SleepRing>& ring) {
+  ring_.reset();
+  if (ring) ring_.emplace(*ring);
+}
+
+template <int Dim>
+bool SmallSteps<Dim>::idle(std::span<btRigidBody* const> moving) const {
+  std::vector<BodyIndex> obstacles;
+  for (const btRigidBody* obstacle : moving) obstacles.push_back(obstacle->getUserIndex());
+  return !ring_ || ring_->idle(obstacles);
+}
+
+template <int Dim>
+void SmallSteps<Dim>::skip() {
+  if (ring_) ring_->start();
+}
+
+template <int Dim>
+void SmallSteps<Dim>::freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies,
+                             std::span<const int> shapes) {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    ring_->put_to_sleep(bodies[i]->getUserIndex(), awake_body<Dim>(*bodies[i], dt_), reaches_[shapes[i]]);
+  btPersistentManifold** manifolds = dispatcher.getInternalManifoldPointer();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i)
+    if (manifolds[i]->getNumContacts() > 0) keep(*manifolds[i], bodies);
+}
+
+/// Of a pair of which one side falls asleep and the other is not awake. Bullet has the points of before it moved the
+/// bodies.
+template <int Dim>
+void SmallSteps<Dim>::keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep) {
+  const BodyIndex a = manifold.getBody1()->getUserIndex();
+  const BodyIndex b = manifold.getBody0()->getUserIndex();
+  const auto falls_asleep = [&](BodyIndex body) {
+    return std::ranges::binary_search(falling_asleep, body, {}, &btRigidBody::getUserIndex);
+  };
+  const auto is_awake = [&](BodyIndex body) { return body >= 0 && !ring_->has(body); };
+  if (!(falls_asleep(a) || falls_asleep(b)) || is_awake(a) || is_awake(b)) return;
+  manifold.refreshContactPoints(manifold.getBody0()->getWorldTransform(), manifold.getBody1()->getWorldTransform());
+  collect(manifold, step_);
+  for (const ContactPoint<Dim>& contact : contacts_) ring_->keep({.a = a, .b = b, .contact = contact, .key = {}});
+}
+
+template <int Dim>
+btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin) {
+  released_.clear();
+  const SolverBody<Dim> state = ring_->wake(object.getUserIndex(), released_);
+  velocity = from_solver<Dim>(state.velocity);
+  spin = spin_from_solver<Dim>(state.spin);
+  btTransform place;
+  btTransformUtil::integrateTransform(object.getWorldTransform(), from_solver<Dim>(state.way),
+                                      spin_from_solver<Dim>(state.turn), 1, place);
+  return place;
+}
+
+template <int Dim>
+void SmallSteps<Dim>::forget(BodyIndex side) {
+  if (ring_) ring_->forget(side);
 }
 
 template class SmallSteps<2>;

@@ -4,10 +4,12 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/solver/contact_solver.h"
+#include "common/solver/ring.h"
 #include "common/world/world_description.h"
 
 namespace talus::bullet {
@@ -24,22 +26,41 @@ class SmallSteps {
   /// `fastest_spin`: to which a body's is cut [rad/s].
   SmallSteps(const WorldDescription<Dim>& description, double fastest_spin);
 
-  /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves them with the mean velocity of the step,
-  /// by which Bullet is to move them.
-  void solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const btVector3& gravity);
+  /// Solves the contacts of a step. `bodies`: all that are not frozen; `moving`: the obstacles that move in it. Leaves
+  /// the bodies with the mean velocity of the step, by which Bullet is to move them.
+  void solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving,
+             const btVector3& gravity);
 
   /// After they have moved: gives them the velocity at the end of the step.
   void finish(std::span<btRigidBody* const> bodies) const;
 
+  /// Whether sleepers feel forces, see Ring: those that fall asleep from now on.
+  void set_ring(const std::optional<SleepRing>& ring);
+  /// Null without.
+  const Ring<Dim>* ring() const { return ring_ ? &*ring_ : nullptr; }
+  /// Whether nothing would be solved if nothing is awake.
+  bool idle(std::span<btRigidBody* const> moving) const;
+  /// In place of a step in which nothing moves.
+  void skip();
+  /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep. `shapes`: of each of them.
+  void freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, std::span<const int> shapes);
+  /// With a ring: where a body is that wakes. The impulses of its contacts are those of when it fell asleep.
+  btTransform thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin);
+  /// A body or an obstacle leaves the world.
+  void forget(BodyIndex side);
+
  private:
-  void add_bodies(std::span<btRigidBody* const> bodies);
+  void add_bodies(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving);
   void add_points(btDispatcher& dispatcher);
   void add_points(btPersistentManifold& manifold, int a, int b);
-  int add_point(const ContactPoint<Dim>& contact, int first);
+  void collect(btPersistentManifold& manifold, std::uint32_t last_step);
+  int collect(const ContactPoint<Dim>& contact, int first);
+  void keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep);
+  VecF<Dim> shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const;
   int slot_of(const btCollisionObject& object);
   void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
   void write_points();
-  SpinF<Dim> rolling_of_last_step(const btManifoldPoint& point) const;
+  SpinF<Dim> rolling_of(const btManifoldPoint& point, std::uint32_t step) const;
 
   /// A point of Bullet's and the solver's that it is part of.
   struct Source {
@@ -52,11 +73,15 @@ class SmallSteps {
   float fastest_spin_;             // [rad/s]
   float one_point_ = 0.0F;         // points of a planar pair that are nearer are one [m]
   bool rolling_friction_ = false;  // of a shape
+  std::vector<float> reaches_;     // by shape: from the centre to any point of it at most [m]
   ContactSolver<Dim> solver_;
+  std::optional<Ring<Dim>> ring_;
   std::vector<ContactPoint<Dim>> contacts_;  // to come, of one manifold
   std::vector<Source> sources_;
-  std::vector<int> parts_;                  // by contact: its points of Bullet's
-  std::vector<btCollisionObject*> others_;  // sleepers and moving obstacles that have a slot
+  std::vector<int> parts_;                    // by contact: its points of Bullet's
+  std::vector<btCollisionObject*> others_;    // sleepers and moving obstacles that have a slot
+  std::vector<int> obstacle_slots_;           // by number; 0: does not move
+  std::vector<SleepingPoint<Dim>> released_;  // scratch
   std::vector<SpinF<Dim>>
       rolling_;  // by contact of the last step: share of each of its points of Bullet's [N m s times the mass scale]
   std::uint32_t step_ = 1;  // number of the last one, from 2 on: the mark of a new point is 0

@@ -20,6 +20,8 @@ std::string_view to_string(SleepCause cause) {
       return "user";
     case SleepCause::check:
       return "check";
+    case SleepCause::motion:
+      return "motion";
   }
   return "unknown";
 }

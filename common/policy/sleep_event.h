@@ -17,6 +17,7 @@ enum class SleepCause : std::uint8_t {
   engine = 7,    // the engine's own rule
   user,          // the user's request
   check,         // with `adaptive`, its region is checked for stability
+  motion,        // with `adaptive` and rings, forces move it
 };
 
 std::string_view to_string(SleepCause cause);

@@ -48,6 +48,9 @@ class SleepPolicy {
   /// record them.
   virtual bool needs_contacts() const { return false; }
 
+  /// Which sleeping bodies take part in the contact solve: World::set_ring().
+  virtual std::optional<SleepRing> ring() const { return std::nullopt; }
+
   /// None from a policy that does not measure it, has not yet, or cannot while many bodies move. Costs O(bodies +
   /// contacts).
   virtual std::optional<DriftEstimate> drift_estimate(const World<Dim>& /*world*/) const { return std::nullopt; }

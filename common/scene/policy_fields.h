@@ -109,6 +109,19 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .unit = "sqrt(g/D)",
       .range = between(0.0, 1e6),
       .meaning = "the largest damping. Low: piles too flat; high: bodies stick wherever they touch"}},
+    {place_of<&AdaptiveParams::rings>,
+     {.name = "rings",
+      .range = between(0.0, 100.0),
+      .meaning = "sleeping bodies up to this number of contacts from what moves take part in the contact solve, and "
+                 "wake when it moves them; impacts, lost supports, avalanches and stability checks then wake none. 0: "
+                 "none does. 1: momentum and loads pass on too slowly; 3 and more: slow. Only with the solver "
+                 "`small_steps`"}},
+    {place_of<&AdaptiveParams::ring_still_speed>,
+     {.name = "ring_still_speed",
+      .unit = "sqrt(gD)",
+      .range = above(0.0, 1.0),
+      .meaning = "with `rings`: a sleeping body that the solve makes faster counts as moving. Large: heaps of low "
+                 "friction stay too steep; small: much is solved for nothing"}},
 });
 
 inline constexpr auto paper_fields = std::to_array<Field<PaperParams>>({

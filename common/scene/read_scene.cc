@@ -120,10 +120,15 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
   return pile;
 }
 
-void read_policy(TableReader& table, PolicyParams& policy) {
+void read_policy(TableReader& table, const SolverParams& solver, PolicyParams& policy) {
   table.read_fields(policy, policy_fields);
   table.read_fields(policy.paper, paper_fields);
-  table.table("adaptive", [&](TableReader& own) { own.read_fields(policy.adaptive, adaptive_fields); });
+  table.table("adaptive", [&](TableReader& own) {
+    own.read_fields(policy.adaptive, adaptive_fields);
+    if (own.ok() && policy.adaptive.rings > 0 && !solver.small_steps())
+      own.error("rings", R"(must be 0 unless world.solver.kind is "small_steps": the engines' own solvers leave out )"
+                         "sleeping bodies");
+  });
 }
 
 void read_run(TableReader& table, double dt, RunParams& run) {
@@ -165,7 +170,7 @@ Scene<Dim> read_root(TableReader& root) {
   read_sources(root, shapes, scene);
   root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
   read_bodies(root, shapes, scene);
-  root.table("policy", [&](TableReader& table) { read_policy(table, scene.policy); });
+  root.table("policy", [&](TableReader& table) { read_policy(table, scene.world.solver, scene.policy); });
   root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
   scene.world.engine_sleep = scene.policy.kind == "engine";
   root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });

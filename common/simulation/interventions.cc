@@ -98,7 +98,7 @@ bool Interventions<Dim>::must_stay_awake(const World<Dim>& world, BodyIndex body
   const double unit = std::sqrt(extent_ / std::max(gravity_of_sleepers_.norm(), 1e-9));
   const double since = woken_for_gravity_ ? time_ - *woken_for_gravity_ : longest;
   return since < std::min(longest, awake_after_gravity * unit) || std::ranges::binary_search(pulled_, body) ||
-         obstacles_.touch(world, body);
+         (!world.has_ring() && obstacles_.touch(world, body));
 }
 
 template <int Dim>
@@ -152,15 +152,22 @@ void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event
 template <int Dim>
 void Interventions<Dim>::remove(const Intervened<Dim>& run, BodyIndex body) const {
   run.remove(body);
-  run.wake(bodies_near<Dim>(run.world, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent),
-           SleepCause::lost_support);
+  wake_near(run, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
+}
+
+/// Those that feel forces feel what they have lost.
+template <int Dim>
+void Interventions<Dim>::wake_near(const Intervened<Dim>& run, const Box<Dim>& bounds, double reach) const {
+  std::vector<BodyIndex> near = bodies_near<Dim>(run.world, bounds, reach);
+  std::erase_if(near, [&](BodyIndex body) { return run.world.feels_forces(body); });
+  run.wake(near, SleepCause::lost_support);
 }
 
 template <int Dim>
 void Interventions<Dim>::cut_obstacle(const Intervened<Dim>& run, int number) const {
   const Box<Dim> bounds = bounds_at(run.world.obstacle_shape(number), run.world.obstacle_pose(number));
   run.world.remove_obstacle(number);
-  run.wake(bodies_near<Dim>(run.world, bounds, waking_reach * extent_), SleepCause::lost_support);
+  wake_near(run, bounds, waking_reach * extent_);
 }
 
 /// The sum may be no faster than the engine allows.

@@ -56,7 +56,7 @@ class Interventions {
   void release() { pull_.reset(); }
 
   /// After a step: whether an awake body must stay so. One that touches an obstacle that moves, or is pulled, must
-  /// follow it, and one that gravity woke gets time to begin to move.
+  /// follow it, unless it does so in its sleep, and one that gravity woke gets time to begin to move.
   bool must_stay_awake(const World<Dim>& world, BodyIndex body) const;
   /// Whether an obstacle moved in the last call of move().
   bool obstacles_moved() const { return obstacles_.any_moved(); }
@@ -71,6 +71,7 @@ class Interventions {
   void wake_for_gravity(const Intervened<Dim>& run);
   void pull_body(const Intervened<Dim>& run);
   void kick(const Intervened<Dim>& run, const Event<Dim>& event) const;
+  void wake_near(const Intervened<Dim>& run, const Box<Dim>& bounds, double reach) const;
 
   double dt_;      // [s]
   double extent_;  // D [m]

@@ -50,7 +50,7 @@ void MovingObstacles<Dim>::move(World<Dim>& world, const Mover<Dim>& mover, int 
   world.move_obstacle(obstacle, to);
   for (const ConvexPiece<Dim>& piece : pieces_[obstacle]) {
     const ConvexPiece<Dim> before = moved(piece, from);
-    Piece moving{.piece = moved(piece, to), .bounds = before.bounds()};
+    Piece moving{.obstacle = obstacle, .piece = moved(piece, to), .bounds = before.bounds()};
     for (std::size_t i = 0; i < before.corners.size(); ++i)
       moving.travel = std::max(moving.travel, (moving.piece.corners[i] - before.corners[i]).norm());
     moving.bounds.extend(moving.piece.bounds());
@@ -64,7 +64,8 @@ void MovingObstacles<Dim>::find_sleepers(const World<Dim>& world, const Piece& p
   near_.clear();
   world.query_box({piece.bounds.min() - reach, piece.bounds.max() + reach}, near_);
   for (const BodyIndex body : near_)
-    if (world.states().asleep[body] != 0 && touches(world, piece, body)) touched_.push_back(body);
+    if (world.states().asleep[body] != 0 && !world.feels_obstacle(body, piece.obstacle) && touches(world, piece, body))
+      touched_.push_back(body);
 }
 
 template <int Dim>

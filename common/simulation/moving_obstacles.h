@@ -16,7 +16,7 @@ class MovingObstacles {
   explicit MovingObstacles(const Scene<Dim>& scene);
 
   /// Before a step from `time` [s] on: moves the obstacles. Returns the sleeping bodies that touch one that moves, or
-  /// will within the step; valid until the next call.
+  /// will within the step, without feeling its force; valid until the next call.
   const std::vector<BodyIndex>& move(World<Dim>& world, double time);
 
   /// Whether any moved in the last call of move().
@@ -29,6 +29,7 @@ class MovingObstacles {
 
  private:
   struct Piece {
+    int obstacle = 0;        // number
     ConvexPiece<Dim> piece;  // in the world's axes, after the step
     Box<Dim> bounds;         // of it before and after
     double travel = 0.0;     // of its fastest point [m]

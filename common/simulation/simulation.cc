@@ -49,6 +49,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       interventions_(scene),
       ends_at_rest_(scene.run.until == until_rest),
       steps_(scene.steps()) {
+  world_->set_ring(policy_->ring());
   if (ends_at_rest_ || interventions_.clock().waits_for_rest()) rest_check_.emplace(scene);
   if (std::ranges::count(scene.events, EventAction::policy, &Event<Dim>::action) > 0)
     make_policy_ = [with_other = Scene<Dim>(scene)](const std::string& kind) mutable {
@@ -253,6 +254,7 @@ template <int Dim>
 void Simulation<Dim>::switch_policy(const std::string& kind) {
   thaw_all();
   policy_ = make_policy_(kind);
+  world_->set_ring(policy_->ring());
 }
 
 template <int Dim>

@@ -47,8 +47,6 @@ float cross(const VecF<2>& a, const VecF<2>& b) { return a.x() * b.y() - a.y() *
 
 SpinF<2> torque(const VecF<2>& arm, const VecF<2>& impulse) { return SpinF<2>(cross(arm, impulse)); }
 SpinF<3> torque(const VecF<3>& arm, const VecF<3>& impulse) { return arm.cross(impulse); }
-VecF<2> turned(const SpinF<2>& spin, const VecF<2>& arm) { return spin[0] * VecF<2>(-arm.y(), arm.x()); }
-VecF<3> turned(const SpinF<3>& spin, const VecF<3>& arm) { return spin.cross(arm); }
 
 std::array<VecF<2>, 1> tangents_of(const VecF<2>& normal) { return {VecF<2>(normal.y(), -normal.x())}; }
 std::array<VecF<3>, 2> tangents_of(const VecF<3>& normal) {

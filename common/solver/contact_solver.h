@@ -17,6 +17,10 @@ using SpinF = Eigen::Matrix<float, Dim == 2 ? 1 : 3, 1>;
 template <int Dim>
 using InertiaF = Eigen::Matrix<float, Dim == 2 ? 1 : 3, Dim == 2 ? 1 : 3>;
 
+/// Velocity of the end of an arm by a spin, or its displacement by a small turn.
+inline VecF<2> turned(const SpinF<2>& spin, const VecF<2>& arm) { return spin[0] * VecF<2>(-arm.y(), arm.x()); }
+inline VecF<3> turned(const SpinF<3>& spin, const VecF<3>& arm) { return spin.cross(arm); }
+
 /// A body in the solver.
 ///
 /// Awake: its mass, and `moves`. Asleep: its mass too, but it does not move, so that contacts with it are as stiff as

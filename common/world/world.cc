@@ -150,6 +150,20 @@ void World<Dim>::thaw(std::span<const BodyIndex> bodies) {
 }
 
 template <int Dim>
+void World<Dim>::set_ring(const std::optional<SleepRing>& ring) {
+  if (!ring && !has_ring_) return;
+  if (ring)
+    require(description_.solver.small_steps(), "rings", ring->rings, "must be 0 unless the solver is small_steps");
+  engine_set_ring(ring);
+  has_ring_ = ring.has_value();
+}
+
+template <int Dim>
+void World<Dim>::engine_set_ring(const std::optional<SleepRing>& ring) {
+  if (ring) require(false, "rings", ring->rings, "must be 0: in this engine sleeping bodies feel nothing");
+}
+
+template <int Dim>
 void World<Dim>::query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const {
   require(!box.min().hasNaN() && !box.max().hasNaN(), "box", "NaN", "must have corners that are numbers");
   if (box.isEmpty()) return;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/world/body.h"
+#include "common/world/sleep_ring.h"
 #include "common/world/world_description.h"
 
 namespace talus {
@@ -68,9 +69,22 @@ class World {
   /// alone. Acts at once; must not be called during step().
   void freeze(std::span<const BodyIndex> bodies);
 
-  /// Makes sleeping bodies movable again, at rest. Bodies already awake are left alone. Acts at once; must not be
-  /// called during step().
+  /// Makes sleeping bodies movable again, at rest; with a ring, at the place and with the velocity that the solve has
+  /// given them. Bodies already awake are left alone. Acts at once; must not be called during step().
   void thaw(std::span<const BodyIndex> bodies);
+
+  /// From now on the bodies that fall asleep take part in the contact solve, see Ring; without value no longer. Bodies
+  /// that sleep already do not. Only with the solver `small_steps`.
+  void set_ring(const std::optional<SleepRing>& ring);
+  bool has_ring() const { return has_ring_; }
+  /// Sleeping bodies that the solve of the last step moves: the caller wakes them. Ascending, each once.
+  std::span<const BodyIndex> stirred() const { return engine_stirred(); }
+  /// Whether a sleeping body takes part in solves, and so needs no other to wake it when forces on it change.
+  bool feels_forces(BodyIndex body) const { return engine_feels_forces(body); }
+  /// Whether it does, and touches an obstacle.
+  bool feels_obstacle(BodyIndex body, int number) const { return engine_feels_obstacle(body, number); }
+  /// Number of sleeping bodies that were solved in the last step.
+  int solved_sleepers() const { return engine_solved_sleepers(); }
 
   /// Where an obstacle that may move goes within the next step, with the velocity that this takes; it pushes awake
   /// bodies. Sleeping ones stay asleep: the caller wakes them. `number` in WorldDescription::obstacles.
@@ -165,6 +179,13 @@ class World {
   /// Bodies that were asleep; ascending, each once, at least one.
   virtual void engine_thaw(std::span<const BodyIndex> bodies) = 0;
 
+  /// An engine in which sleeping bodies feel nothing throws on a ring.
+  virtual void engine_set_ring(const std::optional<SleepRing>& ring);
+  virtual std::span<const BodyIndex> engine_stirred() const { return {}; }
+  virtual bool engine_feels_forces(BodyIndex /*body*/) const { return false; }
+  virtual bool engine_feels_obstacle(BodyIndex /*body*/, int /*number*/) const { return false; }
+  virtual int engine_solved_sleepers() const { return 0; }
+
   /// Appends the bodies near `box` in any order; a body may come several times.
   virtual void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const = 0;
 
@@ -196,6 +217,7 @@ class World {
   std::int64_t steps_ = 0;
   std::optional<NonFiniteState> failure_;
   bool record_contacts_ = false;
+  bool has_ring_ = false;
 };
 
 }  // namespace talus

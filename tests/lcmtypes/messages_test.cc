@@ -144,6 +144,7 @@ TEST(SleepMessage, NumbersCausesAsTheCoreDoes) {
   EXPECT_EQ(talus_sleep::REST, static_cast<int>(SleepCause::rest));
   EXPECT_EQ(talus_sleep::AVALANCHE, static_cast<int>(SleepCause::avalanche));
   EXPECT_EQ(talus_sleep::CHECK, static_cast<int>(SleepCause::check));
+  EXPECT_EQ(talus_sleep::MOTION, static_cast<int>(SleepCause::motion));
   EXPECT_EQ(talus_sleep::MOMENTUM, static_cast<int>(SleepCause::momentum));
   EXPECT_EQ(talus_sleep::LOST_SUPPORT, static_cast<int>(SleepCause::lost_support));
   EXPECT_EQ(talus_sleep::ENGINE, static_cast<int>(SleepCause::engine));

@@ -7,7 +7,7 @@
 namespace talus {
 namespace {
 
-constexpr int last_cause = static_cast<int>(SleepCause::check);
+constexpr int last_cause = static_cast<int>(SleepCause::motion);
 
 class NpzExport final : public Exporter {
  public:

@@ -26,6 +26,8 @@ struct AdaptiveParams {
   double slope_proportional_gain = 20.0;
   double slope_integral_gain = 0.3;
   double slope_max_damping = 4.0;
+  int rings = 0;
+  double ring_still_speed = 0.01;
 
   /// Factor of the rest distances: a tolerance below the default is kept while a pour goes on, too, when there are few
   /// checks (lab/notes/tolerance_in_a_pour.md). 1 without a tolerance.

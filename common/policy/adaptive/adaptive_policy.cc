@@ -13,12 +13,18 @@ namespace {
 constexpr double speed_margin = 0.95;      // of fastest_speed()
 constexpr double max_turn_per_step = 1.5;  // [rad]; fastest_spin() allows pi / 2 a step
 
+std::optional<SleepRing> ring_of(const AdaptiveParams& params, const TypicalBody& typical) {
+  if (params.rings == 0) return std::nullopt;
+  return SleepRing{.extent = typical.extent, .rings = params.rings, .still_speed = params.ring_still_speed};
+}
+
 }  // namespace
 
 template <int Dim>
 AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world,
                                     const TypicalBody& typical)
-    : rest_periods_(params.rest_period_deep, params.rest_period_surface, params.rest_period_woken),
+    : ring_(ring_of(params, typical)),
+      rest_periods_(params.rest_period_deep, params.rest_period_surface, params.rest_period_woken),
       extent_(typical.extent),
       ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
       max_speed_(speed_margin * fastest_speed<Dim>(world.dt)),
@@ -36,16 +42,12 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
   assert(sleepers_.matches(frame.world.states()));
-  if (frame.world.awake().empty() && !checks_.may_begin(sleepers_)) return;
+  const bool nothing_to_wake = ring_ ? frame.world.stirred().empty() : !checks_.may_begin(sleepers_);
+  if (frame.world.awake().empty() && nothing_to_wake) return;
   const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
   output_.clear();
   rest_.update(in);
-  impacts_ahead_.update(in, output_);
-  impacts_.update(in, rest_, output_);
-  support_loss_.update(in, output_);
-  avalanches_.update(in, sleepers_, output_);
-  slope_controller_.update(in, output_);
-  checks_.update(in, rest_, sleepers_, output_);
+  find_wakes(in);
   limit_velocities();
   for (const auto& [body, wake] : output_.wakes) {
     const Placement place = placement(frame, body);
@@ -56,7 +58,24 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   rest_.expect_motion(output_.wakes);
 }
 
-/// A body that sleeps by the user's wish was not put there by a rule: it makes no heap slide and waits for no check.
+template <int Dim>
+void AdaptivePolicy<Dim>::find_wakes(const RuleInput<Dim>& in) {
+  if (ring_) {
+    for (const BodyIndex body : in.world.stirred())
+      output_.wakes.add(body, {.cause = SleepCause::motion, .before_impact = true});
+    slope_controller_.update(in, output_);
+    return;
+  }
+  impacts_ahead_.update(in, output_);
+  impacts_.update(in, rest_, output_);
+  support_loss_.update(in, output_);
+  avalanches_.update(in, sleepers_, output_);
+  slope_controller_.update(in, output_);
+  checks_.update(in, rest_, sleepers_, output_);
+}
+
+/// A body that sleeps by the user's wish was not put there by a rule: it makes no heap slide and waits for no check, as
+/// none does that feels forces.
 template <int Dim>
 void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEvent> events) {
   for (const SleepEvent& event : events) {
@@ -65,7 +84,7 @@ void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEve
       continue;
     }
     const Vec<Dim>& position = world.states().pose[event.body].position;
-    const bool by_rule = event.cause != SleepCause::user;
+    const bool by_rule = !ring_ && event.cause != SleepCause::user;
     sleepers_.put_in(event.body, position, by_rule ? checks_.note_asleep(world, event.body) : Standing::settled);
     if (by_rule) avalanches_.note_asleep(position);
   }
@@ -85,6 +104,7 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInp
   const RestTimes times = rest_times_in(in.world);
   for (const BodyIndex body : in.world.awake()) {
     if (checks_.holds(body) || below_ground(in, body) || !rested_enough(frame, body, times)) continue;
+    if (ring_ && is_fast(in, body)) continue;
     if (frame.may_sleep(body)) bodies_.push_back(body);
   }
   support_.keep_supported(in, bodies_);
@@ -99,6 +119,14 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInp
 template <int Dim>
 bool AdaptivePolicy<Dim>::below_ground(const RuleInput<Dim>& in, BodyIndex body) const {
   return height<Dim>(in.pose_of(body).position) < ground_;
+}
+
+/// Whether it would count as moving in the ring.
+template <int Dim>
+bool AdaptivePolicy<Dim>::is_fast(const RuleInput<Dim>& in, BodyIndex body) const {
+  const double speed =
+      in.states().velocity[body].norm() + 0.5 * in.shape_of(body).extent * in.states().spin[body].norm();
+  return speed > ring_->still_speed * std::sqrt(in.world.gravity_size() * extent_);
 }
 
 /// [s]

@@ -22,7 +22,8 @@ namespace talus {
 /// Each body sleeps by itself, once it has been at rest for a while and is supported by ground, sleeping bodies or
 /// bodies that fall asleep with it. The time depends on its pile's density and on its closeness to the centre (section
 /// 3.3), and is short for a body that woke and did not move. A body wakes when an impact reaches it, when its support
-/// moves away, or when its heap is too steep; nothing else wakes it.
+/// moves away, or when its heap is too steep; nothing else wakes it. With a ring it wakes when the contact solve moves
+/// it, and those rules are off.
 template <int Dim>
 class AdaptivePolicy final : public SleepPolicy<Dim> {
  public:
@@ -31,11 +32,12 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
 
   bool counts_flying() const override { return false; }
   bool needs_contacts() const override { return true; }
+  std::optional<SleepRing> ring() const override { return ring_; }
   std::vector<Reading> readings(const Frame<Dim>& frame, BodyIndex body) const override;
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
   void note(const World<Dim>& world, std::span<const SleepEvent> events) override;
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
-    return checks_.drift_estimate(world);
+    return ring_ ? std::nullopt : checks_.drift_estimate(world);
   }
   /// The bodies that sleep, as the policy was told.
   const SleepLedger<Dim>& sleepers() const { return sleepers_; }
@@ -55,19 +57,22 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
     double woken = 0.0;    // of a body that woke and did not move
   };
 
+  void find_wakes(const RuleInput<Dim>& in);
   void limit_velocities();
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
+  bool is_fast(const RuleInput<Dim>& in, BodyIndex body) const;
   RestTimes rest_times_in(const World<Dim>& world) const;
   double rest_time_needed(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
   bool rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
-  RestTimes rest_periods_;  // in sqrt(D/g)
-  double extent_;           // D [m]
-  double ground_;           // its height [m]; without ground the lowest number
-  double max_speed_;        // [m/s]
-  double max_spin_;         // [rad/s]
+  std::optional<SleepRing> ring_;  // its solve wakes bodies; without, the rules do
+  RestTimes rest_periods_;         // in sqrt(D/g)
+  double extent_;                  // D [m]
+  double ground_;                  // its height [m]; without ground the lowest number
+  double max_speed_;               // [m/s]
+  double max_spin_;                // [rad/s]
   RestCriterion<Dim> rest_;
   SupportCriterion<Dim> support_;
   ImpactsAhead<Dim> impacts_ahead_;

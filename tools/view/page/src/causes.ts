@@ -19,4 +19,5 @@ export const causes: (Cause | null)[] = [
   { name: "engine", slept: "the engine's own rule", woke: "the engine's own rule" },
   { name: "user", slept: "by hand", woke: "by hand, or a body near it was removed" },
   { name: "check", slept: "the check of its region ended", woke: "its region is checked for stability" },
+  { name: "motion", slept: "", woke: "forces move it" },
 ];

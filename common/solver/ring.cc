@@ -1,0 +1,257 @@
+#include "common/solver/ring.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+/// A sleeping body wakes when a point of it has moved farther than this since it fell asleep [D]: less than what counts
+/// as rest.
+constexpr float wake_distance = 0.01F;
+/// Or is faster than this, at which it would rise by that distance [sqrt(g D)].
+constexpr float wake_speed = 0.14F;
+/// Or has come to rest in the ring farther than this from where it fell asleep [D]: the engine is to know its place.
+constexpr float settle_distance = 0.002F;
+/// While obstacles move, bodies that are faster than this share of the slowest count as moving: else what a slow one
+/// carries would be held back by what has not begun to move.
+constexpr float obstacle_share = 0.3F;
+/// Steps for which a body stays in the ring that does not reach it any more. Without, the ring's border moves to and
+/// fro, and each move changes forces.
+constexpr int hold_steps = 20;
+constexpr float least_gravity = 0.01F;  // [m/s^2]; else nothing would be slow enough without gravity
+
+template <int Dim>
+VecF<Dim> way_of(const SolverBody<Dim>& body, const VecF<Dim>& arm) {
+  return body.way + turned(body.turn, arm);
+}
+
+}  // namespace
+
+template <int Dim>
+void Ring<Dim>::put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float reach) {
+  if (body >= std::ssize(sleepers_)) sleepers_.resize(body + 1);
+  Sleeper& sleeper = sleepers_[body];
+  sleeper = {.body = state, .reach = reach, .asleep = true, .hold = hold_steps};
+  sleeper.body.moves = true;
+  sleeper.body.free_spin_change.setZero();
+  sleeper.body.way.setZero();
+  sleeper.body.turn.setZero();
+  before_.push_back(body);
+}
+
+template <int Dim>
+SolverBody<Dim> Ring<Dim>::wake(BodyIndex body, std::vector<SleepingPoint<Dim>>& released) {
+  contacts_.release(body, released);
+  const SolverBody<Dim> state = sleepers_[body].body;
+  sleepers_[body] = {};
+  return state;
+}
+
+/// What loses a point is disturbed.
+template <int Dim>
+void Ring<Dim>::forget(BodyIndex side) {
+  released_.clear();
+  contacts_.release(side, released_);
+  for (const SleepingPoint<Dim>& point : released_)
+    for (const BodyIndex other : {point.a, point.b})
+      if (other >= 0 && other != side) disturbed_.push_back(other);
+  if (side >= 0 && has(side)) sleepers_[side] = {};
+}
+
+template <int Dim>
+bool Ring<Dim>::touch(BodyIndex body, BodyIndex obstacle) const {
+  return has(body) && std::ranges::any_of(contacts_.of(body), [&](int number) {
+           return contacts_[number].a == obstacle || contacts_[number].b == obstacle;
+         });
+}
+
+template <int Dim>
+bool Ring<Dim>::idle(std::span<const BodyIndex> moving) const {
+  return members_.empty() && before_.empty() && touched_.empty() && disturbed_.empty() && moving_.empty() &&
+         std::ranges::all_of(moving, [this](BodyIndex obstacle) { return contacts_.of(obstacle).empty(); });
+}
+
+template <int Dim>
+void Ring<Dim>::start() {
+  before_.insert(before_.end(), members_.begin(), members_.end());
+  stirred_.clear();
+  last_touched_.swap(touched_);
+  start_again();
+}
+
+template <int Dim>
+void Ring<Dim>::start_again() {
+  for (const BodyIndex body : border_) sleepers_[body].slot = 0;
+  for (const BodyIndex body : members_) {
+    sleepers_[body].slot = 0;
+    sleepers_[body].depth = -1;
+  }
+  border_.clear();
+  members_.clear();
+  touched_.clear();
+  slowest_obstacle_ = 0.0F;
+}
+
+template <int Dim>
+int Ring<Dim>::join(BodyIndex body, ContactSolver<Dim>& solver) {
+  if (sleepers_[body].slot == 0) touched_.push_back(body);
+  enter(body, 1, solver);
+  return sleepers_[body].slot;
+}
+
+template <int Dim>
+void Ring<Dim>::enter(BodyIndex body, int depth, ContactSolver<Dim>& solver) {
+  if (!has(body)) return;
+  Sleeper& sleeper = sleepers_[body];
+  if (sleeper.depth >= 0) {
+    sleeper.depth = std::min(sleeper.depth, depth);
+    return;
+  }
+  sleeper.depth = depth;
+  sleeper.slot = solver.add(sleeper.body);
+  members_.push_back(body);
+}
+
+template <int Dim>
+void Ring<Dim>::enter_partners(BodyIndex side, int depth, ContactSolver<Dim>& solver) {
+  for (const int number : contacts_.of(side)) {
+    const SleepingPoint<Dim>& point = contacts_[number];
+    const BodyIndex partner = point.a == side ? point.b : point.a;
+    if (partner >= 0) enter(partner, depth, solver);
+  }
+}
+
+template <int Dim>
+void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle_slots) {
+  for (const BodyIndex body : moving_) enter(body, 0, solver);
+  for (const BodyIndex body : moving_)
+    if (has(body)) enter_partners(body, 1, solver);
+  for (std::size_t i = 0; i < obstacle_slots.size(); ++i) {
+    const BodyIndex obstacle = first_obstacle - static_cast<BodyIndex>(i);
+    if (obstacle_slots[i] == 0 || contacts_.of(obstacle).empty()) continue;
+    const SolverBody<Dim>& state = solver.body(obstacle_slots[i]);
+    const float speed = state.velocity.norm() + static_cast<float>(params_.extent) * state.spin.norm();
+    if (speed == 0.0F) continue;
+    slowest_obstacle_ = slowest_obstacle_ > 0.0F ? std::min(slowest_obstacle_, speed) : speed;
+    enter_partners(obstacle, 1, solver);
+  }
+  for (const BodyIndex body : disturbed_) enter(body, 1, solver);
+  for (const BodyIndex body : last_touched_) enter(body, 1, solver);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const int depth = sleepers_[members_[i]].depth;
+    if (depth > 0 && depth < params_.rings) enter_partners(members_[i], depth + 1, solver);
+  }
+  hold_back(solver);
+  first_point_ = solver.points().size();
+  points_.clear();
+  for (const BodyIndex body : members_) add_points(body, solver, obstacle_slots);
+  for (const int number : points_) added_[number] = 0;
+}
+
+/// Keeps those of the step before that are no longer reached for a while. Where nothing moves none is kept.
+template <int Dim>
+void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
+  for (const BodyIndex body : members_) sleepers_[body].hold = hold_steps;
+  const bool reached = !members_.empty();
+  for (const BodyIndex body : before_) {
+    if (!has(body) || sleepers_[body].depth >= 0) continue;
+    Sleeper& sleeper = sleepers_[body];
+    if (reached && sleeper.hold-- > 0) {
+      enter(body, params_.rings, solver);
+    } else {
+      sleeper.body.velocity.setZero();
+      sleeper.body.spin.setZero();
+      if (far_of(sleeper) > settle_distance * static_cast<float>(params_.extent)) stirred_.push_back(body);
+    }
+  }
+}
+
+template <int Dim>
+void Ring<Dim>::add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots) {
+  for (const int number : contacts_.of(body)) {
+    if (number >= std::ssize(added_)) added_.resize(number + 1, 0);
+    if (added_[number] != 0) continue;
+    added_[number] = 1;
+    const SleepingPoint<Dim>& kept = contacts_[number];
+    ContactPoint<Dim> point = kept.contact;
+    point.a = slot_of(kept.a, solver, obstacle_slots);
+    point.b = slot_of(kept.b, solver, obstacle_slots);
+    solver.add(point);
+    points_.push_back(number);
+  }
+}
+
+template <int Dim>
+int Ring<Dim>::slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots) {
+  if (side == ground_index) return 0;
+  if (side <= first_obstacle) return obstacle_slots[first_obstacle - side];
+  Sleeper& sleeper = sleepers_[side];
+  if (sleeper.slot == 0) {
+    SolverBody<Dim> immovable = sleeper.body;
+    immovable.moves = false;
+    immovable.velocity.setZero();
+    immovable.spin.setZero();
+    sleeper.slot = solver.add(immovable);
+    border_.push_back(side);
+  }
+  return sleeper.slot;
+}
+
+/// How far a point of it has moved at most [m].
+template <int Dim>
+float Ring<Dim>::far_of(const Sleeper& sleeper) {
+  return sleeper.body.way.norm() + sleeper.reach * sleeper.body.turn.norm();
+}
+
+template <int Dim>
+VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
+  return way_of(sleepers_[body].body, arm);
+}
+
+template <int Dim>
+void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity) {
+  const auto extent = static_cast<float>(params_.extent);
+  const float unit = std::sqrt(std::max(gravity, least_gravity) * extent);
+  const float distance = wake_distance * extent;
+  float still = static_cast<float>(params_.still_speed) * unit;
+  if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);
+  moving_.clear();
+  before_.clear();
+  disturbed_.clear();
+  for (const BodyIndex body : members_) {
+    Sleeper& sleeper = sleepers_[body];
+    const SolverBody<Dim>& solved = solver.body(sleeper.slot);
+    sleeper.body.velocity = solved.velocity;
+    sleeper.body.spin = solved.spin;
+    sleeper.body.way += solved.way;
+    sleeper.body.turn += solved.turn;
+    const float speed = solved.velocity.norm() + sleeper.reach * solved.spin.norm();
+    if (speed > wake_speed * unit || far_of(sleeper) > distance) stirred_.push_back(body);
+    if (speed > still) moving_.push_back(body);
+  }
+  read_points(solver, distance);
+  std::ranges::sort(stirred_);
+  const auto rest = std::ranges::unique(stirred_);
+  stirred_.erase(rest.begin(), rest.end());
+}
+
+/// A point on an obstacle that has slid farther than `distance` is no longer there: its body wakes.
+template <int Dim>
+void Ring<Dim>::read_points(const ContactSolver<Dim>& solver, float distance) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const ContactPoint<Dim>& solved = solver.points()[first_point_ + i];
+    SleepingPoint<Dim>& kept = contacts_[points_[i]];
+    const VecF<Dim> moved = way_of(solver.body(solved.b), solved.arm_b) - way_of(solver.body(solved.a), solved.arm_a);
+    kept.contact = solved;
+    kept.contact.gap += solved.normal.dot(moved);
+    if (kept.a >= 0 && kept.b >= 0) continue;
+    kept.slip += moved - solved.normal.dot(moved) * solved.normal;
+    if (kept.slip.norm() > distance) stirred_.push_back(std::max(kept.a, kept.b));
+  }
+}
+
+template class Ring<2>;
+template class Ring<3>;
+
+}  // namespace talus

@@ -1,0 +1,101 @@
+#pragma once
+// Sleeping bodies that feel forces.
+
+#include <span>
+#include <vector>
+
+#include "common/solver/contact_solver.h"
+#include "common/solver/sleeping_contacts.h"
+#include "common/world/sleep_ring.h"
+
+namespace talus {
+
+/// The sleeping bodies near what moves: those that touch an awake body or an obstacle that moves, and those a few
+/// contacts away. They are solved with their mass, the contact points of when they fell asleep and the impulses that
+/// held them. So an impact passes on in the same step, a load or a friction force reaches the next ring in the next
+/// step, and a support that goes is missed at once. The engine does not move them: each keeps the velocity and the
+/// displacement that the solve gives it here, and is to wake when they are too large. A sleeping body that has itself
+/// become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
+///
+/// Bodies beyond are immovable. Where nothing moves the ring is empty and costs nothing.
+template <int Dim>
+class Ring {
+ public:
+  explicit Ring(const SleepRing& params) : params_(params) {}
+
+  // Between two steps.
+
+  /// A body falls asleep. `body`: its mass and its velocity; `reach`: from its centre to any point of it at most [m].
+  void put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float reach);
+  /// A point of a body that has fallen asleep whose other side is not awake.
+  void keep(const SleepingPoint<Dim>& point) { contacts_.keep(point); }
+  /// A body wakes. Returns its velocity, and as `way` and `turn` its displacement; its points go to `released`.
+  SolverBody<Dim> wake(BodyIndex body, std::vector<SleepingPoint<Dim>>& released);
+  /// A body, awake or asleep, or an obstacle leaves the world.
+  void forget(BodyIndex side);
+  /// Whether a body sleeps here.
+  bool has(BodyIndex body) const { return body < std::ssize(sleepers_) && sleepers_[body].asleep; }
+  /// Whether a body sleeps here in contact with an obstacle.
+  bool touch(BodyIndex body, BodyIndex obstacle) const;
+
+  // Within a step.
+
+  /// Whether no sleeping body would be solved if nothing is awake. `moving`: the obstacles that move in the step.
+  bool idle(std::span<const BodyIndex> moving) const;
+  void start();
+  /// In place of start() when the same step is solved again.
+  void start_again();
+  /// The slot of a body that sleeps here and touches one that is awake.
+  int join(BodyIndex body, ContactSolver<Dim>& solver);
+  /// After all awake bodies and their points: adds the other bodies of the ring, and the points between bodies that
+  /// sleep. `obstacle_slots`: by number; 0 of those that do not move.
+  void extend(ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
+  /// Displacement of a point of a body that sleeps here [m].
+  VecF<Dim> shift(BodyIndex body, const VecF<Dim>& arm) const;
+  /// After the solve under `gravity` [m/s^2].
+  void read(const ContactSolver<Dim>& solver, float gravity);
+
+  /// Bodies that are to wake after the last step, ascending.
+  std::span<const BodyIndex> stirred() const { return stirred_; }
+  /// Those that were solved in the last step.
+  std::span<const BodyIndex> members() const { return members_; }
+  const SleepingContacts<Dim>& contacts() const { return contacts_; }
+
+ private:
+  struct Sleeper {
+    SolverBody<Dim> body;  // `way` and `turn`: since it fell asleep
+    float reach = 0.0F;
+    bool asleep = false;
+    bool moving = false;  // faster than `still_speed` in the last solve
+    int depth = -1;       // contacts between it and what moves; -1: not reached in this step
+    int slot = 0;         // 0: not in the solver in this step
+    int hold = 0;         // steps for which it stays once it is not reached any more
+  };
+
+  void enter(BodyIndex body, int depth, ContactSolver<Dim>& solver);
+  void enter_partners(BodyIndex side, int depth, ContactSolver<Dim>& solver);
+  void hold_back(ContactSolver<Dim>& solver);
+  void add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
+  int slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
+  static float far_of(const Sleeper& sleeper);
+  void read_points(const ContactSolver<Dim>& solver, float distance);
+
+  SleepRing params_;
+  SleepingContacts<Dim> contacts_;
+  std::vector<Sleeper> sleepers_;   // by body
+  std::vector<BodyIndex> members_;  // of the ring in this step
+  std::vector<BodyIndex> before_;   // in the step before, and those that have fallen asleep since
+  std::vector<BodyIndex> border_;   // immovable bodies in the solver in this step
+  std::vector<BodyIndex> touched_;  // by awake bodies in this step
+  std::vector<BodyIndex> last_touched_;
+  std::vector<BodyIndex> disturbed_;  // have lost a point since the last step
+  std::vector<BodyIndex> moving_;     // sleepers that count as moving
+  std::vector<BodyIndex> stirred_;
+  std::vector<int> points_;          // in the solver, in their order; the first of them is number first_point_
+  std::vector<std::uint8_t> added_;  // [number of a point] whether it is in the solver in this step
+  std::size_t first_point_ = 0;
+  float slowest_obstacle_ = 0.0F;             // of those that move and touch sleepers [m/s]; 0: none
+  std::vector<SleepingPoint<Dim>> released_;  // scratch
+};
+
+}  // namespace talus

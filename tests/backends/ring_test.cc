@@ -1,0 +1,189 @@
+// Sleeping bodies that feel forces: policy.adaptive.rings, World::set_ring().
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/scene/read_scene.h"
+#include "common/simulation/make_policy.h"
+#include "common/simulation/simulation.h"
+#include "tests/backends/backend.h"
+
+namespace talus::ring_test {
+namespace {
+
+template <typename Backend>
+class RingTest : public BackendTest<Backend> {
+ protected:
+  static constexpr int dim = Backend::dim;
+
+  static std::unique_ptr<World<dim>> world_with_ring(const WorldDescription<dim>& description) {
+    auto world = Backend::make(description);
+    world->set_ring(SleepRing{});
+    return world;
+  }
+
+  /// A vector as a scene has it: across and up, and the third in between.
+  static std::string vector(double across, double up, double between = 0.0) {
+    return dim == 2 ? fmt::format("[{}, {}]", across, up) : fmt::format("[{}, {}, {}]", across, between, up);
+  }
+
+  static Scene<dim> scene(const std::string& text) {
+    return std::get<Scene<dim>>(
+        parse_scene(fmt::format("title = \"ring\"\ndimension = {}\nworld.solver.kind = \"small_steps\"\n"
+                                "policy.adaptive.rings = 2\n{}",
+                                dim, text),
+                    "text"));
+  }
+
+  static Simulation<dim> simulation(const Scene<dim>& scene) {
+    return {scene, Backend::make(scene.world), make_policy(scene)};
+  }
+
+  using BackendTest<Backend>::run;
+  static void run(Simulation<dim>& simulation, double seconds) {
+    for (auto steps = std::llround(60.0 * seconds); steps > 0; --steps) simulation.step();
+  }
+};
+
+#if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
+using RingBackends = ::testing::Types<SmallSteps<Box2d>, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+#elif defined(TALUS_BOX2D)
+using RingBackends = ::testing::Types<SmallSteps<Box2d>>;
+#else
+using RingBackends = ::testing::Types<SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+#endif
+TYPED_TEST_SUITE(RingTest, RingBackends, BackendName);
+
+TYPED_TEST(RingTest, ABallThatRunsIntoASleepingOnePassesItsMomentumOnInThatStep) {
+  auto description = TestFixture::description();
+  description.gravity = 0.0;
+  auto world = TestFixture::world_with_ring(description);
+  const auto away = [](double x) {
+    return Vec<TypeParam::dim>(x * Vec<TypeParam::dim>::Unit(0) + up<TypeParam::dim>(5.0));
+  };
+  world->add(TestFixture::at(away(0.0), 1, 2.0 * Vec<TypeParam::dim>::Unit(0)));
+  world->add(TestFixture::at(away(1.2), 1));
+  world->add(TestFixture::at(away(2.2), 1));
+  world->step();
+  world->freeze(std::vector<BodyIndex>{1, 2});
+  double before = 2.0;
+  for (int step = 0; step < 30 && world->stirred().empty(); ++step) {
+    before = world->states().velocity[0][0];
+    world->step();
+  }
+  const std::vector<BodyIndex> stirred(world->stirred().begin(), world->stirred().end());
+  EXPECT_EQ(stirred, (std::vector<BodyIndex>{1, 2}));
+  world->thaw(stirred);
+  double after = 0.0;
+  for (BodyIndex body = 0; body < 3; ++body) after += world->states().velocity[body][0];
+  EXPECT_NEAR(after, before, 1e-5) << "all weigh the same; single precision";
+}
+
+TYPED_TEST(RingTest, ABodyWakesWhenItsSupportVanishes) {
+  auto world = TestFixture::world_with_ring(TestFixture::description());
+  for (const double height : {0.5, 1.5, 2.5}) world->add(TestFixture::at(up<TypeParam::dim>(height)));
+  TestFixture::run(*world, 2.0);
+  world->freeze(std::vector<BodyIndex>{0, 1, 2});
+  TestFixture::run(*world, 1.0);
+  EXPECT_TRUE(world->stirred().empty());
+  EXPECT_EQ(world->solved_sleepers(), 0) << "nothing moves";
+  world->remove(0);
+  int steps = 0;
+  for (; steps < 10 && world->stirred().empty(); ++steps) world->step();
+  // Falling freely: 0.14 sqrt(g D) = 0.44 m/s takes 2.7 steps.
+  EXPECT_LE(steps, 4);
+  EXPECT_EQ(std::vector<BodyIndex>(world->stirred().begin(), world->stirred().end()), (std::vector<BodyIndex>{1, 2}));
+}
+
+TYPED_TEST(RingTest, APileAtRestHasNoBodyInTheRing) {
+  auto simulation = TestFixture::simulation(TestFixture::scene(
+      "run = {frames = 2400}\nshape.L = {kind = \"L\"}\nsource = [{count = 40, rate = 6.6}]\npile = [{}]\n"));
+  TestFixture::run(simulation, 25.0);
+  EXPECT_EQ(simulation.world().states().size(), 40);
+  EXPECT_LE(simulation.world().awake().size(), 1U);
+  if (simulation.world().awake().empty()) EXPECT_EQ(simulation.world().solved_sleepers(), 0);
+}
+
+TYPED_TEST(RingTest, ASlowPlatformCarriesAStackOfSleepers) {
+  // 10 mm/s for 20 s.
+  auto simulation = TestFixture::simulation(TestFixture::scene(fmt::format(
+      "run = {{frames = 3000}}\nground.height = -10\nshape.cube = {{kind = \"box\", size = {}, friction = 0.6}}\n"
+      "body = [{{position = {}, repeat = {}, step = {}}}]\n"
+      "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\nfriction = 0.6\n"
+      "motion = {{kind = \"path\", times = [5, 25], shifts = [{}, {}]}}\n",
+      TestFixture::vector(1, 1, 1), TestFixture::vector(0, 0.75), TypeParam::dim == 2 ? "[1, 3]" : "[1, 1, 3]",
+      TestFixture::vector(1, 1), TestFixture::vector(4, 0.5, 4), TestFixture::vector(0, 0), TestFixture::vector(0, 0),
+      TestFixture::vector(0.2, 0))));
+  TestFixture::run(simulation, 5.0);
+  std::vector<double> from;
+  for (const auto& pose : simulation.world().states().pose) from.push_back(pose.position[0]);
+  TestFixture::run(simulation, 22.0);
+  for (BodyIndex body = 0; body < 3; ++body)
+    EXPECT_NEAR(simulation.world().states().pose[body].position[0] - from[body], 0.2, 0.002) << "cube " << body;
+}
+
+TYPED_TEST(RingTest, DominoesThatGrowByTwoFifthsAllFall) {
+  std::string shapes;
+  std::string bodies;
+  double height = 1.0;
+  double place = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    shapes += fmt::format("shape.d{} = {{kind = \"box\", size = {}, friction = 0.5}}\n", i,
+                          TestFixture::vector(0.1 * height, height, 0.5 * height));
+    bodies += fmt::format("[[body]]\nshape = \"d{}\"\nposition = {}\n", i, TestFixture::vector(place, 0.5 * height));
+    // About its lower edge.
+    if (i == 0)
+      bodies += fmt::format("velocity = {}\nspin = {}\n", TestFixture::vector(1.5, 0),
+                            TypeParam::dim == 2 ? "-3" : "[0, 3, 0]");
+    place += 0.47 * height;
+    height *= 1.4;
+  }
+  auto simulation = TestFixture::simulation(TestFixture::scene("run = {frames = 600}\n" + shapes + bodies));
+  TestFixture::run(simulation, 8.0);
+  height = 1.0;
+  for (BodyIndex body = 0; body < 5; ++body) {
+    EXPECT_LT(talus::height<TypeParam::dim>(simulation.world().states().pose[body].position), 0.45 * height)
+        << "domino " << body;
+    height *= 1.4;
+  }
+}
+
+TYPED_TEST(RingTest, ARunIsTheSameBitsAgain) {
+  const auto scene = TestFixture::scene(
+      "run = {frames = 600}\nshape.L = {kind = \"L\"}\nsource = [{count = 30, rate = 6.6}]\npile = [{}]\n");
+  std::array<std::vector<Vec<TypeParam::dim>>, 2> ends;
+  for (auto& end : ends) {
+    auto simulation = TestFixture::simulation(scene);
+    TestFixture::run(simulation, 6.0);
+    for (const auto& pose : simulation.world().states().pose) end.push_back(pose.position);
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+}
+
+template <typename Backend>
+class RingOfOwnSolver : public BackendTest<Backend> {};
+TYPED_TEST_SUITE(RingOfOwnSolver, Backends, BackendName);
+
+TYPED_TEST(RingOfOwnSolver, IsRefused) {
+  auto world = TypeParam::make(TestFixture::description());
+  if (has_small_steps<TypeParam>) {
+    EXPECT_NO_THROW(world->set_ring(SleepRing{}));
+    return;
+  }
+  try {
+    world->set_ring(SleepRing{});
+    ADD_FAILURE() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("small_steps"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace talus::ring_test
