@@ -19,6 +19,54 @@ namespace {
 using Lines = std::vector<std::string>;
 
 template <int Dim>
+double thinnest(const Shape<Dim>& shape) {
+  double width = std::numeric_limits<double>::infinity();
+  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
+  return width;
+}
+
+/// A free fall from a source's highest place to the ground.
+struct Fall {
+  double height = 0.0;   // [m]
+  double arrival = 0.0;  // [m/s], by energy
+};
+
+template <int Dim>
+Fall fall_from(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  const double drop = height<Dim>(source.position) + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep)) +
+                      height<Dim>(source.grid_extent()) - world.ground.height;
+  const double start = (source.velocity.cwiseAbs() + source.velocity_spread).norm();
+  return {drop, std::sqrt(start * start + 2.0 * world.gravity * std::max(drop, 0.0))};
+}
+
+/// Of its thickest piece: a thin one between others makes no body thin.
+template <int Dim>
+double thickness(const Shape<Dim>& shape) {
+  double width = 0.0;
+  for (const Piece<Dim>& piece : shape.pieces) width = std::max(width, smallest_width(piece));
+  return width;
+}
+
+/// How many of their own thicknesses bodies go in a step orders the errors of fast pours, whatever the solver and its
+/// passes (lab/notes/small_steps.md).
+template <int Dim>
+void warn_of_coarse_steps(const Scene<Dim>& scene, Lines& lines) {
+  constexpr double most = 1.0;
+  constexpr double fine = 0.5;
+  for (std::size_t i = 0; scene.world.ground.present && i < scene.sources.size(); ++i) {
+    const Source<Dim>& source = scene.sources[i];
+    double least = std::numeric_limits<double>::infinity();
+    for (const int shape : source.shapes) least = std::min(least, thickness(scene.world.shapes[shape]));
+    const double arrival = fall_from(source, scene.world).arrival;
+    if (arrival * scene.world.dt <= most * least) continue;
+    lines.push_back(fmt::format(
+        "source[{}]: bodies arrive at {:.3g} m/s and go {:.2g} times their thickness in a step: their pile may "
+        "come out a tenth or more too high or low; world.steps_per_second = {:.0f} helps",
+        i, arrival, arrival * scene.world.dt / least, std::ceil(arrival / (fine * least))));
+  }
+}
+
+template <int Dim>
 void warn_of_sources(const Scene<Dim>& scene, Lines& lines) {
   const double end = static_cast<double>(scene.run.frames) / scene.run.frame_rate;
   for (std::size_t i = 0; i < scene.sources.size(); ++i) {
@@ -70,7 +118,7 @@ double ratio(const std::vector<Shape<Dim>>& shapes, double Shape<Dim>::*value) {
 template <int Dim>
 void warn_of_mixtures(const Scene<Dim>& scene, Lines& lines) {
   const double masses = ratio(scene.world.shapes, &Shape<Dim>::mass);
-  if (masses > 10.0 && scene.world.solver.velocity_iterations < 50) {
+  if (masses > 10.0 && !scene.world.solver.small_steps() && scene.world.solver.velocity_iterations < 50) {
     lines.push_back(
         fmt::format("shape: masses differ by a factor of {:.3g}; above 10 heavy bodies sink into light ones unless "
                     "world.solver.velocity_iterations is 50 or more",
@@ -154,6 +202,7 @@ std::vector<std::string> warnings(const Scene<Dim>& scene) {
   warn_of_sizes(scene.world.shapes, lines);
   warn_of_mixtures(scene, lines);
   warn_of_settings(scene, lines);
+  warn_of_coarse_steps(scene, lines);
   warn_of_coarse_motion(scene, lines);
   return lines;
 }
@@ -164,13 +213,6 @@ template std::vector<std::string> warnings(const Scene<3>&);
 namespace {
 
 using EngineLines = std::vector<std::string>;
-
-template <int Dim>
-double thinnest(const Shape<Dim>& shape) {
-  double width = std::numeric_limits<double>::infinity();
-  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
-  return width;
-}
 
 template <int Dim>
 void warn_of_gravity(const Scene<Dim>& scene, const EngineTraits& engine, EngineLines& lines) {
@@ -187,22 +229,17 @@ void warn_of_gravity(const Scene<Dim>& scene, const EngineTraits& engine, Engine
   }
 }
 
-// The energy of a free fall to the ground.
 template <int Dim>
 void warn_of_speeds(const Scene<Dim>& scene, const EngineTraits& engine, EngineLines& lines) {
   const double fastest = engine.fastest_step / scene.world.dt;
   for (std::size_t i = 0; scene.world.ground.present && i < scene.sources.size(); ++i) {
     const Source<Dim>& source = scene.sources[i];
-    const double drop = height<Dim>(source.position) + height<Dim>(source.spread) +
-                        std::abs(height<Dim>(source.sweep)) + height<Dim>(source.grid_extent()) -
-                        scene.world.ground.height;
-    const double start = (source.velocity.cwiseAbs() + source.velocity_spread).norm();
-    const double arrival = std::sqrt(start * start + 2.0 * scene.world.gravity * std::max(drop, 0.0));
-    if (arrival > fastest) {
+    const Fall fall = fall_from(source, scene.world);
+    if (fall.arrival > fastest) {
       lines.push_back(fmt::format(
           "source[{}]: a fall of {:.4g} m ends at {:.4g} m/s; bodies move by at most {:g} m a step, here {:.4g} m/s; "
           "more steps per second or a lower source help",
-          i, drop, arrival, engine.fastest_step, fastest));
+          i, fall.height, fall.arrival, engine.fastest_step, fastest));
     }
   }
 }

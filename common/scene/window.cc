@@ -85,7 +85,7 @@ class WindowCheck {
     if (steps < window.fewest_steps * (1.0 - 1e-9))
       add("world.steps_per_second", fmt::format("{:.4g}", steps), steps_rule(engine_));
     const int iterations = scene.world.solver.velocity_iterations;
-    if (iterations < window.fewest_iterations)
+    if (!scene.world.solver.small_steps() && iterations < window.fewest_iterations)
       add("world.solver.velocity_iterations", fmt::format("{}", iterations), iterations_rule(engine_));
     if (scene.policy.kind == "paper" && scene.policy.paper.tau <= tau_above)
       add("policy.tau", fmt::format("{:g}", scene.policy.paper.tau), tau_rule());
@@ -104,7 +104,8 @@ class WindowCheck {
     const auto [light, heavy] = std::ranges::minmax_element(shapes, {}, [](const auto* each) { return each->mass; });
     const double ratio = (*heavy)->mass / (*light)->mass;
     const int iterations = scene.world.solver.velocity_iterations;
-    if (ratio > window.largest_mass_ratio * (1.0 + 1e-9) && iterations < window.iterations_for_masses)
+    if (!scene.world.solver.small_steps() && ratio > window.largest_mass_ratio * (1.0 + 1e-9) &&
+        iterations < window.iterations_for_masses)
       add("world.solver.velocity_iterations",
           fmt::format("{} with shape.{} of {:.3g} times the mass of shape.{}", iterations, (*heavy)->name, ratio,
                       (*light)->name),

@@ -46,7 +46,8 @@ TEST(Warnings, TellOfMotionsThatSinglePrecisionRoundsAway) {
 }
 
 TEST(Warnings, TellOfSizesThatEnginesHoldBadly) {
-  expect_one(warnings_with({{"shape.ball.radius=0.09"}}), "shape.ball: 0.18 to 0.18 m wide");
+  expect_one(warnings_with({{"shape.ball.radius=0.09"}, {"source[0].position=[0, 0, 4]"}}),
+             "shape.ball: 0.18 to 0.18 m wide");
 }
 
 TEST(Warnings, TellOfMassesThatAreTooDifferent) {
@@ -74,6 +75,22 @@ TEST(Warnings, TellOfAPolicyThatControlsNoSlopes) {
 TEST(Warnings, TellOfAPolicyWithoutAPile) {
   expect_one(warnings_with({{"pile=[]"}, {"policy.kind=paper"}}), "without any [[pile]]");
   EXPECT_EQ(warnings_with({{"pile=[]"}, {"policy.kind=full"}}), "");
+}
+
+TEST(Warnings, DoNotSpeakOfIterationsUnderSmallSteps) {
+  EXPECT_EQ(warnings_with(
+                {{"shape.heavy={kind=\"ball\", radius=0.5, density=20000}"}, {"world.solver.kind=\"small_steps\""}}),
+            "");
+}
+
+TEST(Warnings, TellOfBodiesThatGoFartherThanTheirThicknessInAStep) {
+  // 0.3 m thick from 18 m: sqrt(2 g 18) = 18.8 m/s, 0.313 m a step.
+  const Override plate{"shape.ball={kind=\"box\", size=[1, 1, 0.3]}"};
+  const Override rate{"source[0].rate=1.5"};
+  expect_one(warnings_with({plate, rate, {"source[0].position=[0, 0, 18]"}}),
+             "bodies arrive at 18.8 m/s and go 1 times their thickness in a step");
+  expect_one(warnings_with({plate, rate, {"source[0].position=[0, 0, 18]"}}), "steps_per_second = 126 helps");
+  EXPECT_EQ(warnings_with({plate, rate, {"source[0].position=[0, 0, 16]"}}), "");
 }
 
 TEST(Warnings, TellOfLongSteps) { expect_one(warnings_with({{"world.steps_per_second=30"}}), "below 60"); }
