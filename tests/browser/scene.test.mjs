@@ -34,6 +34,7 @@ test("run, pause, step, restart, pace and policy steer the simulation", async ()
   assert.equal((await shown(page)).step, paused.step, "what came can be scrubbed");
   await page.click("#restart");
   await until(page, ({ step }) => step === 0);
+  assert.equal(await page.locator("#plots .uplot").count(), 2, "the plots of the run before have gone");
   await page.selectOption("#policy", "full");
   await page.selectOption("#pace", "64");
   const full = await until(page, ({ bodies, step }) => bodies > 30 && step > 0);

@@ -86,7 +86,7 @@ export class Player {
   readonly contacts: ContactPanel;
   readonly body = new BodyPanel();
   private readonly tools: PointerTools;
-  private plots: Plots;
+  private plots!: Plots; // made by show()
   private simulation: Simulation | null = null;
   private playing = false;
   private following = false;
@@ -105,7 +105,7 @@ export class Player {
       select: (body) => this.select(body),
     });
     this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
-    this.plots = this.show();
+    this.show();
     this.listen();
     requestAnimationFrame((now) => this.tick(now));
   }
@@ -117,10 +117,9 @@ export class Player {
     this.timeline = timeline;
     this.contacts.replace(head);
     this.pause();
-    this.plots.dispose();
     this.following = this.simulation !== null;
     if (head.dimension === dimension) {
-      this.plots = this.show();
+      this.show();
       if (this.stage.follows) this.stage.fit(false);
       return;
     }
@@ -130,7 +129,7 @@ export class Player {
     this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
     this.stage.follows = this.following;
     this.listenToStage();
-    this.plots = this.show();
+    this.show();
   }
 
   private get head(): Head {
@@ -142,10 +141,10 @@ export class Player {
     this.following = this.stage.follows = true;
     element("loop-label").hidden = true;
     element("timed").hidden = false;
-    this.plots = this.show();
+    this.show();
   }
 
-  private show(): Plots {
+  private show(): void {
     const { head } = this;
     this.time = 0;
     this.stage.selected = -1;
@@ -159,7 +158,8 @@ export class Player {
     this.tools.setShapes(head.shapes.map(({ name }) => name));
     this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
     this.showWarnings();
-    return new Plots(element("plots"), head, this.timeline, this.simulation !== null, (time) => (this.led ? this.led(time) : this.seekTime(time)));
+    this.plots?.dispose();
+    this.plots = new Plots(element("plots"), head, this.timeline, this.simulation !== null, (time) => (this.led ? this.led(time) : this.seekTime(time)));
   }
 
   private listen(): void {
