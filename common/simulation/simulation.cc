@@ -177,8 +177,8 @@ void Simulation<Dim>::change_sleep(std::vector<SleepEvent>& events, bool woke) {
   std::erase_if(events, [&](const SleepEvent& event) { return (states.asleep.at(event.body) != 0) != woke; });
   if (events.empty()) return;
   std::ranges::stable_sort(events, {}, &SleepEvent::body);
-  const auto rest = std::ranges::unique(events, {}, &SleepEvent::body);
-  events.erase(rest.begin(), rest.end());
+  const auto same_body = [](const SleepEvent& a, const SleepEvent& b) { return a.body == b.body; };
+  events.erase(std::unique(events.begin(), events.end(), same_body), events.end());
   bodies_.clear();
   for (SleepEvent& event : events) {
     event.woke = woke;

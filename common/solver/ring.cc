@@ -232,8 +232,7 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity) {
   }
   read_points(solver, distance);
   std::ranges::sort(stirred_);
-  const auto rest = std::ranges::unique(stirred_);
-  stirred_.erase(rest.begin(), rest.end());
+  stirred_.erase(std::unique(stirred_.begin(), stirred_.end()), stirred_.end());
 }
 
 /// A point on an obstacle that has slid farther than `distance` is no longer there: its body wakes.
