@@ -24,7 +24,7 @@ template <int Dim>
 AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDescription<Dim>& world,
                                     const TypicalBody& typical)
     : ring_(ring_of(params, typical)),
-      rest_periods_(params.rest_period_deep, params.rest_period_surface, params.rest_period_woken),
+      rest_periods_{params.rest_period_deep, params.rest_period_surface, params.rest_period_woken},
       extent_(typical.extent),
       ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
       max_speed_(speed_margin * fastest_speed<Dim>(world.dt)),

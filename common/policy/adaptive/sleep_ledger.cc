@@ -14,7 +14,7 @@ template <int Dim>
 void SleepLedger<Dim>::put_in(BodyIndex body, const Vec<Dim>& position, Standing standing) {
   if (std::ssize(sleepers_) <= body) sleepers_.resize(body + 1);
   if (sleepers_[body]) return;
-  const Sleeper& sleeper = sleepers_[body].emplace(columns_.cell_of(position), standing);
+  const Sleeper& sleeper = sleepers_[body].emplace(Sleeper{columns_.cell_of(position), standing});
   Count& count = counts_[sleeper.column];
   ++count.sleeping;
   const int waits = standing == Standing::settled ? 0 : 1;
