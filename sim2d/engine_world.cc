@@ -258,10 +258,8 @@ std::span<const BodyIndex> EngineWorld::engine_stirred() const {
   return ring() != nullptr ? ring()->stirred() : std::span<const BodyIndex>();
 }
 
-bool EngineWorld::engine_feels_forces(BodyIndex body) const { return ring() != nullptr && ring()->has(body); }
-
-bool EngineWorld::engine_feels_obstacle(BodyIndex body, int number) const {
-  return ring() != nullptr && ring()->touch(body, first_obstacle - number);
+bool EngineWorld::engine_feels(BodyIndex body, BodyIndex side) const {
+  return ring() != nullptr && ring()->touch(body, side);
 }
 
 int EngineWorld::engine_solved_sleepers() const {
@@ -281,7 +279,7 @@ void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
   std::ranges::reverse(fixtures);  // see engine_freeze()
   for (b2Fixture* fixture : fixtures) hosts_.remove(fixture, template_of_body(owner_of(*fixture)));
   for (const BodyIndex body : bodies)
-    if (engine_feels_forces(body)) resume(body);
+    if (ring() != nullptr && ring()->has(body)) resume(body);
   create_thawed(bodies);
   proxies_moved_ = true;
 }

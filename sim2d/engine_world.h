@@ -51,8 +51,7 @@ class EngineWorld final : public World<2> {
   void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
   void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
   std::span<const BodyIndex> engine_stirred() const override;
-  bool engine_feels_forces(BodyIndex body) const override;
-  bool engine_feels_obstacle(BodyIndex body, int number) const override;
+  bool engine_feels(BodyIndex body, BodyIndex side) const override;
   int engine_solved_sleepers() const override;
 
   EngineTimes box2d_step();

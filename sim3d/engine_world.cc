@@ -175,6 +175,7 @@ EngineTimes EngineWorld<Dim>::engine_step() {
   }
   const auto start = std::chrono::steady_clock::now();
   engine_.world.stepSimulation(static_cast<btScalar>(this->description().dt), 0);
+  detected_ = this->states().size();
   strayed_known_ = false;
   const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double collide = engine_.world.collide_seconds();
@@ -228,17 +229,23 @@ void EngineWorld<Dim>::engine_set_gravity(const Vec<Dim>& gravity) {
   for (btRigidBody* body : rigid_) body->setGravity(to_bullet(gravity));
 }
 
+/// Of awake bodies that fall asleep, some of them maybe before their first step.
+template <int Dim>
+void EngineWorld<Dim>::keep_contacts(std::span<const BodyIndex> bodies) {
+  if (bodies.back() >= detected_) engine_.world.performDiscreteCollisionDetection();
+  detected_ = this->states().size();
+  std::vector<btRigidBody*> falling_asleep;
+  std::vector<int> shapes;
+  for (const BodyIndex body : bodies) {
+    falling_asleep.push_back(rigid_body(body));
+    shapes.push_back(this->states().shape[body]);
+  }
+  small_steps_->freeze(engine_.dispatcher, falling_asleep, shapes);
+}
+
 template <int Dim>
 void EngineWorld<Dim>::engine_freeze(std::span<const BodyIndex> bodies) {
-  if (ring() != nullptr) {
-    std::vector<btRigidBody*> falling_asleep;
-    std::vector<int> shapes;
-    for (const BodyIndex body : bodies) {
-      falling_asleep.push_back(rigid_body(body));
-      shapes.push_back(this->states().shape[body]);
-    }
-    small_steps_->freeze(engine_.dispatcher, falling_asleep, shapes);
-  }
+  if (ring() != nullptr) keep_contacts(bodies);
   for (const BodyIndex body : bodies) swap_.freeze(at(body), template_of_body(body));
   std::erase_if(listed_, [this](BodyIndex body) { return rigid_body(body) == nullptr; });
   update_lists();
@@ -249,7 +256,7 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
   const auto before = static_cast<std::ptrdiff_t>(listed_.size());
   for (const BodyIndex body : bodies) {
     if (rigid_body(body) == nullptr) {
-      const bool moves = this->feels_forces(body);
+      const bool moves = ring() != nullptr && ring()->has(body);
       btVector3 velocity;
       btVector3 spin;
       if (moves) at(body)->setWorldTransform(small_steps_->thaw(*at(body), velocity, spin));
@@ -281,8 +288,8 @@ std::span<const BodyIndex> EngineWorld<Dim>::engine_stirred() const {
 }
 
 template <int Dim>
-bool EngineWorld<Dim>::engine_feels_obstacle(BodyIndex body, int number) const {
-  return ring() != nullptr && ring()->touch(body, first_obstacle - number);
+bool EngineWorld<Dim>::engine_feels(BodyIndex body, BodyIndex side) const {
+  return ring() != nullptr && ring()->touch(body, side);
 }
 
 template <int Dim>

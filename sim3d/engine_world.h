@@ -42,13 +42,13 @@ class EngineWorld final : public World<Dim> {
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
   void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
   std::span<const BodyIndex> engine_stirred() const override;
-  bool engine_feels_forces(BodyIndex body) const override { return ring() != nullptr && ring()->has(body); }
-  bool engine_feels_obstacle(BodyIndex body, int number) const override;
+  bool engine_feels(BodyIndex body, BodyIndex side) const override;
   int engine_solved_sleepers() const override;
 
   void use_small_steps();
   const Ring<Dim>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
   bool idle() const { return rigid_.empty() && (!small_steps_ || small_steps_->idle(moving_obstacles_)); }
+  void keep_contacts(std::span<const BodyIndex> bodies);
   void resume(BodyIndex body, const btVector3& velocity, const btVector3& spin);
   void add_ground();
   void add_obstacles();
@@ -78,6 +78,7 @@ class EngineWorld final : public World<Dim> {
   std::vector<BodyIndex> listed_;               // bodies in Bullet's lists, ascending: all but the frozen
   std::vector<btRigidBody*> rigid_;             // the same
   std::vector<btRigidBody*> moving_obstacles_;  // in the next step
+  BodyIndex detected_ = 0;                      // number of bodies whose contacts Bullet has found
   mutable std::vector<BodyIndex> strayed_;      // see find_strayed()
   mutable bool strayed_known_ = true;
 };

@@ -151,23 +151,27 @@ void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event
 
 template <int Dim>
 void Interventions<Dim>::remove(const Intervened<Dim>& run, BodyIndex body) const {
+  const std::vector<BodyIndex> near =
+      sleepers_by(run.world, body, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
   run.remove(body);
-  wake_near(run, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
+  run.wake(near, SleepCause::lost_support);
 }
 
-/// Those that feel forces feel what they have lost.
+/// Those near a body or an obstacle, which is about to go, but for those that will feel it.
 template <int Dim>
-void Interventions<Dim>::wake_near(const Intervened<Dim>& run, const Box<Dim>& bounds, double reach) const {
-  std::vector<BodyIndex> near = bodies_near<Dim>(run.world, bounds, reach);
-  std::erase_if(near, [&](BodyIndex body) { return run.world.feels_forces(body); });
-  run.wake(near, SleepCause::lost_support);
+std::vector<BodyIndex> Interventions<Dim>::sleepers_by(const World<Dim>& world, BodyIndex side, const Box<Dim>& bounds,
+                                                       double reach) {
+  std::vector<BodyIndex> near = bodies_near<Dim>(world, bounds, reach);
+  std::erase_if(near, [&](BodyIndex body) { return body == side || world.feels(body, side); });
+  return near;
 }
 
 template <int Dim>
 void Interventions<Dim>::cut_obstacle(const Intervened<Dim>& run, int number) const {
   const Box<Dim> bounds = bounds_at(run.world.obstacle_shape(number), run.world.obstacle_pose(number));
+  const std::vector<BodyIndex> near = sleepers_by(run.world, first_obstacle - number, bounds, waking_reach * extent_);
   run.world.remove_obstacle(number);
-  wake_near(run, bounds, waking_reach * extent_);
+  run.wake(near, SleepCause::lost_support);
 }
 
 /// The sum may be no faster than the engine allows.

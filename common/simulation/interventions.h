@@ -71,7 +71,8 @@ class Interventions {
   void wake_for_gravity(const Intervened<Dim>& run);
   void pull_body(const Intervened<Dim>& run);
   void kick(const Intervened<Dim>& run, const Event<Dim>& event) const;
-  void wake_near(const Intervened<Dim>& run, const Box<Dim>& bounds, double reach) const;
+  static std::vector<BodyIndex> sleepers_by(const World<Dim>& world, BodyIndex side, const Box<Dim>& bounds,
+                                            double reach);
 
   double dt_;      // [s]
   double extent_;  // D [m]

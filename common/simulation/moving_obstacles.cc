@@ -64,7 +64,8 @@ void MovingObstacles<Dim>::find_sleepers(const World<Dim>& world, const Piece& p
   near_.clear();
   world.query_box({piece.bounds.min() - reach, piece.bounds.max() + reach}, near_);
   for (const BodyIndex body : near_)
-    if (world.states().asleep[body] != 0 && !world.feels_obstacle(body, piece.obstacle) && touches(world, piece, body))
+    if (world.states().asleep[body] != 0 && !world.feels(body, first_obstacle - piece.obstacle) &&
+        touches(world, piece, body))
       touched_.push_back(body);
 }
 

@@ -60,9 +60,9 @@ void Ring<Dim>::forget(BodyIndex side) {
 }
 
 template <int Dim>
-bool Ring<Dim>::touch(BodyIndex body, BodyIndex obstacle) const {
+bool Ring<Dim>::touch(BodyIndex body, BodyIndex side) const {
   return has(body) && std::ranges::any_of(contacts_.of(body), [&](int number) {
-           return contacts_[number].a == obstacle || contacts_[number].b == obstacle;
+           return contacts_[number].a == side || contacts_[number].b == side;
          });
 }
 

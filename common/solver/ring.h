@@ -35,8 +35,8 @@ class Ring {
   void forget(BodyIndex side);
   /// Whether a body sleeps here.
   bool has(BodyIndex body) const { return body < std::ssize(sleepers_) && sleepers_[body].asleep; }
-  /// Whether a body sleeps here in contact with an obstacle.
-  bool touch(BodyIndex body, BodyIndex obstacle) const;
+  /// Whether a body sleeps here in contact with a body that does too, or with an obstacle.
+  bool touch(BodyIndex body, BodyIndex side) const;
 
   // Within a step.
 

@@ -79,10 +79,9 @@ class World {
   bool has_ring() const { return has_ring_; }
   /// Sleeping bodies that the solve of the last step moves: the caller wakes them. Ascending, each once.
   std::span<const BodyIndex> stirred() const { return engine_stirred(); }
-  /// Whether a sleeping body takes part in solves, and so needs no other to wake it when forces on it change.
-  bool feels_forces(BodyIndex body) const { return engine_feels_forces(body); }
-  /// Whether it does, and touches an obstacle.
-  bool feels_obstacle(BodyIndex body, int number) const { return engine_feels_obstacle(body, number); }
+  /// Whether a sleeping body takes part in solves and touches `side`, a body or an obstacle as contacts number them:
+  /// then nothing need wake it when that one moves or goes.
+  bool feels(BodyIndex body, BodyIndex side) const { return engine_feels(body, side); }
   /// Number of sleeping bodies that were solved in the last step.
   int solved_sleepers() const { return engine_solved_sleepers(); }
 
@@ -182,8 +181,7 @@ class World {
   /// An engine in which sleeping bodies feel nothing throws on a ring.
   virtual void engine_set_ring(const std::optional<SleepRing>& ring);
   virtual std::span<const BodyIndex> engine_stirred() const { return {}; }
-  virtual bool engine_feels_forces(BodyIndex /*body*/) const { return false; }
-  virtual bool engine_feels_obstacle(BodyIndex /*body*/, int /*number*/) const { return false; }
+  virtual bool engine_feels(BodyIndex /*body*/, BodyIndex /*side*/) const { return false; }
   virtual int engine_solved_sleepers() const { return 0; }
 
   /// Appends the bodies near `box` in any order; a body may come several times.

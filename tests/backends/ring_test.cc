@@ -102,6 +102,22 @@ TYPED_TEST(RingTest, ABodyWakesWhenItsSupportVanishes) {
   EXPECT_EQ(std::vector<BodyIndex>(world->stirred().begin(), world->stirred().end()), (std::vector<BodyIndex>{1, 2}));
 }
 
+TYPED_TEST(RingTest, AWallThatSleepsFromTheStartFallsWhenItsLowestRowIsRemoved) {
+  auto simulation = TestFixture::simulation(TestFixture::scene(
+      fmt::format("run = {{frames = 600}}\nshape.cube = {{kind = \"box\", size = {}, friction = 0.5}}\n"
+                  "body = [{{position = {}, repeat = {}, step = {}, asleep = true}}]\n",
+                  TestFixture::vector(1, 1, 1), TestFixture::vector(0, 0.5),
+                  TypeParam::dim == 2 ? "[4, 4]" : "[4, 1, 4]", TestFixture::vector(1, 1, 1))));
+  TestFixture::run(simulation, 1.0);
+  std::vector<double> from;
+  for (const auto& pose : simulation.world().states().pose) from.push_back(height<TypeParam::dim>(pose.position));
+  for (BodyIndex body = 0; body < 16; ++body)
+    if (from[body] < 0.75) simulation.remove(body);
+  TestFixture::run(simulation, 2.0);
+  for (BodyIndex body = 0; body < 16; ++body)
+    if (from[body] > 0.75) EXPECT_LT(TestFixture::height_of(simulation.world(), body), from[body] - 0.5) << body;
+}
+
 TYPED_TEST(RingTest, APileAtRestHasNoBodyInTheRing) {
   auto simulation = TestFixture::simulation(TestFixture::scene(
       "run = {frames = 2400}\nshape.L = {kind = \"L\"}\nsource = [{count = 40, rate = 6.6}]\npile = [{}]\n"));

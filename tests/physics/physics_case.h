@@ -7,12 +7,16 @@
 #include <string_view>
 #include <vector>
 
+#include "common/world/world_description.h"
+
 namespace talus {
 
 /// Where a case runs.
 struct PhysicsCell {
   std::string_view backend;
   std::string_view policy;
+  std::string_view solver = engine_solver;
+  int rings = 0;  // of the policy `adaptive`
 };
 
 /// One measured number of a case, and what it must be.

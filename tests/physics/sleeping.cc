@@ -103,7 +103,7 @@ struct HeavyBall {
   }
   template <int Dim>
   std::vector<double> operator()(const PhysicsCell& cell) const {
-    const double full = moved<Dim>({cell.backend, "full"});
+    const double full = moved<Dim>({cell.backend, "full", cell.solver});
     return {moved<Dim>(cell) - full};
   }
 };

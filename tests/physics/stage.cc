@@ -60,6 +60,8 @@ template <int Dim>
 Stage<Dim>::Stage(const PhysicsCell& cell, const Material& ground) : backend(cell.backend) {
   scene.title = "physics";
   scene.policy.kind = std::string(cell.policy);
+  scene.policy.adaptive.rings = cell.rings;
+  scene.world.solver.kind = std::string(cell.solver);
   scene.world.engine_sleep = cell.policy == "engine";
   scene.world.ground.material = ground;
   scene.run.frames = 1'000'000'000;

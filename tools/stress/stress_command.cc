@@ -23,6 +23,8 @@ struct StressOptions {
   std::vector<std::string> names;
   std::vector<std::string> backends;
   std::vector<std::string> policies;
+  std::string solver{engine_solver};
+  int rings = 0;
   int jobs = 2;
   bool whole = false;
 };
@@ -51,13 +53,20 @@ void check_names(const std::vector<std::string>& names) {
 /// Slow cases only by name or with --long.
 std::vector<PhysicsTask> chosen_tasks(const StressOptions& options) {
   check_names(options.names);
+  const bool own_solver = options.solver == engine_solver;
+  if (options.rings > 0 && own_solver) throw std::invalid_argument("--rings: must be 0 unless --solver is small_steps");
   std::vector<PhysicsTask> tasks = physics_tasks();
   std::erase_if(tasks, [&](const PhysicsTask& task) {
     const bool named = !options.names.empty() && is_chosen(options.names, task.each->name);
     const bool in_group = is_chosen(options.names, task.each->group) && (options.whole || !task.each->slow);
+    if (!own_solver && task.cell.policy == "engine") return true;  // of the engines' own solvers alone
     return !(named || in_group) || !is_chosen(options.backends, task.cell.backend) ||
            !is_chosen(options.policies, task.cell.policy);
   });
+  for (PhysicsTask& task : tasks) {
+    task.cell.solver = options.solver;
+    task.cell.rings = options.rings;
+  }
   if (tasks.empty()) throw std::invalid_argument("stress: no case runs on the engines and policies that were chosen");
   return tasks;
 }
@@ -115,6 +124,15 @@ void add_stress_command(CLI::App& app, int& exit_code) {
   command->add_option("-p,--policy", options->policies, "Policy, may be repeated; default: all")
       ->check(CLI::IsMember(std::vector<std::string>(policy_kinds.begin(), policy_kinds.end())))
       ->allow_extra_args(false);
+  command
+      ->add_option("--solver", options->solver,
+                   "World's solver of contacts; the references are those of the engines' own")
+      ->check(CLI::IsMember(std::vector<std::string>(solver_kinds.begin(), solver_kinds.end())))
+      ->capture_default_str();
+  command
+      ->add_option("--rings", options->rings, "Rings of sleeping bodies that policy adaptive solves; with small_steps")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
   command->add_option("-j,--jobs", options->jobs, "Runs at a time, each in a process of its own")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
