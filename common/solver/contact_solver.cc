@@ -369,10 +369,9 @@ void ContactSolver<Dim>::Work::load_bodies() {
 template <int Dim>
 void ContactSolver<Dim>::Work::begin_sub_step(const VecF<Dim>& gravity) {
   std::array<Quad, quads> fall{};
-  const float share = 1.0F / static_cast<float>(params.sub_steps);
+  set<Dim>(fall.data(), h * gravity, SpinF<Dim>::Zero());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].moves) continue;
-    set<Dim>(fall.data(), h * gravity, share * bodies[i].free_spin_change);
     for (int j = 0; j < quads; ++j) {
       for (int k = 0; k < 4; ++k) {
         const float alone = velocity[quads * i + j].v[k] + fall[j].v[k];

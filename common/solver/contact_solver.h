@@ -30,7 +30,6 @@ template <int Dim>
 struct SolverBody {
   VecF<Dim> velocity = VecF<Dim>::Zero();                 // [m/s], before and after
   SpinF<Dim> spin = SpinF<Dim>::Zero();                   // [rad/s], before and after
-  SpinF<Dim> free_spin_change = SpinF<Dim>::Zero();       // within the step without contacts: gyroscopic [rad/s]
   float inverse_mass = 0.0F;                              // [1/kg]
   InertiaF<Dim> inverse_inertia = InertiaF<Dim>::Zero();  // in world axes [1/(kg m^2)]
   bool moves = false;                                     // impulses and gravity act on it

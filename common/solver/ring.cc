@@ -34,7 +34,6 @@ void Ring<Dim>::put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float
   Sleeper& sleeper = sleepers_[body];
   sleeper = {.body = state, .reach = reach, .asleep = true, .hold = hold_steps};
   sleeper.body.moves = true;
-  sleeper.body.free_spin_change.setZero();
   sleeper.body.way.setZero();
   sleeper.body.turn.setZero();
   before_.push_back(body);
