@@ -238,7 +238,7 @@ void SmallSteps::keep(b2Contact& contact, const StepInput& input) {
 
 SolverBody<2> SmallSteps::thaw(BodyIndex body, WarmStart& warm) {
   released_.clear();
-  const SolverBody<2> state = ring_->wake(body, released_);
+  SolverBody<2> state = ring_->wake(body, released_);
   for (std::size_t i = 0; i < released_.size();) {
     const PointKey& pair = released_[i].key;
     const Tag a{pair.a};

@@ -42,7 +42,7 @@ void Ring<Dim>::put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float
 template <int Dim>
 SolverBody<Dim> Ring<Dim>::wake(BodyIndex body, std::vector<SleepingPoint<Dim>>& released) {
   contacts_.release(body, released);
-  const SolverBody<Dim> state = sleepers_[body].body;
+  SolverBody<Dim> state = sleepers_[body].body;
   sleepers_[body] = {};
   return state;
 }
@@ -137,9 +137,11 @@ void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle
   }
   for (const BodyIndex body : disturbed_) enter(body, 1, solver);
   for (const BodyIndex body : last_touched_) enter(body, 1, solver);
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const int depth = sleepers_[members_[i]].depth;
-    if (depth > 0 && depth < params_.rings) enter_partners(members_[i], depth + 1, solver);
+  std::size_t next = 0;  // breadth first: the list grows meanwhile
+  while (next < members_.size()) {
+    const BodyIndex body = members_[next++];
+    const int depth = sleepers_[body].depth;
+    if (depth > 0 && depth < params_.rings) enter_partners(body, depth + 1, solver);
   }
   hold_back(solver);
   first_point_ = solver.points().size();
