@@ -127,7 +127,7 @@ class SmallSteps {
   std::vector<BodyIndex> sleepers_;         // in this step
   std::vector<int> obstacle_slots_;         // by number
   std::vector<Rolling> rolling_;            // of the last step, sorted
-  BodyIndex detected_ = 0;                  // number of bodies whose contacts Box2D has found
+  BodyIndex detected_ = 0;                  // number of bodies that collision detection has seen
   std::vector<b2Fixture*> found_;           // scratch
   std::vector<ContactPoint<2>> points_;     // scratch
   std::vector<SleepingPoint<2>> released_;  // scratch

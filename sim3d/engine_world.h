@@ -78,7 +78,7 @@ class EngineWorld final : public World<Dim> {
   std::vector<BodyIndex> listed_;               // bodies in Bullet's lists, ascending: all but the frozen
   std::vector<btRigidBody*> rigid_;             // the same
   std::vector<btRigidBody*> moving_obstacles_;  // in the next step
-  BodyIndex detected_ = 0;                      // number of bodies whose contacts Bullet has found
+  BodyIndex detected_ = 0;                      // number of bodies that collision detection has seen
   mutable std::vector<BodyIndex> strayed_;      // see find_strayed()
   mutable bool strayed_known_ = true;
 };

@@ -47,8 +47,8 @@ double thickness(const Shape<Dim>& shape) {
   return width;
 }
 
-/// How many of their own thicknesses bodies go in a step orders the errors of fast pours, whatever the solver and its
-/// passes (lab/notes/small_steps.md).
+/// The errors of fast pours grow with the distance that a body travels in a step, over its thickness, whatever the
+/// solver and its passes (lab/notes/small_steps.md).
 template <int Dim>
 void warn_of_coarse_steps(const Scene<Dim>& scene, Lines& lines) {
   constexpr double most = 1.0;

@@ -10,12 +10,12 @@
 
 namespace talus {
 
-/// The sleeping bodies near what moves: those that touch an awake body or an obstacle that moves, and those a few
-/// contacts away. They are solved with their mass, the contact points of when they fell asleep and the impulses that
-/// held them. So an impact passes on in the same step, a load or a friction force reaches the next ring in the next
-/// step, and a support that goes is missed at once. The engine does not move them: each keeps the velocity and the
-/// displacement that the solve gives it here, and is to wake when they are too large. A sleeping body that has itself
-/// become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
+/// The sleeping bodies that take part in the contact solve: those that touch an awake body or a moving obstacle, and
+/// those up to SleepRing::rings contacts away. They are solved with their mass, the contact points of when they fell
+/// asleep and the impulses that held them. So an impact passes on in the same step, a load or a friction force reaches
+/// the next ring in the next step, and a support that goes is missed at once. The engine does not move them: each keeps
+/// the velocity and the displacement that the solve gives it here, and is to wake when they are too large. A sleeping
+/// body that has itself become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
 ///
 /// Bodies beyond are immovable. Where nothing moves the ring is empty and costs nothing.
 template <int Dim>
@@ -25,9 +25,9 @@ class Ring {
 
   // Between two steps.
 
-  /// A body falls asleep. `body`: its mass and its velocity; `reach`: from its centre to any point of it at most [m].
+  /// A body falls asleep. `state`: its mass and its velocity; `reach`: from its centre to any point of it at most [m].
   void put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float reach);
-  /// A point of a body that has fallen asleep whose other side is not awake.
+  /// A contact point of a body that has fallen asleep, unless the other body is awake.
   void keep(const SleepingPoint<Dim>& point) { contacts_.keep(point); }
   /// A body wakes. Returns its velocity, and as `way` and `turn` its displacement; its points go to `released`.
   SolverBody<Dim> wake(BodyIndex body, std::vector<SleepingPoint<Dim>>& released);
@@ -47,8 +47,8 @@ class Ring {
   void start_again();
   /// The slot of a body that sleeps here and touches one that is awake.
   int join(BodyIndex body, ContactSolver<Dim>& solver);
-  /// After all awake bodies and their points: adds the other bodies of the ring, and the points between bodies that
-  /// sleep. `obstacle_slots`: by number; 0 of those that do not move.
+  /// Adds the other bodies of the ring, and the contact points between sleeping bodies. To be called after all awake
+  /// bodies and their points have been added. `obstacle_slots`: by number; 0 of those that do not move.
   void extend(ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   /// Displacement of a point of a body that sleeps here [m].
   VecF<Dim> shift(BodyIndex body, const VecF<Dim>& arm) const;
@@ -66,10 +66,9 @@ class Ring {
     SolverBody<Dim> body;  // `way` and `turn`: since it fell asleep
     float reach = 0.0F;
     bool asleep = false;
-    bool moving = false;  // faster than `still_speed` in the last solve
-    int depth = -1;       // contacts between it and what moves; -1: not reached in this step
-    int slot = 0;         // 0: not in the solver in this step
-    int hold = 0;         // steps for which it stays once it is not reached any more
+    int depth = -1;  // contacts between it and what moves; -1: not reached in this step
+    int slot = 0;    // 0: not in the solver in this step
+    int hold = 0;    // steps for which it stays once it is not reached any more
   };
 
   void enter(BodyIndex body, int depth, ContactSolver<Dim>& solver);

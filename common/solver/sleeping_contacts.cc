@@ -4,7 +4,7 @@
 
 namespace talus {
 
-/// Null for the ground, whose points nothing asks for.
+/// Null for the ground: its points are in no list.
 template <int Dim>
 std::vector<int>* SleepingContacts<Dim>::list_of(BodyIndex side) {
   if (side == ground_index) return nullptr;

@@ -77,7 +77,7 @@ TEST(Warnings, TellOfAPolicyWithoutAPile) {
   EXPECT_EQ(warnings_with({{"pile=[]"}, {"policy.kind=full"}}), "");
 }
 
-TEST(Warnings, DoNotSpeakOfIterationsUnderSmallSteps) {
+TEST(Warnings, AdviseNoIterationsUnderSmallSteps) {
   EXPECT_EQ(warnings_with(
                 {{"shape.heavy={kind=\"ball\", radius=0.5, density=20000}"}, {"world.solver.kind=\"small_steps\""}}),
             "");

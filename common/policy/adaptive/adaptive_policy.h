@@ -67,7 +67,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
-  std::optional<SleepRing> ring_;  // its solve wakes bodies; without, the rules do
+  std::optional<SleepRing> ring_;  // without it the rules below wake bodies
   RestTimes rest_periods_;         // in sqrt(D/g)
   double extent_;                  // D [m]
   double ground_;                  // its height [m]; without ground the lowest number

@@ -386,7 +386,7 @@ export class Stage {
   }
 
   private onScreen(point: Vector3): Vector2 {
-    this.camera.updateMatrixWorld(); // drawing does it too, but the camera may have moved since
+    this.camera.updateMatrixWorld(); // the camera may have moved since the last picture
     const seen = point.clone().project(this.camera);
     return new Vector2(((seen.x + 1) / 2) * this.canvas.clientWidth, ((1 - seen.y) / 2) * this.canvas.clientHeight);
   }
