@@ -105,7 +105,7 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description)
   bool rolls = false;
   for (const Shape<2>& shape : description.shapes) {
     reach_ = std::max(reach_, static_cast<float>(shape.extent));
-    reaches_.push_back(static_cast<float>(0.5 * shape.extent));
+    reaches_.push_back(static_cast<float>(bounding_radius(shape)));
     for (const Piece<2>& piece : shape.pieces) thinnest = std::min(thinnest, smallest_width(piece));
     arms_.push_back(rolling_arm(shape));
     rolls = rolls || arms_.back() > 0.0;

@@ -118,7 +118,7 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
   double smallest = std::numeric_limits<double>::infinity();
   for (const Shape<Dim>& shape : description.shapes) {
     smallest = std::min(smallest, shape.extent);
-    reaches_.push_back(static_cast<float>(0.5 * shape.extent));
+    reaches_.push_back(static_cast<float>(bounding_radius(shape)));
     rolling_friction_ = rolling_friction_ || shape.material.rolling_friction > 0.0;
   }
   one_point_ = static_cast<float>(one_point * smallest);
@@ -148,6 +148,7 @@ void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* con
 template <int Dim>
 void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving) {
   for (btRigidBody* body : bodies) body->setCompanionId(solver_.add(awake_body<Dim>(*body, dt_)));
+  if (!ring_) return;
   std::ranges::fill(obstacle_slots_, 0);
   for (const btRigidBody* obstacle : moving)
     obstacle_slots_[first_obstacle - obstacle->getUserIndex()] = slot_of(*obstacle);
@@ -312,9 +313,10 @@ void SmallSteps<Dim>::set_ring(const std::optional<SleepRing>& ring) {
 
 template <int Dim>
 bool SmallSteps<Dim>::idle(std::span<btRigidBody* const> moving) const {
+  if (!ring_) return true;
   std::vector<BodyIndex> obstacles;
   for (const btRigidBody* obstacle : moving) obstacles.push_back(obstacle->getUserIndex());
-  return !ring_ || ring_->idle(obstacles);
+  return ring_->idle(obstacles);
 }
 
 template <int Dim>

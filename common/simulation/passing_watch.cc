@@ -39,12 +39,12 @@ auto PassingWatch<Dim>::solid_of(const Shape<Dim>& shape) -> Solid {
     const Box<Dim> bounds = piece.bounds();
     solid.pieces.push_back({std::move(piece), bounds});
   }
+  solid.reach = bounding_radius(shape);
   solid.width = solid.core = std::numeric_limits<double>::infinity();
   double widest = 0.0;
   for (const Piece<Dim>& piece : shape.pieces) {
     widest = std::max(widest, smallest_width<Dim>(piece));
     solid.width = std::min(solid.width, smallest_width<Dim>(piece));
-    solid.reach = std::max(solid.reach, reach_of<Dim>(piece));
   }
   for (const Piece<Dim>& piece : shape.pieces) {
     const double width = smallest_width<Dim>(piece);

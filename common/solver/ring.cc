@@ -19,7 +19,6 @@ constexpr float obstacle_share = 0.3F;
 /// Steps for which a body stays in the ring that does not reach it any more. Without, the ring's border moves to and
 /// fro, and each move changes forces.
 constexpr int hold_steps = 20;
-constexpr float least_gravity = 0.01F;  // [m/s^2]; else nothing would be slow enough without gravity
 
 template <int Dim>
 VecF<Dim> way_of(const SolverBody<Dim>& body, const VecF<Dim>& arm) {
@@ -213,7 +212,7 @@ VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
 template <int Dim>
 void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity) {
   const auto extent = static_cast<float>(params_.extent);
-  const float unit = std::sqrt(std::max(gravity, least_gravity) * extent);
+  const auto unit = static_cast<float>(params_.speed_unit(gravity));
   const float distance = wake_distance * extent;
   float still = static_cast<float>(params_.still_speed) * unit;
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);

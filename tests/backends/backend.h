@@ -57,10 +57,13 @@ struct SmallSteps {
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
 using Backends =
     ::testing::Types<Box2d, Bullet, BulletPlanar, SmallSteps<Box2d>, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+using SmallStepsBackends = ::testing::Types<SmallSteps<Box2d>, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
 #elif defined(TALUS_BOX2D)
 using Backends = ::testing::Types<Box2d, SmallSteps<Box2d>>;
+using SmallStepsBackends = ::testing::Types<SmallSteps<Box2d>>;
 #else
 using Backends = ::testing::Types<Bullet, BulletPlanar, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+using SmallStepsBackends = ::testing::Types<SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
 #endif
 
 template <typename Backend>

@@ -125,8 +125,8 @@ bool AdaptivePolicy<Dim>::below_ground(const RuleInput<Dim>& in, BodyIndex body)
 template <int Dim>
 bool AdaptivePolicy<Dim>::is_fast(const RuleInput<Dim>& in, BodyIndex body) const {
   const double speed =
-      in.states().velocity[body].norm() + 0.5 * in.shape_of(body).extent * in.states().spin[body].norm();
-  return speed > ring_->still_speed * std::sqrt(in.world.gravity_size() * extent_);
+      in.states().velocity[body].norm() + bounding_radius(in.shape_of(body)) * in.states().spin[body].norm();
+  return speed > ring_->still_speed * ring_->speed_unit(in.world.gravity_size());
 }
 
 /// [s]
