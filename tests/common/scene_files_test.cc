@@ -50,8 +50,8 @@ template <int Dim>
 void expect_known_warnings_only(const Scene<Dim>& scene) {
   for (const std::string& line : warnings(scene)) {
     const bool of_bunny = line.find("shape.bunny: its parts have 0.893 times the mesh's volume") != std::string::npos;
-    const bool of_rings = scene.world.shapes.front().name == "O" &&
-                          line.find("times their thickness in a step") != std::string::npos;
+    const bool of_rings =
+        scene.world.shapes.front().name == "O" && line.find("times their thickness in a step") != std::string::npos;
     EXPECT_TRUE(of_bunny || of_rings) << line;
   }
 }
