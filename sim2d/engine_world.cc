@@ -262,6 +262,10 @@ bool EngineWorld::engine_feels(BodyIndex body, BodyIndex side) const {
   return ring() != nullptr && ring()->touch(body, side);
 }
 
+void EngineWorld::engine_sleeping_contacts(BodyIndex side, std::vector<Contact<2>>& found) const {
+  if (ring() != nullptr) ring()->append_contacts(side, states(), 1.0, found);
+}
+
 int EngineWorld::engine_solved_sleepers() const {
   return ring() != nullptr ? static_cast<int>(ring()->members().size()) : 0;
 }

@@ -52,6 +52,7 @@ class EngineWorld final : public World<2> {
   void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
   std::span<const BodyIndex> engine_stirred() const override;
   bool engine_feels(BodyIndex body, BodyIndex side) const override;
+  void engine_sleeping_contacts(BodyIndex side, std::vector<Contact<2>>& found) const override;
   int engine_solved_sleepers() const override;
 
   EngineTimes box2d_step();

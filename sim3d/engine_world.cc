@@ -293,6 +293,11 @@ bool EngineWorld<Dim>::engine_feels(BodyIndex body, BodyIndex side) const {
 }
 
 template <int Dim>
+void EngineWorld<Dim>::engine_sleeping_contacts(BodyIndex side, std::vector<Contact<Dim>>& found) const {
+  if (ring() != nullptr) ring()->append_contacts(side, this->states(), 1.0 / mass_scale_, found);
+}
+
+template <int Dim>
 int EngineWorld<Dim>::engine_solved_sleepers() const {
   return ring() != nullptr ? static_cast<int>(ring()->members().size()) : 0;
 }

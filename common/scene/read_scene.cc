@@ -16,6 +16,7 @@
 #include "common/scene/policy_fields.h"
 #include "common/scene/read_body.h"
 #include "common/scene/read_event.h"
+#include "common/scene/read_instruments.h"
 #include "common/scene/read_motion.h"
 #include "common/scene/read_obstacle.h"
 #include "common/scene/read_shape.h"
@@ -172,6 +173,7 @@ Scene<Dim> read_root(TableReader& root) {
   read_bodies(root, shapes, scene);
   root.table("policy", [&](TableReader& table) { read_policy(table, scene.world.solver, scene.policy); });
   root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
+  read_instruments(root, scene);
   scene.world.engine_sleep = scene.policy.kind == "engine";
   root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });
   check_world(root, scene.world);

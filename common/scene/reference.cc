@@ -10,6 +10,7 @@
 
 #include "common/mesh/mesh_shape.h"
 #include "common/pile/pile_fields.h"
+#include "common/scene/instrument_fields.h"
 #include "common/scene/policy_fields.h"
 #include "common/scene/read_body.h"
 #include "common/scene/read_motion.h"
@@ -178,6 +179,9 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[[event]]", rows_of<Event<3>>(event_fields<3>)},
       {"[[pile]]", rows_of<PileParams<3>>(pile_fields<3>)},
       {"[pile.boundary]", rows_of<BoundaryParams>(boundary_fields) + rows_of<Material>(surface_fields)},
+      {"[[gate]]", rows_of<GateParams<3>>(gate_fields<3>)},
+      {"[[region]]", rows_of<RegionParams<3>>(region_fields<3>)},
+      {"[[load]]", rows_of<LoadParams<3>>(load_fields<3>)},
       {"[policy]", rows_of<PolicyParams>(policy_fields)},
       {"[policy] paper", rows_of<PaperParams>(paper_fields)},
       {"[policy.adaptive]", rows_of<AdaptiveParams>(adaptive_fields)},

@@ -13,6 +13,7 @@
 #include "common/pile/pile_params.h"
 #include "common/policy/adaptive/adaptive_params.h"
 #include "common/policy/paper_params.h"
+#include "common/scene/instruments.h"
 #include "common/world/motion.h"
 #include "common/world/world_description.h"
 
@@ -150,6 +151,7 @@ struct Scene {
   std::vector<int> obstacles_of_tables;  // made by each [[obstacle]]; those of [pile.boundary] and fixed bodies follow
   std::vector<Event<Dim>> events;        // in the order of the file
   std::vector<PileParams<Dim>> piles;
+  Instruments<Dim> instruments;
   PolicyParams policy;
   RunParams run;
   std::uint64_t seed = 1;

@@ -196,6 +196,9 @@ inline constexpr auto scene_fields = std::to_array<Field<Scene<Dim>>>({
     {{}, {.name = "obstacle", .type = "tables", .default_text = "none", .meaning = "`[[obstacle]]`"}},
     {{}, {.name = "event", .type = "tables", .default_text = "none", .meaning = "`[[event]]`"}},
     {{}, {.name = "pile", .type = "tables", .default_text = "none", .meaning = "`[[pile]]`"}},
+    {{}, {.name = "gate", .type = "tables", .default_text = "none", .meaning = "`[[gate]]`"}},
+    {{}, {.name = "region", .type = "tables", .default_text = "none", .meaning = "`[[region]]`"}},
+    {{}, {.name = "load", .type = "tables", .default_text = "none", .meaning = "`[[load]]`"}},
     {{}, {.name = "policy", .type = "table", .default_text = "see below", .meaning = "`[policy]`"}},
     {{}, {.name = "run", .type = "table", .default_text = "see below", .meaning = "`[run]`"}},
 });

@@ -15,6 +15,12 @@ class Observer {
   /// Whether on_frame() reads the contacts of the next step.
   virtual bool needs_contacts() const { return false; }
 
+  /// After the engine has moved the bodies, with the contacts of the step, before any body falls asleep or wakes.
+  /// `time`: of the end of the step [s].
+  virtual void on_motion(const World<Dim>& world, double time) {
+    (void)world;
+    (void)time;
+  }
   virtual void on_frame(const Frame<Dim>& frame) = 0;
   /// Called once, also when the run was stopped or failed; `reason`: "finished", "interrupted", or the error.
   virtual void on_end(const Frame<Dim>& last, std::string_view reason) {

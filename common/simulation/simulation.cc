@@ -86,6 +86,7 @@ void Simulation<Dim>::step() {
   ++step_;
   phases_.step = watch.lap();
   if (watched()) watchdog_.end_step(*world_, step_);
+  for (Observer<Dim>* observer : observers_) observer->on_motion(*world_, time());
   const double watching = watch.lap();
   const EngineTimes engine = world_->times();
   phases_.collide = engine.collide;

@@ -64,6 +64,39 @@ bool Ring<Dim>::touch(BodyIndex body, BodyIndex side) const {
          });
 }
 
+/// The ground has no list of its own: its points are found by their bodies.
+template <int Dim>
+void Ring<Dim>::append_contacts(BodyIndex side, const BodyStates<Dim>& states, double impulse_unit,
+                                std::vector<Contact<Dim>>& out) const {
+  const auto append = [&](std::span<const int> numbers) {
+    for (const int number : numbers)
+      if (const SleepingPoint<Dim>& point = contacts_[number]; point.a == side || point.b == side)
+        out.push_back(contact_of(point, side, states, impulse_unit));
+  };
+  if (side != ground_index) {
+    append(contacts_.of(side));
+    return;
+  }
+  for (BodyIndex body = 0; body < std::ssize(sleepers_); ++body)
+    if (sleepers_[body].asleep) append(contacts_.of(body));
+}
+
+template <int Dim>
+Contact<Dim> Ring<Dim>::contact_of(const SleepingPoint<Dim>& point, BodyIndex side, const BodyStates<Dim>& states,
+                                   double impulse_unit) const {
+  const bool first = point.b == side;  // the body is the point's a, on which the opposite impulses act
+  const double sign = first ? -1.0 : 1.0;
+  const BodyIndex body = first ? point.a : point.b;
+  const VecF<Dim>& arm = first ? point.contact.arm_a : point.contact.arm_b;
+  return {.a = body,
+          .b = side,
+          .point = states.pose[body].position + arm.template cast<double>(),
+          .normal = sign * point.contact.normal.template cast<double>(),
+          .normal_impulse = impulse_unit * static_cast<double>(point.contact.normal_impulse),
+          .friction_impulse = sign * impulse_unit * point.contact.friction_impulse.template cast<double>(),
+          .depth = -static_cast<double>(point.contact.gap)};
+}
+
 template <int Dim>
 bool Ring<Dim>::idle(std::span<const BodyIndex> moving) const {
   return members_.empty() && before_.empty() && touched_.empty() && disturbed_.empty() && moving_.empty() &&

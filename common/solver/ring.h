@@ -35,6 +35,10 @@ class Ring {
   void forget(BodyIndex side);
   /// Whether a body sleeps here.
   bool has(BodyIndex body) const { return body < std::ssize(sleepers_) && sleepers_[body].asleep; }
+  /// Appends the contacts of the bodies that sleep here with the ground or an obstacle, see World::sleeping_contacts().
+  /// `impulse_unit`: of the points' impulses [N s].
+  void append_contacts(BodyIndex side, const BodyStates<Dim>& states, double impulse_unit,
+                       std::vector<Contact<Dim>>& out) const;
   /// Whether a body sleeps here in contact with a body that does too, or with an obstacle.
   bool touch(BodyIndex body, BodyIndex side) const;
 
@@ -77,6 +81,8 @@ class Ring {
   void add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   int slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   static float far_of(const Sleeper& sleeper);
+  Contact<Dim> contact_of(const SleepingPoint<Dim>& point, BodyIndex side, const BodyStates<Dim>& states,
+                          double impulse_unit) const;
   void read_points(const ContactSolver<Dim>& solver, float distance);
 
   SleepRing params_;

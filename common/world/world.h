@@ -82,6 +82,12 @@ class World {
   /// Whether a sleeping body takes part in solves and touches `side`, a body or an obstacle as contacts number them:
   /// then nothing need wake it when that one moves or goes.
   bool feels(BodyIndex body, BodyIndex side) const { return engine_feels(body, side); }
+  /// Appends the contact points of sleeping bodies with the ground or an obstacle as contacts number them, each with
+  /// the impulses over a step that hold it. Nothing without a ring, and no point of a body that fell asleep before its
+  /// first step.
+  void sleeping_contacts(BodyIndex side, std::vector<Contact<Dim>>& found) const {
+    engine_sleeping_contacts(side, found);
+  }
   /// Number of sleeping bodies that were solved in the last step.
   int solved_sleepers() const { return engine_solved_sleepers(); }
 
@@ -182,6 +188,7 @@ class World {
   virtual void engine_set_ring(const std::optional<SleepRing>& ring);
   virtual std::span<const BodyIndex> engine_stirred() const { return {}; }
   virtual bool engine_feels(BodyIndex /*body*/, BodyIndex /*side*/) const { return false; }
+  virtual void engine_sleeping_contacts(BodyIndex /*side*/, std::vector<Contact<Dim>>& /*found*/) const {}
   virtual int engine_solved_sleepers() const { return 0; }
 
   /// Appends the bodies near `box` in any order; a body may come several times.

@@ -73,7 +73,8 @@ template <int Dim>
 std::set<std::string> keys_of_the_reader() {
   std::string text = "dimension = " + std::to_string(Dim) +
                      "\nsource = [{angle_deg = 0, scale = {}}]\n"
-                     "body = [{angle_deg = 0}]\nevent = [{}]\n";
+                     "body = [{angle_deg = 0}]\nevent = [{}]\ngate = [{}, {corners = []}]\nregion = [{}]\n"
+                     "load = [{}]\n";
   std::string shapes;
   std::string obstacles = "{kind = \"container\"}";
   for (const std::string& kind : names_of_shape_kinds<Dim>()) {

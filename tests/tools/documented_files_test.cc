@@ -16,6 +16,15 @@ namespace talus::documented_files_test {
 namespace {
 
 using Json = nlohmann::json;
+/// Bricks on a shelf, of which a gate between them lets one pass; that is a jam.
+constexpr const char* instruments =
+    "shape.brick = {kind = \"box\", size = [1, 1]}\n"
+    "obstacle = [{name = \"shelf\", kind = \"box\", size = [4, 1], position = [8, 2]}]\n"
+    "gate = [{name = \"between\", corners = [[7, 3.5], [9, 3.5]], jam_after = 2}]\n"
+    "region = [{name = \"shelf\", box = [[6, 2.5], [10, 5]]}]\n"
+    "load = [{name = \"shelf\", on = \"shelf\"}]\n"
+    "world.solver.kind = \"small_steps\"\npolicy.adaptive.rings = 2\n";
+
 /// Three discs fall; one that is too narrow for the engine's window is thrown beyond the world's edge, which gives a
 /// warning. The folder that the run leaves.
 std::filesystem::path run_in(const TemporaryFolder& folder) {
@@ -24,7 +33,9 @@ std::filesystem::path run_in(const TemporaryFolder& folder) {
          "dimension = 2\n"
          "shape.disc = {kind = \"ball\", radius = 0.5, rolling_friction = 0.3}\n"
          "shape.small = {kind = \"ball\", radius = 0.014, density = 1e6}\n"
-         "source = [{shape = \"disc\", count = 3, rate = 10, position = [0, 3]},\n"
+      << instruments
+      << "source = [{shape = \"brick\", count = 2, rate = 1, position = [8, 4.5], spread = [0, 0], angle_deg = 0},\n"
+         "          {shape = \"disc\", count = 3, rate = 10, position = [0, 3]},\n"
          "          {shape = \"small\", count = 1, rate = 10, position = [9990, 5], velocity = [90, 0]}]\n"
          "pile = [{alpha_deg = 30, at = [0, 0]}]\n"
          "event = [{time = 0.5, do = \"wake\"}, {time = 1.9, do = \"remove\", shape = \"small\"}]\n"
@@ -51,6 +62,19 @@ Names split(const std::string& header) {
 TEST(DocumentedFiles, HaveAllColumnsOfFramesCsv) {
   const TemporaryFolder folder;
   expect_documented(split(header_of(run_in(folder) / "frames.csv")), "frames.csv");
+}
+
+TEST(DocumentedFiles, HaveAllColumnsOfInstruments) {
+  const TemporaryFolder folder;
+  const std::filesystem::path run = run_in(folder);
+  for (const char* name : {"gates.csv", "regions.csv"}) expect_documented(split(header_of(run / name)), name);
+  const Outcome outcome = talus_command(
+      "run drop_in_a_pile_3d --no-telemetry --set run.frames=2 --set 'load=[{name=\"below\", on=\"ground\"}]' --out " +
+      (folder / "run3d"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  Names columns = split(header_of(run / "loads.csv"));
+  columns.merge(split(header_of(folder.path() / "run3d" / "loads.csv")));
+  expect_documented(columns, "loads.csv");
 }
 
 TEST(DocumentedFiles, HaveAllColumnsOfSweepCsv) {

@@ -175,7 +175,8 @@ Json statistics_json(const RunStatistics<Dim>& statistics) {
 
 template <int Dim>
 void write_summary(const fs::path& file, const SummaryInput& input, const Scene<Dim>& scene,
-                   const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics) {
+                   const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics,
+                   const InstrumentWatch<Dim>& instruments) {
   const World<Dim>& world = simulation.world();
   const auto bodies = world.states().shape.size();
   Json summary = {
@@ -207,13 +208,14 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
   summary["estimate"] = drift_estimate_json(input.probe, told_drift(simulation.frame()));
   summary["measured"] = measured_json(input.measured);
   summary["piles"] = piles_json(simulation.piles());
+  instruments.add_to(summary);
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
   write_file(file, summary.dump(2) + '\n');
 }
 
 template void write_summary(const fs::path&, const SummaryInput&, const Scene<2>&, const Simulation<2>&,
-                            const RunStatistics<2>&);
+                            const RunStatistics<2>&, const InstrumentWatch<2>&);
 template void write_summary(const fs::path&, const SummaryInput&, const Scene<3>&, const Simulation<3>&,
-                            const RunStatistics<3>&);
+                            const RunStatistics<3>&, const InstrumentWatch<3>&);
 
 }  // namespace talus

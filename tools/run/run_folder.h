@@ -8,6 +8,7 @@
 
 #include "common/scene/diagnostics.h"
 #include "common/simulation/simulation.h"
+#include "tools/run/instrument_watch.h"
 #include "tools/run/measured_drift.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_statistics.h"
@@ -37,6 +38,7 @@ struct SummaryInput {
 /// Writes summary.json.
 template <int Dim>
 void write_summary(const std::filesystem::path& file, const SummaryInput& input, const Scene<Dim>& scene,
-                   const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics);
+                   const Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics,
+                   const InstrumentWatch<Dim>& instruments);
 
 }  // namespace talus

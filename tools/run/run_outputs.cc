@@ -85,10 +85,12 @@ template <int Dim>
 RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
-      avalanches_(scene.world.dt) {
+      avalanches_(scene.world.dt),
+      instruments_(scene, folder_) {
   write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
+  if (!scene.instruments.empty()) simulation.add_observer(instruments_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
 #ifdef TALUS_LCM
   RunInfo info = run_info(scene, scene_name, backend);
@@ -120,7 +122,7 @@ void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scen
   SummaryInput with_picture = summary;
   with_picture.pixels_per_metre =
       draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture_input(summary, scene, simulation));
-  write_summary(folder_ / "summary.json", with_picture, scene, simulation, statistics_);
+  write_summary(folder_ / "summary.json", with_picture, scene, simulation, statistics_, instruments_);
   if (!avalanches_.records().empty()) write_avalanches(folder_ / "avalanches.csv", avalanches_.records());
 }
 
@@ -190,6 +192,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   if (const RunOverlap overlap = simulation.frame().overlap; overlap.deepest > 0.0)
     print_result("  contacts overlap by at most {:.2g} D, {:.2g} % of them by more than {:g} D\n", overlap.deepest,
                  100.0 * overlap.share, overlap_limit);
+  for (const std::string& line : outputs.instruments().lines()) print_result("  {}\n", line);
   if (simulation.at_rest()) print_result("  at rest after {:.4g} s\n", simulation.time());
   for (const SceneError& each : summary.outside_window)
     print_result("  warning: {}{}\n", outside_prefix, printable(to_string(each)));

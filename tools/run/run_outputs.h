@@ -9,6 +9,7 @@
 #include "common/measure/avalanches.h"
 #include "common/simulation/simulation.h"
 #include "tools/picture/picture.h"
+#include "tools/run/instrument_watch.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_statistics.h"
@@ -27,6 +28,7 @@ class RunOutputs {
 
   const std::filesystem::path& folder() const { return folder_; }
   const RunStatistics<Dim>& statistics() const { return statistics_; }
+  const InstrumentWatch<Dim>& instruments() const { return instruments_; }
 
  private:
   void add(std::unique_ptr<Observer<Dim>> observer, Simulation<Dim>& simulation);
@@ -34,6 +36,7 @@ class RunOutputs {
   std::filesystem::path folder_;
   RunStatistics<Dim> statistics_;
   AvalancheWatch<Dim> avalanches_;
+  InstrumentWatch<Dim> instruments_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;
 };
 

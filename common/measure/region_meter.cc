@@ -1,0 +1,82 @@
+#include "common/measure/region_meter.h"
+
+#include <cmath>
+
+#include "common/world/energy.h"
+
+namespace talus {
+namespace {
+
+/// Columns along each horizontal axis, of a body at the region's border and of all obstacles in it.
+template <int Dim>
+constexpr int body_lines = Dim == 2 ? 64 : 16;
+template <int Dim>
+constexpr int obstacle_lines = Dim == 2 ? 512 : 64;
+
+}  // namespace
+
+template <int Dim>
+RegionReading RegionMeter<Dim>::read(const World<Dim>& world, double ground) {
+  const BodyStates<Dim>& states = world.states();
+  RegionReading reading;
+  for (BodyIndex body = 0; body < states.size(); ++body) {
+    if (states.removed[body] != 0) continue;
+    reading.solid_volume += solid_volume(world, body);
+    if (!form_.holds(states.pose[body].position)) continue;
+    ++reading.bodies;
+    reading.mean_speed += states.velocity[body].norm();
+    reading.kinetic_energy += kinetic_energy(world, body);
+  }
+  if (reading.bodies > 0) reading.mean_speed /= reading.bodies;
+  if (!std::isfinite(form_.volume()))
+    reading.packing_reason = "a layer has no volume";
+  else if (const double free = free_volume(world, ground); free > 1e-9 * form_.volume())
+    reading.packing = reading.solid_volume / free;
+  else
+    reading.packing_reason = "obstacles or the ground fill the region";
+  return reading;
+}
+
+/// Of the part inside. Pieces that stand in for a mesh have another volume than the body.
+template <int Dim>
+double RegionMeter<Dim>::solid_volume(const World<Dim>& world, BodyIndex body) {
+  const Shape<Dim>& shape = world.shape_of(body);
+  const Vec<Dim>& at = world.states().pose[body].position;
+  const Box<Dim> all = form_.bounds();
+  const Vec<Dim> around = Vec<Dim>::Constant(shape.extent);  // of any rotation: the centre is within the bounds
+  if (!all.intersects(Box<Dim>(at - around, at + around))) return 0.0;
+  const Box<Dim> bounds = world.bounds_of(body);
+  if (form_.holds(bounds) || form_.holds(at, bounding_radius(shape))) return shape.volume;
+  if (!all.intersects(bounds)) return 0.0;
+  const auto number = static_cast<std::size_t>(world.states().shape[body]);
+  pieces_.resize(world.shapes().size());
+  if (pieces_[number].empty()) pieces_[number] = convex_pieces(shape);
+  placed_.clear();
+  for (const ConvexPiece<Dim>& piece : pieces_[number]) placed_.push_back(moved(piece, world.states().pose[body]));
+  return volume_within<Dim>(form_, placed_, body_lines<Dim>) / shape.filling;
+}
+
+template <int Dim>
+double RegionMeter<Dim>::free_volume(const World<Dim>& world, double ground) {
+  std::vector<int> obstacles;
+  bool may_move = false;
+  for (int k = 0; k < std::ssize(world.obstacles()); ++k) {
+    if (!world.has_obstacle(k)) continue;
+    if (!form_.bounds().intersects(bounds_at(world.obstacle_shape(k), world.obstacle_pose(k)))) continue;
+    obstacles.push_back(k);
+    may_move = may_move || world.obstacles()[k].moves;
+  }
+  if (free_volume_ && !may_move && obstacles == obstacles_) return *free_volume_;
+  std::vector<ConvexPiece<Dim>> pieces;
+  for (const int k : obstacles)
+    for (ConvexPiece<Dim>& piece : convex_pieces_at(world.obstacle_shape(k), world.obstacle_pose(k)))
+      pieces.push_back(std::move(piece));
+  obstacles_ = std::move(obstacles);
+  free_volume_ = form_.volume() - volume_within<Dim>(form_, pieces, obstacle_lines<Dim>, ground);
+  return *free_volume_;
+}
+
+template class RegionMeter<2>;
+template class RegionMeter<3>;
+
+}  // namespace talus

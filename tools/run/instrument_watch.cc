@@ -1,0 +1,251 @@
+#include "tools/run/instrument_watch.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cerrno>
+#include <limits>
+#include <system_error>
+
+#include "common/scene/typical_body.h"
+#include "common/text/printable.h"
+#include "tools/output/csv.h"
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+template <int Dim>
+Json numbers(const Eigen::Matrix<double, Dim, 1>& vector) {
+  return std::vector<double>(vector.begin(), vector.end());
+}
+
+constexpr int torques_of(int dim) { return dim == 2 ? 1 : 3; }
+
+/// Null where the span is not known or has no steps.
+template <int Dim>
+Json wrench_json(const Wrench<Dim>& wrench, const LoadSpan<Dim>& span) {
+  if (!span.known || span.steps == 0) return nullptr;
+  constexpr int torques = torques_of(Dim);
+  return {{"force_N", numbers<Dim>(wrench.template head<Dim>())},
+          {"torque_Nm", numbers<torques>(wrench.template tail<torques>())}};
+}
+
+template <int Dim>
+Json gate_json(const std::string& name, const GateCounter<Dim>& gate) {
+  Json jams = Json::array();
+  for (const auto& jam : gate.jams()) jams.push_back({{"from_s", jam.from}, {"to_s", or_null(jam.to)}});
+  return {{"name", name},
+          {"forward", gate.forward()},
+          {"backward", gate.backward()},
+          {"net", gate.net()},
+          {"rate_per_s", or_null(gate.rate())},
+          {"first_s", or_null(gate.first())},
+          {"last_s", or_null(gate.last())},
+          {"jammed", gate.jammed()},
+          {"jams", jams}};
+}
+
+Json region_json(const std::string& name, const RegionReading& reading) {
+  return {{"name", name},
+          {"bodies", reading.bodies},
+          {"packing", or_null(reading.packing)},
+          {"packing_reason", or_null(reading.packing_reason)},
+          {"solid_volume", reading.solid_volume},
+          {"mean_speed_m_per_s", reading.mean_speed},
+          {"kinetic_energy_J", reading.kinetic_energy}};
+}
+
+template <int Dim>
+Json load_json(const std::string& name, const LoadMeter<Dim>& load) {
+  return {{"name", name},
+          {"mean", wrench_json<Dim>(load.whole().mean, load.whole())},
+          {"least", wrench_json<Dim>(load.whole().least, load.whole())},
+          {"most", wrench_json<Dim>(load.whole().most, load.whole())},
+          {"at_end", wrench_json<Dim>(load.frame().mean, load.frame())},
+          {"reason", or_null(load.reason())}};
+}
+
+template <int Dim>
+std::string gate_line(const std::string& name, const GateCounter<Dim>& gate) {
+  std::string line =
+      fmt::format("gate {}: {} passed forward, {} backward", printable(name), gate.forward(), gate.backward());
+  if (gate.first()) line += fmt::format(", from {:.4g} to {:.4g} s", *gate.first(), *gate.last());
+  if (gate.rate()) line += fmt::format(", {:.4g} a second", *gate.rate());
+  if (gate.jammed()) line += fmt::format("; jammed since {:.4g} s", gate.jams().back().from);
+  const auto ended = std::ssize(gate.jams()) - (gate.jammed() ? 1 : 0);
+  if (ended > 0) line += fmt::format("; {} jams that ended", ended);
+  return line;
+}
+
+template <int Dim>
+std::string region_line(const std::string& name, const RegionReading& reading) {
+  const std::string packing =
+      reading.packing ? fmt::format("packing {:.4g}", *reading.packing) : "no packing: " + reading.packing_reason;
+  return fmt::format("region {}: {} bodies, {}, mean speed {:.3g} m/s, kinetic energy {:.3g} J", printable(name),
+                     reading.bodies, packing, reading.mean_speed, reading.kinetic_energy);
+}
+
+template <int Dim>
+std::string load_line(const std::string& name, const LoadMeter<Dim>& load) {
+  const auto force = [](const LoadSpan<Dim>& span) {
+    if (!span.known || span.steps == 0) return std::string("not known");
+    return fmt::format("[{:.4g}] N", fmt::join(span.mean.data(), span.mean.data() + Dim, ", "));
+  };
+  std::string line =
+      fmt::format("load {}: {} at the end, {} in the mean", printable(name), force(load.frame()), force(load.whole()));
+  if (!load.reason().empty()) line += " (" + load.reason() + ")";
+  return line;
+}
+
+template <int Dim>
+std::vector<std::string> load_columns() {
+  if constexpr (Dim == 2)
+    return {"step", "time_s", "load", "force_x_N", "force_z_N", "torque_Nm"};
+  else
+    return {"step",      "time_s",      "load",        "force_x_N",  "force_y_N",
+            "force_z_N", "torque_x_Nm", "torque_y_Nm", "torque_z_Nm"};
+}
+
+}  // namespace
+
+GrowingCsv::GrowingCsv(const std::filesystem::path& file, const std::vector<std::string>& columns)
+    : file_(file), out_(file) {
+  add(columns);
+}
+
+void GrowingCsv::add(const std::vector<std::string>& cells) {
+  out_ << csv_line(cells);
+  require_written();
+}
+
+void GrowingCsv::flush() {
+  if (file_.empty()) return;
+  out_.flush();
+  require_written();
+}
+
+void GrowingCsv::require_written() const {
+  if (!out_) throw std::system_error(errno, std::generic_category(), file_.string());
+}
+
+template <int Dim>
+InstrumentWatch<Dim>::InstrumentWatch(const Scene<Dim>& scene, const std::filesystem::path& folder)
+    : instruments_(scene.instruments),
+      dt_(scene.world.dt),
+      steps_per_frame_(scene.steps_per_frame()),
+      ground_(scene.world.ground.present ? scene.world.ground.height : -std::numeric_limits<double>::infinity()),
+      readings_(instruments_.regions.size()) {
+  const double extent = typical_body(scene).extent;
+  for (const GateParams<Dim>& gate : instruments_.gates) gates_.emplace_back(gate, extent);
+  for (const RegionParams<Dim>& region : instruments_.regions) regions_.emplace_back(region);
+  for (const LoadParams<Dim>& load : instruments_.loads) loads_.emplace_back(scene, load);
+  if (!gates_.empty())
+    gates_csv_ = GrowingCsv(folder / "gates.csv", {"step", "time_s", "gate", "forward", "backward", "jammed"});
+  if (!regions_.empty())
+    regions_csv_ = GrowingCsv(folder / "regions.csv", {"step", "time_s", "region", "bodies", "packing", "solid_volume",
+                                                       "mean_speed_m_per_s", "kinetic_energy_J"});
+  if (loads_.empty()) return;
+  loads_csv_ = GrowingCsv(folder / "loads.csv", load_columns<Dim>());
+  everything_.emplace(scene);
+}
+
+template <int Dim>
+void InstrumentWatch<Dim>::on_motion(const World<Dim>& world, double time) {
+  for (GateCounter<Dim>& gate : gates_) gate.update(world, time, dt_);
+  for (LoadMeter<Dim>& load : loads_) load.update(world);
+  if (everything_) everything_->update(world);
+}
+
+template <int Dim>
+void InstrumentWatch<Dim>::on_frame(const Frame<Dim>& frame) {
+  if (frame.step % steps_per_frame_ == 0) write_rows(frame);
+}
+
+template <int Dim>
+void InstrumentWatch<Dim>::on_end(const Frame<Dim>& last, std::string_view /*reason*/) {
+  if (last.step > written_step_) write_rows(last);
+  for (GrowingCsv* file : {&gates_csv_, &regions_csv_, &loads_csv_}) file->flush();
+}
+
+template <int Dim>
+void InstrumentWatch<Dim>::write_rows(const Frame<Dim>& frame) {
+  written_step_ = frame.step;
+  const auto row = [&](const std::string& name) {
+    return std::vector<std::string>{fmt::format("{}", frame.step), fmt::format("{:.6f}", frame.time), name};
+  };
+  const auto add = [](std::vector<std::string>& cells, double value) { cells.push_back(fmt::format("{:.6g}", value)); };
+  for (std::size_t i = 0; i < gates_.size(); ++i) {
+    std::vector<std::string> cells = row(instruments_.gates[i].name);
+    for (const std::int64_t count : {gates_[i].forward(), gates_[i].backward(), std::int64_t{gates_[i].jammed()}})
+      cells.push_back(fmt::format("{}", count));
+    gates_csv_.add(cells);
+  }
+  for (std::size_t i = 0; i < regions_.size(); ++i) {
+    const RegionReading& reading = readings_[i] = regions_[i].read(frame.world, ground_);
+    std::vector<std::string> cells = row(instruments_.regions[i].name);
+    cells.push_back(fmt::format("{}", reading.bodies));
+    cells.push_back(reading.packing ? fmt::format("{:.6g}", *reading.packing) : "");
+    for (const double value : {reading.solid_volume, reading.mean_speed, reading.kinetic_energy}) add(cells, value);
+    regions_csv_.add(cells);
+  }
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    loads_[i].end_frame();
+    std::vector<std::string> cells = row(instruments_.loads[i].name);
+    for (const double value : loads_[i].frame().mean)
+      cells.push_back(loads_[i].frame().known ? fmt::format("{:.6g}", value) : "");
+    loads_csv_.add(cells);
+  }
+  if (!loads_.empty()) weigh(frame.world);
+}
+
+template <int Dim>
+void InstrumentWatch<Dim>::weigh(const World<Dim>& world) {
+  everything_->end_frame();
+  double mass = 0.0;
+  for (BodyIndex body = 0; body < world.states().size(); ++body)
+    if (world.states().removed[body] == 0) mass += world.shape_of(body).mass;
+  const double weight = mass * world.gravity_size();
+  carried_.reset();
+  if (everything_->frame().known && weight > 0.0)
+    carried_ = world.down().dot(everything_->frame().mean.template head<Dim>()) / weight;
+}
+
+template <int Dim>
+void InstrumentWatch<Dim>::add_to(nlohmann::ordered_json& summary) const {
+  summary["gates"] = Json::array();
+  for (std::size_t i = 0; i < gates_.size(); ++i)
+    summary["gates"].push_back(gate_json(instruments_.gates[i].name, gates_[i]));
+  summary["regions"] = Json::array();
+  for (std::size_t i = 0; i < regions_.size(); ++i)
+    summary["regions"].push_back(region_json(instruments_.regions[i].name, readings_[i]));
+  summary["loads"] = Json::array();
+  for (std::size_t i = 0; i < loads_.size(); ++i)
+    summary["loads"].push_back(load_json(instruments_.loads[i].name, loads_[i]));
+  summary["carried_weight"] = or_null(carried_);
+}
+
+template <int Dim>
+std::vector<std::string> InstrumentWatch<Dim>::lines() const {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < gates_.size(); ++i) lines.push_back(gate_line(instruments_.gates[i].name, gates_[i]));
+  for (std::size_t i = 0; i < regions_.size(); ++i)
+    lines.push_back(region_line<Dim>(instruments_.regions[i].name, readings_[i]));
+  for (std::size_t i = 0; i < loads_.size(); ++i) lines.push_back(load_line(instruments_.loads[i].name, loads_[i]));
+  if (carried_)
+    lines.push_back(fmt::format("ground and obstacles carry {:.4g} % of the weight of all bodies", 100.0 * *carried_));
+  return lines;
+}
+
+template class InstrumentWatch<2>;
+template class InstrumentWatch<3>;
+
+}  // namespace talus
