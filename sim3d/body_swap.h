@@ -4,6 +4,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim3d/bodies.h"
@@ -25,6 +26,12 @@ class BodySwap {
 
   /// The other way round; the body is at rest.
   void thaw(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, bool may_sleep);
+
+  /// Before a body wakes on which forces have acted in its sleep: the points of its pairs, as they are now, by their
+  /// owner.
+  void renew(const btCollisionObject& owner, std::span<const WarmStart::Renewed> points) {
+    warm_start_.renew(owner, points);
+  }
 
   /// To be called before a body leaves the world.
   void forget(BodyIndex body) { warm_start_.forget(body); }

@@ -259,7 +259,11 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
       const bool moves = ring() != nullptr && ring()->has(body);
       btVector3 velocity;
       btVector3 spin;
-      if (moves) at(body)->setWorldTransform(small_steps_->thaw(*at(body), velocity, spin));
+      if (moves) {
+        const btTransform place = small_steps_->thaw(*at(body), velocity, spin, renewed_);
+        renew_kept_points();
+        at(body)->setWorldTransform(place);
+      }
       swap_.thaw(at(body), template_of_body(body), this->description().engine_sleep);
       listed_.push_back(body);
       if (moves) resume(body, velocity, spin);
@@ -268,6 +272,17 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
   }
   std::inplace_merge(listed_.begin(), listed_.begin() + before, listed_.end());
   update_lists();
+}
+
+/// What forces have changed in their sleep, before the bodies move.
+template <int Dim>
+void EngineWorld<Dim>::renew_kept_points() {
+  for (auto first = renewed_.begin(); first != renewed_.end();) {
+    const auto of_other = [&](const WarmStart::Renewed& point) { return point.owner != first->owner; };
+    const auto last = std::find_if(first, renewed_.end(), of_other);
+    swap_.renew(*at(first->owner), {first, last});
+    first = last;
+  }
 }
 
 /// A body that felt forces in its sleep wakes where these have moved it.

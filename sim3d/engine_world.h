@@ -50,6 +50,7 @@ class EngineWorld final : public World<Dim> {
   const Ring<Dim>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
   bool idle() const { return rigid_.empty() && (!small_steps_ || small_steps_->idle(moving_obstacles_)); }
   void keep_contacts(std::span<const BodyIndex> bodies);
+  void renew_kept_points();
   void resume(BodyIndex body, const btVector3& velocity, const btVector3& spin);
   void add_ground();
   void add_obstacles();
@@ -75,6 +76,7 @@ class EngineWorld final : public World<Dim> {
   Engine engine_;
   BodySwap swap_{engine_};
   std::unique_ptr<SmallSteps<Dim>> small_steps_;  // null: Bullet's own solver
+  std::vector<WarmStart::Renewed> renewed_;       // scratch
   Contacts<Dim> contacts_{mass_scale_, small_steps_ != nullptr};
   std::vector<BodyIndex> listed_;               // bodies in Bullet's lists, ascending: all but the frozen
   std::vector<btRigidBody*> rigid_;             // the same

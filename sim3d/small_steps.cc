@@ -351,9 +351,22 @@ void SmallSteps<Dim>::keep(btPersistentManifold& manifold, std::span<btRigidBody
 }
 
 template <int Dim>
-btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin) {
+btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin,
+                                  std::vector<WarmStart::Renewed>& renewed) {
   released_.clear();
   const SolverBody<Dim> state = ring_->wake(object.getUserIndex(), released_);
+  renewed.clear();
+  for (const SleepingPoint<Dim>& point : released_) {
+    const bool of_b = WarmStart::owns(point.b, point.a);
+    const btVector3 friction = from_solver<Dim>(point.contact.friction_impulse);
+    renewed.push_back({.owner = of_b ? point.b : point.a,
+                       .partner = of_b ? point.a : point.b,
+                       .arm = from_solver<Dim>(of_b ? point.contact.arm_b : point.contact.arm_a),
+                       .distance = point.contact.gap,
+                       .impulse = point.contact.normal_impulse,
+                       .friction = of_b ? friction : -friction});
+  }
+  std::ranges::stable_sort(renewed, {}, &WarmStart::Renewed::owner);
   velocity = from_solver<Dim>(state.velocity);
   spin = spin_from_solver<Dim>(state.spin);
   btTransform place;

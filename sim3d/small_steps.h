@@ -11,6 +11,7 @@
 #include "common/solver/contact_solver.h"
 #include "common/solver/ring.h"
 #include "common/world/world_description.h"
+#include "sim3d/warm_start.h"
 
 namespace talus::bullet {
 
@@ -44,8 +45,9 @@ class SmallSteps {
   void skip();
   /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep. `shapes`: of each of them.
   void freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, std::span<const int> shapes);
-  /// With a ring: where a body is that wakes. The impulses of its contacts are those of when it fell asleep.
-  btTransform thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin);
+  /// With a ring: where a body is that wakes, and in `renewed` the points of it and its sleeping neighbours, by owner.
+  btTransform thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin,
+                   std::vector<WarmStart::Renewed>& renewed);
   /// A body or an obstacle leaves the world.
   void forget(BodyIndex side);
 

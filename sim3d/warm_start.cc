@@ -48,13 +48,11 @@ class PieceRecorder final : public btManifoldResult {
 
 }  // namespace
 
-/// The two sides of a pair. Of two bodies the one added first is the owner; ground and obstacles own nothing.
+/// The two sides of a pair.
 struct WarmStart::Sides {
   explicit Sides(const btBroadphasePair& pair)
       : owner(&object_of(pair.m_pProxy0)), partner(&object_of(pair.m_pProxy1)) {
-    const int o = owner->getUserIndex();
-    const int p = partner->getUserIndex();
-    if (o < 0 || (p >= 0 && p < o)) std::swap(owner, partner);
+    if (!owns(owner->getUserIndex(), partner->getUserIndex())) std::swap(owner, partner);
   }
   btCollisionObject* owner;
   btCollisionObject* partner;
@@ -117,6 +115,37 @@ void WarmStart::save(btBroadphasePair& pair) {
                      static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0)});
       }
     }
+  }
+}
+
+/// In the plane several kept points lie behind each other and share the impulses of one.
+void WarmStart::renew(const btCollisionObject& owner, std::span<const Renewed> points) {
+  const BodyIndex body = owner.getUserIndex();
+  if (std::ssize(first_) <= body) return;
+  const auto nearest = [&](const SavedPoint& saved) {
+    const btVector3 arm =
+        owner.getWorldTransform().getBasis() * btVector3(saved.place[0], saved.place[1], saved.place[2]);
+    std::size_t best = points.size();
+    btScalar least = BT_LARGE_FLOAT;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const btScalar apart = (points[i].arm - arm).length2();
+      if (points[i].partner != saved.partner || apart >= least) continue;
+      least = apart;
+      best = i;
+    }
+    return best;
+  };
+  std::vector<int> parts(points.size(), 0);
+  for (std::int32_t node = first_[body]; node >= 0; node = nodes_[node].next)
+    if (const std::size_t i = nearest(nodes_[node].point); i < points.size()) ++parts[i];
+  for (std::int32_t node = first_[body]; node >= 0; node = nodes_[node].next) {
+    SavedPoint& saved = nodes_[node].point;
+    const std::size_t i = nearest(saved);
+    if (i == points.size()) continue;
+    const btScalar share = 1 / static_cast<btScalar>(parts[i]);
+    saved.distance = points[i].distance;
+    saved.impulse = share * points[i].impulse;
+    for (int k = 0; k < 3; ++k) saved.friction[k] = share * points[i].friction[k];
   }
 }
 

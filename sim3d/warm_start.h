@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,8 +19,26 @@ namespace talus::bullet {
 /// step after one of the two has woken: a heap that is woken all at once carries itself from the first step on.
 class WarmStart {
  public:
+  /// A point of a pair that sleeps, as it is after forces have acted on it.
+  struct Renewed {
+    BodyIndex owner;
+    BodyIndex partner;
+    btVector3 arm;       // from the owner's centre, in the world's axes [m]
+    btScalar distance;   // between the two surfaces [m]
+    btScalar impulse;    // [N s]
+    btVector3 friction;  // impulse on the owner, in the world's axes [N s]
+  };
+
+  /// Whether the first of two sides owns the points of their pair: of two bodies the one added first does; ground and
+  /// obstacles own nothing.
+  static bool owns(BodyIndex side, BodyIndex other) { return side >= 0 && (other < 0 || side < other); }
+
   /// Keeps the points of a pair that is about to go.
   void save(btBroadphasePair& pair);
+
+  /// Gives kept points their new distances and impulses. All are of one owner, which lies where it did when they were
+  /// kept.
+  void renew(const btCollisionObject& owner, std::span<const Renewed> points);
 
   /// A body that has woken: the points of all its pairs are to be put back.
   void announce(btBroadphaseProxy& woken, const PairCache& pairs);

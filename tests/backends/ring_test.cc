@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -93,6 +94,22 @@ TYPED_TEST(RingTest, ABodyWakesWhenItsSupportVanishes) {
   // Falling freely: 0.14 sqrt(g D) = 0.44 m/s takes 2.7 steps.
   EXPECT_LE(steps, 4);
   EXPECT_EQ(std::vector<BodyIndex>(world->stirred().begin(), world->stirred().end()), (std::vector<BodyIndex>{1, 2}));
+}
+
+TYPED_TEST(RingTest, BodiesThatWakeCarryTheLoadThatCameInTheirSleepFromTheFirstStep) {
+  auto world = TestFixture::world_with_ring(TestFixture::description());
+  for (const double height : {0.5, 1.5}) world->add(TestFixture::at(up<TypeParam::dim>(height)));
+  TestFixture::run(*world, 2.0);
+  world->freeze(std::vector<BodyIndex>{0, 1});
+  for (const double height : {2.5, 3.5}) world->add(TestFixture::at(up<TypeParam::dim>(height)));
+  TestFixture::run(*world, 3.0);
+  EXPECT_TRUE(world->stirred().empty());
+  world->thaw(std::vector<BodyIndex>{0, 1});
+  world->step();
+  double fastest = 0.0;
+  for (BodyIndex body = 0; body < 4; ++body) fastest = std::max(fastest, world->states().velocity[body].norm());
+  // Without the load of the upper two the lower ones would start with twice their weight in excess.
+  EXPECT_LT(fastest, 1e-3);
 }
 
 TYPED_TEST(RingTest, AWallThatSleepsFromTheStartFallsWhenItsLowestRowIsRemoved) {
