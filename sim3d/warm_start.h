@@ -21,12 +21,12 @@ class WarmStart {
  public:
   /// A point of a pair that sleeps, as it is after forces have acted on it.
   struct Renewed {
-    BodyIndex owner;
-    BodyIndex partner;
-    btVector3 arm;       // from the owner's centre, in the world's axes [m]
-    btScalar distance;   // between the two surfaces [m]
-    btScalar impulse;    // [N s]
-    btVector3 friction;  // impulse on the owner, in the world's axes [N s]
+    BodyIndex owner = 0;
+    BodyIndex partner = 0;
+    btVector3 arm;          // from the owner's centre, in the world's axes [m]
+    btScalar distance = 0;  // between the two surfaces [m]
+    btScalar impulse = 0;   // [N s]
+    btVector3 friction;     // impulse on the owner, in the world's axes [N s]
   };
 
   /// Whether the first of two sides owns the points of their pair: of two bodies the one added first does; ground and

@@ -124,7 +124,7 @@ bool GateCounter<Dim>::any_before(const World<Dim>& world) const {
 template <int Dim>
 std::optional<double> GateCounter<Dim>::rate() const {
   if (std::abs(net()) < 2 || *last_ <= *first_) return std::nullopt;
-  const double counted = static_cast<double>(net() > 0 ? net() - 1 : net() + 1);
+  const auto counted = static_cast<double>(net() > 0 ? net() - 1 : net() + 1);
   return counted / (*last_ - *first_);
 }
 

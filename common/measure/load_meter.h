@@ -54,7 +54,7 @@ class LoadMeter {
 
   std::vector<BodyIndex> sides_;  // ascending
   Vec<Dim> about_;
-  double dt_;
+  double dt_ = 0.0;
   std::vector<BodyIndex> asleep_from_start_;
   std::vector<Contact<Dim>> sleeping_;  // scratch
   LoadSpan<Dim> whole_;
