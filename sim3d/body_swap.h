@@ -27,8 +27,7 @@ class BodySwap {
   /// The other way round; the body is at rest.
   void thaw(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, bool may_sleep);
 
-  /// Before a body wakes on which forces have acted in its sleep: the points of its pairs, as they are now, by their
-  /// owner.
+  /// To be called before a body wakes that took part in solves: see WarmStart::renew().
   void renew(const btCollisionObject& owner, std::span<const WarmStart::Renewed> points) {
     warm_start_.renew(owner, points);
   }

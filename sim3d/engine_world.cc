@@ -274,7 +274,7 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
   update_lists();
 }
 
-/// What forces have changed in their sleep, before the bodies move.
+/// Updates the kept contact points of bodies that wake to the last solve.
 template <int Dim>
 void EngineWorld<Dim>::renew_kept_points() {
   for (auto first = renewed_.begin(); first != renewed_.end();) {

@@ -45,7 +45,8 @@ class SmallSteps {
   void skip();
   /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep. `shapes`: of each of them.
   void freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, std::span<const int> shapes);
-  /// With a ring: where a body is that wakes, and in `renewed` the points of it and its sleeping neighbours, by owner.
+  /// With a ring: the pose at which a body wakes. `renewed`: its contact points with sleeping neighbours, ground and
+  /// obstacles, sorted by owner.
   btTransform thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin,
                    std::vector<WarmStart::Renewed>& renewed);
   /// A body or an obstacle leaves the world.

@@ -19,7 +19,7 @@ namespace talus::bullet {
 /// step after one of the two has woken: a heap that is woken all at once carries itself from the first step on.
 class WarmStart {
  public:
-  /// A point of a pair that sleeps, as it is after forces have acted on it.
+  /// New values of a kept point: those of the last solve in which its sleeping body took part.
   struct Renewed {
     BodyIndex owner = 0;
     BodyIndex partner = 0;
@@ -36,8 +36,7 @@ class WarmStart {
   /// Keeps the points of a pair that is about to go.
   void save(btBroadphasePair& pair);
 
-  /// Gives kept points their new distances and impulses. All are of one owner, which lies where it did when they were
-  /// kept.
+  /// Replaces distances and impulses of the kept points of one owner. It must not have moved since they were kept.
   void renew(const btCollisionObject& owner, std::span<const Renewed> points);
 
   /// A body that has woken: the points of all its pairs are to be put back.

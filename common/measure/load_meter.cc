@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
+#include "common/shape/rigid_impulse.h"
+
 namespace talus {
 namespace {
-
-Spin<2> torque_of(const Vec<2>& arm, const Vec<2>& force) { return Spin<2>(arm.x() * force.y() - arm.y() * force.x()); }
-Spin<3> torque_of(const Vec<3>& arm, const Vec<3>& force) { return arm.cross(force); }
 
 bool any_asleep(std::span<const std::uint8_t> asleep, std::span<const std::uint8_t> removed) {
   for (std::size_t i = 0; i < asleep.size(); ++i)
@@ -98,7 +97,7 @@ void LoadMeter<Dim>::add(std::span<const Contact<Dim>> contacts, Wrench<Dim>& su
     if (!std::ranges::binary_search(sides_, contact.b)) continue;
     const Vec<Dim> impulse = -(contact.normal_impulse * contact.normal + contact.friction_impulse);
     sum.template head<Dim>() += impulse;
-    sum.template tail<Wrench<Dim>::RowsAtCompileTime - Dim>() += torque_of(contact.point - about_, impulse);
+    sum.template tail<Wrench<Dim>::RowsAtCompileTime - Dim>() += moment(Vec<Dim>(contact.point - about_), impulse);
   }
 }
 

@@ -36,7 +36,8 @@ class LoadMeter {
   /// Of the ground and all obstacles together.
   explicit LoadMeter(const Scene<Dim>& scene);
 
-  /// After each step, which recorded its contacts, and before bodies fall asleep or wake.
+  /// To be called after each step, while World::contacts() are those of the step and no body has fallen asleep or woken
+  /// since.
   void update(const World<Dim>& world);
 
   /// Of all steps so far.
@@ -44,7 +45,7 @@ class LoadMeter {
   /// Ends a frame of output. Its steps, where it has any, are then those of frame().
   void end_frame();
   const LoadSpan<Dim>& frame() const { return frame_; }
-  /// Why a span that is not known is not.
+  /// Why forces are not known; empty where all are.
   const std::string& reason() const { return reason_; }
 
  private:

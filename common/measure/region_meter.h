@@ -19,7 +19,7 @@ struct RegionReading {
   double kinetic_energy = 0.0;         // of the bodies inside [J]
 };
 
-/// Reads one region at a time, of a world with the same shapes and obstacles each time.
+/// Measures one region. Each call must be given a world with the same shapes and obstacles.
 template <int Dim>
 class RegionMeter {
  public:

@@ -28,9 +28,9 @@ class RegionForm {
   bool holds(const Vec<Dim>& point) const;
   /// Whether all of a box is within.
   bool holds(const Box<Dim>& box) const;
-  /// Whether all within a distance of a point is [m].
+  /// Whether the whole ball of radius `distance` [m] around a point is within.
   bool holds(const Vec<Dim>& point, double distance) const;
-  /// The smallest box around; of a layer without end to the sides.
+  /// The smallest box around the region; that of a layer has no end to the sides.
   Box<Dim> bounds() const;
   /// On the vertical line through a point.
   HeightRange heights_at(const Vec<Dim>& point) const;

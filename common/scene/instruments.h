@@ -20,7 +20,8 @@ struct GateParams {
   double radius = 1.0;
   double jam_after = 20.0;
 
-  /// Of any length. 2D: to the right as seen from the first end towards the second.
+  /// The direction of a passage that counts as forward; not a unit vector. In 2D it points to the right, seen from the
+  /// first end towards the second.
   Vec<Dim> forward() const;
 };
 

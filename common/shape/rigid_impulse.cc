@@ -3,15 +3,6 @@
 namespace talus {
 namespace {
 
-/// Angular momentum of a momentum at a lever arm.
-template <int Dim>
-Spin<Dim> moment(const Vec<Dim>& arm, const Vec<Dim>& momentum) {
-  if constexpr (Dim == 2)
-    return Spin<2>(arm[0] * momentum[1] - arm[1] * momentum[0]);
-  else
-    return arm.cross(momentum);
-}
-
 /// Change of spin by an angular momentum.
 template <int Dim>
 Spin<Dim> spin_change(const Shape<Dim>& shape, const Pose<Dim>& pose, const Spin<Dim>& momentum) {
@@ -28,7 +19,7 @@ Spin<Dim> spin_change(const Shape<Dim>& shape, const Pose<Dim>& pose, const Spin
 template <int Dim>
 double inverse_effective_mass(const Shape<Dim>& shape, const Pose<Dim>& pose, const Vec<Dim>& point,
                               const Vec<Dim>& direction) {
-  const Spin<Dim> unit_moment = moment<Dim>(point - pose.position, direction);
+  const Spin<Dim> unit_moment = moment(point - pose.position, direction);
   return 1.0 / shape.mass + unit_moment.dot(spin_change<Dim>(shape, pose, unit_moment));
 }
 
@@ -36,7 +27,7 @@ template <int Dim>
 void apply_impulse(const Shape<Dim>& shape, const Pose<Dim>& pose, const Vec<Dim>& point, const Vec<Dim>& impulse,
                    Vec<Dim>& velocity, Spin<Dim>& spin) {
   velocity += impulse / shape.mass;
-  spin += spin_change<Dim>(shape, pose, moment<Dim>(point - pose.position, impulse));
+  spin += spin_change<Dim>(shape, pose, moment(point - pose.position, impulse));
 }
 
 template double inverse_effective_mass(const Shape<2>&, const Pose<2>&, const Vec<2>&, const Vec<2>&);

@@ -15,8 +15,8 @@ class Observer {
   /// Whether on_frame() reads the contacts of the next step.
   virtual bool needs_contacts() const { return false; }
 
-  /// After the engine has moved the bodies, with the contacts of the step, before any body falls asleep or wakes.
-  /// `time`: of the end of the step [s].
+  /// Called in each step after the engine has moved the bodies and before any body falls asleep or wakes.
+  /// World::contacts() are those of the step. `time`: of the end of the step [s].
   virtual void on_motion(const World<Dim>& world, double time) {
     (void)world;
     (void)time;

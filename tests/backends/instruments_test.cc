@@ -70,6 +70,18 @@ class InstrumentTest : public BackendTest<Backend> {
 
   static double force_up(const LoadMeter<dimension>& load) { return load.frame().mean[dimension - 1]; }
   static double torque_in_plane(const LoadMeter<dimension>& load) { return load.frame().mean[dimension == 2 ? 2 : 4]; }
+
+  /// Of one box on the ground and an equal one on the plate, which rest.
+  static void expect_weights(const LoadMeter<dimension>& ground, const LoadMeter<dimension>& plate,
+                             const World<dimension>& world, BodyIndex on_plate) {
+    const double weight = 10.0 * world.shape_of(on_plate).mass;
+    EXPECT_NEAR(force_up(ground), -weight, 0.01 * weight);
+    EXPECT_NEAR(force_up(plate), -weight, 0.01 * weight);
+    // In 2D counter-clockwise with x to the right, in 3D about y, which points the other way.
+    const double arm = InstrumentTest::pose(world, on_plate).position[0] - 10.0;
+    EXPECT_NEAR(torque_in_plane(plate), (dimension == 2 ? -arm : arm) * weight, 0.01 * weight);
+    EXPECT_NEAR(plate.frame().mean[0], 0.0, 0.01 * weight) << "friction and pressure together are vertical";
+  }
 };
 
 TYPED_TEST_SUITE(InstrumentTest, Backends, BackendName);
@@ -152,13 +164,7 @@ TYPED_TEST(InstrumentTest, ABoxAtRestPutsItsWeightOnWhatCarriesItWithItsTorque) 
       for (auto* load : {&ground, &plate}) load->end_frame();
   }
   for (auto* load : {&ground, &plate}) load->end_frame();
-  const double weight = 10.0 * world->shape_of(0).mass;
-  EXPECT_NEAR(TestFixture::force_up(ground), -weight, 0.01 * weight);
-  EXPECT_NEAR(TestFixture::force_up(plate), -weight, 0.01 * weight);
-  // In 2D counter-clockwise with x to the right, in 3D about y, which points the other way.
-  const double arm = TestFixture::pose(*world, on_plate).position[0] - 10.0;
-  EXPECT_NEAR(TestFixture::torque_in_plane(plate), (dim == 2 ? -arm : arm) * weight, 0.01 * weight);
-  EXPECT_NEAR(plate.frame().mean[0], 0.0, 0.01 * weight) << "friction and pressure together are vertical";
+  TestFixture::expect_weights(ground, plate, *world, on_plate);
   EXPECT_TRUE(plate.whole().known);
   EXPECT_EQ(plate.whole().steps, 240);
   EXPECT_LE(plate.whole().least[dim - 1], plate.frame().least[dim - 1]);
@@ -230,12 +236,8 @@ TYPED_TEST(SleepingLoad, IsTheWeightOfABoxThatSleepsAndOfOneThatRestsOnIt) {
   world->freeze(std::vector<BodyIndex>{0, 1});
   run(1.0);
   ASSERT_TRUE(world->awake().empty());
+  TestFixture::expect_weights(ground, plate, *world, on_plate);
   const double weight = 10.0 * world->shape_of(0).mass;
-  EXPECT_NEAR(TestFixture::force_up(ground), -weight, 0.01 * weight);
-  EXPECT_NEAR(TestFixture::force_up(plate), -weight, 0.01 * weight);
-  const double arm = TestFixture::pose(*world, on_plate).position[0] - 10.0;
-  EXPECT_NEAR(TestFixture::torque_in_plane(plate), (dim == 2 ? -arm : arm) * weight, 0.01 * weight);
-  EXPECT_NEAR(plate.frame().mean[0], 0.0, 0.01 * weight) << "friction and pressure together are vertical";
   EXPECT_TRUE(plate.frame().known);
   world->add(TestFixture::on_plate(0.5, 1));
   run(2.0);

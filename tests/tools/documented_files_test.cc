@@ -16,7 +16,7 @@ namespace talus::documented_files_test {
 namespace {
 
 using Json = nlohmann::json;
-/// Bricks on a shelf, of which a gate between them lets one pass; that is a jam.
+/// A scene in which one brick passes a gate and another rests before it, so that the gate counts as jammed.
 constexpr const char* instruments =
     "shape.brick = {kind = \"box\", size = [1, 1]}\n"
     "obstacle = [{name = \"shelf\", kind = \"box\", size = [4, 1], position = [8, 2]}]\n"

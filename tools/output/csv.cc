@@ -1,5 +1,8 @@
 #include "tools/output/csv.h"
 
+#include <cerrno>
+#include <system_error>
+
 namespace talus {
 
 std::string csv_line(const std::vector<std::string>& cells) {
@@ -12,6 +15,28 @@ std::string csv_line(const std::vector<std::string>& cells) {
     if (quoted) line += '"';
   }
   return line + '\n';
+}
+
+GrowingCsv::GrowingCsv(const std::filesystem::path& file, const std::vector<std::string>& columns)
+    : file_(file), out_(file) {
+  require_written();
+  add(columns);
+}
+
+void GrowingCsv::add_line(std::string_view line) {
+  out_ << line;
+  require_written();
+}
+
+void GrowingCsv::flush() {
+  if (file_.empty()) return;
+  out_.flush();
+  require_written();
+}
+
+/// Throws where the file cannot take what was written, as on a full disk.
+void GrowingCsv::require_written() const {
+  if (!out_) throw std::system_error(errno, std::generic_category(), file_.string());
 }
 
 }  // namespace talus

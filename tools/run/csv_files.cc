@@ -3,23 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
+#include <string>
+#include <vector>
 
 #include "common/text/file.h"
 #include "common/world/energy.h"
 
 namespace talus {
+namespace {
+
+std::vector<std::string> frame_columns() {
+  std::vector<std::string> columns = {"step",  "time_s", "bodies",           "awake",           "slept", "woken",
+                                      "piles", "layers", "occupation_ratio", "kinetic_energy_J"};
+  for (const Phase& phase : all_phases) columns.push_back(fmt::format("{}_ms", phase.name));
+  return columns;
+}
+
+}  // namespace
 
 template <int Dim>
-FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file) : file_(file), out_(file) {
-  require_written();
-  out_ << "step,time_s,bodies,awake,slept,woken,piles,layers,occupation_ratio,kinetic_energy_J";
-  for (const Phase& phase : all_phases) out_ << ',' << phase.name << "_ms";
-  out_ << '\n';
-}
+FramesCsv<Dim>::FramesCsv(const std::filesystem::path& file) : file_(file, frame_columns()) {}
 
 template <int Dim>
 void FramesCsv<Dim>::on_frame(const Frame<Dim>& frame) {
@@ -30,24 +34,17 @@ void FramesCsv<Dim>::on_frame(const Frame<Dim>& frame) {
     ratio = std::max(ratio, pile.occupation_ratio());
   }
   const auto woken = std::count_if(frame.events.begin(), frame.events.end(), [](const auto& e) { return e.woke; });
-  out_ << fmt::format("{},{:.6f},{},{},{},{},{},{},{:.4f},{:.6g}", frame.step, frame.time, frame.world.states().size(),
-                      frame.world.awake().size(), static_cast<std::ptrdiff_t>(frame.events.size()) - woken, woken,
-                      frame.piles.piles().size(), layers, ratio, kinetic_energy(frame.world));
-  for (const Phase& phase : all_phases) out_ << fmt::format(",{:.5f}", 1e3 * frame.phases.*phase.time);
-  out_ << '\n';
-  require_written();
+  std::string row =
+      fmt::format("{},{:.6f},{},{},{},{},{},{},{:.4f},{:.6g}", frame.step, frame.time, frame.world.states().size(),
+                  frame.world.awake().size(), static_cast<std::ptrdiff_t>(frame.events.size()) - woken, woken,
+                  frame.piles.piles().size(), layers, ratio, kinetic_energy(frame.world));
+  for (const Phase& phase : all_phases) row += fmt::format(",{:.5f}", 1e3 * frame.phases.*phase.time);
+  file_.add_line(row + '\n');
 }
 
 template <int Dim>
 void FramesCsv<Dim>::on_end(const Frame<Dim>&, std::string_view) {
-  out_.flush();
-  require_written();
-}
-
-/// Throws where the file cannot take what was written, as on a full disk.
-template <int Dim>
-void FramesCsv<Dim>::require_written() const {
-  if (!out_) throw std::system_error(errno, std::generic_category(), file_.string());
+  file_.flush();
 }
 
 template class FramesCsv<2>;

@@ -2,11 +2,11 @@
 // frames.csv and avalanches.csv of a run.
 
 #include <filesystem>
-#include <fstream>
 #include <span>
 
 #include "common/measure/avalanches.h"
 #include "common/simulation/observer.h"
+#include "tools/output/csv.h"
 
 namespace talus {
 
@@ -20,10 +20,7 @@ class FramesCsv final : public Observer<Dim> {
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
 
  private:
-  void require_written() const;
-
-  std::filesystem::path file_;
-  std::ofstream out_;
+  GrowingCsv file_;
 };
 
 /// Writes avalanches.csv, a row each. Throws std::runtime_error where it cannot.

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cerrno>
 #include <limits>
-#include <system_error>
 
 #include "common/scene/typical_body.h"
 #include "common/text/printable.h"
-#include "tools/output/csv.h"
 
 namespace talus {
 namespace {
@@ -116,26 +113,6 @@ std::vector<std::string> load_columns() {
 }
 
 }  // namespace
-
-GrowingCsv::GrowingCsv(const std::filesystem::path& file, const std::vector<std::string>& columns)
-    : file_(file), out_(file) {
-  add(columns);
-}
-
-void GrowingCsv::add(const std::vector<std::string>& cells) {
-  out_ << csv_line(cells);
-  require_written();
-}
-
-void GrowingCsv::flush() {
-  if (file_.empty()) return;
-  out_.flush();
-  require_written();
-}
-
-void GrowingCsv::require_written() const {
-  if (!out_) throw std::system_error(errno, std::generic_category(), file_.string());
-}
 
 template <int Dim>
 InstrumentWatch<Dim>::InstrumentWatch(const Scene<Dim>& scene, const std::filesystem::path& folder)

@@ -2,7 +2,6 @@
 // The gates, regions and loads of a run.
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,24 +13,9 @@
 #include "common/measure/region_meter.h"
 #include "common/scene/scene.h"
 #include "common/simulation/observer.h"
+#include "tools/output/csv.h"
 
 namespace talus {
-
-/// A CSV file that grows with a run; made without a name it is none. Each call throws std::system_error with
-/// the file's name where it cannot be written.
-class GrowingCsv {
- public:
-  GrowingCsv() = default;
-  GrowingCsv(const std::filesystem::path& file, const std::vector<std::string>& columns);
-  void add(const std::vector<std::string>& cells);
-  void flush();
-
- private:
-  void require_written() const;
-
-  std::filesystem::path file_;
-  std::ofstream out_;
-};
 
 /// Measures what the scene has as [[gate]], [[region]] and [[load]], and writes gates.csv, regions.csv and loads.csv:
 /// a row for each of them and each frame of output. docs/files.md explains columns and keys.
