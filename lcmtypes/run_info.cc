@@ -1,6 +1,7 @@
 #include "lcmtypes/run_info.h"
 
 #include <fmt/core.h>
+#include <talus/version.h>
 #include <unistd.h>
 
 #include <chrono>

@@ -1,30 +1,10 @@
 #include "sim3d/engine.h"
 
-#include <cstddef>
-#include <cstdlib>
-#include <new>
-
 #include "sim3d/bullet/packed_solver.h"
 #include "sim3d/bullet/rolling_solver.h"
 
 namespace talus::bullet {
 namespace {
-
-// Bullet takes 23 bytes with each piece of memory to align it to 16, which the heap does by itself: a tenth of what a
-// sleeper takes; and it uses the pointer unchecked, so that lack of memory must be an exception. Before
-// main(), since what was taken in one way cannot be given back in the other.
-void* take(std::size_t size, int alignment) {
-  const std::size_t unit = alignment;
-  void* memory =
-      unit <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
-  if (memory == nullptr && size > 0) throw std::bad_alloc();
-  return memory;
-}
-void give_back(void* memory) { std::free(memory); }
-const bool takes_little = [] {
-  btAlignedAllocSetCustomAligned(take, give_back);
-  return true;
-}();
 
 std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params, const DebugOptions& debug,
                                                                  bool rolling_friction) {

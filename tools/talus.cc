@@ -14,6 +14,7 @@
 #include "tools/commands/command_line_text.h"
 #include "tools/commands/commands.h"
 #ifdef TALUS_BULLET
+#include "sim3d/plain_heap.h"
 #include "tools/mesh/decompose_command.h"
 #endif
 #ifdef TALUS_LCM
@@ -103,6 +104,9 @@ int execute(int argc, char** argv) {
 // NOLINTNEXTLINE(bugprone-exception-escape): only a failure to make an error's text gets out
 int main(int argc, char** argv) {
   talus::prefer_huge_pages();
+#ifdef TALUS_BULLET
+  talus::use_plain_heap_in_bullet();
+#endif
   talus::prepare_output();
   send_log_to_standard_error();
   const int exit_code = execute(argc, argv);

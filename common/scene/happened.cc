@@ -1,10 +1,9 @@
 #include "common/scene/happened.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-
-#include "common/scene/toml_text.h"
 
 namespace talus {
 
@@ -33,7 +32,7 @@ std::string event_text(const Scene<Dim>& scene, int number) {
   if (event.obstacle) return fmt::format("remove obstacle {}", scene.obstacle_names[*event.obstacle].name);
   switch (event.action) {
     case EventAction::gravity:
-      return fmt::format("gravity {}", field_text({}, event.gravity));
+      return fmt::format("gravity [{:#}]", fmt::join(event.gravity, ", "));
     case EventAction::policy:
       return fmt::format("policy {}", event.policy);
     case EventAction::rate:

@@ -1,10 +1,7 @@
 // A pile in a program of one's own: the example of README.md.
 #include <fmt/format.h>
-
-#include "common/shape/catalogue.h"
-#include "common/simulation/make_policy.h"
-#include "common/simulation/simulation.h"
-#include "sim2d/make_world.h"
+#include <talus/box2d_world.h>
+#include <talus/simulation.h>
 
 int main() {
   talus::Scene<2> scene;

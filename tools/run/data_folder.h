@@ -4,8 +4,8 @@
 
 namespace talus {
 
-/// A folder of the files that come with talus: share/talus/NAME beside the folder of the running command if it is
-/// installed, else IN_SOURCE below the source tree. It does not depend on the current directory.
-std::filesystem::path data_folder(const std::filesystem::path& name, const std::filesystem::path& in_source);
+/// A folder of the files that come with talus: share/talus/NAME beside the folder of the running command. It does not
+/// depend on the current directory.
+std::filesystem::path data_folder(const std::filesystem::path& name);
 
 }  // namespace talus

@@ -11,7 +11,7 @@
 namespace talus {
 namespace fs = std::filesystem;
 
-fs::path scene_folder() { return data_folder("scenes", "scenes"); }
+fs::path scene_folder() { return data_folder("scenes"); }
 
 std::vector<fs::path> scene_files() {
   std::vector<fs::path> files;

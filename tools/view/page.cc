@@ -28,7 +28,7 @@ std::string deflated(std::string_view bytes) {
 }
 
 std::string built_file(const char* name) {
-  const std::filesystem::path file = data_folder("page", "tools/view/page/dist") / name;
+  const std::filesystem::path file = data_folder("page") / name;
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

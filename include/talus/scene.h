@@ -1,0 +1,4 @@
+#pragma once
+// Scene files: read_scene() and parse_scene(). Link talus::scene.
+
+#include "common/scene/read_scene.h"
