@@ -2,10 +2,10 @@
 // The smallest engine behind the seam, as an example of docs/extending.md: spheres that fall on the ground plane, slide
 // on it without friction and pass through each other. Each shape becomes the sphere that its lowest point gives.
 
+#include <talus/simulation.h>
+
 #include <memory>
 #include <vector>
-
-#include "common/world/world.h"
 
 namespace talus {
 
