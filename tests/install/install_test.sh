@@ -50,7 +50,8 @@ moved_tree)
   ;;
 every_component) # a scene file, Bullet and a record, which the installed command reads
   make_program "$(config_of_tree)" "$here/recorded_pile.cc" "core;scene;box2d;bullet;telemetry"
-  printf '%s\n' 'dimension = 3' 'run.frames = 30' 'shape.a = {kind = "ball"}' '[[source]]' 'count = 9' >"$project/a.toml"
+  printf '%s\n' 'title = "Balls"' 'dimension = 3' 'run.frames = 30' \
+    'shape.a = {kind = "ball", radius = 0.5}' '[[source]]' 'count = 9' >"$project/a.toml"
   expect '^talus [0-9.]+: [1-9] bodies$' "$project/program" "$project/a.toml" "$project/a.lcm"
   expect 'finished' "$tree/bin/talus" info "$project/a.lcm"
   ;;
