@@ -124,25 +124,27 @@ void SleepControl<Dim>::note_engine_sleep() {
 }
 
 template <int Dim>
-void SleepControl<Dim>::freeze(std::span<const BodyIndex> bodies, SleepCause cause) {
+std::vector<SleepEvent> SleepControl<Dim>::freeze(std::span<const BodyIndex> bodies, SleepCause cause) {
   std::vector<SleepEvent> events;
   for (const BodyIndex body : bodies) events.push_back({.body = body, .cause = cause});
   change_sleep(events, false);
+  return events;
 }
 
 template <int Dim>
-void SleepControl<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cause) {
+std::vector<SleepEvent> SleepControl<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cause) {
   std::vector<SleepEvent> events;
   for (const BodyIndex body : bodies)
     if (world_.states().removed[body] == 0) events.push_back({.body = body, .cause = cause});
   change_sleep(events, true);
+  return events;
 }
 
 template <int Dim>
-void SleepControl<Dim>::wake_all(SleepCause cause) {
+std::vector<SleepEvent> SleepControl<Dim>::wake_all(SleepCause cause) {
   std::vector<BodyIndex> all(world_.states().shape.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<BodyIndex>(i);
-  wake(all, cause);
+  return wake(all, cause);
 }
 
 /// A sleeping one leaves the account of the policy as if it had woken.
@@ -152,6 +154,12 @@ void SleepControl<Dim>::remove(BodyIndex body) {
   piles_.recount_body(world_.states(), body);
   if (world_.states().asleep[body] != 0)
     policy_->note(world_, std::vector<SleepEvent>{{.body = body, .woke = true, .cause = SleepCause::user}});
+}
+
+template <int Dim>
+void SleepControl<Dim>::forget(BodyIndex body) {
+  piles_.forget(body);
+  policy_->forget(body);
 }
 
 template <int Dim>

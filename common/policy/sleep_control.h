@@ -38,13 +38,17 @@ class SleepControl {
   /// Before a step: it has no events yet.
   void start_step() { events_.clear(); }
 
-  /// Between two steps: puts those of the bodies to sleep that are awake.
-  void freeze(std::span<const BodyIndex> bodies, SleepCause cause);
-  /// Wakes those of the bodies that sleep and are in the world.
-  void wake(std::span<const BodyIndex> bodies, SleepCause cause);
-  void wake_all(SleepCause cause);
+  /// Between two steps: puts those of the bodies to sleep that are awake. Returns what was done.
+  std::vector<SleepEvent> freeze(std::span<const BodyIndex> bodies, SleepCause cause);
+  /// Wakes those of the bodies that sleep and are in the world. Returns what was done.
+  std::vector<SleepEvent> wake(std::span<const BodyIndex> bodies, SleepCause cause);
+  std::vector<SleepEvent> wake_all(SleepCause cause);
   /// Takes a body out of the world.
   void remove(BodyIndex body);
+  /// Its number is about to be given to another one.
+  void forget(BodyIndex body);
+  /// A body has touched something before.
+  void note_touch(BodyIndex body) { piles_.note_touch(world_.states(), body); }
 
   /// Another policy from now on. A policy has no state of bodies that another one froze, so all wake.
   void switch_policy(std::unique_ptr<SleepPolicy<Dim>> policy);

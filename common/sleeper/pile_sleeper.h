@@ -2,14 +2,16 @@
 // Sleep body by body for a world that talus does not simulate.
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "common/sleeper/body_traits.h"
 #include "common/sleeper/given_step.h"
-#include "common/sleeper/handle.h"
+#include "common/sleeper/handle_table.h"
+#include "common/sleeper/kinematic_bodies.h"
 #include "common/sleeper/sleeper_options.h"
+#include "common/sleeper/sleeping_world.h"
+#include "common/sleeper/up_axis.h"
 
 namespace talus {
 
@@ -25,9 +27,6 @@ class PileSleeper {
  public:
   /// `gravity` [m/s^2]. Throws InvalidValue on an option outside of its range.
   explicit PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& options = {});
-  ~PileSleeper();
-  PileSleeper(PileSleeper&&) noexcept;
-  PileSleeper& operator=(PileSleeper&&) noexcept;
 
   /// Adds a body, awake, at the pose of its centre of mass.
   Handle add(const BodyTraits<Dim>& traits, const Pose<Dim>& pose, BodyRole role = BodyRole::sleeps);
@@ -35,7 +34,7 @@ class PileSleeper {
   const SleepChanges<Dim>& remove(Handle body);
 
   /// The bodies whose states after_step() needs: those awake and the kinematic ones. Valid until the next call.
-  std::span<const Handle> followed() const;
+  std::span<const Handle> followed();
   /// One decision. Call it after each step of the engine, substeps too.
   const SleepChanges<Dim>& after_step(const GivenStep<Dim>& step);
 
@@ -50,11 +49,11 @@ class PileSleeper {
   const SleepChanges<Dim>& set_gravity(const Vec<Dim>& gravity);
 
   /// Whether the handle names a body that is there.
-  bool has(Handle body) const;
+  bool has(Handle body) const { return handles_.has(body); }
   bool asleep(Handle body) const;
   /// Bodies that are there; kinematic ones count.
-  int size() const;
-  int awake() const;
+  int size() const { return handles_.size(); }
+  int awake() const { return static_cast<int>(world().awake().size()); }
 
   /// Of every body that is not kinematic, in the order of their slots.
   std::vector<SavedSleep> snapshot() const;
@@ -63,8 +62,34 @@ class PileSleeper {
   const SleepChanges<Dim>& restore(std::span<const SavedSleep> saved, std::span<const Pose<Dim>> poses);
 
  private:
-  class State;
-  std::unique_ptr<State> state_;
+  using Entry = HandleTable::Entry;
+  using Events = std::vector<SleepEvent>;
+
+  GivenWorld<Dim>& world() { return sleeping_.world(); }
+  const GivenWorld<Dim>& world() const { return sleeping_.world(); }
+
+  void check_step(const GivenStep<Dim>& step);
+  void check_state(const GivenStep<Dim>& step, std::size_t i) const;
+  void take_states(const GivenStep<Dim>& step);
+  void take_contacts(const GivenStep<Dim>& step);
+  BodyIndex side(Handle handle) const;
+  Box<Dim> bounds(const Entry& entry) const;
+  std::vector<BodyIndex> near(const Box<Dim>& box, double extent) const;
+  Handle handle_of(BodyIndex body) const { return handle_of_[body]; }
+  void note(const Events& events);
+
+  bool enabled_;
+  AxisTurn<Dim> turn_;
+  SleepingWorld<Dim> sleeping_;
+  KinematicBodies<Dim> kinematic_;
+  HandleTable handles_;
+  std::vector<Handle> handle_of_;       // [body] of the world
+  std::vector<Handle> followed_;        // as last asked for
+  std::vector<Contact<Dim>> contacts_;  // of the step, as given
+  std::vector<std::uint8_t> follows_;   // [body] whether it touches a kinematic body that moves
+  std::vector<std::int64_t> given_;     // [slot] number of the last step that had it
+  std::int64_t steps_ = 0;
+  SleepChanges<Dim> changes_;
 };
 
 }  // namespace talus
