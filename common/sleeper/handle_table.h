@@ -39,6 +39,9 @@ class HandleTable {
     --size_;
   }
 
+  /// Of a body that is there.
+  void set_role(Handle handle, BodyRole role) { entries_[handle.slot].role = role; }
+
   bool has(Handle handle) const {
     return handle.slot < entries_.size() && entries_[handle.slot].present &&
            entries_[handle.slot].generation == handle.generation;

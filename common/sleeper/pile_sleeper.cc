@@ -55,7 +55,7 @@ Handle PileSleeper<Dim>::add(const BodyTraits<Dim>& traits, const Pose<Dim>& pos
   const bool kinematic = role == BodyRole::kinematic;
   const Shape<Dim> shape = shape_with(traits, kinematic);
   const Pose<Dim> at = turn_.in(pose);
-  if (kinematic) return handles_.add(role, kinematic_.add(shape, at));
+  if (kinematic) return kinematic_handles_.emplace_back(handles_.add(role, kinematic_.add(shape, at)));
   const BodyIndex body = sleeping_.add(shape, at, role == BodyRole::stays_awake);
   const Handle handle = handles_.add(role, body);
   handle_of_.resize(world().states().asleep.size());
@@ -72,12 +72,25 @@ const SleepChanges<Dim>& PileSleeper<Dim>::remove(Handle handle) {
   std::vector<BodyIndex> neighbours = near(box, extent);
   if (entry.role == BodyRole::kinematic) {
     kinematic_.remove(entry.number);
+    std::erase(kinematic_handles_, handle);
   } else {
     std::erase(neighbours, entry.number);
     sleeping_.remove(entry.number);
   }
   handles_.remove(handle);
   note(sleeping_.wake(neighbours, SleepCause::lost_support));
+  return changes_;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::set_role(Handle handle, BodyRole role) {
+  changes_ = {};
+  const Entry& entry = handles_.at(handle, "body");
+  require(entry.role != BodyRole::kinematic && role != BodyRole::kinematic, "role", static_cast<double>(role),
+          "must not be kinematic, before or after: remove the body and add it again");
+  handles_.set_role(handle, role);
+  sleeping_.keep_awake(entry.number, role == BodyRole::stays_awake);
+  if (role == BodyRole::stays_awake) note(sleeping_.wake(std::vector{entry.number}, SleepCause::user));
   return changes_;
 }
 
@@ -96,11 +109,8 @@ template <int Dim>
 std::span<const Handle> PileSleeper<Dim>::followed() {
   followed_.clear();
   if (!enabled_) return followed_;
+  followed_ = kinematic_handles_;
   for (const BodyIndex body : world().awake()) followed_.push_back(handle_of(body));
-  for (std::uint32_t slot = 0; slot < handles_.entries().size(); ++slot) {
-    const Entry& entry = handles_.entries()[slot];
-    if (entry.present && entry.role == BodyRole::kinematic) followed_.push_back({slot, entry.generation});
-  }
   return followed_;
 }
 
@@ -113,9 +123,9 @@ const SleepChanges<Dim>& PileSleeper<Dim>::after_step(const GivenStep<Dim>& step
   take_contacts(step);
   note(sleeping_.prepare(contacts_));
   std::vector<BodyIndex> reached;
-  for (const Handle handle : step.bodies)
-    if (const Entry& entry = handles_.at(handle, "body"); entry.role == BodyRole::kinematic)
-      kinematic_.find_sleepers(entry.number, world(), touching_distance * sleeping_.extent(), reached);
+  for (const Handle handle : kinematic_handles_)
+    kinematic_.find_sleepers(handles_.at(handle, "body").number, world(), touching_distance * sleeping_.extent(),
+                             reached);
   note(sleeping_.wake(reached, SleepCause::lost_support));
   for (const BodyIndex body : reached) follows_[body] = 1;
   world().give_contacts(contacts_);
@@ -142,9 +152,11 @@ void PileSleeper<Dim>::check_step(const GivenStep<Dim>& step) {
     require(given_[handle.slot] != steps_, "bodies", handle.slot, "must have each body once");
     given_[handle.slot] = steps_;
   }
-  for (const Handle handle : followed())
-    require(given_[handle.slot] == steps_, "bodies", handle.slot,
-            "must be among the bodies given, since it is awake or kinematic");
+  const auto require_given = [this](Handle handle) {
+    require(given_[handle.slot] == steps_, "bodies", handle.slot, "must be among the bodies given: see followed()");
+  };
+  for (const BodyIndex body : world().awake()) require_given(handle_of(body));
+  for (const Handle handle : kinematic_handles_) require_given(handle);
   for (const GivenContact<Dim>& contact : step.contacts) {
     require(handles_.has(contact.a), "contact.a", contact.a.slot, "must be the handle of a body that is there");
     require(contact.b == Handle{} || handles_.has(contact.b), "contact.b", contact.b.slot,

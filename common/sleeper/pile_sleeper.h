@@ -27,11 +27,18 @@ class PileSleeper {
  public:
   /// `gravity` [m/s^2]. Throws InvalidValue on an option outside of its range.
   explicit PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& options = {});
+  PileSleeper(const PileSleeper&) = delete;
+  PileSleeper& operator=(const PileSleeper&) = delete;
 
   /// Adds a body, awake, at the pose of its centre of mass.
   Handle add(const BodyTraits<Dim>& traits, const Pose<Dim>& pose, BodyRole role = BodyRole::sleeps);
   /// Takes a body out. Sleeping bodies near it wake, since it may have supported them.
   const SleepChanges<Dim>& remove(Handle body);
+
+  /// Whether a body may sleep from now on: `sleeps` or `stays_awake`, of one that is not kinematic. One that may not
+  /// wakes.
+  const SleepChanges<Dim>& set_role(Handle body, BodyRole role);
+  BodyRole role(Handle body) const { return handles_.at(body, "body").role; }
 
   /// The bodies whose states after_step() needs: those awake and the kinematic ones. Valid until the next call.
   std::span<const Handle> followed();
@@ -83,6 +90,7 @@ class PileSleeper {
   SleepingWorld<Dim> sleeping_;
   KinematicBodies<Dim> kinematic_;
   HandleTable handles_;
+  std::vector<Handle> kinematic_handles_;
   std::vector<Handle> handle_of_;       // [body] of the world
   std::vector<Handle> followed_;        // as last asked for
   std::vector<Contact<Dim>> contacts_;  // of the step, as given

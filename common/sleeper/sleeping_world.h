@@ -20,12 +20,16 @@ template <int Dim>
 class SleepingWorld {
  public:
   SleepingWorld(const Vec<Dim>& gravity, const SleeperOptions& options);
+  SleepingWorld(const SleepingWorld&) = delete;
+  SleepingWorld& operator=(const SleepingWorld&) = delete;
 
   const GivenWorld<Dim>& world() const { return world_; }
   GivenWorld<Dim>& world() { return world_; }
 
   BodyIndex add(const Shape<Dim>& shape, const Pose<Dim>& pose, bool stays_awake);
   void remove(BodyIndex body);
+  /// Whether a body must not fall asleep.
+  void keep_awake(BodyIndex body, bool stays_awake) { stays_awake_[body] = stays_awake ? 1 : 0; }
 
   using Events = std::vector<SleepEvent>;
   /// Wakes those that sleep, and returns them.
