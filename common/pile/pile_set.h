@@ -36,7 +36,7 @@ class PileSet {
 
   /// A body has touched something.
   void note_touch(const BodyStates<Dim>& states, BodyIndex body);
-  /// The number of a body that left the world is given to another one.
+  /// The number of a body is now that of another one, or the body was put elsewhere.
   void forget(BodyIndex body);
 
   /// Section 3.2, after a step of `dt` [s]: recounts the awake bodies and doubles full piles; at each

@@ -45,7 +45,7 @@ class SleepControl {
   std::vector<SleepEvent> wake_all(SleepCause cause);
   /// Takes a body out of the world.
   void remove(BodyIndex body);
-  /// Its number is about to be given to another one.
+  /// As SleepPolicy::forget().
   void forget(BodyIndex body);
   /// A body has touched something before.
   void note_touch(BodyIndex body) { piles_.note_touch(world_.states(), body); }

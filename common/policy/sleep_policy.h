@@ -70,8 +70,8 @@ class SleepPolicy {
   /// that woke. What a policy keeps about sleeping bodies must follow from these calls alone.
   virtual void note(const World<Dim>& /*world*/, std::span<const SleepEvent> /*events*/) {}
 
-  /// The number of a body that left the world is given to another one: what the policy keeps of the old one ends. Only
-  /// in worlds that talus does not simulate.
+  /// The number of an awake body is now that of another one, or the body was put elsewhere: what the policy keeps of it
+  /// ends. Only in worlds that talus does not simulate.
   virtual void forget(BodyIndex /*body*/) {}
 };
 

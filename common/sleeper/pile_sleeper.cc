@@ -238,7 +238,7 @@ template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::wake(Handle handle) {
   changes_ = {};
   const Entry& entry = handles_.at(handle, "body");
-  if (entry.role != BodyRole::kinematic) note(sleeping_.wake(std::vector{entry.number}, SleepCause::user));
+  if (asleep(handle)) note(sleeping_.set_moving(entry.number, SleepCause::user));
   return changes_;
 }
 
@@ -272,7 +272,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::moved(Handle handle, const Pose<Dim>&
   if (entry.role == BodyRole::kinematic)
     kinematic_.place(entry.number, turn_.in(to));
   else
-    neighbours.push_back(entry.number);
+    note(sleeping_.set_moving(entry.number, SleepCause::user));
   note(sleeping_.wake(neighbours, SleepCause::lost_support));
   if (entry.role != BodyRole::kinematic) world().place(entry.number, turn_.in(to));
   note(sleeping_.wake(near(bounds(entry), extent), SleepCause::user));
@@ -317,6 +317,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::restore(std::span<const SavedSleep> s
     const Entry& entry = handles_.at(saved[i].body, "saved body");
     if (entry.role == BodyRole::kinematic) continue;
     world().place(entry.number, turn_.in(poses[i]));
+    sleeping_.set_moving(entry.number, SleepCause::user);
     if (saved[i].asleep && enabled_) (saved[i].settled ? settled : others).push_back(entry.number);
   }
   note(sleeping_.freeze_saved(settled, true));

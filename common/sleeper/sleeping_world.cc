@@ -62,6 +62,13 @@ typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::set_gravity(const Vec<Di
   return wake_all();
 }
 
+template <int Dim>
+typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::set_moving(BodyIndex body, SleepCause cause) {
+  const Events woken = wake(std::vector{body}, cause);
+  if (control_) control_->forget(body);
+  return woken;
+}
+
 /// Of the bodies that may sleep.
 template <int Dim>
 TypicalBody SleepingWorld<Dim>::typical_now() const {

@@ -35,6 +35,8 @@ class SleepingWorld {
   /// Wakes those that sleep, and returns them.
   Events wake(std::span<const BodyIndex> bodies, SleepCause cause);
   Events wake_all();
+  /// Wakes a body that is about to move or was put elsewhere: its rest begins anew.
+  Events set_moving(BodyIndex body, SleepCause cause);
   /// Puts bodies to sleep that slept in a saved world, and returns them. `settled`: no stability check is to come.
   Events freeze_saved(std::span<const BodyIndex> bodies, bool settled);
   /// Returns those that wake for it.

@@ -4,6 +4,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <unordered_map>
 #include <vector>
 
@@ -36,7 +37,7 @@ class BulletSleeper {
   /// and on one that is watched.
   Handle add(btRigidBody& body) {
     require(body.getWorldArrayIndex() >= 0, "body", "in no world", "must be in the world before it is watched");
-    require(!body.isStaticObject(), "body", "static", "must be dynamic or kinematic");
+    require(!never_moves(body), "body", "static", "must be dynamic or kinematic");
     require(!handles_.contains(&body), "body", "watched", "must not be watched already");
     const BodyRole role = body.isKinematicObject() ? BodyRole::kinematic : free_role(body);
     const Handle handle = core_.add(traits(body), pose(body), role);
@@ -52,7 +53,7 @@ class BulletSleeper {
     int kept_awake = 0;
     for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
       btRigidBody* body = btRigidBody::upcast(world_.getCollisionObjectArray()[i]);
-      if (body == nullptr || body->isStaticObject() || handles_.contains(body)) continue;
+      if (body == nullptr || never_moves(*body) || handles_.contains(body)) continue;
       kept_awake += core_.role(add(*body)) == BodyRole::stays_awake ? 1 : 0;
     }
     return kept_awake;
@@ -161,6 +162,10 @@ class BulletSleeper {
     const btQuaternion q = body.getWorldTransform().getRotation();
     return {from_bullet(body.getWorldTransform().getOrigin()), Rotation<3>(q.w(), q.x(), q.y(), q.z())};
   }
+  /// Kinematic bodies often count as static too.
+  static bool never_moves(const btCollisionObject& object) {
+    return object.isStaticObject() && !object.isKinematicObject();
+  }
   static BodyRole free_role(const btRigidBody& body) {
     return body.getNumConstraintRefs() > 0 ? BodyRole::stays_awake : BodyRole::sleeps;
   }
@@ -176,7 +181,7 @@ class BulletSleeper {
       const btScalar inverse = body.getInvInertiaDiagLocal()[axis];
       traits.inertia(axis, axis) = inverse > 0 ? 1.0 / inverse : locked;
     }
-    traits.friction = body.getFriction();
+    traits.friction = body.getFriction() * body.getFriction();  // Bullet multiplies those of two bodies
     return traits;
   }
 
@@ -219,9 +224,8 @@ class BulletSleeper {
     spins_.push_back(from_bullet(body.getAngularVelocity()));
   }
 
-  static bool moves(const btCollisionObject& object) {
-    return object.isActive() && !object.isStaticOrKinematicObject();
-  }
+  /// Those that Bullet itself has put to sleep too: their impulses are those that hold them.
+  static bool moves(const btCollisionObject& object) { return !object.isStaticOrKinematicObject(); }
   void read_contacts() {
     contacts_.clear();
     btDispatcher& dispatcher = *world_.getDispatcher();
@@ -259,7 +263,7 @@ class BulletSleeper {
   /// Of a point of an object before the step. One that is not watched is taken as it is.
   btVector3 velocity_before(const btCollisionObject& object, Handle handle, const btVector3& where) const {
     const btVector3 arm = where - object.getWorldTransform().getOrigin();
-    if (object.isStaticObject()) return {0, 0, 0};
+    if (never_moves(object)) return {0, 0, 0};
     if (handle != Handle{} && !object.isKinematicObject()) {
       const Entry& entry = entries_[handle.slot];
       return entry.velocity + entry.spin.cross(arm);

@@ -19,6 +19,7 @@ class BulletScene {
  public:
   BulletScene() {
     world.setGravity({0, 0, btScalar(-9.81)});
+    world.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     ground = &add_box({200, 200, 2}, {0, 0, -1}, 0);
   }
   ~BulletScene() {
@@ -32,6 +33,7 @@ class BulletScene {
     if (mass > 0) shapes.back()->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
     btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, shapes.back().get(), inertia);
     info.m_startWorldTransform = btTransform(turn, to_bullet(at));
+    info.m_friction = btScalar(std::sqrt(0.5));  // Bullet multiplies: 0.5 between two bodies, talus's default
     bodies.push_back(std::make_unique<btRigidBody>(info));
     world.addRigidBody(bodies.back().get());
     return *bodies.back();

@@ -24,7 +24,7 @@ class Impacts {
   /// Costs O(contacts).
   void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out);
 
-  /// The number of a body that left the world is given to another one.
+  /// As SleepPolicy::forget().
   void forget(BodyIndex body);
 
  private:

@@ -19,7 +19,7 @@ class RestCriterion {
   /// Costs O(awake).
   void update(const RuleInput<Dim>& in);
 
-  /// The number of a body that left the world is given to another one.
+  /// As SleepPolicy::forget().
   void forget(BodyIndex body);
 
   /// Bodies in `wakes` whose impact is still to come are not marked as unmoved when they wake.

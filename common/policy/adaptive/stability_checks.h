@@ -58,7 +58,7 @@ class StabilityChecks {
   /// O(bodies + contacts).
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const;
 
-  /// The number of a body that left the world is given to another one.
+  /// As SleepPolicy::forget().
   void forget(BodyIndex body);
 
   /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a

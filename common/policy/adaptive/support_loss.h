@@ -18,7 +18,7 @@ class SupportLoss {
   /// Costs O(contacts).
   void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
 
-  /// The number of a body that left the world is given to another one.
+  /// As SleepPolicy::forget().
   void forget(BodyIndex body);
 
  private:
