@@ -54,14 +54,12 @@ Poured pour_in_own_world(unsigned seed) {
 /// The two worlds differ in solver settings and margins, so only the means over seeds compare: the height within 7 %,
 /// of which the seeds' spread is 4 %, and the bodies awake within a third.
 TEST(BulletSleeper, PilesBoxesAsTalusDoesInItsOwnWorld) {
-  constexpr std::array<unsigned, 6> seeds = {1, 2, 3, 4, 5, 6};
+  constexpr std::array<unsigned, 3> seeds = {1, 2, 3};
   Poured attached;
   Poured own;
   for (const unsigned seed : seeds) {
     const Poured a = pour_with_sleeper(seed);
     const Poured b = pour_in_own_world(seed);
-    std::printf("seed %u: attached %.3f m, %.1f awake; own %.3f m, %.1f awake\n", seed, a.centre_height, a.mean_awake,
-                b.centre_height, b.mean_awake);
     attached.centre_height += a.centre_height / seeds.size();
     attached.mean_awake += a.mean_awake / seeds.size();
     own.centre_height += b.centre_height / seeds.size();
