@@ -1,7 +1,7 @@
 #include "common/sleeper/given_world.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -79,12 +79,24 @@ void GivenWorld<Dim>::place(BodyIndex body, const Pose<Dim>& pose) {
 /// Brings the contacts into the form of World::contacts(): those of awake bodies, of two the one with the lower number
 /// first, pairs side by side.
 template <int Dim>
-void GivenWorld<Dim>::give_contacts(std::vector<Contact<Dim>> contacts) {
-  given_ = std::move(contacts);
-  std::erase_if(given_, [this](const Contact<Dim>& c) { return !is_awake(c.a) && !is_awake(c.b); });
-  for (Contact<Dim>& contact : given_)
-    if (!is_awake(contact.a) || (is_awake(contact.b) && contact.b < contact.a)) contact = turned_over(contact);
-  std::ranges::stable_sort(given_, {}, [](const Contact<Dim>& c) { return std::tuple(c.a, c.b); });
+void GivenWorld<Dim>::give_contacts(std::span<const Contact<Dim>> contacts) {
+  const auto turns = [this](BodyIndex a, BodyIndex b) { return !is_awake(a) || (is_awake(b) && b < a); };
+  runs_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto [a, b] = turns(contacts[i].a, contacts[i].b) ? std::pair(contacts[i].b, contacts[i].a)
+                                                            : std::pair(contacts[i].a, contacts[i].b);
+    if (!is_awake(a)) continue;
+    const std::int64_t pair = (std::int64_t{a} << 32) + b;
+    if (!runs_.empty() && runs_.back().pair == pair && runs_.back().first + runs_.back().count == i)
+      ++runs_.back().count;
+    else
+      runs_.push_back({pair, i, 1});
+  }
+  std::ranges::sort(runs_, {}, [](const Run& run) { return std::pair(run.pair, run.first); });
+  given_.clear();
+  for (const Run& run : runs_)
+    for (const Contact<Dim>& contact : contacts.subspan(run.first, run.count))
+      given_.push_back(turns(contact.a, contact.b) ? turned_over(contact) : contact);
 }
 
 template <int Dim>

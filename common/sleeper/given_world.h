@@ -30,8 +30,8 @@ class GivenWorld final : public World<Dim> {
   void give(BodyIndex body, const Pose<Dim>& pose, const Vec<Dim>& velocity, const Spin<Dim>& spin);
   /// The body, awake or asleep, is elsewhere.
   void place(BodyIndex body, const Pose<Dim>& pose);
-  /// All contacts of the step; any order, either side first.
-  void give_contacts(std::vector<Contact<Dim>> contacts);
+  /// All contacts of the step: either side first, pairs in any order.
+  void give_contacts(std::span<const Contact<Dim>> contacts);
 
  private:
   // Bodies come by put().
@@ -51,7 +51,15 @@ class GivenWorld final : public World<Dim> {
 
   BodyColumns<Dim> columns_{1.0};
   std::vector<BodyIndex> free_;
-  std::vector<Contact<Dim>> given_;
+  /// Contact points of one pair that were given side by side.
+  struct Run {
+    std::int64_t pair = 0;  // ascending as (a, b) are
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
+
+  std::vector<Contact<Dim>> given_;  // in the form of World::contacts()
+  std::vector<Run> runs_;            // scratch
 };
 
 }  // namespace talus

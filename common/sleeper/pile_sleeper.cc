@@ -37,8 +37,9 @@ bool finite(const Pose<Dim>& pose) {
 
 template <int Dim>
 bool finite(const GivenContact<Dim>& contact) {
-  return contact.point.allFinite() && contact.normal.allFinite() && contact.friction_impulse.allFinite() &&
-         std::isfinite(contact.normal_impulse) && std::isfinite(contact.approach_speed);
+  // A sum is finite only if its terms are.
+  const Vec<Dim> sum = contact.point + contact.normal + contact.friction_impulse;
+  return std::isfinite(sum.sum() + contact.normal_impulse + contact.approach_speed);
 }
 
 }  // namespace

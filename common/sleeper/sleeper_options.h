@@ -17,8 +17,10 @@ struct SleeperOptions {
   /// D [m] > 0, the extent of the typical body: the diagonal of its box, in which the policy measures lengths. Empty:
   /// that of the bodies added, without the largest fiftieth of them.
   std::optional<double> extent = {};
-  /// Of the policy, as in a scene; `rings` must be 0, since the foreign engine solves the contacts.
-  AdaptiveParams adaptive = {};
+  /// Of the policy, as in a scene, but for two. `rings` must be 0, since the foreign engine solves the contacts.
+  /// `tolerance` is 0: no stability checks, which keep a heap awake for long where an engine's contacts creep. With
+  /// them, 0.05 in a scene, heaps are flatter and cost more.
+  AdaptiveParams adaptive = {.tolerance = 0.0};
 };
 
 }  // namespace talus

@@ -10,6 +10,7 @@
 
 #include "common/math/require.h"
 #include "common/sleeper/pile_sleeper.h"
+#include "common/sleeper/step_buffer.h"
 
 namespace talus {
 
@@ -85,14 +86,10 @@ class BulletSleeper {
   /// Directly after each step of Bullet, which was `dt` [s] long. Returns what changed, already done; valid until the
   /// next call.
   const SleepChanges<3>& after_step(double dt) {
+    buffer_.clear();
     if (enabled_) read_states();
     if (enabled_) read_contacts();
-    const SleepChanges<3>& changes = core_.after_step({.dt = dt,
-                                                       .bodies = bodies_,
-                                                       .poses = poses_,
-                                                       .velocities = velocities_,
-                                                       .spins = spins_,
-                                                       .contacts = contacts_});
+    const SleepChanges<3>& changes = core_.after_step(buffer_.step(dt));
     carry_out(changes);
     return changes;
   }
@@ -132,9 +129,9 @@ class BulletSleeper {
   }
   /// Once the bodies are in their saved places: those that slept sleep again, all others wake.
   void restore(const std::vector<SavedSleep>& saved) {
-    poses_.clear();
-    for (const SavedSleep& one : saved) poses_.push_back(pose(body(one.body)));
-    carry_out(core_.restore(saved, poses_));
+    std::vector<Pose<3>> poses;
+    for (const SavedSleep& one : saved) poses.push_back(pose(body(one.body)));
+    carry_out(core_.restore(saved, poses));
   }
 
  private:
@@ -205,10 +202,6 @@ class BulletSleeper {
   }
 
   void read_states() {
-    bodies_.clear();
-    poses_.clear();
-    velocities_.clear();
-    spins_.clear();
     for (const Handle handle : core_.followed()) read_state(handle);
 #ifndef NDEBUG
     for (const auto& [object, handle] :
@@ -218,16 +211,12 @@ class BulletSleeper {
   }
   void read_state(Handle handle) {
     const btRigidBody& body = *entries_[handle.slot].body;
-    bodies_.push_back(handle);
-    poses_.push_back(pose(body));
-    velocities_.push_back(from_bullet(body.getLinearVelocity()));
-    spins_.push_back(from_bullet(body.getAngularVelocity()));
+    buffer_.add(handle, pose(body), from_bullet(body.getLinearVelocity()), from_bullet(body.getAngularVelocity()));
   }
 
   /// Those that Bullet itself has put to sleep too: their impulses are those that hold them.
   static bool moves(const btCollisionObject& object) { return !object.isStaticOrKinematicObject(); }
   void read_contacts() {
-    contacts_.clear();
     btDispatcher& dispatcher = *world_.getDispatcher();
     for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
       const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
@@ -250,14 +239,15 @@ class BulletSleeper {
       const btVector3 friction = point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
                                  point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
       const btVector3 approach = velocity_before(b, second, where) - velocity_before(a, first, where);
-      contacts_.push_back({.a = swap ? second : first,
-                           .b = swap ? first : second,
-                           .point = from_bullet(where),
-                           .normal = sign * from_bullet(point.m_normalWorldOnB),
-                           .normal_impulse = point.m_appliedImpulse,
-                           .friction_impulse = sign * from_bullet(friction),
-                           .approach_speed = std::max(0.0, static_cast<double>(point.m_normalWorldOnB.dot(approach))),
-                           .depth = -point.getDistance()});
+      buffer_.contacts.push_back(
+          {.a = swap ? second : first,
+           .b = swap ? first : second,
+           .point = from_bullet(where),
+           .normal = sign * from_bullet(point.m_normalWorldOnB),
+           .normal_impulse = point.m_appliedImpulse,
+           .friction_impulse = sign * from_bullet(friction),
+           .approach_speed = std::max(0.0, static_cast<double>(point.m_normalWorldOnB.dot(approach))),
+           .depth = -point.getDistance()});
     }
   }
   /// Of a point of an object before the step. One that is not watched is taken as it is.
@@ -318,11 +308,7 @@ class BulletSleeper {
   std::unordered_map<const btCollisionObject*, Handle> handles_;
   std::vector<Known> known_;    // [place in Bullet's list]
   std::vector<Entry> entries_;  // [slot]
-  std::vector<Handle> bodies_;  // of the step, with the four below
-  std::vector<Pose<3>> poses_;
-  std::vector<Vec3> velocities_;
-  std::vector<Spin<3>> spins_;
-  std::vector<GivenContact<3>> contacts_;
+  StepBuffer<3> buffer_;
 };
 
 }  // namespace talus

@@ -178,7 +178,7 @@ TEST_P(BulletGame, LeavesNoBodyFloatingHangingOrLost) {
   EXPECT_LE(game.highest_slot(), 60U);  // the most there ever were at once, and the lift
 }
 
-using LongBulletGame = BulletGame;
+class LongBulletGame : public BulletGame {};
 TEST_P(LongBulletGame, LeavesNoBodyFloatingAfterHours) {
   Game game(GetParam());
   game.play(5000);
