@@ -110,7 +110,8 @@ class Box2dImpulses {
 ///     sleeper.add_all();
 ///     for (;;) { sleeper.before_step(); world.Step(dt, 8, 3); sleeper.after_step(dt); }
 ///
-/// Forces on a sleeping body do nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors
+/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body do
+/// nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors
 /// count for nothing. The world must outlive this object, which wakes all bodies when it ends.
 class Box2dSleeper {
  public:
@@ -121,6 +122,8 @@ class Box2dSleeper {
   Box2dSleeper& operator=(const Box2dSleeper&) = delete;
   ~Box2dSleeper() {
     wake_all();
+    for (const auto& [body, handle] : handles_)
+      if (enabled_) entries_[handle.slot].body->SetSleepingAllowed(entries_[handle.slot].slept_alone);
     if (world_.GetContactManager().m_contactListener == &listener_) world_.SetContactListener(listener_.next);
   }
 
@@ -131,8 +134,9 @@ class Box2dSleeper {
     const BodyRole role = body.GetType() == b2_kinematicBody ? BodyRole::kinematic : free_role(body);
     const Handle handle = core_.add(traits(body), pose(body), role);
     if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
-    entries_[handle.slot] = {.body = &body};
+    entries_[handle.slot] = {.body = &body, .slept_alone = body.IsSleepingAllowed()};
     handles_[&body] = handle;
+    if (enabled_ && role != BodyRole::kinematic) body.SetSleepingAllowed(false);
     return handle;
   }
   /// Watches all dynamic and kinematic bodies that are not watched yet. Returns how many of them never sleep since they
@@ -147,10 +151,14 @@ class Box2dSleeper {
   /// Before a body is destroyed, watched or not: what sleeps near it wakes.
   void about_to_remove(b2Body& body) {
     const auto found = handles_.find(&body);
-    if (found == handles_.end()) return wake_near(body);
+    if (found == handles_.end()) {
+      wake_near(body);
+      return impulses_.forget(body);
+    }
     const Handle handle = found->second;
     carry_out(core_.wake(handle));
     impulses_.forget(body);
+    body.SetSleepingAllowed(entries_[handle.slot].slept_alone);
     handles_.erase(found);
     carry_out(core_.remove(handle));
     entries_[handle.slot] = {};
@@ -223,6 +231,7 @@ class Box2dSleeper {
     b2Vec2 velocity = b2Vec2_zero;
     float spin = 0.0F;
     b2MassData mass = {};
+    bool slept_alone = true;  // Box2D was allowed to put it to sleep
   };
 
   /// Passes all on to the program's listener.
@@ -356,14 +365,20 @@ class Box2dSleeper {
   void freeze(Entry& entry) {
     impulses_.save(*entry.body);
     entry.body->GetMassData(&entry.mass);
-    entry.body->SetType(b2_staticBody);
+    set_type(*entry.body, b2_staticBody);
+  }
+  /// A change of type ends the contacts of a body. Box2D would look for new ones only after the next step, within which
+  /// bodies would fall through each other; after a transform it looks before.
+  static void set_type(b2Body& body, b2BodyType type) {
+    body.SetType(type);
+    body.SetTransform(body.GetPosition(), body.GetAngle());
   }
   /// The mass follows from the fixtures unless the program has set it.
   void thaw(const Entry& entry) {
     b2Body& body = *entry.body;
     impulses_.save(body);
     impulses_.expect(body);
-    body.SetType(b2_dynamicBody);
+    set_type(body, b2_dynamicBody);
     const b2MassData mass = entry.mass;
     b2MassData now;
     body.GetMassData(&now);

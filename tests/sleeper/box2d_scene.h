@@ -48,6 +48,36 @@ class Box2dScene {
 /// With a sleeper: what the three lines in a loop of a program are.
 class SleepingBox2dScene : public Box2dScene {
  public:
+  using Body = b2Body;
+  static constexpr int dimension = 2;
+
+  Vec2 place(const Body& body) const { return {body.GetPosition().x, body.GetPosition().y}; }
+  void take_away(Body& body) {
+    sleeper->about_to_remove(body);
+    world.DestroyBody(&body);
+  }
+  void put(Body& body, const Vec2& at) {
+    body.SetTransform(to_box2d(at), body.GetAngle());
+    sleeper->moved(body);
+  }
+  void push(Body& body, const Vec2& velocity) {
+    sleeper->wake(body);
+    body.SetLinearVelocity(to_box2d(velocity));
+  }
+  void set_gravity(const Vec2& gravity) { world.SetGravity(to_box2d(gravity)); }
+  /// A kinematic block.
+  Body& add_lift(const Vec2& size, const Vec2& at) {
+    Body& lift = add_box(size, at, b2_kinematicBody);
+    sleeper->add(lift);
+    return lift;
+  }
+  /// Where it is after the next step of `dt` [s].
+  void move_lift(Body& lift, const Vec2& to, double dt) { lift.SetLinearVelocity(to_box2d((to - place(lift)) / dt)); }
+  /// Place and turn of a body, to be loaded again.
+  using Saved = b2Transform;
+  Saved save(const Body& body) const { return body.GetTransform(); }
+  void load(Body& body, const Saved& saved) { body.SetTransform(saved.p, saved.q.GetAngle()); }
+
   explicit SleepingBox2dScene(const SleeperOptions& options = {}) : sleeper(std::in_place, world, options) {}
 
   b2Body& drop(const Pose<2>& pose) {
@@ -60,6 +90,8 @@ class SleepingBox2dScene : public Box2dScene {
     Box2dScene::step(dt);
     return sleeper->after_step(dt);
   }
+  /// Without the sleeper.
+  void step_engine() { Box2dScene::step(); }
   void run(int steps) {
     for (int i = 0; i < steps; ++i) step();
   }

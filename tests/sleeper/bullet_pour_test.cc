@@ -36,6 +36,7 @@ Poured pour_with_sleeper(unsigned seed) {
 Poured pour_in_own_world(unsigned seed) {
   Scene<3> scene;
   scene.policy.kind = "adaptive";
+  scene.policy.adaptive = SleeperOptions{}.adaptive;
   scene.world.shapes = {make_shape<3>("box", box_pieces<3>(box_size<3>()), {})};
   scene.piles = {{}};
   Simulation<3> simulation(scene, make_bullet_world(scene.world), make_policy(scene));

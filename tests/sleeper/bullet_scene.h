@@ -64,6 +64,45 @@ class BulletScene {
 /// With a sleeper: what the three lines in a loop of a program are.
 class SleepingBulletScene : public BulletScene {
  public:
+  using Body = btRigidBody;
+  static constexpr int dimension = 3;
+
+  Vec3 place(const Body& body) const {
+    const btVector3& at = body.getWorldTransform().getOrigin();
+    return {at.x(), at.y(), at.z()};
+  }
+  void take_away(Body& body) {
+    sleeper->about_to_remove(body);
+    remove(body);
+  }
+  void put(Body& body, const Vec3& at) {
+    body.setWorldTransform(btTransform(body.getWorldTransform().getBasis(), to_bullet(at)));
+    sleeper->moved(body);
+  }
+  void push(Body& body, const Vec3& velocity) {
+    sleeper->wake(body);
+    body.setLinearVelocity(to_bullet(velocity));
+  }
+  void set_gravity(const Vec3& gravity) { world.setGravity(to_bullet(gravity)); }
+  /// A kinematic block.
+  Body& add_lift(const Vec3& size, const Vec3& at) {
+    Body& lift = add_box(size, at, 0);
+    lift.setCollisionFlags(lift.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    lift.setActivationState(DISABLE_DEACTIVATION);
+    lift_motion.setWorldTransform(lift.getWorldTransform());
+    lift.setMotionState(&lift_motion);
+    sleeper->add(lift);
+    return lift;
+  }
+  /// Where it is after the next step.
+  void move_lift(Body&, const Vec3& to, double) {
+    lift_motion.setWorldTransform(btTransform(btQuaternion::getIdentity(), to_bullet(to)));
+  }
+  /// Place and turn of a body, to be loaded again.
+  using Saved = btTransform;
+  Saved save(const Body& body) const { return body.getWorldTransform(); }
+  void load(Body& body, const Saved& saved) { body.setWorldTransform(saved); }
+
   explicit SleepingBulletScene(const SleeperOptions& options = {}) : sleeper(std::in_place, world, options) {}
 
   btRigidBody& drop(const Pose<3>& pose) {
@@ -76,10 +115,13 @@ class SleepingBulletScene : public BulletScene {
     BulletScene::step(dt);
     return sleeper->after_step(dt);
   }
+  /// Without the sleeper.
+  void step_engine() { BulletScene::step(); }
   void run(int steps) {
     for (int i = 0; i < steps; ++i) step();
   }
 
+  btDefaultMotionState lift_motion;
   std::optional<BulletSleeper> sleeper;
 };
 
