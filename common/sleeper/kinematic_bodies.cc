@@ -7,6 +7,13 @@
 #include "common/shape/convex_distance.h"
 
 namespace talus {
+namespace {
+
+// In D of the sleeping bodies.
+constexpr double rounding = 1e-5;  // way within a step
+constexpr double creep = 1e-3;     // way over any time
+
+}  // namespace
 
 template <int Dim>
 int KinematicBodies<Dim>::add(const Shape<Dim>& shape, const Pose<Dim>& pose) {
@@ -16,7 +23,7 @@ int KinematicBodies<Dim>::add(const Shape<Dim>& shape, const Pose<Dim>& pose) {
   }
   const int number = free_.back();
   free_.pop_back();
-  bodies_[number] = {.shape = shape, .pose = pose};
+  bodies_[number] = {.shape = shape, .pose = pose, .noticed = pose};
   return number;
 }
 
@@ -27,14 +34,15 @@ Box<Dim> KinematicBodies<Dim>::bounds(int number) const {
 
 template <int Dim>
 void KinematicBodies<Dim>::move(int number, const Pose<Dim>& to, const Vec<Dim>& velocity, const Spin<Dim>& spin,
-                                double dt) {
+                                double dt, double extent) {
   Body& body = bodies_[number];
   const double reach = bounding_radius(body.shape);
   const double went = max_displacement<Dim>(body.pose, to, reach);
   const double goes = dt * (velocity.norm() + reach * spin.norm());
   body.pose = to;
   body.travel = std::max(went, goes);
-  body.moved = body.travel > 0.0;
+  body.moved = body.travel > rounding * extent || max_displacement<Dim>(body.noticed, to, reach) > creep * extent;
+  if (body.moved) body.noticed = to;
 }
 
 template <int Dim>

@@ -20,9 +20,10 @@ class KinematicBodies {
   Box<Dim> bounds(int number) const;
 
   /// The program has put it elsewhere.
-  void place(int number, const Pose<Dim>& at) { bodies_[number].pose = at; }
-  /// After a step of `dt` [s]: where it is and how fast.
-  void move(int number, const Pose<Dim>& to, const Vec<Dim>& velocity, const Spin<Dim>& spin, double dt);
+  void place(int number, const Pose<Dim>& at) { bodies_[number].pose = bodies_[number].noticed = at; }
+  /// After a step of `dt` [s]: where it is and how fast. It counts as moving if it goes by more than rounding, for
+  /// sleeping bodies of `extent` [m], or has crept away since it last did.
+  void move(int number, const Pose<Dim>& to, const Vec<Dim>& velocity, const Spin<Dim>& spin, double dt, double extent);
   bool moved(int number) const { return bodies_[number].moved; }
   /// Appends sleeping bodies that it touches, or may within the next step. Nothing if it did not move.
   void find_sleepers(int number, const World<Dim>& world, double margin, std::vector<BodyIndex>& found) const;
@@ -31,6 +32,7 @@ class KinematicBodies {
   struct Body {
     Shape<Dim> shape;
     Pose<Dim> pose;
+    Pose<Dim> noticed;  // where it last counted as moving
     bool moved = false;
     double travel = 0.0;  // of its fastest point within a step [m]
   };

@@ -189,7 +189,7 @@ void PileSleeper<Dim>::take_states(const GivenStep<Dim>& step) {
     const Vec<Dim> velocity = turn_.in(step.velocities[i]);
     const Spin<Dim> spin = turn_.spin_in(step.spins[i]);
     if (entry.role == BodyRole::kinematic)
-      kinematic_.move(entry.number, pose, velocity, spin, step.dt);
+      kinematic_.move(entry.number, pose, velocity, spin, step.dt, sleeping_.extent());
     else if (world().states().asleep[entry.number] == 0)
       world().give(entry.number, pose, velocity, spin);
   }

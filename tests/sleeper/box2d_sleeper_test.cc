@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "common/shape/catalogue.h"
 #include "common/simulation/make_policy.h"
@@ -40,22 +39,22 @@ TEST_F(SleepingBox2dStack, IsStaticToBox2dUntilItWakes) {
   }
 }
 
-/// The impulses of its contacts come back. Without them the solver would begin from nothing, and the stack would slump.
+/// The impulses of its contacts come back. Without them it would fall by g dt in the first step, 0.16 m/s; with them
+/// its speed is a thousandth of that.
 TEST_F(SleepingBox2dStack, StandsStillWhenItWakes) {
-  const float top = height_of(*stack.back());
   scene.sleeper->wake_all();
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 30; ++i) {
     scene.step_engine();
-    std::printf("%g %g\n", stack.back()->GetLinearVelocity().y, height_of(*stack.back()) - top);
+    for (const b2Body* body : stack) EXPECT_LT(body->GetLinearVelocity().Length(), 2e-4F);
   }
 }
 
 TEST_F(SleepingBox2dStack, KeepsTheMassThatTheProgramSet) {
+  scene.sleeper->wake(*stack.back());
   b2MassData heavy;
   stack.back()->GetMassData(&heavy);
   heavy.mass *= 3.0F;
   heavy.I *= 3.0F;
-  scene.sleeper->wake(*stack.back());
   stack.back()->SetMassData(&heavy);
   scene.run(240);
   ASSERT_TRUE(scene.sleeper->asleep(*stack.back()));
