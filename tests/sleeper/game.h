@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "common/math/require.h"
@@ -49,12 +50,16 @@ class Game {
       count += heights[i] - scene_.place(*boxes_[i])[up] > 0.8 * free_fall ? 1 : 0;
     return count;
   }
-  bool all_there() const {
-    return scene_.sleeper->size() == static_cast<int>(boxes_.size()) + 1 &&
-           std::ranges::all_of(boxes_, [&](const Body* box) {
-             const Vector at = scene_.place(*box);
-             return scene_.sleeper->watches(*box) && at[up] > 0.1 && at.norm() < 100;
-           });
+  /// Boxes that are lost, with their places; empty: none.
+  std::string lost() const {
+    std::string found;
+    if (scene_.sleeper->size() != static_cast<int>(boxes_.size()) + 1) found += "other numbers of bodies; ";
+    for (const Body* box : boxes_) {
+      const Vector at = scene_.place(*box);
+      if (scene_.sleeper->watches(*box) && at[up] > 0.1 && at.norm() < 100) continue;
+      for (const double number : at) found += std::to_string(number) + " ";
+    }
+    return found;
   }
   bool refuses_removed() const {
     return std::ranges::all_of(gone_, [&](Handle handle) {

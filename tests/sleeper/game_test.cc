@@ -11,7 +11,7 @@ namespace {
 template <typename Scene>
 void expect_sound(Game<Scene>& game) {
   game.rest();
-  EXPECT_TRUE(game.all_there());
+  EXPECT_EQ(game.lost(), "");
   EXPECT_TRUE(game.refuses_removed());
   EXPECT_LE(game.awake(), 3) << game.boxes() << " boxes";
   EXPECT_LE(game.highest_slot(), game.most_boxes);  // the most there ever were at once, and the lift
