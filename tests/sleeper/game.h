@@ -56,7 +56,7 @@ class Game {
     if (scene_.sleeper->size() != static_cast<int>(boxes_.size()) + 1) found += "other numbers of bodies; ";
     for (const Body* box : boxes_) {
       const Vector at = scene_.place(*box);
-      if (scene_.sleeper->watches(*box) && at[up] > 0.1 && at.norm() < 100) continue;
+      if (scene_.sleeper->watches(*box) && at[up] > 0.1 && at.cwiseAbs().maxCoeff() < 100) continue;
       for (const double number : at) found += std::to_string(number) + " ";
     }
     return found;
