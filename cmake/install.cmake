@@ -61,9 +61,7 @@ if(TALUS_LCM)
   talus_pkg_config(talus-telemetry "Piles of rigid bodies: record and live messages" "talus-core spdlog zlib" ""
                    "-L\${libdir} -ltalus_telemetry -llcm -pthread")
 endif()
-list(TRANSFORM components PREPEND "talus-" OUTPUT_VARIABLE modules)
-list(JOIN modules " " modules)
-talus_pkg_config(talus "Piles of rigid bodies: all its libraries" "${modules}" "" "")
+talus_pkg_config(talus "Piles of rigid bodies: sleep for any engine, in C" "" "-I\${includedir}" "-L\${libdir} -ltalus")
 
 # The command.
 install(TARGETS talus)

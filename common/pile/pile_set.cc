@@ -51,16 +51,23 @@ void PileSet<Dim>::place(const Vec<Dim>& landing, const BodyStates<Dim>& states)
 
 template <int Dim>
 void PileSet<Dim>::note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states) {
-  has_touched_.resize(states.shape.size(), 0);
-  const auto note = [&](BodyIndex body) {
-    if (body < 0 || has_touched_[body] != 0) return;
-    has_touched_[body] = 1;
-    if (states.asleep[body] != 0) recount_body(states, body);  // update() recounts the awake bodies only
-  };
   for (const Contact<Dim>& contact : contacts) {
-    note(contact.a);
-    note(contact.b);
+    note_touch(states, contact.a);
+    if (contact.b >= 0) note_touch(states, contact.b);
   }
+}
+
+template <int Dim>
+void PileSet<Dim>::note_touch(const BodyStates<Dim>& states, BodyIndex body) {
+  if (has_touched_.size() < states.shape.size()) has_touched_.resize(states.shape.size(), 0);
+  if (has_touched_[body] != 0) return;
+  has_touched_[body] = 1;
+  if (states.asleep[body] != 0) recount_body(states, body);  // update() recounts the awake bodies only
+}
+
+template <int Dim>
+void PileSet<Dim>::forget(BodyIndex body) {
+  if (body < std::ssize(has_touched_)) has_touched_[body] = 0;
 }
 
 template <int Dim>

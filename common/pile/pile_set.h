@@ -34,6 +34,11 @@ class PileSet {
   /// Notes which bodies have touched something.
   void note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
 
+  /// A body has touched something.
+  void note_touch(const BodyStates<Dim>& states, BodyIndex body);
+  /// The number of a body is now that of another one, or the body was put elsewhere.
+  void forget(BodyIndex body);
+
   /// Section 3.2, after a step of `dt` [s]: recounts the awake bodies and doubles full piles; at each
   /// `slow_update_interval` also drifts centres, measures slopes that are not given, and merges piles (3.5). Costs
   /// O(awake), nothing while all bodies sleep: then centres stay where they are. A pile that grew or moved is recounted

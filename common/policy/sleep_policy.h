@@ -69,6 +69,10 @@ class SleepPolicy {
   /// as they were carried out, the user, events, gravity, obstacles. A sleeping body that left the world comes as one
   /// that woke. What a policy keeps about sleeping bodies must follow from these calls alone.
   virtual void note(const World<Dim>& /*world*/, std::span<const SleepEvent> /*events*/) {}
+
+  /// The number of an awake body is now that of another one, or the body was put elsewhere: what the policy keeps of it
+  /// ends. Only in worlds that talus does not simulate.
+  virtual void forget(BodyIndex /*body*/) {}
 };
 
 /// Writes the policy's thresholds into the layers of a pile.

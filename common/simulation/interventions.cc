@@ -1,34 +1,19 @@
 #include "common/simulation/interventions.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "common/policy/near_bodies.h"
 #include "common/scene/typical_body.h"
 
 namespace talus {
 namespace {
-
-/// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of a hundredth of it a body has
-/// then moved by 0.02 D and is so fast that it counts as moving.
-constexpr double awake_after_gravity = 2.0;
-
-/// How near to what was removed sleeping bodies wake, in extents: a body that rests on another one touches its box.
-constexpr double waking_reach = 0.05;
 
 template <int Dim>
 std::vector<BodyIndex> all_bodies(const World<Dim>& world) {
   std::vector<BodyIndex> all(world.states().shape.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
-}
-
-template <int Dim>
-std::vector<BodyIndex> bodies_near(const World<Dim>& world, const Box<Dim>& bounds, double reach) {
-  const Vec<Dim> margin = Vec<Dim>::Constant(reach);
-  std::vector<BodyIndex> near;
-  world.query_box({bounds.min() - margin, bounds.max() + margin}, near);
-  return near;
 }
 
 template <int Dim>
@@ -58,7 +43,7 @@ Interventions<Dim>::Interventions(const Scene<Dim>& scene)
       obstacles_(scene),
       gravity_motion_(scene.gravity_motion),
       gravity_(scene.world.gravity_vector()),
-      gravity_of_sleepers_(gravity_) {}
+      gravity_change_(gravity_, extent_) {}
 
 template <int Dim>
 void Interventions<Dim>::do_due_events(const Intervened<Dim>& run, bool at_rest, std::span<const Pile<Dim>> piles) {
@@ -82,22 +67,18 @@ template <int Dim>
 void Interventions<Dim>::change_gravity(const Intervened<Dim>& run) {
   const Vec<Dim> now = gravity_motion_->turn_at(run.time) * (gravity_ + gravity_motion_->shift_at(run.time));
   run.world.set_gravity(now);
-  if (!same_gravity<Dim>(now, gravity_of_sleepers_)) wake_for_gravity(run);
+  if (gravity_change_.wakes(now)) wake_for_gravity(run);
 }
 
 template <int Dim>
 void Interventions<Dim>::wake_for_gravity(const Intervened<Dim>& run) {
-  gravity_of_sleepers_ = run.world.gravity();
-  woken_for_gravity_ = run.time;
+  gravity_change_.note_wake(run.world.gravity(), run.time);
   run.wake(all_bodies(run.world), SleepCause::user);
 }
 
 template <int Dim>
 bool Interventions<Dim>::must_stay_awake(const World<Dim>& world, BodyIndex body) const {
-  constexpr double longest = 10.0;  // [s]; with little gravity
-  const double unit = std::sqrt(extent_ / std::max(gravity_of_sleepers_.norm(), 1e-9));
-  const double since = woken_for_gravity_ ? time_ - *woken_for_gravity_ : longest;
-  return since < std::min(longest, awake_after_gravity * unit) || std::ranges::binary_search(pulled_, body) ||
+  return gravity_change_.keeps_awake(time_) || std::ranges::binary_search(pulled_, body) ||
          (!world.has_ring() && obstacles_.touch(world, body));
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/policy/gravity_change.h"
 #include "common/policy/sleep_policy.h"
 #include "common/scene/happened.h"
 #include "common/scene/scene.h"
@@ -82,10 +83,9 @@ class Interventions {
   std::vector<DoneEvent> done_events_;
   MovingObstacles<Dim> obstacles_;
   std::optional<Motion<Dim>> gravity_motion_;
-  Vec<Dim> gravity_;                         // before it changes by plan [m/s^2]
-  Vec<Dim> gravity_of_sleepers_;             // when all bodies were last woken for it
-  std::optional<double> woken_for_gravity_;  // when that was [s]
-  double time_ = 0.0;                        // at which the last step began [s]
+  Vec<Dim> gravity_;  // before it changes by plan [m/s^2]
+  GravityChange<Dim> gravity_change_;
+  double time_ = 0.0;  // at which the last step began [s]
   std::optional<Pull<Dim>> pull_;
   std::vector<BodyIndex> pulled_;  // in this step: the body and what lies beside it, ascending
 };

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/policy/sleep_policy.h"
+#include "common/policy/sleep_control.h"
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
 #include "common/simulation/interventions.h"
@@ -43,7 +43,7 @@ class Simulation {
   /// supported them.
   BodyIndex add(const BodyDef<Dim>& body) { return world_->add(body); }
   void remove(BodyIndex body) { interventions_.remove(intervened(), body); }
-  void thaw_all();
+  void thaw_all() { sleep_.wake_all(SleepCause::user); }
   /// Takes an obstacle away that is there, by its number in WorldDescription::obstacles. Sleeping bodies near it wake.
   void cut_obstacle(int number) { interventions_.cut_obstacle(intervened(), number); }
   /// Each step until release() pulls a body; it and what lies beside it stay awake meanwhile. The body must be in the
@@ -58,12 +58,12 @@ class Simulation {
     return {step_,
             time(),
             *world_,
-            piles_,
-            events_,
+            sleep_.piles(),
+            sleep_.events(),
             phases_,
             watchdog_.warnings(),
             watchdog_.bodies_planned(),
-            policy_.get(),
+            &sleep_.policy(),
             interventions_.done_events(),
             interventions_.clock().due().size(),
             probed_drift_,
@@ -72,7 +72,7 @@ class Simulation {
   }
   double time() const { return static_cast<double>(step_) * dt_; }
   const World<Dim>& world() const { return *world_; }
-  const PileSet<Dim>& piles() const { return piles_; }
+  const PileSet<Dim>& piles() const { return sleep_.piles(); }
   const Emitter<Dim>& emitter() const { return emitter_; }
   /// What observers were shown as Frame::warnings; after end() with the bodies that never appeared.
   std::span<const Warning> warnings() const { return watchdog_.warnings(); }
@@ -83,38 +83,20 @@ class Simulation {
 
  private:
   bool needs_contacts() const;
-  bool counts_piles() const { return policy_->decides() || watched() || interventions_.clock().waits_for_layers(); }
-  void count_piles();
-  void place_pile();
-  void decide();
-  void apply();
+  bool counts_piles() const;
   void freeze_initial_bodies();
   Intervened<Dim> intervened();
-  void forget(BodyIndex body);
-  void switch_policy(const std::string& kind);
-  void thaw_now(std::span<const BodyIndex> bodies, SleepCause cause);
-  void change_sleep(std::vector<SleepEvent>& events, bool woke);
-  void note(std::span<const SleepEvent> events);
-  void close_events();
-  void note_engine_sleep();
   bool watched() const { return !observers_.empty(); }
   void show();
 
   std::unique_ptr<World<Dim>> world_;
-  std::unique_ptr<SleepPolicy<Dim>> policy_;
+  SleepControl<Dim> sleep_;
   Emitter<Dim> emitter_;
-  PileSet<Dim> piles_;
   Watchdog<Dim> watchdog_;  // at work while there are observers
   std::vector<Observer<Dim>*> observers_;
-  Decision<Dim> decision_;
-  std::vector<BodyIndex> bodies_;           // scratch
-  std::vector<SleepEvent> events_;          // of the last step
-  std::vector<SleepEvent> new_events_;      // since the last step
-  std::vector<std::uint8_t> known_asleep_;  // by body, as events tell; with the engine's own sleeping only
   PhaseTimes phases_;
   double dt_;
   std::int64_t step_ = 0;
-  bool engine_sleep_;
   DebugOptions debug_;
   std::vector<BodyIndex> asleep_at_start_;
   Interventions<Dim> interventions_;

@@ -29,6 +29,28 @@ BodyIndex World<Dim>::add(const BodyDef<Dim>& body) {
 }
 
 template <int Dim>
+BodyIndex World<Dim>::add_unchecked(const Shape<Dim>& shape, const Pose<Dim>& pose, std::optional<BodyIndex> number) {
+  const BodyIndex body = number.value_or(states_.size());
+  if (!number) {
+    description_.shapes.emplace_back();
+    states_.shape.push_back(body);
+    states_.pose.emplace_back();
+    states_.velocity.emplace_back();
+    states_.spin.emplace_back();
+    states_.asleep.push_back(0);
+    states_.removed.push_back(0);
+  }
+  description_.shapes[body] = shape;
+  states_.pose[body] = pose;
+  states_.velocity[body].setZero();
+  states_.spin[body].setZero();
+  states_.asleep[body] = 0;
+  states_.removed[body] = 0;
+  awake_.insert(std::ranges::lower_bound(awake_, body), body);
+  return body;
+}
+
+template <int Dim>
 void World<Dim>::remove(BodyIndex body) {
   require_present(body);
   states_.removed[body] = 1;

@@ -104,6 +104,9 @@ class World {
   const Shape<Dim>& obstacle_shape(int number) const { return description_.obstacles[number].shape; }
   bool has_obstacle(int number) const { return removed_obstacles_.empty() || removed_obstacles_[number] == 0; }
 
+  /// Of a step [s].
+  double dt() const { return description_.dt; }
+
   /// Gravity from the next step on [m/s^2]. Sleeping bodies stay asleep.
   void set_gravity(const Vec<Dim>& gravity);
   Vec<Dim> gravity() const { return description_.gravity_vector(); }
@@ -151,6 +154,12 @@ class World {
 
   /// For an engine that moves bodies outside of step().
   BodyStates<Dim>& writable_states() { return states_; }
+
+  // For a world that talus does not simulate: steps of any length, and bodies that come and go without end.
+  void set_dt(double dt) { description_.dt = dt; }
+  /// Adds a body of a shape of its own, without the checks for engines of talus. It gets the number of a removed body
+  /// if `number` has one; that body's shape goes.
+  BodyIndex add_unchecked(const Shape<Dim>& shape, const Pose<Dim>& pose, std::optional<BodyIndex> number);
 
  private:
   // What an engine supplies. Indices are checked. freeze, thaw and remove have already changed states() and awake().

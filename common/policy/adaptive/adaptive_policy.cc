@@ -27,8 +27,6 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       rest_periods_{params.rest_period_deep, params.rest_period_surface, params.rest_period_woken},
       extent_(typical.extent),
       ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
-      max_speed_(speed_margin * fastest_speed<Dim>(world.dt)),
-      max_spin_(max_turn_per_step / world.dt),
       rest_({params, typical, world}),
       support_({params, typical, world}),
       impacts_ahead_({params, typical, world}),
@@ -48,7 +46,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   output_.clear();
   rest_.update(in);
   find_wakes(in);
-  limit_velocities();
+  limit_velocities(in.world.dt());
   for (const auto& [body, wake] : output_.wakes) {
     const Placement place = placement(frame, body);
     decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = wake.cause});
@@ -91,10 +89,20 @@ void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEve
 }
 
 template <int Dim>
-void AdaptivePolicy<Dim>::limit_velocities() {
+void AdaptivePolicy<Dim>::forget(BodyIndex body) {
+  rest_.forget(body);
+  impacts_.forget(body);
+  support_loss_.forget(body);
+  checks_.forget(body);
+}
+
+template <int Dim>
+void AdaptivePolicy<Dim>::limit_velocities(double dt) {
+  const double max_speed = speed_margin * fastest_speed<Dim>(dt);
+  const double max_spin = max_turn_per_step / dt;
   for (VelocityChange<Dim>& change : output_.velocities) {
-    change.velocity *= max_speed_ / std::max(change.velocity.norm(), max_speed_);
-    change.spin *= max_spin_ / std::max(change.spin.norm(), max_spin_);
+    change.velocity *= max_speed / std::max(change.velocity.norm(), max_speed);
+    change.spin *= max_spin / std::max(change.spin.norm(), max_spin);
   }
 }
 

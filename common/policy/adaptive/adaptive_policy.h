@@ -36,6 +36,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   std::vector<Reading> readings(const Frame<Dim>& frame, BodyIndex body) const override;
   void decide(const Frame<Dim>& frame, Decision<Dim>& decision) override;
   void note(const World<Dim>& world, std::span<const SleepEvent> events) override;
+  void forget(BodyIndex body) override;
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
     return ring_ ? std::nullopt : checks_.drift_estimate(world);
   }
@@ -58,7 +59,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   };
 
   void find_wakes(const RuleInput<Dim>& in);
-  void limit_velocities();
+  void limit_velocities(double dt);
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
   bool is_fast(const RuleInput<Dim>& in, BodyIndex body) const;
@@ -71,8 +72,6 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   RestTimes rest_periods_;         // in sqrt(D/g)
   double extent_;                  // D [m]
   double ground_;                  // its height [m]; without ground the lowest number
-  double max_speed_;               // [m/s]
-  double max_spin_;                // [rad/s]
   RestCriterion<Dim> rest_;
   SupportCriterion<Dim> support_;
   ImpactsAhead<Dim> impacts_ahead_;

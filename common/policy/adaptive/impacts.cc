@@ -45,6 +45,12 @@ void Impacts<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& re
 }
 
 template <int Dim>
+void Impacts<Dim>::forget(BodyIndex body) {
+  std::erase_if(impulses_,
+                [body](const ContactImpulse& contact) { return contact.awake == body || contact.sleeper == body; });
+}
+
+template <int Dim>
 void Impacts<Dim>::collect(const RuleInput<Dim>& in) {
   last_impulses_.swap(impulses_);
   impulses_.clear();

@@ -24,6 +24,9 @@ class Impacts {
   /// Costs O(contacts).
   void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, RuleOutput<Dim>& out);
 
+  /// As SleepPolicy::forget().
+  void forget(BodyIndex body);
+
  private:
   /// The sum of one awake body's contacts with one sleeping body in a step.
   struct ContactImpulse {

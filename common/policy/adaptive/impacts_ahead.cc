@@ -50,8 +50,7 @@ double speed_aside(const RuleInput<Dim>& in, BodyIndex body) {
 template <int Dim>
 ImpactsAhead<Dim>::ImpactsAhead(const RuleSetup<Dim>& setup)
     : wake_height_(setup.params.wake_height * setup.typical.extent),
-      heavy_mass_(setup.params.heavy_impact * setup.typical.mass),
-      dt_(setup.world.dt) {}
+      heavy_mass_(setup.params.heavy_impact * setup.typical.mass) {}
 
 template <int Dim>
 void ImpactsAhead<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
@@ -93,7 +92,7 @@ void ImpactsAhead<Dim>::clear_pushes(const RuleInput<Dim>& in) {
 template <int Dim>
 void ImpactsAhead<Dim>::find_path(const RuleInput<Dim>& in, BodyIndex body) {
   Box<Dim> path = in.world.bounds_of(body);
-  path.extend(Box<Dim>(path).translate(2.0 * dt_ * in.states().velocity[body]));
+  path.extend(Box<Dim>(path).translate(2.0 * in.world.dt() * in.states().velocity[body]));
   path_.clear();
   in.world.query_box(path, path_);
 }

@@ -32,7 +32,6 @@ class ImpactsAhead {
   double wake_height_;                 // to which the struck point of a body must be able to rise [m]
   double wake_speed_ = 0.0;            // speed for that in the gravity of this step [m/s]
   double heavy_mass_;                  // that an impact must be able to move [kg]
-  double dt_;                          // [s]
   std::vector<Vec<Dim>> pushes_;       // [body] scratch, all 0 between calls: impulse from awake bodies [N s]
   std::vector<BodyIndex> path_;        // scratch
   std::vector<BodyIndex> next_ring_;   // scratch

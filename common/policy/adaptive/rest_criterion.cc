@@ -23,8 +23,7 @@ double max_displacement(const Pose<Dim>& from, const Pose<Dim>& to, double reach
 template <int Dim>
 RestCriterion<Dim>::RestCriterion(const RuleSetup<Dim>& setup)
     : distance_(setup.params.rest_distance_factor() * setup.params.rest_distance * setup.typical.extent),
-      distance_woken_(setup.params.rest_distance_factor() * setup.params.rest_distance_woken * setup.typical.extent),
-      dt_(setup.world.dt) {}
+      distance_woken_(setup.params.rest_distance_factor() * setup.params.rest_distance_woken * setup.typical.extent) {}
 
 template <int Dim>
 void RestCriterion<Dim>::update(const RuleInput<Dim>& in) {
@@ -32,6 +31,7 @@ void RestCriterion<Dim>::update(const RuleInput<Dim>& in) {
   references_.clear();
   if (last_step_ != in.step - 1) last_references_.clear();  // after a gap every rest begins again
   last_step_ = in.step;
+  time_ += in.world.dt();
   auto last = last_references_.begin();
   for (const BodyIndex body : in.world.awake()) {
     const Pose<Dim>& pose = in.pose_of(body);
@@ -45,11 +45,20 @@ void RestCriterion<Dim>::update(const RuleInput<Dim>& in) {
     } else {
       const bool woke = !was_awake && body < last_count_;
       const bool unmoved = woke && !std::ranges::binary_search(expected_to_move_, body);
-      references_.push_back({.body = body, .pose = pose, .since = in.step, .unmoved_since_wake = unmoved});
+      references_.push_back({.body = body, .pose = pose, .since = time_, .unmoved_since_wake = unmoved});
     }
   }
   last_count_ = in.states().size();
   expected_to_move_.clear();
+}
+
+/// A new body has not rested before, so it is expected to move.
+template <int Dim>
+void RestCriterion<Dim>::forget(BodyIndex body) {
+  const auto is_of_body = [body](const Reference& reference) { return reference.body == body; };
+  std::erase_if(references_, is_of_body);
+  std::erase_if(last_references_, is_of_body);
+  expected_to_move_.insert(std::ranges::lower_bound(expected_to_move_, body), body);
 }
 
 template <int Dim>
@@ -61,7 +70,7 @@ void RestCriterion<Dim>::expect_motion(const WakeList& wakes) {
 
 template <int Dim>
 double RestCriterion<Dim>::time_at_rest(BodyIndex body) const {
-  return static_cast<double>(last_step_ - reference_of(body).since) * dt_;
+  return time_ - reference_of(body).since;
 }
 
 template <int Dim>

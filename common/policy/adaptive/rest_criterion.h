@@ -19,6 +19,9 @@ class RestCriterion {
   /// Costs O(awake).
   void update(const RuleInput<Dim>& in);
 
+  /// As SleepPolicy::forget().
+  void forget(BodyIndex body);
+
   /// Bodies in `wakes` whose impact is still to come are not marked as unmoved when they wake.
   void expect_motion(const WakeList& wakes);
 
@@ -38,7 +41,7 @@ class RestCriterion {
   struct Reference {
     BodyIndex body = 0;
     Pose<Dim> pose{};
-    std::int64_t since = 0;  // step
+    double since = 0.0;  // on the clock of time_ [s]
     bool unmoved_since_wake = false;
   };
 
@@ -46,10 +49,10 @@ class RestCriterion {
 
   double distance_;                         // [m]
   double distance_woken_;                   // [m]
-  double dt_;                               // [s]
   std::vector<Reference> references_;       // of the awake bodies, ascending
   std::vector<Reference> last_references_;  // of the step before
   std::int64_t last_step_ = -1;
+  double time_ = 0.0;                        // sum of the steps that update() saw [s]
   std::vector<BodyIndex> expected_to_move_;  // of the bodies that the last step woke, ascending
   BodyIndex last_count_ = 0;                 // bodies in the world in the last step
 };

@@ -11,6 +11,11 @@ typename SleepLedger<Dim>::Count SleepLedger<Dim>::count(const Column& column) c
 }
 
 template <int Dim>
+bool SleepLedger<Dim>::settled(BodyIndex body) const {
+  return body < std::ssize(sleepers_) && sleepers_[body] && sleepers_[body]->standing == Standing::settled;
+}
+
+template <int Dim>
 void SleepLedger<Dim>::put_in(BodyIndex body, const Vec<Dim>& position, Standing standing) {
   if (std::ssize(sleepers_) <= body) sleepers_.resize(body + 1);
   if (sleepers_[body]) return;

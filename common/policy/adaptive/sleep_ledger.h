@@ -41,6 +41,8 @@ class SleepLedger {
   /// Columns with sleeping bodies.
   const std::map<Column, Count>& counts() const { return counts_; }
   Count count(const Column& column) const;
+  /// Whether a body sleeps and waits for no check.
+  bool settled(BodyIndex body) const;
   /// Bodies that wait for a check.
   int unchecked() const { return unchecked_; }
 

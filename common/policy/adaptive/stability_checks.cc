@@ -60,13 +60,12 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
       tolerance_(setup.params.tolerance * setup.typical.extent),
       angle_(setup.params.avalanche_angle),
       extent_(setup.typical.extent),
-      dt_(setup.world.dt),
       loaded_share_(setup.params.loaded_share()) {}
 
 template <int Dim>
 typename StabilityChecks<Dim>::Times StabilityChecks<Dim>::times_in(const World<Dim>& world) const {
   const double unit = time_unit(extent_, world);
-  const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / dt_)); };
+  const auto steps = [&](double time) { return std::max<std::int64_t>(1, std::llround(time * unit / world.dt())); };
   return {.rest = rest_time * unit,
           .sample = steps(sample_time),
           .shortest_check = steps(shortest_time),
@@ -78,6 +77,16 @@ typename StabilityChecks<Dim>::Times StabilityChecks<Dim>::times_in(const World<
 template <int Dim>
 bool StabilityChecks<Dim>::holds(BodyIndex body) const {
   return body < std::ssize(held_) && held_[body] != 0;
+}
+
+template <int Dim>
+void StabilityChecks<Dim>::forget(BodyIndex body) {
+  if (body >= std::ssize(held_)) return;
+  held_[body] = 0;
+  arrived_[body] = 0;
+  checked_[body].reset();
+  for (Check& check : checks_)
+    std::erase_if(check.members, [body](const Member& member) { return member.body == body; });
 }
 
 template <int Dim>

@@ -58,6 +58,9 @@ class StabilityChecks {
   /// O(bodies + contacts).
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const;
 
+  /// As SleepPolicy::forget().
+  void forget(BodyIndex body);
+
   /// Releases what has come to rest and begins the checks that are due. Costs O(awake + contacts + unchecked columns) a
   /// few times in sqrt(D / g), and a box query for each column that is checked.
   void update(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, SleepLedger<Dim>& sleepers,
@@ -145,7 +148,6 @@ class StabilityChecks {
   double tolerance_;                             // [m]; 0: no checks
   double angle_;                                 // [rad] above which a controlled slope is not checked
   double extent_;                                // D [m]
-  double dt_;                                    // [s]
   Times times_;                                  // in the gravity of the last update()
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
   bool may_begin_ = false;                       // false once a sample has found that no check is to come

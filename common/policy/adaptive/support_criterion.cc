@@ -71,8 +71,7 @@ class SupportGraph {
 }  // namespace
 
 template <int Dim>
-SupportCriterion<Dim>::SupportCriterion(const RuleSetup<Dim>& setup)
-    : awake_share_(setup.params.awake_share), dt_(setup.world.dt) {}
+SupportCriterion<Dim>::SupportCriterion(const RuleSetup<Dim>& setup) : awake_share_(setup.params.awake_share) {}
 
 template <int Dim>
 void SupportCriterion<Dim>::keep_supported(const RuleInput<Dim>& in, std::vector<BodyIndex>& candidates) const {
@@ -82,7 +81,7 @@ void SupportCriterion<Dim>::keep_supported(const RuleInput<Dim>& in, std::vector
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const double weight = in.shape_of(candidates[i]).mass * in.world.gravity_size() * dt_;
+      const double weight = in.shape_of(candidates[i]).mass * in.world.gravity_size() * in.world.dt();
       if (kept[i] == 0 || graph.supported(i, weight, awake_share_)) continue;
       kept[i] = 0;
       graph.keep_awake(i);

@@ -22,7 +22,6 @@ class SupportCriterion {
 
  private:
   double awake_share_;
-  double dt_;  // [s]
 };
 
 }  // namespace talus

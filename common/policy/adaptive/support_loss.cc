@@ -32,6 +32,13 @@ void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   }
 }
 
+template <int Dim>
+void SupportLoss<Dim>::forget(BodyIndex body) {
+  std::erase_if(contacts_, [body](const SupportContact& contact) {
+    return contact.supporter == body || contact.supported == body;
+  });
+}
+
 /// A support ends when its supporter falls asleep, when the supported body wakes, or when either leaves the world.
 template <int Dim>
 void SupportLoss<Dim>::forget_ended(const RuleInput<Dim>& in) {

@@ -18,6 +18,9 @@ class SupportLoss {
   /// Costs O(contacts).
   void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
 
+  /// As SleepPolicy::forget().
+  void forget(BodyIndex body);
+
  private:
   /// A contact by which an awake body supports a sleeping one.
   struct SupportContact {

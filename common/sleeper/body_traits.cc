@@ -1,0 +1,79 @@
+#include "common/sleeper/body_traits.h"
+
+#include <cmath>
+
+#include "common/math/require.h"
+
+namespace talus {
+namespace {
+
+template <int Dim>
+Box<Dim> centred_box(const Vec<Dim>& size) {
+  return {-0.5 * size, 0.5 * size};
+}
+
+template <int Dim>
+void check_traits(const BodyTraits<Dim>& traits, bool kinematic) {
+  const Vec<Dim> size = traits.bounds.max() - traits.bounds.min();
+  require(size.allFinite() && size.minCoeff() > 0.0, "bounds size", size.minCoeff(),
+          "must be finite and above 0 on every axis");
+  require(std::isfinite(traits.friction) && traits.friction >= 0.0, "friction", traits.friction,
+          "must be finite and at least 0");
+  if (kinematic) return;
+  require(std::isfinite(traits.mass) && traits.mass > 0.0, "mass", traits.mass, "must be finite and above 0");
+  require(traits.inertia.allFinite() && traits.inertia.determinant() > 0.0, "inertia", traits.inertia.determinant(),
+          "must be finite and have a determinant above 0");
+}
+
+}  // namespace
+
+template <int Dim>
+BodyTraits<Dim> box_traits(double mass, const Vec<Dim>& size) {
+  BodyTraits<Dim> traits{.mass = mass, .bounds = centred_box<Dim>(size)};
+  const double squares = size.squaredNorm();
+  if constexpr (Dim == 2)
+    traits.inertia(0, 0) = mass / 12.0 * squares;
+  else
+    traits.inertia.diagonal() = mass / 12.0 * (Vec3::Constant(squares) - size.cwiseAbs2());
+  return traits;
+}
+
+template <int Dim>
+BodyTraits<Dim> ball_traits(double mass, double radius) {
+  const double share = Dim == 2 ? 0.5 : 0.4;
+  return {.mass = mass,
+          .inertia = share * mass * radius * radius * Inertia<Dim>::Identity(),
+          .bounds = centred_box<Dim>(Vec<Dim>::Constant(2.0 * radius))};
+}
+
+template <int Dim>
+BodyTraits<Dim> traits_of(const Shape<Dim>& shape) {
+  return {.mass = shape.mass, .inertia = shape.inertia, .bounds = shape.bounds, .friction = shape.material.friction};
+}
+
+template <int Dim>
+Shape<Dim> shape_with(const BodyTraits<Dim>& traits, bool kinematic) {
+  check_traits(traits, kinematic);
+  const Vec<Dim> size = traits.bounds.max() - traits.bounds.min();
+  Shape<Dim> shape;
+  shape.pieces = {BoxPiece<Dim>{.pose = {.position = traits.bounds.center()}, .half = 0.5 * size}};
+  shape.material.friction = traits.friction;
+  shape.mass = traits.mass;
+  shape.inertia = traits.inertia;
+  shape.bounds = traits.bounds;
+  shape.bounding_volume = size.prod();
+  shape.volume = shape.bounding_volume;
+  shape.extent = size.norm();
+  return shape;
+}
+
+template BodyTraits<2> box_traits<2>(double, const Vec<2>&);
+template BodyTraits<3> box_traits<3>(double, const Vec<3>&);
+template BodyTraits<2> ball_traits<2>(double, double);
+template BodyTraits<3> ball_traits<3>(double, double);
+template BodyTraits<2> traits_of<2>(const Shape<2>&);
+template BodyTraits<3> traits_of<3>(const Shape<3>&);
+template Shape<2> shape_with<2>(const BodyTraits<2>&, bool);
+template Shape<3> shape_with<3>(const BodyTraits<3>&, bool);
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+#pragma once
+// What a sleeper must know of a body besides its motion.
+
+#include "common/shape/shape.h"
+
+namespace talus {
+
+template <int Dim>
+struct BodyTraits {
+  double mass = 0.0;                            // [kg] > 0; of a kinematic body it means nothing
+  Inertia<Dim> inertia = Inertia<Dim>::Zero();  // about the centre of mass, in the body's own axes [kg m^2]
+  Box<Dim> bounds = {};                         // in the body's own axes, around the centre of mass [m]
+  double friction = 0.5;                        // of its surface against one like it
+};
+
+/// A box of uniform density; `size` [m].
+template <int Dim>
+BodyTraits<Dim> box_traits(double mass, const Vec<Dim>& size);
+/// A ball, in 2D a disc, of uniform density; `radius` [m].
+template <int Dim>
+BodyTraits<Dim> ball_traits(double mass, double radius);
+/// A shape of talus.
+template <int Dim>
+BodyTraits<Dim> traits_of(const Shape<Dim>& shape);
+
+/// The traits as a shape: a box of the size of `bounds` with the given mass and inertia. Throws InvalidValue.
+template <int Dim>
+Shape<Dim> shape_with(const BodyTraits<Dim>& traits, bool kinematic);
+
+}  // namespace talus

@@ -1,0 +1,122 @@
+#include "common/sleeper/given_world.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace talus {
+namespace {
+
+/// Boxes are larger than the bodies by this part of their extent, as those of engines are: bodies that touch with a
+/// small gap have boxes that touch.
+constexpr double box_margin = 0.02;
+
+template <int Dim>
+WorldDescription<Dim> empty_description(const Vec<Dim>& gravity) {
+  WorldDescription<Dim> description;
+  description.ground.present = false;
+  description.gravity = gravity.norm();
+  if (description.gravity > 0.0) description.down = gravity / description.gravity;
+  return description;
+}
+
+template <int Dim>
+Contact<Dim> turned_over(Contact<Dim> contact) {
+  std::swap(contact.a, contact.b);
+  contact.normal *= -1.0;
+  contact.friction_impulse *= -1.0;
+  return contact;
+}
+
+}  // namespace
+
+template <int Dim>
+GivenWorld<Dim>::GivenWorld(const Vec<Dim>& gravity) : World<Dim>(empty_description<Dim>(gravity)) {
+  this->record_contacts(true);
+}
+
+template <int Dim>
+std::optional<BodyIndex> GivenWorld<Dim>::free_number() const {
+  if (free_.empty()) return std::nullopt;
+  return free_.back();
+}
+
+template <int Dim>
+BodyIndex GivenWorld<Dim>::put(const Shape<Dim>& shape, const Pose<Dim>& pose) {
+  const BodyIndex body = this->add_unchecked(shape, pose, free_number());
+  if (!free_.empty()) free_.pop_back();
+  columns_.put(body, pose.position, shape.extent);
+  return body;
+}
+
+template <int Dim>
+void GivenWorld<Dim>::sort_for(double extent) {
+  columns_ = BodyColumns<Dim>(2.0 * extent);
+  for (BodyIndex body = 0; body < this->states().size(); ++body)
+    if (this->states().removed[body] == 0)
+      columns_.put(body, this->states().pose[body].position, this->shape_of(body).extent);
+}
+
+template <int Dim>
+void GivenWorld<Dim>::engine_remove(BodyIndex body) {
+  columns_.take_out(body);
+  free_.push_back(body);
+}
+
+template <int Dim>
+void GivenWorld<Dim>::give(BodyIndex body, const Pose<Dim>& pose, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+  BodyStates<Dim>& states = this->writable_states();
+  states.velocity[body] = velocity;
+  states.spin[body] = spin;
+  place(body, pose);
+}
+
+template <int Dim>
+void GivenWorld<Dim>::place(BodyIndex body, const Pose<Dim>& pose) {
+  this->writable_states().pose[body] = pose;
+  columns_.put(body, pose.position, this->shape_of(body).extent);
+}
+
+/// Brings the contacts into the form of World::contacts(): those of awake bodies, of two the one with the lower number
+/// first, pairs side by side.
+template <int Dim>
+void GivenWorld<Dim>::give_contacts(std::span<const Contact<Dim>> contacts) {
+  const auto turns = [this](BodyIndex a, BodyIndex b) { return !is_awake(a) || (is_awake(b) && b < a); };
+  runs_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto [a, b] = turns(contacts[i].a, contacts[i].b) ? std::pair(contacts[i].b, contacts[i].a)
+                                                            : std::pair(contacts[i].a, contacts[i].b);
+    if (!is_awake(a)) continue;
+    const std::int64_t pair = (std::int64_t{a} << 32) + b;
+    if (!runs_.empty() && runs_.back().pair == pair && runs_.back().first + runs_.back().count == i)
+      ++runs_.back().count;
+    else
+      runs_.push_back({pair, i, 1});
+  }
+  std::ranges::sort(runs_, {}, [](const Run& run) { return std::pair(run.pair, run.first); });
+  given_.clear();
+  for (const Run& run : runs_)
+    for (const Contact<Dim>& contact : contacts.subspan(run.first, run.count))
+      given_.push_back(turns(contact.a, contact.b) ? turned_over(contact) : contact);
+}
+
+template <int Dim>
+void GivenWorld<Dim>::engine_contacts(std::vector<Contact<Dim>>& contacts) {
+  contacts.insert(contacts.end(), given_.begin(), given_.end());
+}
+
+template <int Dim>
+void GivenWorld<Dim>::engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const {
+  const auto before = static_cast<std::ptrdiff_t>(found.size());
+  columns_.query(box, found);
+  const auto apart = [&](BodyIndex body) {
+    const Vec<Dim> margin = Vec<Dim>::Constant(box_margin * this->shape_of(body).extent);
+    const Box<Dim> bounds = this->bounds_of(body);
+    return !box.intersects(Box<Dim>(bounds.min() - margin, bounds.max() + margin));
+  };
+  found.erase(std::remove_if(found.begin() + before, found.end(), apart), found.end());
+}
+
+template class GivenWorld<2>;
+template class GivenWorld<3>;
+
+}  // namespace talus

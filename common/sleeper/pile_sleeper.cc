@@ -1,0 +1,332 @@
+#include "common/sleeper/pile_sleeper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/require.h"
+#include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/near_bodies.h"
+#include "common/scene/policy_fields.h"
+
+namespace talus {
+namespace {
+
+/// In D: how near a sleeping body must be to a kinematic one to touch it; above the gaps that engines keep.
+constexpr double touching_distance = 0.03;
+/// In D: how far a sleeping body may be from where it fell asleep. Single precision rounds.
+constexpr double stays_within = 1e-3;
+
+const SleeperOptions& checked(const SleeperOptions& options) {
+  check_fields(options.adaptive, adaptive_fields, "adaptive");
+  require(options.adaptive.rings == 0, "adaptive.rings", options.adaptive.rings,
+          "must be 0: the foreign engine solves the contacts");
+  const double extent = options.extent.value_or(1.0);
+  require(std::isfinite(extent) && extent > 0.0, "extent", extent, "must be finite and above 0");
+  return options;
+}
+
+template <int Dim>
+bool finite(const Pose<Dim>& pose) {
+  if constexpr (Dim == 2)
+    return pose.position.allFinite() && std::isfinite(pose.rotation.angle());
+  else
+    return pose.position.allFinite() && pose.rotation.coeffs().allFinite();
+}
+
+template <int Dim>
+bool finite(const GivenContact<Dim>& contact) {
+  // A sum is finite only if its terms are.
+  const Vec<Dim> sum = contact.point + contact.normal + contact.friction_impulse;
+  return std::isfinite(sum.sum() + contact.normal_impulse + contact.approach_speed);
+}
+
+}  // namespace
+
+template <int Dim>
+PileSleeper<Dim>::PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& options)
+    : enabled_(checked(options).enabled),
+      turn_(options.up.value_or(up_against<Dim>(gravity))),
+      sleeping_(turn_.in(gravity), options) {}
+
+template <int Dim>
+Handle PileSleeper<Dim>::add(const BodyTraits<Dim>& traits, const Pose<Dim>& pose, BodyRole role) {
+  require(finite<Dim>(pose), "pose", pose.position.norm(), "must be finite");
+  const bool kinematic = role == BodyRole::kinematic;
+  const Shape<Dim> shape = shape_with(traits, kinematic);
+  const Pose<Dim> at = turn_.in(pose);
+  if (kinematic) return kinematic_handles_.emplace_back(handles_.add(role, kinematic_.add(shape, at)));
+  const BodyIndex body = sleeping_.add(shape, at, role == BodyRole::stays_awake);
+  const Handle handle = handles_.add(role, body);
+  handle_of_.resize(world().states().asleep.size());
+  handle_of_[body] = handle;
+  return handle;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::remove(Handle handle) {
+  changes_ = {};
+  const Entry entry = handles_.at(handle, "body");
+  const Box<Dim> box = bounds(entry);
+  const double extent = (box.max() - box.min()).norm();
+  std::vector<BodyIndex> neighbours = near(box, extent);
+  if (entry.role == BodyRole::kinematic) {
+    kinematic_.remove(entry.number);
+    std::erase(kinematic_handles_, handle);
+  } else {
+    std::erase(neighbours, entry.number);
+    sleeping_.remove(entry.number);
+  }
+  handles_.remove(handle);
+  note(sleeping_.wake(neighbours, SleepCause::lost_support));
+  return changes_;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::set_role(Handle handle, BodyRole role) {
+  changes_ = {};
+  const Entry& entry = handles_.at(handle, "body");
+  require(entry.role != BodyRole::kinematic && role != BodyRole::kinematic, "role", static_cast<double>(role),
+          "must not be kinematic, before or after: remove the body and add it again");
+  handles_.set_role(handle, role);
+  sleeping_.keep_awake(entry.number, role == BodyRole::stays_awake);
+  if (role == BodyRole::stays_awake) note(sleeping_.wake(std::vector{entry.number}, SleepCause::user));
+  return changes_;
+}
+
+template <int Dim>
+Box<Dim> PileSleeper<Dim>::bounds(const Entry& entry) const {
+  return entry.role == BodyRole::kinematic ? kinematic_.bounds(entry.number) : world().bounds_of(entry.number);
+}
+
+/// Bodies by a box of something that goes or comes.
+template <int Dim>
+std::vector<BodyIndex> PileSleeper<Dim>::near(const Box<Dim>& box, double extent) const {
+  return bodies_near<Dim>(world(), box, waking_reach * extent);
+}
+
+template <int Dim>
+std::span<const Handle> PileSleeper<Dim>::followed() {
+  followed_.clear();
+  if (!enabled_) return followed_;
+  followed_ = kinematic_handles_;
+  for (const BodyIndex body : world().awake()) followed_.push_back(handle_of(body));
+  return followed_;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::after_step(const GivenStep<Dim>& step) {
+  changes_ = {};
+  if (!enabled_) return changes_;
+  check_step(step);
+  take_states(step);
+  take_contacts(step);
+  note(sleeping_.prepare(contacts_));
+  std::vector<BodyIndex> reached;
+  for (const Handle handle : kinematic_handles_)
+    kinematic_.find_sleepers(handles_.at(handle, "body").number, world(), touching_distance * sleeping_.extent(),
+                             reached);
+  note(sleeping_.wake(reached, SleepCause::lost_support));
+  for (const BodyIndex body : reached) follows_[body] = 1;
+  world().give_contacts(contacts_);
+  const Decision<Dim>& decision = sleeping_.decide(step.dt, follows_);
+  note(decision.thaw);
+  note(decision.freeze);
+  for (const VelocityChange<Dim>& change : decision.velocities)
+    changes_.velocities.push_back(
+        {handle_of(change.body), turn_.out(change.velocity), turn_.spin_out(change.spin), SleepCause::momentum});
+  return changes_;
+}
+
+/// Everything is checked before anything is taken over.
+template <int Dim>
+void PileSleeper<Dim>::check_step(const GivenStep<Dim>& step) {
+  require(std::isfinite(step.dt) && step.dt > 0.0, "dt", step.dt, "must be finite and above 0");
+  const std::size_t count = step.bodies.size();
+  require(step.poses.size() == count && step.velocities.size() == count && step.spins.size() == count, "bodies",
+          static_cast<double>(count), "must be as many as poses, velocities and spins");
+  given_.resize(handles_.entries().size(), 0);
+  ++steps_;
+  for (std::size_t i = 0; i < count; ++i) check_state(step, i);
+  for (const Handle handle : step.bodies) {
+    require(given_[handle.slot] != steps_, "bodies", handle.slot, "must have each body once");
+    given_[handle.slot] = steps_;
+  }
+  const auto require_given = [this](Handle handle) {
+    require(given_[handle.slot] == steps_, "bodies", handle.slot, "must be among the bodies given: see followed()");
+  };
+  for (const BodyIndex body : world().awake()) require_given(handle_of(body));
+  for (const Handle handle : kinematic_handles_) require_given(handle);
+  for (const GivenContact<Dim>& contact : step.contacts) {
+    require(handles_.has(contact.a), "contact.a", contact.a.slot, "must be the handle of a body that is there");
+    require(contact.b == Handle{} || handles_.has(contact.b), "contact.b", contact.b.slot,
+            "must be the handle of a body that is there, or the default");
+    require(finite<Dim>(contact), "contact of body", contact.a.slot, "must be finite");
+  }
+}
+
+/// A sleeping body that was moved without moved() would hang where it is.
+template <int Dim>
+void PileSleeper<Dim>::check_state(const GivenStep<Dim>& step, std::size_t i) const {
+  const Handle handle = step.bodies[i];
+  const Entry& entry = handles_.at(handle, "bodies");
+  require(finite<Dim>(step.poses[i]) && step.velocities[i].allFinite() && step.spins[i].allFinite(),
+          fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), "must be finite");
+  if (entry.role == BodyRole::kinematic || world().states().asleep[entry.number] == 0) return;
+  const double reach = 0.5 * world().shape_of(entry.number).extent;
+  const Pose<Dim>& slept = world().states().pose[entry.number];
+  const double way = max_displacement<Dim>(slept, turn_.in(step.poses[i]), reach);
+  require(way <= stays_within * 2.0 * reach, fmt::format("way of sleeping body {}", handle.slot), way,
+          "must be 0: a sleeping body was moved without a call of moved() or wake()");
+}
+
+template <int Dim>
+void PileSleeper<Dim>::take_states(const GivenStep<Dim>& step) {
+  for (std::size_t i = 0; i < step.bodies.size(); ++i) {
+    const Entry& entry = handles_.at(step.bodies[i], "bodies");
+    const Pose<Dim> pose = turn_.in(step.poses[i]);
+    const Vec<Dim> velocity = turn_.in(step.velocities[i]);
+    const Spin<Dim> spin = turn_.spin_in(step.spins[i]);
+    if (entry.role == BodyRole::kinematic)
+      kinematic_.move(entry.number, pose, velocity, spin, step.dt, sleeping_.extent());
+    else if (world().states().asleep[entry.number] == 0)
+      world().give(entry.number, pose, velocity, spin);
+  }
+}
+
+/// The number of a contact's side as World::contacts() has it.
+template <int Dim>
+BodyIndex PileSleeper<Dim>::side(Handle handle) const {
+  if (handle == Handle{}) return ground_index;
+  const Entry& entry = handles_.at(handle, "contact");
+  return entry.role == BodyRole::kinematic ? first_obstacle - entry.number : entry.number;
+}
+
+template <int Dim>
+void PileSleeper<Dim>::take_contacts(const GivenStep<Dim>& step) {
+  contacts_.clear();
+  follows_.assign(world().states().asleep.size(), 0);
+  for (const GivenContact<Dim>& given : step.contacts) {
+    const BodyIndex a = side(given.a);
+    const BodyIndex b = side(given.b);
+    if (b <= first_obstacle && a >= 0 && kinematic_.moved(first_obstacle - b)) follows_[a] = 1;
+    if (a <= first_obstacle && b >= 0 && kinematic_.moved(first_obstacle - a)) follows_[b] = 1;
+    contacts_.push_back({.a = a,
+                         .b = b,
+                         .point = turn_.in(given.point),
+                         .normal = turn_.in(given.normal),
+                         .normal_impulse = given.normal_impulse,
+                         .friction_impulse = turn_.in(given.friction_impulse),
+                         .approach_speed = given.approach_speed,
+                         .depth = given.depth});
+  }
+}
+
+template <int Dim>
+void PileSleeper<Dim>::note(const Events& events) {
+  for (const SleepEvent& event : events)
+    (event.woke ? changes_.thaw : changes_.freeze).push_back({handle_of(event.body), event.cause});
+}
+
+template <int Dim>
+bool PileSleeper<Dim>::asleep(Handle handle) const {
+  const Entry& entry = handles_.at(handle, "body");
+  return entry.role != BodyRole::kinematic && world().states().asleep[entry.number] != 0;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::wake(Handle handle) {
+  changes_ = {};
+  const Entry& entry = handles_.at(handle, "body");
+  if (asleep(handle)) note(sleeping_.set_moving(entry.number, SleepCause::user));
+  return changes_;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::wake_all() {
+  changes_ = {};
+  note(sleeping_.wake_all());
+  return changes_;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::wake_near(const Box<Dim>& box) {
+  changes_ = {};
+  require(!box.min().hasNaN() && !box.max().hasNaN(), "box", "NaN", "must have corners that are numbers");
+  if (box.isEmpty()) return changes_;
+  Box<Dim> turned;
+  turned.extend(turn_.in(box.min()));
+  turned.extend(turn_.in(box.max()));
+  note(sleeping_.wake(near(turned, sleeping_.extent()), SleepCause::lost_support));
+  return changes_;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::moved(Handle handle, const Pose<Dim>& to) {
+  changes_ = {};
+  const Entry& entry = handles_.at(handle, "body");
+  require(finite<Dim>(to), "pose", to.position.norm(), "must be finite");
+  const Box<Dim> before = bounds(entry);
+  const double extent = (before.max() - before.min()).norm();
+  std::vector<BodyIndex> neighbours = near(before, extent);
+  if (entry.role == BodyRole::kinematic)
+    kinematic_.place(entry.number, turn_.in(to));
+  else
+    note(sleeping_.set_moving(entry.number, SleepCause::user));
+  note(sleeping_.wake(neighbours, SleepCause::lost_support));
+  if (entry.role != BodyRole::kinematic) world().place(entry.number, turn_.in(to));
+  note(sleeping_.wake(near(bounds(entry), extent), SleepCause::user));
+  return changes_;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::set_gravity(const Vec<Dim>& gravity) {
+  changes_ = {};
+  require(gravity.allFinite(), "gravity", gravity.norm(), "must be finite");
+  note(sleeping_.set_gravity(turn_.in(gravity)));
+  return changes_;
+}
+
+template <int Dim>
+std::vector<SavedSleep> PileSleeper<Dim>::snapshot() const {
+  std::vector<SavedSleep> saved;
+  for (std::uint32_t slot = 0; slot < handles_.entries().size(); ++slot) {
+    const Entry& entry = handles_.entries()[slot];
+    if (!entry.present || entry.role == BodyRole::kinematic) continue;
+    const bool asleep = world().states().asleep[entry.number] != 0;
+    saved.push_back({{slot, entry.generation}, asleep, asleep && sleeping_.settled(entry.number)});
+  }
+  return saved;
+}
+
+template <int Dim>
+const SleepChanges<Dim>& PileSleeper<Dim>::restore(std::span<const SavedSleep> saved,
+                                                   std::span<const Pose<Dim>> poses) {
+  changes_ = {};
+  require(saved.size() == poses.size(), "poses", static_cast<double>(poses.size()), "must be as many as saved bodies");
+  for (std::size_t i = 0; i < saved.size(); ++i) {
+    const Entry& entry = handles_.at(saved[i].body, "saved body");
+    require(!saved[i].asleep || entry.role == BodyRole::sleeps, "saved body", saved[i].body.slot,
+            "must have the role of bodies that sleep, since it slept");
+    require(finite<Dim>(poses[i]), "pose", poses[i].position.norm(), "must be finite");
+  }
+  note(sleeping_.wake_all());
+  std::vector<BodyIndex> settled;
+  std::vector<BodyIndex> others;
+  for (std::size_t i = 0; i < saved.size(); ++i) {
+    const Entry& entry = handles_.at(saved[i].body, "saved body");
+    if (entry.role == BodyRole::kinematic) continue;
+    world().place(entry.number, turn_.in(poses[i]));
+    sleeping_.set_moving(entry.number, SleepCause::user);
+    if (saved[i].asleep && enabled_) (saved[i].settled ? settled : others).push_back(entry.number);
+  }
+  note(sleeping_.freeze_saved(settled, true));
+  note(sleeping_.freeze_saved(others, false));
+  return changes_;
+}
+
+template class PileSleeper<2>;
+template class PileSleeper<3>;
+
+}  // namespace talus

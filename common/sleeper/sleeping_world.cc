@@ -1,0 +1,142 @@
+#include "common/sleeper/sleeping_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/sleeper/typical_of.h"
+
+namespace talus {
+namespace {
+
+/// Relative change of D that is worth another policy.
+constexpr double new_extent = 0.1;
+
+}  // namespace
+
+template <int Dim>
+SleepingWorld<Dim>::SleepingWorld(const Vec<Dim>& gravity, const SleeperOptions& options)
+    : options_(options), world_(gravity) {}
+
+template <int Dim>
+BodyIndex SleepingWorld<Dim>::add(const Shape<Dim>& shape, const Pose<Dim>& pose, bool stays_awake) {
+  if (const auto number = world_.free_number(); number && control_) control_->forget(*number);
+  const BodyIndex body = world_.put(shape, pose);
+  stays_awake_.resize(world_.states().asleep.size());
+  stays_awake_[body] = stays_awake ? 1 : 0;
+  ++count_;
+  return body;
+}
+
+template <int Dim>
+void SleepingWorld<Dim>::remove(BodyIndex body) {
+  --count_;
+  if (control_)
+    control_->remove(body);
+  else
+    world_.remove(body);
+}
+
+template <int Dim>
+typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::wake(std::span<const BodyIndex> bodies, SleepCause cause) {
+  return control_ ? control_->wake(bodies, cause) : Events{};
+}
+
+template <int Dim>
+typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::wake_all() {
+  return control_ ? control_->wake_all(SleepCause::user) : Events{};
+}
+
+template <int Dim>
+typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::freeze_saved(std::span<const BodyIndex> bodies, bool settled) {
+  if (bodies.empty()) return {};
+  if (!control_) make_policy(typical_now());
+  for (const BodyIndex body : bodies) control_->note_touch(body);
+  return control_->freeze(bodies, settled ? SleepCause::user : SleepCause::rest);
+}
+
+template <int Dim>
+typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::set_gravity(const Vec<Dim>& gravity) {
+  world_.set_gravity(gravity);
+  if (!gravity_ || !gravity_->wakes(gravity)) return {};
+  gravity_->note_wake(gravity, time_);
+  return wake_all();
+}
+
+template <int Dim>
+typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::set_moving(BodyIndex body, SleepCause cause) {
+  const Events woken = wake(std::vector{body}, cause);
+  if (control_) control_->forget(body);
+  return woken;
+}
+
+/// Of the bodies that may sleep.
+template <int Dim>
+TypicalBody SleepingWorld<Dim>::typical_now() const {
+  std::vector<const Shape<Dim>*> shapes;
+  for (BodyIndex body = 0; body < world_.states().size(); ++body)
+    if (world_.states().removed[body] == 0 && stays_awake_[body] == 0) shapes.push_back(&world_.shape_of(body));
+  if (shapes.empty()) return {};
+  TypicalBody typical = typical_of<Dim>(shapes);
+  if (options_.extent) typical.extent = *options_.extent;
+  return typical;
+}
+
+template <int Dim>
+void SleepingWorld<Dim>::make_policy(const TypicalBody& typical) {
+  typical_ = typical;
+  typical_count_ = count_;
+  WorldDescription<Dim> description;
+  description.ground.present = false;
+  description.ground.height = floor_.value_or(0.0);
+  auto policy = std::make_unique<AdaptivePolicy<Dim>>(options_.adaptive, description, typical);
+  policy_ = policy.get();
+  control_ = std::make_unique<SleepControl<Dim>>(world_, std::move(policy), std::vector<PileParams<Dim>>(1), typical);
+  gravity_.emplace(world_.gravity(), typical.extent);
+  world_.sort_for(typical.extent);
+}
+
+template <int Dim>
+typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::prepare(std::span<const Contact<Dim>> contacts) {
+  if (!floor_) {
+    const auto touch = std::ranges::find_if(contacts, [](const Contact<Dim>& c) { return std::min(c.a, c.b) < 0; });
+    if (touch == contacts.end()) return {};
+    floor_ = height<Dim>(touch->point);
+  }
+  const bool as_many = count_ < 2 * typical_count_ && 2 * count_ > typical_count_;
+  if (control_ && as_many) return {};
+  const TypicalBody now = typical_now();
+  if (control_ && std::abs(now.extent - typical_.extent) < new_extent * typical_.extent) {
+    typical_count_ = count_;
+    return {};
+  }
+  Events woken = wake_all();
+  make_policy(now);
+  return woken;
+}
+
+template <int Dim>
+const Decision<Dim>& SleepingWorld<Dim>::decide(double dt, const std::vector<std::uint8_t>& follows) {
+  time_ += dt;
+  ++step_;
+  world_.give_dt(dt);
+  world_.step();
+  if (!control_) return nothing_;
+  control_->count_piles(dt, false);
+  control_->decide({.step = step_,
+                    .time = time_,
+                    .world = world_,
+                    .piles = control_->piles(),
+                    .events = {},
+                    .phases = {},
+                    .policy = policy_,
+                    .kept_awake = [&](BodyIndex body) {
+                      return stays_awake_[body] != 0 || follows[body] != 0 || gravity_->keeps_awake(time_);
+                    }});
+  control_->apply(step_);
+  return control_->decision();
+}
+
+template class SleepingWorld<2>;
+template class SleepingWorld<3>;
+
+}  // namespace talus

@@ -1,0 +1,75 @@
+#pragma once
+// A given world with what puts its bodies to sleep.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/policy/adaptive/adaptive_policy.h"
+#include "common/policy/gravity_change.h"
+#include "common/policy/sleep_control.h"
+#include "common/sleeper/given_world.h"
+#include "common/sleeper/sleeper_options.h"
+
+namespace talus {
+
+/// Runs policy `adaptive` on a given world. It makes the policy at the first contact with something that is no body,
+/// since until then nothing can sleep, and anew when the bodies have become much larger or smaller.
+template <int Dim>
+class SleepingWorld {
+ public:
+  SleepingWorld(const Vec<Dim>& gravity, const SleeperOptions& options);
+  SleepingWorld(const SleepingWorld&) = delete;
+  SleepingWorld& operator=(const SleepingWorld&) = delete;
+
+  const GivenWorld<Dim>& world() const { return world_; }
+  GivenWorld<Dim>& world() { return world_; }
+
+  BodyIndex add(const Shape<Dim>& shape, const Pose<Dim>& pose, bool stays_awake);
+  void remove(BodyIndex body);
+  /// Whether a body must not fall asleep.
+  void keep_awake(BodyIndex body, bool stays_awake) { stays_awake_[body] = stays_awake ? 1 : 0; }
+
+  using Events = std::vector<SleepEvent>;
+  /// Wakes those that sleep, and returns them.
+  Events wake(std::span<const BodyIndex> bodies, SleepCause cause);
+  Events wake_all();
+  /// Wakes a body that is about to move or was put elsewhere: its rest begins anew.
+  Events set_moving(BodyIndex body, SleepCause cause);
+  /// Puts bodies to sleep that slept in a saved world, and returns them. `settled`: no stability check is to come.
+  Events freeze_saved(std::span<const BodyIndex> bodies, bool settled);
+  /// Returns those that wake for it.
+  Events set_gravity(const Vec<Dim>& gravity);
+
+  /// Before the policy decides: makes it where it is missing, or anew. Returns the bodies that wake for that.
+  Events prepare(std::span<const Contact<Dim>> contacts);
+  /// One step of `dt` [s] whose states and contacts world() has. `follows`: by body, whether it touches what moves it.
+  /// Returns what was done.
+  const Decision<Dim>& decide(double dt, const std::vector<std::uint8_t>& follows);
+
+  /// Whether a body sleeps and waits for no stability check.
+  bool settled(BodyIndex body) const { return policy_ != nullptr && policy_->sleepers().settled(body); }
+  /// D [m]; 0 before the first decision.
+  double extent() const { return typical_.extent; }
+
+ private:
+  TypicalBody typical_now() const;
+  void make_policy(const TypicalBody& typical);
+
+  SleeperOptions options_;
+  GivenWorld<Dim> world_;
+  std::vector<std::uint8_t> stays_awake_;  // [body]
+  TypicalBody typical_{.bounding_volume = 0.0, .extent = 0.0, .mass = 0.0};
+  int typical_count_ = 0;        // bodies when it was found
+  int count_ = 0;                // bodies now
+  std::optional<double> floor_;  // height at which a body first touched what is no body [m]
+  std::unique_ptr<SleepControl<Dim>> control_;
+  const AdaptivePolicy<Dim>* policy_ = nullptr;  // that of control_
+  std::optional<GravityChange<Dim>> gravity_;
+  Decision<Dim> nothing_;
+  std::int64_t step_ = 0;
+  double time_ = 0.0;  // [s]
+};
+
+}  // namespace talus

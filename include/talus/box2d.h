@@ -1,0 +1,398 @@
+#pragma once
+// Sleep body by body in a Box2D world of one's own. Compiled with the program's own Box2D 2.4; link talus::core.
+
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+#include "common/math/require.h"
+#include "common/sleeper/pile_sleeper.h"
+#include "common/sleeper/step_buffer.h"
+
+namespace talus {
+
+/// Impulses of contacts that Box2D destroys when a body changes its type. Without them a woken heap slumps.
+class Box2dImpulses {
+ public:
+  /// Keeps the impulses of a body's contacts. Call it before its type changes.
+  void save(b2Body& body) {
+    for (b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next) save(*edge->contact);
+  }
+  /// A body is about to wake: the contacts that it had while it slept will begin again.
+  void expect(const b2Body& body) {
+    if (const auto found = of_body_.find(&body); found != of_body_.end())
+      waiting_.insert(waiting_.end(), found->second.begin(), found->second.end());
+  }
+  /// A body is about to leave the world.
+  void forget(const b2Body& body) {
+    if (const auto found = of_body_.find(&body); found != of_body_.end())
+      for (const Key& key : std::vector(found->second)) erase(key);
+  }
+  /// From PreSolve of a contact that has just begun.
+  void apply(b2Contact& contact) {
+    const auto found = saved_.find(key_of(contact));
+    if (found == saved_.end()) return;
+    b2Manifold& manifold = *contact.GetManifold();
+    for (int i = 0; i < manifold.pointCount; ++i) {
+      b2ManifoldPoint& point = manifold.points[i];
+      for (const Point& saved : found->second) {
+        if (saved.feature != point.id.key) continue;
+        point.normalImpulse = saved.normal;
+        point.tangentImpulse = saved.tangent;
+      }
+    }
+  }
+  /// After a step: what has not begun again by now will not, except between sleeping bodies, which have no contacts.
+  void end_step() {
+    for (const Key& key : waiting_)
+      if (saved_.contains(key) && (!is_static(key.a) || !is_static(key.b))) erase(key);
+    waiting_.clear();
+  }
+
+ private:
+  struct Key {
+    b2Fixture* a = nullptr;
+    b2Fixture* b = nullptr;
+    int child_a = 0;
+    int child_b = 0;
+    auto operator<=>(const Key&) const = default;
+  };
+  /// Its feature names the corner and the side that it comes from.
+  struct Point {
+    static constexpr std::uint32_t no_feature = 0xffffffff;
+    std::uint32_t feature = no_feature;
+    float normal = 0.0F;   // [N s]
+    float tangent = 0.0F;  // [N s]
+  };
+
+  /// Fixtures keep their order in contacts as long as they exist.
+  static Key key_of(b2Contact& contact) {
+    return {contact.GetFixtureA(), contact.GetFixtureB(), contact.GetChildIndexA(), contact.GetChildIndexB()};
+  }
+  static bool is_static(b2Fixture* fixture) { return fixture->GetBody()->GetType() == b2_staticBody; }
+
+  void save(b2Contact& contact) {
+    if (!contact.IsTouching()) return;
+    const Key key = key_of(contact);
+    std::array<Point, b2_maxManifoldPoints> points;
+    const b2Manifold& manifold = *contact.GetManifold();
+    for (int i = 0; i < manifold.pointCount; ++i)
+      points[i] = {manifold.points[i].id.key, manifold.points[i].normalImpulse, manifold.points[i].tangentImpulse};
+    waiting_.push_back(key);
+    if (!saved_.insert_or_assign(key, points).second) return;
+    of_body_[key.a->GetBody()].push_back(key);
+    of_body_[key.b->GetBody()].push_back(key);
+  }
+  void erase(const Key& key) {
+    saved_.erase(key);
+    for (const b2Body* body : {key.a->GetBody(), key.b->GetBody()}) {
+      const auto found = of_body_.find(body);
+      std::erase(found->second, key);
+      if (found->second.empty()) of_body_.erase(found);
+    }
+  }
+
+  std::map<Key, std::array<Point, b2_maxManifoldPoints>> saved_;  // looked up only, so no address reaches a result
+  std::unordered_map<const b2Body*, std::vector<Key>> of_body_;
+  std::vector<Key> waiting_;  // to begin again in the next step
+};
+
+/// Puts bodies of a b2World to sleep one by one where they are. A sleeping body is static to Box2D; waking gives type
+/// and mass back, and the impulses of its contacts. User data stay, and the program's own contact listener is called as
+/// ever.
+///
+///     talus::Box2dSleeper sleeper(world);
+///     sleeper.add_all();
+///     for (;;) { sleeper.before_step(); world.Step(dt, 8, 3); sleeper.after_step(dt); }
+///
+/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body do
+/// nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors
+/// count for nothing. The world must outlive this object, which wakes all bodies when it ends.
+class Box2dSleeper {
+ public:
+  /// Throws InvalidValue on an option outside of its range.
+  explicit Box2dSleeper(b2World& world, const SleeperOptions& options = {})
+      : world_(world), enabled_(options.enabled), core_(from_box2d(world.GetGravity()), options) {}
+  Box2dSleeper(const Box2dSleeper&) = delete;
+  Box2dSleeper& operator=(const Box2dSleeper&) = delete;
+  ~Box2dSleeper() {
+    wake_all();
+    for (const auto& [body, handle] : handles_)
+      if (enabled_) entries_[handle.slot].body->SetSleepingAllowed(entries_[handle.slot].slept_alone);
+    if (world_.GetContactManager().m_contactListener == &listener_) world_.SetContactListener(listener_.next);
+  }
+
+  /// Watches a body with its fixtures. Throws InvalidValue on a static one and on one that is watched.
+  Handle add(b2Body& body) {
+    require(body.GetType() != b2_staticBody, "body", "static", "must be dynamic or kinematic");
+    require(!handles_.contains(&body), "body", "watched", "must not be watched already");
+    const BodyRole role = body.GetType() == b2_kinematicBody ? BodyRole::kinematic : free_role(body);
+    const Handle handle = core_.add(traits(body), pose(body), role);
+    if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
+    entries_[handle.slot] = {.body = &body, .slept_alone = body.IsSleepingAllowed()};
+    handles_[&body] = handle;
+    if (enabled_ && role != BodyRole::kinematic) body.SetSleepingAllowed(false);
+    return handle;
+  }
+  /// Watches all dynamic and kinematic bodies that are not watched yet. Returns how many of them never sleep since they
+  /// have joints.
+  int add_all() {
+    int kept_awake = 0;
+    for (b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext())
+      if (body->GetType() != b2_staticBody && !handles_.contains(body))
+        kept_awake += core_.role(add(*body)) == BodyRole::stays_awake ? 1 : 0;
+    return kept_awake;
+  }
+  /// Before a body is destroyed, watched or not: what sleeps near it wakes.
+  void about_to_remove(b2Body& body) {
+    const auto found = handles_.find(&body);
+    if (found == handles_.end()) {
+      wake_near(body);
+      return impulses_.forget(body);
+    }
+    const Handle handle = found->second;
+    carry_out(core_.wake(handle));
+    impulses_.forget(body);
+    body.SetSleepingAllowed(entries_[handle.slot].slept_alone);
+    handles_.erase(found);
+    carry_out(core_.remove(handle));
+    entries_[handle.slot] = {};
+  }
+
+  /// Directly before each step of Box2D.
+  void before_step() {
+    if (!enabled_) return;
+    listen();
+    carry_out(core_.set_gravity(from_box2d(world_.GetGravity())));
+    for (const Handle handle : core_.followed()) {
+      Entry& entry = entries_[handle.slot];
+      if (entry.body->GetType() == b2_kinematicBody) continue;
+      entry.velocity = entry.body->GetLinearVelocity();
+      entry.spin = entry.body->GetAngularVelocity();
+      if (core_.role(handle) != free_role(*entry.body)) carry_out(core_.set_role(handle, free_role(*entry.body)));
+    }
+  }
+  /// Directly after each step of Box2D, which was `dt` [s] long. Returns what changed, already done; valid until the
+  /// next call.
+  const SleepChanges<2>& after_step(double dt) {
+    impulses_.end_step();
+    buffer_.clear();
+    if (enabled_) read_states();
+    if (enabled_) read_contacts();
+    const SleepChanges<2>& changes = core_.after_step(buffer_.step(dt));
+    carry_out(changes);
+    return changes;
+  }
+
+  /// Before a force, an impulse or a velocity is given to a body.
+  void wake(b2Body& body) { carry_out(core_.wake(handle(body))); }
+  void wake_all() { carry_out(core_.wake_all()); }
+  /// Wakes what sleeps by a body that is not watched, such as a static one that is about to move or has moved.
+  void wake_near(b2Body& body) {
+    for (b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
+      carry_out(core_.wake_near(bounds(*fixture, body.GetTransform())));
+  }
+  /// After the program has put a body elsewhere.
+  void moved(b2Body& body) { carry_out(core_.moved(handle(body), pose(body))); }
+
+  bool watches(const b2Body& body) const { return handles_.contains(&body); }
+  bool asleep(const b2Body& body) const { return core_.asleep(handle(body)); }
+  /// Throws InvalidValue on a body that is not watched.
+  Handle handle(const b2Body& body) const {
+    const auto found = handles_.find(&body);
+    require(found != handles_.end(), "body", "not watched", "must have been added");
+    return found->second;
+  }
+  b2Body& body(Handle handle) const {
+    require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
+    return *entries_[handle.slot].body;
+  }
+  int size() const { return core_.size(); }
+  int awake() const { return core_.awake(); }
+
+  /// What a saved program must keep beside its bodies. All bodies that are not kinematic are dynamic when awake.
+  std::vector<SavedSleep> snapshot() const { return core_.snapshot(); }
+  /// Once the bodies are in their saved places: those that slept sleep again, all others wake.
+  void restore(const std::vector<SavedSleep>& saved) {
+    std::vector<Pose<2>> poses;
+    for (const SavedSleep& one : saved) poses.push_back(pose(body(one.body)));
+    carry_out(core_.restore(saved, poses));
+  }
+
+ private:
+  /// A watched body: its motion before the step, and what it gets back when it wakes.
+  struct Entry {
+    b2Body* body = nullptr;
+    b2Vec2 velocity = b2Vec2_zero;
+    float spin = 0.0F;
+    b2MassData mass = {};
+    bool slept_alone = true;  // Box2D was allowed to put it to sleep
+  };
+
+  /// Passes all on to the program's listener.
+  class Listener final : public b2ContactListener {
+   public:
+    explicit Listener(Box2dImpulses& impulses) : impulses_(impulses) {}
+    void BeginContact(b2Contact* contact) override {
+      if (next != nullptr) next->BeginContact(contact);
+    }
+    void EndContact(b2Contact* contact) override {
+      if (next != nullptr) next->EndContact(contact);
+    }
+    void PreSolve(b2Contact* contact, const b2Manifold* before) override {
+      if (before->pointCount == 0) impulses_.apply(*contact);
+      if (next != nullptr) next->PreSolve(contact, before);
+    }
+    void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+      if (next != nullptr) next->PostSolve(contact, impulse);
+    }
+    b2ContactListener* next = nullptr;
+
+   private:
+    Box2dImpulses& impulses_;
+  };
+
+  static Vec2 from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
+  static b2Vec2 to_box2d(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }
+  static Pose<2> pose(const b2Body& body) { return {from_box2d(body.GetWorldCenter()), Rotation<2>(body.GetAngle())}; }
+  static BodyRole free_role(const b2Body& body) {
+    return body.GetJointList() != nullptr ? BodyRole::stays_awake : BodyRole::sleeps;
+  }
+  static Box<2> bounds(const b2Fixture& fixture, const b2Transform& at) {
+    Box<2> box;
+    for (int child = 0; child < fixture.GetShape()->GetChildCount(); ++child) {
+      b2AABB aabb;
+      fixture.GetShape()->ComputeAABB(&aabb, at, child);
+      box.extend(Box<2>(from_box2d(aabb.lowerBound), from_box2d(aabb.upperBound)));
+    }
+    return box;
+  }
+
+  /// A body that cannot turn has no inertia; it counts as very heavy to turn.
+  static BodyTraits<2> traits(const b2Body& body) {
+    b2Transform own;
+    own.SetIdentity();
+    BodyTraits<2> traits{.mass = body.GetMass()};
+    traits.bounds.setEmpty();
+    for (const b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
+      if (fixture->IsSensor()) continue;
+      traits.bounds.extend(bounds(*fixture, own));
+      traits.friction = fixture->GetFriction();
+    }
+    const Vec2 centre = from_box2d(body.GetLocalCenter());
+    traits.bounds.translate(-centre);
+    const double inertia = body.GetInertia() - traits.mass * centre.squaredNorm();
+    traits.inertia(0, 0) = inertia > 0.0 ? inertia : 1e6 * traits.mass * traits.bounds.diagonal().squaredNorm();
+    return traits;
+  }
+
+  /// Box2D has one listener; the program may have set another one since the last step.
+  void listen() {
+    b2ContactListener* now = world_.GetContactManager().m_contactListener;
+    if (now == &listener_) return;
+    listener_.next = now;
+    world_.SetContactListener(&listener_);
+  }
+
+  /// The default for a body that is not watched.
+  Handle find(const b2Body& body) const {
+    const auto found = handles_.find(&body);
+    return found == handles_.end() ? Handle{} : found->second;
+  }
+
+  void read_states() {
+    for (const Handle handle : core_.followed()) read_state(handle);
+#ifndef NDEBUG
+    for (const auto& [body, handle] : handles_)  // finds sleeping bodies that were moved; nothing depends on the order
+      if (core_.asleep(handle)) read_state(handle);
+#endif
+  }
+  void read_state(Handle handle) {
+    const b2Body& body = *entries_[handle.slot].body;
+    buffer_.add(handle, pose(body), from_box2d(body.GetLinearVelocity()), Spin<2>(body.GetAngularVelocity()));
+  }
+
+  void read_contacts() {
+    for (b2Contact* contact = world_.GetContactList(); contact != nullptr; contact = contact->GetNext())
+      if (contact->IsTouching() && !contact->GetFixtureA()->IsSensor() && !contact->GetFixtureB()->IsSensor())
+        read_contact(*contact);
+  }
+  void read_contact(b2Contact& contact) {
+    const b2Body& a = *contact.GetFixtureA()->GetBody();
+    const b2Body& b = *contact.GetFixtureB()->GetBody();
+    const Handle first = find(a);
+    const Handle second = find(b);
+    if (first == Handle{} && second == Handle{}) return;
+    const bool swap = first == Handle{};
+    const double sign = swap ? 1.0 : -1.0;  // Box2D's normal points from its first body to its second
+    b2WorldManifold world;
+    contact.GetWorldManifold(&world);
+    const b2Vec2 tangent = b2Cross(world.normal, 1.0F);
+    const b2Manifold& manifold = *contact.GetManifold();
+    for (int i = 0; i < manifold.pointCount; ++i) {
+      const b2Vec2& where = world.points[i];
+      const b2Vec2 approach = velocity_before(a, first, where) - velocity_before(b, second, where);
+      buffer_.contacts.push_back({.a = swap ? second : first,
+                                  .b = swap ? first : second,
+                                  .point = from_box2d(where),
+                                  .normal = sign * from_box2d(world.normal),
+                                  .normal_impulse = manifold.points[i].normalImpulse,
+                                  .friction_impulse = sign * manifold.points[i].tangentImpulse * from_box2d(tangent),
+                                  .approach_speed = std::max(0.0F, b2Dot(approach, world.normal)),
+                                  .depth = -world.separations[i]});
+    }
+  }
+  /// Of a point of a body before the step. One that is not watched is taken as it is.
+  b2Vec2 velocity_before(const b2Body& body, Handle handle, const b2Vec2& where) const {
+    if (handle == Handle{} || body.GetType() != b2_dynamicBody) return body.GetLinearVelocityFromWorldPoint(where);
+    const Entry& entry = entries_[handle.slot];
+    return entry.velocity + b2Cross(entry.spin, where - body.GetWorldCenter());
+  }
+
+  void carry_out(const SleepChanges<2>& changes) {
+    for (const SleepChange& change : changes.thaw) thaw(entries_[change.body.slot]);
+    for (const GivenVelocity<2>& change : changes.velocities) {
+      entries_[change.body.slot].body->SetLinearVelocity(to_box2d(change.velocity));
+      entries_[change.body.slot].body->SetAngularVelocity(static_cast<float>(change.spin[0]));
+    }
+    for (const SleepChange& change : changes.freeze) freeze(entries_[change.body.slot]);
+  }
+  void freeze(Entry& entry) {
+    impulses_.save(*entry.body);
+    entry.body->GetMassData(&entry.mass);
+    set_type(*entry.body, b2_staticBody);
+  }
+  /// A change of type ends the contacts of a body. Box2D would look for new ones only after the next step, within which
+  /// bodies would fall through each other; after a transform it looks before.
+  static void set_type(b2Body& body, b2BodyType type) {
+    body.SetType(type);
+    body.SetTransform(body.GetPosition(), body.GetAngle());
+  }
+  /// The mass follows from the fixtures unless the program has set it.
+  void thaw(const Entry& entry) {
+    b2Body& body = *entry.body;
+    impulses_.save(body);
+    impulses_.expect(body);
+    set_type(body, b2_dynamicBody);
+    const b2MassData mass = entry.mass;
+    b2MassData now;
+    body.GetMassData(&now);
+    if (now.mass != mass.mass || now.I != mass.I || now.center != mass.center) body.SetMassData(&mass);
+  }
+
+  b2World& world_;
+  bool enabled_;
+  PileSleeper<2> core_;
+  Box2dImpulses impulses_;
+  Listener listener_{impulses_};
+  std::unordered_map<const b2Body*, Handle> handles_;
+  std::vector<Entry> entries_;  // [slot]
+  StepBuffer<2> buffer_;
+};
+
+}  // namespace talus

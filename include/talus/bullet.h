@@ -1,0 +1,314 @@
+#pragma once
+// Sleep body by body in a Bullet world of one's own. Compiled with the program's own Bullet, 3.24 or similar, in single
+// or double precision; link talus::core.
+
+#include <btBulletDynamicsCommon.h>
+
+#include <algorithm>
+#include <unordered_map>
+#include <vector>
+
+#include "common/math/require.h"
+#include "common/sleeper/pile_sleeper.h"
+#include "common/sleeper/step_buffer.h"
+
+namespace talus {
+
+/// Puts bodies of a btDiscreteDynamicsWorld to sleep one by one where they are. A sleeping body is static to Bullet:
+/// its mass is 0, its manifolds and their impulses stay, pointers and user data too. Waking gives mass and activation
+/// back.
+///
+///     talus::BulletSleeper sleeper(world);
+///     sleeper.add_all();
+///     for (;;) { sleeper.before_step(); world.stepSimulation(dt, 0); sleeper.after_step(dt); }
+///
+/// With substeps of Bullet, call both functions from the two internal tick callbacks. Forces on a sleeping body do
+/// nothing: call wake() first. Bodies with constraints never sleep, but wake others. Contacts of objects without
+/// contact response count for nothing. The world and its bodies must outlive this object, which wakes all when it ends.
+class BulletSleeper {
+ public:
+  /// Throws InvalidValue on an option outside of its range.
+  explicit BulletSleeper(btDiscreteDynamicsWorld& world, const SleeperOptions& options = {})
+      : world_(world), enabled_(options.enabled), core_(from_bullet(world.getGravity()), options) {}
+  BulletSleeper(const BulletSleeper&) = delete;
+  BulletSleeper& operator=(const BulletSleeper&) = delete;
+  ~BulletSleeper() { wake_all(); }
+
+  /// Watches a body of the world, dynamic or kinematic. Throws InvalidValue on a static one, on one that is in no world
+  /// and on one that is watched.
+  Handle add(btRigidBody& body) {
+    require(body.getWorldArrayIndex() >= 0, "body", "in no world", "must be in the world before it is watched");
+    require(!never_moves(body), "body", "static", "must be dynamic or kinematic");
+    require(!handles_.contains(&body), "body", "watched", "must not be watched already");
+    const BodyRole role = body.isKinematicObject() ? BodyRole::kinematic : free_role(body);
+    const Handle handle = core_.add(traits(body), pose(body), role);
+    if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
+    entries_[handle.slot] = {.body = &body};
+    handles_[&body] = handle;
+    remember(body, handle);
+    return handle;
+  }
+  /// Watches all dynamic and kinematic bodies that are not watched yet. Returns how many of them never sleep since they
+  /// have constraints.
+  int add_all() {
+    int kept_awake = 0;
+    for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
+      btRigidBody* body = btRigidBody::upcast(world_.getCollisionObjectArray()[i]);
+      if (body == nullptr || never_moves(*body) || handles_.contains(body)) continue;
+      kept_awake += core_.role(add(*body)) == BodyRole::stays_awake ? 1 : 0;
+    }
+    return kept_awake;
+  }
+  /// Before an object is taken out of the world, watched or not: what sleeps near it wakes.
+  void about_to_remove(btCollisionObject& object) {
+    const auto found = handles_.find(&object);
+    if (found == handles_.end()) return wake_near(object);
+    const Handle handle = found->second;
+    carry_out(core_.wake(handle));
+    forget(object);
+    handles_.erase(found);
+    carry_out(core_.remove(handle));
+    entries_[handle.slot] = {};
+  }
+
+  /// Directly before each step of Bullet.
+  void before_step() {
+    if (!enabled_) return;
+    carry_out(core_.set_gravity(from_bullet(world_.getGravity())));
+    for (const Handle handle : core_.followed()) {
+      Entry& entry = entries_[handle.slot];
+      if (entry.body->isKinematicObject()) continue;
+      entry.velocity = entry.body->getLinearVelocity();
+      entry.spin = entry.body->getAngularVelocity();
+      if (core_.role(handle) != free_role(*entry.body)) carry_out(core_.set_role(handle, free_role(*entry.body)));
+    }
+  }
+  /// Directly after each step of Bullet, which was `dt` [s] long. Returns what changed, already done; valid until the
+  /// next call.
+  const SleepChanges<3>& after_step(double dt) {
+    buffer_.clear();
+    if (enabled_) read_states();
+    if (enabled_) read_contacts();
+    const SleepChanges<3>& changes = core_.after_step(buffer_.step(dt));
+    carry_out(changes);
+    return changes;
+  }
+
+  /// Before a force, an impulse or a velocity is given to a body.
+  void wake(btRigidBody& body) { carry_out(core_.wake(handle(body))); }
+  void wake_all() { carry_out(core_.wake_all()); }
+  /// Wakes what sleeps by an object that is not watched, such as a static one that is about to move or has moved.
+  void wake_near(btCollisionObject& object) {
+    btVector3 low;
+    btVector3 high;
+    object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
+    carry_out(core_.wake_near({from_bullet(low), from_bullet(high)}));
+  }
+  /// After the program has put a body elsewhere.
+  void moved(btRigidBody& body) { carry_out(core_.moved(handle(body), pose(body))); }
+
+  bool watches(const btRigidBody& body) const { return handles_.contains(&body); }
+  bool asleep(const btRigidBody& body) const { return core_.asleep(handle(body)); }
+  /// Throws InvalidValue on a body that is not watched.
+  Handle handle(const btRigidBody& body) const {
+    const auto found = handles_.find(&body);
+    require(found != handles_.end(), "body", "not watched", "must have been added");
+    return found->second;
+  }
+  btRigidBody& body(Handle handle) const {
+    require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
+    return *entries_[handle.slot].body;
+  }
+  int size() const { return core_.size(); }
+  int awake() const { return core_.awake(); }
+
+  /// What a saved program must keep beside its bodies. Their masses are in mass(), since a sleeping one has none.
+  std::vector<SavedSleep> snapshot() const { return core_.snapshot(); }
+  btScalar mass(const btRigidBody& body) const {
+    return asleep(body) ? entries_[handle(body).slot].mass : body.getMass();
+  }
+  /// Once the bodies are in their saved places: those that slept sleep again, all others wake.
+  void restore(const std::vector<SavedSleep>& saved) {
+    std::vector<Pose<3>> poses;
+    for (const SavedSleep& one : saved) poses.push_back(pose(body(one.body)));
+    carry_out(core_.restore(saved, poses));
+  }
+
+ private:
+  /// A watched body: its motion before the step, and what it gets back when it wakes.
+  struct Entry {
+    btRigidBody* body = nullptr;
+    btVector3 velocity = btVector3(0, 0, 0);
+    btVector3 spin = btVector3(0, 0, 0);
+    btScalar mass = 0;
+    btVector3 inertia = btVector3(0, 0, 0);
+    btVector3 gravity = btVector3(0, 0, 0);  // of the world when it fell asleep
+    int activation = ACTIVE_TAG;
+  };
+  /// The object at a place of Bullet's list when it was last looked up.
+  struct Known {
+    const btCollisionObject* object = nullptr;
+    Handle handle;
+  };
+
+  static Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+  static btVector3 to_bullet(const Vec3& v) {
+    return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+  }
+  static Pose<3> pose(const btRigidBody& body) {
+    const btQuaternion q = body.getWorldTransform().getRotation();
+    return {from_bullet(body.getWorldTransform().getOrigin()), Rotation<3>(q.w(), q.x(), q.y(), q.z())};
+  }
+  /// Kinematic bodies often count as static too.
+  static bool never_moves(const btCollisionObject& object) {
+    return object.isStaticObject() && !object.isKinematicObject();
+  }
+  static BodyRole free_role(const btRigidBody& body) {
+    return body.getNumConstraintRefs() > 0 ? BodyRole::stays_awake : BodyRole::sleeps;
+  }
+
+  /// An axis about which a body cannot turn has no inverse inertia; it counts as very heavy there.
+  static BodyTraits<3> traits(const btRigidBody& body) {
+    btVector3 low;
+    btVector3 high;
+    body.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+    BodyTraits<3> traits{.mass = body.getMass(), .bounds = {from_bullet(low), from_bullet(high)}};
+    const double locked = 1e6 * traits.mass * traits.bounds.diagonal().squaredNorm();
+    for (int axis = 0; axis < 3; ++axis) {
+      const btScalar inverse = body.getInvInertiaDiagLocal()[axis];
+      traits.inertia(axis, axis) = inverse > 0 ? 1.0 / inverse : locked;
+    }
+    traits.friction = body.getFriction() * body.getFriction();  // Bullet multiplies those of two bodies
+    return traits;
+  }
+
+  void remember(const btCollisionObject& object, Handle handle) {
+    const auto place = static_cast<std::size_t>(object.getWorldArrayIndex());
+    if (known_.size() <= place) known_.resize(place + 1);
+    known_[place] = {&object, handle};
+  }
+  void forget(const btCollisionObject& object) {
+    for (Known& known : known_)
+      if (known.object == &object) known = {};
+  }
+  /// The default for an object that is not watched. Places in Bullet's list change when objects are removed.
+  Handle find(const btCollisionObject& object) {
+    const auto place = static_cast<std::size_t>(object.getWorldArrayIndex());
+    if (place < known_.size() && known_[place].object == &object) return known_[place].handle;
+    const auto found = handles_.find(&object);
+    const Handle handle = found == handles_.end() ? Handle{} : found->second;
+    if (found != handles_.end()) remember(object, handle);
+    return handle;
+  }
+
+  void read_states() {
+    for (const Handle handle : core_.followed()) read_state(handle);
+#ifndef NDEBUG
+    for (const auto& [object, handle] :
+         handles_)  // finds sleeping bodies that were moved; nothing depends on the order
+      if (core_.asleep(handle)) read_state(handle);
+#endif
+  }
+  void read_state(Handle handle) {
+    const btRigidBody& body = *entries_[handle.slot].body;
+    buffer_.add(handle, pose(body), from_bullet(body.getLinearVelocity()), from_bullet(body.getAngularVelocity()));
+  }
+
+  /// Those that Bullet itself has put to sleep too: their impulses are those that hold them.
+  static bool moves(const btCollisionObject& object) { return !object.isStaticOrKinematicObject(); }
+  void read_contacts() {
+    btDispatcher& dispatcher = *world_.getDispatcher();
+    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+      const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+      const btCollisionObject& a = *manifold.getBody0();
+      const btCollisionObject& b = *manifold.getBody1();
+      if (manifold.getNumContacts() == 0 || (!moves(a) && !moves(b))) continue;
+      if (a.hasContactResponse() && b.hasContactResponse()) read_manifold(manifold, a, b);
+    }
+  }
+  void read_manifold(const btPersistentManifold& manifold, const btCollisionObject& a, const btCollisionObject& b) {
+    const Handle first = find(a);
+    const Handle second = find(b);
+    if (first == Handle{} && second == Handle{}) return;
+    const bool swap = first == Handle{};
+    const double sign = swap ? -1.0 : 1.0;
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+      const btManifoldPoint& point = manifold.getContactPoint(i);
+      if (point.getDistance() > 0 && point.m_appliedImpulse <= 0) continue;
+      const btVector3& where = point.getPositionWorldOnB();
+      const btVector3 friction = point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+                                 point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+      const btVector3 approach = velocity_before(b, second, where) - velocity_before(a, first, where);
+      buffer_.contacts.push_back(
+          {.a = swap ? second : first,
+           .b = swap ? first : second,
+           .point = from_bullet(where),
+           .normal = sign * from_bullet(point.m_normalWorldOnB),
+           .normal_impulse = point.m_appliedImpulse,
+           .friction_impulse = sign * from_bullet(friction),
+           .approach_speed = std::max(0.0, static_cast<double>(point.m_normalWorldOnB.dot(approach))),
+           .depth = -point.getDistance()});
+    }
+  }
+  /// Of a point of an object before the step. One that is not watched is taken as it is.
+  btVector3 velocity_before(const btCollisionObject& object, Handle handle, const btVector3& where) const {
+    const btVector3 arm = where - object.getWorldTransform().getOrigin();
+    if (never_moves(object)) return {0, 0, 0};
+    if (handle != Handle{} && !object.isKinematicObject()) {
+      const Entry& entry = entries_[handle.slot];
+      return entry.velocity + entry.spin.cross(arm);
+    }
+    const btRigidBody* body = btRigidBody::upcast(&object);
+    return body == nullptr ? btVector3(0, 0, 0) : body->getLinearVelocity() + body->getAngularVelocity().cross(arm);
+  }
+
+  void carry_out(const SleepChanges<3>& changes) {
+    for (const SleepChange& change : changes.thaw) thaw(entries_[change.body.slot]);
+    for (const GivenVelocity<3>& change : changes.velocities) {
+      entries_[change.body.slot].body->setLinearVelocity(to_bullet(change.velocity));
+      entries_[change.body.slot].body->setAngularVelocity(to_bullet(change.spin));
+    }
+    for (const SleepChange& change : changes.freeze) freeze(entries_[change.body.slot]);
+  }
+  void freeze(Entry& entry) const {
+    btRigidBody& body = *entry.body;
+    entry.mass = body.getMass();
+    entry.inertia = body.getLocalInertia();
+    entry.gravity = world_.getGravity();
+    entry.activation = body.getActivationState();
+    stop(body);
+    // While it still counts as movable: the program sees it where it sleeps, not where Bullet extrapolated it to.
+    body.setInterpolationWorldTransform(body.getWorldTransform());
+    world_.synchronizeSingleMotionState(&body);
+    body.setMassProps(0, btVector3(0, 0, 0));
+    body.updateInertiaTensor();
+    body.forceActivationState(ISLAND_SLEEPING);
+  }
+  /// Bullet gives a new gravity to active bodies only.
+  void thaw(const Entry& entry) const {
+    btRigidBody& body = *entry.body;
+    body.setMassProps(entry.mass, entry.inertia);
+    body.updateInertiaTensor();
+    if (entry.gravity != world_.getGravity() && (body.getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0)
+      body.setGravity(world_.getGravity());
+    stop(body);
+    body.forceActivationState(entry.activation == DISABLE_DEACTIVATION ? DISABLE_DEACTIVATION : ACTIVE_TAG);
+    body.setDeactivationTime(0);
+  }
+  static void stop(btRigidBody& body) {
+    body.setLinearVelocity(btVector3(0, 0, 0));
+    body.setAngularVelocity(btVector3(0, 0, 0));
+    body.setInterpolationLinearVelocity(btVector3(0, 0, 0));
+    body.setInterpolationAngularVelocity(btVector3(0, 0, 0));
+  }
+
+  btDiscreteDynamicsWorld& world_;
+  bool enabled_;
+  PileSleeper<3> core_;
+  std::unordered_map<const btCollisionObject*, Handle> handles_;
+  std::vector<Known> known_;    // [place in Bullet's list]
+  std::vector<Entry> entries_;  // [slot]
+  StepBuffer<3> buffer_;
+};
+
+}  // namespace talus

@@ -1,0 +1,198 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/shape/catalogue.h"
+#include "common/simulation/make_policy.h"
+#include "common/simulation/simulation.h"
+#include "sim2d/make_world.h"
+#include "tests/sleeper/box2d_scene.h"
+
+namespace talus::test {
+namespace {
+
+/// Four boxes on each other, asleep.
+class SleepingBox2dStack : public ::testing::Test {
+ protected:
+  SleepingBox2dStack() {
+    for (int i = 0; i < 4; ++i) stack.push_back(&scene.add_box({1, 1}, {0, 0.5 + i}, b2_dynamicBody));
+    scene.sleeper->add_all();
+    scene.run(240);
+  }
+  int asleep() const {
+    return static_cast<int>(std::ranges::count_if(stack, [&](b2Body* b) { return scene.sleeper->asleep(*b); }));
+  }
+  static float height_of(const b2Body& body) { return body.GetPosition().y; }
+
+  SleepingBox2dScene scene;
+  std::vector<b2Body*> stack;
+};
+
+TEST_F(SleepingBox2dStack, IsStaticToBox2dUntilItWakes) {
+  ASSERT_EQ(asleep(), 4);
+  for (const b2Body* body : stack) EXPECT_EQ(body->GetType(), b2_staticBody);
+  scene.sleeper->wake_all();
+  for (const b2Body* body : stack) {
+    EXPECT_EQ(body->GetType(), b2_dynamicBody);
+    EXPECT_EQ(body->GetMass(), 1000.0F);
+    EXPECT_TRUE(body->IsAwake());
+  }
+}
+
+/// The impulses of its contacts come back. Without them it would fall by g dt in the first step, 0.16 m/s; with them
+/// its speed is a thousandth of that.
+TEST_F(SleepingBox2dStack, StandsStillWhenItWakes) {
+  scene.sleeper->wake_all();
+  for (int i = 0; i < 30; ++i) {
+    scene.step_engine();
+    for (const b2Body* body : stack) EXPECT_LT(body->GetLinearVelocity().Length(), 2e-4F);
+  }
+}
+
+TEST_F(SleepingBox2dStack, KeepsTheMassThatTheProgramSet) {
+  scene.sleeper->wake(*stack.back());
+  b2MassData heavy;
+  stack.back()->GetMassData(&heavy);
+  heavy.mass *= 3.0F;
+  heavy.I *= 3.0F;
+  stack.back()->SetMassData(&heavy);
+  scene.run(240);
+  ASSERT_TRUE(scene.sleeper->asleep(*stack.back()));
+  scene.sleeper->wake(*stack.back());
+  EXPECT_EQ(stack.back()->GetMass(), 3000.0F);
+}
+
+TEST_F(SleepingBox2dStack, FallsWhenItsLowestBoxIsRemoved) {
+  scene.take_away(*stack.front());
+  stack.erase(stack.begin());
+  scene.run(300);
+  EXPECT_NEAR(height_of(*stack.front()), 0.5, 0.02);
+  EXPECT_NEAR(height_of(*stack.back()), 2.5, 0.04);
+}
+
+TEST_F(SleepingBox2dStack, FallsWhenTheGroundIsRemoved) {
+  scene.take_away(*scene.ground);
+  scene.run(120);
+  for (const b2Body* body : stack) EXPECT_LT(height_of(*body), 0.0);
+}
+
+TEST_F(SleepingBox2dStack, FallsWhenItsLowestBoxIsTakenElsewhere) {
+  scene.put(*stack.front(), {20, 0.5});
+  scene.run(300);
+  EXPECT_NEAR(height_of(*stack[1]), 0.5, 0.02);
+  EXPECT_NEAR(height_of(*stack[3]), 2.5, 0.04);
+}
+
+TEST_F(SleepingBox2dStack, WakesAndSlidesWhenGravityTurns) {
+  scene.set_gravity({9.81, -1.0});
+  scene.step();
+  EXPECT_EQ(asleep(), 0);
+  scene.run(60);
+  for (const b2Body* body : stack) EXPECT_GT(body->GetPosition().x, 0.5F);
+}
+
+TEST_F(SleepingBox2dStack, StaysAwakeWithAJoint) {
+  b2MouseJointDef def;
+  def.bodyA = scene.ground;
+  def.bodyB = stack.back();
+  def.target = stack.back()->GetPosition();
+  def.maxForce = 100.0F;
+  scene.sleeper->wake(*stack.back());
+  b2Joint* joint = scene.world.CreateJoint(&def);
+  scene.run(240);
+  EXPECT_FALSE(scene.sleeper->asleep(*stack.back()));
+  scene.world.DestroyJoint(joint);
+  scene.run(240);
+  EXPECT_TRUE(scene.sleeper->asleep(*stack.back()));
+}
+
+/// The program's own listener hears of every contact that Box2D begins.
+TEST(Box2dSleeper, PassesContactsOnToTheListenerOfTheProgram) {
+  struct Counter : b2ContactListener {
+    int begun = 0;
+    void BeginContact(b2Contact*) override { ++begun; }
+  };
+  Counter first;
+  Counter second;
+  SleepingBox2dScene scene;
+  scene.world.SetContactListener(&first);
+  scene.drop(drops<2>(1, 1).front());
+  scene.run(200);
+  EXPECT_GT(first.begun, 0);
+  scene.world.SetContactListener(&second);
+  scene.drop(drops<2>(1, 2).front());
+  scene.run(200);
+  EXPECT_GT(second.begun, 0);
+  scene.sleeper.reset();
+  EXPECT_EQ(scene.world.GetContactManager().m_contactListener, &second);
+}
+
+TEST(Box2dSleeper, RefusesWhatItCannotWatch) {
+  SleepingBox2dScene scene;
+  EXPECT_THROW(scene.sleeper->add(*scene.ground), InvalidValue);
+  b2Body& box = scene.drop(drops<2>(1, 1).front());
+  EXPECT_THROW(scene.sleeper->add(box), InvalidValue);
+  EXPECT_THROW(scene.sleeper->wake(*scene.ground), InvalidValue);
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  EXPECT_THROW(scene.sleeper->add(*scene.world.CreateBody(&def)), InvalidValue);  // without fixtures
+}
+
+TEST(Box2dSleeper, ChangesNoBitWhenItIsOff) {
+  SleepingBox2dScene with({.enabled = false});
+  Box2dScene without;
+  const std::vector<Pose<2>> starts = drops<2>(60, 1);
+  for (int step = 0; step < 900; ++step) {
+    if (step % steps_between_drops == 0 && step / steps_between_drops < std::ssize(starts)) {
+      with.drop(starts[step / steps_between_drops]);
+      without.add_drop(starts[step / steps_between_drops]);
+    }
+    with.step();
+    without.step();
+  }
+  const std::vector<b2Body*> a = with.dynamic_bodies();
+  const std::vector<b2Body*> b = without.dynamic_bodies();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i]->GetPosition(), b[i]->GetPosition());
+    EXPECT_EQ(a[i]->GetAngle(), b[i]->GetAngle());
+    EXPECT_EQ(a[i]->GetLinearVelocity(), b[i]->GetLinearVelocity());
+  }
+}
+
+/// Heights of the centre and mean awake over three seeds, as in talus's own world on Box2D: within 7 % and a third.
+TEST(Box2dSleeper, PilesBoxesAsTalusDoesInItsOwnWorld) {
+  constexpr int boxes = 300;
+  constexpr int steps = boxes * steps_between_drops + 300;
+  Poured attached;
+  Poured own;
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    SleepingBox2dScene mine;
+    Scene<2> scene;
+    scene.policy.kind = "adaptive";
+    scene.policy.adaptive = SleeperOptions{}.adaptive;
+    scene.world.shapes = {make_shape<2>("box", box_pieces<2>(box_size<2>()), {})};
+    scene.piles = {{}};
+    Simulation<2> theirs(scene, make_box2d_world(scene.world), make_policy(scene));
+    const std::vector<Pose<2>> starts = drops<2>(boxes, seed);
+    for (int step = 0; step < steps; ++step) {
+      if (step % steps_between_drops == 0 && step / steps_between_drops < boxes) {
+        mine.drop(starts[step / steps_between_drops]);
+        theirs.add({.pose = starts[step / steps_between_drops]});
+      }
+      mine.step();
+      theirs.step();
+      attached.mean_awake += mine.sleeper->awake() / (3.0 * steps);
+      own.mean_awake += static_cast<double>(theirs.world().awake().size()) / (3.0 * steps);
+    }
+    for (const b2Body* body : mine.dynamic_bodies()) attached.centre_height += body->GetPosition().y / (3.0 * boxes);
+    for (const Pose<2>& pose : theirs.world().states().pose) own.centre_height += pose.position[1] / (3.0 * boxes);
+  }
+  RecordProperty("attached", std::to_string(attached.centre_height) + " " + std::to_string(attached.mean_awake));
+  RecordProperty("own", std::to_string(own.centre_height) + " " + std::to_string(own.mean_awake));
+  EXPECT_NEAR(attached.centre_height, own.centre_height, 0.07 * own.centre_height);
+  EXPECT_NEAR(attached.mean_awake, own.mean_awake, own.mean_awake / 3.0);
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/sleeper/pile_sleeper.h"
+#include "talus/talus.h"
+
+namespace talus::test {
+namespace {
+
+class CInterface : public ::testing::TestWithParam<int> {
+ protected:
+  CInterface() {
+    const talus_options options = talus_default_options(GetParam());
+    EXPECT_EQ(talus_create(&options, &sleeper), TALUS_OK) << talus_message();
+  }
+  ~CInterface() override { talus_destroy(sleeper); }
+
+  talus_handle add_box() {
+    talus_body body{};
+    body.size = sizeof body;
+    const double size[3] = {1.0, 0.5, 0.5};
+    EXPECT_EQ(talus_box(sleeper, 2.0, size, &body), TALUS_OK) << talus_message();
+    if (GetParam() == 3) body.rotation[3] = 1.0;
+    talus_handle added = 0;
+    EXPECT_EQ(talus_add(sleeper, &body, &added), TALUS_OK) << talus_message();
+    return added;
+  }
+  /// A step in which the body lies on what never moves, which carries its weight.
+  int lie(talus_handle body) {
+    constexpr double dt = 1.0 / 60.0;
+    const int up = GetParam() - 1;
+    talus_state state{};
+    if (GetParam() == 3) state.rotation[3] = 1.0;
+    talus_contact contact{};
+    contact.a = body;
+    contact.normal[up] = 1.0;
+    contact.normal_impulse = 2.0 * 9.81 * dt;
+    const talus_step step = {sizeof step, dt, 1, &body, &state, 1, &contact};
+    return talus_after_step(sleeper, &step, &changes);
+  }
+
+  talus_sleeper* sleeper = nullptr;
+  talus_changes changes = {sizeof(talus_changes), 0, nullptr, 0, nullptr, 0, nullptr};
+};
+
+TEST_P(CInterface, PutsABodyToSleepThatLiesStill) {
+  const talus_handle body = add_box();
+  int steps = 0;
+  while (changes.freeze_count == 0 && steps < 100) {
+    ASSERT_EQ(lie(body), TALUS_OK) << talus_message();
+    ++steps;
+  }
+  ASSERT_EQ(changes.freeze_count, 1U);
+  EXPECT_EQ(changes.freeze[0].body, body);
+  EXPECT_STREQ(talus_cause_name(changes.freeze[0].cause), "rest");
+  int asleep = 0;
+  EXPECT_EQ(talus_asleep(sleeper, body, &asleep), TALUS_OK);
+  EXPECT_EQ(asleep, 1);
+  const talus_handle* followed = nullptr;
+  std::size_t count = 1;
+  EXPECT_EQ(talus_followed(sleeper, &followed, &count), TALUS_OK);
+  EXPECT_EQ(count, 0U);
+  EXPECT_EQ(talus_wake(sleeper, body, &changes), TALUS_OK);
+  ASSERT_EQ(changes.thaw_count, 1U);
+  EXPECT_EQ(changes.thaw[0].body, body);
+}
+
+TEST_P(CInterface, RefusesAHandleOfARemovedBodyAndSaysWhy) {
+  const talus_handle body = add_box();
+  EXPECT_EQ(talus_remove(sleeper, body, &changes), TALUS_OK);
+  EXPECT_NE(add_box(), body);
+  EXPECT_EQ(talus_wake(sleeper, body, &changes), TALUS_BAD_VALUE);
+  EXPECT_NE(std::string(talus_message()).find("must be the handle of a body that is there"), std::string::npos);
+}
+
+TEST_P(CInterface, RefusesNullAndStructsOfAnotherSize) {
+  EXPECT_EQ(talus_create(nullptr, &sleeper), TALUS_BAD_VALUE);
+  EXPECT_EQ(talus_wake_all(nullptr, &changes), TALUS_BAD_VALUE);
+  changes.size = 4;
+  EXPECT_EQ(talus_wake_all(sleeper, &changes), TALUS_BAD_VALUE);
+  EXPECT_NE(std::string(talus_message()).find("changes.size"), std::string::npos);
+  talus_body body{};
+  talus_handle added = 0;
+  EXPECT_EQ(talus_add(sleeper, &body, &added), TALUS_BAD_VALUE);
+}
+
+/// The convex hull of a box has the inertia of the box, wherever its corners lie.
+TEST_P(CInterface, FindsTheInertiaOfAConvexBody) {
+  talus_body box{};
+  box.size = sizeof box;
+  talus_body hull = box;
+  const double size[3] = {1.0, 2.0, 3.0};
+  ASSERT_EQ(talus_box(sleeper, 2.0, size, &box), TALUS_OK);
+  std::vector<double> corners;
+  for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+    for (int z = 0; z < (GetParam() == 2 ? 1 : 2); ++z) {
+      corners.insert(corners.end(), {5.0 + x, 5.0 + 2.0 * y});
+      if (GetParam() == 3) corners.push_back(5.0 + 3.0 * z);
+    }
+  double centre[3] = {};
+  ASSERT_EQ(talus_convex(sleeper, 2.0, corners.data(), corners.size() / GetParam(), &hull, centre), TALUS_OK)
+      << talus_message();
+  EXPECT_NEAR(centre[0], 5.5, 1e-12);
+  EXPECT_NEAR(centre[1], 6.0, 1e-12);
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(hull.inertia[i], box.inertia[i], 1e-12);
+  for (int i = 0; i < GetParam(); ++i) EXPECT_NEAR(hull.low[i], box.low[i], 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, CInterface, ::testing::Values(2, 3));
+
+}  // namespace
+}  // namespace talus::test

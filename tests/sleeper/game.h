@@ -1,0 +1,172 @@
+#pragma once
+// A game on an engine of one's own.
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/math/require.h"
+#include "common/sleeper/given_step.h"
+#include "tests/sleeper/drops.h"
+
+namespace talus::test {
+
+/// Boxes come, go, are teleported, pushed and carried; now and then the state is saved or loaded. Everything is drawn
+/// from a seed. `Scene` is SleepingBulletScene or SleepingBox2dScene.
+template <typename Scene>
+class Game {
+ public:
+  explicit Game(unsigned seed) : random_(seed) {
+    Vector size = Vector::Constant(3.0);
+    size[up] = 4.0;  // it stands in the ground, so that nothing gets under it
+    lift_ = &scene_.add_lift(size, lift_at());
+    save();
+  }
+
+  void play(int turns) {
+    for (int turn = 0; turn < turns; ++turn) {
+      act(static_cast<int>(random_() % 16));
+      for (int i = 0; i < 10; ++i) step();
+    }
+  }
+  /// Nothing happens until all is at rest.
+  void rest() {
+    lift_speed_ = 0.0;
+    for (int i = 0; i < 900; ++i) step();
+  }
+  /// Boxes that hang in the air: woken, they fall as if nothing held them, but for a fifth.
+  int floating() {
+    std::vector<double> heights;
+    for (const Body* box : boxes_) heights.push_back(scene_.place(*box)[up]);
+    scene_.sleeper->wake_all();
+    constexpr int steps = 6;
+    for (int i = 0; i < steps; ++i) scene_.step_engine();
+    const double free_fall = 9.81 * drop_dt * drop_dt * steps * (steps + 1) / 2;
+    int count = 0;
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      count += heights[i] - scene_.place(*boxes_[i])[up] > 0.8 * free_fall ? 1 : 0;
+    return count;
+  }
+  /// Boxes that are lost, with their places; empty: none.
+  std::string lost() const {
+    std::string found;
+    if (scene_.sleeper->size() != static_cast<int>(boxes_.size()) + 1) found += "other numbers of bodies; ";
+    for (const Body* box : boxes_) {
+      const Vector at = scene_.place(*box);
+      if (scene_.sleeper->watches(*box) && at[up] > 0.1 && at.cwiseAbs().maxCoeff() < 100) continue;
+      for (const double number : at) found += std::to_string(number) + " ";
+    }
+    return found;
+  }
+  bool refuses_removed() const {
+    return std::ranges::all_of(gone_, [&](Handle handle) {
+      try {
+        scene_.sleeper->body(handle);
+        return false;
+      } catch (const InvalidValue&) {
+        return true;
+      }
+    });
+  }
+  int awake() const { return scene_.sleeper->awake(); }
+  std::size_t boxes() const { return boxes_.size(); }
+  static constexpr std::size_t most_boxes = 60;
+  std::uint32_t highest_slot() const {
+    std::uint32_t highest = 0;
+    for (const Body* box : boxes_) highest = std::max(highest, scene_.sleeper->handle(*box).slot);
+    return highest;
+  }
+
+ private:
+  using Body = typename Scene::Body;
+  using Saved = typename Scene::Saved;
+  static constexpr int dim = Scene::dimension;
+  static constexpr int up = dim - 1;
+  using Vector = Vec<dim>;
+
+  double number(double low, double high) { return low + (high - low) * fraction(random_); }
+  Vector lift_at() const {
+    Vector at = Vector::Zero();
+    at[0] = 6.0;
+    at[up] = lift_height_ - 2.0;
+    return at;
+  }
+  Pose<dim> anywhere() {
+    Pose<dim> pose = drops<dim>(1, static_cast<unsigned>(random_())).front();
+    pose.position[0] += number(-1, 7);
+    return pose;
+  }
+  Body& any_box() { return *boxes_[random_() % boxes_.size()]; }
+
+  void act(int what) {
+    if (what < 7 && boxes_.size() < most_boxes) boxes_.push_back(&scene_.drop(anywhere()));
+    if (boxes_.empty()) return;
+    if (what == 8 || what == 9) take_away(any_box());
+    if (what == 10) scene_.put(any_box(), anywhere().position);
+    if (what == 11) scene_.push(any_box(), Vector::Constant(number(-3, 3)));
+    if (what == 12) lift_speed_ = number(-0.3, 0.3);
+    if (what == 13) turn_gravity(number(-1, 1));
+    if (what == 14) save();
+    if (what == 15) load();
+  }
+  void turn_gravity(double aside) {
+    gravity_ = aside;
+    Vector gravity = Vector::Zero();
+    gravity[0] = aside;
+    gravity[up] = -9.81;
+    scene_.set_gravity(gravity);
+  }
+  void take_away(Body& box) {
+    gone_.push_back(scene_.sleeper->handle(box));
+    std::erase(boxes_, &box);
+    scene_.take_away(box);
+  }
+  void save() {
+    saved_ = scene_.sleeper->snapshot();
+    places_.clear();
+    for (const SavedSleep& one : saved_) places_.push_back(scene_.save(scene_.sleeper->body(one.body)));
+    saved_lift_ = lift_height_;
+    saved_gravity_ = gravity_;
+  }
+  /// Boxes of the saved state that have left since do not come back; those that have come since leave.
+  void load() {
+    std::set<Handle> kept;
+    for (const SavedSleep& one : saved_) kept.insert(one.body);
+    for (Body* box : std::vector(boxes_))
+      if (!kept.contains(scene_.sleeper->handle(*box))) take_away(*box);
+    std::vector<SavedSleep> there;
+    for (std::size_t i = 0; i < saved_.size(); ++i) {
+      if (std::ranges::find(gone_, saved_[i].body) != gone_.end()) continue;
+      scene_.load(scene_.sleeper->body(saved_[i].body), places_[i]);
+      there.push_back(saved_[i]);
+    }
+    lift_height_ = saved_lift_;
+    turn_gravity(saved_gravity_);
+    scene_.sleeper->restore(there);
+    if (there.size() != saved_.size()) scene_.sleeper->wake_all();  // what lay on a box that is gone must not hang
+  }
+  void step() {
+    const double dt = number(0.8, 1.2) * drop_dt;
+    lift_height_ = std::clamp(lift_height_ + lift_speed_ * dt, 0.5, 2.0);
+    scene_.move_lift(*lift_, lift_at(), dt);
+    scene_.step(dt);
+  }
+
+  std::mt19937 random_;
+  Scene scene_;
+  Body* lift_ = nullptr;
+  double lift_height_ = 1.0;  // of its top [m]
+  double lift_speed_ = 0.0;   // [m/s]
+  double gravity_ = 0.0;      // aside [m/s^2]
+  std::vector<Body*> boxes_;
+  std::vector<Handle> gone_;
+  std::vector<SavedSleep> saved_;
+  std::vector<Saved> places_;
+  double saved_lift_ = 0.0;
+  double saved_gravity_ = 0.0;
+};
+
+}  // namespace talus::test
