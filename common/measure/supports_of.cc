@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "common/shape/convex_distance.h"
+#include "common/world/touching_distance.h"
 
 namespace talus {
 namespace {
 
-constexpr double touching_distance = 0.03;  // in lengths of the body
-constexpr double lowered_by = 1e-4;         // in lengths of the body
+constexpr double lowered_by = 1e-4;  // in lengths of the body
 /// Cosine between the vertical and the steepest normal that still carries: 84 degrees.
 constexpr double least_rise = 0.1;
 

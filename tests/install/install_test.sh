@@ -65,11 +65,22 @@ pkg_config) # without CMake
   g++ -std=c++20 -O1 "$source/docs/examples/first_pile.cc" -o "$folder/first_pile" $(pkg-config --cflags --libs talus-box2d)
   expect "$first_pile" "$folder/first_pile"
   ;;
+c_library) # C with CMake and without; the library has the functions of talus.h and no other symbol
+  make_program "$(config_of_tree)" "$source/docs/examples/c_pile.c" c -DCMAKE_DISABLE_FIND_PACKAGE_{Eigen3,fmt}=ON
+  expect '^20 balls, 20 asleep$' "$project/program"
+  use_pkg_config_of_tree
+  gcc -std=c11 -Wall -Wextra -Werror "$source/docs/examples/c_pile.c" -o "$folder/c_pile" $(pkg-config --cflags --libs talus)
+  library=$(find "$tree" -name libtalus.so)
+  expect '^20 balls, 20 asleep$' env LD_LIBRARY_PATH="$(dirname "$library")" "$folder/c_pile"
+  others=$(nm -D --defined-only "$library" | awk '$3 !~ /^(talus_|TALUS_0)/')
+  [[ -z $others ]] || fail "also exported: $others"
+  ;;
 headers) # each compiles alone
   use_pkg_config_of_tree
+  modules=$(cd "$PKG_CONFIG_PATH" && printf '%s\n' *.pc | sed 's/\.pc$//')
   for header in "$tree"/include/talus/*.h; do
     echo "#include <talus/$(basename "$header")>" |
-      g++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ - $(pkg-config --cflags talus box2d bullet) ||
+      g++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ - $(pkg-config --cflags $modules) ||
       fail "${header##*/} does not compile alone"
   done
   ;;
