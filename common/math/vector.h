@@ -7,6 +7,10 @@
 
 namespace talus {
 
+// Eigen aligns its types by the compiler's options, and a program must lay them out as the compiled library does.
+static_assert(EIGEN_MAX_STATIC_ALIGN_BYTES <= 16,
+              "talus: compile without AVX (-march=native, -mavx2), or with -DEIGEN_MAX_ALIGN_BYTES=16");
+
 /// Position, velocity or extent, one entry per axis, the last one up.
 template <int Dim>
 using Vec = Eigen::Matrix<double, Dim, 1>;
