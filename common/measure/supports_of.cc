@@ -7,8 +7,7 @@
 namespace talus {
 namespace {
 
-constexpr double touching_distance = 0.03;  // in lengths of the body
-constexpr double lowered_by = 1e-4;         // in lengths of the body
+constexpr double lowered_by = 1e-4;  // in lengths of the body
 /// Cosine between the vertical and the steepest normal that still carries: 84 degrees.
 constexpr double least_rise = 0.1;
 

@@ -8,9 +8,6 @@
 namespace talus {
 namespace {
 
-/// In D; above the gap that Box2D keeps between polygons and the margin of Bullet's boxes.
-constexpr double touching_distance = 0.03;
-
 bool same_pose(const Pose<2>& a, const Pose<2>& b) {
   return a.position == b.position && a.rotation.angle() == b.rotation.angle();
 }

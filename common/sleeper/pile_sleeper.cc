@@ -9,12 +9,11 @@
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/near_bodies.h"
 #include "common/scene/policy_fields.h"
+#include "common/shape/convex_distance.h"
 
 namespace talus {
 namespace {
 
-/// In D: how near a sleeping body must be to a kinematic one to touch it; above the gaps that engines keep.
-constexpr double touching_distance = 0.03;
 /// In D: how far a sleeping body may be from where it fell asleep. Single precision rounds.
 constexpr double stays_within = 1e-3;
 
