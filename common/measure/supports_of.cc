@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/shape/convex_distance.h"
-#include "common/world/touching_distance.h"
 
 namespace talus {
 namespace {

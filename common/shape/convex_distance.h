@@ -14,6 +14,10 @@
 
 namespace talus {
 
+/// Bodies that are nearer touch, in D: above the gap that Box2D keeps between polygons and the margin of Bullet's
+/// boxes.
+inline constexpr double touching_distance = 0.03;
+
 /// Between the segments p1-q1 and p2-q2, either of which may be a point [m].
 template <int Dim>
 double segment_distance(const Vec<Dim>& p1, const Vec<Dim>& q1, const Vec<Dim>& p2, const Vec<Dim>& q2);

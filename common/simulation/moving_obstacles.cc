@@ -4,7 +4,6 @@
 
 #include "common/scene/typical_body.h"
 #include "common/shape/convex_distance.h"
-#include "common/world/touching_distance.h"
 
 namespace talus {
 namespace {

@@ -9,7 +9,7 @@
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/near_bodies.h"
 #include "common/scene/policy_fields.h"
-#include "common/world/touching_distance.h"
+#include "common/shape/convex_distance.h"
 
 namespace talus {
 namespace {
