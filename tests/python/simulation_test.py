@@ -1,5 +1,6 @@
 """Runs of the Python package against the command's own."""
 
+import signal
 import subprocess
 import sys
 import threading
@@ -63,6 +64,16 @@ class Simulation(unittest.TestCase):
         done.set()
         thread.join()
         self.assertGreater(during, 1000)
+
+    def test_ctrl_c_stops_a_step_and_the_run_can_go_on(self):
+        run = talus.Simulation("drop_in_a_pile_3d", policy="full", set={"run.frames": 10**6})
+        threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+        with self.assertRaises(KeyboardInterrupt):
+            run.step(10**9)
+        stopped = run.step_count
+        self.assertLess(stopped, 10**6)
+        run.step(1)
+        self.assertEqual(run.step_count, stopped + 1)
 
 
 if __name__ == "__main__":
