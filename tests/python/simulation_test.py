@@ -46,6 +46,12 @@ class Simulation(unittest.TestCase):
         with self.assertRaisesRegex(talus.SceneError, "run.frames = -5"):
             talus.Simulation("drop_in_a_pile_2d", set={"run.frames": -5})
 
+    def test_all_errors_of_a_toml_text_have_their_lines(self):
+        with self.assertRaises(talus.SceneError) as caught:
+            talus.Simulation("dimension = 2\n[run]\nframes = -3\nfoo = 1\n")
+        self.assertIn("scene:3:10: run.frames = -3", str(caught.exception))
+        self.assertIn("scene:4:1: run.foo = 1", str(caught.exception))
+
     def test_other_threads_run_during_a_step(self):
         counted = 0
         done = threading.Event()
