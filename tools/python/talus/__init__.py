@@ -1,0 +1,88 @@
+"""Piles of rigid bodies that fall asleep body by body: runs of talus scenes as NumPy arrays."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from ._talus import NonFiniteState, Run, SceneError
+
+__all__ = ["NonFiniteState", "SceneError", "Simulation"]
+
+
+def _toml(value):
+    """A Python value as TOML."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    return json.dumps(value.item() if isinstance(value, np.generic) else value)
+
+
+def _scene(scene):
+    """The file of a scene that comes with talus; else `scene` itself."""
+    shipped = (folder / "share/talus/scenes" / f"{scene}.toml" for folder in Path(__file__).resolve().parents)
+    return str(scene) if "\n" in str(scene) else str(next(filter(Path.is_file, shipped), scene))
+
+
+class Simulation:
+    """A run of a scene, step by step.
+
+    scene: path, name of a scene that `talus list` shows, or TOML text. set: values by path, as of `talus run --set`.
+    Errors of the scene raise SceneError with all of them. Arrays are copies, entry i belongs to body i.
+    """
+
+    def __init__(self, scene, policy=None, seed=None, backend=None, set=None):
+        settings = [f"{path}={_toml(value)}" for path, value in (set or {}).items()]
+        self._run = Run(_scene(scene), policy or "", seed, backend or "", settings)
+
+    def step(self, count=1):
+        """Up to `count` steps, fewer where the run ends; other threads run meanwhile, and Ctrl-C stops it."""
+        self._run.step(count)
+
+    dimension = property(lambda self: self._run.dimension, doc="2 or 3.")
+    finished = property(lambda self: self._run.finished, doc="Whether the run is at its end.")
+    time = property(lambda self: self._run.time, doc="Simulated time [s].")
+    step_count = property(lambda self: self._run.step_count, doc="Steps done.")
+
+    def hash(self):
+        """Hash of all poses and velocities, as `talus run --hash` prints it."""
+        return f"{self._run.hash():016x}"
+
+    def poses(self, out=None):
+        """(n, 3) in 2D: x, z [m], angle [rad]; (n, 7) in 3D: x, y, z [m], quaternion x, y, z, w. Written to `out` if given."""
+        values = self._run.poses()
+        if out is None:
+            return values
+        if out.shape != values.shape:
+            raise ValueError(f"out.shape = {out.shape}: must be {values.shape}")
+        out[...] = values
+        return out
+
+    def velocities(self):
+        """(n, dimension), of the centres of mass [m/s]."""
+        return self._run.velocities()
+
+    def spins(self):
+        """(n, 1) in 2D, (n, 3) in 3D [rad/s]."""
+        return self._run.spins()
+
+    def asleep(self):
+        """(n,) bool."""
+        return np.array(self._run.asleep(), dtype=bool)
+
+    def present(self):
+        """(n,) bool: False for a removed body, whose other entries stay as they last were."""
+        return ~np.array(self._run.removed(), dtype=bool)
+
+    def shapes(self):
+        """(n,) int: number of each body's shape in the scene."""
+        return np.array(self._run.shapes(), dtype=int)
+
+    def remove(self, body):
+        """Takes a body away. Sleeping bodies near it wake."""
+        self._run.remove(body)
+
+    def wake(self):
+        """Wakes all bodies."""
+        self._run.wake()
