@@ -29,16 +29,17 @@ class PileSleeper {
   explicit PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& options = {});
   PileSleeper(const PileSleeper&) = delete;
   PileSleeper& operator=(const PileSleeper&) = delete;
+  ~PileSleeper() = default;
 
   /// Adds a body, awake, at the pose of its centre of mass.
   Handle add(const BodyTraits<Dim>& traits, const Pose<Dim>& pose, BodyRole role = BodyRole::sleeps);
   /// Takes a body out. Sleeping bodies near it wake, since it may have supported them.
-  const SleepChanges<Dim>& remove(Handle body);
+  const SleepChanges<Dim>& remove(Handle handle);
 
   /// Whether a body may sleep from now on: `sleeps` or `stays_awake`, of one that is not kinematic. One that may not
   /// wakes.
-  const SleepChanges<Dim>& set_role(Handle body, BodyRole role);
-  BodyRole role(Handle body) const { return handles_.at(body, "body").role; }
+  const SleepChanges<Dim>& set_role(Handle handle, BodyRole role);
+  BodyRole role(Handle handle) const { return handles_.at(handle, "body").role; }
 
   /// The bodies whose states after_step() needs: those awake and the kinematic ones. Valid until the next call.
   std::span<const Handle> followed();
@@ -46,18 +47,18 @@ class PileSleeper {
   const SleepChanges<Dim>& after_step(const GivenStep<Dim>& step);
 
   /// Before something acts on a body: a force, a new velocity. Without effect on an awake one.
-  const SleepChanges<Dim>& wake(Handle body);
+  const SleepChanges<Dim>& wake(Handle handle);
   const SleepChanges<Dim>& wake_all();
   /// Wakes what sleeps near a box: where something that is no body of the sleeper came, went or exploded.
   const SleepChanges<Dim>& wake_near(const Box<Dim>& box);
   /// After the program has put a body elsewhere: it wakes, with the bodies near its old and its new place.
-  const SleepChanges<Dim>& moved(Handle body, const Pose<Dim>& to);
+  const SleepChanges<Dim>& moved(Handle handle, const Pose<Dim>& to);
   /// From the next step on [m/s^2]. If it differs from before by more than a hundredth, all bodies wake.
   const SleepChanges<Dim>& set_gravity(const Vec<Dim>& gravity);
 
   /// Whether the handle names a body that is there.
-  bool has(Handle body) const { return handles_.has(body); }
-  bool asleep(Handle body) const;
+  bool has(Handle handle) const { return handles_.has(handle); }
+  bool asleep(Handle handle) const;
   /// Bodies that are there; kinematic ones count.
   int size() const { return handles_.size(); }
   int awake() const { return static_cast<int>(world().awake().size()); }

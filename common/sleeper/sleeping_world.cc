@@ -64,7 +64,7 @@ typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::set_gravity(const Vec<Di
 
 template <int Dim>
 typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::set_moving(BodyIndex body, SleepCause cause) {
-  const Events woken = wake(std::vector{body}, cause);
+  Events woken = wake(std::vector{body}, cause);
   if (control_) control_->forget(body);
   return woken;
 }

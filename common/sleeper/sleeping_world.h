@@ -22,6 +22,7 @@ class SleepingWorld {
   SleepingWorld(const Vec<Dim>& gravity, const SleeperOptions& options);
   SleepingWorld(const SleepingWorld&) = delete;
   SleepingWorld& operator=(const SleepingWorld&) = delete;
+  ~SleepingWorld() = default;
 
   const GivenWorld<Dim>& world() const { return world_; }
   GivenWorld<Dim>& world() { return world_; }
