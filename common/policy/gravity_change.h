@@ -14,17 +14,17 @@ namespace talus {
 template <int Dim>
 class GravityChange {
  public:
-  /// `gravity` [m/s^2] in which the bodies begin, `extent` D [m] of the typical one.
+  /// `gravity`: at the start [m/s^2]. `extent`: of the typical body, D [m].
   GravityChange(const Vec<Dim>& gravity, double extent) : of_sleepers_(gravity), extent_(extent) {}
 
   /// Whether all bodies must wake in the present gravity.
   bool wakes(const Vec<Dim>& now) const { return !same_gravity<Dim>(now, of_sleepers_); }
-  /// They woke for it at a time [s].
+  /// All bodies woke for the gravity `now` at `time` [s].
   void note_wake(const Vec<Dim>& now, double time) {
     of_sleepers_ = now;
     woken_at_ = time;
   }
-  /// Whether bodies must stay awake at a time [s].
+  /// Whether bodies must stay awake at `time` [s].
   bool keeps_awake(double time) const {
     const double unit = std::sqrt(extent_ / std::max(of_sleepers_.norm(), 1e-9));
     const double since = woken_at_ ? time - *woken_at_ : longest;

@@ -15,7 +15,8 @@ template <int Dim>
 class SleepControl {
  public:
   /// `world` must outlive this object. Where the parameters of a pile leave open whether bodies in flight count, the
-  /// policy decides it. `engine_sleep`: the engine has a sleeping rule of its own, whose doings become events too.
+  /// policy decides it. `engine_sleep`: the engine puts bodies to sleep and wakes them by itself, which becomes events
+  /// too.
   SleepControl(World<Dim>& world, std::unique_ptr<SleepPolicy<Dim>> policy, std::vector<PileParams<Dim>> piles,
                const TypicalBody& typical, bool engine_sleep = false);
 

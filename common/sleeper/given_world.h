@@ -12,7 +12,7 @@
 namespace talus {
 
 /// A world whose states and contacts are given after each step of a foreign engine. It simulates nothing: step() takes
-/// over what was given. Numbers of removed bodies are used again.
+/// over what was given. Bodies get the numbers of removed ones.
 template <int Dim>
 class GivenWorld final : public World<Dim> {
  public:
@@ -22,7 +22,7 @@ class GivenWorld final : public World<Dim> {
   std::optional<BodyIndex> free_number() const;
   BodyIndex put(const Shape<Dim>& shape, const Pose<Dim>& pose);
 
-  /// Sorts the bodies by place anew for bodies of this extent [m] > 0. Costs O(bodies).
+  /// Sorts the bodies into columns that fit bodies of this extent [m] > 0. Costs O(bodies).
   void sort_for(double extent);
 
   void give_dt(double dt) { this->set_dt(dt); }
@@ -34,7 +34,7 @@ class GivenWorld final : public World<Dim> {
   void give_contacts(std::span<const Contact<Dim>> contacts);
 
  private:
-  // Bodies come by put().
+  // Not called: put() adds the bodies.
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
   void engine_remove(BodyIndex body) override;
   EngineTimes engine_step() override { return {}; }

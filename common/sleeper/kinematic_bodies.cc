@@ -9,9 +9,9 @@
 namespace talus {
 namespace {
 
-// In D of the sleeping bodies.
-constexpr double rounding = 1e-5;  // way within a step
-constexpr double creep = 1e-3;     // way over any time
+// Largest motion that does not count, in D of the sleeping bodies.
+constexpr double rounding = 1e-5;  // in one step
+constexpr double creep = 1e-3;     // since the body last counted as moving
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace talus {
 template <int Dim>
 class KinematicBodies {
  public:
-  /// Returns its number; those of removed ones are used again.
+  /// Returns the number of the body, which may be that of a removed one.
   int add(const Shape<Dim>& shape, const Pose<Dim>& pose);
   void remove(int number) { free_.push_back(number); }
 
@@ -25,7 +25,8 @@ class KinematicBodies {
   /// sleeping bodies of `extent` [m], or has crept away since it last did.
   void move(int number, const Pose<Dim>& to, const Vec<Dim>& velocity, const Spin<Dim>& spin, double dt, double extent);
   bool moved(int number) const { return bodies_[number].moved; }
-  /// Appends sleeping bodies that it touches, or may within the next step. Nothing if it did not move.
+  /// Appends the sleeping bodies that the kinematic body touches or may touch within the next step; none if it did not
+  /// move.
   void find_sleepers(int number, const World<Dim>& world, double margin, std::vector<BodyIndex>& found) const;
 
  private:

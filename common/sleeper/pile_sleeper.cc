@@ -205,7 +205,8 @@ BodyIndex PileSleeper<Dim>::side(Handle handle) const {
 template <int Dim>
 void PileSleeper<Dim>::take_contacts(const GivenStep<Dim>& step) {
   contacts_.clear();
-  follows_.assign(world().states().asleep.size(), 0);
+  follows_.resize(world().states().asleep.size(), 0);
+  for (const BodyIndex body : world().awake()) follows_[body] = 0;
   for (const GivenContact<Dim>& given : step.contacts) {
     const BodyIndex a = side(given.a);
     const BodyIndex b = side(given.b);

@@ -17,7 +17,7 @@ namespace talus {
 
 /// Decides, step by step, which bodies of a foreign engine need not be simulated. After each step of the engine,
 /// after_step() takes states and contacts of the bodies that are awake, and returns what to change. It works by policy
-/// `adaptive` on one pile, whose place and slope it finds by itself.
+/// `adaptive` on one pile, whose place and slope follow from the contacts.
 ///
 /// Every function that returns SleepChanges has already counted them as done: the caller carries them out in its engine
 /// before anything else, and they are valid until the next call. All arguments are in the program's axes. Bad input
@@ -66,7 +66,7 @@ class PileSleeper {
   /// Of every body that is not kinematic, in the order of their slots.
   std::vector<SavedSleep> snapshot() const;
   /// Puts to sleep again what slept, and wakes all others. Before it, the bodies must be in their saved places; `poses`
-  /// has them, entry i of saved[i]. A program that has added its bodies anew replaces their handles in `saved`.
+  /// has them, entry i of saved[i]. A program that has added its bodies again replaces their handles in `saved`.
   const SleepChanges<Dim>& restore(std::span<const SavedSleep> saved, std::span<const Pose<Dim>> poses);
 
  private:
@@ -93,7 +93,7 @@ class PileSleeper {
   HandleTable handles_;
   std::vector<Handle> kinematic_handles_;
   std::vector<Handle> handle_of_;       // [body] of the world
-  std::vector<Handle> followed_;        // as last asked for
+  std::vector<Handle> followed_;        // of the last call of followed()
   std::vector<Contact<Dim>> contacts_;  // of the step, as given
   std::vector<std::uint8_t> follows_;   // [body] whether it touches a kinematic body that moves
   std::vector<std::int64_t> given_;     // [slot] number of the last step that had it

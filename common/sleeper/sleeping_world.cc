@@ -3,13 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/sleeper/typical_of.h"
-
 namespace talus {
 namespace {
 
 /// Relative change of D that is worth another policy.
 constexpr double new_extent = 0.1;
+/// The share of the largest bodies that does not count for D.
+constexpr double largest_left_out = 0.02;
+
+template <int Dim>
+TypicalBody typical_of(const std::vector<const Shape<Dim>*>& shapes) {
+  TypicalBody mean{.bounding_volume = 0.0, .extent = 0.0, .mass = 0.0};
+  std::vector<double> extents;
+  const double share = 1.0 / static_cast<double>(shapes.size());
+  for (const Shape<Dim>* shape : shapes) {
+    mean.bounding_volume += share * shape->bounding_volume;
+    mean.mass += share * shape->mass;
+    extents.push_back(shape->extent);
+  }
+  std::ranges::sort(extents);
+  mean.extent = extents[static_cast<std::size_t>((1.0 - largest_left_out) * static_cast<double>(extents.size() - 1))];
+  return mean;
+}
 
 }  // namespace
 

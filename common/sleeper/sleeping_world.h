@@ -15,7 +15,7 @@
 namespace talus {
 
 /// Runs policy `adaptive` on a given world. It makes the policy at the first contact with something that is no body,
-/// since until then nothing can sleep, and anew when the bodies have become much larger or smaller.
+/// since until then nothing can sleep, and again when the bodies have become much larger or smaller.
 template <int Dim>
 class SleepingWorld {
  public:
@@ -36,14 +36,14 @@ class SleepingWorld {
   /// Wakes those that sleep, and returns them.
   Events wake(std::span<const BodyIndex> bodies, SleepCause cause);
   Events wake_all();
-  /// Wakes a body that is about to move or was put elsewhere: its rest begins anew.
+  /// Wakes a body that is about to move or was put elsewhere: its time at rest starts again at zero.
   Events set_moving(BodyIndex body, SleepCause cause);
   /// Puts bodies to sleep that slept in a saved world, and returns them. `settled`: no stability check is to come.
   Events freeze_saved(std::span<const BodyIndex> bodies, bool settled);
   /// Returns those that wake for it.
   Events set_gravity(const Vec<Dim>& gravity);
 
-  /// Before the policy decides: makes it where it is missing, or anew. Returns the bodies that wake for that.
+  /// Before the policy decides: makes it where it is missing or no longer fits. Returns the bodies that wake for that.
   Events prepare(std::span<const Contact<Dim>> contacts);
   /// One step of `dt` [s] whose states and contacts world() has. `follows`: by body, whether it touches what moves it.
   /// Returns what was done.

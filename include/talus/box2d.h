@@ -164,7 +164,7 @@ class Box2dSleeper {
     entries_[handle.slot] = {};
   }
 
-  /// Directly before each step of Box2D.
+  /// Call it directly before each step of Box2D.
   void before_step() {
     if (!enabled_) return;
     listen();
@@ -177,8 +177,8 @@ class Box2dSleeper {
       if (core_.role(handle) != free_role(*entry.body)) carry_out(core_.set_role(handle, free_role(*entry.body)));
     }
   }
-  /// Directly after each step of Box2D, which was `dt` [s] long. Returns what changed, already done; valid until the
-  /// next call.
+  /// Call it directly after each step of Box2D, of `dt` [s]. Returns the changes, which the world has already; valid
+  /// until the next call.
   const SleepChanges<2>& after_step(double dt) {
     impulses_.end_step();
     buffer_.clear();
@@ -234,7 +234,7 @@ class Box2dSleeper {
     bool slept_alone = true;  // Box2D was allowed to put it to sleep
   };
 
-  /// Passes all on to the program's listener.
+  /// Calls the program's listener each time that Box2D calls it.
   class Listener final : public b2ContactListener {
    public:
     explicit Listener(Box2dImpulses& impulses) : impulses_(impulses) {}

@@ -15,8 +15,8 @@
 namespace talus {
 
 /// Puts bodies of a btDiscreteDynamicsWorld to sleep one by one where they are. A sleeping body is static to Bullet:
-/// its mass is 0, its manifolds and their impulses stay, pointers and user data too. Waking gives mass and activation
-/// back.
+/// its mass is 0, its manifolds and their impulses stay, pointers and user data too. Waking restores mass and
+/// activation.
 ///
 ///     talus::BulletSleeper sleeper(world);
 ///     sleeper.add_all();
@@ -71,7 +71,7 @@ class BulletSleeper {
     entries_[handle.slot] = {};
   }
 
-  /// Directly before each step of Bullet.
+  /// Call it directly before each step of Bullet.
   void before_step() {
     if (!enabled_) return;
     carry_out(core_.set_gravity(from_bullet(world_.getGravity())));
@@ -83,8 +83,8 @@ class BulletSleeper {
       if (core_.role(handle) != free_role(*entry.body)) carry_out(core_.set_role(handle, free_role(*entry.body)));
     }
   }
-  /// Directly after each step of Bullet, which was `dt` [s] long. Returns what changed, already done; valid until the
-  /// next call.
+  /// Call it directly after each step of Bullet, of `dt` [s]. Returns the changes, which the world has already; valid
+  /// until the next call.
   const SleepChanges<3>& after_step(double dt) {
     buffer_.clear();
     if (enabled_) read_states();

@@ -34,6 +34,8 @@ class Simulation(unittest.TestCase):
         self.assertFalse(np.array_equal(run.poses()[: len(first)], first))
         with self.assertRaisesRegex(ValueError, "out.shape"):
             run.poses(out=np.empty((1, 2)))
+        with self.assertRaises(TypeError):
+            run.poses(out=np.empty((len(first), 7), dtype=np.float32))
 
     def test_a_removed_body_is_no_longer_present(self):
         run = talus.Simulation("drop_in_a_pile_2d")
@@ -41,6 +43,8 @@ class Simulation(unittest.TestCase):
         run.remove(0)
         self.assertFalse(run.present()[0])
         self.assertTrue(run.present()[1:].all())
+        with self.assertRaisesRegex(ValueError, "body"):
+            run.remove(0)
 
     def test_a_bad_value_is_an_error_with_field_and_value(self):
         with self.assertRaisesRegex(talus.SceneError, "run.frames = -5"):

@@ -90,7 +90,7 @@ class SleepingBox2dScene : public Box2dScene {
     Box2dScene::step(dt);
     return sleeper->after_step(dt);
   }
-  /// Without the sleeper.
+  /// A step of the engine alone.
   void step_engine() { Box2dScene::step(); }
   void run(int steps) {
     for (int i = 0; i < steps; ++i) step();

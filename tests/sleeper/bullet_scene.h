@@ -115,7 +115,7 @@ class SleepingBulletScene : public BulletScene {
     BulletScene::step(dt);
     return sleeper->after_step(dt);
   }
-  /// Without the sleeper.
+  /// A step of the engine alone.
   void step_engine() { BulletScene::step(); }
   void run(int steps) {
     for (int i = 0; i < steps; ++i) step();

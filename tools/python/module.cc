@@ -1,5 +1,6 @@
 // The extension module `_talus`: a run of a scene for Python.
 
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "common/math/angle.h"
+#include "common/math/require.h"
 #include "common/scene/read_scene.h"
 #include "common/simulation/state_hash.h"
 #include "tools/run/backends.h"
@@ -26,26 +28,6 @@ namespace {
 
 using Array = py::array_t<double, py::array::c_style>;
 
-/// A run as Python has it, in 2D or 3D.
-class AnyRun {
- public:
-  virtual ~AnyRun() = default;
-  virtual int dimension() const = 0;
-  virtual void step(std::int64_t count) = 0;
-  virtual bool finished() const = 0;
-  virtual double time() const = 0;
-  virtual std::int64_t step_count() const = 0;
-  virtual std::uint64_t hash() const = 0;
-  virtual Array poses() const = 0;
-  virtual Array velocities() const = 0;
-  virtual Array spins() const = 0;
-  virtual std::vector<std::uint8_t> asleep() const = 0;
-  virtual std::vector<std::uint8_t> removed() const = 0;
-  virtual std::vector<int> shapes() const = 0;
-  virtual void remove(BodyIndex body) = 0;
-  virtual void wake() = 0;
-};
-
 /// A row for each vector.
 template <class Vectors>
 Array rows_of(const Vectors& vectors) {
@@ -57,19 +39,19 @@ Array rows_of(const Vectors& vectors) {
   return array;
 }
 
+/// A run as Python has it.
 template <int Dim>
-class Run final : public AnyRun {
+class Run {
  public:
   Run(const Scene<Dim>& scene, const std::string& backend) : simulation_(make_simulation(scene, backend)) {}
 
-  int dimension() const override { return Dim; }
-  bool finished() const override { return simulation_.finished(); }
-  double time() const override { return simulation_.time(); }
-  std::int64_t step_count() const override { return simulation_.frame().step; }
-  std::uint64_t hash() const override { return state_hash(states()); }
+  bool finished() const { return simulation_.finished(); }
+  double time() const { return simulation_.time(); }
+  std::int64_t step_count() const { return simulation_.frame().step; }
+  std::uint64_t hash() const { return state_hash(states()); }
 
   /// Without the interpreter's lock, which it takes every few milliseconds to see whether Ctrl-C was pressed.
-  void step(std::int64_t count) override {
+  void step(std::int64_t count) {
     using Clock = std::chrono::steady_clock;
     constexpr auto between_looks = std::chrono::milliseconds(5);
     const py::gil_scoped_release released;
@@ -83,9 +65,12 @@ class Run final : public AnyRun {
     }
   }
 
-  Array poses() const override {
-    constexpr py::ssize_t width = Dim == 2 ? 3 : 7;
-    Array array({static_cast<py::ssize_t>(states().size()), width});
+  static constexpr py::ssize_t pose_width = Dim == 2 ? 3 : 7;
+
+  /// Writes the poses into an array of a row for each body. Throws std::invalid_argument on one of another shape.
+  void write_poses(Array& array) const {
+    require(array.ndim() == 2 && array.shape(0) == states().size() && array.shape(1) == pose_width, "out.shape",
+            std::string(py::str(array.attr("shape"))), fmt::format("must be ({}, {})", states().size(), pose_width));
     auto rows = array.template mutable_unchecked<2>();
     for (BodyIndex i = 0; i < states().size(); ++i) {
       const Pose<Dim>& pose = states().pose[i];
@@ -95,16 +80,20 @@ class Run final : public AnyRun {
       else
         for (int k = 0; k < 4; ++k) rows(i, 3 + k) = pose.rotation.coeffs()[k];
     }
+  }
+  Array poses() const {
+    Array array({static_cast<py::ssize_t>(states().size()), pose_width});
+    write_poses(array);
     return array;
   }
 
-  Array velocities() const override { return rows_of(states().velocity); }
-  Array spins() const override { return rows_of(states().spin); }
-  std::vector<std::uint8_t> asleep() const override { return states().asleep; }
-  std::vector<std::uint8_t> removed() const override { return states().removed; }
-  std::vector<int> shapes() const override { return states().shape; }
-  void remove(BodyIndex body) override { simulation_.remove(body); }
-  void wake() override { simulation_.thaw_all(); }
+  Array velocities() const { return rows_of(states().velocity); }
+  Array spins() const { return rows_of(states().spin); }
+  std::vector<std::uint8_t> asleep() const { return states().asleep; }
+  std::vector<std::uint8_t> removed() const { return states().removed; }
+  std::vector<int> shapes() const { return states().shape; }
+  void remove(BodyIndex body) { simulation_.remove(body); }
+  void wake() { simulation_.thaw_all(); }
 
  private:
   const BodyStates<Dim>& states() const { return simulation_.world().states(); }
@@ -113,53 +102,56 @@ class Run final : public AnyRun {
 };
 
 /// A text with a line end or a `=` is a scene itself, every other one names it.
-std::unique_ptr<AnyRun> open_run(const SceneChoice& choice) {
-  const std::vector<Override> overrides = overrides_of(choice);
-  const bool is_text = choice.scene.find_first_of("\n=") != std::string::npos;
-  const std::filesystem::path file = is_text ? "scene" : find_scene(choice.scene);
-  const AnyScene scene = is_text ? parse_scene(choice.scene, "scene", overrides) : read_scene(file, overrides);
-  return std::visit(
-      [&]<int Dim>(const Scene<Dim>& of_dimension) -> std::unique_ptr<AnyRun> {
-        const std::vector<std::string> engines = backends(Dim);
-        const std::string backend = choice.backend.empty() && !engines.empty() ? engines.front() : choice.backend;
-        check_window(of_dimension, backend, file, choice.force);
-        return std::make_unique<Run<Dim>>(of_dimension, backend);
-      },
-      scene);
-}
-
-std::unique_ptr<AnyRun> make_run(const std::string& scene, const std::string& policy, std::optional<std::int64_t> seed,
-                                 const std::string& backend, const std::vector<std::string>& settings) {
+py::object open_run(const std::string& scene_text, const std::string& policy, std::optional<std::int64_t> seed,
+                    const std::string& backend, const std::vector<std::string>& settings) {
   SceneChoice choice;
-  choice.scene = scene;
+  choice.scene = scene_text;
   choice.policy = policy;
   choice.seed = seed;
   choice.backend = backend;
   choice.settings = settings;
-  return open_run(choice);
+  const std::vector<Override> overrides = overrides_of(choice);
+  const bool is_text = scene_text.find_first_of("\n=") != std::string::npos;
+  const std::filesystem::path file = is_text ? "scene" : find_scene(scene_text);
+  const AnyScene scene = is_text ? parse_scene(scene_text, "scene", overrides) : read_scene(file, overrides);
+  return std::visit(
+      [&]<int Dim>(const Scene<Dim>& of_dimension) -> py::object {
+        const std::vector<std::string> engines = backends(Dim);
+        const std::string engine = backend.empty() && !engines.empty() ? engines.front() : backend;
+        check_window(of_dimension, engine, file, choice.force);
+        return py::cast(std::make_unique<Run<Dim>>(of_dimension, engine));
+      },
+      scene);
+}
+
+template <int Dim>
+void add_run(py::module_& module, const char* name) {
+  using RunHere = Run<Dim>;
+  py::class_<RunHere>(module, name)
+      .def_property_readonly_static("dimension", [](const py::object&) { return Dim; })
+      .def_property_readonly("finished", &RunHere::finished)
+      .def_property_readonly("time", &RunHere::time)
+      .def_property_readonly("step_count", &RunHere::step_count)
+      .def("step", &RunHere::step)
+      .def("hash", &RunHere::hash)
+      .def("poses", &RunHere::poses)
+      .def("write_poses", &RunHere::write_poses, py::arg("out").noconvert())
+      .def("velocities", &RunHere::velocities)
+      .def("spins", &RunHere::spins)
+      .def("asleep", &RunHere::asleep)
+      .def("removed", &RunHere::removed)
+      .def("shapes", &RunHere::shapes)
+      .def("remove", &RunHere::remove)
+      .def("wake", &RunHere::wake);
 }
 
 }  // namespace
 }  // namespace talus
 
 PYBIND11_MODULE(_talus, module) {
-  using talus::AnyRun;
   py::register_exception<talus::SceneErrors>(module, "SceneError", PyExc_ValueError);
   py::register_exception<talus::NonFiniteState>(module, "NonFiniteState", PyExc_RuntimeError);
-  py::class_<AnyRun>(module, "Run")
-      .def(py::init(&talus::make_run))
-      .def_property_readonly("dimension", &AnyRun::dimension)
-      .def_property_readonly("finished", &AnyRun::finished)
-      .def_property_readonly("time", &AnyRun::time)
-      .def_property_readonly("step_count", &AnyRun::step_count)
-      .def("step", &AnyRun::step)
-      .def("hash", &AnyRun::hash)
-      .def("poses", &AnyRun::poses)
-      .def("velocities", &AnyRun::velocities)
-      .def("spins", &AnyRun::spins)
-      .def("asleep", &AnyRun::asleep)
-      .def("removed", &AnyRun::removed)
-      .def("shapes", &AnyRun::shapes)
-      .def("remove", &AnyRun::remove)
-      .def("wake", &AnyRun::wake);
+  talus::add_run<2>(module, "Run2");
+  talus::add_run<3>(module, "Run3");
+  module.def("open_run", &talus::open_run);
 }

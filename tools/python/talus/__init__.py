@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ._talus import NonFiniteState, Run, SceneError
+from ._talus import NonFiniteState, SceneError, open_run
 
 __all__ = ["NonFiniteState", "SceneError", "Simulation"]
 
@@ -34,10 +34,13 @@ class Simulation:
 
     def __init__(self, scene, policy=None, seed=None, backend=None, set=None):
         settings = [f"{path}={_toml(value)}" for path, value in (set or {}).items()]
-        self._run = Run(_scene(scene), policy or "", seed, backend or "", settings)
+        self._run = open_run(_scene(scene), policy or "", seed, backend or "", settings)
 
     def step(self, count=1):
-        """Up to `count` steps, fewer where the run ends; other threads run meanwhile, and Ctrl-C stops it."""
+        """Does up to `count` steps, fewer where the run ends. Other threads run meanwhile, and Ctrl-C stops it.
+
+        NonFiniteState: the state of a body became NaN or infinite; the run stays at the step before.
+        """
         self._run.step(count)
 
     dimension = property(lambda self: self._run.dimension, doc="2 or 3.")
@@ -50,13 +53,14 @@ class Simulation:
         return f"{self._run.hash():016x}"
 
     def poses(self, out=None):
-        """(n, 3) in 2D: x, z [m], angle [rad]; (n, 7) in 3D: x, y, z [m], quaternion x, y, z, w. Written to `out` if given."""
-        values = self._run.poses()
+        """(n, 3) in 2D: x, z [m], angle [rad]; (n, 7) in 3D: x, y, z [m], quaternion x, y, z, w.
+
+        out: a C-ordered float64 array of that shape, which is filled and returned; ValueError on another shape,
+        TypeError on another kind of array.
+        """
         if out is None:
-            return values
-        if out.shape != values.shape:
-            raise ValueError(f"out.shape = {out.shape}: must be {values.shape}")
-        out[...] = values
+            return self._run.poses()
+        self._run.write_poses(out)
         return out
 
     def velocities(self):
@@ -80,7 +84,7 @@ class Simulation:
         return np.array(self._run.shapes(), dtype=int)
 
     def remove(self, body):
-        """Takes a body away. Sleeping bodies near it wake."""
+        """Removes a body. Sleeping bodies near it wake. ValueError on a number of no body in the world."""
         self._run.remove(body)
 
     def wake(self):
