@@ -157,10 +157,10 @@ class Box2dSleeper {
     }
     const Handle handle = found->second;
     carry_out(core_.wake(handle));
-    impulses_.forget(body);
     body.SetSleepingAllowed(entries_[handle.slot].slept_alone);
     handles_.erase(found);
     carry_out(core_.remove(handle));
+    impulses_.forget(body);  // after its neighbours have woken, which keeps the impulses of their contacts with it
     entries_[handle.slot] = {};
   }
 
