@@ -31,8 +31,14 @@
 namespace talus {
 namespace {
 
+/// What the scene names itself; the rest follows from what it holds.
+struct Named {
+  bool solver = false;
+  bool rings = false;
+};
+
 template <int Dim>
-void read_world(TableReader& table, Scene<Dim>& scene) {
+void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
   WorldDescription<Dim>& world = scene.world;
   table.forbid("dt", "must be given as its inverse, as in steps_per_second = 60");
   constexpr std::span<const Field<WorldDescription<Dim>>> fields = world_fields<Dim>;
@@ -49,7 +55,10 @@ void read_world(TableReader& table, Scene<Dim>& scene) {
     table.table("gravity_motion", [&](TableReader& own) {
       scene.gravity_motion = read_gravity_motion<Dim>(own, world.gravity_vector());
     });
-  table.table("solver", [&](TableReader& solver) { solver.read_fields(world.solver, solver_fields); });
+  table.table("solver", [&](TableReader& solver) {
+    named.solver = solver.has("kind");
+    solver.read_fields(world.solver, solver_fields);
+  });
 }
 
 void read_ground(TableReader& table, Ground& ground) {
@@ -121,15 +130,28 @@ PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstac
   return pile;
 }
 
-void read_policy(TableReader& table, const SolverParams& solver, PolicyParams& policy) {
+template <int Dim>
+void read_policy(TableReader& table, Scene<Dim>& scene, Named& named) {
+  PolicyParams& policy = scene.policy;
   table.read_fields(policy, policy_fields);
   table.read_fields(policy.paper, paper_fields);
+  // The engine's own sleeping belongs to its own solver.
+  scene.world.engine_sleep = policy.kind == "engine";
+  if (scene.world.engine_sleep && !named.solver) scene.world.solver.kind = engine_solver;
   table.table("adaptive", [&](TableReader& own) {
+    named.rings = own.has("rings");
     own.read_fields(policy.adaptive, adaptive_fields);
-    if (own.ok() && policy.adaptive.rings > 0 && !solver.small_steps())
+    if (own.ok() && policy.adaptive.rings > 0 && !scene.world.solver.small_steps())
       own.error("rings", R"(must be 0 unless world.solver.kind is "small_steps": the engines' own solvers leave out )"
                          "sleeping bodies");
   });
+}
+
+/// Sleeping bodies must feel forces where something other than a falling body disturbs them, or where their loads
+/// count.
+template <int Dim>
+bool needs_rings(const Scene<Dim>& scene) {
+  return !scene.movers.empty() || scene.gravity_motion || !scene.events.empty() || !scene.instruments.loads.empty();
 }
 
 void read_run(TableReader& table, double dt, RunParams& run) {
@@ -163,7 +185,8 @@ Scene<Dim> read_root(TableReader& root) {
   root.read_fields(scene, scene_fields<Dim>);
   std::int64_t dimension = Dim;
   root.read(dimension_key, dimension);
-  root.table("world", [&](TableReader& table) { read_world(table, scene); });
+  Named named;
+  root.table("world", [&](TableReader& table) { read_world(table, scene, named); });
   root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
   root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
   ShapeNames shapes;
@@ -171,10 +194,10 @@ Scene<Dim> read_root(TableReader& root) {
   read_sources(root, shapes, scene);
   root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
   read_bodies(root, shapes, scene);
-  root.table("policy", [&](TableReader& table) { read_policy(table, scene.world.solver, scene.policy); });
+  root.table("policy", [&](TableReader& table) { read_policy(table, scene, named); });
   root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
   read_instruments(root, scene);
-  scene.world.engine_sleep = scene.policy.kind == "engine";
+  if (!named.rings && scene.world.solver.small_steps() && needs_rings(scene)) scene.policy.adaptive.rings = usual_rings;
   root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });
   check_world(root, scene.world);
   return scene;

@@ -137,8 +137,26 @@ void warn_of_mixtures(const Scene<Dim>& scene, Lines& lines) {
   }
 }
 
+/// Settings of the solver that is not used.
+void warn_of_unused_settings(const SolverParams& solver, Lines& lines) {
+  const SolverParams usual;
+  const auto warn = [&](bool changed, std::string_view name) {
+    if (changed)
+      lines.push_back(fmt::format("world.solver.{} has no effect: world.solver.kind is \"{}\"", name, solver.kind));
+  };
+  if (solver.small_steps()) {
+    warn(solver.velocity_iterations != usual.velocity_iterations, "velocity_iterations");
+    warn(solver.position_iterations != usual.position_iterations, "position_iterations");
+    warn(solver.friction_directions != usual.friction_directions, "friction_directions");
+    warn(solver.warm_friction != usual.warm_friction, "warm_friction");
+  } else {
+    warn(solver.sub_steps != usual.sub_steps, "sub_steps");
+  }
+}
+
 template <int Dim>
 void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
+  warn_of_unused_settings(scene.world.solver, lines);
   if (scene.policy.kind == "paper" && scene.piles.empty())
     lines.emplace_back("policy.kind = \"paper\" without any [[pile]]: no body will ever sleep");
   if (scene.policy.kind != "adaptive" && std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope)) {

@@ -41,7 +41,7 @@ std::string finding(const Warning& warning) {
 std::string_view remedy(WarningKind kind) {
   switch (kind) {
     case WarningKind::below_ground:
-      return "raise world.steps_per_second or world.solver.velocity_iterations, or lower world.gravity";
+      return "raise world.steps_per_second, or lower world.gravity";
     case WarningKind::outside_world:
       return "give the scene a ground, or walls that the bodies cannot leave";
     case WarningKind::energy:
@@ -53,8 +53,7 @@ std::string_view remedy(WarningKind kind) {
     case WarningKind::not_appeared:
       return "raise the source's position or spread, or set ride_above";
     case WarningKind::overlap:
-      return "raise world.solver.velocity_iterations or world.steps_per_second, or lower the fall or the depth of the "
-             "pile";
+      return "raise world.steps_per_second, or lower the fall or the depth of the pile";
     case WarningKind::passed:
       return "raise world.steps_per_second, or lower the speeds of fast and the density of heavy bodies";
     case WarningKind::drift:

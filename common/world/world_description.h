@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 2> solver_kinds = {engine_solver, 
 /// Settings of the contact solver. An engine ignores what it does not have. solver_fields has the unit, range and
 /// effect of each.
 struct SolverParams {
-  std::string kind = std::string(engine_solver);
+  std::string kind = std::string(small_steps_solver);
   int sub_steps = 8;
   int velocity_iterations = 10;
   int position_iterations = 4;

@@ -12,10 +12,10 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
     {place_of<&SolverParams::kind>,
      {.name = "kind",
       .choices = solver_kinds,
+      .default_text = "`small_steps`; with the policy `engine` \"engine\"",
       .meaning = "the solver of contacts: the engine's own solver, or the one of this project on the engine's "
                  "collision detection, in `sub_steps` short steps a step. Small steps bring a heap to rest and hold "
-                 "towers; `velocity_iterations`, `position_iterations`, `friction_directions` and `warm_friction` "
-                 "mean nothing to it. Not with the policy `engine`"}},
+                 "towers. Not with the policy `engine`, whose sleep belongs to the engine's own solver"}},
     {place_of<&SolverParams::sub_steps>,
      {.name = "sub_steps",
       .range = between(1.0, 100.0),
@@ -23,20 +23,21 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
     {place_of<&SolverParams::velocity_iterations>,
      {.name = "velocity_iterations",
       .range = between(1.0, 1000.0),
-      .meaning = "too few: piles melt and tall stacks sink. Cost grows in proportion"}},
+      .meaning = "of `engine` only. Too few: piles melt and tall stacks sink. Cost grows in proportion"}},
     {place_of<&SolverParams::position_iterations>,
      {.name = "position_iterations",
       .range = between(1.0, 1000.0),
-      .meaning = "Box2D only. Too few: bodies stay inside each other"}},
+      .meaning = "of `engine` on Box2D only. Too few: bodies stay inside each other"}},
     {place_of<&SolverParams::friction_directions>,
      {.name = "friction_directions",
       .range = between(1.0, 2.0),
-      .meaning = "Bullet in 3D only. 1: piles creep without end and become 20 % too low"}},
+      .meaning = "of `engine` on Bullet in 3D only. 1: piles creep without end and become 20 % too low"}},
     {place_of<&SolverParams::warm_friction>,
      {.name = "warm_friction",
-      .meaning = "Bullet only. true: friction starts each step at the last step's impulse. 10 iterations then hold a "
-                 "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time; the 3D scenes of this "
-                 "project but `million_3d` have it. Towers one body wide sway more than without"}},
+      .meaning = "of `engine` on Bullet only. true: friction starts each step at the last step's impulse. 10 "
+                 "iterations then hold a "
+                 "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time. Towers one body wide "
+                 "sway more than without"}},
     {place_of<&SolverParams::restitution_threshold>,
      {.name = "restitution_threshold",
       .unit = "m/s",

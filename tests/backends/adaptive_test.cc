@@ -4,7 +4,6 @@
 
 #include "common/measure/support.h"
 #include "common/measure/wake_test.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -23,9 +22,7 @@ class AdaptiveTest : public BackendTest<Backend> {
     scene.policy.adaptive.tolerance = 0.0;  // no stability check where not said
     return scene;
   }
-  static Simulation<dimension> simulate(const Scene<dimension>& scene) {
-    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
-  }
+  static Simulation<dimension> simulate(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   static int steps(Simulation<dimension>& simulation, int count) {
     int woken = 0;
     for (int i = 0; i < count; ++i) {

@@ -9,6 +9,8 @@
 
 #include "common/math/angle.h"
 #include "common/shape/catalogue.h"
+#include "common/simulation/make_policy.h"
+#include "common/simulation/simulation.h"
 #include "common/world/world.h"
 #include "docs/examples/toy_engine.h"
 #ifdef TALUS_BOX2D
@@ -23,56 +25,70 @@ namespace talus {
 #ifdef TALUS_BOX2D
 struct Box2d {
   static constexpr int dim = 2;
+  static constexpr bool small_steps = true;
   static constexpr const char* name = "box2d";
-  static constexpr const char* small_steps_name = "box2d_small_steps";
+  static constexpr const char* own_solver_name = "box2d_own_solver";
   static auto make(const WorldDescription<2>& description) { return make_box2d_world(description); }
 };
 #endif
 #ifdef TALUS_BULLET
 struct Bullet {
   static constexpr int dim = 3;
+  static constexpr bool small_steps = true;
   static constexpr const char* name = "bullet";
-  static constexpr const char* small_steps_name = "bullet_small_steps";
+  static constexpr const char* own_solver_name = "bullet_own_solver";
   static auto make(const WorldDescription<3>& description) { return make_bullet_world(description); }
 };
 struct BulletPlanar {
   static constexpr int dim = 2;
+  static constexpr bool small_steps = true;
   static constexpr const char* name = "bullet_planar";
-  static constexpr const char* small_steps_name = "bullet_planar_small_steps";
+  static constexpr const char* own_solver_name = "bullet_planar_own_solver";
   static auto make(const WorldDescription<2>& description) { return make_bullet_planar_world(description); }
 };
 #endif
 
-/// An engine with the solver of common/solver/ in the place of its own.
+/// An engine with its own solver in the place of the one of common/solver/.
 template <typename Engine>
-struct SmallSteps {
+struct OwnSolver {
   static constexpr int dim = Engine::dim;
-  static constexpr const char* name = Engine::small_steps_name;
+  static constexpr bool small_steps = false;
+  static constexpr const char* name = Engine::own_solver_name;
   static auto make(WorldDescription<dim> description) {
-    description.solver.kind = small_steps_solver;
+    description.solver.kind = engine_solver;
     return Engine::make(description);
   }
 };
 
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
 using Backends =
-    ::testing::Types<Box2d, Bullet, BulletPlanar, SmallSteps<Box2d>, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
-using SmallStepsBackends = ::testing::Types<SmallSteps<Box2d>, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+    ::testing::Types<Box2d, Bullet, BulletPlanar, OwnSolver<Box2d>, OwnSolver<Bullet>, OwnSolver<BulletPlanar>>;
+using SmallStepsBackends = ::testing::Types<Box2d, Bullet, BulletPlanar>;
 #elif defined(TALUS_BOX2D)
-using Backends = ::testing::Types<Box2d, SmallSteps<Box2d>>;
-using SmallStepsBackends = ::testing::Types<SmallSteps<Box2d>>;
+using Backends = ::testing::Types<Box2d, OwnSolver<Box2d>>;
+using SmallStepsBackends = ::testing::Types<Box2d>;
 #else
-using Backends = ::testing::Types<Bullet, BulletPlanar, SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
-using SmallStepsBackends = ::testing::Types<SmallSteps<Bullet>, SmallSteps<BulletPlanar>>;
+using Backends = ::testing::Types<Bullet, BulletPlanar, OwnSolver<Bullet>, OwnSolver<BulletPlanar>>;
+using SmallStepsBackends = ::testing::Types<Bullet, BulletPlanar>;
 #endif
 
 template <typename Backend>
-constexpr bool has_small_steps = std::string_view(Backend::name).ends_with("small_steps");
+constexpr bool has_small_steps = Backend::small_steps;
 
 /// Whether it can run a policy: only an engine's own solver has the engine's sleep.
 template <typename Backend>
 bool has_policy(std::string_view policy) {
   return policy != "engine" || !has_small_steps<Backend>;
+}
+
+/// A run of the scene on a backend. With an engine's own solver no sleeping body feels forces.
+template <typename Backend>
+Simulation<Backend::dim> simulation_on(Scene<Backend::dim> scene) {
+  if (!has_small_steps<Backend>) {
+    scene.world.solver.kind = engine_solver;
+    scene.policy.adaptive.rings = 0;
+  }
+  return Simulation<Backend::dim>(scene, Backend::make(scene.world), make_policy(scene));
 }
 
 /// How often in a step a backend adds gravity to the velocity.
@@ -82,6 +98,7 @@ constexpr int falls_in_a_step = has_small_steps<Backend> ? SolverParams{}.sub_st
 /// The example of docs/extending.md. Its bodies do not collide, so it runs in the suites on the seam alone.
 struct Toy {
   static constexpr int dim = 3;
+  static constexpr bool small_steps = false;
   static constexpr const char* name = "toy";
   static auto make(const WorldDescription<3>& description) { return make_toy_world(description); }
 };

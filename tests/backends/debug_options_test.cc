@@ -3,7 +3,6 @@
 #include <array>
 #include <utility>
 
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"
@@ -65,7 +64,7 @@ class DebugOptionsTest : public BackendTest<Backend> {
       }
       Outcome outcome;
     } watch;
-    Simulation<dimension> simulation(scene, Backend::make(scene.world), make_policy(scene));
+    auto simulation = simulation_on<Backend>(scene);
     simulation.add_observer(watch);
     for (int step = 0; step < 900; ++step) simulation.step();
     watch.outcome.hash = state_hash(simulation.world().states());
@@ -109,7 +108,7 @@ TYPED_TEST(DebugOptionsTest, SlowBodiesWithoutContinuousCollisionDoNotSinkIn) {
   Scene<TypeParam::dim> scene = this->two_strings("adaptive");
   for (const bool swept : {false, true}) {
     scene.world.debug.sweep_slow_bodies = swept;
-    Simulation<TypeParam::dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
+    auto simulation = simulation_on<TypeParam>(scene);
     for (int step = 0; step < 900; ++step) simulation.step();
     for (const Pose<TypeParam::dim>& pose : simulation.world().states().pose) {
       // An L's centre of mass lies 0.2 m above the ground or higher, but for 2 cm that the engines let overlap.

@@ -14,7 +14,6 @@
 #include <filesystem>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 
 namespace talus::engines_agree_test {
@@ -31,7 +30,7 @@ constexpr int seeds = 3;
 
 template <typename Backend>
 PileShape pile_of(const Scene<2>& scene) {
-  Simulation<2> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  auto simulation = simulation_on<Backend>(scene);
   for (std::int64_t i = 0; i < scene.steps(); ++i) simulation.step();
   const std::vector<Pose<2>>& poses = simulation.world().states().pose;
   Vec2 mean = Vec2::Zero();

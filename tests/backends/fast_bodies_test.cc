@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -178,7 +177,7 @@ TYPED_TEST(FastBody, DoesNotPassASleeperThatThePolicyWakes) {
           "[[body]]\nshape = \"ball\"\nposition = {}\nvelocity = [{}, 0{}]\n",
           place(0.0, row), place(-2.0 - phase * speed / 60.0 / phases, row), speed, dim == 2 ? "" : ", 0");
   const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
-  Simulation<dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
+  auto simulation = simulation_on<TypeParam>(scene);
   for (int step = 0; step < 60; ++step) simulation.step();
   const World<dim>& world = simulation.world();
   for (BodyIndex board = 0; board < 2 * row; board += 2) {

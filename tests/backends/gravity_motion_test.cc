@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -48,9 +47,7 @@ template <typename Backend>
 class GravityMotion : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
-    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
-  }
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   /// Where the box is, in x, once gravity is tilted by this angle [degrees].
   static double place_at(Simulation<dimension>& simulation, double angle) {
     while (simulation.time() < 1.0 + angle / tilt_speed - 1e-9) simulation.step();

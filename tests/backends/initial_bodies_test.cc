@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/observer.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
@@ -34,9 +33,7 @@ template <typename Backend>
 class InitialBodies : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
-    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
-  }
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
 };
 
 TYPED_TEST_SUITE(InitialBodies, Backends, BackendName);

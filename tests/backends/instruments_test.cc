@@ -11,7 +11,6 @@
 #include "common/measure/load_meter.h"
 #include "common/measure/region_meter.h"
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -281,7 +280,7 @@ std::array<double, 3> carried_in_a_bin(const std::string& policy) {
       dim, policy, dim == 2 ? "[1, 0.6]" : "[1, 1, 0.6]", dim == 2 ? "[0, 12]" : "[0, 0, 12]",
       dim == 2 ? "[0, -8]" : "[0, 0, -8]", dim == 2 ? "[4, 10]" : "[2.5, 2.5, 10]");
   const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
-  Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  auto simulation = simulation_on<Backend>(scene);
   LoadObserver<dim> observer(scene);
   simulation.add_observer(observer);
   while (!simulation.finished()) simulation.step();

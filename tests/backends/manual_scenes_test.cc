@@ -9,7 +9,6 @@
 #include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -74,7 +73,7 @@ TYPED_TEST(ManualScenes, DropAllTheirBodiesBeforeTheirEndWithoutAWarning) {
     const auto* scene = std::get_if<Scene<dim>>(&any);
     if (scene == nullptr) continue;
     EXPECT_EQ(warnings(*scene), std::vector<std::string>());
-    Simulation<dim> simulation(*scene, TypeParam::make(scene->world), make_policy(*scene));
+    auto simulation = simulation_on<TypeParam>(*scene);
     while (!simulation.finished()) simulation.step();
     EXPECT_EQ(simulation.emitter().emitted(), simulation.emitter().total());
     EXPECT_EQ(simulation.world().states().size(), simulation.emitter().total());
@@ -91,7 +90,7 @@ TYPED_TEST(ManualScenes, ASpoutOfBoxesTurnedAlikeMakesAPileWithTheDefaultSpread)
       dim, flat ? "[1, 1]" : "[1, 1, 1]", flat ? "[0, 12]" : "[0, 0, 12]", flat ? "[0, -10]" : "[0, 0, -10]",
       flat ? "" : "axis = [0, 0, 1]");
   const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
-  Simulation<dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
+  auto simulation = simulation_on<TypeParam>(scene);
   for (std::int64_t step = 0; step < scene.steps(); ++step) simulation.step();
   EXPECT_EQ(simulation.emitter().emitted(), 40);
 }

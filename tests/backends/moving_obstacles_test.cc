@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"
@@ -38,9 +37,7 @@ template <typename Backend>
 class MovingObstacle : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
-    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
-  }
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   static void run_until(Simulation<dimension>& simulation, double time) {
     while (simulation.time() < time - 1e-9) simulation.step();
   }
@@ -58,6 +55,7 @@ TYPED_TEST(MovingObstacle, CarriesASleeperAwayAndLetsItSleepWhenItStandsStill) {
   auto simulation = TestFixture::simulation(scene);
   TestFixture::run_until(simulation, 2.0);
   EXPECT_TRUE(TestFixture::asleep(simulation)) << "before it moves";
+  simulation.step();  // after it the contact may be found in which it moves the body
   for (int i = 0; i < 100; ++i) {
     simulation.step();
     ASSERT_FALSE(TestFixture::asleep(simulation)) << simulation.time();
@@ -120,7 +118,7 @@ double carried_along(const Carry& carry) {
       dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", along<dim>(carry.away, -0.25), along<dim>(0.0, 0.0),
       along<dim>(100.0 * carry.speed, 0.0));
   const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
-  Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  auto simulation = simulation_on<Backend>(scene);
   const auto place = [&] { return simulation.world().states().pose[0].position[0]; };
   while (simulation.time() < 1.5 - 1e-9) simulation.step();
   const double before = place();
@@ -148,7 +146,7 @@ double carried_around(const Carry& carry, bool upright) {
       : upright ? ", axis = [0, 0, 1]"
                 : ", axis = [0, -1, 0]");
   const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
-  Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+  auto simulation = simulation_on<Backend>(scene);
   const auto angle = [&] {
     const Vec<dim> arm = simulation.world().states().pose[0].position - carry.away * Vec<dim>::Unit(0);
     return upright ? std::atan2(arm[1], arm[0]) : std::atan2(arm[0], -height<dim>(arm));

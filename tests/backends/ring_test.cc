@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -43,9 +42,7 @@ class RingTest : public BackendTest<Backend> {
                     "text"));
   }
 
-  static Simulation<dim> simulation(const Scene<dim>& scene) {
-    return {scene, Backend::make(scene.world), make_policy(scene)};
-  }
+  static Simulation<dim> simulation(const Scene<dim>& scene) { return simulation_on<Backend>(scene); }
 
   using BackendTest<Backend>::run;
   static void run(Simulation<dim>& simulation, double seconds) {

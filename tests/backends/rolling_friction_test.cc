@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -33,7 +32,7 @@ class RollingFriction : public ::testing::Test {
   static constexpr int dimension = Backend::dim;
   /// After so many seconds.
   static Simulation<dimension> run(const Scene<dimension>& scene, double seconds) {
-    Simulation<dimension> simulation(scene, Backend::make(scene.world), make_policy(scene));
+    auto simulation = simulation_on<Backend>(scene);
     while (simulation.time() < seconds) simulation.step();
     return simulation;
   }
@@ -87,7 +86,7 @@ TYPED_TEST(RollingFriction, LetsAHeapOfBallsComeToRestUnderEachPolicy) {
   for (const char* policy : {"full", "adaptive"}) {
     SCOPED_TRACE(policy);
     const Scene<dim> scene = ball<dim>(0.2, policy, heap);
-    Simulation<dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
+    auto simulation = simulation_on<TypeParam>(scene);
     while (!simulation.finished()) simulation.step();
     EXPECT_TRUE(simulation.at_rest()) << simulation.time();
   }

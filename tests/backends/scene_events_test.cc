@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -33,9 +32,7 @@ template <typename Backend>
 class SceneEvents : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
-    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
-  }
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   static void run_until(Simulation<dimension>& simulation, double time) {
     while (simulation.time() < time - 1e-9) simulation.step();
   }

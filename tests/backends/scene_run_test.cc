@@ -9,7 +9,6 @@
 #include "common/measure/shape_statistics.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/typical_body.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -27,9 +26,7 @@ class SceneRun : public ::testing::Test {
 
   static std::string ending() { return dimension == 2 ? "_2d.toml" : "_3d.toml"; }
 
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
-    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
-  }
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
 };
 
 TYPED_TEST_SUITE(SceneRun, Backends, BackendName);

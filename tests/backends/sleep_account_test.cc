@@ -6,7 +6,6 @@
 
 #include "common/policy/adaptive/adaptive_policy.h"
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -52,9 +51,7 @@ template <typename Backend>
 class SleepAccount : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) {
-    return Simulation<dimension>(scene, Backend::make(scene.world), make_policy(scene));
-  }
+  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   /// Steps; returns how many bodies checks woke.
   static int steps(Simulation<dimension>& simulation, int count) {
     int woken = 0;
@@ -190,10 +187,6 @@ TYPED_TEST(SleepAccount, OfPolicyAndEventsEqualsARecountWhateverIsDone) {
 
 TYPED_TEST(SleepAccount, TellsEachWakingOnceWhereTheEngineHasItsOwnRule) {
   constexpr int dim = TypeParam::dim;
-  if (!has_policy<TypeParam>("engine")) {
-    EXPECT_ANY_THROW(TestFixture::simulation(row<dim>("", "engine")));
-    return;
-  }
   auto run = TestFixture::simulation(row<dim>("", "engine"));
   Nobody nobody;
   run.add_observer(nobody);

@@ -6,7 +6,6 @@
 
 #include "common/pile/angle_of_repose.h"
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -31,7 +30,7 @@ class SlopeControl : public ::testing::Test {
 
   /// Slope [rad] of the cone or wedge with the heap's centre of mass and median radius, fifteen seconds after the pour.
   static double slope(const Scene<dimension>& scene) {
-    Simulation<dimension> simulation(scene, Backend::make(scene.world), make_policy(scene));
+    auto simulation = simulation_on<Backend>(scene);
     while (!simulation.emitter().finished()) simulation.step();
     for (int i = 0; i < 900; ++i) simulation.step();
     const Pile<dimension>& pile = simulation.piles().piles().front();

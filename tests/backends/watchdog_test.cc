@@ -9,7 +9,6 @@
 
 #include "common/policy/sleep_policy.h"
 #include "common/scene/read_scene.h"
-#include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
 #include "tests/backends/backend.h"
 
@@ -38,7 +37,7 @@ class WatchedRun : public BackendTest<Backend> {
   /// The warnings of so many steps.
   static std::vector<Warning> warnings(const Scene<dim>& scene, std::int64_t steps,
                                        const BodyDef<dim>* body = nullptr) {
-    Simulation<dim> simulation(scene, Backend::make(scene.world), make_policy(scene));
+    auto simulation = simulation_on<Backend>(scene);
     Nothing<dim> nothing;
     simulation.add_observer(nothing);
     if (body != nullptr) simulation.add(*body);
@@ -183,7 +182,7 @@ TYPED_TEST(WatchedRun, WarnsWhereAFastBodyGetsPastAnother) {
   for (const double speed : {5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 80.0, 110.0}) {
     for (int phase = 0; phase < 10; ++phase) {
       Scene<TypeParam::dim> scene = TestFixture::row(boards, 2.0 + phase * speed / 600.0, speed);
-      Simulation<TypeParam::dim> simulation(scene, TypeParam::make(scene.world), make_policy(scene));
+      auto simulation = simulation_on<TypeParam>(scene);
       Nothing<TypeParam::dim> nothing;
       simulation.add_observer(nothing);
       for (int step = 0; step < 60; ++step) simulation.step();

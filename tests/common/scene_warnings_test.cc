@@ -52,8 +52,9 @@ TEST(Warnings, TellOfSizesThatEnginesHoldBadly) {
 
 TEST(Warnings, TellOfMassesThatAreTooDifferent) {
   const Override heavy{"shape.heavy={kind=\"ball\", radius=0.5, density=20000}"};
-  expect_one(warnings_with({heavy}), "masses differ by a factor of 20");
-  EXPECT_EQ(warnings_with({heavy, {"world.solver.velocity_iterations=50"}}), "");
+  const Override solver{"world.solver.kind=\"engine\""};
+  expect_one(warnings_with({heavy, solver}), "masses differ by a factor of 20");
+  EXPECT_EQ(warnings_with({heavy, solver, {"world.solver.velocity_iterations=50"}}), "");
 }
 
 TEST(Warnings, TellOfVolumesThatAreTooDifferentForOnePile) {
@@ -77,10 +78,18 @@ TEST(Warnings, TellOfAPolicyWithoutAPile) {
   EXPECT_EQ(warnings_with({{"pile=[]"}, {"policy.kind=full"}}), "");
 }
 
+TEST(Warnings, TellOfSettingsOfTheOtherSolver) {
+  const Override own{"world.solver.kind=\"engine\""};
+  expect_one(warnings_with({{"world.solver.velocity_iterations=50"}}),
+             "world.solver.velocity_iterations has no effect");
+  expect_one(warnings_with({{"world.solver.warm_friction=true"}}), "world.solver.warm_friction has no effect");
+  expect_one(warnings_with({own, {"world.solver.sub_steps=4"}}), "world.solver.sub_steps has no effect");
+  EXPECT_EQ(warnings_with({own, {"world.solver.velocity_iterations=50"}}), "");
+  EXPECT_EQ(warnings_with({{"world.solver.sub_steps=4"}}), "");
+}
+
 TEST(Warnings, AdviseNoIterationsUnderSmallSteps) {
-  EXPECT_EQ(warnings_with(
-                {{"shape.heavy={kind=\"ball\", radius=0.5, density=20000}"}, {"world.solver.kind=\"small_steps\""}}),
-            "");
+  EXPECT_EQ(warnings_with({{"shape.heavy={kind=\"ball\", radius=0.5, density=20000}"}}), "");
 }
 
 TEST(Warnings, TellOfBodiesThatGoFartherThanTheirThicknessInAStep) {

@@ -43,21 +43,23 @@ TEST(SceneWindow, EndsAtLongSteps) {
 }
 
 TEST(SceneWindow, EndsAtFewIterations) {
-  expect_one(outside_with({{"world.solver.velocity_iterations=4"}}),
+  const Override solver{"world.solver.kind=\"engine\""};
+  expect_one(outside_with({solver, {"world.solver.velocity_iterations=4"}}),
              "scene.toml: world.solver.velocity_iterations = 4: must be at least 5 on narrow");
-  EXPECT_EQ(outside_with({{"world.solver.velocity_iterations=5"}}), "");
+  EXPECT_EQ(outside_with({solver, {"world.solver.velocity_iterations=5"}}), "");
 }
 
 TEST(SceneWindow, EndsAtMassesTooDifferentForTheIterations) {
   const auto heavy = [](int density) {
     return Override{"shape.heavy={kind=\"ball\", radius=0.5, density=" + std::to_string(density) + "}"};
   };
-  expect_one(outside_with({heavy(21'000)}),
+  const Override solver{"world.solver.kind=\"engine\""};
+  expect_one(outside_with({solver, heavy(21'000)}),
              "scene.toml: world.solver.velocity_iterations = 10 with shape.heavy of 21 times the mass of shape.ball: "
              "must be at least 50 on narrow where masses of bodies differ by a factor of more than 20");
-  EXPECT_EQ(outside_with({heavy(20'000)}), "");
-  EXPECT_EQ(outside_with({heavy(21'000), {"world.solver.velocity_iterations=50"}}), "");
-  EXPECT_EQ(outside_with({heavy(21'000), {"source[0].shape=\"ball\""}}), "");
+  EXPECT_EQ(outside_with({solver, heavy(20'000)}), "");
+  EXPECT_EQ(outside_with({solver, heavy(21'000), {"world.solver.velocity_iterations=50"}}), "");
+  EXPECT_EQ(outside_with({solver, heavy(21'000), {"source[0].shape=\"ball\""}}), "");
 }
 
 TEST(SceneWindow, EndsAtNarrowBodies) {

@@ -142,6 +142,7 @@ TEST(FrozenBody, StopsWhatFallsFastHoweverThinItIs) {
 
 TEST(FrozenBody, IsThawedFromTheEnginesOwnSleepToo) {
   WorldDescription<2> description = l_world();
+  description.solver.kind = engine_solver;
   description.engine_sleep = true;
   const auto world = make_box2d_world(description);
   add_stack(*world, 4, 4);

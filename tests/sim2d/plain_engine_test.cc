@@ -92,6 +92,7 @@ class NothingFrozen : public testing::TestWithParam<bool> {};
 
 TEST_P(NothingFrozen, MovesBitForBitAsBox2DByHand) {
   WorldDescription<2> description = l_world();
+  description.solver.kind = engine_solver;
   description.engine_sleep = GetParam();
   const auto world = make_box2d_world(description);
   add_stack(*world, bodies, columns);
@@ -105,6 +106,7 @@ TEST_P(NothingFrozen, MovesBitForBitAsBox2DByHand) {
 
 TEST_P(NothingFrozen, IsNotChangedByRecordingContacts) {
   WorldDescription<2> description = l_world();
+  description.solver.kind = engine_solver;
   description.engine_sleep = GetParam();
   const auto observed = make_box2d_world(description);
   const auto alone = make_box2d_world(description);

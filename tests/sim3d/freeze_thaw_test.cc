@@ -79,6 +79,7 @@ double peak_speed(World<3>& world) {
 /// Peak speed of a heap that was frozen and thawed at rest, over that of one that never was.
 double shock_of_waking(bool warm_friction) {
   WorldDescription<3> description = l_world<3>();
+  description.solver.kind = engine_solver;
   description.solver.warm_friction = warm_friction;
   const auto never_frozen = make_bullet_world(description);
   const auto thawed = make_bullet_world(description);

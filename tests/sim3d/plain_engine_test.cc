@@ -86,6 +86,7 @@ class NothingFrozen : public testing::TestWithParam<bool> {};
 
 TEST_P(NothingFrozen, MovesBitForBitAsBulletByHand) {
   WorldDescription<3> description = l_world<3>();
+  description.solver.kind = engine_solver;
   description.engine_sleep = GetParam();
   const auto world = make_bullet_world(description);
   add_stack(*world, bodies, columns);
@@ -99,6 +100,7 @@ TEST_P(NothingFrozen, MovesBitForBitAsBulletByHand) {
 
 TEST_P(NothingFrozen, IsNotChangedByContactsOrQueries) {
   WorldDescription<3> description = l_world<3>();
+  description.solver.kind = engine_solver;
   description.engine_sleep = GetParam();
   const auto observed = make_bullet_world(description);
   const auto alone = make_bullet_world(description);

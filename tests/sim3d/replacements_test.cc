@@ -33,6 +33,7 @@ class Sequence {
     description_.solver.warm_friction = chance(0.6);
     description_.solver.friction_directions = Dim == 3 && chance(0.15) ? 1 : 2;
     description_.solver.velocity_iterations = 1 + below(12);
+    description_.solver.kind = engine_solver;
     description_.engine_sleep = chance(0.2);
     description_.debug.keep_sleepers = chance(0.1);
     if (chance(0.4)) {

@@ -14,6 +14,7 @@ namespace {
 /// How far the bodies of a heap at rest creep in 200 steps, on average [m].
 double creep(unsigned seed, bool warm_friction) {
   WorldDescription<3> description = l_world<3>();
+  description.solver.kind = engine_solver;
   description.solver.warm_friction = warm_friction;
   const auto world = make_bullet_world(description);
   add_stack(*world, 80, 3, seed);
@@ -36,6 +37,7 @@ TEST(WarmFriction, HoldsHeapsThatWouldCreep) {
 /// How far a box slides down a slope in the first second [m].
 double slide(double slope, bool warm_friction) {
   WorldDescription<3> description;
+  description.solver.kind = engine_solver;
   description.solver.warm_friction = warm_friction;
   description.ground.present = false;
   description.shapes = {make_shape<3>("box", box_pieces<3>({1, 1, 0.5}), Material{})};

@@ -191,7 +191,8 @@ TEST_F(BadCommandLine, OfBenchIsRefused) {
 #ifdef TALUS_BULLET
 TEST_F(BadCommandLine, OfBenchOnBulletIsRefused) {
   refuse({{"bench drop_in_a_pile_2d --backend bullet --out new", {"--backend", "no scene"}},
-          {"bench drop_in_a_pile_2d --backend bullet-planar --set world.solver.velocity_iterations=2 --out new",
+          {"bench drop_in_a_pile_2d --backend bullet-planar --set world.solver.kind=engine "
+           "--set world.solver.velocity_iterations=2 --out new",
            {"velocity_iterations", "window"}}});
 }
 #endif

@@ -40,7 +40,7 @@ void write_cubes(const std::string& file, int dimension, const std::vector<doubl
       << rest << "[shape.cube]\nkind = \"box\"\nsize = " << (dimension == 2 ? "[1, 1]" : "[1, 1, 1]") << "\n";
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double height = 0.5 + heights[i] * std::sqrt(dimension);
-    out << fmt::format("[[body]]\nposition = [{}, {}{:.6f}]\n{}\n", 5 * i, dimension == 2 ? "" : "0, ", height, body);
+    out << fmt::format("[[body]]\nposition = [{}, {}{:.6f}]\n{}\n", 20 * i, dimension == 2 ? "" : "0, ", height, body);
   }
 }
 

@@ -6,6 +6,9 @@
 
 namespace talus {
 
+/// Rings of a scene that needs any and names none (lab/notes/ring.md).
+inline constexpr int usual_rings = 2;
+
 /// Parameters of the policy `adaptive`. Lengths are in D, the typical body's extent, and times in sqrt(D/g), the time
 /// in which a body falls by D/2, so that they hold at any scale and in any gravity. adaptive_fields has the unit, range
 /// and effect of each. docs/method.md explains the rules, lab/notes/ how the values were found.
