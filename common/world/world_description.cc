@@ -74,7 +74,7 @@ void check_masses(const std::vector<Shape<Dim>>& shapes) {
 }  // namespace
 
 std::string solved_by(std::string_view backend, std::string_view solver_kind) {
-  return solver_kind == engine_solver ? std::string(backend) : fmt::format("{} with {}", backend, solver_kind);
+  return solver_kind == engine_solver ? fmt::format("{} with its own solver", backend) : std::string(backend);
 }
 
 template <int Dim>

@@ -34,7 +34,7 @@ struct SolverParams {
   bool small_steps() const { return kind == small_steps_solver; }
 };
 
-/// Engine and solver of a run as lines of text have them: "box2d", or "box2d with small_steps".
+/// Engine and solver of a run as lines of text have them: "box2d", or "box2d with its own solver".
 std::string solved_by(std::string_view backend, std::string_view solver_kind);
 
 /// The plane z = height, infinite for all practical purposes. ground_fields and surface_fields have the unit, range and
