@@ -40,7 +40,6 @@ talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason
   message.velocity_iterations = info.solver.velocity_iterations;
   message.position_iterations = info.solver.position_iterations;
   message.friction_directions = info.solver.friction_directions;
-  message.warm_friction = info.solver.warm_friction ? 1 : 0;
   message.restitution_threshold = info.solver.restitution_threshold;
   message.channel_count = static_cast<std::int32_t>(channels.size());
   for (const Channel channel : channels) {

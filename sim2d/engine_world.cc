@@ -49,8 +49,7 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
       world_(to_engine(description.gravity_vector())),
       hosts_(world_, !description.debug.keep_sleepers),
       continuous_(description),
-      listener_(description, warm_start_, continuous_),
-      rolling_(description, world_) {
+      listener_(description, warm_start_, continuous_) {
   for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
   if (description.solver.small_steps()) small_steps_.emplace(description);
   world_.SetAllowSleeping(description.engine_sleep);
@@ -154,7 +153,6 @@ EngineTimes EngineWorld::engine_step() {
 bool EngineWorld::idle() const { return awake().empty() && (ring() == nullptr || ring()->idle(moving_obstacles_)); }
 
 EngineTimes EngineWorld::box2d_step() {
-  rolling_.start_step(states().shape);
   find_new_contacts();
   for (const BodyIndex body : awake()) continuous_.note_body(*at(body).body, states().shape[body]);
   continuous_.start_step();

@@ -12,7 +12,6 @@
 #include "sim2d/contacts.h"
 #include "sim2d/continuous.h"
 #include "sim2d/conversions.h"
-#include "sim2d/rolling_resistance.h"
 #include "sim2d/small_steps.h"
 #include "sim2d/static_hosts.h"
 #include "sim2d/warm_start.h"
@@ -84,7 +83,6 @@ class EngineWorld final : public World<2> {
   WarmStart warm_start_;
   ContinuousCollision continuous_;
   ContactListener listener_;
-  RollingResistance rolling_;
   std::optional<SmallSteps> small_steps_;  // instead of Box2D's solver
   std::vector<EngineBody> bodies_;
   std::vector<b2Body*> obstacles_;

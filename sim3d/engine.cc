@@ -1,25 +1,11 @@
 #include "sim3d/engine.h"
 
-#include "sim3d/bullet/packed_solver.h"
-#include "sim3d/bullet/rolling_solver.h"
-
 namespace talus::bullet {
-namespace {
 
-std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const SolverParams& params, const DebugOptions& debug,
-                                                                 bool rolling_friction) {
-  if (rolling_friction) return std::make_unique<RollingSolver>();
-  if (!debug.bullet_solver) return std::make_unique<PackedSolver>(params.warm_friction, debug);
-  return std::make_unique<WarmFrictionSolver>(params.warm_friction);
-}
-
-}  // namespace
-
-Engine::Engine(const btVector3& gravity, const SolverParams& params, const DebugOptions& debug, bool rolling_friction)
+Engine::Engine(const btVector3& gravity, const SolverParams& params, const DebugOptions& debug)
     : dispatcher(&configuration),
       broadphase(&pairs),
-      solver(make_solver(params, debug, rolling_friction)),
-      world(dispatcher, broadphase, pairs, *solver, configuration, debug) {
+      world(dispatcher, broadphase, pairs, solver, configuration, debug) {
   if (!debug.bullet_compounds)
     dispatcher.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE, &compound_pairs);
   if (!debug.collide_in_flight) {

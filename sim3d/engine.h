@@ -4,8 +4,6 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <btBulletDynamicsCommon.h>
 
-#include <memory>
-
 #include "common/world/world_description.h"
 #include "sim3d/bodies.h"
 #include "sim3d/bullet/compound_pair.h"
@@ -17,8 +15,7 @@ namespace talus::bullet {
 
 /// Members are destroyed in reverse order: the world lets go of its proxies and pairs before these go.
 struct Engine {
-  /// `rolling_friction`: whether a shape has any.
-  Engine(const btVector3& gravity, const SolverParams& params, const DebugOptions& debug, bool rolling_friction);
+  Engine(const btVector3& gravity, const SolverParams& params, const DebugOptions& debug);
 
   /// Bullet's own detection for two spheres forgets their point, and the impulse in it, in each step.
   void keep_points_of_spheres();
@@ -33,7 +30,7 @@ struct Engine {
   btCollisionDispatcher dispatcher;
   PairCache pairs;
   btDbvtBroadphase broadphase;
-  std::unique_ptr<btSequentialImpulseConstraintSolver> solver;
+  btSequentialImpulseConstraintSolver solver;
   DynamicsWorld world;
   RigidBodyMaker rigid_bodies;
 };

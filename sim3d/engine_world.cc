@@ -6,8 +6,6 @@
 
 #include "sim3d/bodies.h"
 #include "sim3d/body_template.h"
-#include "sim3d/bullet/rebound.h"
-#include "sim3d/bullet/rolling_solver.h"
 #include "sim3d/conversions.h"
 
 namespace talus::bullet {
@@ -41,19 +39,6 @@ btVector3 gravity_of(const WorldDescription<Dim>& description) {
   return to_bullet(description.gravity_vector());
 }
 
-template <int Dim>
-bool has_rolling_friction(const WorldDescription<Dim>& description) {
-  return std::ranges::any_of(description.shapes,
-                             [](const Shape<Dim>& shape) { return shape.material.rolling_friction > 0.0; });
-}
-
-/// Whether two surfaces may rebound from each other.
-template <int Dim>
-bool has_restitution(const WorldDescription<Dim>& description) {
-  return std::ranges::any_of(description.shapes,
-                             [](const Shape<Dim>& shape) { return shape.material.restitution > 0.0; });
-}
-
 /// Null: Bullet's own solver is to be used.
 template <int Dim>
 std::unique_ptr<SmallSteps<Dim>> make_small_steps(const WorldDescription<Dim>& description) {
@@ -74,8 +59,7 @@ template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     : World<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
-      rebounds_(has_restitution(description)),
-      engine_(gravity_of(description), description.solver, description.debug, has_rolling_friction(description)),
+      engine_(gravity_of(description), description.solver, description.debug),
       small_steps_(make_small_steps(description)) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
@@ -84,13 +68,7 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
   if (description.ground.present) add_ground();
   add_obstacles();
   if (small_steps_) use_small_steps();
-  engine_.world.set_after_collision([this] {
-    swap_.restore_contacts();
-    if (small_steps_) return;
-    if (auto* rolling = dynamic_cast<RollingSolver*>(engine_.solver.get())) rolling->start_step();
-    if (rebounds_)
-      set_rebounds(engine_.dispatcher, engine_.world.getSolverInfo(), static_cast<btScalar>(this->description().dt));
-  });
+  engine_.world.set_after_collision([this] { swap_.restore_contacts(); });
 }
 
 template <int Dim>

@@ -67,7 +67,6 @@ class EngineWorld final : public World<Dim> {
   const BodyTemplate& template_of_body(BodyIndex body) const { return template_of(this->states().shape[body]); }
 
   double mass_scale_;
-  bool rebounds_;
   std::vector<BodyTemplate> templates_;  // by shape
   std::vector<BodyTemplate> obstacles_;
   std::unique_ptr<btCollisionShape> ground_;

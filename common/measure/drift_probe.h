@@ -31,7 +31,7 @@ struct DriftProbe {
 
 /// Rebuilds `states` in a fresh world with all bodies awake and simulates until `most` is at most three times `least`,
 /// so that a drift between the two is within a factor of 2 of expected(), and at least 1.2, at most 5 units of time.
-/// What fails later is not seen. `description` holds the settings to judge by, as reference_settings() gives them. Only
+/// What fails later is not seen. `description` holds the settings to judge by, as judging_settings() gives them. Only
 /// bodies with a 1 in `counted` (by body) count. The measure foreseen is wake_test(); lab/notes/drift_probe.md has
 /// how well.
 template <int Dim>

@@ -46,7 +46,14 @@ template std::unique_ptr<World<2>> rebuild(const WorldMaker<2>&, const WorldDesc
                                            Sleepers);
 template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDescription<3>&, const BodyStates<3>&,
                                            Sleepers);
+template <int Dim>
+WorldDescription<Dim> judging_settings(const WorldDescription<Dim>& description) {
+  return description.solver.small_steps() ? description : reference_settings(description);
+}
+
 template WorldDescription<2> reference_settings(WorldDescription<2>);
 template WorldDescription<3> reference_settings(WorldDescription<3>);
+template WorldDescription<2> judging_settings(const WorldDescription<2>&);
+template WorldDescription<3> judging_settings(const WorldDescription<3>&);
 
 }  // namespace talus

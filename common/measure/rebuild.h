@@ -29,4 +29,9 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
 template <int Dim>
 WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
 
+/// Settings that tell whether a pile would stay at rest. With small steps its own: they let no pile creep, and finer
+/// ones have stiffer contacts, which would lift it. Else reference_settings().
+template <int Dim>
+WorldDescription<Dim> judging_settings(const WorldDescription<Dim>& description);
+
 }  // namespace talus

@@ -34,7 +34,7 @@ struct WakeTest {
 };
 
 /// Rebuilds `states` in a fresh world with all bodies awake and simulates on. `description` holds the settings to judge
-/// by, as reference_settings() gives them. The state should be a finished pile: what still falls counts as displaced.
+/// by, as judging_settings() gives them. The state should be a finished pile: what still falls counts as displaced.
 template <int Dim>
 WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
                    const BodyStates<Dim>& states, const WakeTestParams& params = {});

@@ -148,7 +148,6 @@ void warn_of_unused_settings(const SolverParams& solver, Lines& lines) {
     warn(solver.velocity_iterations != usual.velocity_iterations, "velocity_iterations");
     warn(solver.position_iterations != usual.position_iterations, "position_iterations");
     warn(solver.friction_directions != usual.friction_directions, "friction_directions");
-    warn(solver.warm_friction != usual.warm_friction, "warm_friction");
   } else {
     warn(solver.sub_steps != usual.sub_steps, "sub_steps");
   }

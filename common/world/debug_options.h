@@ -13,10 +13,6 @@ struct DebugOptions {
   bool sweep_slow_bodies = false;  // continuous collision of slow bodies too
 
   bool collide_in_flight = false;     // bodies in flight collide with the ground
-  bool bullet_islands = false;        // else sim3d/bullet/islands.h
-  bool bullet_solver = false;         // else sim3d/bullet/rows.h
-  bool bullet_row_order = false;      // else sim3d/bullet/row_system.h; no effect with bullet_solver
-  bool bullet_row_setup = false;      // else sim3d/bullet/row_setup.h; no effect with bullet_solver
   bool bullet_compounds = false;      // else sim3d/bullet/placed_pieces.h
   bool visit_separate_pairs = false;  // else sim3d/bullet/idle_pairs.h; no effect with bullet_compounds
 };

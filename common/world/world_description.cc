@@ -93,8 +93,14 @@ void check(const WorldDescription<Dim>& description) {
     check_shape(description.obstacles[i].shape, field + ".shape");
     check_pose(description.obstacles[i].pose, field + ".pose");
   }
-  for (std::size_t i = 0; i < description.shapes.size(); ++i)
-    check_shape(description.shapes[i], fmt::format("world.shapes[{}] ('{}')", i, description.shapes[i].name));
+  for (std::size_t i = 0; i < description.shapes.size(); ++i) {
+    const std::string field = fmt::format("world.shapes[{}] ('{}')", i, description.shapes[i].name);
+    const double rolling_friction = description.shapes[i].material.rolling_friction;
+    check_shape(description.shapes[i], field);
+    require(rolling_friction == 0.0 || description.solver.small_steps(), field + ".material.rolling_friction",
+            rolling_friction,
+            R"(must be 0 with world.solver.kind = "engine": the engines' own solvers resist no rolling)");
+  }
   check_masses(description.shapes);
 }
 

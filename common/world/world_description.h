@@ -28,7 +28,6 @@ struct SolverParams {
   int velocity_iterations = 10;
   int position_iterations = 4;
   int friction_directions = 2;
-  bool warm_friction = false;
   double restitution_threshold = 0.5;
 
   bool small_steps() const { return kind == small_steps_solver; }

@@ -32,12 +32,6 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
      {.name = "friction_directions",
       .range = between(1.0, 2.0),
       .meaning = "of `engine` on Bullet in 3D only. 1: piles creep without end and become 20 % too low"}},
-    {place_of<&SolverParams::warm_friction>,
-     {.name = "warm_friction",
-      .meaning = "of `engine` on Bullet only. true: friction starts each step at the last step's impulse. 10 "
-                 "iterations then hold a "
-                 "small heap as 50 do, and one of 400 bodies nearly, for 13 to 38 % more time. Towers one body wide "
-                 "sway more than without"}},
     {place_of<&SolverParams::restitution_threshold>,
      {.name = "restitution_threshold",
       .unit = "m/s",

@@ -47,8 +47,6 @@ void DynamicsWorld::calculateSimulationIslands() {
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
   if (contact_step_)
     contact_step_->solve();
-  else if (!debug_.bullet_islands)
-    islands_.solve(*this, getSimulationIslandManager()->getUnionFind(), *getConstraintSolver(), info);
   else
     btDiscreteDynamicsWorld::solveConstraints(info);
 }

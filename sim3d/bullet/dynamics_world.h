@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "common/world/debug_options.h"
-#include "sim3d/bullet/islands.h"
 #include "sim3d/bullet/near_pairs.h"
 
 namespace talus::bullet {
@@ -59,7 +58,6 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
  private:
   DebugOptions debug_;
   NearPairs near_pairs_;
-  Islands islands_;
   int statics_ = 0;
   double collide_seconds_ = 0.0;
   std::function<void()> after_collision_ = [] {};

@@ -10,16 +10,12 @@
 namespace talus::debug_options_test {
 namespace {
 
-constexpr std::array<std::pair<bool DebugOptions::*, const char*>, 11> options_of_the_same_bits = {{
+constexpr std::array<std::pair<bool DebugOptions::*, const char*>, 7> options_of_the_same_bits = {{
     {&DebugOptions::step_when_idle, "step_when_idle"},
     {&DebugOptions::keep_sleepers, "keep_sleepers"},
     {&DebugOptions::recount_sleepers, "recount_sleepers"},
     {&DebugOptions::gather_contacts, "gather_contacts"},
     {&DebugOptions::collide_in_flight, "collide_in_flight"},
-    {&DebugOptions::bullet_islands, "bullet_islands"},
-    {&DebugOptions::bullet_solver, "bullet_solver"},
-    {&DebugOptions::bullet_row_order, "bullet_row_order"},
-    {&DebugOptions::bullet_row_setup, "bullet_row_setup"},
     {&DebugOptions::bullet_compounds, "bullet_compounds"},
     {&DebugOptions::visit_separate_pairs, "visit_separate_pairs"},
 }};

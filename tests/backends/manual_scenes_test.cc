@@ -61,7 +61,7 @@ std::vector<Block> manual_scenes() {
 template <typename Backend>
 class ManualScenes : public ::testing::Test {};
 
-TYPED_TEST_SUITE(ManualScenes, Backends, BackendName);
+TYPED_TEST_SUITE(ManualScenes, SmallStepsBackends, BackendName);
 
 TYPED_TEST(ManualScenes, DropAllTheirBodiesBeforeTheirEndWithoutAWarning) {
   constexpr int dim = TypeParam::dim;

@@ -218,20 +218,6 @@ TYPED_TEST(MovingObstacle, GivesTheSameBitsInEachRun) {
   EXPECT_EQ(hash(), hash());
 }
 
-// Bullet's own row setup takes the velocity of obstacles that move by itself.
-TYPED_TEST(MovingObstacle, GivesTheSameBitsAsTheEnginesOwnSolver) {
-  constexpr int dim = TypeParam::dim;
-  const auto hash = [](bool own) {
-    Scene<dim> scene =
-        platform<dim>(fmt::format("{{kind = \"sine\", amplitude = {}, frequency = 1.5}}", along<dim>(0.4, 0.1)));
-    scene.world.debug.bullet_row_setup = own;
-    auto simulation = TestFixture::simulation(scene);
-    TestFixture::run_until(simulation, 4.0);
-    return state_hash(simulation.world().states());
-  };
-  EXPECT_EQ(hash(false), hash(true));
-}
-
 TYPED_TEST(MovingObstacle, IsTheOnlyKindThatMoves) {
   constexpr int dim = TypeParam::dim;
   Scene<dim> scene = platform<dim>(path<dim>(1.0, 0.0));

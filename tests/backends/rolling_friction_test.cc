@@ -38,7 +38,7 @@ class RollingFriction : public ::testing::Test {
   }
 };
 
-TYPED_TEST_SUITE(RollingFriction, Backends, BackendName);
+TYPED_TEST_SUITE(RollingFriction, SmallStepsBackends, BackendName);
 
 /// Work of the resisting torque against the energy of a rolling ball, v^2 (1 + k) / 2 of unit mass with an inertia of
 /// k r^2: it stops after v^2 (1 + k) / (2 mu g).

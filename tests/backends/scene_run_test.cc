@@ -29,7 +29,7 @@ class SceneRun : public ::testing::Test {
   static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
 };
 
-TYPED_TEST_SUITE(SceneRun, Backends, BackendName);
+TYPED_TEST_SUITE(SceneRun, SmallStepsBackends, BackendName);
 
 TYPED_TEST(SceneRun, DropsWhatIsDueAndKeepsItAboveTheGround) {
   constexpr int dim = TypeParam::dim;

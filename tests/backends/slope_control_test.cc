@@ -50,7 +50,7 @@ class SlopeControl : public ::testing::Test {
     return sum / runs;
   }
 };
-TYPED_TEST_SUITE(SlopeControl, Backends, BackendName);
+TYPED_TEST_SUITE(SlopeControl, SmallStepsBackends, BackendName);
 
 // Slopes of small piles scatter by 4 degrees in 2D, so means of four by 2; the test allows three times that.
 TYPED_TEST(SlopeControl, MakesAPileMuchSteeperThanItsBodiesTakeByThemselves) {
@@ -62,7 +62,7 @@ TYPED_TEST(SlopeControl, MakesAPileMuchSteeperThanItsBodiesTakeByThemselves) {
 
 template <typename Backend>
 class LongSlopeControl : public SlopeControl<Backend> {};
-TYPED_TEST_SUITE(LongSlopeControl, Backends, BackendName);
+TYPED_TEST_SUITE(LongSlopeControl, SmallStepsBackends, BackendName);
 
 // Slopes of these piles scatter by 2 to 3 degrees, so means of eight by one: the worst of 18 means is within three.
 TYPED_TEST(LongSlopeControl, IsWithinThreeDegreesOfTheSetpointOnAverage) {

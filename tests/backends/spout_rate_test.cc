@@ -36,7 +36,7 @@ class SpoutRate : public BackendTest<Backend> {
   }
 };
 
-TYPED_TEST_SUITE(SpoutRate, Backends, BackendName);
+TYPED_TEST_SUITE(SpoutRate, SmallStepsBackends, BackendName);
 
 // A ball's bounding box is the one around its bounding sphere, so nothing is left to be conservative about. The two
 // bodies' boxes may touch after a whole number of steps or miss it by rounding: one step of the 25.

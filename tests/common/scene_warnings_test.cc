@@ -82,7 +82,6 @@ TEST(Warnings, TellOfSettingsOfTheOtherSolver) {
   const Override own{"world.solver.kind=\"engine\""};
   expect_one(warnings_with({{"world.solver.velocity_iterations=50"}}),
              "world.solver.velocity_iterations has no effect");
-  expect_one(warnings_with({{"world.solver.warm_friction=true"}}), "world.solver.warm_friction has no effect");
   expect_one(warnings_with({own, {"world.solver.sub_steps=4"}}), "world.solver.sub_steps has no effect");
   EXPECT_EQ(warnings_with({own, {"world.solver.velocity_iterations=50"}}), "");
   EXPECT_EQ(warnings_with({{"world.solver.sub_steps=4"}}), "");

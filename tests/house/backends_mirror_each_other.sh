@@ -10,8 +10,7 @@ body_swap.h         Bullet keeps a body in its broadphase entry while it changes
 bodies.h            Bullet leaves the memory of its bodies to the caller
 engine.h            Bullet is a set of objects, Box2D one b2World
 plain_heap.h        Box2D has no allocator that a program can replace
-friction_impulse.h  Bullet keeps friction in two directions of its own choice
-rolling_resistance.h  Box2D has no rolling friction, so joints make it; in Bullet it is in sim3d/bullet/rolling_solver.h'
+friction_impulse.h  Bullet keeps friction in two directions of its own choice'
 
 headers() {
   git ls-files "$1/*.h" | sed "s|^$1/||" | grep -v '^bullet/' | grep -vxF "$(echo "$exempt" | cut -d ' ' -f 1)" |

@@ -65,7 +65,6 @@ template <int Dim>
 double slope_of_heap(const PhysicsCell& cell, double friction, std::uint64_t seed) {
   const Material material{.friction = friction};
   Stage<Dim> stage(cell, material);
-  stage.scene.world.solver.warm_friction = true;
   stage.scene.seed = seed;
   stage.box(1.0, 0.5, 0.5, material);
   stage.scene.sources = {{.count = 150,

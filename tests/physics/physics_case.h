@@ -15,8 +15,8 @@ namespace talus {
 struct PhysicsCell {
   std::string_view backend;
   std::string_view policy;
-  std::string_view solver = engine_solver;
-  int rings = 0;  // of the policy `adaptive`
+  std::string_view solver = small_steps_solver;  // with the policy `engine` the engine's own in any case
+  int rings = 0;                                 // of the policy `adaptive`
 };
 
 /// One measured number of a case, and what it must be.

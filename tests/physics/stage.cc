@@ -61,8 +61,8 @@ Stage<Dim>::Stage(const PhysicsCell& cell, const Material& ground) : backend(cel
   scene.title = "physics";
   scene.policy.kind = std::string(cell.policy);
   scene.policy.adaptive.rings = cell.rings;
-  scene.world.solver.kind = std::string(cell.solver);
   scene.world.engine_sleep = cell.policy == "engine";
+  scene.world.solver.kind = scene.world.engine_sleep ? engine_solver : cell.solver;
   scene.world.ground.material = ground;
   scene.run.frames = 1'000'000'000;
   scene.run.frame_rate = 60.0;

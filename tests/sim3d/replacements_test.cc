@@ -16,9 +16,8 @@ namespace talus::replacements_test {
 namespace {
 
 /// Options that put Bullet's own classes in the place of the replacements.
-constexpr std::array<bool DebugOptions::*, 6> replacements = {
-    &DebugOptions::bullet_islands,   &DebugOptions::bullet_solver,    &DebugOptions::bullet_row_order,
-    &DebugOptions::bullet_row_setup, &DebugOptions::bullet_compounds, &DebugOptions::visit_separate_pairs};
+constexpr std::array<bool DebugOptions::*, 2> replacements = {&DebugOptions::bullet_compounds,
+                                                              &DebugOptions::visit_separate_pairs};
 
 std::unique_ptr<World<3>> make(const WorldDescription<3>& description) { return make_bullet_world(description); }
 std::unique_ptr<World<2>> make(const WorldDescription<2>& description) { return make_bullet_planar_world(description); }
@@ -30,11 +29,10 @@ class Sequence {
   explicit Sequence(unsigned seed) : random_(seed) {
     description_.shapes = shapes();
     description_.ground.material.restitution = chance(0.3) ? 0.7 : 0.0;
-    description_.solver.warm_friction = chance(0.6);
     description_.solver.friction_directions = Dim == 3 && chance(0.15) ? 1 : 2;
     description_.solver.velocity_iterations = 1 + below(12);
-    description_.solver.kind = engine_solver;
-    description_.engine_sleep = chance(0.2);
+    if (chance(0.5)) description_.solver.kind = engine_solver;
+    description_.engine_sleep = !description_.solver.small_steps() && chance(0.4);
     description_.debug.keep_sleepers = chance(0.1);
     if (chance(0.4)) {
       Vec<Dim> size = Vec<Dim>::Constant(3.0);

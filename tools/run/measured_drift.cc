@@ -37,7 +37,7 @@ BodyStates<Dim> within_world(BodyStates<Dim> states) {
 template <int Dim>
 WakeTest wake_all(const WorldDescription<Dim>& world, const std::string& backend, const BodyStates<Dim>& states,
                   const WakeTestParams& params) {
-  return wake_test<Dim>(world_maker<Dim>(backend), reference_settings(world), states, params);
+  return wake_test<Dim>(world_maker<Dim>(backend), judging_settings(world), states, params);
 }
 
 template <int Dim>
@@ -104,8 +104,7 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
                                 .duration = wake_time(world.gravity),
                                 .body_steps = body_steps,
                                 .stop = stop};
-  const DriftProbe probe =
-      probe_drift<Dim>(world_maker<Dim>(backend), reference_settings(world), last, sleepers, params);
+  const DriftProbe probe = probe_drift<Dim>(world_maker<Dim>(backend), judging_settings(world), last, sleepers, params);
   return probe.bodies > 0 ? std::optional(probe) : std::nullopt;
 }
 

@@ -76,7 +76,6 @@ Json settings_json(const Scene<Dim>& scene) {
           {"velocity_iterations", solver.velocity_iterations},
           {"position_iterations", solver.position_iterations},
           {"friction_directions", solver.friction_directions},
-          {"warm_friction", solver.warm_friction},
           {"restitution_threshold", solver.restitution_threshold},
           {"frames", scene.run.frames},
           {"frame_rate", scene.run.frame_rate}};

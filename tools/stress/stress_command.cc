@@ -23,7 +23,7 @@ struct StressOptions {
   std::vector<std::string> names;
   std::vector<std::string> backends;
   std::vector<std::string> policies;
-  std::string solver{engine_solver};
+  std::string solver{small_steps_solver};
   int rings = 0;
   int jobs = 2;
   bool whole = false;
@@ -59,7 +59,6 @@ std::vector<PhysicsTask> chosen_tasks(const StressOptions& options) {
   std::erase_if(tasks, [&](const PhysicsTask& task) {
     const bool named = !options.names.empty() && is_chosen(options.names, task.each->name);
     const bool in_group = is_chosen(options.names, task.each->group) && (options.whole || !task.each->slow);
-    if (!own_solver && task.cell.policy == "engine") return true;  // of the engines' own solvers alone
     return !(named || in_group) || !is_chosen(options.backends, task.cell.backend) ||
            !is_chosen(options.policies, task.cell.policy);
   });
@@ -126,7 +125,7 @@ void add_stress_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command
       ->add_option("--solver", options->solver,
-                   "World's solver of contacts; the references are those of the engines' own")
+                   "World's solver of contacts; the policy `engine` has the engine's own in any case")
       ->check(CLI::IsMember(std::vector<std::string>(solver_kinds.begin(), solver_kinds.end())))
       ->capture_default_str();
   command
