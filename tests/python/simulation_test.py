@@ -1,15 +1,15 @@
 """Runs of the Python package against the command's own."""
 
+import os
 import signal
 import subprocess
-import sys
 import threading
 import unittest
 
 import numpy as np
 import talus
 
-COMMAND = sys.argv.pop(1)
+COMMAND = os.environ["TALUS"]
 
 
 class Simulation(unittest.TestCase):

@@ -1,0 +1,26 @@
+"""Scenes and values of their keys, as the extension module takes them."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+
+def _toml(value):
+    """A Python value as TOML."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    return json.dumps(value.item() if isinstance(value, np.generic) else value)
+
+
+def scene_of(scene):
+    """The file of a scene that comes with talus; else `scene` itself."""
+    shipped = (folder / "share/talus/scenes" / f"{scene}.toml" for folder in Path(__file__).resolve().parents)
+    return str(scene) if "\n" in str(scene) else str(next(filter(Path.is_file, shipped), scene))
+
+
+def settings_of(values):
+    """Values by path as `talus run --set` takes them."""
+    return [f"{path}={_toml(value)}" for path, value in (values or {}).items()]
