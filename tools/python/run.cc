@@ -4,7 +4,9 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,43 +14,131 @@
 
 #include "common/math/require.h"
 #include "common/scene/read_scene.h"
+#include "common/simulation/observer.h"
 #include "common/simulation/state_hash.h"
+#include "common/simulation/stopwatch.h"
 #include "tools/python/arrays.h"
 #include "tools/python/module.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
+#include "tools/run/finish_run.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/run_options.h"
+#include "tools/run/run_outputs.h"
 
 namespace py = pybind11;
 
 namespace talus {
 namespace {
 
+/// What Python wants to know of a run besides its states.
+struct Wanted {
+  bool warnings = false;
+  bool contacts = false;      // of each step
+  std::filesystem::path out;  // run folder; empty: none
+};
+
+/// An observer without eyes: a run that is observed looks for what to warn of.
+template <int Dim>
+class Presence final : public Observer<Dim> {
+ public:
+  explicit Presence(bool contacts) : contacts_(contacts) {}
+  bool needs_contacts() const override { return contacts_; }
+  void on_frame(const Frame<Dim>&) override {}
+
+ private:
+  bool contacts_;
+};
+
+/// During work without the interpreter's lock: takes it every few milliseconds to see whether Ctrl-C was pressed, and
+/// now and then to call a function of the program.
+class Attention {
+ public:
+  explicit Attention(std::function<void()> tell = {}) : tell_(std::move(tell)) {}
+
+  /// Throws what the program's handler of a signal, or its function, has raised.
+  void pay() {
+    const auto now = Clock::now();
+    if (now - looked_ < std::chrono::milliseconds(5)) return;
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (tell_ && now - told_ > std::chrono::milliseconds(200)) {
+      tell_();
+      told_ = now;
+    }
+    looked_ = Clock::now();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::function<void()> tell_;
+  Clock::time_point looked_ = Clock::now();
+  Clock::time_point told_ = looked_;
+};
+
 /// A run as Python has it.
 template <int Dim>
 class Run {
  public:
-  Run(const Scene<Dim>& scene, const std::string& backend) : simulation_(make_simulation(scene, backend)) {}
+  Run(const Scene<Dim>& scene, const std::string& name, const std::string& backend, const Wanted& wanted)
+      : scene_(scene), simulation_(make_simulation(scene_, backend)), presence_(wanted.contacts) {
+    summary_.scene_name = name;
+    summary_.backend = backend;
+    summary_.scene_warnings = scene_warnings(scene_, backend);
+    if (wanted.warnings || wanted.contacts) simulation_.add_observer(presence_);
+    if (wanted.out.empty()) return;
+    options_.out = wanted.out;
+    options_.telemetry = false;
+    options_.hash_only = true;
+    options_.quiet = true;
+    outputs_.emplace(options_, scene_, name, backend, simulation_);
+  }
 
   bool finished() const { return simulation_.finished(); }
+  bool at_rest() const { return simulation_.at_rest(); }
   double time() const { return simulation_.time(); }
   std::int64_t step_count() const { return simulation_.frame().step; }
   std::uint64_t hash() const { return state_hash(states()); }
 
-  /// Without the interpreter's lock, which it takes every few milliseconds to see whether Ctrl-C was pressed.
+  /// Without the interpreter's lock.
   void step(std::int64_t count) {
-    using Clock = std::chrono::steady_clock;
-    constexpr auto between_looks = std::chrono::milliseconds(5);
+    Attention attention;
     const py::gil_scoped_release released;
-    auto looked = Clock::now();
-    for (std::int64_t i = 0; i < count && !simulation_.finished(); ++i) {
-      simulation_.step();
-      if (Clock::now() - looked < between_looks) continue;
-      const py::gil_scoped_acquire held;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      looked = Clock::now();
+    advance(count, attention);
+  }
+
+  /// To the end, whatever it is; then the folder is completed and an error thrown on. `progress`: None, or called with
+  /// the steps done and those of the scene.
+  void run(const py::object& progress) {
+    const auto tell = [&] { progress(step_count(), scene_.steps()); };
+    Attention attention = progress.is_none() ? Attention() : Attention(tell);
+    std::exception_ptr failure;
+    {
+      const py::gil_scoped_release released;
+      Stopwatch watch;
+      failure = advance_to_end(attention);
+      summary_.wall_seconds = watch.lap();
+      finish(failure);
     }
+    if (failure) std::rethrow_exception(failure);
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress.is_none()) tell();
+  }
+
+  /// All warnings of scene and run so far, a line each.
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all = summary_.scene_warnings;
+    const std::span<const Warning> of_run =
+        outputs_ ? std::span<const Warning>(summary_.warnings) : simulation_.warnings();
+    for (const Warning& warning : of_run) all.push_back(advice(warning));
+    return all;
+  }
+  std::uint64_t seed() const { return scene_.seed; }
+  std::string folder() const { return outputs_ ? outputs_->folder().string() : ""; }
+  std::vector<std::string> shape_names() const {
+    std::vector<std::string> names;
+    for (const Shape<Dim>& shape : scene_.world.shapes) names.push_back(shape.name);
+    return names;
   }
 
   static constexpr py::ssize_t pose_width = pose_values<Dim>;
@@ -76,12 +166,55 @@ class Run {
  private:
   const BodyStates<Dim>& states() const { return simulation_.world().states(); }
 
+  void advance(std::int64_t count, Attention& attention) {
+    for (std::int64_t i = 0; i < count && !simulation_.finished(); ++i) {
+      simulation_.step();
+      attention.pay();
+    }
+  }
+
+  /// The error that ended the run, if one did; the summary gets the reason.
+  std::exception_ptr advance_to_end(Attention& attention) {
+    try {
+      advance(scene_.steps(), attention);
+      summary_.reason = "finished";
+      return {};
+    } catch (const NonFiniteState& error) {
+      summary_.reason = error.what();
+      return std::current_exception();
+    } catch (const py::error_already_set&) {
+      summary_.reason = "interrupted";
+      return std::current_exception();
+    }
+  }
+
+  void finish(std::exception_ptr& failure) {
+    summary_.emit_waits = simulation_.emitter().waits();
+    if (!outputs_) return simulation_.end(summary_.reason);
+    Attention attention;
+    const auto stop = [&] {
+      try {
+        attention.pay();
+      } catch (const py::error_already_set&) {
+        failure = std::current_exception();
+      }
+      return failure != nullptr;
+    };
+    finish_run<Dim>(options_, scene_, simulation_, *outputs_, stop, summary_);
+  }
+
+  Scene<Dim> scene_;
   Simulation<Dim> simulation_;
+  Presence<Dim> presence_;
+  RunOptions options_;  // of the outputs
+  SummaryInput summary_;
+  std::optional<RunOutputs<Dim>> outputs_;
 };
 
 /// A text with a line end or a `=` is a scene itself, every other one names it.
 py::object open_run(const std::string& scene_text, const std::string& policy, std::optional<std::int64_t> seed,
-                    const std::string& backend, const std::vector<std::string>& settings) {
+                    const std::string& backend, const std::vector<std::string>& settings, bool warnings, bool contacts,
+                    const std::string& out) {
   SceneChoice choice;
   choice.scene = scene_text;
   choice.policy = policy;
@@ -97,7 +230,8 @@ py::object open_run(const std::string& scene_text, const std::string& policy, st
         const std::vector<std::string> engines = backends(Dim);
         const std::string engine = backend.empty() && !engines.empty() ? engines.front() : backend;
         check_window(of_dimension, engine, file, choice.force);
-        return py::cast(std::make_unique<Run<Dim>>(of_dimension, engine));
+        return py::cast(
+            std::make_unique<Run<Dim>>(of_dimension, file.stem().string(), engine, Wanted{warnings, contacts, out}));
       },
       scene);
 }
@@ -108,9 +242,15 @@ void add_run(py::module_& module, const char* name) {
   py::class_<RunHere>(module, name)
       .def_property_readonly_static("dimension", [](const py::object&) { return Dim; })
       .def_property_readonly("finished", &RunHere::finished)
+      .def_property_readonly("at_rest", &RunHere::at_rest)
+      .def_property_readonly("warnings", &RunHere::warnings)
+      .def_property_readonly("seed", &RunHere::seed)
+      .def_property_readonly("folder", &RunHere::folder)
+      .def_property_readonly("shape_names", &RunHere::shape_names)
       .def_property_readonly("time", &RunHere::time)
       .def_property_readonly("step_count", &RunHere::step_count)
       .def("step", &RunHere::step)
+      .def("run", &RunHere::run)
       .def("hash", &RunHere::hash)
       .def("poses", &RunHere::poses)
       .def("write_poses", &RunHere::write_poses, py::arg("out").noconvert())

@@ -5,7 +5,8 @@ where its centre of mass is. A pose is x, z, angle in 2D; in 3D x, y, z and a qu
 """
 
 from ._record import Record, open
+from ._run import Result, run
 from ._simulation import Simulation
 from ._talus import NonFiniteState, SceneError
 
-__all__ = ["NonFiniteState", "Record", "SceneError", "Simulation", "open"]
+__all__ = ["NonFiniteState", "Record", "Result", "SceneError", "Simulation", "open", "run"]

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ._talus import open_run
+
 
 def _toml(value):
     """A Python value as TOML."""
@@ -15,12 +17,13 @@ def _toml(value):
     return json.dumps(value.item() if isinstance(value, np.generic) else value)
 
 
-def scene_of(scene):
+def _file_of(scene):
     """The file of a scene that comes with talus; else `scene` itself."""
     shipped = (folder / "share/talus/scenes" / f"{scene}.toml" for folder in Path(__file__).resolve().parents)
     return str(scene) if "\n" in str(scene) else str(next(filter(Path.is_file, shipped), scene))
 
 
-def settings_of(values):
-    """Values by path as `talus run --set` takes them."""
-    return [f"{path}={_toml(value)}" for path, value in (values or {}).items()]
+def open_scene(scene, policy, seed, backend, values, *, warnings=False, contacts=False, out=None):
+    """The run of the extension module. values: of keys by path."""
+    settings = [f"{path}={_toml(value)}" for path, value in (values or {}).items()]
+    return open_run(_file_of(scene), policy or "", seed, backend or "", settings, warnings, contacts, str(out or ""))

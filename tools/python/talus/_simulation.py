@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from ._scene import scene_of, settings_of
-from ._talus import open_run
+from ._scene import open_scene
 
 
 class Simulation:
@@ -14,7 +13,7 @@ class Simulation:
     """
 
     def __init__(self, scene, policy=None, seed=None, backend=None, set=None):
-        self._run = open_run(scene_of(scene), policy or "", seed, backend or "", settings_of(set))
+        self._run = open_scene(scene, policy, seed, backend, set)
 
     def step(self, count=1):
         """Does up to `count` steps, fewer where the run ends. Other threads run meanwhile, and Ctrl-C stops it.
