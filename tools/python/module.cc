@@ -58,6 +58,7 @@ PYBIND11_MODULE(_talus, module) {
   PYBIND11_NUMPY_DTYPE(talus::EventRow, step, body, woke, cause, pile, layer, score);
   module.attr("cause_names") = talus::cause_names();
   talus::add_runs(module);
+  talus::add_sleepers(module);
 #ifdef TALUS_LCM
   talus::add_records(module);
 #endif

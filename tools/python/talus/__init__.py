@@ -7,6 +7,20 @@ where its centre of mass is. A pose is x, z, angle in 2D; in 3D x, y, z and a qu
 from ._record import Record, open
 from ._run import Result, run
 from ._simulation import Simulation
+from ._sleeper import Changes, PileSleeper2D, PileSleeper3D, SleepChange, VelocityChange
 from ._talus import NonFiniteState, SceneError
 
-__all__ = ["NonFiniteState", "Record", "Result", "SceneError", "Simulation", "open", "run"]
+__all__ = [
+    "Changes",
+    "NonFiniteState",
+    "PileSleeper2D",
+    "PileSleeper3D",
+    "Record",
+    "Result",
+    "SceneError",
+    "Simulation",
+    "SleepChange",
+    "VelocityChange",
+    "open",
+    "run",
+]
