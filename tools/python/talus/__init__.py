@@ -8,6 +8,7 @@ from ._record import Record, open
 from ._run import Result, run
 from ._simulation import Simulation
 from ._sleeper import Changes, PileSleeper2D, PileSleeper3D, SleepChange, VelocityChange
+from ._sweep import SweepRun, sweep
 from ._talus import NonFiniteState, SceneError
 
 __all__ = [
@@ -20,7 +21,9 @@ __all__ = [
     "SceneError",
     "Simulation",
     "SleepChange",
+    "SweepRun",
     "VelocityChange",
     "open",
     "run",
+    "sweep",
 ]
