@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
 #include "tools/python/arrays.h"
+#include "tools/python/contact_row.h"
 #include "tools/python/module.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
@@ -75,6 +77,38 @@ class Attention {
   Clock::time_point looked_ = Clock::now();
   Clock::time_point told_ = looked_;
 };
+
+/// A layer of a pile as a row of a structured array.
+struct LayerRow {
+  double bottom;
+  double top;
+  double radius;
+  double capacity;
+  std::int32_t count;
+  std::int32_t sleeping;
+};
+
+template <int Dim>
+ContactRow<Dim> contact_row(const Contact<Dim>& contact) {
+  ContactRow<Dim> row{};
+  row.a = contact.a;
+  row.b = contact.b;
+  std::ranges::copy(contact.point, row.point);
+  std::ranges::copy(contact.normal, row.normal);
+  row.normal_impulse = contact.normal_impulse;
+  std::ranges::copy(contact.friction_impulse, row.friction_impulse);
+  row.approach_speed = contact.approach_speed;
+  row.depth = contact.depth;
+  return row;
+}
+
+template <class Vector>
+Vector vector_in(const std::vector<double>& values, std::string_view field) {
+  const Eigen::Map<const Eigen::VectorXd> given(values.data(), std::ssize(values));
+  require(given.size() == Vector::RowsAtCompileTime && given.allFinite(), field, static_cast<double>(given.size()),
+          fmt::format("must be {} finite numbers", Vector::RowsAtCompileTime));
+  return given;
+}
 
 /// A run as Python has it.
 template <int Dim>
@@ -161,10 +195,49 @@ class Run {
   std::vector<std::uint8_t> removed() const { return states().removed; }
   std::vector<int> shapes() const { return states().shape; }
   void remove(BodyIndex body) { simulation_.remove(body); }
-  void wake() { simulation_.thaw_all(); }
+  void wake_all() { simulation_.thaw_all(); }
+  void wake(const std::vector<BodyIndex>& bodies) { act({.action = EventAction::wake}, bodies); }
+  void kick(const std::vector<BodyIndex>& bodies, const std::vector<double>& velocity,
+            const std::vector<double>& spin) {
+    Event<Dim> event{.action = EventAction::kick};
+    event.velocity = vector_in<Vec<Dim>>(velocity, "velocity");
+    if (!spin.empty()) event.spin = vector_in<Spin<Dim>>(spin, "spin");
+    act(std::move(event), bodies);
+  }
+
+  /// Of the last step.
+  py::array_t<EventRow> events() const { return array_of(event_rows(simulation_.frame().events)); }
+  py::array_t<ContactRow<Dim>> contacts() const {
+    require(presence_.needs_contacts(), "contacts", "False", "must be True when the simulation is made");
+    std::vector<ContactRow<Dim>> rows;
+    for (const Contact<Dim>& contact : simulation_.world().contacts()) rows.push_back(contact_row(contact));
+    return array_of(std::move(rows));
+  }
+  py::list piles() const {
+    py::list all;
+    for (const Pile<Dim>& pile : simulation_.piles().piles()) {
+      const std::vector<double> centre(pile.centre.begin(), pile.centre.end());
+      std::vector<LayerRow> layers;
+      for (const Layer& layer : pile.layers)
+        layers.push_back({layer.bottom, layer.top, layer.radius, layer.capacity, layer.count, layer.sleeping});
+      all.append(py::make_tuple(array_of(centre), pile.alpha, pile.height, pile.radius, pile.structure_size,
+                                array_of(std::move(layers))));
+    }
+    return all;
+  }
 
  private:
   const BodyStates<Dim>& states() const { return simulation_.world().states(); }
+
+  /// As an event of the scene does, to these bodies alone.
+  void act(Event<Dim> event, const std::vector<BodyIndex>& bodies) {
+    for (const BodyIndex body : bodies)
+      require(body >= 0 && body < states().size() && states().removed[body] == 0, "body", body,
+              "must be the number of a body that is there");
+    if (bodies.empty()) return;  // to an event it means all
+    event.numbers.assign(bodies.begin(), bodies.end());
+    simulation_.do_event(event);
+  }
 
   void advance(std::int64_t count, Attention& attention) {
     for (std::int64_t i = 0; i < count && !simulation_.finished(); ++i) {
@@ -260,12 +333,18 @@ void add_run(py::module_& module, const char* name) {
       .def("removed", &RunHere::removed)
       .def("shapes", &RunHere::shapes)
       .def("remove", &RunHere::remove)
-      .def("wake", &RunHere::wake);
+      .def("wake_all", &RunHere::wake_all)
+      .def("wake", &RunHere::wake)
+      .def("kick", &RunHere::kick)
+      .def("events", &RunHere::events)
+      .def("contacts", &RunHere::contacts)
+      .def("piles", &RunHere::piles);
 }
 
 }  // namespace
 
 void add_runs(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(LayerRow, bottom, top, radius, capacity, count, sleeping);
   add_run<2>(module, "Run2");
   add_run<3>(module, "Run3");
   module.def("open_run", &open_run);

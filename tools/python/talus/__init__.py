@@ -6,7 +6,7 @@ where its centre of mass is. A pose is x, z, angle in 2D; in 3D x, y, z and a qu
 
 from ._record import Record, open
 from ._run import Result, run
-from ._simulation import Simulation
+from ._simulation import Pile, Simulation
 from ._sleeper import Changes, PileSleeper2D, PileSleeper3D, SleepChange, VelocityChange
 from ._sweep import SweepRun, sweep
 from ._talus import NonFiniteState, SceneError
@@ -14,6 +14,7 @@ from ._talus import NonFiniteState, SceneError
 __all__ = [
     "Changes",
     "NonFiniteState",
+    "Pile",
     "PileSleeper2D",
     "PileSleeper3D",
     "Record",
