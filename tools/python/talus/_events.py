@@ -1,5 +1,7 @@
 """Bodies that fall asleep or wake, as a structured array."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from . import _talus
@@ -13,7 +15,7 @@ EVENT = np.dtype(
 )
 
 
-def events_of(rows):
+def events_of(rows: np.ndarray) -> np.ndarray:
     """The rows of the extension module with the names of the causes."""
     events = np.empty(len(rows), EVENT)
     for field in EVENT.names:

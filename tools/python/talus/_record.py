@@ -1,5 +1,7 @@
 """Recorded runs as arrays."""
 
+from __future__ import annotations
+
 import errno
 import os
 import warnings
@@ -35,31 +37,31 @@ class Record:
     poses: np.ndarray  #: (F, N, 3) in 2D: x, z [m], angle [rad]; (F, N, 7) in 3D: x, y, z [m], quaternion x, y, z, w; float32
     asleep: np.ndarray  #: (F, N) bool; False where the body is not there
     shapes: np.ndarray  #: (N,) int32, number of each body's shape
-    shape_names: tuple  #: (S)
-    meshes: tuple  #: (S) of vertices (V, 3) [m] around the centre of mass and triangles (T, 3); plane shapes lie in y = 0
+    shape_names: tuple[str, ...]  #: (S)
+    meshes: tuple[tuple[np.ndarray, np.ndarray], ...]  #: (S) of vertices (V, 3) [m] around the centre of mass and triangles (T, 3); plane shapes lie in y = 0
     events: np.ndarray  #: structured: step, body, woke, cause, pile, layer, score; each time a body fell asleep or woke
 
     @property
-    def positions(self):
+    def positions(self) -> np.ndarray:
         """(F, N, dimension) [m], of the centres of mass: a view of `poses`."""
         return self.poses[..., : self.dimension]
 
     @property
-    def rotations(self):
+    def rotations(self) -> np.ndarray:
         """(F, N, 1) in 2D: angle [rad]; (F, N, 4) in 3D: quaternion x, y, z, w. A view of `poses`."""
         return self.poses[..., self.dimension :]
 
     @property
-    def present(self):
+    def present(self) -> np.ndarray:
         """(F, N) bool: the body is in the world, at a known pose."""
         return ~np.isnan(self.poses[..., 0])
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         frames, bodies = self.asleep.shape
         return f"<talus.Record {self.path}: {frames} frames, {bodies} bodies, {self.reason or 'no end'}>"
 
 
-def open(path):
+def open(path: str | os.PathLike) -> Record:
     """Reads a recorded run: a run folder, as of `talus run`, or a file run.lcm alone.
 
     FileNotFoundError: no such path. ValueError, with file and reason: no record, one of another format or of several

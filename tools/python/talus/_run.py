@@ -1,13 +1,16 @@
 """Runs to their end."""
 
+from __future__ import annotations
+
+import os
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
+from typing import Callable
 
 import numpy as np
 
-from ._scene import open_scene
+from ._scene import Scene, Values, open_scene
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -26,16 +29,25 @@ class Result:
     asleep: np.ndarray  #: (n,) bool
     present: np.ndarray  #: (n,) bool; False for a removed body, whose other entries stay as they last were
     shapes: np.ndarray  #: (n,) int, number of each body's shape
-    shape_names: tuple
-    warnings: tuple  #: a line each, as `talus run` prints them
-    folder: Optional[Path]  #: run folder; None without out=
+    shape_names: tuple[str, ...]
+    warnings: tuple[str, ...]  #: a line each, as `talus run` prints them
+    folder: Path | None  #: run folder; None without out=
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         rest = ", at rest" if self.at_rest else ""
         return f"<talus.Result after {self.time:.4g} s: {len(self.asleep)} bodies, {self.asleep.sum()} asleep{rest}>"
 
 
-def simulate(scene, *, policy=None, seed=None, backend=None, set=None, out=None, progress=None):
+def simulate(
+    scene: Scene,
+    *,
+    policy: str | None = None,
+    seed: int | None = None,
+    backend: str | None = None,
+    set: Values | None = None,
+    out: str | os.PathLike | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Result:
     """talus.run() that keeps its warnings to itself."""
     run = open_scene(scene, policy, seed, backend, set, warnings=True, out=out)
     run.run(progress)
@@ -58,7 +70,16 @@ def simulate(scene, *, policy=None, seed=None, backend=None, set=None, out=None,
     )
 
 
-def run(scene, *, policy=None, seed=None, backend=None, set=None, out=None, progress=None):
+def run(
+    scene: Scene,
+    *,
+    policy: str | None = None,
+    seed: int | None = None,
+    backend: str | None = None,
+    set: Values | None = None,
+    out: str | os.PathLike | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Result:
     """Simulates a scene to its end, as `talus run` does with the same bits; returns a Result.
 
     scene: path, name of a scene that `talus list` shows, or TOML text. set: values by path, as of `talus run --set`:

@@ -1,11 +1,20 @@
 """Scenes and values of their keys, as the extension module takes them."""
 
+from __future__ import annotations
+
 import json
+import os
 from pathlib import Path
+from typing import Any, Mapping, Union
 
 import numpy as np
 
 from ._talus import open_run
+
+#: A path, the name of a scene that `talus list` shows, or TOML text.
+Scene = Union[str, os.PathLike]
+#: Values of keys by path.
+Values = Mapping[str, Any]
 
 
 def _toml(value):

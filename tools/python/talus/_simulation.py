@@ -1,11 +1,14 @@
 """Runs step by step."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._events import events_of
-from ._scene import open_scene
+from ._scene import Scene, Values, open_scene
 
 
 class Pile(NamedTuple):
@@ -27,26 +30,49 @@ class Simulation:
     Errors of the scene raise SceneError with all of them. Arrays are copies, entry i belongs to body i.
     """
 
-    def __init__(self, scene, policy=None, seed=None, backend=None, set=None, contacts=False):
+    def __init__(
+        self,
+        scene: Scene,
+        policy: str | None = None,
+        seed: int | None = None,
+        backend: str | None = None,
+        set: Values | None = None,
+        contacts: bool = False,
+    ) -> None:
         self._run = open_scene(scene, policy, seed, backend, set, contacts=contacts)
 
-    def step(self, count=1):
+    def step(self, count: int = 1) -> None:
         """Does up to `count` steps, fewer where the run ends. Other threads run meanwhile, and Ctrl-C stops it.
 
         NonFiniteState: the state of a body became NaN or infinite; the run stays at the step before.
         """
         self._run.step(count)
 
-    dimension = property(lambda self: self._run.dimension, doc="2 or 3.")
-    finished = property(lambda self: self._run.finished, doc="Whether the run is at its end.")
-    time = property(lambda self: self._run.time, doc="Simulated time [s].")
-    step_count = property(lambda self: self._run.step_count, doc="Steps done.")
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return self._run.dimension
 
-    def hash(self):
+    @property
+    def finished(self) -> bool:
+        """Whether the run is at its end."""
+        return self._run.finished
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return self._run.time
+
+    @property
+    def step_count(self) -> int:
+        """Steps done."""
+        return self._run.step_count
+
+    def hash(self) -> str:
         """Hash of all poses and velocities, as `talus run --hash` prints it."""
         return f"{self._run.hash():016x}"
 
-    def poses(self, out=None):
+    def poses(self, out: np.ndarray | None = None) -> np.ndarray:
         """(n, 3) in 2D: x, z [m], angle [rad]; (n, 7) in 3D: x, y, z [m], quaternion x, y, z, w.
 
         out: a C-ordered float64 array of that shape, which is filled and returned; ValueError on another shape,
@@ -57,50 +83,50 @@ class Simulation:
         self._run.write_poses(out)
         return out
 
-    def velocities(self):
+    def velocities(self) -> np.ndarray:
         """(n, dimension), of the centres of mass [m/s]."""
         return self._run.velocities()
 
-    def spins(self):
+    def spins(self) -> np.ndarray:
         """(n, 1) in 2D, (n, 3) in 3D [rad/s]."""
         return self._run.spins()
 
-    def asleep(self):
+    def asleep(self) -> np.ndarray:
         """(n,) bool."""
         return np.array(self._run.asleep(), dtype=bool)
 
-    def present(self):
+    def present(self) -> np.ndarray:
         """(n,) bool: False for a removed body, whose other entries stay as they last were."""
         return ~np.array(self._run.removed(), dtype=bool)
 
-    def shapes(self):
+    def shapes(self) -> np.ndarray:
         """(n,) int: number of each body's shape in the scene."""
         return np.array(self._run.shapes(), dtype=int)
 
-    def remove(self, body):
+    def remove(self, body: int) -> None:
         """Removes a body. Sleeping bodies near it wake. ValueError on a number of no body in the world."""
         self._run.remove(body)
 
-    def wake(self, bodies=None):
+    def wake(self, bodies: ArrayLike | None = None) -> None:
         """Wakes these bodies, all without `bodies`. ValueError on a number of no body in the world."""
         if bodies is None:
             self._run.wake_all()
         else:
             self._run.wake(np.atleast_1d(bodies).tolist())
 
-    def kick(self, bodies, velocity, spin=None):
+    def kick(self, bodies: ArrayLike, velocity: ArrayLike, spin: ArrayLike | None = None) -> None:
         """Wakes these bodies and adds to their velocity, (dimension,) [m/s], and spin, (1,) or (3,) [rad/s].
 
         No body becomes faster than its engine allows. ValueError on a number of no body in the world.
         """
         spin = [] if spin is None else np.atleast_1d(spin)
-        self._run.kick(np.atleast_1d(bodies).tolist(), list(velocity), list(spin))
+        self._run.kick(np.atleast_1d(bodies).tolist(), np.atleast_1d(velocity), spin)
 
-    def events(self):
+    def events(self) -> np.ndarray:
         """The bodies that fell asleep or woke in the last step: structured array, as Record.events."""
         return events_of(self._run.events())
 
-    def contacts(self):
+    def contacts(self) -> np.ndarray:
         """Contact points of awake bodies in the last step, each once: structured array with these fields.
 
         `a`: an awake body; `b`: a body, -1 for the ground, -2 - k for obstacle k; `point` [m]; `normal`: unit vector from
@@ -109,6 +135,6 @@ class Simulation:
         """
         return self._run.contacts()
 
-    def piles(self):
+    def piles(self) -> list[Pile]:
         """A list of Pile: those that the policy counts, none under `full` and `engine`."""
         return [Pile(*pile) for pile in self._run.piles()]

@@ -1,8 +1,11 @@
 """Sleep body by body in an engine of one's own."""
 
-from typing import List, NamedTuple
+from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _talus
 
@@ -29,9 +32,9 @@ class VelocityChange(NamedTuple):
 class Changes(NamedTuple):
     """What the program must do in its engine at once, in this order."""
 
-    thaw: List[SleepChange]  #: make bodies movable again, at rest
-    velocities: List[VelocityChange]  #: set velocities
-    freeze: List[SleepChange]  #: stop bodies and make them immovable
+    thaw: list[SleepChange]  #: make bodies movable again, at rest
+    velocities: list[VelocityChange]  #: set velocities
+    freeze: list[SleepChange]  #: stop bodies and make them immovable
 
 
 def _changes(lists):
@@ -67,10 +70,18 @@ class _PileSleeper:
     ValueError and changes nothing.
     """
 
-    dimension = None  #: 2 or 3
-    contact_dtype = None  #: of the rows of `contacts`, see step()
+    dimension: int  #: 2 or 3
+    contact_dtype: np.dtype  #: of the rows of `contacts`, see step()
 
-    def __init__(self, gravity=None, *, up=None, extent=None, tolerance=0.0, enabled=True):
+    def __init__(
+        self,
+        gravity: ArrayLike | None = None,
+        *,
+        up: str | None = None,
+        extent: float | None = None,
+        tolerance: float = 0.0,
+        enabled: bool = True,
+    ) -> None:
         """gravity: [m/s^2]; None: 9.81 down the last axis. up: "x", "y", "z", "-x", "-y" or "-z"; None: against gravity.
         extent: diagonal of a typical body's box [m]; None: found from the bodies. tolerance: of stability checks, in
         extents; 0: none. enabled: False: nothing sleeps.
@@ -80,7 +91,18 @@ class _PileSleeper:
         up = None if up is None else _choice("up", up, _UP)
         self._sleeper = self._native(gravity, enabled, up, extent, tolerance)
 
-    def add(self, pose, *, mass, size=None, radius=None, bounds=None, inertia=None, friction=0.5, role="sleeps"):
+    def add(
+        self,
+        pose: ArrayLike,
+        *,
+        mass: float,
+        size: ArrayLike | None = None,
+        radius: float | None = None,
+        bounds: ArrayLike | None = None,
+        inertia: ArrayLike | None = None,
+        friction: float = 0.5,
+        role: str = "sleeps",
+    ) -> int:
         """Adds a body, awake; returns its handle. Its form is one of these:
 
         size: (dimension,), of a box of uniform density; radius: of a ball, in 2D a disc; bounds: (2, dimension), lower
@@ -100,19 +122,27 @@ class _PileSleeper:
         inertia = np.atleast_2d(inertia) if self.dimension == 2 or inertia.ndim > 1 else np.diag(np.atleast_1d(inertia))
         return self._sleeper.add_other(pose, mass, inertia, bounds, friction, role)
 
-    def remove(self, body):
+    def remove(self, body: int) -> Changes:
         """Takes a body out: Changes. Sleeping bodies near it wake, since it may have supported them."""
         return _changes(self._sleeper.remove(body))
 
-    def set_role(self, body, role):
+    def set_role(self, body: int, role: str) -> Changes:
         """Whether a body may sleep from now on, "sleeps" or "stays_awake": Changes. None becomes kinematic."""
         return _changes(self._sleeper.set_role(body, _choice("role", role, _ROLES)))
 
-    def followed(self):
+    def followed(self) -> np.ndarray:
         """(k,) int64: handles of the bodies whose states step() needs, those awake and the kinematic ones."""
         return self._sleeper.followed()
 
-    def step(self, dt, bodies, poses, velocities, spins, contacts=None):
+    def step(
+        self,
+        dt: float,
+        bodies: ArrayLike,
+        poses: ArrayLike,
+        velocities: ArrayLike,
+        spins: ArrayLike,
+        contacts: np.ndarray | None = None,
+    ) -> Changes:
         """One decision, after each step of the engine of dt [s]: Changes.
 
         bodies: (k,) handles, each of followed() once, in any order. poses: (k, 3) or (k, 7). velocities: (k, dimension),
@@ -129,48 +159,48 @@ class _PileSleeper:
         spins = np.reshape(spins, (len(bodies), 1 if self.dimension == 2 else 3))
         return _changes(self._sleeper.step(dt, bodies, poses, velocities, spins, contacts))
 
-    def wake(self, body):
+    def wake(self, body: int) -> Changes:
         """Before something acts on a body, a force or a new velocity: Changes. None for an awake one."""
         return _changes(self._sleeper.wake(body))
 
-    def wake_all(self):
+    def wake_all(self) -> Changes:
         """Wakes all bodies: Changes."""
         return _changes(self._sleeper.wake_all())
 
-    def wake_near(self, low, high):
+    def wake_near(self, low: ArrayLike, high: ArrayLike) -> Changes:
         """Wakes what sleeps near a box with these corners, where something came or went: Changes."""
         return _changes(self._sleeper.wake_near(low, high))
 
-    def moved(self, body, pose):
+    def moved(self, body: int, pose: ArrayLike) -> Changes:
         """After the program has put a body elsewhere: Changes. It wakes, with those near its old and its new place."""
         return _changes(self._sleeper.moved(body, pose))
 
-    def set_gravity(self, gravity):
+    def set_gravity(self, gravity: ArrayLike) -> Changes:
         """From the next step on [m/s^2]: Changes. All bodies wake if it differs by more than a hundredth."""
         return _changes(self._sleeper.set_gravity(gravity))
 
-    def asleep(self, body):
+    def asleep(self, body: int) -> bool:
         """Whether the body sleeps."""
         return self._sleeper.asleep(body)
 
-    def __contains__(self, body):
+    def __contains__(self, body: int) -> bool:
         """Whether the handle names a body that is there."""
         return self._sleeper.has(body)
 
-    def __len__(self):
+    def __len__(self) -> int:
         """Number of bodies, the kinematic ones too."""
         return self._sleeper.size()
 
     @property
-    def awake(self):
+    def awake(self) -> int:
         """Number of awake bodies."""
         return self._sleeper.awake()
 
-    def snapshot(self):
+    def snapshot(self) -> np.ndarray:
         """A structured array of all bodies that are not kinematic, for restore(): body, asleep, settled."""
         return self._sleeper.snapshot()
 
-    def restore(self, saved, poses):
+    def restore(self, saved: np.ndarray, poses: ArrayLike) -> Changes:
         """Puts to sleep again what slept, and wakes all others: Changes. poses: entry i of saved[i].
 
         Put the bodies in their saved places before. A program that has added its bodies again replaces their handles

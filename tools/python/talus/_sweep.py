@@ -1,5 +1,7 @@
 """Many runs of a scene, on all cores."""
 
+from __future__ import annotations
+
 import itertools
 import os
 import pickle
@@ -8,19 +10,20 @@ import sys
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
+from typing import Any, Callable, Iterable, Mapping
 
 from ._run import Result
+from ._scene import Scene, Values
 
 
 @dataclass(frozen=True)
 class SweepRun:
     """A run of a sweep. Either `result` or `error` is None."""
 
-    values: dict  #: of the keys that the sweep sets, by path
-    seed: Optional[int]  #: None: the scene's own
-    result: Optional[Result]  #: its warnings are in `result.warnings`
-    error: Optional[Exception]  #: that talus.run() raised, or ChildProcessError where its process died
+    values: dict[str, Any]  #: of the keys that the sweep sets, by path
+    seed: int | None  #: None: the scene's own
+    result: Result | None  #: its warnings are in `result.warnings`
+    error: Exception | None  #: that talus.run() raised, or ChildProcessError where its process died
 
 
 class _Processes:
@@ -52,7 +55,17 @@ class _Processes:
             process.kill()
 
 
-def sweep(scene, values=None, seeds=None, *, policy=None, backend=None, set=None, jobs=None, progress=None):
+def sweep(
+    scene: Scene,
+    values: Mapping[str, Iterable] | None = None,
+    seeds: int | Iterable[int] | None = None,
+    *,
+    policy: str | None = None,
+    backend: str | None = None,
+    set: Values | None = None,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> list[SweepRun]:
     """Simulates a scene with all combinations of values and seeds; returns a list of SweepRun, seeds side by side.
 
     values: lists of values by path, {"shape.L.friction": [0.2, 0.4]}. seeds: how many, from 1 on, or the seeds
