@@ -1,15 +1,29 @@
 """Runs of the Python package against the command's own."""
 
+import os
 import signal
 import subprocess
-import sys
 import threading
 import unittest
 
 import numpy as np
 import talus
 
-COMMAND = sys.argv.pop(1)
+COMMAND = os.environ["TALUS"]
+
+ONE_BOX = """
+title = "One box"
+dimension = 2
+[shape.box]
+kind = "box"
+size = [1.0, 0.6]
+density = 1000
+[[body]]
+shape = "box"
+position = [0, 0.3]
+[[pile]]
+at = [0, 0]
+"""
 
 
 class Simulation(unittest.TestCase):
@@ -45,6 +59,85 @@ class Simulation(unittest.TestCase):
         self.assertTrue(run.present()[1:].all())
         with self.assertRaisesRegex(ValueError, "body"):
             run.remove(0)
+
+    def test_contacts_of_a_box_at_rest_carry_its_weight(self):
+        run = talus.Simulation(ONE_BOX, policy="full", contacts=True)
+        run.step(300)
+        contacts = run.contacts()
+        weight = 1000 * 1.0 * 0.6 * 9.81  # density, size and gravity
+        dt = run.time / run.step_count
+        vertical = contacts["normal_impulse"] * contacts["normal"][:, 1] + contacts["friction_impulse"][:, 1]
+        self.assertAlmostEqual(vertical.sum() / (weight * dt), 1.0, delta=0.01)
+        self.assertEqual(set(contacts["a"]), {0})
+        self.assertEqual(set(contacts["b"]), {-1})
+        np.testing.assert_allclose(contacts["point"][:, 1], 0, atol=0.02)
+        np.testing.assert_allclose(np.sort(contacts["point"][:, 0] - run.poses()[0, 0])[[0, -1]], [-0.5, 0.5], atol=0.02)
+        with self.assertRaisesRegex(ValueError, "contacts"):
+            talus.Simulation(ONE_BOX).contacts()
+
+    def test_contacts_change_no_bits_of_a_run(self):
+        hashes = set()
+        for contacts in (False, True):
+            run = talus.Simulation("drop_in_a_pile_3d", policy="full", set={"run.frames": 60}, contacts=contacts)
+            run.step(10**6)
+            hashes.add(run.hash())
+        self.assertEqual(len(hashes), 1)
+
+    def test_events_of_all_steps_add_up_to_who_sleeps(self):
+        run = talus.Simulation("drop_in_a_pile_2d")
+        asleep, causes = set(), set()
+        for _ in range(400):
+            run.step()
+            for event in run.events():
+                self.assertEqual(event["step"], run.step_count)
+                (asleep.remove if event["woke"] else asleep.add)(event["body"])
+                causes.add((str(event["cause"]), bool(event["woke"])))
+        self.assertEqual(asleep, set(np.flatnonzero(run.asleep())))
+        self.assertIn(("rest", False), causes)
+
+    def test_bodies_by_number_are_woken(self):
+        run = talus.Simulation("drop_in_a_pile_2d")
+        run.step(400)
+        first, second, *others = np.flatnonzero(run.asleep())
+        run.wake([])
+        self.assertTrue(run.asleep()[first])
+        run.wake(first)
+        run.wake([second])
+        self.assertFalse(run.asleep()[[first, second]].any())
+        self.assertTrue(run.asleep()[others].all())
+        run.wake()
+        self.assertFalse(run.asleep().any())
+        with self.assertRaisesRegex(ValueError, "body = 1000"):
+            run.wake([0, 1000])
+
+    def test_a_kicked_box_wakes_and_flies_as_thrown(self):
+        run = talus.Simulation(ONE_BOX)
+        run.step(300)
+        self.assertTrue(run.asleep()[0])
+        start = run.poses()[0, :2]
+        began = run.time
+        run.kick(0, [2.0, 6.0])
+        np.testing.assert_allclose(run.velocities()[0], [2.0, 6.0], atol=1e-6)
+        run.step(30)
+        time = run.time - began
+        flown = np.array([2.0 * time, 6.0 * time - 0.5 * 9.81 * time**2])
+        np.testing.assert_allclose(run.poses()[0, :2] - start, flown, atol=9.81 * time * time / 30)  # of the integrator
+        run.kick([0], [0, 0], [1.5])
+        self.assertAlmostEqual(run.spins()[0, 0], 1.5, delta=1e-3)
+        with self.assertRaisesRegex(ValueError, "velocity"):
+            run.kick(0, [1.0])
+
+    def test_a_pile_counts_the_bodies_in_its_layers(self):
+        run = talus.Simulation("drop_in_a_pile_2d")
+        run.step(600)
+        (pile,) = run.piles()
+        height = run.poses()[:, 1]
+        inside = (np.abs(run.poses()[:, 0] - pile.centre[0]) < pile.radius) & (height < pile.height)
+        self.assertLessEqual(pile.layers["count"].sum(), len(height))
+        self.assertGreaterEqual(pile.layers["count"].sum(), 0.5 * inside.sum())
+        self.assertTrue((pile.layers["sleeping"] <= pile.layers["count"]).all())
+        np.testing.assert_allclose(pile.layers["bottom"][1:], pile.layers["top"][:-1])
+        self.assertAlmostEqual(pile.layers["capacity"].sum(), pile.structure_size, delta=1e-6 * pile.structure_size)
 
     def test_a_bad_value_is_an_error_with_field_and_value(self):
         with self.assertRaisesRegex(talus.SceneError, "run.frames = -5"):

@@ -36,6 +36,7 @@ struct RunOptions : SceneChoice {
   bool measure_drift = false;  // at the end wake all bodies and measure how far the sleeping ones move
   bool probe_drift = true;     // at the end estimate by a short simulation how far the sleeping bodies would move
   bool hash_only = false;      // print the end hash and nothing else; write no folder unless `out` is given
+  bool quiet = false;          // print no warnings: the caller has them
 };
 
 }  // namespace talus

@@ -107,7 +107,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
 #endif
   if (!scene.events.empty())
     add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, !options.hash_only), simulation);
-  add(std::make_unique<WarningPrinter<Dim>>(), simulation);
+  if (!options.quiet) add(std::make_unique<WarningPrinter<Dim>>(), simulation);
   if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
 }
 

@@ -20,6 +20,7 @@
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
+#include "tools/run/finish_run.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/measured_drift.h"
@@ -80,52 +81,6 @@ int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict, b
   return print_hash(simulation, reason, strict && (warned || !simulation.warnings().empty()));
 }
 
-/// What --measure-drift adds to the summary of a run that has ended.
-template <int Dim>
-void add_measured_drift(SummaryInput& summary, const Scene<Dim>& scene, const Simulation<Dim>& simulation,
-                        const Interrupt& interrupt) {
-  if (summary.reason != "finished") {
-    summary.measured = MeasuredDrift{.missing = "the run did not finish"};
-    return;
-  }
-  const auto stop = [&interrupt] { return interrupt.requested(); };
-  try {
-    summary.measured = measure_drift<Dim>(simulation, scene, summary.backend, stop);
-  } catch (const std::exception& error) {  // of the copy: the run itself is whole
-    summary.measured = MeasuredDrift{.missing = error.what()};
-  }
-}
-
-/// What a run under `adaptive` tells of its error by itself once its last step is done. Before end(), so that its
-/// observers, and so record and messages, have the same number as the summary.
-template <int Dim>
-void add_probed_drift(SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation,
-                      const RunStatistics<Dim>& statistics, const Interrupt& interrupt) {
-  if (summary.reason != "finished" || scene.policy.tolerance().value_or(0.0) <= 0.0) return;
-  const double body_steps = statistics.mean_awake() * static_cast<double>(statistics.steps());
-  const auto stop = [&interrupt] { return interrupt.requested(); };
-  try {
-    summary.probe = probe_end_drift<Dim>(simulation, scene, summary.backend, probe_allowance(body_steps), stop);
-    if (summary.probe) simulation.set_probed_drift(summary.probe->expected());
-  } catch (const std::exception& error) {  // of the copy: the run itself is whole
-    summary.scene_warnings.push_back(fmt::format("no drift probe: {}", error.what()));
-    print_message("warning: {}", summary.scene_warnings.back());
-  }
-}
-
-/// A warning of a drift above the tolerance: as measured, else as far as the probe has seen it.
-template <int Dim>
-void add_drift_warning(SummaryInput& summary, const Scene<Dim>& scene, const Simulation<Dim>& simulation) {
-  const bool measured = summary.measured && summary.measured->missing.empty();
-  if (!measured && !summary.probe) return;
-  const auto warning =
-      drift_warning(measured ? summary.measured->mean : summary.probe->least,
-                    measured ? summary.measured->bodies : summary.probe->bodies, scene.policy, simulation.frame().step);
-  if (!warning) return;
-  print_message("warning: {}", advice(*warning));
-  summary.warnings.push_back(*warning);
-}
-
 /// Runs, records and prints the result.
 template <int Dim>
 int record_run(const RunOptions& options, const std::string& name, const std::string& backend, const Scene<Dim>& scene,
@@ -142,12 +97,8 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
                        .emit_waits = simulation.emitter().waits(),
                        .outside_window = outside,
                        .scene_warnings = scene_warnings};
-  if (options.probe_drift) add_probed_drift(summary, scene, simulation, outputs.statistics(), interrupt);
-  simulation.end(reason);
-  summary.warnings.assign(simulation.warnings().begin(), simulation.warnings().end());
-  if (options.measure_drift) add_measured_drift(summary, scene, simulation, interrupt);
-  add_drift_warning(summary, scene, simulation);
-  outputs.finish(summary, scene, simulation);
+  finish_run<Dim>(
+      options, scene, simulation, outputs, [&interrupt] { return interrupt.requested(); }, summary);
   const bool warned = !outside.empty() || !summary.scene_warnings.empty() || !summary.warnings.empty();
   if (options.hash_only) return print_hash(simulation, reason, options.strict && warned);
   print_run(summary, scene, simulation, outputs);

@@ -1,0 +1,353 @@
+// Runs of scenes.
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/math/require.h"
+#include "common/scene/read_scene.h"
+#include "common/simulation/observer.h"
+#include "common/simulation/state_hash.h"
+#include "common/simulation/stopwatch.h"
+#include "tools/python/arrays.h"
+#include "tools/python/contact_row.h"
+#include "tools/python/module.h"
+#include "tools/run/backends.h"
+#include "tools/run/find_scene.h"
+#include "tools/run/finish_run.h"
+#include "tools/run/make_simulation.h"
+#include "tools/run/run_options.h"
+#include "tools/run/run_outputs.h"
+
+namespace py = pybind11;
+
+namespace talus {
+namespace {
+
+/// What Python wants to know of a run besides its states.
+struct Wanted {
+  bool warnings = false;
+  bool contacts = false;      // of each step
+  std::filesystem::path out;  // run folder; empty: none
+};
+
+/// An observer without eyes: a run that is observed looks for what to warn of.
+template <int Dim>
+class Presence final : public Observer<Dim> {
+ public:
+  explicit Presence(bool contacts) : contacts_(contacts) {}
+  bool needs_contacts() const override { return contacts_; }
+  void on_frame(const Frame<Dim>&) override {}
+
+ private:
+  bool contacts_;
+};
+
+/// During work without the interpreter's lock: takes it every few milliseconds to see whether Ctrl-C was pressed, and
+/// now and then to call a function of the program.
+class Attention {
+ public:
+  explicit Attention(std::function<void()> tell = {}) : tell_(std::move(tell)) {}
+
+  /// Throws what the program's handler of a signal, or its function, has raised.
+  void pay() {
+    const auto now = Clock::now();
+    if (now - looked_ < std::chrono::milliseconds(5)) return;
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (tell_ && now - told_ > std::chrono::milliseconds(200)) {
+      tell_();
+      told_ = now;
+    }
+    looked_ = Clock::now();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::function<void()> tell_;
+  Clock::time_point looked_ = Clock::now();
+  Clock::time_point told_ = looked_;
+};
+
+/// A layer of a pile as a row of a structured array.
+struct LayerRow {
+  double bottom;
+  double top;
+  double radius;
+  double capacity;
+  std::int32_t count;
+  std::int32_t sleeping;
+};
+
+template <int Dim>
+ContactRow<Dim> contact_row(const Contact<Dim>& contact) {
+  ContactRow<Dim> row{};
+  row.a = contact.a;
+  row.b = contact.b;
+  std::ranges::copy(contact.point, row.point);
+  std::ranges::copy(contact.normal, row.normal);
+  row.normal_impulse = contact.normal_impulse;
+  std::ranges::copy(contact.friction_impulse, row.friction_impulse);
+  row.approach_speed = contact.approach_speed;
+  row.depth = contact.depth;
+  return row;
+}
+
+template <class Vector>
+Vector vector_in(const std::vector<double>& values, std::string_view field) {
+  const Eigen::Map<const Eigen::VectorXd> given(values.data(), std::ssize(values));
+  require(given.size() == Vector::RowsAtCompileTime && given.allFinite(), field, static_cast<double>(given.size()),
+          fmt::format("must be {} finite numbers", Vector::RowsAtCompileTime));
+  return given;
+}
+
+/// A run as Python has it.
+template <int Dim>
+class Run {
+ public:
+  Run(const Scene<Dim>& scene, const std::string& name, const std::string& backend, const Wanted& wanted)
+      : scene_(scene), simulation_(make_simulation(scene_, backend)), presence_(wanted.contacts) {
+    summary_.scene_name = name;
+    summary_.backend = backend;
+    summary_.scene_warnings = scene_warnings(scene_, backend);
+    if (wanted.warnings || wanted.contacts) simulation_.add_observer(presence_);
+    if (wanted.out.empty()) return;
+    options_.out = wanted.out;
+    options_.telemetry = false;
+    options_.hash_only = true;
+    options_.quiet = true;
+    outputs_.emplace(options_, scene_, name, backend, simulation_);
+  }
+
+  bool finished() const { return simulation_.finished(); }
+  bool at_rest() const { return simulation_.at_rest(); }
+  double time() const { return simulation_.time(); }
+  std::int64_t step_count() const { return simulation_.frame().step; }
+  std::uint64_t hash() const { return state_hash(states()); }
+
+  /// Without the interpreter's lock.
+  void step(std::int64_t count) {
+    Attention attention;
+    const py::gil_scoped_release released;
+    advance(count, attention);
+  }
+
+  /// To the end, whatever it is; then the folder is completed and an error thrown on. `progress`: None, or called with
+  /// the steps done and those of the scene.
+  void run(const py::object& progress) {
+    const auto tell = [&] { progress(step_count(), scene_.steps()); };
+    Attention attention = progress.is_none() ? Attention() : Attention(tell);
+    std::exception_ptr failure;
+    {
+      const py::gil_scoped_release released;
+      Stopwatch watch;
+      failure = advance_to_end(attention);
+      summary_.wall_seconds = watch.lap();
+      finish(failure);
+    }
+    if (failure) std::rethrow_exception(failure);
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress.is_none()) tell();
+  }
+
+  /// All warnings of scene and run so far, a line each.
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all = summary_.scene_warnings;
+    const std::span<const Warning> of_run =
+        outputs_ ? std::span<const Warning>(summary_.warnings) : simulation_.warnings();
+    for (const Warning& warning : of_run) all.push_back(advice(warning));
+    return all;
+  }
+  std::uint64_t seed() const { return scene_.seed; }
+  std::string folder() const { return outputs_ ? outputs_->folder().string() : ""; }
+  std::vector<std::string> shape_names() const {
+    std::vector<std::string> names;
+    for (const Shape<Dim>& shape : scene_.world.shapes) names.push_back(shape.name);
+    return names;
+  }
+
+  static constexpr py::ssize_t pose_width = pose_values<Dim>;
+
+  /// Writes the poses into an array of a row for each body. Throws std::invalid_argument on one of another shape.
+  void write_poses(DoubleArray& array) const {
+    require(array.ndim() == 2 && array.shape(0) == states().size() && array.shape(1) == pose_width, "out.shape",
+            std::string(py::str(array.attr("shape"))), fmt::format("must be ({}, {})", states().size(), pose_width));
+    for (BodyIndex i = 0; i < states().size(); ++i) write_pose<Dim>(states().pose[i], array.mutable_data(i, 0));
+  }
+  DoubleArray poses() const {
+    DoubleArray array({static_cast<py::ssize_t>(states().size()), pose_width});
+    write_poses(array);
+    return array;
+  }
+
+  DoubleArray velocities() const { return rows_of(states().velocity); }
+  DoubleArray spins() const { return rows_of(states().spin); }
+  std::vector<std::uint8_t> asleep() const { return states().asleep; }
+  std::vector<std::uint8_t> removed() const { return states().removed; }
+  std::vector<int> shapes() const { return states().shape; }
+  void remove(BodyIndex body) { simulation_.remove(body); }
+  void wake_all() { simulation_.thaw_all(); }
+  void wake(const std::vector<BodyIndex>& bodies) { act({.action = EventAction::wake}, bodies); }
+  void kick(const std::vector<BodyIndex>& bodies, const std::vector<double>& velocity,
+            const std::vector<double>& spin) {
+    Event<Dim> event{.action = EventAction::kick};
+    event.velocity = vector_in<Vec<Dim>>(velocity, "velocity");
+    if (!spin.empty()) event.spin = vector_in<Spin<Dim>>(spin, "spin");
+    act(std::move(event), bodies);
+  }
+
+  /// Of the last step.
+  py::array_t<EventRow> events() const { return array_of(event_rows(simulation_.frame().events)); }
+  py::array_t<ContactRow<Dim>> contacts() const {
+    require(presence_.needs_contacts(), "contacts", "False", "must be True when the simulation is made");
+    std::vector<ContactRow<Dim>> rows;
+    for (const Contact<Dim>& contact : simulation_.world().contacts()) rows.push_back(contact_row(contact));
+    return array_of(std::move(rows));
+  }
+  py::list piles() const {
+    py::list all;
+    for (const Pile<Dim>& pile : simulation_.piles().piles()) {
+      const std::vector<double> centre(pile.centre.begin(), pile.centre.end());
+      std::vector<LayerRow> layers;
+      for (const Layer& layer : pile.layers)
+        layers.push_back({layer.bottom, layer.top, layer.radius, layer.capacity, layer.count, layer.sleeping});
+      all.append(py::make_tuple(array_of(centre), pile.alpha, pile.height, pile.radius, pile.structure_size,
+                                array_of(std::move(layers))));
+    }
+    return all;
+  }
+
+ private:
+  const BodyStates<Dim>& states() const { return simulation_.world().states(); }
+
+  /// As an event of the scene does, to these bodies alone.
+  void act(Event<Dim> event, const std::vector<BodyIndex>& bodies) {
+    for (const BodyIndex body : bodies)
+      require(body >= 0 && body < states().size() && states().removed[body] == 0, "body", body,
+              "must be the number of a body that is there");
+    if (bodies.empty()) return;  // to an event it means all
+    event.numbers.assign(bodies.begin(), bodies.end());
+    simulation_.do_event(event);
+  }
+
+  void advance(std::int64_t count, Attention& attention) {
+    for (std::int64_t i = 0; i < count && !simulation_.finished(); ++i) {
+      simulation_.step();
+      attention.pay();
+    }
+  }
+
+  /// The error that ended the run, if one did; the summary gets the reason.
+  std::exception_ptr advance_to_end(Attention& attention) {
+    try {
+      advance(scene_.steps(), attention);
+      summary_.reason = "finished";
+      return {};
+    } catch (const NonFiniteState& error) {
+      summary_.reason = error.what();
+      return std::current_exception();
+    } catch (const py::error_already_set&) {
+      summary_.reason = "interrupted";
+      return std::current_exception();
+    }
+  }
+
+  void finish(std::exception_ptr& failure) {
+    summary_.emit_waits = simulation_.emitter().waits();
+    if (!outputs_) return simulation_.end(summary_.reason);
+    Attention attention;
+    const auto stop = [&] {
+      try {
+        attention.pay();
+      } catch (const py::error_already_set&) {
+        failure = std::current_exception();
+      }
+      return failure != nullptr;
+    };
+    finish_run<Dim>(options_, scene_, simulation_, *outputs_, stop, summary_);
+  }
+
+  Scene<Dim> scene_;
+  Simulation<Dim> simulation_;
+  Presence<Dim> presence_;
+  RunOptions options_;  // of the outputs
+  SummaryInput summary_;
+  std::optional<RunOutputs<Dim>> outputs_;
+};
+
+/// A text with a line end or a `=` is a scene itself, every other one names it.
+py::object open_run(const std::string& scene_text, const std::string& policy, std::optional<std::int64_t> seed,
+                    const std::string& backend, const std::vector<std::string>& settings, bool warnings, bool contacts,
+                    const std::string& out) {
+  SceneChoice choice;
+  choice.scene = scene_text;
+  choice.policy = policy;
+  choice.seed = seed;
+  choice.backend = backend;
+  choice.settings = settings;
+  const std::vector<Override> overrides = overrides_of(choice);
+  const bool is_text = scene_text.find_first_of("\n=") != std::string::npos;
+  const std::filesystem::path file = is_text ? "scene" : find_scene(scene_text);
+  const AnyScene scene = is_text ? parse_scene(scene_text, "scene", overrides) : read_scene(file, overrides);
+  return std::visit(
+      [&]<int Dim>(const Scene<Dim>& of_dimension) -> py::object {
+        const std::vector<std::string> engines = backends(Dim);
+        const std::string engine = backend.empty() && !engines.empty() ? engines.front() : backend;
+        check_window(of_dimension, engine, file, choice.force);
+        return py::cast(
+            std::make_unique<Run<Dim>>(of_dimension, file.stem().string(), engine, Wanted{warnings, contacts, out}));
+      },
+      scene);
+}
+
+template <int Dim>
+void add_run(py::module_& module, const char* name) {
+  using RunHere = Run<Dim>;
+  py::class_<RunHere>(module, name)
+      .def_property_readonly_static("dimension", [](const py::object&) { return Dim; })
+      .def_property_readonly("finished", &RunHere::finished)
+      .def_property_readonly("at_rest", &RunHere::at_rest)
+      .def_property_readonly("warnings", &RunHere::warnings)
+      .def_property_readonly("seed", &RunHere::seed)
+      .def_property_readonly("folder", &RunHere::folder)
+      .def_property_readonly("shape_names", &RunHere::shape_names)
+      .def_property_readonly("time", &RunHere::time)
+      .def_property_readonly("step_count", &RunHere::step_count)
+      .def("step", &RunHere::step)
+      .def("run", &RunHere::run)
+      .def("hash", &RunHere::hash)
+      .def("poses", &RunHere::poses)
+      .def("write_poses", &RunHere::write_poses, py::arg("out").noconvert())
+      .def("velocities", &RunHere::velocities)
+      .def("spins", &RunHere::spins)
+      .def("asleep", &RunHere::asleep)
+      .def("removed", &RunHere::removed)
+      .def("shapes", &RunHere::shapes)
+      .def("remove", &RunHere::remove)
+      .def("wake_all", &RunHere::wake_all)
+      .def("wake", &RunHere::wake)
+      .def("kick", &RunHere::kick)
+      .def("events", &RunHere::events)
+      .def("contacts", &RunHere::contacts)
+      .def("piles", &RunHere::piles);
+}
+
+}  // namespace
+
+void add_runs(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(LayerRow, bottom, top, radius, capacity, count, sleeping);
+  add_run<2>(module, "Run2");
+  add_run<3>(module, "Run3");
+  module.def("open_run", &open_run);
+}
+
+}  // namespace talus

@@ -1,0 +1,38 @@
+"""Scenes and values of their keys, as the extension module takes them."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Mapping, Union
+
+import numpy as np
+
+from ._talus import open_run
+
+#: A path, the name of a scene that `talus list` shows, or TOML text.
+Scene = Union[str, os.PathLike]
+#: Values of keys by path.
+Values = Mapping[str, Any]
+
+
+def _toml(value):
+    """A Python value as TOML."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    return json.dumps(value.item() if isinstance(value, np.generic) else value)
+
+
+def _file_of(scene):
+    """The file of a scene that comes with talus; else `scene` itself."""
+    shipped = (folder / "share/talus/scenes" / f"{scene}.toml" for folder in Path(__file__).resolve().parents)
+    return str(scene) if "\n" in str(scene) else str(next(filter(Path.is_file, shipped), scene))
+
+
+def open_scene(scene, policy, seed, backend, values, *, warnings=False, contacts=False, out=None):
+    """The run of the extension module. values: of keys by path."""
+    settings = [f"{path}={_toml(value)}" for path, value in (values or {}).items()]
+    return open_run(_file_of(scene), policy or "", seed, backend or "", settings, warnings, contacts, str(out or ""))
