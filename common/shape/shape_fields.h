@@ -35,8 +35,7 @@ inline constexpr auto body_material_fields = std::to_array<Field<Material>>({
       .meaning = "tangent of the steepest slope on which a ball of this shape does not roll. Each contact resists "
                  "turning, rolling as well as spinning, by a torque of up to this times the normal force times half "
                  "the width of the thinnest part; two bodies take the geometric mean of both. Without it heaps of "
-                 "balls and discs do not come to rest. Bullet then starts friction warm and takes its own solver's "
-                 "way, a third slower"}},
+                 "balls and discs do not come to rest. Only with the solver `small_steps`"}},
 });
 
 template <int Dim>
