@@ -10,7 +10,7 @@ namespace talus {
 namespace {
 
 // Times in units of DriftProbeParams::unit.
-constexpr double sample_time = 0.4;
+constexpr double between_samples = 0.4;
 constexpr int fewest_samples = 3;
 constexpr int most_samples = 12;
 
@@ -42,7 +42,7 @@ DriftProbe probe_drift(const WorldMaker<Dim>& make_world, const WorldDescription
   require(params.unit > 0.0, "unit", params.unit, "must be > 0");
   require(params.duration > 0.0, "duration", params.duration, "must be > 0");
   const int bodies = static_cast<int>(std::ranges::count(counted, 1));
-  const int steps = std::max(1, static_cast<int>(std::lround(sample_time * params.unit / description.dt)));
+  const int steps = std::max(1, static_cast<int>(std::lround(between_samples * params.unit / description.dt)));
   const double between = steps * description.dt;
   const double affordable = params.body_steps / (static_cast<double>(states.size()) * steps);  // samples
   const double useful = std::ceil(params.duration / between);
