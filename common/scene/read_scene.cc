@@ -12,6 +12,7 @@
 
 #include "common/pile/angle_of_repose.h"
 #include "common/pile/pile_fields.h"
+#include "common/scene/accuracy.h"
 #include "common/scene/include.h"
 #include "common/scene/policy_fields.h"
 #include "common/scene/read_body.h"
@@ -35,12 +36,14 @@ namespace {
 struct Named {
   bool solver = false;
   bool rings = false;
+  SetByScene of_accuracy;
 };
 
 template <int Dim>
 void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
   WorldDescription<Dim>& world = scene.world;
   table.forbid("dt", "must be given as its inverse, as in steps_per_second = 60");
+  named.of_accuracy.steps = table.has("steps_per_second");
   constexpr std::span<const Field<WorldDescription<Dim>>> fields = world_fields<Dim>;
   if (table.is_array("gravity")) {
     Vec<Dim> gravity = world.gravity_vector();
@@ -57,6 +60,7 @@ void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
     });
   table.table("solver", [&](TableReader& solver) {
     named.solver = solver.has("kind");
+    named.of_accuracy.sub_steps = solver.has("sub_steps");
     solver.read_fields(world.solver, solver_fields);
   });
 }
@@ -140,6 +144,7 @@ void read_policy(TableReader& table, Scene<Dim>& scene, Named& named) {
   if (scene.world.engine_sleep && !named.solver) scene.world.solver.kind = engine_solver;
   table.table("adaptive", [&](TableReader& own) {
     named.rings = own.has("rings");
+    named.of_accuracy.tolerance = own.has("tolerance");
     own.read_fields(policy.adaptive, adaptive_fields);
     if (own.ok() && policy.adaptive.rings > 0 && !scene.world.solver.small_steps())
       own.error("rings", R"(must be 0 unless world.solver.kind is "small_steps": the engines' own solvers leave out )"
@@ -154,8 +159,13 @@ bool needs_rings(const Scene<Dim>& scene) {
   return !scene.movers.empty() || scene.gravity_motion || !scene.events.empty() || !scene.instruments.loads.empty();
 }
 
-void read_run(TableReader& table, double dt, RunParams& run) {
+/// With the accuracy, which needs the frame rate and a scene without errors.
+template <int Dim>
+void read_run(TableReader& table, Scene<Dim>& scene, const SetByScene& set, bool complete) {
+  RunParams& run = scene.run;
   table.read_fields(run, run_fields);
+  if (complete && table.ok()) apply_accuracy(scene, set);
+  const double dt = scene.world.dt;
   const double steps = 1.0 / (run.frame_rate * dt);
   if (table.ok() && (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6)) {
     table.error("frame_rate", fmt::format("must divide world.steps_per_second, here {:.6g}: a frame is one or more "
@@ -198,7 +208,7 @@ Scene<Dim> read_root(TableReader& root) {
   root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
   read_instruments(root, scene);
   if (!named.rings && scene.world.solver.small_steps() && needs_rings(scene)) scene.policy.adaptive.rings = usual_rings;
-  root.table("run", [&](TableReader& table) { read_run(table, scene.world.dt, scene.run); });
+  root.table("run", [&](TableReader& table) { read_run(table, scene, named.of_accuracy, root.ok()); });
   check_world(root, scene.world);
   return scene;
 }

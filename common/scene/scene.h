@@ -154,6 +154,7 @@ struct Scene {
   Instruments<Dim> instruments;
   PolicyParams policy;
   RunParams run;
+  std::string accuracy = "standard";  // accuracy.h: sets what the scene does not set itself
   std::uint64_t seed = 1;
   std::string toml;  // the file it was read from, `--set` values put in; empty for a scene made by a program
   std::filesystem::path folder;                 // of that file

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/params/field.h"
+#include "common/scene/accuracy.h"
 #include "common/scene/scene.h"
 
 namespace talus {
@@ -177,6 +178,13 @@ inline constexpr auto scene_fields = std::to_array<Field<Scene<Dim>>>({
       .range = at_least(0.0),
       .further_rule = "below 2^63",
       .meaning = "all random numbers follow from it: the same seed, the same bodies, bit for bit"}},
+    {place_of<&Scene<Dim>::accuracy>,
+     {.name = "accuracy",
+      .choices = accuracy_names,
+      .meaning =
+          "sets what the scene does not set itself: `world.steps_per_second` so that a body that arrives goes at "
+          "most 2, 1 or 0.5 times its thickness in a step; `sub_steps` 4, 8 or 8; the `tolerance` 0.1, 0.05 or "
+          "0.02. [Accuracy](accuracy.md#levels) has errors and times"}},
     {{},
      {.name = "include",
       .type = "text",

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "common/scene/accuracy.h"
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
 #include "common/shape/piece.h"
@@ -25,28 +26,6 @@ double thinnest(const Shape<Dim>& shape) {
   return width;
 }
 
-/// A free fall from a source's highest place to the ground.
-struct Fall {
-  double height = 0.0;   // [m]
-  double arrival = 0.0;  // [m/s], by energy
-};
-
-template <int Dim>
-Fall fall_from(const Source<Dim>& source, const WorldDescription<Dim>& world) {
-  const double drop = height<Dim>(source.position) + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep)) +
-                      height<Dim>(source.grid_extent()) - world.ground.height;
-  const double start = (source.velocity.cwiseAbs() + source.velocity_spread).norm();
-  return {drop, std::sqrt(start * start + 2.0 * world.gravity * std::max(drop, 0.0))};
-}
-
-/// Of its thickest piece: a thin one between others makes no body thin.
-template <int Dim>
-double thickness(const Shape<Dim>& shape) {
-  double width = 0.0;
-  for (const Piece<Dim>& piece : shape.pieces) width = std::max(width, smallest_width(piece));
-  return width;
-}
-
 /// The errors of fast pours grow with the distance that a body travels in a step, over its thickness, whatever the
 /// solver and its passes (lab/notes/small_steps.md).
 template <int Dim>
@@ -54,15 +33,12 @@ void warn_of_coarse_steps(const Scene<Dim>& scene, Lines& lines) {
   constexpr double most = 1.0;
   constexpr double fine = 0.5;
   for (std::size_t i = 0; scene.world.ground.present && i < scene.sources.size(); ++i) {
-    const Source<Dim>& source = scene.sources[i];
-    double least = std::numeric_limits<double>::infinity();
-    for (const int shape : source.shapes) least = std::min(least, thickness(scene.world.shapes[shape]));
-    const double arrival = fall_from(source, scene.world).arrival;
-    if (arrival * scene.world.dt <= most * least) continue;
+    const Arrival own = arrival(scene.sources[i], scene.world);
+    if (own.step(scene.world.dt) <= most * (1.0 + 1e-9)) continue;
     lines.push_back(fmt::format(
         "source[{}]: bodies arrive at {:.3g} m/s and go {:.2g} times their thickness in a step: their pile may "
         "come out a tenth or more too high or low; world.steps_per_second = {:.0f} helps",
-        i, arrival, arrival * scene.world.dt / least, std::ceil(arrival / (fine * least))));
+        i, own.speed, own.step(scene.world.dt), std::ceil(own.step(1.0) / fine)));
   }
 }
 
@@ -251,12 +227,12 @@ void warn_of_speeds(const Scene<Dim>& scene, const EngineTraits& engine, EngineL
   const double fastest = engine.fastest_step / scene.world.dt;
   for (std::size_t i = 0; scene.world.ground.present && i < scene.sources.size(); ++i) {
     const Source<Dim>& source = scene.sources[i];
-    const Fall fall = fall_from(source, scene.world);
-    if (fall.arrival > fastest) {
+    const Arrival own = arrival(source, scene.world);
+    if (own.speed > fastest) {
       lines.push_back(fmt::format(
           "source[{}]: a fall of {:.4g} m ends at {:.4g} m/s; bodies move by at most {:g} m a step, here {:.4g} m/s; "
           "more steps per second or a lower source help",
-          i, fall.height, fall.arrival, engine.fastest_step, fastest));
+          i, own.fall, own.speed, engine.fastest_step, fastest));
     }
   }
 }

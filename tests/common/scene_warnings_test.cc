@@ -95,10 +95,13 @@ TEST(Warnings, TellOfBodiesThatGoFartherThanTheirThicknessInAStep) {
   // 0.3 m thick from 18 m: sqrt(2 g 18) = 18.8 m/s, 0.313 m a step.
   const Override plate{"shape.ball={kind=\"box\", size=[1, 1, 0.3]}"};
   const Override rate{"source[0].rate=1.5"};
-  expect_one(warnings_with({plate, rate, {"source[0].position=[0, 0, 18]"}}),
+  const Override steps{"world.steps_per_second=60"};
+  const Override far_fall{"source[0].position=[0, 0, 18]"};
+  expect_one(warnings_with({plate, rate, steps, far_fall}),
              "bodies arrive at 18.8 m/s and go 1 times their thickness in a step");
-  expect_one(warnings_with({plate, rate, {"source[0].position=[0, 0, 18]"}}), "steps_per_second = 126 helps");
-  EXPECT_EQ(warnings_with({plate, rate, {"source[0].position=[0, 0, 16]"}}), "");
+  expect_one(warnings_with({plate, rate, steps, far_fall}), "steps_per_second = 126 helps");
+  EXPECT_EQ(warnings_with({plate, rate, far_fall}), "");  // the accuracy chooses 120
+  EXPECT_EQ(warnings_with({plate, rate, steps, {"source[0].position=[0, 0, 16]"}}), "");
 }
 
 TEST(Warnings, TellOfLongSteps) { expect_one(warnings_with({{"world.steps_per_second=30"}}), "below 60"); }

@@ -8,6 +8,7 @@
 #include "common/measure/compare.h"
 #include "common/measure/ensemble.h"
 #include "common/measure/resting_shape.h"
+#include "common/scene/accuracy.h"
 #include "common/scene/happened.h"
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
@@ -125,7 +126,7 @@ AnyScene load(const BenchCase& bench_case) {
   AnyScene scene = read_scene(bench_case.scene, overrides);
   std::visit(
       [&](auto& each) {
-        if (reference) each.world = reference_settings(each.world);
+        if (reference) each = reference_scene(std::move(each));
         if (each.sources.empty() && !each.bodies.empty())
           each.bodies.front().def.pose.position[0] += 1e-6 * (bench_case.seed - 1);
       },

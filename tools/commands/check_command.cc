@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/scene/accuracy.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
@@ -26,6 +27,7 @@ void print_report(const Scene<Dim>& scene) {
   print_result("  {}D, {} steps of {:.6g} s ({} frames at {:g} a second){}, policy {}\n", Dim, scene.steps(),
                scene.world.dt, scene.run.frames, scene.run.frame_rate,
                scene.run.until == until_rest ? " or until rest" : "", scene.policy.kind);
+  print_result("  {}\n", accuracy_text(scene));
   if (!scene.bodies.empty()) print_result("  {} bodies from the start\n", scene.bodies.size());
   print_result("  bodies of {:.4g} kg in the mean, bounding volume {:.4g} {}, largest extent {:.4g} m\n", body.mass,
                body.bounding_volume, Dim == 2 ? "m^2" : "m^3", body.extent);

@@ -14,6 +14,10 @@ void add_scene_options(CLI::App& command, SceneChoice& choice) {
       .add_option("-p,--policy", choice.policy,
                   "Which bodies may sleep: full (none), engine (the engine's own rule), paper, adaptive")
       ->check(not_empty());
+  command
+      .add_option("-a,--accuracy", choice.accuracy,
+                  "fast, standard or fine: sets the step, sub-steps and tolerance that the scene leaves open")
+      ->check(not_empty());
   command.add_option("-s,--set", choice.settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);

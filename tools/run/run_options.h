@@ -15,6 +15,7 @@ struct SceneChoice {
   std::string scene;                  // file, or the name of a scene in scenes/
   std::string backend;                // empty: the dimension's first
   std::string policy;                 // empty: the scene's
+  std::string accuracy;               // empty: the scene's
   std::vector<std::string> settings;  // path=value, applied to the scene file before it is checked
   std::optional<std::int64_t> seed;   // not given: the scene's
   bool force = false;                 // also outside of the engine's window, with warnings

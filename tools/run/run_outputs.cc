@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "common/scene/accuracy.h"
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
 #include "common/text/printable.h"
@@ -184,6 +185,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
       "  {} bodies, {} asleep at the end; over {} steps {:.1f} awake in the mean, {:.1f} % of body-steps skipped\n",
       bodies, bodies - world.awake().size(), statistics.steps(), statistics.mean_awake(),
       100.0 * statistics.work_skipped());
+  print_result("  {}\n", accuracy_text(scene));
   print_result("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);

@@ -123,6 +123,7 @@ std::vector<Override> overrides_of(const SceneChoice& choice) {
   std::vector<Override> list;
   for (const std::string& setting : choice.settings) list.push_back({setting});
   if (!choice.policy.empty()) list.push_back({"policy.kind=" + choice.policy, "--policy " + choice.policy});
+  if (!choice.accuracy.empty()) list.push_back({"accuracy=" + choice.accuracy, "--accuracy " + choice.accuracy});
   if (choice.seed) list.push_back({fmt::format("seed={}", *choice.seed), fmt::format("--seed {}", *choice.seed)});
   return list;
 }

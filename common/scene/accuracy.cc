@@ -1,0 +1,98 @@
+#include "common/scene/accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/math/vector.h"
+#include "common/measure/rebuild.h"
+#include "common/shape/piece.h"
+
+namespace talus {
+namespace {
+
+/// Of its thickest piece: a thin one between others makes no body thin.
+template <int Dim>
+double thickness(const Shape<Dim>& shape) {
+  double width = 0.0;
+  for (const Piece<Dim>& piece : shape.pieces) width = std::max(width, smallest_width(piece));
+  return width;
+}
+
+/// The source of which a body goes farthest in a step, over its thickness; nothing without ground or sources.
+template <int Dim>
+std::optional<Arrival> coarsest_arrival(const Scene<Dim>& scene) {
+  std::optional<Arrival> coarsest;
+  for (std::size_t i = 0; scene.world.ground.present && i < scene.sources.size(); ++i) {
+    const Arrival own = arrival(scene.sources[i], scene.world);
+    if (!coarsest || own.step(1.0) > coarsest->step(1.0)) coarsest = own;
+  }
+  return coarsest;
+}
+
+}  // namespace
+
+template <int Dim>
+Arrival arrival(const Source<Dim>& source, const WorldDescription<Dim>& world) {
+  const double fall = height<Dim>(source.position) + height<Dim>(source.spread) + std::abs(height<Dim>(source.sweep)) +
+                      height<Dim>(source.grid_extent()) - world.ground.height;
+  const double start = (source.velocity.cwiseAbs() + source.velocity_spread).norm();
+  double least = std::numeric_limits<double>::infinity();
+  for (const int shape : source.shapes) least = std::min(least, thickness(world.shapes[shape]));
+  return {fall, std::sqrt(start * start + 2.0 * world.gravity * std::max(fall, 0.0)), least};
+}
+
+template <int Dim>
+double fitting_steps_per_second(const Scene<Dim>& scene, double step, double least) {
+  constexpr double finest = 8.0;
+  const double frames = scene.run.frame_rate;
+  const std::optional<Arrival> coarsest = coarsest_arrival(scene);
+  const double needed = coarsest ? std::min(coarsest->step(1.0) / step, finest * least) : least;
+  const double base = frames * std::ceil(least / frames - 1e-9);
+  return base * std::max(1.0, std::ceil(needed / base - 1e-9));
+}
+
+template <int Dim>
+void apply_accuracy(Scene<Dim>& scene, const SetByScene& set) {
+  const Accuracy& level = *std::ranges::find(accuracies, scene.accuracy, &Accuracy::name);
+  if (!set.steps) scene.world.dt = 1.0 / fitting_steps_per_second(scene, level.step);
+  if (!set.sub_steps) scene.world.solver.sub_steps = level.sub_steps;
+  if (!set.tolerance) scene.policy.adaptive.tolerance = level.tolerance;
+}
+
+template <int Dim>
+Scene<Dim> reference_scene(Scene<Dim> scene) {
+  const double steps = fitting_steps_per_second(scene, 0.25, 120.0);
+  scene.policy.kind = "full";
+  scene.world = reference_settings(scene.world);
+  scene.world.dt = std::min(scene.world.dt, 1.0 / steps);
+  return scene;
+}
+
+template <int Dim>
+std::string accuracy_text(const Scene<Dim>& scene) {
+  const WorldDescription<Dim>& world = scene.world;
+  std::string text = fmt::format("accuracy {}: {:.6g} steps a second", scene.accuracy, 1.0 / world.dt);
+  if (world.solver.small_steps()) text += fmt::format(" of {} sub-steps", world.solver.sub_steps);
+  if (const auto coarsest = coarsest_arrival(scene))
+    text += fmt::format(", bodies arrive at {:.3g} m/s and go {:.2g} times their thickness in a step", coarsest->speed,
+                        coarsest->step(world.dt));
+  if (const auto tolerance = scene.policy.tolerance()) text += fmt::format(", tolerance {:g} D", *tolerance);
+  return text;
+}
+
+template Arrival arrival(const Source<2>&, const WorldDescription<2>&);
+template Arrival arrival(const Source<3>&, const WorldDescription<3>&);
+template double fitting_steps_per_second(const Scene<2>&, double, double);
+template double fitting_steps_per_second(const Scene<3>&, double, double);
+template void apply_accuracy(Scene<2>&, const SetByScene&);
+template void apply_accuracy(Scene<3>&, const SetByScene&);
+template Scene<2> reference_scene(Scene<2>);
+template Scene<3> reference_scene(Scene<3>);
+template std::string accuracy_text(const Scene<2>&);
+template std::string accuracy_text(const Scene<3>&);
+
+}  // namespace talus

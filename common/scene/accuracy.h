@@ -1,0 +1,68 @@
+#pragma once
+// What the accuracy that a scene names sets, where the scene does not set it itself.
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+namespace talus {
+
+/// One level of accuracy.
+struct Accuracy {
+  std::string_view name;
+  double step;       // at most so far does a body go in one step when it arrives, over its thickness
+  int sub_steps;     // SolverParams::sub_steps
+  double tolerance;  // AdaptiveParams::tolerance [D]
+};
+
+inline constexpr std::array<Accuracy, 3> accuracies = {{
+    {"fast", 2.0, 4, 0.1},
+    {"standard", 1.0, SolverParams{}.sub_steps, AdaptiveParams{}.tolerance},
+    {"fine", 0.5, SolverParams{}.sub_steps, 0.02},
+}};
+inline constexpr std::array<std::string_view, 3> accuracy_names = {accuracies[0].name, accuracies[1].name,
+                                                                   accuracies[2].name};
+
+/// The values of a level that a scene sets itself.
+struct SetByScene {
+  bool steps = false;
+  bool sub_steps = false;
+  bool tolerance = false;
+};
+
+/// How bodies of a source arrive at the ground, if they fall freely from its highest place.
+struct Arrival {
+  double fall = 0.0;       // [m]
+  double speed = 0.0;      // by energy [m/s]
+  double thickness = 0.0;  // of the thinnest body: the least width of its thickest piece [m]
+
+  /// Thicknesses that a body goes in a step.
+  double step(double dt) const { return speed * dt / thickness; }
+};
+
+template <int Dim>
+Arrival arrival(const Source<Dim>& source, const WorldDescription<Dim>& world);
+
+/// Steps a second, at least `least`, at which no body of the sources goes farther than `step` times its thickness in a
+/// step as it arrives; a multiple of frames and at most eight times the least. The errors of fast pours grow with this
+/// distance, whatever the solver and its passes (lab/notes/small_steps.md). Without ground: the least.
+template <int Dim>
+double fitting_steps_per_second(const Scene<Dim>& scene, double step, double least = 60.0);
+
+/// Puts in the values of the scene's accuracy, but for those that it sets itself.
+template <int Dim>
+void apply_accuracy(Scene<Dim>& scene, const SetByScene& set);
+
+/// The scene at settings that are taken for converged: no body sleeps, reference_settings(), and a body goes a quarter
+/// of its thickness in a step at most.
+template <int Dim>
+Scene<Dim> reference_scene(Scene<Dim> scene);
+
+/// Step, sub-steps and tolerance of a scene, and why the step: a sentence for people.
+template <int Dim>
+std::string accuracy_text(const Scene<Dim>& scene);
+
+}  // namespace talus

@@ -1,0 +1,77 @@
+// What the accuracy of a scene sets.
+
+#include "common/scene/accuracy.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/scene/read_scene.h"
+
+namespace talus::accuracy_test {
+namespace {
+
+/// Plates, 0.3 m thick, that fall 18 m: they arrive at sqrt(2 g 18) = 18.79 m/s, 62.6 thicknesses a second.
+Scene<3> plates(std::vector<Override> overrides) {
+  const std::string text =
+      "title = \"Plates\"\ndimension = 3\nworld = {gravity = 9.81}\nrun = {frame_rate = 30}\n"
+      "shape.plate = {kind = \"box\", size = [1, 1, 0.3]}\n"
+      "source = [{count = 3, position = [0, 0, 18], spread = [0, 0, 0]}]\n";
+  return std::get<Scene<3>>(parse_scene(text, "text", overrides));
+}
+
+double steps_of(const std::vector<Override>& overrides) { return 1.0 / plates(overrides).world.dt; }
+
+TEST(Accuracy, ChoosesTheStepByTheWayOfAnArrivingBodyOverItsThickness) {
+  EXPECT_NEAR(steps_of({{"accuracy=fast"}}), 60.0, 1e-9);       // 31.3 would do
+  EXPECT_NEAR(steps_of({{"accuracy=standard"}}), 120.0, 1e-9);  // 62.6
+  EXPECT_NEAR(steps_of({{"accuracy=fine"}}), 180.0, 1e-9);      // 125.3
+}
+
+TEST(Accuracy, OfASceneThatNamesNoneIsTheStandard) { EXPECT_EQ(steps_of({}), steps_of({{"accuracy=standard"}})); }
+
+TEST(Accuracy, ChoosesStepsOfWhichAFrameHasAWholeNumber) {
+  EXPECT_NEAR(steps_of({{"run.frame_rate=50"}}), 100.0, 1e-9);
+  EXPECT_NEAR(steps_of({{"run.frame_rate=24"}}), 72.0, 1e-9);
+  EXPECT_NEAR(steps_of({{"run.frame_rate=240"}}), 240.0, 1e-9);
+}
+
+TEST(Accuracy, GrowsTheCostOfAStepEightfoldAtMost) {
+  EXPECT_NEAR(steps_of({{"source[0].position=[0, 0, 9000]"}}), 480.0, 1e-9);
+}
+
+TEST(Accuracy, LeavesWhatTheSceneSetsItself) {
+  const Scene<3> scene = plates({{"accuracy=fast"},
+                                 {"world.steps_per_second=90"},
+                                 {"world.solver.sub_steps=6"},
+                                 {"policy.adaptive.tolerance=0.03"}});
+  EXPECT_NEAR(1.0 / scene.world.dt, 90.0, 1e-9);
+  EXPECT_EQ(scene.world.solver.sub_steps, 6);
+  EXPECT_EQ(scene.policy.adaptive.tolerance, 0.03);
+}
+
+TEST(Accuracy, SetsSubStepsAndToleranceOfItsLevel) {
+  for (const Accuracy& level : accuracies) {
+    const Scene<3> scene = plates({{fmt::format("accuracy={}", level.name)}});
+    EXPECT_EQ(scene.world.solver.sub_steps, level.sub_steps) << level.name;
+    EXPECT_EQ(scene.policy.adaptive.tolerance, level.tolerance) << level.name;
+  }
+}
+
+TEST(Accuracy, OfTheReferenceIsAQuarterOfTheThicknessWithWholeFrames) {
+  const Scene<3> reference = reference_scene(plates({{"run.frame_rate=50"}}));
+  EXPECT_LE(arrival(reference.sources[0], reference.world).step(reference.world.dt), 0.25);
+  const double steps_a_frame = 1.0 / (50.0 * reference.world.dt);
+  EXPECT_NEAR(steps_a_frame, std::round(steps_a_frame), 1e-6);
+  EXPECT_EQ(reference.policy.kind, "full");
+}
+
+TEST(Accuracy, IsTold) {
+  EXPECT_EQ(accuracy_text(plates({})),
+            "accuracy standard: 120 steps a second of 8 sub-steps, bodies arrive at 18.8 m/s and go 0.52 times their "
+            "thickness in a step, tolerance 0.05 D");
+}
+
+}  // namespace
+}  // namespace talus::accuracy_test
