@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/scene/accuracy.h"
+
 namespace talus {
 namespace {
 
@@ -47,12 +49,24 @@ template std::unique_ptr<World<2>> rebuild(const WorldMaker<2>&, const WorldDesc
 template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDescription<3>&, const BodyStates<3>&,
                                            Sleepers);
 template <int Dim>
+Scene<Dim> reference_scene(Scene<Dim> scene) {
+  const double steps = fitting_steps_per_second(scene, 0.25, 120.0);
+  scene.policy.kind = "full";
+  scene.world = reference_settings(scene.world);
+  scene.world.solver.sub_steps = std::max(scene.world.solver.sub_steps, SolverParams{}.sub_steps);
+  scene.world.dt = std::min(scene.world.dt, 1.0 / steps);
+  return scene;
+}
+
+template <int Dim>
 WorldDescription<Dim> judging_settings(const WorldDescription<Dim>& description) {
   return description.solver.small_steps() ? description : reference_settings(description);
 }
 
 template WorldDescription<2> reference_settings(WorldDescription<2>);
 template WorldDescription<3> reference_settings(WorldDescription<3>);
+template Scene<2> reference_scene(Scene<2>);
+template Scene<3> reference_scene(Scene<3>);
 template WorldDescription<2> judging_settings(const WorldDescription<2>&);
 template WorldDescription<3> judging_settings(const WorldDescription<3>&);
 

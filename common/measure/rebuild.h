@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "common/scene/scene.h"
 #include "common/world/world.h"
 
 namespace talus {
@@ -28,6 +29,11 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
 /// friction directions, steps of 1/120 s or the description's if shorter.
 template <int Dim>
 WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
+
+/// The scene at settings that are taken for converged: no body sleeps, reference_settings(), and a body that arrives
+/// goes a quarter of its thickness in a step at most.
+template <int Dim>
+Scene<Dim> reference_scene(Scene<Dim> scene);
 
 /// Settings that tell whether a pile would stay at rest. With small steps its own: they let no pile creep, and finer
 /// ones have stiffer contacts, which would lift it. Else reference_settings().

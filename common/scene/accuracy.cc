@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "common/math/vector.h"
-#include "common/measure/rebuild.h"
 #include "common/shape/piece.h"
 
 namespace talus {
@@ -64,15 +63,6 @@ void apply_accuracy(Scene<Dim>& scene, const SetByScene& set) {
 }
 
 template <int Dim>
-Scene<Dim> reference_scene(Scene<Dim> scene) {
-  const double steps = fitting_steps_per_second(scene, 0.25, 120.0);
-  scene.policy.kind = "full";
-  scene.world = reference_settings(scene.world);
-  scene.world.dt = std::min(scene.world.dt, 1.0 / steps);
-  return scene;
-}
-
-template <int Dim>
 std::string accuracy_text(const Scene<Dim>& scene) {
   const WorldDescription<Dim>& world = scene.world;
   std::string text = fmt::format("accuracy {}: {:.6g} steps a second", scene.accuracy, 1.0 / world.dt);
@@ -90,8 +80,6 @@ template double fitting_steps_per_second(const Scene<2>&, double, double);
 template double fitting_steps_per_second(const Scene<3>&, double, double);
 template void apply_accuracy(Scene<2>&, const SetByScene&);
 template void apply_accuracy(Scene<3>&, const SetByScene&);
-template Scene<2> reference_scene(Scene<2>);
-template Scene<3> reference_scene(Scene<3>);
 template std::string accuracy_text(const Scene<2>&);
 template std::string accuracy_text(const Scene<3>&);
 

@@ -56,11 +56,6 @@ double fitting_steps_per_second(const Scene<Dim>& scene, double step, double lea
 template <int Dim>
 void apply_accuracy(Scene<Dim>& scene, const SetByScene& set);
 
-/// The scene at settings that are taken for converged: no body sleeps, reference_settings(), and a body goes a quarter
-/// of its thickness in a step at most.
-template <int Dim>
-Scene<Dim> reference_scene(Scene<Dim> scene);
-
 /// Step, sub-steps and tolerance of a scene, and why the step: a sentence for people.
 template <int Dim>
 std::string accuracy_text(const Scene<Dim>& scene);

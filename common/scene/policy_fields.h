@@ -14,6 +14,7 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
      {.name = "tolerance",
       .unit = "D",
       .range = between(0.0, 10.0),
+      .default_text = "by `accuracy`",
       .meaning =
           "mean distance that the bodies of a region at rest may still move when all of them wake. Each region is "
           "checked for it when it comes to rest; one that moves and is steeper than its friction holds, when 10 times "

@@ -19,6 +19,7 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
     {place_of<&SolverParams::sub_steps>,
      {.name = "sub_steps",
       .range = between(1.0, 100.0),
+      .default_text = "by `accuracy`",
       .meaning = "of `small_steps` only. 4: faster, towers of twenty fall; 2: bodies sink into each other"}},
     {place_of<&SolverParams::velocity_iterations>,
      {.name = "velocity_iterations",
@@ -65,6 +66,7 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
       .unit = "1/s",
       .stored = Stored::as_inverse,
       .range = between(30.0, 1e5),
+      .default_text = "by `accuracy`, 60 or more",
       .meaning =
           "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m, below by a third of a "
           "metre; cost grows in proportion"}},

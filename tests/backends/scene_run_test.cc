@@ -39,7 +39,7 @@ TYPED_TEST(SceneRun, DropsWhatIsDueAndKeepsItAboveTheGround) {
     SCOPED_TRACE(entry.path());
     const auto scene = std::get<Scene<dim>>(read_scene(entry.path()));
     auto simulation = TestFixture::simulation(scene);
-    for (int i = 0; i < 70; ++i) simulation.step();
+    while (simulation.time() < 70.0 / 60.0) simulation.step();
     double due = 0.0;
     for (const Source<dim>& source : scene.sources)
       if (source.start == 0.0) due += std::min<double>(source.count, 1.0 * source.rate);
@@ -98,7 +98,7 @@ TYPED_TEST(SceneRun, KeepsRingsInTheirBox) {
   const auto scene = std::get<Scene<dim>>(read_scene(file, few));
   const Boundary<dim>& box = *scene.piles.at(0).boundary;
   auto simulation = TestFixture::simulation(scene);
-  for (int i = 0; i < 400; ++i) simulation.step();
+  while (simulation.time() < 400.0 / 60.0) simulation.step();
   const BodyStates<dim>& states = simulation.world().states();
   ASSERT_EQ(states.size(), 50);
   for (std::size_t i = 0; i < states.pose.size(); ++i) {

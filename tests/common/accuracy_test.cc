@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "common/measure/rebuild.h"
 #include "common/scene/read_scene.h"
 
 namespace talus::accuracy_test {

@@ -132,7 +132,7 @@ TEST(EngineWarnings, TellOfAFallThatIsTooFastWithHeightAndSpeed) {
 }
 
 TEST(EngineWarnings, TellOfGravityThatPressesBodiesIntoTheGround) {
-  const std::string lines = engine_warnings_with({{"world.gravity=400"}});
+  const std::string lines = engine_warnings_with({{"world.gravity=400"}, {"world.steps_per_second=60"}});
   EXPECT_NE(lines.find("a step's fall of 0.111 m is more than a tenth"), std::string::npos) << lines;
 }
 

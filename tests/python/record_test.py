@@ -92,7 +92,7 @@ class Record(unittest.TestCase):
         whole = talus.open(file)
         data = bytearray(file.read_bytes())
         middle = len(data) // 2
-        data[middle:middle + 8] = bytes(8)
+        data[middle:middle + 8] = bytes(255 - byte for byte in data[middle:middle + 8])
         file.write_bytes(data)
         with self.assertWarnsRegex(RuntimeWarning, "run.lcm: damaged: .*damaged bytes"):
             read = talus.open(file)

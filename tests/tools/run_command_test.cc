@@ -102,7 +102,8 @@ TEST(Strict, FailsForEveryWarningThatIsPrinted) {
 TEST(RunCommand, WarnsAtOnceAndAtTheEndAndInTheSummaryOfBodiesThatWereLost) {
   const TemporaryFolder folder;
   const std::string thrown =
-      "--set source[0].count=1 --set source[0].position=[9990,5] --set source[0].velocity=[90,0] ";
+      "--set source[0].count=1 --set source[0].position=[9990,5] --set source[0].velocity=[90,0] "
+      "--set world.steps_per_second=60 ";
   const Outcome outcome = talus_command("run " + short_scene + thrown + "--out " + (folder / "run"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("warning: step 7, body 0: a coordinate is 100"), std::string::npos) << outcome.err;
@@ -293,7 +294,7 @@ TEST(RunCommand, RefusesGravityThatBecomesTooLargeForBullet) {
 }
 
 TEST(CheckCommand, RefusesWhatNoEngineOfTheDimensionRuns) {
-  const std::string pressed = "drop_in_a_pile_3d --set world.gravity=1000";
+  const std::string pressed = "drop_in_a_pile_3d --set world.gravity=1000 --set world.steps_per_second=60";
   const std::string rule = "world.gravity = 1000: must be at most";
   for (const std::string command : {"check ", "run --hash "}) {
     const Outcome outcome = talus_command(command + pressed);

@@ -7,8 +7,8 @@
 
 #include "common/measure/compare.h"
 #include "common/measure/ensemble.h"
+#include "common/measure/rebuild.h"
 #include "common/measure/resting_shape.h"
-#include "common/scene/accuracy.h"
 #include "common/scene/happened.h"
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
