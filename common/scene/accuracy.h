@@ -20,8 +20,8 @@ struct Accuracy {
 
 inline constexpr std::array<Accuracy, 3> accuracies = {{
     {"fast", 2.0, 4, 0.1},
-    {"standard", 1.0, SolverParams{}.sub_steps, AdaptiveParams{}.tolerance},
-    {"fine", 0.5, SolverParams{}.sub_steps, 0.02},
+    {"standard", 1.0, usual_sub_steps, AdaptiveParams{}.tolerance},
+    {"fine", 0.5, usual_sub_steps, 0.02},
 }};
 inline constexpr std::array<std::string_view, 3> accuracy_names = {accuracies[0].name, accuracies[1].name,
                                                                    accuracies[2].name};

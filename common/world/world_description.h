@@ -20,11 +20,13 @@ inline constexpr std::string_view engine_solver = "engine";
 inline constexpr std::string_view small_steps_solver = "small_steps";
 inline constexpr std::array<std::string_view, 2> solver_kinds = {engine_solver, small_steps_solver};
 
+inline constexpr int usual_sub_steps = 8;
+
 /// Settings of the contact solver. An engine ignores what it does not have. solver_fields has the unit, range and
 /// effect of each.
 struct SolverParams {
   std::string kind = std::string(small_steps_solver);
-  int sub_steps = 8;
+  int sub_steps = usual_sub_steps;
   int velocity_iterations = 10;
   int position_iterations = 4;
   int friction_directions = 2;

@@ -7,18 +7,12 @@
 
 #include "common/scene/typical_body.h"
 #include "common/text/printable.h"
+#include "tools/run/json_null.h"
 
 namespace talus {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
-
-Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 template <int Dim>
 Json numbers(const Eigen::Matrix<double, Dim, 1>& vector) {

@@ -1,13 +1,12 @@
 #include "tools/run/shape_json.h"
 
 #include "common/math/angle.h"
+#include "tools/run/json_null.h"
 
 namespace talus {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 }  // namespace
 
@@ -23,7 +22,7 @@ Json shape_json(std::span<const PlacedBody<Dim>> bodies, const ShapeStatistics<D
           {"angle_of_repose_deg", slope ? Json(in_degrees(slope->angle)) : Json()},
           {"angle_of_repose_standard_error_deg", slope ? Json(in_degrees(slope->standard_error)) : Json()},
           {"angle_of_repose_reason", or_null(form.slope.why_not)},
-          {"packing", form.packing.value ? Json(*form.packing.value) : Json()},
+          {"packing", or_null(form.packing.value)},
           {"packing_reason", or_null(form.packing.why_not)}};
 }
 
