@@ -8,6 +8,8 @@
 namespace talus {
 namespace {
 
+constexpr double reference_steps_per_second = 120.0;
+
 /// At most so long, with room for rounding.
 template <typename Vector>
 Vector limited(const Vector& vector, double most) {
@@ -36,7 +38,7 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
 
 template <int Dim>
 WorldDescription<Dim> reference_settings(WorldDescription<Dim> description) {
-  description.dt = std::min(description.dt, 1.0 / 120.0);
+  description.dt = std::min(description.dt, 1.0 / reference_steps_per_second);
   description.engine_sleep = false;
   description.solver.velocity_iterations = std::max(description.solver.velocity_iterations, 50);
   description.solver.position_iterations = std::max(description.solver.position_iterations, 20);
@@ -48,12 +50,13 @@ template std::unique_ptr<World<2>> rebuild(const WorldMaker<2>&, const WorldDesc
                                            Sleepers);
 template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDescription<3>&, const BodyStates<3>&,
                                            Sleepers);
+
 template <int Dim>
 Scene<Dim> reference_scene(Scene<Dim> scene) {
-  const double steps = fitting_steps_per_second(scene, 0.25, 120.0);
+  const double steps = fitting_steps_per_second(scene, 0.25, reference_steps_per_second);
   scene.policy.kind = "full";
   scene.world = reference_settings(scene.world);
-  scene.world.solver.sub_steps = std::max(scene.world.solver.sub_steps, SolverParams{}.sub_steps);
+  scene.world.solver.sub_steps = std::max(scene.world.solver.sub_steps, usual_sub_steps);
   scene.world.dt = std::min(scene.world.dt, 1.0 / steps);
   return scene;
 }

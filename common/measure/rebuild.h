@@ -30,8 +30,8 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
 template <int Dim>
 WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
 
-/// The scene at settings that are taken for converged: no body sleeps, reference_settings(), and a body that arrives
-/// goes a quarter of its thickness in a step at most.
+/// The scene for a converged run: policy `full`, reference_settings(), at least the usual sub-steps, and a time step in
+/// which a body moves at most a quarter of its thickness as it reaches the ground.
 template <int Dim>
 Scene<Dim> reference_scene(Scene<Dim> scene);
 

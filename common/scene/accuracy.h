@@ -13,7 +13,7 @@ namespace talus {
 /// One level of accuracy.
 struct Accuracy {
   std::string_view name;
-  double step;       // at most so far does a body go in one step when it arrives, over its thickness
+  double step;       // largest way of a body in one step as it reaches the ground, over its thickness
   int sub_steps;     // SolverParams::sub_steps
   double tolerance;  // AdaptiveParams::tolerance [D]
 };
@@ -50,7 +50,7 @@ Arrival arrival(const Source<Dim>& source, const WorldDescription<Dim>& world);
 /// step as it arrives; a multiple of frames and at most eight times the least. The errors of fast pours grow with this
 /// distance, whatever the solver and its passes (lab/notes/small_steps.md). Without ground: the least.
 template <int Dim>
-double fitting_steps_per_second(const Scene<Dim>& scene, double step, double least = 60.0);
+double fitting_steps_per_second(const Scene<Dim>& scene, double step, double least = 1.0 / WorldDescription<Dim>{}.dt);
 
 /// Puts in the values of the scene's accuracy, but for those that it sets itself.
 template <int Dim>

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/measure/rebuild.h"
 #include "common/scene/read_scene.h"
+#include "common/scene/reference.h"
 
 namespace talus::accuracy_test {
 namespace {
@@ -66,6 +68,19 @@ TEST(Accuracy, OfTheReferenceIsAQuarterOfTheThicknessWithWholeFrames) {
   const double steps_a_frame = 1.0 / (50.0 * reference.world.dt);
   EXPECT_NEAR(steps_a_frame, std::round(steps_a_frame), 1e-6);
   EXPECT_EQ(reference.policy.kind, "full");
+}
+
+TEST(Accuracy, HasTheNumbersOfItsLevelsInTheTextOfItsKey) {
+  const auto& [fast, standard, fine] = accuracies;
+  const std::string numbers = fmt::format(
+      "most {:g}, {:g} or {:g} times its thickness in a step; `sub_steps` {}, {} or {}; the `tolerance` "
+      "{:g}, {:g} or {:g}.",
+      fast.step, standard.step, fine.step, fast.sub_steps, standard.sub_steps, fine.sub_steps, fast.tolerance,
+      standard.tolerance, fine.tolerance);
+  const auto tables = key_tables();
+  const auto root = std::ranges::find(tables, "root", &std::pair<std::string, std::string>::first);
+  ASSERT_NE(root, tables.end());
+  EXPECT_NE(root->second.find(numbers), std::string::npos) << root->second;
 }
 
 TEST(Accuracy, IsTold) {

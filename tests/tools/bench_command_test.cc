@@ -72,7 +72,7 @@ TEST_F(Bench, HasARowForEachRunWithSpeedUpAndErrorsAgainstTheReference) {
     EXPECT_EQ(row.at("failure"), "");
     EXPECT_GT(number(row, "seconds"), 0.0);
     EXPECT_EQ(number(row, "bodies"), 10.0);
-    // Four seconds; the reference lets a body go a quarter of its thickness in a step, at 240 steps a second.
+    // Four seconds. In the reference a body moves at most a quarter of its thickness in a step: 240 steps a second.
     EXPECT_EQ(number(row, "steps"), row.at("policy") == "reference" ? 960.0 : 240.0);
     EXPECT_GE(number(row, "drift_D"), 0.0);
     if (row.at("policy") == "full") EXPECT_EQ(number(row, "speed_up"), 1.0);

@@ -62,6 +62,10 @@ constexpr auto shortened = std::to_array<Shortened>({
      "shape.L.friction=0.2 --set ground.friction=0.2 --seeds 16 --drift --out checks",
      "talus bench drop_in_a_pile_2d --policy full,adaptive --set policy.adaptive.tolerance=0,0.05 --set "
      "shape.L.friction=0.2 --set ground.friction=0.2 --seeds 1 --set run.frames=20 --drift --out checks"},
+    {"talus bench lab/truth/scenes/*.toml --policy full,adaptive,reference --set accuracy=fast,standard,fine --seeds 4 "
+     "--out levels",
+     "talus bench drop_in_a_pile_2d --policy full,adaptive,reference --set accuracy=fast,standard,fine --seeds 1 --set "
+     "run.frames=20 --out levels"},
     {"talus stress", "talus stress stack-5"},
     {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
     {"talus stress --long", "talus stress stack-5 --long"},
