@@ -1,5 +1,6 @@
 #pragma once
-// Sleep body by body in a Box2D world of one's own. Compiled with the program's own Box2D 2.4; link talus::core.
+/// @file
+/// Sleep body by body in a Box2D world of one's own. Compiled with the program's own Box2D 2.4; link talus::core.
 
 #include <box2d/box2d.h>
 
@@ -111,8 +112,8 @@ class Box2dImpulses {
 ///     for (;;) { sleeper.before_step(); world.Step(dt, 8, 3); sleeper.after_step(dt); }
 ///
 /// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body do
-/// nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors
-/// count for nothing. The world must outlive this object, which wakes all bodies when it ends.
+/// nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count for nothing. The world
+/// must outlive this object, which wakes all bodies when it ends.
 class Box2dSleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.
@@ -191,6 +192,7 @@ class Box2dSleeper {
 
   /// Before a force, an impulse or a velocity is given to a body.
   void wake(b2Body& body) { carry_out(core_.wake(handle(body))); }
+  /// Wakes all watched bodies.
   void wake_all() { carry_out(core_.wake_all()); }
   /// Wakes what sleeps by a body that is not watched, such as a static one that is about to move or has moved.
   void wake_near(b2Body& body) {
@@ -200,7 +202,9 @@ class Box2dSleeper {
   /// After the program has put a body elsewhere.
   void moved(b2Body& body) { carry_out(core_.moved(handle(body), pose(body))); }
 
+  /// Whether a body has been added.
   bool watches(const b2Body& body) const { return handles_.contains(&body); }
+  /// Throws InvalidValue on a body that is not watched.
   bool asleep(const b2Body& body) const { return core_.asleep(handle(body)); }
   /// Throws InvalidValue on a body that is not watched.
   Handle handle(const b2Body& body) const {
@@ -208,11 +212,14 @@ class Box2dSleeper {
     require(found != handles_.end(), "body", "not watched", "must have been added");
     return found->second;
   }
+  /// Throws InvalidValue on a handle of no watched body.
   b2Body& body(Handle handle) const {
     require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
     return *entries_[handle.slot].body;
   }
+  /// Bodies that are watched; kinematic ones count.
   int size() const { return core_.size(); }
+  /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
   /// What a saved program must keep beside its bodies. All bodies that are not kinematic are dynamic when awake.

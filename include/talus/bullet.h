@@ -1,6 +1,7 @@
 #pragma once
-// Sleep body by body in a Bullet world of one's own. Compiled with the program's own Bullet, 3.24 or similar, in single
-// or double precision; link talus::core.
+/// @file
+/// Sleep body by body in a Bullet world of one's own. Compiled with the program's own Bullet, 3.24 or similar, in
+/// single or double precision; link talus::core.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -96,6 +97,7 @@ class BulletSleeper {
 
   /// Before a force, an impulse or a velocity is given to a body.
   void wake(btRigidBody& body) { carry_out(core_.wake(handle(body))); }
+  /// Wakes all watched bodies.
   void wake_all() { carry_out(core_.wake_all()); }
   /// Wakes what sleeps by an object that is not watched, such as a static one that is about to move or has moved.
   void wake_near(btCollisionObject& object) {
@@ -107,7 +109,9 @@ class BulletSleeper {
   /// After the program has put a body elsewhere.
   void moved(btRigidBody& body) { carry_out(core_.moved(handle(body), pose(body))); }
 
+  /// Whether a body has been added.
   bool watches(const btRigidBody& body) const { return handles_.contains(&body); }
+  /// Throws InvalidValue on a body that is not watched.
   bool asleep(const btRigidBody& body) const { return core_.asleep(handle(body)); }
   /// Throws InvalidValue on a body that is not watched.
   Handle handle(const btRigidBody& body) const {
@@ -115,15 +119,19 @@ class BulletSleeper {
     require(found != handles_.end(), "body", "not watched", "must have been added");
     return found->second;
   }
+  /// Throws InvalidValue on a handle of no watched body.
   btRigidBody& body(Handle handle) const {
     require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
     return *entries_[handle.slot].body;
   }
+  /// Bodies that are watched; kinematic ones count.
   int size() const { return core_.size(); }
+  /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
-  /// What a saved program must keep beside its bodies. Their masses are in mass(), since a sleeping one has none.
+  /// What a saved program must keep beside its bodies and their masses.
   std::vector<SavedSleep> snapshot() const { return core_.snapshot(); }
+  /// Mass [kg] of a watched body, also of a sleeping one, which has none in Bullet.
   btScalar mass(const btRigidBody& body) const {
     return asleep(body) ? entries_[handle(body).slot].mass : body.getMass();
   }

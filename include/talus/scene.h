@@ -1,4 +1,5 @@
 #pragma once
-// Scene files: read_scene() and parse_scene(). Link talus::scene.
+/// @file
+/// Scene files: read_scene() and parse_scene(). Link talus::scene.
 
 #include "common/scene/read_scene.h"

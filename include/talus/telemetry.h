@@ -1,5 +1,6 @@
 #pragma once
-// Observers of a run: RunRecorder writes its record, Publisher sends it live. Link talus::telemetry.
+/// @file
+/// Observers of a run: RunRecorder writes its record, Publisher sends it live. Link talus::telemetry.
 
 #include "lcmtypes/publisher.h"
 #include "lcmtypes/run_info.h"
