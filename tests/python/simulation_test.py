@@ -4,9 +4,9 @@ import os
 import signal
 import subprocess
 import threading
-import unittest
 
 import numpy as np
+import pytest
 import talus
 
 COMMAND = os.environ["TALUS"]
@@ -26,158 +26,165 @@ at = [0, 0]
 """
 
 
-class Simulation(unittest.TestCase):
-    def test_ends_with_the_hash_of_the_command(self):
-        for scene in ("drop_in_a_pile_2d", "drop_in_a_pile_3d"):
-            run = talus.Simulation(scene, seed=3, set={"run.frames": 60})
-            run.step(10**6)
-            command = [COMMAND, "run", scene, "--seed", "3", "--set", "run.frames=60", "--hash"]
-            self.assertTrue(run.finished)
-            self.assertEqual(run.hash(), subprocess.check_output(command, text=True).strip())
+@pytest.mark.parametrize("scene", ["drop_in_a_pile_2d", "drop_in_a_pile_3d"])
+def test_ends_with_the_hash_of_the_command(scene):
+    run = talus.Simulation(scene, seed=3, set={"run.frames": 60})
+    run.step(10**6)
+    command = [COMMAND, "run", scene, "--seed", "3", "--set", "run.frames=60", "--hash"]
+    assert run.finished
+    assert run.hash() == subprocess.check_output(command, text=True).strip()
 
-    def test_poses_are_copies_that_also_go_into_out(self):
-        run = talus.Simulation("drop_in_a_pile_3d")
-        run.step(120)
-        first = run.poses()
-        self.assertEqual(first.shape[1], 7)
-        np.testing.assert_allclose(np.linalg.norm(first[:, 3:], axis=1), 1, atol=1e-5)  # single precision
-        out = np.empty_like(first)
-        self.assertIs(run.poses(out=out), out)
-        np.testing.assert_array_equal(out, first)
-        run.step(1)
-        self.assertFalse(np.array_equal(run.poses()[: len(first)], first))
-        with self.assertRaisesRegex(ValueError, "out.shape"):
-            run.poses(out=np.empty((1, 2)))
-        with self.assertRaises(TypeError):
-            run.poses(out=np.empty((len(first), 7), dtype=np.float32))
 
-    def test_a_removed_body_is_no_longer_present(self):
-        run = talus.Simulation("drop_in_a_pile_2d")
-        run.step(120)
+def test_poses_are_copies_that_also_go_into_out():
+    run = talus.Simulation("drop_in_a_pile_3d")
+    run.step(120)
+    first = run.poses()
+    assert first.shape[1] == 7
+    np.testing.assert_allclose(np.linalg.norm(first[:, 3:], axis=1), 1, atol=1e-5)  # single precision
+    out = np.empty_like(first)
+    assert run.poses(out=out) is out
+    np.testing.assert_array_equal(out, first)
+    run.step(1)
+    assert not np.array_equal(run.poses()[: len(first)], first)
+    with pytest.raises(ValueError, match="out.shape"):
+        run.poses(out=np.empty((1, 2)))
+    with pytest.raises(TypeError):
+        run.poses(out=np.empty((len(first), 7), dtype=np.float32))
+
+
+def test_a_removed_body_is_no_longer_present():
+    run = talus.Simulation("drop_in_a_pile_2d")
+    run.step(120)
+    run.remove(0)
+    assert not run.present()[0]
+    assert run.present()[1:].all()
+    with pytest.raises(ValueError, match="body"):
         run.remove(0)
-        self.assertFalse(run.present()[0])
-        self.assertTrue(run.present()[1:].all())
-        with self.assertRaisesRegex(ValueError, "body"):
-            run.remove(0)
-
-    def test_contacts_of_a_box_at_rest_carry_its_weight(self):
-        run = talus.Simulation(ONE_BOX, policy="full", contacts=True)
-        run.step(300)
-        contacts = run.contacts()
-        weight = 1000 * 1.0 * 0.6 * 9.81  # density, size and gravity
-        dt = run.time / run.step_count
-        vertical = contacts["normal_impulse"] * contacts["normal"][:, 1] + contacts["friction_impulse"][:, 1]
-        self.assertAlmostEqual(vertical.sum() / (weight * dt), 1.0, delta=0.01)
-        self.assertEqual(set(contacts["a"]), {0})
-        self.assertEqual(set(contacts["b"]), {-1})
-        np.testing.assert_allclose(contacts["point"][:, 1], 0, atol=0.02)
-        np.testing.assert_allclose(np.sort(contacts["point"][:, 0] - run.poses()[0, 0])[[0, -1]], [-0.5, 0.5], atol=0.02)
-        with self.assertRaisesRegex(ValueError, "contacts"):
-            talus.Simulation(ONE_BOX).contacts()
-
-    def test_contacts_change_no_bits_of_a_run(self):
-        hashes = set()
-        for contacts in (False, True):
-            run = talus.Simulation("drop_in_a_pile_3d", policy="full", set={"run.frames": 60}, contacts=contacts)
-            run.step(10**6)
-            hashes.add(run.hash())
-        self.assertEqual(len(hashes), 1)
-
-    def test_events_of_all_steps_add_up_to_who_sleeps(self):
-        run = talus.Simulation("drop_in_a_pile_2d")
-        asleep, causes = set(), set()
-        for _ in range(400):
-            run.step()
-            for event in run.events():
-                self.assertEqual(event["step"], run.step_count)
-                (asleep.remove if event["woke"] else asleep.add)(event["body"])
-                causes.add((str(event["cause"]), bool(event["woke"])))
-        self.assertEqual(asleep, set(np.flatnonzero(run.asleep())))
-        self.assertIn(("rest", False), causes)
-
-    def test_bodies_by_number_are_woken(self):
-        run = talus.Simulation("drop_in_a_pile_2d")
-        run.step(400)
-        first, second, *others = np.flatnonzero(run.asleep())
-        run.wake([])
-        self.assertTrue(run.asleep()[first])
-        run.wake(first)
-        run.wake([second])
-        self.assertFalse(run.asleep()[[first, second]].any())
-        self.assertTrue(run.asleep()[others].all())
-        run.wake()
-        self.assertFalse(run.asleep().any())
-        with self.assertRaisesRegex(ValueError, "body = 1000"):
-            run.wake([0, 1000])
-
-    def test_a_kicked_box_wakes_and_flies_as_thrown(self):
-        run = talus.Simulation(ONE_BOX)
-        run.step(300)
-        self.assertTrue(run.asleep()[0])
-        start = run.poses()[0, :2]
-        began = run.time
-        run.kick(0, [2.0, 6.0])
-        np.testing.assert_allclose(run.velocities()[0], [2.0, 6.0], atol=1e-6)
-        run.step(30)
-        time = run.time - began
-        flown = np.array([2.0 * time, 6.0 * time - 0.5 * 9.81 * time**2])
-        np.testing.assert_allclose(run.poses()[0, :2] - start, flown, atol=9.81 * time * time / 30)  # of the integrator
-        run.kick([0], [0, 0], [1.5])
-        self.assertAlmostEqual(run.spins()[0, 0], 1.5, delta=1e-3)
-        with self.assertRaisesRegex(ValueError, "velocity"):
-            run.kick(0, [1.0])
-
-    def test_a_pile_counts_the_bodies_in_its_layers(self):
-        run = talus.Simulation("drop_in_a_pile_2d")
-        run.step(600)
-        (pile,) = run.piles()
-        height = run.poses()[:, 1]
-        inside = (np.abs(run.poses()[:, 0] - pile.centre[0]) < pile.radius) & (height < pile.height)
-        self.assertLessEqual(pile.layers["count"].sum(), len(height))
-        self.assertGreaterEqual(pile.layers["count"].sum(), 0.5 * inside.sum())
-        self.assertTrue((pile.layers["sleeping"] <= pile.layers["count"]).all())
-        np.testing.assert_allclose(pile.layers["bottom"][1:], pile.layers["top"][:-1])
-        self.assertAlmostEqual(pile.layers["capacity"].sum(), pile.structure_size, delta=1e-6 * pile.structure_size)
-
-    def test_a_bad_value_is_an_error_with_field_and_value(self):
-        with self.assertRaisesRegex(talus.SceneError, "run.frames = -5"):
-            talus.Simulation("drop_in_a_pile_2d", set={"run.frames": -5})
-
-    def test_all_errors_of_a_toml_text_have_their_lines(self):
-        with self.assertRaises(talus.SceneError) as caught:
-            talus.Simulation("dimension = 2\n[run]\nframes = -3\nfoo = 1\n")
-        self.assertIn("scene:3:10: run.frames = -3", str(caught.exception))
-        self.assertIn("scene:4:1: run.foo = 1", str(caught.exception))
-
-    def test_other_threads_run_during_a_step(self):
-        counted = 0
-        done = threading.Event()
-
-        def count():
-            nonlocal counted
-            while not done.is_set():
-                counted += 1
-
-        run = talus.Simulation("drop_in_a_pile_2d")
-        thread = threading.Thread(target=count)
-        thread.start()
-        before = counted
-        run.step(300)
-        during = counted - before
-        done.set()
-        thread.join()
-        self.assertGreater(during, 1000)
-
-    def test_ctrl_c_stops_a_step_and_the_run_can_go_on(self):
-        run = talus.Simulation("drop_in_a_pile_3d", policy="full", set={"run.frames": 10**6})
-        threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
-        with self.assertRaises(KeyboardInterrupt):
-            run.step(10**9)
-        stopped = run.step_count
-        self.assertLess(stopped, 10**6)
-        run.step(1)
-        self.assertEqual(run.step_count, stopped + 1)
 
 
-if __name__ == "__main__":
-    unittest.main()
+def test_contacts_of_a_box_at_rest_carry_its_weight():
+    run = talus.Simulation(ONE_BOX, policy="full", contacts=True)
+    run.step(300)
+    contacts = run.contacts()
+    weight = 1000 * 1.0 * 0.6 * 9.81  # density, size and gravity
+    dt = run.time / run.step_count
+    vertical = contacts["normal_impulse"] * contacts["normal"][:, 1] + contacts["friction_impulse"][:, 1]
+    assert vertical.sum() / (weight * dt) == pytest.approx(1.0, abs=0.01)
+    assert set(contacts["a"]) == {0}
+    assert set(contacts["b"]) == {-1}
+    np.testing.assert_allclose(contacts["point"][:, 1], 0, atol=0.02)
+    np.testing.assert_allclose(np.sort(contacts["point"][:, 0] - run.poses()[0, 0])[[0, -1]], [-0.5, 0.5], atol=0.02)
+    with pytest.raises(ValueError, match="contacts"):
+        talus.Simulation(ONE_BOX).contacts()
+
+
+def test_contacts_change_no_bits_of_a_run():
+    hashes = set()
+    for contacts in (False, True):
+        run = talus.Simulation("drop_in_a_pile_3d", policy="full", set={"run.frames": 60}, contacts=contacts)
+        run.step(10**6)
+        hashes.add(run.hash())
+    assert len(hashes) == 1
+
+
+def test_events_of_all_steps_add_up_to_the_bodies_that_sleep():
+    run = talus.Simulation("drop_in_a_pile_2d")
+    asleep, causes = set(), set()
+    for _ in range(400):
+        run.step()
+        for event in run.events():
+            assert event["step"] == run.step_count
+            (asleep.remove if event["woke"] else asleep.add)(event["body"])
+            causes.add((str(event["cause"]), bool(event["woke"])))
+    assert asleep == set(np.flatnonzero(run.asleep()))
+    assert ("rest", False) in causes
+
+
+def test_bodies_by_number_are_woken():
+    run = talus.Simulation("drop_in_a_pile_2d")
+    run.step(400)
+    first, second, *others = np.flatnonzero(run.asleep())
+    run.wake([])
+    assert run.asleep()[first]
+    run.wake(first)
+    run.wake([second])
+    assert not run.asleep()[[first, second]].any()
+    assert run.asleep()[others].all()
+    run.wake()
+    assert not run.asleep().any()
+    with pytest.raises(ValueError, match="body = 1000"):
+        run.wake([0, 1000])
+
+
+def test_a_kicked_box_wakes_and_flies_as_thrown():
+    run = talus.Simulation(ONE_BOX)
+    run.step(300)
+    assert run.asleep()[0]
+    start = run.poses()[0, :2]
+    began = run.time
+    run.kick(0, [2.0, 6.0])
+    np.testing.assert_allclose(run.velocities()[0], [2.0, 6.0], atol=1e-6)
+    run.step(30)
+    time = run.time - began
+    flown = np.array([2.0 * time, 6.0 * time - 0.5 * 9.81 * time**2])
+    np.testing.assert_allclose(run.poses()[0, :2] - start, flown, atol=9.81 * time * time / 30)  # of the integrator
+    run.kick([0], [0, 0], [1.5])
+    assert run.spins()[0, 0] == pytest.approx(1.5, abs=1e-3)
+    with pytest.raises(ValueError, match="velocity"):
+        run.kick(0, [1.0])
+
+
+def test_a_pile_counts_the_bodies_in_its_layers():
+    run = talus.Simulation("drop_in_a_pile_2d")
+    run.step(600)
+    (pile,) = run.piles()
+    height = run.poses()[:, 1]
+    inside = (np.abs(run.poses()[:, 0] - pile.centre[0]) < pile.radius) & (height < pile.height)
+    assert pile.layers["count"].sum() <= len(height)
+    assert pile.layers["count"].sum() >= 0.5 * inside.sum()
+    assert (pile.layers["sleeping"] <= pile.layers["count"]).all()
+    np.testing.assert_allclose(pile.layers["bottom"][1:], pile.layers["top"][:-1])
+    assert pile.layers["capacity"].sum() == pytest.approx(pile.structure_size, abs=1e-6 * pile.structure_size)
+
+
+def test_a_bad_value_is_an_error_with_field_and_value():
+    with pytest.raises(talus.SceneError, match="run.frames = -5"):
+        talus.Simulation("drop_in_a_pile_2d", set={"run.frames": -5})
+
+
+def test_all_errors_of_a_toml_text_have_their_lines():
+    with pytest.raises(talus.SceneError) as caught:
+        talus.Simulation("dimension = 2\n[run]\nframes = -3\nfoo = 1\n")
+    assert "scene:3:10: run.frames = -3" in str(caught.value)
+    assert "scene:4:1: run.foo = 1" in str(caught.value)
+
+
+def test_other_threads_run_during_a_step():
+    counted = 0
+    done = threading.Event()
+
+    def count():
+        nonlocal counted
+        while not done.is_set():
+            counted += 1
+
+    run = talus.Simulation("drop_in_a_pile_2d")
+    thread = threading.Thread(target=count)
+    thread.start()
+    before = counted
+    run.step(300)
+    during = counted - before
+    done.set()
+    thread.join()
+    assert during > 1000
+
+
+def test_ctrl_c_stops_a_step_and_the_run_can_go_on():
+    run = talus.Simulation("drop_in_a_pile_3d", policy="full", set={"run.frames": 10**6})
+    threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        run.step(10**9)
+    stopped = run.step_count
+    assert stopped < 10**6
+    run.step(1)
+    assert run.step_count == stopped + 1

@@ -1,8 +1,8 @@
 """A sleeper in an engine of balls that is written in NumPy."""
 
-import unittest
 
 import numpy as np
+import pytest
 import talus
 
 DT = 1 / 120
@@ -114,8 +114,9 @@ class Balls:
             self.do(self.sleeper.step(DT, bodies, poses, self.velocity[balls], spins, contacts))
 
 
-def sleepers():
-    return talus.PileSleeper2D(), talus.PileSleeper3D()
+@pytest.fixture(params=[talus.PileSleeper2D, talus.PileSleeper3D])
+def sleeper(request):
+    return request.param()
 
 
 def at(dimension, x, height):
@@ -130,161 +131,160 @@ def tower(sleeper, balls=3):
     return engine
 
 
-class Sleeper(unittest.TestCase):
-    def test_balls_that_drop_on_the_ground_fall_asleep_there_once_they_rest(self):
-        for sleeper in sleepers():
-            engine = Balls(sleeper)
-            heights = np.arange(1, 6)
-            for k in heights:
-                engine.add(at(engine.dimension, 3.0 * k, RADIUS + k))
-            while sleeper.awake and engine.time < 10:
-                engine.step()
-            self.assertEqual(sleeper.awake, 0)
-            np.testing.assert_allclose(engine.position @ engine.up, RADIUS, atol=0.02)
-            asleep_at = {body: time for time, kind, body, _ in engine.log if kind == "freeze"}
-            for handle, height in zip(engine.handle, heights):
-                fall = np.sqrt(2 * height / 9.81)  # of free fall
-                self.assertGreater(asleep_at[handle], fall)
-                self.assertLess(asleep_at[handle], fall + 0.5)
-            self.assertEqual({cause for _, kind, _, cause in engine.log if kind == "freeze"}, {"rest"})
-
-    def test_a_sleeping_ball_stays_where_it_is_and_is_no_longer_followed(self):
-        for sleeper in sleepers():
-            engine = tower(sleeper)
-            self.assertFalse(engine.movable.any())
-            self.assertEqual(len(sleeper.followed()), 0)
-            before = engine.position.copy()
-            engine.step(60)
-            np.testing.assert_array_equal(engine.position, before)
-
-    def test_without_their_support_sleeping_balls_wake_and_fall(self):
-        for sleeper in sleepers():
-            engine = tower(sleeper)
-            lowest, *others = (int(handle) for handle in engine.handle)
-            started = engine.time
-            engine.remove(lowest)
-            thawed = {(body, cause) for time, kind, body, cause in engine.log if kind == "thaw" and time >= started}
-            self.assertIn((others[0], "lost support"), thawed)
-            self.assertNotIn(lowest, sleeper)
-            self.assertEqual(len(sleeper), 2)
-            engine.step(360)
-            np.testing.assert_allclose(engine.position @ engine.up, [RADIUS, 3 * RADIUS], atol=0.03)
-            self.assertEqual(sleeper.awake, 0)
-
-    def test_a_fast_ball_wakes_the_one_that_it_hits(self):
-        for sleeper in sleepers():
-            engine = tower(sleeper, balls=1)
-            struck = int(engine.handle[0])
-            self.assertTrue(sleeper.asleep(struck))
-            engine.add(at(engine.dimension, -2.0, RADIUS + 0.01))
-            engine.velocity[-1, 0] = 8.0
-            engine.step(40)
-            self.assertIn((struck, "momentum"), [(body, cause) for _, kind, body, cause in engine.log if kind == "thaw"])
-            self.assertGreater(engine.position[0, 0], 0.5)
-
-    def test_a_ball_that_the_program_moves_or_kicks_is_woken_before(self):
-        for sleeper in sleepers():
-            engine = tower(sleeper, balls=1)
-            ball = int(engine.handle[0])
-            changes = sleeper.wake(ball)
-            self.assertEqual(changes.thaw, [(ball, "user")])
-            self.assertEqual((changes.velocities, changes.freeze), ([], []))
-            self.assertEqual(sleeper.wake(ball).thaw, [])
-            engine.do(changes)
-            engine.velocity[0, 0] = 1.0
-            engine.step(60)
-            self.assertAlmostEqual(engine.position[0, 0], 0.5, delta=1e-9)  # no friction in this engine
-            engine.velocity[0] = 0
-            engine.step(120)
-            self.assertTrue(sleeper.asleep(ball))
-            engine.position[0] = at(engine.dimension, 5.0, 2.0)
-            engine.do(sleeper.moved(ball, engine.pose(engine.position[0])))
-            engine.step(240)
-            np.testing.assert_allclose(engine.position[0] @ engine.up, RADIUS, atol=0.02)
-
-    def test_a_body_that_stays_awake_never_sleeps(self):
-        sleeper = talus.PileSleeper3D()
-        engine = Balls(sleeper)
-        engine.add(at(3, 0.0, RADIUS), role="stays_awake")
-        engine.step(240)
-        self.assertEqual(sleeper.awake, 1)
-        sleeper.set_role(int(engine.handle[0]), "sleeps")
-        engine.step(240)
-        self.assertEqual(sleeper.awake, 0)
-
-    def test_a_restored_sleeper_sleeps_as_the_saved_one_in_new_bodies_too(self):
-        for sleeper in sleepers():
-            engine = tower(sleeper)
-            engine.add(at(engine.dimension, 5.0, 4.0))
-            engine.step()
-            saved = sleeper.snapshot()
-            self.assertEqual(saved["asleep"].tolist(), [True, True, True, False])
-            again = Balls(type(sleeper)())
-            for position in engine.position:
-                again.add(position)
-            saved["body"] = again.handle
-            again.do(again.sleeper.restore(saved, again.poses(range(4))))
-            self.assertEqual(again.movable.tolist(), [False, False, False, True])
-            self.assertEqual(again.sleeper.awake, 1)
-
-    def test_another_axis_may_be_up(self):
-        sleeper = talus.PileSleeper3D(gravity=(0, -9.81, 0))
-        engine = Balls(sleeper, up=1)
-        for k in range(3):
-            engine.add([0.0, RADIUS * (1 + 2 * k), 0.0])
-        engine.step(240)
-        usual = tower(talus.PileSleeper3D())
-        self.assertEqual(engine.log, usual.log)
-
-    def test_a_sleeper_that_is_disabled_changes_nothing(self):
-        sleeper = talus.PileSleeper3D(enabled=False)
-        engine = tower(sleeper)
-        self.assertEqual(engine.log, [])
-        self.assertEqual(len(sleeper.followed()), 0)
-
-    def test_bodies_of_any_form_are_added(self):
-        sleeper = talus.PileSleeper3D()
-        pose = [0, 0, 0, 0, 0, 0, 1]
-        bounds = [[-1, -1, -1], [1, 1, 1]]
-        handles = {
-            sleeper.add(pose, mass=1, size=(1, 2, 3), friction=0.3),
-            sleeper.add(pose, mass=1, radius=1, role="kinematic"),
-            sleeper.add(pose, mass=1, bounds=bounds, inertia=(0.4, 0.4, 0.4)),
-            sleeper.add(pose, mass=1, bounds=bounds, inertia=0.4 * np.eye(3)),
-        }
-        self.assertEqual(len(handles), 4)
-        self.assertEqual(set(sleeper.followed().tolist()), handles)
-        flat = talus.PileSleeper2D()
-        self.assertIn(flat.add([0, 0, 0], mass=1, bounds=[[-1, -1], [1, 1]], inertia=0.5), flat)
-
-    def test_bad_input_is_an_error_with_field_and_value_and_changes_nothing(self):
-        sleeper = talus.PileSleeper3D()
-        pose = np.array([0, 0, 1, 0, 0, 0, 1.0])
-        ball = sleeper.add(pose, mass=1, radius=0.5)
-        state = ([ball], [pose], [[0, 0, 0]], [[0, 0, 0]])
-        wrong = np.zeros(1, sleeper.contact_dtype)
-        wrong["a"] = ball + 1
-        for message, call in (
-            ("pose.shape = \\(3,\\)", lambda: sleeper.add([0, 0, 1], mass=1, radius=0.5)),
-            ("quaternion", lambda: sleeper.add([0, 0, 1, 0, 0, 0, 2], mass=1, radius=0.5)),
-            ("mass", lambda: sleeper.add(pose, mass=-1, radius=0.5)),
-            ("form", lambda: sleeper.add(pose, mass=1)),
-            ("role = tired", lambda: sleeper.add(pose, mass=1, radius=0.5, role="tired")),
-            ("dt = -1", lambda: sleeper.step(-1, *state)),
-            ("velocities.shape", lambda: sleeper.step(DT, [ball], [pose], [[0, 0]], [[0, 0, 0]])),
-            ("see followed", lambda: sleeper.step(DT, [], np.empty((0, 7)), np.empty((0, 3)), np.empty((0, 3)))),
-            ("contact.a", lambda: sleeper.step(DT, *state, wrong)),
-            ("body", lambda: sleeper.remove(ball + 1)),
-            ("up = north", lambda: talus.PileSleeper3D(up="north")),
-            ("extent = 0", lambda: talus.PileSleeper3D(extent=0)),
-        ):
-            with self.assertRaisesRegex(ValueError, message):
-                call()
-        with self.assertRaisesRegex(TypeError, "contact_dtype"):
-            sleeper.step(DT, *state, np.zeros((1, 3)))
-        self.assertEqual(len(sleeper), 1)
-        sleeper.step(DT, *state)
+def test_balls_that_drop_on_the_ground_fall_asleep_there_once_they_rest(sleeper):
+    engine = Balls(sleeper)
+    heights = np.arange(1, 6)
+    for k in heights:
+        engine.add(at(engine.dimension, 3.0 * k, RADIUS + k))
+    while sleeper.awake and engine.time < 10:
+        engine.step()
+    assert sleeper.awake == 0
+    np.testing.assert_allclose(engine.position @ engine.up, RADIUS, atol=0.02)
+    asleep_at = {body: time for time, kind, body, _ in engine.log if kind == "freeze"}
+    for handle, height in zip(engine.handle, heights):
+        fall = np.sqrt(2 * height / 9.81)  # of free fall
+        assert asleep_at[handle] > fall
+        assert asleep_at[handle] < fall + 0.5
+    assert {cause for _, kind, _, cause in engine.log if kind == "freeze"} == {"rest"}
 
 
-if __name__ == "__main__":
-    unittest.main()
+def test_a_sleeping_ball_stays_where_it_is_and_is_no_longer_followed(sleeper):
+    engine = tower(sleeper)
+    assert not engine.movable.any()
+    assert len(sleeper.followed()) == 0
+    before = engine.position.copy()
+    engine.step(60)
+    np.testing.assert_array_equal(engine.position, before)
+
+
+def test_without_their_support_sleeping_balls_wake_and_fall(sleeper):
+    engine = tower(sleeper)
+    lowest, *others = (int(handle) for handle in engine.handle)
+    started = engine.time
+    engine.remove(lowest)
+    thawed = {(body, cause) for time, kind, body, cause in engine.log if kind == "thaw" and time >= started}
+    assert (others[0], "lost support") in thawed
+    assert lowest not in sleeper
+    assert len(sleeper) == 2
+    engine.step(360)
+    np.testing.assert_allclose(engine.position @ engine.up, [RADIUS, 3 * RADIUS], atol=0.03)
+    assert sleeper.awake == 0
+
+
+def test_a_fast_ball_wakes_the_one_that_it_hits(sleeper):
+    engine = tower(sleeper, balls=1)
+    struck = int(engine.handle[0])
+    assert sleeper.asleep(struck)
+    engine.add(at(engine.dimension, -2.0, RADIUS + 0.01))
+    engine.velocity[-1, 0] = 8.0
+    engine.step(40)
+    assert (struck, "momentum") in [(body, cause) for _, kind, body, cause in engine.log if kind == "thaw"]
+    assert engine.position[0, 0] > 0.5
+
+
+def test_a_ball_that_the_program_moves_or_kicks_is_woken_before(sleeper):
+    engine = tower(sleeper, balls=1)
+    ball = int(engine.handle[0])
+    changes = sleeper.wake(ball)
+    assert changes.thaw == [(ball, "user")]
+    assert (changes.velocities, changes.freeze) == ([], [])
+    assert sleeper.wake(ball).thaw == []
+    engine.do(changes)
+    engine.velocity[0, 0] = 1.0
+    engine.step(60)
+    assert engine.position[0, 0] == pytest.approx(0.5, abs=1e-9)  # no friction in this engine
+    engine.velocity[0] = 0
+    engine.step(120)
+    assert sleeper.asleep(ball)
+    engine.position[0] = at(engine.dimension, 5.0, 2.0)
+    engine.do(sleeper.moved(ball, engine.pose(engine.position[0])))
+    engine.step(240)
+    np.testing.assert_allclose(engine.position[0] @ engine.up, RADIUS, atol=0.02)
+
+
+def test_a_body_that_stays_awake_never_sleeps():
+    sleeper = talus.PileSleeper3D()
+    engine = Balls(sleeper)
+    engine.add(at(3, 0.0, RADIUS), role="stays_awake")
+    engine.step(240)
+    assert sleeper.awake == 1
+    sleeper.set_role(int(engine.handle[0]), "sleeps")
+    engine.step(240)
+    assert sleeper.awake == 0
+
+
+def test_a_restored_sleeper_sleeps_as_the_saved_one_in_new_bodies_too(sleeper):
+    engine = tower(sleeper)
+    engine.add(at(engine.dimension, 5.0, 4.0))
+    engine.step()
+    saved = sleeper.snapshot()
+    assert saved["asleep"].tolist() == [True, True, True, False]
+    again = Balls(type(sleeper)())
+    for position in engine.position:
+        again.add(position)
+    saved["body"] = again.handle
+    again.do(again.sleeper.restore(saved, again.poses(range(4))))
+    assert again.movable.tolist() == [False, False, False, True]
+    assert again.sleeper.awake == 1
+
+
+def test_another_axis_may_be_up():
+    sleeper = talus.PileSleeper3D(gravity=(0, -9.81, 0))
+    engine = Balls(sleeper, up=1)
+    for k in range(3):
+        engine.add([0.0, RADIUS * (1 + 2 * k), 0.0])
+    engine.step(240)
+    usual = tower(talus.PileSleeper3D())
+    assert engine.log == usual.log
+
+
+def test_a_sleeper_that_is_disabled_changes_nothing():
+    sleeper = talus.PileSleeper3D(enabled=False)
+    engine = tower(sleeper)
+    assert engine.log == []
+    assert len(sleeper.followed()) == 0
+
+
+def test_bodies_of_any_form_are_added():
+    sleeper = talus.PileSleeper3D()
+    pose = [0, 0, 0, 0, 0, 0, 1]
+    bounds = [[-1, -1, -1], [1, 1, 1]]
+    handles = {
+        sleeper.add(pose, mass=1, size=(1, 2, 3), friction=0.3),
+        sleeper.add(pose, mass=1, radius=1, role="kinematic"),
+        sleeper.add(pose, mass=1, bounds=bounds, inertia=(0.4, 0.4, 0.4)),
+        sleeper.add(pose, mass=1, bounds=bounds, inertia=0.4 * np.eye(3)),
+    }
+    assert len(handles) == 4
+    assert set(sleeper.followed().tolist()) == handles
+    flat = talus.PileSleeper2D()
+    assert flat.add([0, 0, 0], mass=1, bounds=[[-1, -1], [1, 1]], inertia=0.5) in flat
+
+
+def test_bad_input_is_an_error_with_field_and_value_and_changes_nothing():
+    sleeper = talus.PileSleeper3D()
+    pose = np.array([0, 0, 1, 0, 0, 0, 1.0])
+    ball = sleeper.add(pose, mass=1, radius=0.5)
+    state = ([ball], [pose], [[0, 0, 0]], [[0, 0, 0]])
+    wrong = np.zeros(1, sleeper.contact_dtype)
+    wrong["a"] = ball + 1
+    for message, call in (
+        ("pose.shape = \\(3,\\)", lambda: sleeper.add([0, 0, 1], mass=1, radius=0.5)),
+        ("quaternion", lambda: sleeper.add([0, 0, 1, 0, 0, 0, 2], mass=1, radius=0.5)),
+        ("mass", lambda: sleeper.add(pose, mass=-1, radius=0.5)),
+        ("form", lambda: sleeper.add(pose, mass=1)),
+        ("role = tired", lambda: sleeper.add(pose, mass=1, radius=0.5, role="tired")),
+        ("dt = -1", lambda: sleeper.step(-1, *state)),
+        ("velocities.shape", lambda: sleeper.step(DT, [ball], [pose], [[0, 0]], [[0, 0, 0]])),
+        ("see followed", lambda: sleeper.step(DT, [], np.empty((0, 7)), np.empty((0, 3)), np.empty((0, 3)))),
+        ("contact.a", lambda: sleeper.step(DT, *state, wrong)),
+        ("body", lambda: sleeper.remove(ball + 1)),
+        ("up = north", lambda: talus.PileSleeper3D(up="north")),
+        ("extent = 0", lambda: talus.PileSleeper3D(extent=0)),
+    ):
+        with pytest.raises(ValueError, match=message):
+            call()
+    with pytest.raises(TypeError, match="contact_dtype"):
+        sleeper.step(DT, *state, np.zeros((1, 3)))
+    assert len(sleeper) == 1
+    sleeper.step(DT, *state)

@@ -2,7 +2,6 @@
 
 import inspect
 import typing
-import unittest
 from pathlib import Path
 
 import talus
@@ -19,24 +18,20 @@ def public():
                     yield f"{name}.{member}", value
 
 
-class Types(unittest.TestCase):
-    def test_all_that_is_public_has_a_docstring_and_types_that_resolve(self):
-        names = set()
-        for name, thing in public():
-            names.add(name)
-            self.assertTrue(inspect.getdoc(thing), name)
-            call = thing.fget if isinstance(thing, property) else thing
-            if not inspect.isfunction(call):
-                continue
-            hints = typing.get_type_hints(call)
-            expected = {parameter for parameter in inspect.signature(call).parameters if parameter != "self"}
-            self.assertEqual(set(hints), expected | {"return"}, name)
-        self.assertLessEqual({"run", "open", "Simulation.poses", "Record.positions", "PileSleeper3D.step"}, names)
-
-    def test_the_package_says_that_it_is_typed(self):
-        self.assertTrue((Path(talus.__file__).parent / "py.typed").exists())
-        self.assertTrue((Path(talus.__file__).parent / "_talus.pyi").exists())
+def test_all_that_is_public_has_a_docstring_and_types_that_resolve():
+    names = set()
+    for name, thing in public():
+        names.add(name)
+        assert inspect.getdoc(thing), name
+        call = thing.fget if isinstance(thing, property) else thing
+        if not inspect.isfunction(call):
+            continue
+        hints = typing.get_type_hints(call)
+        expected = {parameter for parameter in inspect.signature(call).parameters if parameter != "self"}
+        assert set(hints) == expected | {"return"}, name
+    assert {"run", "open", "Simulation.poses", "Record.positions", "PileSleeper3D.step"} <= names
 
 
-if __name__ == "__main__":
-    unittest.main()
+def test_the_package_says_that_it_is_typed():
+    assert (Path(talus.__file__).parent / "py.typed").exists()
+    assert (Path(talus.__file__).parent / "_talus.pyi").exists()
