@@ -131,7 +131,8 @@ class BulletSleeper {
 
   /// What a saved program must keep beside its bodies and their masses.
   std::vector<SavedSleep> snapshot() const { return core_.snapshot(); }
-  /// Mass [kg] of a watched body, also of a sleeping one, which has none in Bullet.
+  /// Mass [kg] of a watched body, also of a sleeping one, which has none in Bullet. Throws InvalidValue on any other
+  /// body.
   btScalar mass(const btRigidBody& body) const {
     return asleep(body) ? entries_[handle(body).slot].mass : body.getMass();
   }
