@@ -45,8 +45,8 @@ class PileSleeper {
   std::span<const Handle> followed();
   /// Whether the next after_step() takes the contacts of all bodies that are awake, since something sleeps.
   bool needs_all_contacts() const { return enabled_ && sleeping_.needs_all_contacts(); }
-  /// If not: whether it takes those of this body. Contacts between bodies of which none is needed change nothing and may
-  /// be left out.
+  /// If not: whether it takes those of this body. Contacts between bodies of which none is needed change nothing and
+  /// may be left out.
   bool needs_contacts(Handle handle) const;
   /// One decision. Call it after each step of the engine, substeps too.
   const SleepChanges<Dim>& after_step(const GivenStep<Dim>& step);

@@ -413,7 +413,7 @@ class Box2dSleeper {
   Box2dImpulses impulses_;
   Listener listener_{impulses_};
   std::unordered_map<const b2Body*, Handle> handles_;
-  std::vector<Entry> entries_;  // [slot]
+  std::vector<Entry> entries_;       // [slot]
   std::vector<Handle> contacts_of_;  // these bodies are needed, where not all are
   StepBuffer<2> buffer_;
 };

@@ -12,22 +12,24 @@
 namespace talus::test {
 namespace {
 
-constexpr double drum_radius = 9.0;  // [m]
-constexpr double wall = 1.0;         // [m]
-constexpr float drum_spin = 1.0F;    // [rad/s]
+constexpr double wall = 1.0;       // [m]
+constexpr float drum_spin = 0.7F;  // [rad/s]
 constexpr int drum_sides = 8;
 
+/// Boxes fill a third of the drum.
+double drum_radius(int boxes) { return 9.0 * std::sqrt(boxes / 300.0); }
+
 /// Where box number `i` starts in the drum, in rows `per_row` wide.
-Vec2 start(int i, int per_row) {
-  return {1.2 * (i % per_row - 0.5 * (per_row - 1)), 1.0 * (i / per_row) - 0.5 * drum_radius};
+Vec2 start(int i, int per_row, double radius) {
+  return {1.2 * (i % per_row - 0.5 * (per_row - 1)), 1.0 * (i / per_row) - 0.5 * radius};
 }
 
 /// The middle of a side of the drum and its angle.
-Pose<2> side(int number) {
+Pose<2> side(int number, double radius) {
   const double angle = 2.0 * std::numbers::pi * number / drum_sides;
-  return {drum_radius * Vec2(std::cos(angle), std::sin(angle)), Rotation<2>(angle)};
+  return {radius * Vec2(std::cos(angle), std::sin(angle)), Rotation<2>(angle)};
 }
-double side_length() { return 2.0 * (drum_radius + wall) * std::tan(std::numbers::pi / drum_sides); }
+double side_length(double radius) { return 2.0 * (radius + wall) * std::tan(std::numbers::pi / drum_sides); }
 
 /// A drum that turns, in the plane.
 class Box2dDrum {
@@ -35,17 +37,19 @@ class Box2dDrum {
   static std::string name() { return "Box2D"; }
 
   Box2dDrum(int boxes, bool attached) {
+    const double radius = drum_radius(boxes);
     b2BodyDef def;
     def.type = b2_kinematicBody;
     def.angularVelocity = drum_spin;
     drum_ = world_.CreateBody(&def);
     for (int i = 0; i < drum_sides; ++i) {
       b2PolygonShape shape;
-      shape.SetAsBox(static_cast<float>(0.5 * wall), static_cast<float>(0.5 * side_length()),
-                     Box2dScene::to_box2d(side(i).position), static_cast<float>(side(i).rotation.angle()));
+      shape.SetAsBox(static_cast<float>(0.5 * wall), static_cast<float>(0.5 * side_length(radius)),
+                     Box2dScene::to_box2d(side(i, radius).position),
+                     static_cast<float>(side(i, radius).rotation.angle()));
       drum_->CreateFixture(&shape, 0.0F);
     }
-    for (int i = 0; i < boxes; ++i) add_box(0.7 * start(i, 15));
+    for (int i = 0; i < boxes; ++i) add_box(start(i, 15, radius));
     if (attached) sleeper_.emplace(world_).add_all();
   }
   void step() {
@@ -89,21 +93,24 @@ class BulletDrum {
   BulletDrum(int boxes, bool attached) {
     scene_.remove(*scene_.ground);
     constexpr double depth = 8.0;
+    const double radius = drum_radius(boxes);
     for (int i = 0; i < drum_sides; ++i) {
-      pieces_.push_back(std::make_unique<btBoxShape>(to_bullet({0.5 * wall, 0.5 * depth, 0.5 * side_length()})));
-      const Pose<2> at = side(i);
+      pieces_.push_back(std::make_unique<btBoxShape>(to_bullet({0.5 * wall, 0.5 * depth, 0.5 * side_length(radius)})));
+      const Pose<2> at = side(i, radius);
       const btQuaternion turn(btVector3(0, 1, 0), static_cast<btScalar>(-at.rotation.angle()));
       shape_.addChildShape(btTransform(turn, to_bullet({at.position.x(), 0.0, at.position.y()})), pieces_.back().get());
     }
-    for (const double y : {-0.5 * depth - 1.0, 0.5 * depth + 1.0}) scene_.add_box({40, 2, 40}, {0, y, 0}, 0);
+    for (const double y : {-0.5 * depth - 1.0, 0.5 * depth + 1.0})
+      scene_.add_box({4.0 * radius, 2.0, 4.0 * radius}, {0, y, 0}, 0);
     scene_.bodies.push_back(std::make_unique<btRigidBody>(0, &motion_, &shape_));
     drum_ = scene_.bodies.back().get();
     drum_->setCollisionFlags(drum_->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     drum_->setActivationState(DISABLE_DEACTIVATION);
     scene_.world.addRigidBody(drum_);
     for (int i = 0; i < boxes; ++i) {
-      const Vec2 at = start(i / 5, 9);
-      scene_.add_box({1.0, 0.7, 0.5}, {at.x(), 1.2 * (i % 5 - 2), at.y()}, 350.0).setActivationState(DISABLE_DEACTIVATION);
+      const Vec2 at = start(i / 5, 9, radius);
+      scene_.add_box({1.0, 0.7, 0.5}, {at.x(), 1.2 * (i % 5 - 2), at.y()}, 350.0)
+          .setActivationState(DISABLE_DEACTIVATION);
     }
     if (attached) sleeper_.emplace(scene_.world).add_all();
   }

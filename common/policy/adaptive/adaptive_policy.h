@@ -40,8 +40,8 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
     return ring_ ? std::nullopt : checks_.drift_estimate(world);
   }
-  /// Notes of each body that decide() found awake whether it may have rested long enough after the next step, if that is
-  /// about as long as the last one.
+  /// Notes of each body that decide() found awake whether it may have rested long enough after the next step, if that
+  /// is about as long as the last one.
   void note_near_sleep(const World<Dim>& world, std::vector<std::uint8_t>& near) const;
   /// Whether stability checks are on. They take all contacts.
   bool checks_stability() const { return checks_.tolerance() > 0.0; }
