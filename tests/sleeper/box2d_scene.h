@@ -52,6 +52,7 @@ class SleepingBox2dScene : public Box2dScene {
   static constexpr int dimension = 2;
 
   Vec2 place(const Body& body) const { return {body.GetPosition().x, body.GetPosition().y}; }
+  Pose<2> pose(const Body& body) const { return {place(body), Rotation<2>(body.GetAngle())}; }
   void take_away(Body& body) {
     sleeper->about_to_remove(body);
     world.DestroyBody(&body);

@@ -71,6 +71,10 @@ class SleepingBulletScene : public BulletScene {
     const btVector3& at = body.getWorldTransform().getOrigin();
     return {at.x(), at.y(), at.z()};
   }
+  Pose<3> pose(const Body& body) const {
+    const btQuaternion turn = body.getWorldTransform().getRotation();
+    return {place(body), Rotation<3>(turn.w(), turn.x(), turn.y(), turn.z())};
+  }
   void take_away(Body& body) {
     sleeper->about_to_remove(body);
     remove(body);

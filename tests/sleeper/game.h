@@ -1,6 +1,8 @@
 #pragma once
 // A game on an engine of one's own.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -11,26 +13,31 @@
 #include "common/math/require.h"
 #include "common/sleeper/given_step.h"
 #include "tests/sleeper/drops.h"
+#include "tests/sleeper/support_chain.h"
 
 namespace talus::test {
 
 /// Boxes come, go, are teleported, pushed and carried; now and then the state is saved or loaded. Everything is drawn
-/// from a seed. `Scene` is SleepingBulletScene or SleepingBox2dScene.
+/// from a seed, and what must hold is checked after each operation. `Scene` is SleepingBulletScene or the like.
 template <typename Scene>
 class Game {
  public:
   explicit Game(unsigned seed) : random_(seed) {
-    Vector size = Vector::Constant(3.0);
-    size[up] = 4.0;  // it stands in the ground, so that nothing gets under it
-    lift_ = &scene_.add_lift(size, lift_at());
+    lift_ = &scene_.add_lift(lift_size(), lift_at());
     save();
   }
 
-  void play(int turns) {
-    for (int turn = 0; turn < turns; ++turn) {
-      act(static_cast<int>(random_() % 16));
+  /// Stops at the first operation after which something is wrong, and says what; empty: nothing.
+  std::string play(int operations) {
+    for (int number = 0; number < operations; ++number) {
+      const int what = static_cast<int>(random_() % 17);
+      act(what);
+      std::string wrong = faults();
       for (int i = 0; i < 10; ++i) step();
+      wrong += faults();
+      if (!wrong.empty()) return "operation " + std::to_string(number) + ", " + std::to_string(what) + ": " + wrong;
     }
+    return {};
   }
   /// Nothing happens until all is at rest.
   void rest() {
@@ -55,7 +62,7 @@ class Game {
     std::string found;
     if (scene_.sleeper->size() != static_cast<int>(boxes_.size()) + 1) found += "other numbers of bodies; ";
     for (const Body* box : boxes_) {
-      const Vector at = scene_.place(*box);
+      const Vector at = scene_.place(*box);  // NaN is lost
       if (scene_.sleeper->watches(*box) && at[up] > 0.1 && at.cwiseAbs().maxCoeff() < 100) continue;
       for (const double number : at) found += std::to_string(number) + " ";
     }
@@ -80,6 +87,25 @@ class Game {
     return highest;
   }
 
+  /// What must hold at any time. A sleeping box that no chain of touching bodies holds hangs in the air.
+  std::string faults() {
+    std::string found = lost();
+    if (!found.empty()) return found;
+    if (!refuses_removed()) found += "a handle of a removed box is accepted; ";
+    constexpr double gap = 0.05;  // [m] by which a support may have moved away
+    Vector ground = Vector::Constant(200.0);
+    Vector ground_at = Vector::Zero();
+    ground[up] = 2.0;
+    ground_at[up] = -1.0;
+    std::vector<ConvexPiece<dim>> pieces;
+    for (const Body* box : boxes_) pieces.push_back(box_at<dim>(box_size<dim>(), scene_.pose(*box)));
+    const std::vector<bool> holds =
+        held<dim>(pieces, {box_at<dim>(ground, {ground_at}), box_at<dim>(lift_size(), {scene_.place(*lift_)})}, gap);
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      if (!holds[i] && scene_.sleeper->asleep(*boxes_[i])) found += "box " + std::to_string(i) + " hangs in the air; ";
+    return found;
+  }
+
  private:
   using Body = typename Scene::Body;
   using Saved = typename Scene::Saved;
@@ -88,6 +114,11 @@ class Game {
   using Vector = Vec<dim>;
 
   double number(double low, double high) { return low + (high - low) * fraction(random_); }
+  static Vector lift_size() {
+    Vector size = Vector::Constant(3.0);
+    size[up] = 4.0;  // it stands in the ground, so that nothing gets under it
+    return size;
+  }
   Vector lift_at() const {
     Vector at = Vector::Zero();
     at[0] = 6.0;
@@ -111,6 +142,7 @@ class Game {
     if (what == 13) turn_gravity(number(-1, 1));
     if (what == 14) save();
     if (what == 15) load();
+    if (what == 16) scene_.sleeper->wake(any_box());
   }
   void turn_gravity(double aside) {
     gravity_ = aside;
@@ -168,5 +200,16 @@ class Game {
   double saved_lift_ = 0.0;
   double saved_gravity_ = 0.0;
 };
+
+/// Once nothing happens any more.
+template <typename Scene>
+void expect_sound(Game<Scene>& game) {
+  game.rest();
+  EXPECT_EQ(game.lost(), "");
+  EXPECT_TRUE(game.refuses_removed());
+  EXPECT_LE(game.awake(), 3) << game.boxes() << " boxes";
+  EXPECT_LE(game.highest_slot(), game.most_boxes);  // the most there ever were at once, and the lift
+  EXPECT_EQ(game.floating(), 0);
+}
 
 }  // namespace talus::test
