@@ -22,8 +22,9 @@ namespace talus {
 ///
 /// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body do
 /// nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count for nothing. A change of
-/// type ends the contacts of a body and begins them again, which Box2D reports as events. The world must outlive this
-/// object, which wakes all bodies when it ends.
+/// type ends the contacts of a body and begins them again without impulses: Box2D reports it as events, and a woken
+/// heap sinks by a two-thousandth of its height. The world must outlive this object, which wakes all bodies when it
+/// ends.
 class Box2dV3Sleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.
