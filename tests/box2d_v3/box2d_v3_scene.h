@@ -93,6 +93,8 @@ class SleepingBox2dV3Scene : public Box2dV3Scene {
   void move_lift(Body& lift, const Vec2& to, double dt) {
     b2Body_SetLinearVelocity(lift.id, to_box2d((to - place(lift)) / dt));
   }
+  /// Puts it elsewhere at once, not by a motion that throws what lies on it.
+  void place_lift(Body& lift, const Vec2& to) { put(lift, to); }
   /// Place and turn of a body, to be loaded again.
   using Saved = b2Transform;
   Saved save(b2BodyId body) const { return b2Body_GetTransform(body); }

@@ -74,6 +74,8 @@ class SleepingBox2dScene : public Box2dScene {
   }
   /// Where it is after the next step of `dt` [s].
   void move_lift(Body& lift, const Vec2& to, double dt) { lift.SetLinearVelocity(to_box2d((to - place(lift)) / dt)); }
+  /// Puts it elsewhere at once, not by a motion that throws what lies on it.
+  void place_lift(Body& lift, const Vec2& to) { put(lift, to); }
   /// Place and turn of a body, to be loaded again.
   using Saved = b2Transform;
   Saved save(const Body& body) const { return body.GetTransform(); }

@@ -102,6 +102,14 @@ class SleepingBulletScene : public BulletScene {
   void move_lift(Body&, const Vec3& to, double) {
     lift_motion.setWorldTransform(btTransform(btQuaternion::getIdentity(), to_bullet(to)));
   }
+  /// Puts it elsewhere at once, not by a motion that throws what lies on it.
+  void place_lift(Body& lift, const Vec3& to) {
+    const btTransform at(btQuaternion::getIdentity(), to_bullet(to));
+    lift_motion.setWorldTransform(at);
+    lift.setInterpolationWorldTransform(at);
+    lift.setWorldTransform(at);
+    sleeper->moved(lift);
+  }
   /// Place and turn of a body, to be loaded again.
   using Saved = btTransform;
   Saved save(const Body& body) const { return body.getWorldTransform(); }

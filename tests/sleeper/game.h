@@ -182,6 +182,7 @@ class Game {
       there.push_back(saved_[i]);
     }
     lift_height_ = saved_lift_;
+    scene_.place_lift(*lift_, lift_at());
     turn_gravity(saved_gravity_);
     scene_.sleeper->restore(there);
     if (there.size() != saved_.size()) scene_.sleeper->wake_all();  // what lay on a box that is gone must not hang
