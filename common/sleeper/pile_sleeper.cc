@@ -315,7 +315,7 @@ std::vector<SavedSleep> PileSleeper<Dim>::snapshot() const {
   for (std::uint32_t slot = 0; slot < handles_.entries().size(); ++slot) {
     const Entry& entry = handles_.entries()[slot];
     if (!entry.present || entry.role == BodyRole::kinematic) continue;
-    const bool asleep = world().states().asleep[entry.number] != 0;
+    const bool asleep = world().states().asleep[entry.number] != 0 && !sleeping_.rests_on_awake(entry.number);
     saved.push_back({{slot, entry.generation}, asleep, asleep && sleeping_.settled(entry.number)});
   }
   return saved;

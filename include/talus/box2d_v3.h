@@ -234,7 +234,6 @@ class Box2dV3Sleeper {
     const b2Vec2 centre = b2Body_GetWorldCenterOfMass(first);
     for (int i = 0; i < manifold.pointCount; ++i) {
       const b2ManifoldPoint& point = manifold.points[i];  // impulses are those of the last substep
-      if (point.separation > 0.0F && point.normalImpulse <= 0.0F) continue;
       buffer_.contacts.push_back(
           {.a = a,
            .b = b,

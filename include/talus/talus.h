@@ -105,6 +105,12 @@ struct talus_velocity {
   double velocity[3]; /* [m/s] */
   double spin[3];     /* [rad/s] */
 };
+/* What a saved program must keep of a body that is not kinematic. */
+struct talus_saved {
+  talus_handle body;
+  int asleep;
+  int settled; /* asleep, and no stability check is to come */
+};
 /* What the program must do in its engine at once, in this order. The arrays live until the next call. */
 struct talus_changes {
   size_t size;
@@ -143,6 +149,13 @@ TALUS_API int talus_wake_near(talus_sleeper* sleeper, const double low[3], const
 TALUS_API int talus_moved(talus_sleeper* sleeper, talus_handle body, const double position[3], const double rotation[4],
                           struct talus_changes* changes);
 TALUS_API int talus_set_gravity(talus_sleeper* sleeper, const double gravity[3], struct talus_changes* changes);
+/* The array lives until the next call. */
+TALUS_API int talus_snapshot(talus_sleeper* sleeper, const struct talus_saved** saved, size_t* count);
+/* Puts to sleep again what slept, and wakes all others. The bodies must be in their saved places: entry i of `states`
+ * has that of saved[i]; its velocity means nothing. A program that has added its bodies again replaces their handles.
+ */
+TALUS_API int talus_restore(talus_sleeper* sleeper, const struct talus_saved* saved, const struct talus_state* states,
+                            size_t count, struct talus_changes* changes);
 TALUS_API int talus_asleep(const talus_sleeper* sleeper, talus_handle body, int* asleep);
 
 #ifdef __cplusplus

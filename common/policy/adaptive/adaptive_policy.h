@@ -45,6 +45,8 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   void note_near_sleep(const World<Dim>& world, std::vector<std::uint8_t>& near) const;
   /// Whether stability checks are on. They take all contacts.
   bool checks_stability() const { return checks_.tolerance() > 0.0; }
+  /// Whether a sleeping body rests on an awake one, and wakes once that moves away.
+  bool rests_on_awake(BodyIndex sleeper) const { return support_loss_.watches(sleeper); }
   /// The bodies that sleep, as the policy was told.
   const SleepLedger<Dim>& sleepers() const { return sleepers_; }
 
