@@ -28,7 +28,7 @@ int main() {
   std::vector<std::unique_ptr<btRigidBody>> bodies;
   for (int i = 0; i < 3000; ++i) {
     const int kind = i % 3;
-    const btScalar mass = kind + 1;  // [kg]
+    const auto mass = static_cast<btScalar>(kind + 1);  // [kg]
     bodies.push_back(std::make_unique<btRigidBody>(mass, nullptr, shapes[kind], btVector3(mass, mass, mass)));
     const btVector3 place(btScalar(1.5) * btScalar(i / 3), btScalar(1.5) * btScalar(kind - 1), half);
     bodies.back()->setWorldTransform(btTransform(btQuaternion::getIdentity(), place));
