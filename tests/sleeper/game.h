@@ -45,7 +45,8 @@ class Game {
     lift_speed_ = 0.0;
     for (int i = 0; i < 900; ++i) step();
   }
-  /// Boxes that hang in the air: woken, they fall as if nothing held them, but for a fifth.
+  /// Boxes that hang in the air: woken, they fall as if nothing held them, but for a tenth: a heap whose wedge slips
+  /// falls by less.
   int floating() {
     std::vector<double> heights;
     for (const Body* box : boxes_) heights.push_back(scene_.place(*box)[up]);
@@ -55,7 +56,7 @@ class Game {
     const double free_fall = 9.81 * drop_dt * drop_dt * steps * (steps + 1) / 2;
     int count = 0;
     for (std::size_t i = 0; i < boxes_.size(); ++i)
-      count += heights[i] - scene_.place(*boxes_[i])[up] > 0.8 * free_fall ? 1 : 0;
+      count += heights[i] - scene_.place(*boxes_[i])[up] > 0.9 * free_fall ? 1 : 0;
     return count;
   }
   /// Boxes that are lost, with their places; empty: none.
@@ -217,6 +218,7 @@ void expect_sound(Game<Scene>& game) {
   EXPECT_TRUE(game.refuses_removed());
   EXPECT_LE(game.awake(), 3) << game.boxes() << " boxes";
   EXPECT_LE(game.highest_slot(), game.most_boxes);  // the most there ever were at once, and the lift
+  EXPECT_EQ(game.hanging(), "");
   EXPECT_EQ(game.floating(), 0);
 }
 
