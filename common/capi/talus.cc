@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct talus_sleeper {
   virtual const talus_changes& wake_near(const double* low, const double* high) = 0;
   virtual const talus_changes& moved(talus_handle body, const double* position, const double* rotation) = 0;
   virtual const talus_changes& set_gravity(const double* gravity) = 0;
+  virtual const std::vector<talus_saved>& snapshot() = 0;
+  virtual const talus_changes& restore(std::span<const talus_saved> saved, const talus_state* states) = 0;
   virtual bool asleep(talus_handle body) const = 0;
 };
 
@@ -152,6 +155,21 @@ class Sleeper final : public talus_sleeper {
   const talus_changes& set_gravity(const double* gravity) override {
     return written(core_.set_gravity(vector_of<Dim>(gravity)));
   }
+  const std::vector<talus_saved>& snapshot() override {
+    saved_.clear();
+    for (const SavedSleep& one : core_.snapshot())
+      saved_.push_back({to_c(one.body), one.asleep ? 1 : 0, one.settled ? 1 : 0});
+    return saved_;
+  }
+  const talus_changes& restore(std::span<const talus_saved> saved, const talus_state* states) override {
+    std::vector<SavedSleep> given;
+    std::vector<Pose<Dim>> poses;
+    for (std::size_t i = 0; i < saved.size(); ++i) {
+      given.push_back({from_c(saved[i].body), saved[i].asleep != 0, saved[i].settled != 0});
+      poses.push_back(pose_of<Dim>(states[i].position, states[i].rotation));
+    }
+    return written(core_.restore(given, poses));
+  }
   bool asleep(talus_handle body) const override { return core_.asleep(from_c(body)); }
 
  private:
@@ -183,6 +201,7 @@ class Sleeper final : public talus_sleeper {
   PileSleeper<Dim> core_;
   StepBuffer<Dim> buffer_;
   std::vector<talus_handle> followed_;
+  std::vector<talus_saved> saved_;
   std::vector<talus_change> thaw_;
   std::vector<talus_velocity> velocities_;
   std::vector<talus_change> freeze_;
@@ -344,6 +363,24 @@ int talus_set_gravity(talus_sleeper* sleeper, const double gravity[3], talus_cha
   return changing(sleeper, changes, [&](talus_sleeper& s) {
     require_there(gravity, "gravity");
     return s.set_gravity(gravity);
+  });
+}
+int talus_snapshot(talus_sleeper* sleeper, const talus_saved** saved, std::size_t* count) {
+  return guarded([&] {
+    require_there(sleeper, "sleeper");
+    require_there(saved, "saved");
+    require_there(count, "count");
+    const std::vector<talus_saved>& all = sleeper->snapshot();
+    *saved = all.data();
+    *count = all.size();
+  });
+}
+int talus_restore(talus_sleeper* sleeper, const talus_saved* saved, const talus_state* states, std::size_t count,
+                  talus_changes* changes) {
+  return changing(sleeper, changes, [&](talus_sleeper& s) -> const talus_changes& {
+    talus::require(count == 0 || (saved != nullptr && states != nullptr), "saved", "null",
+                   "must be there, and states too, with bodies");
+    return s.restore({saved, count}, states);
   });
 }
 int talus_asleep(const talus_sleeper* sleeper, talus_handle body, int* asleep) {

@@ -106,8 +106,7 @@ void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
 template <int Dim>
 CountedAs<Dim> PileSet<Dim>::counted_now(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const {
   if (states.removed[body] != 0) return {};
-  const bool has_touched = body < std::ssize(has_touched_) && has_touched_[body] != 0;
-  if (!has_touched && !records_[pile].params.count_flying.value_or(true)) return {};
+  if (!has_touched(body) && !records_[pile].params.count_flying.value_or(true)) return {};
   return counted_as(piles_[pile], states, body);
 }
 

@@ -34,6 +34,8 @@ class PileSet {
   /// Notes which bodies have touched something.
   void note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
 
+  /// Whether note_contacts() or note_touch() has told that the body touched something.
+  bool has_touched(BodyIndex body) const { return body < std::ssize(has_touched_) && has_touched_[body] != 0; }
   /// A body has touched something.
   void note_touch(const BodyStates<Dim>& states, BodyIndex body);
   /// The number of a body is now that of another one, or the body was put elsewhere.

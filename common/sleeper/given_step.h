@@ -63,7 +63,7 @@ struct SleepChanges {
 /// What a saved program must keep of a body so that it sleeps again.
 struct SavedSleep {
   Handle body;
-  bool asleep = false;
+  bool asleep = false;   // and not on an awake body, since how far that has moved away is not kept
   bool settled = false;  // asleep, and no stability check is to come
 };
 

@@ -65,7 +65,7 @@ Handle PileSleeper<Dim>::add(const BodyTraits<Dim>& traits, const Pose<Dim>& pos
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::remove(Handle handle) {
-  changes_ = {};
+  clear_changes();
   const Entry entry = handles_.at(handle, "body");
   const Box<Dim> box = bounds(entry);
   const double extent = (box.max() - box.min()).norm();
@@ -84,7 +84,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::remove(Handle handle) {
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::set_role(Handle handle, BodyRole role) {
-  changes_ = {};
+  clear_changes();
   const Entry& entry = handles_.at(handle, "body");
   require(entry.role != BodyRole::kinematic && role != BodyRole::kinematic, "role", static_cast<double>(role),
           "must not be kinematic, before or after: remove the body and add it again");
@@ -116,18 +116,13 @@ std::span<const Handle> PileSleeper<Dim>::followed() {
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::after_step(const GivenStep<Dim>& step) {
-  changes_ = {};
+  clear_changes();
   if (!enabled_) return changes_;
   check_step(step);
   take_states(step);
   take_contacts(step);
   note(sleeping_.prepare(contacts_));
-  std::vector<BodyIndex> reached;
-  for (const Handle handle : kinematic_handles_)
-    kinematic_.find_sleepers(handles_.at(handle, "body").number, world(), touching_distance * sleeping_.extent(),
-                             reached);
-  note(sleeping_.wake(reached, SleepCause::lost_support));
-  for (const BodyIndex body : reached) follows_[body] = 1;
+  if (sleeping_.any_asleep()) wake_reached();
   world().give_contacts(contacts_);
   const Decision<Dim>& decision = sleeping_.decide(step.dt, follows_);
   note(decision.thaw);
@@ -136,6 +131,17 @@ const SleepChanges<Dim>& PileSleeper<Dim>::after_step(const GivenStep<Dim>& step
     changes_.velocities.push_back(
         {handle_of(change.body), turn_.out(change.velocity), turn_.spin_out(change.spin), SleepCause::momentum});
   return changes_;
+}
+
+/// Wakes what kinematic bodies reach.
+template <int Dim>
+void PileSleeper<Dim>::wake_reached() {
+  reached_.clear();
+  for (const Handle handle : kinematic_handles_)
+    kinematic_.find_sleepers(handles_.at(handle, "body").number, world(), touching_distance * sleeping_.extent(),
+                             reached_);
+  note(sleeping_.wake(reached_, SleepCause::lost_support));
+  for (const BodyIndex body : reached_) follows_[body] = 1;
 }
 
 /// Everything is checked before anything is taken over.
@@ -170,14 +176,15 @@ template <int Dim>
 void PileSleeper<Dim>::check_state(const GivenStep<Dim>& step, std::size_t i) const {
   const Handle handle = step.bodies[i];
   const Entry& entry = handles_.at(handle, "bodies");
-  require(finite<Dim>(step.poses[i]) && step.velocities[i].allFinite() && step.spins[i].allFinite(),
-          fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), "must be finite");
+  if (!finite<Dim>(step.poses[i]) || !step.velocities[i].allFinite() || !step.spins[i].allFinite())
+    require(false, fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), "must be finite");
   if (entry.role == BodyRole::kinematic || world().states().asleep[entry.number] == 0) return;
   const double reach = 0.5 * world().shape_of(entry.number).extent;
   const Pose<Dim>& slept = world().states().pose[entry.number];
   const double way = max_displacement<Dim>(slept, turn_.in(step.poses[i]), reach);
-  require(way <= stays_within * 2.0 * reach, fmt::format("way of sleeping body {}", handle.slot), way,
-          "must be 0: a sleeping body was moved without a call of moved() or wake()");
+  if (!(way <= stays_within * 2.0 * reach))
+    require(false, fmt::format("way of sleeping body {}", handle.slot), way,
+            "must be 0: a sleeping body was moved without a call of moved() or wake()");
 }
 
 template <int Dim>
@@ -230,6 +237,20 @@ void PileSleeper<Dim>::note(const Events& events) {
 }
 
 template <int Dim>
+void PileSleeper<Dim>::clear_changes() {
+  changes_.thaw.clear();
+  changes_.velocities.clear();
+  changes_.freeze.clear();
+}
+
+template <int Dim>
+bool PileSleeper<Dim>::needs_contacts(Handle handle) const {
+  if (!enabled_) return false;
+  const Entry& entry = handles_.at(handle, "body");
+  return entry.role != BodyRole::kinematic && sleeping_.needs_contacts(entry.number);
+}
+
+template <int Dim>
 bool PileSleeper<Dim>::asleep(Handle handle) const {
   const Entry& entry = handles_.at(handle, "body");
   return entry.role != BodyRole::kinematic && world().states().asleep[entry.number] != 0;
@@ -237,7 +258,7 @@ bool PileSleeper<Dim>::asleep(Handle handle) const {
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::wake(Handle handle) {
-  changes_ = {};
+  clear_changes();
   const Entry& entry = handles_.at(handle, "body");
   if (asleep(handle)) note(sleeping_.set_moving(entry.number, SleepCause::user));
   return changes_;
@@ -245,14 +266,14 @@ const SleepChanges<Dim>& PileSleeper<Dim>::wake(Handle handle) {
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::wake_all() {
-  changes_ = {};
+  clear_changes();
   note(sleeping_.wake_all());
   return changes_;
 }
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::wake_near(const Box<Dim>& box) {
-  changes_ = {};
+  clear_changes();
   require(!box.min().hasNaN() && !box.max().hasNaN(), "box", "NaN", "must have corners that are numbers");
   if (box.isEmpty()) return changes_;
   Box<Dim> turned;
@@ -264,7 +285,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::wake_near(const Box<Dim>& box) {
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::moved(Handle handle, const Pose<Dim>& to) {
-  changes_ = {};
+  clear_changes();
   const Entry& entry = handles_.at(handle, "body");
   require(finite<Dim>(to), "pose", to.position.norm(), "must be finite");
   const Box<Dim> before = bounds(entry);
@@ -282,7 +303,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::moved(Handle handle, const Pose<Dim>&
 
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::set_gravity(const Vec<Dim>& gravity) {
-  changes_ = {};
+  clear_changes();
   require(gravity.allFinite(), "gravity", gravity.norm(), "must be finite");
   note(sleeping_.set_gravity(turn_.in(gravity)));
   return changes_;
@@ -294,7 +315,7 @@ std::vector<SavedSleep> PileSleeper<Dim>::snapshot() const {
   for (std::uint32_t slot = 0; slot < handles_.entries().size(); ++slot) {
     const Entry& entry = handles_.entries()[slot];
     if (!entry.present || entry.role == BodyRole::kinematic) continue;
-    const bool asleep = world().states().asleep[entry.number] != 0;
+    const bool asleep = world().states().asleep[entry.number] != 0 && !sleeping_.rests_on_awake(entry.number);
     saved.push_back({{slot, entry.generation}, asleep, asleep && sleeping_.settled(entry.number)});
   }
   return saved;
@@ -303,7 +324,7 @@ std::vector<SavedSleep> PileSleeper<Dim>::snapshot() const {
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::restore(std::span<const SavedSleep> saved,
                                                    std::span<const Pose<Dim>> poses) {
-  changes_ = {};
+  clear_changes();
   require(saved.size() == poses.size(), "poses", static_cast<double>(poses.size()), "must be as many as saved bodies");
   for (std::size_t i = 0; i < saved.size(); ++i) {
     const Entry& entry = handles_.at(saved[i].body, "saved body");

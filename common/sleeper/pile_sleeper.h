@@ -43,6 +43,11 @@ class PileSleeper {
 
   /// The bodies whose states after_step() needs: those awake and the kinematic ones. Valid until the next call.
   std::span<const Handle> followed();
+  /// Whether the next after_step() takes the contacts of all bodies that are awake, since something sleeps.
+  bool needs_all_contacts() const { return enabled_ && sleeping_.needs_all_contacts(); }
+  /// If not: whether it takes those of this body. Contacts between bodies of which none is needed change nothing and
+  /// may be left out.
+  bool needs_contacts(Handle handle) const;
   /// One decision. Call it after each step of the engine, substeps too.
   const SleepChanges<Dim>& after_step(const GivenStep<Dim>& step);
 
@@ -85,6 +90,8 @@ class PileSleeper {
   std::vector<BodyIndex> near(const Box<Dim>& box, double extent) const;
   Handle handle_of(BodyIndex body) const { return handle_of_[body]; }
   void note(const Events& events);
+  void clear_changes();
+  void wake_reached();
 
   bool enabled_;
   AxisTurn<Dim> turn_;
@@ -95,6 +102,7 @@ class PileSleeper {
   std::vector<Handle> handle_of_;       // [body] of the world
   std::vector<Handle> followed_;        // of the last call of followed()
   std::vector<Contact<Dim>> contacts_;  // of the step, as given
+  std::vector<BodyIndex> reached_;      // scratch
   std::vector<std::uint8_t> follows_;   // [body] whether it touches a kinematic body that moves
   std::vector<std::int64_t> given_;     // [slot] number of the last step that had it
   std::int64_t steps_ = 0;

@@ -37,6 +37,7 @@ BodyIndex SleepingWorld<Dim>::add(const Shape<Dim>& shape, const Pose<Dim>& pose
   if (const auto number = world_.free_number(); number && control_) control_->forget(*number);
   const BodyIndex body = world_.put(shape, pose);
   stays_awake_.resize(world_.states().asleep.size());
+  near_sleep_.resize(stays_awake_.size());
   stays_awake_[body] = stays_awake ? 1 : 0;
   ++count_;
   return body;
@@ -147,8 +148,19 @@ const Decision<Dim>& SleepingWorld<Dim>::decide(double dt, const std::vector<std
                     .kept_awake = [&](BodyIndex body) {
                       return stays_awake_[body] != 0 || follows[body] != 0 || gravity_->keeps_awake(time_);
                     }});
+  policy_->note_near_sleep(world_, near_sleep_);
   control_->apply(step_);
   return control_->decision();
+}
+
+template <int Dim>
+bool SleepingWorld<Dim>::needs_all_contacts() const {
+  return !control_ || any_asleep() || control_->piles().has_unplaced() || policy_->checks_stability();
+}
+
+template <int Dim>
+bool SleepingWorld<Dim>::needs_contacts(BodyIndex body) const {
+  return near_sleep_[body] != 0 || !control_->piles().has_touched(body);
 }
 
 template class SleepingWorld<2>;

@@ -49,8 +49,17 @@ class SleepingWorld {
   /// Returns what was done.
   const Decision<Dim>& decide(double dt, const std::vector<std::uint8_t>& follows);
 
+  bool any_asleep() const { return count_ > std::ssize(world_.awake()); }
+  /// Whether the next decision takes the contacts of all bodies that are awake.
+  bool needs_all_contacts() const;
+  /// Whether it takes those of this one, while nothing sleeps: to count it in the pile once it has touched something,
+  /// and to find what supports it once it is near its sleep.
+  bool needs_contacts(BodyIndex body) const;
+
   /// Whether a body sleeps and waits for no stability check.
   bool settled(BodyIndex body) const { return policy_ != nullptr && policy_->sleepers().settled(body); }
+  /// Whether a sleeping body rests on an awake one.
+  bool rests_on_awake(BodyIndex body) const { return policy_ != nullptr && policy_->rests_on_awake(body); }
   /// D [m]; 0 before the first decision.
   double extent() const { return typical_.extent; }
 
@@ -61,6 +70,7 @@ class SleepingWorld {
   SleeperOptions options_;
   GivenWorld<Dim> world_;
   std::vector<std::uint8_t> stays_awake_;  // [body]
+  std::vector<std::uint8_t> near_sleep_;   // [body] after the last decision
   TypicalBody typical_{.bounding_volume = 0.0, .extent = 0.0, .mass = 0.0};
   int typical_count_ = 0;        // bodies when it was found
   int count_ = 0;                // bodies now

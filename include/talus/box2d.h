@@ -170,12 +170,12 @@ class Box2dSleeper {
     if (!enabled_) return;
     listen();
     carry_out(core_.set_gravity(from_box2d(world_.GetGravity())));
+    all_contacts_ = core_.needs_all_contacts();
+    if (!all_contacts_) return;  // the speeds are those at which bodies meet sleeping ones
     for (const Handle handle : core_.followed()) {
       Entry& entry = entries_[handle.slot];
-      if (entry.body->GetType() == b2_kinematicBody) continue;
       entry.velocity = entry.body->GetLinearVelocity();
       entry.spin = entry.body->GetAngularVelocity();
-      if (core_.role(handle) != free_role(*entry.body)) carry_out(core_.set_role(handle, free_role(*entry.body)));
     }
   }
   /// Call it directly after each step of Box2D, of `dt` [s]. Returns the changes, which the world has already; valid
@@ -183,7 +183,7 @@ class Box2dSleeper {
   const SleepChanges<2>& after_step(double dt) {
     impulses_.end_step();
     buffer_.clear();
-    if (enabled_) read_states();
+    if (enabled_) read_bodies();
     if (enabled_) read_contacts();
     const SleepChanges<2>& changes = core_.after_step(buffer_.step(dt));
     carry_out(changes);
@@ -312,12 +312,23 @@ class Box2dSleeper {
     return found == handles_.end() ? Handle{} : found->second;
   }
 
-  void read_states() {
-    for (const Handle handle : core_.followed()) read_state(handle);
+  void read_bodies() {
+    contacts_of_.clear();
+    for (const Handle handle : core_.followed()) {
+      follow_role(handle);
+      read_state(handle);
+      if (!all_contacts_ && core_.needs_contacts(handle)) contacts_of_.push_back(handle);
+    }
 #ifndef NDEBUG
     for (const auto& [body, handle] : handles_)  // finds sleeping bodies that were moved; nothing depends on the order
       if (core_.asleep(handle)) read_state(handle);
 #endif
+  }
+  /// A body may have got its first joint, or have lost its last one.
+  void follow_role(Handle handle) {
+    const b2Body& body = *entries_[handle.slot].body;
+    if (body.GetType() == b2_dynamicBody && core_.role(handle) != free_role(body))
+      carry_out(core_.set_role(handle, free_role(body)));
   }
   void read_state(Handle handle) {
     const b2Body& body = *entries_[handle.slot].body;
@@ -325,11 +336,20 @@ class Box2dSleeper {
   }
 
   void read_contacts() {
-    for (b2Contact* contact = world_.GetContactList(); contact != nullptr; contact = contact->GetNext())
-      if (contact->IsTouching() && !contact->GetFixtureA()->IsSensor() && !contact->GetFixtureB()->IsSensor())
+    if (all_contacts_)
+      for (b2Contact* contact = world_.GetContactList(); contact != nullptr; contact = contact->GetNext())
         read_contact(*contact);
+    std::ranges::sort(contacts_of_);
+    for (const Handle handle : contacts_of_)
+      for (b2ContactEdge* edge = entries_[handle.slot].body->GetContactList(); edge != nullptr; edge = edge->next)
+        if (const Handle other = find(*edge->other); !was_read(other, handle)) read_contact(*edge->contact);
+  }
+  /// Whether the contact of two bodies was read with those of the other one.
+  bool was_read(Handle other, Handle handle) const {
+    return other < handle && std::ranges::binary_search(contacts_of_, other);
   }
   void read_contact(b2Contact& contact) {
+    if (!contact.IsTouching() || contact.GetFixtureA()->IsSensor() || contact.GetFixtureB()->IsSensor()) return;
     const b2Body& a = *contact.GetFixtureA()->GetBody();
     const b2Body& b = *contact.GetFixtureB()->GetBody();
     const Handle first = find(a);
@@ -343,7 +363,8 @@ class Box2dSleeper {
     const b2Manifold& manifold = *contact.GetManifold();
     for (int i = 0; i < manifold.pointCount; ++i) {
       const b2Vec2& where = world.points[i];
-      const b2Vec2 approach = velocity_before(a, first, where) - velocity_before(b, second, where);
+      const b2Vec2 approach =
+          all_contacts_ ? velocity_before(a, first, where) - velocity_before(b, second, where) : b2Vec2_zero;
       buffer_.contacts.push_back({.a = swap ? second : first,
                                   .b = swap ? first : second,
                                   .point = from_box2d(where),
@@ -394,11 +415,13 @@ class Box2dSleeper {
 
   b2World& world_;
   bool enabled_;
+  bool all_contacts_ = true;  // are needed in this step
   PileSleeper<2> core_;
   Box2dImpulses impulses_;
   Listener listener_{impulses_};
   std::unordered_map<const b2Body*, Handle> handles_;
-  std::vector<Entry> entries_;  // [slot]
+  std::vector<Entry> entries_;       // [slot]
+  std::vector<Handle> contacts_of_;  // these bodies are needed, where not all are
   StepBuffer<2> buffer_;
 };
 

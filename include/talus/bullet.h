@@ -76,20 +76,19 @@ class BulletSleeper {
   void before_step() {
     if (!enabled_) return;
     carry_out(core_.set_gravity(from_bullet(world_.getGravity())));
+    all_contacts_ = core_.needs_all_contacts();
+    if (!all_contacts_) return;  // the speeds are those at which bodies meet sleeping ones
     for (const Handle handle : core_.followed()) {
       Entry& entry = entries_[handle.slot];
-      if (entry.body->isKinematicObject()) continue;
       entry.velocity = entry.body->getLinearVelocity();
       entry.spin = entry.body->getAngularVelocity();
-      if (core_.role(handle) != free_role(*entry.body)) carry_out(core_.set_role(handle, free_role(*entry.body)));
     }
   }
   /// Call it directly after each step of Bullet, of `dt` [s]. Returns the changes, which the world has already; valid
   /// until the next call.
   const SleepChanges<3>& after_step(double dt) {
     buffer_.clear();
-    if (enabled_) read_states();
-    if (enabled_) read_contacts();
+    if (enabled_ && read_bodies()) read_contacts();
     const SleepChanges<3>& changes = core_.after_step(buffer_.step(dt));
     carry_out(changes);
     return changes;
@@ -147,6 +146,7 @@ class BulletSleeper {
   /// A watched body: its motion before the step, and what it gets back when it wakes.
   struct Entry {
     btRigidBody* body = nullptr;
+    bool needs_contacts = false;  // in this step, even if not all contacts are needed
     btVector3 velocity = btVector3(0, 0, 0);
     btVector3 spin = btVector3(0, 0, 0);
     btScalar mass = 0;
@@ -210,19 +210,35 @@ class BulletSleeper {
     return handle;
   }
 
-  void read_states() {
-    for (const Handle handle : core_.followed()) read_state(handle);
+  /// Returns whether any contacts are needed.
+  bool read_bodies() {
+    bool contacts = all_contacts_;
+    for (const Handle handle : core_.followed()) {
+      follow_role(handle);
+      read_state(handle);
+      if (!all_contacts_) contacts |= entries_[handle.slot].needs_contacts = core_.needs_contacts(handle);
+    }
 #ifndef NDEBUG
     for (const auto& [object, handle] :
          handles_)  // finds sleeping bodies that were moved; nothing depends on the order
       if (core_.asleep(handle)) read_state(handle);
 #endif
+    return contacts;
+  }
+  /// A body may have got its first constraint, or have lost its last one.
+  void follow_role(Handle handle) {
+    const btRigidBody& body = *entries_[handle.slot].body;
+    if (!body.isKinematicObject() && core_.role(handle) != free_role(body))
+      carry_out(core_.set_role(handle, free_role(body)));
   }
   void read_state(Handle handle) {
     const btRigidBody& body = *entries_[handle.slot].body;
     buffer_.add(handle, pose(body), from_bullet(body.getLinearVelocity()), from_bullet(body.getAngularVelocity()));
   }
 
+  bool needs_contacts(Handle handle) const {
+    return handle != Handle{} && (all_contacts_ || entries_[handle.slot].needs_contacts);
+  }
   /// Those that Bullet itself has put to sleep too: their impulses are those that hold them.
   static bool moves(const btCollisionObject& object) { return !object.isStaticOrKinematicObject(); }
   void read_contacts() {
@@ -238,7 +254,7 @@ class BulletSleeper {
   void read_manifold(const btPersistentManifold& manifold, const btCollisionObject& a, const btCollisionObject& b) {
     const Handle first = find(a);
     const Handle second = find(b);
-    if (first == Handle{} && second == Handle{}) return;
+    if (!needs_contacts(first) && !needs_contacts(second)) return;
     const bool swap = first == Handle{};
     const double sign = swap ? -1.0 : 1.0;
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
@@ -247,7 +263,8 @@ class BulletSleeper {
       const btVector3& where = point.getPositionWorldOnB();
       const btVector3 friction = point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
                                  point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
-      const btVector3 approach = velocity_before(b, second, where) - velocity_before(a, first, where);
+      const btVector3 approach =
+          all_contacts_ ? velocity_before(b, second, where) - velocity_before(a, first, where) : btVector3(0, 0, 0);
       buffer_.contacts.push_back(
           {.a = swap ? second : first,
            .b = swap ? first : second,
@@ -313,6 +330,7 @@ class BulletSleeper {
 
   btDiscreteDynamicsWorld& world_;
   bool enabled_;
+  bool all_contacts_ = true;  // are needed in this step
   PileSleeper<3> core_;
   std::unordered_map<const btCollisionObject*, Handle> handles_;
   std::vector<Known> known_;    // [place in Bullet's list]

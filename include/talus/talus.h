@@ -120,6 +120,13 @@ struct talus_velocity {
   double velocity[3];  ///< [m/s]
   double spin[3];      ///< [rad/s]
 };
+/// What a saved program must keep of a body that is not kinematic.
+struct talus_saved {
+  talus_handle body;  ///< the body
+  int asleep;         ///< 1: it slept
+  int settled;        ///< 1: asleep, and no stability check is to come
+};
+
 /// What the program must do in its engine at once, in this order. The arrays live until the next call.
 struct talus_changes {
   size_t size;                              ///< sizeof(struct talus_changes)
@@ -173,6 +180,12 @@ TALUS_API int talus_moved(talus_sleeper* sleeper, talus_handle body, const doubl
                           struct talus_changes* changes);
 /// From the next step on [m/s^2]. If it differs from before by more than a hundredth, all bodies wake.
 TALUS_API int talus_set_gravity(talus_sleeper* sleeper, const double gravity[3], struct talus_changes* changes);
+/// Gives what a saved program must keep of each body. The array lives until the next call.
+TALUS_API int talus_snapshot(talus_sleeper* sleeper, const struct talus_saved** saved, size_t* count);
+/// Puts to sleep again what slept, and wakes all others. The bodies must be in their saved places: entry i of `states`
+/// has that of saved[i]; its velocity means nothing. A program that has added its bodies again replaces their handles.
+TALUS_API int talus_restore(talus_sleeper* sleeper, const struct talus_saved* saved, const struct talus_state* states,
+                            size_t count, struct talus_changes* changes);
 /// Writes 1 to `asleep` if a body sleeps, else 0.
 TALUS_API int talus_asleep(const talus_sleeper* sleeper, talus_handle body, int* asleep);
 

@@ -52,6 +52,7 @@ class SleepingBox2dScene : public Box2dScene {
   static constexpr int dimension = 2;
 
   Vec2 place(const Body& body) const { return {body.GetPosition().x, body.GetPosition().y}; }
+  Pose<2> pose(const Body& body) const { return {place(body), Rotation<2>(body.GetAngle())}; }
   void take_away(Body& body) {
     sleeper->about_to_remove(body);
     world.DestroyBody(&body);
@@ -73,6 +74,8 @@ class SleepingBox2dScene : public Box2dScene {
   }
   /// Where it is after the next step of `dt` [s].
   void move_lift(Body& lift, const Vec2& to, double dt) { lift.SetLinearVelocity(to_box2d((to - place(lift)) / dt)); }
+  /// Puts it elsewhere at once, not by a motion that throws what lies on it.
+  void place_lift(Body& lift, const Vec2& to) { put(lift, to); }
   /// Place and turn of a body, to be loaded again.
   using Saved = b2Transform;
   Saved save(const Body& body) const { return body.GetTransform(); }

@@ -71,6 +71,10 @@ class SleepingBulletScene : public BulletScene {
     const btVector3& at = body.getWorldTransform().getOrigin();
     return {at.x(), at.y(), at.z()};
   }
+  Pose<3> pose(const Body& body) const {
+    const btQuaternion turn = body.getWorldTransform().getRotation();
+    return {place(body), Rotation<3>(turn.w(), turn.x(), turn.y(), turn.z())};
+  }
   void take_away(Body& body) {
     sleeper->about_to_remove(body);
     remove(body);
@@ -97,6 +101,14 @@ class SleepingBulletScene : public BulletScene {
   /// Where it is after the next step.
   void move_lift(Body&, const Vec3& to, double) {
     lift_motion.setWorldTransform(btTransform(btQuaternion::getIdentity(), to_bullet(to)));
+  }
+  /// Puts it elsewhere at once, not by a motion that throws what lies on it.
+  void place_lift(Body& lift, const Vec3& to) {
+    const btTransform at(btQuaternion::getIdentity(), to_bullet(to));
+    lift_motion.setWorldTransform(at);
+    lift.setInterpolationWorldTransform(at);
+    lift.setWorldTransform(at);
+    sleeper->moved(lift);
   }
   /// Place and turn of a body, to be loaded again.
   using Saved = btTransform;

@@ -67,6 +67,28 @@ TEST_P(CInterface, PutsABodyToSleepThatLiesStill) {
   EXPECT_EQ(changes.thaw[0].body, body);
 }
 
+TEST_P(CInterface, PutsToSleepAgainWhatSleptInASnapshot) {
+  const talus_handle body = add_box();
+  for (int i = 0; i < 100 && changes.freeze_count == 0; ++i) ASSERT_EQ(lie(body), TALUS_OK) << talus_message();
+  const talus_saved* all = nullptr;
+  std::size_t count = 0;
+  ASSERT_EQ(talus_snapshot(sleeper, &all, &count), TALUS_OK);
+  ASSERT_EQ(count, 1U);
+  const talus_saved saved = all[0];
+  EXPECT_EQ(saved.body, body);
+  EXPECT_EQ(saved.asleep, 1);
+  ASSERT_EQ(talus_wake(sleeper, body, &changes), TALUS_OK);
+  talus_state state{};
+  if (GetParam() == 3) state.rotation[3] = 1.0;
+  ASSERT_EQ(talus_restore(sleeper, &saved, &state, 1, &changes), TALUS_OK) << talus_message();
+  ASSERT_EQ(changes.freeze_count, 1U);
+  EXPECT_EQ(changes.freeze[0].body, body);
+  int asleep = 0;
+  EXPECT_EQ(talus_asleep(sleeper, body, &asleep), TALUS_OK);
+  EXPECT_EQ(asleep, 1);
+  EXPECT_EQ(talus_restore(sleeper, nullptr, nullptr, 1, &changes), TALUS_BAD_VALUE);
+}
+
 TEST_P(CInterface, RefusesAHandleOfARemovedBodyAndSaysWhy) {
   const talus_handle body = add_box();
   EXPECT_EQ(talus_remove(sleeper, body, &changes), TALUS_OK);

@@ -18,6 +18,13 @@ std::optional<SleepRing> ring_of(const AdaptiveParams& params, const TypicalBody
   return SleepRing{.extent = typical.extent, .rings = params.rings, .still_speed = params.ring_still_speed};
 }
 
+/// Of the fastest point of a body in a step like the last one [m].
+template <int Dim>
+double way_of_step(const World<Dim>& world, BodyIndex body) {
+  const BodyStates<Dim>& states = world.states();
+  return world.dt() * (states.velocity[body].norm() + 0.5 * world.shape_of(body).extent * states.spin[body].norm());
+}
+
 }  // namespace
 
 template <int Dim>
@@ -110,8 +117,9 @@ template <int Dim>
 void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
   bodies_.clear();
   const RestTimes times = rest_times_in(in.world);
-  for (const BodyIndex body : in.world.awake()) {
-    if (checks_.holds(body) || below_ground(in, body) || !rested_enough(frame, body, times)) continue;
+  for (const Rest& rest : rest_.references()) {
+    const BodyIndex body = rest.body;
+    if (checks_.holds(body) || below_ground(in, body) || !rested_enough(frame, rest, times)) continue;
     if (ring_ && is_fast(in, body)) continue;
     if (frame.may_sleep(body)) bodies_.push_back(body);
   }
@@ -146,10 +154,23 @@ typename AdaptivePolicy<Dim>::RestTimes AdaptivePolicy<Dim>::rest_times_in(const
 
 /// The short time holds for a body that woke and did not move: it was found at rest before.
 template <int Dim>
-bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const {
-  const double rested = rest_.time_at_rest(body);
-  if (rested >= times.woken && rest_.unmoved_since_wake(body)) return true;
-  return rested >= times.deep && rested >= rest_time_needed(frame, body, times);
+bool AdaptivePolicy<Dim>::rested_enough(const Frame<Dim>& frame, const Rest& rest, const RestTimes& times) const {
+  const double rested = rest_.time() - rest.since;
+  if (rested >= times.woken && rest.unmoved_since_wake) return true;
+  return rested >= times.deep && rested >= rest_time_needed(frame, rest.body, times);
+}
+
+/// A body that is about to leave the place of its rest is not near its sleep.
+template <int Dim>
+void AdaptivePolicy<Dim>::note_near_sleep(const World<Dim>& world, std::vector<std::uint8_t>& near) const {
+  constexpr double longest_next = 1.25;  // step over the last one
+  constexpr double farthest = 2.0;       // way of the next step over the distance that counts as rest
+  const RestTimes times = rest_times_in(world);
+  const double then = rest_.time() + longest_next * world.dt();
+  for (const Rest& rest : rest_.references()) {
+    const double needed = rest.unmoved_since_wake ? std::min(times.woken, times.deep) : times.deep;
+    near[rest.body] = then - rest.since >= needed && way_of_step(world, rest.body) <= farthest * rest_.distance();
+  }
 }
 
 /// Of a body that moved since it woke [s].

@@ -40,10 +40,19 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
     return ring_ ? std::nullopt : checks_.drift_estimate(world);
   }
+  /// Notes of each body that decide() found awake whether it may have rested long enough after the next step, if that
+  /// is about as long as the last one.
+  void note_near_sleep(const World<Dim>& world, std::vector<std::uint8_t>& near) const;
+  /// Whether stability checks are on. They take all contacts.
+  bool checks_stability() const { return checks_.tolerance() > 0.0; }
+  /// Whether a sleeping body rests on an awake one, and wakes once that moves away.
+  bool rests_on_awake(BodyIndex sleeper) const { return support_loss_.watches(sleeper); }
   /// The bodies that sleep, as the policy was told.
   const SleepLedger<Dim>& sleepers() const { return sleepers_; }
 
  private:
+  using Rest = typename RestCriterion<Dim>::Reference;
+
   /// A body's layer in the pile that scores it highest.
   struct Placement {
     int pile = -1;
@@ -65,7 +74,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool is_fast(const RuleInput<Dim>& in, BodyIndex body) const;
   RestTimes rest_times_in(const World<Dim>& world) const;
   double rest_time_needed(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
-  bool rested_enough(const Frame<Dim>& frame, BodyIndex body, const RestTimes& times) const;
+  bool rested_enough(const Frame<Dim>& frame, const Rest& rest, const RestTimes& times) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
   std::optional<SleepRing> ring_;  // without it the rules below wake bodies

@@ -14,6 +14,14 @@ namespace talus {
 template <int Dim>
 class RestCriterion {
  public:
+  /// Where and when a body's rest began.
+  struct Reference {
+    BodyIndex body = 0;
+    Pose<Dim> pose{};
+    double since = 0.0;  // on the clock of time() [s]
+    bool unmoved_since_wake = false;
+  };
+
   explicit RestCriterion(const RuleSetup<Dim>& setup);
 
   /// Costs O(awake).
@@ -24,6 +32,13 @@ class RestCriterion {
 
   /// Bodies in `wakes` whose impact is still to come are not marked as unmoved when they wake.
   void expect_motion(const WakeList& wakes);
+
+  /// Of the bodies that the last update() found awake, ascending.
+  std::span<const Reference> references() const { return references_; }
+  /// Sum of the steps that update() saw [s].
+  double time() const { return time_; }
+  /// How far a body at rest may have moved [m].
+  double distance() const { return distance_; }
 
   /// Whether the last update() found the body awake.
   bool watches(BodyIndex body) const;
@@ -37,14 +52,6 @@ class RestCriterion {
   bool unmoved_since_wake(BodyIndex body) const;
 
  private:
-  /// Where and when a body's rest began.
-  struct Reference {
-    BodyIndex body = 0;
-    Pose<Dim> pose{};
-    double since = 0.0;  // on the clock of time_ [s]
-    bool unmoved_since_wake = false;
-  };
-
   const Reference& reference_of(BodyIndex body) const;
 
   double distance_;                         // [m]
@@ -52,7 +59,7 @@ class RestCriterion {
   std::vector<Reference> references_;       // of the awake bodies, ascending
   std::vector<Reference> last_references_;  // of the step before
   std::int64_t last_step_ = -1;
-  double time_ = 0.0;                        // sum of the steps that update() saw [s]
+  double time_ = 0.0;
   std::vector<BodyIndex> expected_to_move_;  // of the bodies that the last step woke, ascending
   BodyIndex last_count_ = 0;                 // bodies in the world in the last step
 };

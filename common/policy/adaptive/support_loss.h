@@ -1,6 +1,7 @@
 #pragma once
 // Sleeping bodies whose support moves away.
 
+#include <algorithm>
 #include <vector>
 
 #include "common/policy/adaptive/rule.h"
@@ -17,6 +18,11 @@ class SupportLoss {
 
   /// Costs O(contacts).
   void update(const RuleInput<Dim>& in, RuleOutput<Dim>& out);
+
+  /// Whether an awake body supports this sleeping one.
+  bool watches(BodyIndex sleeper) const {
+    return std::ranges::find(contacts_, sleeper, &SupportContact::supported) != contacts_.end();
+  }
 
   /// As SleepPolicy::forget().
   void forget(BodyIndex body);
