@@ -15,7 +15,7 @@ namespace {
 constexpr int most_told = 20;          // runs that are told of by name
 constexpr int progress_rows = 10'000;  // between two lines of progress
 
-/// Tells of a run that is not finished and has something to tell.
+/// Tells of a run that failed, or that began and did not end.
 void tell_of(const Sweep& sweep, const RunStates& states, int number, RunState state) {
   const std::string messages = states.end_of_messages(number);
   print_message("{} {} {}{}", run_folder(sweep, number).filename().string(),
@@ -24,9 +24,11 @@ void tell_of(const Sweep& sweep, const RunStates& states, int number, RunState s
                 messages.empty() ? "" : ": " + messages);
 }
 
-/// Walks through all runs. `row` gets the number and the summary of each that has one.
-SweepCount walk(const Sweep& sweep, const std::function<void(int, const nlohmann::json&)>& row) {
+/// Walks through all runs. `row` gets the number and the summary of each that has one. `at_work`: runs that have begun
+/// may yet end.
+SweepCount walk(const Sweep& sweep, bool at_work, const std::function<void(int, const nlohmann::json&)>& row) {
   const RunStates states(sweep);
+  int told = 0;
   SweepCount count{.runs = sweep_size(sweep.axes)};
   for (int i = 0; i < count.runs; ++i) {
     const nlohmann::json summary = summary_of(run_folder(sweep, i));
@@ -36,25 +38,25 @@ SweepCount walk(const Sweep& sweep, const std::function<void(int, const nlohmann
     count.failed += state == RunState::failed ? 1 : 0;
     count.begun += state == RunState::begun ? 1 : 0;
     count.with_warnings += warnings_of(summary) > 0 ? 1 : 0;
-    const bool of_note = state == RunState::failed || state == RunState::begun;
-    if (of_note && count.failed + count.begun <= most_told) tell_of(sweep, states, i, state);
+    const bool of_note = state == RunState::failed || (state == RunState::begun && !at_work);
+    if (of_note && ++told <= most_told) tell_of(sweep, states, i, state);
     if ((i + 1) % progress_rows == 0) print_message("{} of {} runs read", i + 1, count.runs);
   }
-  if (const int more = count.failed + count.begun - most_told; more > 0)
-    print_message("and {} more: see the folders failed and at_work of {}", more, sweep.folder.string());
+  if (told > most_told)
+    print_message("and {} more: see the folders failed and at_work of {}", told - most_told, sweep.folder.string());
   return count;
 }
 
 }  // namespace
 
 SweepCount count_runs(const Sweep& sweep) {
-  return walk(sweep, [](int, const nlohmann::json&) {});
+  return walk(sweep, true, [](int, const nlohmann::json&) {});
 }
 
 SweepCount collect(const Sweep& sweep) {
   SweepTable table(sweep.folder / "sweep.csv", sweep.axes, sweep.plot);
   std::string title;
-  const SweepCount count = walk(sweep, [&](int number, const nlohmann::json& summary) {
+  const SweepCount count = walk(sweep, false, [&](int number, const nlohmann::json& summary) {
     title = summary.value("title", "");
     table.add(sweep_row(number, sweep_run(sweep.axes, number), summary));
   });

@@ -17,11 +17,11 @@ struct SweepCount {
   int waiting() const { return runs - finished - failed - begun; }
 };
 
-/// Counts, and prints on standard error the runs that failed, or began and did not end, with the end of their messages.
+/// Counts, and prints on standard error the runs that failed, with the end of their messages.
 SweepCount count_runs(const Sweep& sweep);
 
-/// The same, and writes sweep.csv and where it can sweep.svg. Prints progress and the result. One run is in memory at a
-/// time.
+/// The same, and writes sweep.csv and where it can sweep.svg; also tells of runs that began and did not end. Prints
+/// progress and the result. One run is in memory at a time.
 SweepCount collect(const Sweep& sweep);
 
 }  // namespace talus

@@ -33,7 +33,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  talus sweep drop_in_a_pile_2d --set shape.L.friction=0.2:1.0:0.2 --seeds 8 --out friction\n"
     "  talus sweep scene.toml --set policy.kind=full,adaptive --set source[0].rate=2,4,8 --jobs 4 --out rates\n"
-    "  talus sweep scene.toml --seeds 5000 --out rates --on slurm --sbatch \"--partition=short --time=30\"\n\n"
+    "  talus sweep scene.toml --seeds 5000 --out rates --on slurm --sbatch \"-p short\"\n\n"
     "Each run is what `talus run` gives with the same values: same bits, same folder. A sweep that was stopped goes "
     "on\n"
     "where it was when it is started again, or with --resume. sweep.csv and sweep.svg have the results.\n"
@@ -245,8 +245,7 @@ void add_schedule(CLI::App& command, SweepOptions& options) {
   command.add_option("--on", options.on, "local: run here; slurm: submit an array of jobs, and return at once")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
-  command.add_option("--sbatch", options.tasks.sbatch,
-                     "Options for sbatch as they stand, such as \"--partition=short --time=30\"");
+  command.add_option("--sbatch", options.tasks.sbatch, "Options for sbatch as they stand, such as \"-p short\"");
   command
       .add_option("--chunk", options.tasks.chunk,
                   "Runs of one task of the array, one after the other; without it the array has up to 250 tasks")
