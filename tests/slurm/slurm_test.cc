@@ -46,6 +46,7 @@ class LongSlurm : public ::testing::Test {
 
 TEST_F(LongSlurm, GivesTheBitsOfALocalSweepAndReturnsAtOnce) {
   const Outcome outcome = on_cluster(R"sh(
+"$TALUS" $sweep --out refused --on slurm --sbatch --partition=none; [ $? = 1 ] || exit 92
 "$TALUS" $sweep --out cluster --on slurm --sbatch "--partition=all --time=5" || exit
 [ ! -e cluster/sweep.csv ] || exit 90
 "$TALUS" sweep --status cluster
@@ -56,6 +57,7 @@ collected cluster; until [ "$(squeue --noheader)" = "" ]; do sleep 0.1; done
   EXPECT_NE(outcome.out.find("12 runs in job 1, an array of 12 tasks of 1, and job 2, which collects"),
             std::string::npos)
       << outcome.out;
+  EXPECT_NE(outcome.err.find("sbatch refused "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("Slurm has jobs of this sweep, jobs 1,2: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("12 runs: 12 finished, 0 failed, 0 begun, 0 not begun\n"), std::string::npos)
       << outcome.out;

@@ -109,7 +109,7 @@ TEST_F(SweepCommand, EmitsAListWhoseLinesGiveTheBitsOfALocalSweep) {
 TEST_F(SweepCommand, DoesARunOfWhichAKilledProcessLeftAHalfAgain) {
   ASSERT_EQ(emit().exit_code, 0);
   const Outcome killed = in_sweep(R"("$TALUS" sweep --resume . --only 0
-setsid "$TALUS" sweep --resume . --only 1 & until ls at_work/run_0001*/run.lcm 2>/dev/null; do :; done
+setsid "$TALUS" sweep --resume . --only 1 & until ls at_work/run_0001*/frames.csv 2>/dev/null; do :; done
 kill -KILL -- -$!
 "$TALUS" sweep --status .; "$TALUS" sweep --collect .)");
   EXPECT_EQ(killed.exit_code, 1);

@@ -85,7 +85,10 @@ void check_run(const Sweep& sweep, const Scene<Dim>& scene) {
 
 /// Each value must make a scene that can be read and lies in the engine's window: all errors before the first run.
 void check_runs(const Sweep& sweep) {
-  for (int i = 0; i < sweep_size(sweep.axes); ++i) {
+  constexpr int told = 10'000;  // between two lines of progress
+  const int size = sweep_size(sweep.axes);
+  for (int i = 0; i < size; ++i) {
+    if (i > 0 && i % told == 0) print_message("{} of {} scenes checked", i, size);
     std::vector<Override> overrides;
     for (std::string& setting : settings_of(sweep.axes, sweep_run(sweep.axes, i)))
       overrides.push_back({std::move(setting)});

@@ -95,11 +95,12 @@ void give_name(const fs::path& part, const fs::path& folder) {
 /// Puts what an ended run has left into its place; returns what is to be told of it, empty for nothing.
 std::string settle(const Sweep& sweep, int number, const TaskOutcome& outcome, StopNotice& notice, SweepEnd& end) {
   const fs::path part = part_folder(sweep, number, getpid());
+  const bool killed = outcome.failed && notice.interrupted();  // by a second signal, so nothing is saved
   const nlohmann::json summary = outcome.failed ? nlohmann::json::object() : summary_of(part);
-  const std::string reason = outcome.failed ? outcome.text : reason_of(summary);
+  const std::string reason = killed ? "interrupted" : outcome.failed ? outcome.text : reason_of(summary);
   std::error_code unused;
   if (reason == "finished" || reason == "interrupted") {
-    give_name(part, run_folder(sweep, number));
+    if (!killed) give_name(part, run_folder(sweep, number));
     fs::remove(part_messages(part), unused);
     fs::remove(failure_file(sweep, number), unused);
   } else {
@@ -109,7 +110,7 @@ std::string settle(const Sweep& sweep, int number, const TaskOutcome& outcome, S
     keep_messages(part_messages(part), failure_file(sweep, number), reason);
   }
   fs::remove_all(part, unused);
-  if (outcome.failed) return ": failed " + reason;
+  if (outcome.failed && !killed) return ": failed " + reason;
   if (reason != "finished") return ": " + reason;
   const int warnings = warnings_of(summary);
   return warnings == 0 ? "" : fmt::format(": {} {}", warnings, warnings == 1 ? "warning" : "warnings");

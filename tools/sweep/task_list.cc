@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view array_script = R"(#!/bin/sh
-#SBATCH --job-name=talus --array=0-{last_task} --chdir={folder_for_sbatch} --output=slurm/%a.txt {sbatch}
+#SBATCH --job-name=talus --array=0-{last_task} --chdir={folder_for_sbatch} --output=slurm/%a.txt{sbatch}
 # Does chunk N of tasks.txt, {chunk} lines, for index N of an array job: `sbatch array.sh`, or `sh array.sh N`.
 # With --cpus-per-task=K, K lines at a time.
 cd {folder} || exit
@@ -27,7 +27,7 @@ sed -n "$first,$((first + {more}))p" tasks.txt |
 )";
 
 constexpr std::string_view collect_script = R"(#!/bin/sh
-#SBATCH --job-name=talus_collect --chdir={folder_for_sbatch} --output=slurm/collect.txt {sbatch}
+#SBATCH --job-name=talus_collect --chdir={folder_for_sbatch} --output=slurm/collect.txt{sbatch}
 # Writes sweep.csv and sweep.svg.
 exec {talus} sweep --collect {folder}
 )";
@@ -70,17 +70,17 @@ TaskList write_task_list(const Sweep& sweep, const std::vector<int>& numbers, co
   const std::string talus = shell_word(fs::read_symlink("/proc/self/exe").string());
   const int runs = static_cast<int>(numbers.size());
   const int chunk = options.chunk > 0 ? options.chunk : (runs + most_array_tasks - 1) / most_array_tasks;
-  const TaskList list{.runs = runs,
-                      .chunk = chunk,
-                      .tasks = (runs + chunk - 1) / chunk,
-                      .array = sweep.folder / "array.sh",
-                      .collect = sweep.folder / "collect.sh"};
+  TaskList list{.runs = runs,
+                .chunk = chunk,
+                .tasks = (runs + chunk - 1) / chunk,
+                .array = sweep.folder / "array.sh",
+                .collect = sweep.folder / "collect.sh"};
   const auto script = [&](const fs::path& file, std::string_view text) {
-    write_file(file,
-               fmt::format(fmt::runtime(text), fmt::arg("last_task", list.tasks - 1),
-                           fmt::arg("folder_for_sbatch", sbatch_word(sweep.folder.string())),
-                           fmt::arg("sbatch", options.sbatch), fmt::arg("chunk", chunk), fmt::arg("more", chunk - 1),
-                           fmt::arg("folder", shell_word(sweep.folder.string())), fmt::arg("talus", talus)));
+    write_file(file, fmt::format(fmt::runtime(text), fmt::arg("last_task", list.tasks - 1),
+                                 fmt::arg("folder_for_sbatch", sbatch_word(sweep.folder.string())),
+                                 fmt::arg("sbatch", options.sbatch.empty() ? "" : " " + options.sbatch),
+                                 fmt::arg("chunk", chunk), fmt::arg("more", chunk - 1),
+                                 fmt::arg("folder", shell_word(sweep.folder.string())), fmt::arg("talus", talus)));
   };
   fs::create_directories(sweep.folder / "slurm");
   write_tasks(sweep, numbers, talus);
