@@ -1,10 +1,13 @@
 #include "tools/sweep/slurm.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "common/text/file.h"
 #include "tools/pool/program.h"
@@ -42,20 +45,21 @@ std::string submit(const Sweep& sweep, const TaskList& list) {
 }
 
 std::string jobs_left(const Sweep& sweep) {
-  std::istringstream jobs(file_contents(job_file(sweep)).value_or(""));
-  std::string numbers;
-  for (std::string job; std::getline(jobs, job);) numbers += (numbers.empty() ? "" : ",") + job;
-  if (numbers.empty()) return {};
-  const ProgramEnd end = run_program({"squeue", "--noheader", "--array", "--format=%T", "--jobs=" + numbers});
-  if (end.exit_code == 127)
-    return fmt::format("jobs {}, unless they have ended: squeue is not on this machine (then remove {})", numbers,
-                       job_file(sweep).string());
+  std::istringstream stream(file_contents(job_file(sweep)).value_or(""));
+  std::vector<std::string> jobs;
+  for (std::string job; std::getline(stream, job);) jobs.push_back(job);
+  if (jobs.empty()) return {};
+  const ProgramEnd end = run_program({"squeue", "--me", "--noheader", "--array", "--format=%F %T"});
+  if (end.exit_code != 0)
+    return fmt::format("jobs {}, unless they have ended: squeue does not tell here (once they have, remove {})",
+                       fmt::join(jobs, ","), job_file(sweep).string());
   std::istringstream lines(end.out);
   std::map<std::string, int> counts;
-  for (std::string state; std::getline(lines, state);) ++counts[state];
+  for (std::string job, state; lines >> job >> state;)
+    if (std::ranges::find(jobs, job) != jobs.end()) ++counts[state];
   std::string text;
   for (const auto& [state, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, state);
-  return text.empty() ? "" : fmt::format("jobs {}: {}", numbers, text);
+  return text.empty() ? "" : fmt::format("jobs {}: {}", fmt::join(jobs, ","), text);
 }
 
 void require_no_jobs(const Sweep& sweep) {
