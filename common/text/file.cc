@@ -1,5 +1,7 @@
 #include "common/text/file.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -16,10 +18,11 @@ std::optional<std::string> file_contents(const std::filesystem::path& file) {
 }
 
 void write_file(const std::filesystem::path& file, std::string_view bytes) {
+  errno = 0;
   std::ofstream out(file, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace talus

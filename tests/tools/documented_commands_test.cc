@@ -35,6 +35,8 @@ constexpr auto shortened = std::to_array<Shortened>({
      "talus sweep public/hopper_2d --set shape.disc.radius=0.4,0.5 --set run.frames=10 --out hopper"},
     {"talus sweep drop_in_a_pile_2d --set policy.kind=full,adaptive --seeds 8 --out policies",
      "talus sweep drop_in_a_pile_2d --set policy.kind=full,adaptive --set run.frames=10 --seeds 2 --out policies"},
+    {R"(talus sweep drop_in_a_pile_2d --seeds 400 --out many --on slurm --sbatch "-p short")",
+     "talus sweep drop_in_a_pile_2d --seeds 2 --set run.frames=10 --out many"},
     {"talus view drop_in_a_pile_2d", "talus view drop_in_a_pile_2d --seconds 1"},
     {"talus view discs.toml", "talus view discs.toml --seconds 1"},
     {"talus view --live", "talus view --live --seconds 1"},

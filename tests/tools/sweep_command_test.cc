@@ -28,6 +28,11 @@ class SweepCommand : public ::testing::Test {
                          "--out " +
                          (folder_ / "sweep") + more);
   }
+  Outcome in_sweep(const std::string& script) const { return shell("cd " + (folder_ / "sweep") + "\n" + script); }
+  Outcome emit() const {
+    return talus_command("sweep " + (folder_ / "scene.toml") + " --set shape.disc.friction=0.2,0.6 --seeds 2 --emit " +
+                         (folder_ / "sweep") + " --chunk 3 --sbatch '--time=5 --comment=\"a b\"'");
+  }
   std::string file(const char* name) const { return contents(folder_.path() / "sweep" / name); }
 
   TemporaryFolder folder_;
@@ -87,6 +92,80 @@ TEST_F(SweepCommand, CountsRunsWithWarningsAndFailsForThemIfStrict) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find(", 1 with warnings"), std::string::npos) << outcome.out;
   EXPECT_EQ(talus_command(command + " --strict").exit_code, 1);
+}
+
+TEST_F(SweepCommand, EmitsAListWhoseLinesGiveTheBitsOfALocalSweep) {
+  const Outcome outcome = emit();
+  EXPECT_NE(outcome.out.find("4 runs, 2 tasks of 3"), std::string::npos) << outcome.out << outcome.err;
+  EXPECT_EQ(std::ranges::count(file("tasks.txt"), '\n'), 4);
+  EXPECT_NE(file("array.sh").find("--array=0-1 "), std::string::npos) << file("array.sh");
+  EXPECT_NE(file("array.sh").find("--time=5 --comment=\"a b\"\n"), std::string::npos) << file("array.sh");
+  EXPECT_EQ(in_sweep("sh array.sh 0 && ! [ -e run_0003 ] && sh array.sh 1 && sh collect.sh").exit_code, 0);
+  const std::string local = "sweep " + (folder_ / "scene.toml") + " --set shape.disc.friction=0.2,0.6 --seeds 2 --out ";
+  ASSERT_EQ(talus_command(local + (folder_ / "local")).exit_code, 0);
+  EXPECT_EQ(in_sweep("cut -d, -f1-6 sweep.csv").out, in_sweep("cut -d, -f1-6 ../local/sweep.csv").out);
+}
+
+TEST_F(SweepCommand, DoesARunOfWhichAKilledProcessLeftAHalfAgain) {
+  ASSERT_EQ(emit().exit_code, 0);
+  const Outcome killed = in_sweep(R"("$TALUS" sweep --resume . --only 0
+setsid "$TALUS" sweep --resume . --only 1 & until ls at_work/run_0001*/frames.csv 2>/dev/null; do :; done
+kill -KILL -- -$!
+"$TALUS" sweep --status .; "$TALUS" sweep --collect .)");
+  EXPECT_EQ(killed.exit_code, 1);
+  EXPECT_NE(killed.out.find("4 runs: 1 finished, 0 failed, 1 begun, 2 not begun"), std::string::npos) << killed.out;
+  EXPECT_NE(killed.err.find("seed=2 began and has not ended"), std::string::npos) << killed.err;
+  EXPECT_EQ(std::ranges::count(file("sweep.csv"), '\n'), 2);
+  EXPECT_EQ(in_sweep("\"$TALUS\" sweep --resume .").exit_code, 0);
+  EXPECT_EQ(std::ranges::count(file("sweep.csv"), '\n'), 5);
+  EXPECT_TRUE(fs::is_empty(folder_.path() / "sweep" / "at_work"));
+}
+
+TEST_F(SweepCommand, TellsOfAFailedRunTheEndOfItsMessages) {
+  ASSERT_EQ(emit().exit_code, 0);
+  EXPECT_EQ(in_sweep("ulimit -f 1; \"$TALUS\" sweep --resume . --only 2").exit_code, 1);
+  const Outcome outcome = in_sweep("\"$TALUS\" sweep --status .");
+  EXPECT_NE(outcome.out.find("0 finished, 1 failed, 0 begun, 3 not begun"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.err.find("run_0002 shape.disc.friction=0.6 seed=1 failed: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("File too large"), std::string::npos) << outcome.err;
+  EXPECT_EQ(in_sweep("\"$TALUS\" sweep --resume .").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "sweep" / "failed" / "run_0002.txt"));
+}
+
+TEST_F(SweepCommand, IsRefusedWhereAnotherIsAtWork) {
+  const Outcome outcome =
+      shell("slow='sweep " + (folder_ / "scene.toml") + " --set run.pace=0.01 --out " + (folder_ / "sweep") + R"('
+"$TALUS" $slow & until ls )" +
+            (folder_ / "sweep") + R"(/at_work/run* 2>/dev/null; do :; done
+"$TALUS" $slow; code=$?; "$TALUS" sweep --resume )" +
+            (folder_ / "sweep") + R"( --only 0 && code=0
+kill $!; wait; exit $code)");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("another sweep is at work in this folder"), std::string::npos) << outcome.err;
+}
+
+TEST_F(SweepCommand, GoesOnWithNoOtherSceneThanItBegan) {
+  ASSERT_EQ(emit().exit_code, 0);
+  std::ofstream(folder_.path() / "scene.toml", std::ios::app) << "# more\n";
+  const Outcome outcome = in_sweep("\"$TALUS\" sweep --resume . --only 0");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("must be as it was when the sweep"), std::string::npos) << outcome.err;
+}
+
+TEST_F(SweepCommand, TakesItsPlanFromTheFolderAlone) {
+  ASSERT_EQ(emit().exit_code, 0);
+  const std::string folder = folder_ / "sweep";
+  for (const std::string& line :
+       {"--resume " + folder + " --seeds 3", "--status " + folder + " --collect " + folder, "--out " + folder,
+        "--resume " + folder + " --only 4", "--resume " + folder + " --chunk 3", "--collect " + (folder_ / "none")})
+    EXPECT_EQ(talus_command("sweep " + line).exit_code, 2) << line;
+}
+
+TEST_F(SweepCommand, OnSlurmWithoutSbatchIsRefused) {
+  const Outcome outcome =
+      shell("PATH= \"$TALUS\" sweep " + (folder_ / "scene.toml") + " --on slurm --out " + (folder_ / "sweep"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("sbatch is not on this machine"), std::string::npos) << outcome.err;
 }
 
 TEST_F(SweepCommand, OfOtherValuesIsRefusedInTheSameFolder) {

@@ -98,10 +98,10 @@ std::vector<std::string> engines_of(const BenchOptions& options, const std::file
 std::vector<std::vector<std::string>> settings_of(const BenchOptions& options, const std::filesystem::path& scene) {
   const std::vector<SweepAxis> axes = axes_of(options);
   std::vector<std::vector<std::string>> all;
-  for (const SweepRun& run : sweep_runs(axes)) {
+  for (int i = 0; i < sweep_size(axes); ++i) {
     std::vector<std::string> settings;
     if (!sets(axes, "run.frames")) settings = frames_of(options, scene);
-    for (std::size_t i = 0; i < axes.size(); ++i) settings.push_back(axes[i].path + "=" + run.values[i]);
+    std::ranges::copy(settings_of(axes, sweep_run(axes, i)), std::back_inserter(settings));
     all.push_back(std::move(settings));
   }
   return all;

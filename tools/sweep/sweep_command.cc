@@ -1,14 +1,12 @@
 #include "tools/sweep/sweep_command.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -17,14 +15,13 @@
 #include "common/text/printable.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
-#include "tools/pool/in_processes.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
-#include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/measured_drift.h"
-#include "tools/run/run_scene.h"
-#include "tools/sweep/sweep_plan.h"
+#include "tools/sweep/collect.h"
+#include "tools/sweep/slurm.h"
+#include "tools/sweep/sweep_runs.h"
 #include "tools/sweep/sweep_table.h"
 
 namespace talus {
@@ -35,25 +32,33 @@ namespace fs = std::filesystem;
 constexpr const char* footer =
     "Examples:\n"
     "  talus sweep drop_in_a_pile_2d --set shape.L.friction=0.2:1.0:0.2 --seeds 8 --out friction\n"
-    "  talus sweep scene.toml --set policy.kind=full,adaptive --set source[0].rate=2,4,8 --jobs 4 --out rates\n\n"
+    "  talus sweep scene.toml --set policy.kind=full,adaptive --set source[0].rate=2,4,8 --jobs 4 --out rates\n"
+    "  talus sweep scene.toml --seeds 5000 --out rates --on slurm --sbatch \"-p short\"\n\n"
     "Each run is what `talus run` gives with the same values: same bits, same folder. A sweep that was stopped goes "
     "on\n"
-    "where it was when it is started again. sweep.csv and sweep.svg have the results.\n"
-    "Exit code: 0 all runs finished, 1 some did not (with --strict: or gave a warning), 2 bad input, 130 interrupted.";
+    "where it was when it is started again, or with --resume. sweep.csv and sweep.svg have the results.\n"
+    "On slurm an array of jobs does the runs and a job after it collects; the command returns at once.\n"
+    "Exit code: 0 all runs finished, or are submitted, 1 some did not (with --strict: or gave a warning), 2 bad "
+    "input,\n"
+    "130 interrupted.";
 
 struct SweepOptions {
   std::string scene;
   std::vector<std::string> settings;
   int seeds = 1;
-  std::string backend;
   std::string policy;  // empty: the scene's
-  bool force = false;
   bool strict = false;
-  bool measure_drift = false;
-  bool probe_drift = true;
   int jobs = 0;  // 0: one for each core
   fs::path out;
-  std::string plot = "centre_height_m";
+  fs::path emit;
+  fs::path resume;
+  fs::path status;
+  fs::path collect;
+  std::optional<int> only;
+  std::string on = "local";
+  TaskOptions tasks;
+  std::optional<std::string> plot;
+  Sweep sweep;  // what else is the sweep's own
 };
 
 std::vector<SweepAxis> axes_of(const SweepOptions& options) {
@@ -70,181 +75,121 @@ std::vector<SweepAxis> axes_of(const SweepOptions& options) {
   return axes;
 }
 
-std::vector<std::string> settings_of(const std::vector<SweepAxis>& axes, const SweepRun& run) {
-  std::vector<std::string> settings;
-  for (std::size_t i = 0; i < axes.size(); ++i) settings.push_back(axes[i].path + "=" + run.values[i]);
-  return settings;
-}
-
 template <int Dim>
-void check_run(const SweepOptions& options, const Scene<Dim>& scene, const fs::path& file) {
+void check_run(const Sweep& sweep, const Scene<Dim>& scene) {
   const std::vector<std::string> engines = backends(Dim);
-  const std::string& backend = options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
-  check_window(scene, backend, file, options.force);
-  if (options.measure_drift) require_measurable_drift(scene);
+  const std::string& backend = sweep.backend.empty() && !engines.empty() ? engines.front() : sweep.backend;
+  check_window(scene, backend, sweep.scene, sweep.force);
+  if (sweep.measure_drift) require_measurable_drift(scene);
 }
 
 /// Each value must make a scene that can be read and lies in the engine's window: all errors before the first run.
-void check_runs(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes,
-                const std::vector<SweepRun>& runs) {
-  for (const SweepRun& run : runs) {
+void check_runs(const Sweep& sweep) {
+  constexpr int told = 10'000;  // between two lines of progress
+  const int size = sweep_size(sweep.axes);
+  for (int i = 0; i < size; ++i) {
+    if (i > 0 && i % told == 0) print_message("{} of {} scenes checked", i, size);
     std::vector<Override> overrides;
-    for (std::string& setting : settings_of(axes, run)) overrides.push_back({std::move(setting)});
-    const AnyScene read = read_scene(scene, overrides);
-    std::visit([&](const auto& of_dimension) { check_run(options, of_dimension, scene); }, read);
+    for (std::string& setting : settings_of(sweep.axes, sweep_run(sweep.axes, i)))
+      overrides.push_back({std::move(setting)});
+    const AnyScene read = read_scene(sweep.scene, overrides);
+    std::visit([&](const auto& of_dimension) { check_run(sweep, of_dimension); }, read);
   }
 }
 
-/// What makes a sweep the same when it is started again.
-std::string identity(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes) {
-  nlohmann::json json = {{"scene", scene.stem().string()},     {"text", file_contents(scene).value_or("")},
-                         {"backend", options.backend},         {"measure_drift", options.measure_drift},
-                         {"probe_drift", options.probe_drift}, {"axes", nlohmann::json::array()}};
-  for (const SweepAxis& axis : axes) json["axes"].push_back({{"path", axis.path}, {"values", axis.values}});
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+int exit_code_of(const SweepOptions& options, const SweepCount& count) {
+  return count.finished == count.runs && !(options.strict && count.with_warnings > 0) ? exit_codes::success
+                                                                                      : exit_codes::failed;
 }
 
-/// Makes the folder, or finds there the sweep that was stopped.
-void enter_folder(const fs::path& folder, const std::string& same) {
-  const fs::path file = folder / "sweep.json";
-  std::error_code unused;
-  if (fs::is_directory(folder, unused) && !fs::is_empty(folder, unused)) {
-    if (file_contents(file) != same)
-      throw std::invalid_argument(
-          fmt::format("--out {}: must be new, empty, or of the same sweep of the same scene", folder.string()));
-    return;
-  }
-  fs::create_directories(folder);
-  write_file(file, same);
-}
-
-fs::path folder_of(const fs::path& sweep, int number) { return sweep / fmt::format("run_{:04}", number); }
-
-nlohmann::json summary_of(const fs::path& folder) {
-  std::ifstream stream(folder / "summary.json");
-  auto summary = nlohmann::json::parse(stream, nullptr, false);
-  return summary.is_object() ? summary : nlohmann::json::object();
-}
-
-/// Why the run of a folder ended; empty where it has no summary.
-std::string reason_of(const fs::path& folder) { return summary_of(folder).value("reason", ""); }
-
-bool is_finished(const fs::path& folder) { return reason_of(folder) == "finished"; }
-
-/// Warnings of a run about scene, window and what happened.
-std::size_t warnings_of(const fs::path& folder) {
-  const nlohmann::json summary = summary_of(folder);
-  std::size_t count = 0;
-  for (const char* kind : {"outside_window", "scene_warnings", "warnings"})
-    if (summary.contains(kind)) count += summary[kind].size();
-  return count;
-}
-
-/// In a process of its own, whose standard output nobody reads.
-std::string run_one(const SweepOptions& options, const fs::path& scene, std::vector<std::string> settings,
-                    const fs::path& folder) {
-  const int nowhere = open("/dev/null", O_WRONLY);
-  if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
-  fs::remove_all(folder);
-  RunOptions run;
-  run.scene = scene.string();
-  run.backend = options.backend;
-  run.force = options.force;
-  run.measure_drift = options.measure_drift;
-  run.probe_drift = options.probe_drift;
-  run.settings = std::move(settings);
-  run.out = folder;
-  run.telemetry = false;
-  run.hash_only = true;
-  run_scene(run);
-  return {};
-}
-
-/// What became of the runs of a sweep.
-struct SweepEnd {
-  int failed = 0;
-  bool stopped = false;  // by a signal, before all had begun or ended
-};
-
-/// Says once that a signal has come, and what it does.
-class StopNotice {
- public:
-  bool requested() {
-    if (!interrupt_.requested()) return false;
-    if (!told_)
-      print_message(
-          "interrupted: no run begins any more, and those at work save what they have; the same command goes on later");
-    told_ = true;
-    return true;
-  }
-
- private:
-  Interrupt interrupt_;
-  bool told_ = false;
-};
-
-std::string word_for(const TaskOutcome& outcome, const fs::path& folder) {
-  if (outcome.failed) return ": failed " + outcome.text;
-  const std::string reason = reason_of(folder);
-  if (reason != "finished") return ": " + reason;
-  const std::size_t warnings = warnings_of(folder);
-  return warnings == 0 ? "" : fmt::format(": {} {}", warnings, warnings == 1 ? "warning" : "warnings");
-}
-
-/// Runs all that are not finished.
-SweepEnd do_runs(const SweepOptions& options, const fs::path& scene, const std::vector<SweepAxis>& axes,
-                 const std::vector<SweepRun>& runs) {
-  std::vector<int> left;
-  for (int i = 0; i < std::ssize(runs); ++i)
-    if (!is_finished(folder_of(options.out, i))) left.push_back(i);
+int run_here(const SweepOptions& options, const Sweep& sweep) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  int done = 0;
-  SweepEnd end;
-  StopNotice notice;
-  in_processes(
-      static_cast<int>(left.size()), options.jobs > 0 ? options.jobs : cores,
-      [&](int task) {
-        return run_one(options, scene, settings_of(axes, runs[left[task]]), folder_of(options.out, left[task]));
-      },
-      [&](int task, const TaskOutcome& outcome) {
-        const fs::path folder = folder_of(options.out, left[task]);
-        const bool interrupted = !outcome.failed && reason_of(folder) == "interrupted";
-        end.failed += interrupted || (!outcome.failed && is_finished(folder)) ? 0 : 1;
-        print_message("{} of {}: {} {}{}", ++done, left.size(), folder.filename().string(),
-                      fmt::join(settings_of(axes, runs[left[task]]), " "), word_for(outcome, folder));
-      },
-      [&] { return notice.requested(); });
-  end.stopped = notice.requested();
-  return end;
+  const SweepEnd end = do_runs(sweep, unfinished(sweep), options.jobs > 0 ? options.jobs : cores);
+  const SweepCount count = collect(sweep);
+  return end.interrupted && count.finished < count.runs ? exit_codes::interrupted : exit_code_of(options, count);
 }
 
-std::string title_of_scene(const fs::path& scene) {
-  return std::visit([](const auto& read) { return printable(read.title); }, read_scene(scene));
+int write_list(const SweepOptions& options, const Sweep& sweep) {
+  const std::vector<int> numbers = unfinished(sweep);
+  if (numbers.empty()) return exit_code_of(options, collect(sweep));
+  const TaskList list = write_task_list(sweep, numbers, options.tasks);
+  if (options.on == "slurm")
+    print_text(submit(sweep, list));
+  else
+    print_result("{} runs, {} tasks of {}: {}/tasks.txt, array.sh, collect.sh\n", list.runs, list.tasks, list.chunk,
+                 printable(sweep.folder.string()));
+  return exit_codes::success;
+}
+
+/// Begins a sweep, or goes on with it, in its folder.
+int begin(const SweepOptions& options, const Sweep& sweep) {
+  const SweepLock lock(sweep.folder, SweepLock::Kind::whole_sweep);
+  require_no_jobs(sweep);
+  begin_sweep(sweep);
+  return options.on == "slurm" || !options.emit.empty() ? write_list(options, sweep) : run_here(options, sweep);
+}
+
+int begin_new(const SweepOptions& options) {
+  Sweep sweep = options.sweep;
+  if (options.plot) sweep.plot = *options.plot;
+  sweep.folder = fs::absolute(options.emit.empty() ? options.out : options.emit).lexically_normal();
+  sweep.scene = fs::absolute(find_scene(options.scene));
+  sweep.text = file_contents(sweep.scene).value_or("");
+  sweep.axes = axes_of(options);
+  check_runs(sweep);
+  make_sweep_folder(sweep.folder);
+  return begin(options, sweep);
+}
+
+int do_one(const Sweep& sweep, int number) {
+  if (number >= sweep_size(sweep.axes))
+    throw std::invalid_argument(
+        fmt::format("--only {}: must be below {}, the number of runs", number, sweep_size(sweep.axes)));
+  const SweepLock lock(sweep.folder, SweepLock::Kind::one_run);
+  if (is_finished(sweep, number)) return exit_codes::success;
+  const SweepEnd end = do_runs(sweep, {number}, 1);
+  if (end.interrupted) return exit_codes::interrupted;
+  return end.failed == 0 ? exit_codes::success : exit_codes::failed;
+}
+
+int tell_status(const Sweep& sweep) {
+  const SweepCount count = count_runs(sweep);
+  const std::string jobs = jobs_left(sweep);
+  print_result("{} runs: {} finished, {} failed, {} begun, {} not begun{}\n", count.runs, count.finished, count.failed,
+               count.begun, count.waiting(), jobs.empty() ? "" : "; " + jobs);
+  return count.finished == count.runs ? exit_codes::success : exit_codes::failed;
+}
+
+/// The sweep of a folder; a plot that is given takes the place of its own.
+Sweep known_sweep(const SweepOptions& options, const fs::path& folder) {
+  Sweep sweep = read_sweep(folder);
+  if (options.plot) sweep.plot = *options.plot;
+  return sweep;
+}
+
+/// What no option can know of by itself. `plan`: options that a new sweep alone has, the scene first.
+void check_options(const SweepOptions& options, const std::vector<CLI::Option*>& plan) {
+  const std::array<const fs::path*, 5> folders = {&options.out, &options.emit, &options.resume, &options.status,
+                                                  &options.collect};
+  if (std::ranges::count_if(folders, [](const fs::path* folder) { return !folder->empty(); }) != 1)
+    throw std::invalid_argument("sweep: must have one of --out, --emit, --resume, --status and --collect");
+  const bool is_new = !options.out.empty() || !options.emit.empty();
+  if (is_new && options.scene.empty()) throw std::invalid_argument("scene: must be given with --out and --emit");
+  for (const CLI::Option* option : plan)
+    if (!is_new && option->count() > 0)
+      throw std::invalid_argument(fmt::format(
+          "{}: must be left out with --resume, --status and --collect, whose folder has it", option->get_name()));
+  const bool listed = options.on == "slurm" || !options.emit.empty();
+  if (!listed && (options.tasks.chunk > 0 || !options.tasks.sbatch.empty()))
+    throw std::invalid_argument("--chunk, --sbatch: must stand with --on slurm or --emit");
+  if (listed && options.jobs > 0) throw std::invalid_argument("--jobs: must stand without --on slurm and --emit");
 }
 
 int sweep(const SweepOptions& options) {
-  const fs::path scene = fs::absolute(find_scene(options.scene));
-  const std::vector<SweepAxis> axes = axes_of(options);
-  const std::vector<SweepRun> runs = sweep_runs(axes);
-  check_runs(options, scene, axes, runs);
-  enter_folder(options.out, identity(options, scene, axes));
-  const SweepEnd end = do_runs(options, scene, axes, runs);
-  std::vector<SweepRow> rows;
-  std::int64_t with_warnings = 0;
-  for (int i = 0; i < std::ssize(runs); ++i) {
-    const fs::path folder = folder_of(options.out, i);
-    if (!fs::exists(folder / "summary.json")) continue;
-    rows.push_back(sweep_row(i, runs[i], folder));
-    with_warnings += warnings_of(folder) > 0 ? 1 : 0;
-  }
-  write_sweep_csv(options.out / "sweep.csv", axes, rows);
-  const bool plotted = write_sweep_plot(options.out / "sweep.svg", title_of_scene(scene), axes, rows, options.plot);
-  const std::int64_t finished = std::ranges::count(rows, "finished", &SweepRow::reason);
-  print_result("{} runs, {} finished, {} failed{}: {}/sweep.csv{}\n", runs.size(), finished, end.failed,
-               with_warnings > 0 ? fmt::format(", {} with warnings", with_warnings) : "",
-               printable(options.out.string()), plotted ? ", sweep.svg" : "");
-  if (end.stopped && finished < std::ssize(runs)) return exit_codes::interrupted;
-  return end.failed == 0 && !(options.strict && with_warnings > 0) ? exit_codes::success : exit_codes::failed;
+  if (!options.status.empty()) return tell_status(known_sweep(options, options.status));
+  if (!options.collect.empty()) return exit_code_of(options, collect(known_sweep(options, options.collect)));
+  if (options.only) return do_one(known_sweep(options, options.resume), *options.only);
+  return options.resume.empty() ? begin_new(options) : begin(options, known_sweep(options, options.resume));
 }
 
 std::vector<std::string> names_of_measures() {
@@ -253,42 +198,79 @@ std::vector<std::string> names_of_measures() {
   return names;
 }
 
+/// What a new sweep is made of, the scene first.
+std::vector<CLI::Option*> add_plan(CLI::App& command, SweepOptions& options) {
+  Sweep& sweep = options.sweep;
+  return {
+      command.add_option("scene", options.scene, "Scene file, or the name of a scene that `talus list` shows")
+          ->check(not_empty()),
+      command
+          .add_option("-s,--set", options.settings,
+                      "Values of a key of the scene: PATH=LOW:HIGH:STEP or PATH=A,B,C; may be repeated")
+          ->type_name("PATH=VALUES")
+          ->allow_extra_args(false),
+      command.add_option("--seeds", options.seeds, "Each combination with this many seeds, from 1 on")
+          ->check(number_between(1, 100000))
+          ->capture_default_str(),
+      command.add_option("-b,--backend", sweep.backend, "Engine, as for `talus run`")->check(not_empty()),
+      command.add_option("-p,--policy", options.policy, "Which bodies may sleep, as for `talus run`; several by --set")
+          ->check(not_empty()),
+      command.add_flag("-f,--force", sweep.force,
+                       "Also outside of the window in which results hold: a warning instead of an error"),
+      command.add_flag("--measure-drift", sweep.measure_drift,
+                       "Measure at the end of each run how far the sleeping bodies move, as `talus run`"),
+      command.add_flag("!--no-drift-probe", sweep.probe_drift,
+                       "Leave out the estimate of drift at the end of each run, as `talus run`")};
+}
+
+/// The folder, and what is to be done there.
+void add_folders(CLI::App& command, SweepOptions& options) {
+  command.add_option("-o,--out", options.out, "Folder of the sweep: new, empty, or of the same sweep to go on with")
+      ->check(not_empty());
+  command
+      .add_option("--emit", options.emit,
+                  "The same, but only write tasks.txt, a command for each run, and scripts for an array of jobs")
+      ->check(not_empty());
+  CLI::Option* const resume =
+      command.add_option("--resume", options.resume, "Go on with the sweep of this folder")->check(not_empty());
+  command.add_option("--status", options.status, "Count the runs of this folder, and tell of those that failed")
+      ->check(not_empty());
+  command.add_option("--collect", options.collect, "Write table and plot of what has ended in this folder")
+      ->check(not_empty());
+  command.add_option("--only", options.only, "Do the run of this number and nothing else; a line of tasks.txt does so")
+      ->needs(resume)
+      ->check(number_between(0, most_sweep_runs));
+}
+
+void add_schedule(CLI::App& command, SweepOptions& options) {
+  command.add_option("-j,--jobs", options.jobs, "Runs at a time; without it one for each core")
+      ->check(number_between(1, 1000));
+  command.add_option("--on", options.on, "local: run here; slurm: submit an array of jobs, and return at once")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  command.add_option("--sbatch", options.tasks.sbatch, "Options for sbatch as they stand, such as \"-p short\"");
+  command
+      .add_option("--chunk", options.tasks.chunk,
+                  "Runs of one task of the array, one after the other; without it the array has up to 250 tasks")
+      ->check(number_between(1, most_sweep_runs));
+}
+
 }  // namespace
 
 void add_sweep_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("sweep", "Run a scene with all combinations of values, on all cores");
   command->footer(footer);
   auto options = std::make_shared<SweepOptions>();
-  command->add_option("scene", options->scene, "Scene file, or the name of a scene that `talus list` shows")
-      ->required()
-      ->check(not_empty());
-  command
-      ->add_option("-s,--set", options->settings,
-                   "Values of a key of the scene: PATH=LOW:HIGH:STEP or PATH=A,B,C; may be repeated")
-      ->type_name("PATH=VALUES")
-      ->allow_extra_args(false);
-  command->add_option("--seeds", options->seeds, "Each combination with this many seeds, from 1 on")
-      ->check(number_between(1, 100000))
-      ->capture_default_str();
-  command->add_option("-b,--backend", options->backend, "Engine, as for `talus run`")->check(not_empty());
-  command->add_option("-p,--policy", options->policy, "Which bodies may sleep, as for `talus run`; several by --set")
-      ->check(not_empty());
-  command->add_flag("-f,--force", options->force,
-                    "Also outside of the window in which results hold: a warning instead of an error");
+  const std::vector<CLI::Option*> plan = add_plan(*command, *options);
+  add_folders(*command, *options);
+  add_schedule(*command, *options);
   command->add_flag("--strict", options->strict, "Exit with 1 when a scene or run gave a warning");
-  command->add_flag("--measure-drift", options->measure_drift,
-                    "Measure at the end of each run how far the sleeping bodies move, as `talus run`");
-  command->add_flag("!--no-drift-probe", options->probe_drift,
-                    "Leave out the estimate of drift at the end of each run, as `talus run`");
-  command->add_option("-j,--jobs", options->jobs, "Runs at a time; without it one for each core")
-      ->check(number_between(1, 1000));
-  command->add_option("-o,--out", options->out, "Folder of the sweep: new, empty, or of the same sweep to go on with")
-      ->required()
-      ->check(not_empty());
-  command->add_option("--plot", options->plot, "Column of the table that sweep.svg shows")
-      ->check(CLI::IsMember(names_of_measures()))
-      ->capture_default_str();
-  command->callback([options, &exit_code] { exit_code = sweep(*options); });
+  command->add_option("--plot", options->plot, "Column of the table that sweep.svg shows; centre_height_m without it")
+      ->check(CLI::IsMember(names_of_measures()));
+  command->callback([options, plan, &exit_code] {
+    check_options(*options, plan);
+    exit_code = sweep(*options);
+  });
 }
 
 }  // namespace talus

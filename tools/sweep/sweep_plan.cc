@@ -70,21 +70,30 @@ SweepAxis sweep_axis(const std::string& text) {
   return axis;
 }
 
-std::vector<SweepRun> sweep_runs(const std::vector<SweepAxis>& axes) {
-  std::vector<SweepRun> runs(1);
+int sweep_size(const std::vector<SweepAxis>& axes) {
+  std::size_t size = 1;
   for (const SweepAxis& axis : axes) {
-    if (runs.size() * axis.values.size() > most_sweep_runs)
+    size *= axis.values.size();
+    if (size > most_sweep_runs)
       throw std::invalid_argument(fmt::format("sweep: must have at most {} runs", most_sweep_runs));
-    std::vector<SweepRun> longer;
-    for (const SweepRun& run : runs) {
-      for (const std::string& value : axis.values) {
-        longer.push_back(run);
-        longer.back().values.push_back(value);
-      }
-    }
-    runs = std::move(longer);
   }
-  return runs;
+  return static_cast<int>(size);
+}
+
+SweepRun sweep_run(const std::vector<SweepAxis>& axes, int number) {
+  SweepRun run{std::vector<std::string>(axes.size())};
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    const int count = static_cast<int>(axes[i].values.size());
+    run.values[i] = axes[i].values[number % count];
+    number /= count;
+  }
+  return run;
+}
+
+std::vector<std::string> settings_of(const std::vector<SweepAxis>& axes, const SweepRun& run) {
+  std::vector<std::string> settings;
+  for (std::size_t i = 0; i < axes.size(); ++i) settings.push_back(axes[i].path + "=" + run.values[i]);
+  return settings;
 }
 
 }  // namespace talus

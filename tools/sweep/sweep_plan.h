@@ -25,7 +25,13 @@ inline constexpr std::size_t most_sweep_runs = 100'000;
 /// quotes belong to a value. Throws std::invalid_argument with the text and the rule.
 SweepAxis sweep_axis(const std::string& text);
 
-/// All combinations, those of the last axis side by side. Throws std::invalid_argument where there are too many.
-std::vector<SweepRun> sweep_runs(const std::vector<SweepAxis>& axes);
+/// Number of all combinations. Throws std::invalid_argument where there are too many.
+int sweep_size(const std::vector<SweepAxis>& axes);
+
+/// The combination of this number; those of the last axis stand side by side.
+SweepRun sweep_run(const std::vector<SweepAxis>& axes, int number);
+
+/// PATH=VALUE for each axis.
+std::vector<std::string> settings_of(const std::vector<SweepAxis>& axes, const SweepRun& run);
 
 }  // namespace talus

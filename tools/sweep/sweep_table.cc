@@ -1,19 +1,14 @@
 #include "tools/sweep/sweep_table.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <utility>
 
 #include "common/text/file.h"
-#include "tools/output/csv.h"
-#include "tools/plot/plot.h"
 
 namespace talus {
 namespace {
@@ -35,20 +30,6 @@ std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes) {
   return columns;
 }
 
-/// The values of one point of a curve.
-struct Sample {
-  double sum = 0.0;
-  double squares = 0.0;
-  int count = 0;
-  double mean() const { return sum / count; }
-  double standard_error() const {
-    if (count < 2) return 0.0;
-    return std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1)) / count);
-  }
-};
-
-using Curves = std::map<std::string, std::map<double, Sample>>;
-
 /// The axis along which to plot: the first but `seed` with several values that are all numbers.
 std::optional<std::size_t> plotted_axis(const std::vector<SweepAxis>& axes) {
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -66,20 +47,6 @@ std::string curve_of(const std::vector<SweepAxis>& axes, const SweepRow& row, st
     if (i != plotted && axes[i].path != "seed" && axes[i].values.size() > 1)
       name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", axes[i].path, row.values[i]);
   return name.empty() ? "mean" : name;
-}
-
-/// With bars where a point has several seeds.
-Series series_of(const std::string& name, const std::map<double, Sample>& points) {
-  const bool bars = std::ranges::any_of(points, [](const auto& point) { return point.second.count > 1; });
-  Series series{.name = name, .x = {}, .y = {}, .style = SeriesStyle::line_and_points};
-  for (const auto& [x, sample] : points) {
-    series.x.push_back(x);
-    series.y.push_back(sample.mean());
-    if (!bars) continue;
-    series.low.push_back(sample.mean() - sample.standard_error());
-    series.high.push_back(sample.mean() + sample.standard_error());
-  }
-  return series;
 }
 
 }  // namespace
@@ -103,10 +70,7 @@ std::vector<SweepMeasure> sweep_measures() {
           {"measured_drift_D", "/measured/drift_mean_D", "measured drift [D]"}};
 }
 
-SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path& folder) {
-  std::ifstream stream(folder / "summary.json");
-  const auto summary = nlohmann::json::parse(stream, nullptr, false);
-  if (!summary.is_object()) throw std::runtime_error(fmt::format("{}: has no summary.json", folder.string()));
+SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summary) {
   SweepRow row{.run = number,
                .values = run.values,
                .numbers = {},
@@ -120,43 +84,68 @@ SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path&
   return row;
 }
 
-void write_sweep_csv(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
-                     const std::vector<SweepRow>& rows) {
-  std::string table = csv_line(columns_of(axes));
-  for (const SweepRow& row : rows) {
-    std::vector<std::string> cells = {fmt::format("{}", row.run)};
-    cells.insert(cells.end(), row.values.begin(), row.values.end());
-    cells.insert(cells.end(), {row.reason, row.end_hash});
-    for (const std::optional<double>& number : row.numbers)
-      cells.push_back(number ? fmt::format("{:.9g}", *number) : "");
-    table += csv_line(cells);
-  }
-  write_file(file, table);
+double SweepTable::Sample::standard_error() const {
+  if (count < 2) return 0.0;
+  return std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1)) / count);
 }
 
-bool write_sweep_plot(const std::filesystem::path& file, const std::string& title, const std::vector<SweepAxis>& axes,
-                      const std::vector<SweepRow>& rows, std::string_view measure) {
+SweepTable::SweepTable(const std::filesystem::path& file, std::vector<SweepAxis> axes, std::string_view plotted_measure)
+    : file_(file),
+      part_(fmt::format("{}.{}", file.string(), getpid())),
+      axes_(std::move(axes)),
+      along_(plotted_axis(axes_)),
+      csv_(part_, columns_of(axes_)) {
   const std::vector<SweepMeasure> measures = sweep_measures();
-  const auto which = std::ranges::find(measures, measure, &SweepMeasure::name);
-  const std::optional<std::size_t> along = plotted_axis(axes);
-  if (which == measures.end() || !along) return false;
-  Curves curves;
-  for (const SweepRow& row : rows) {
-    const std::optional<double> y = row.numbers[which - measures.begin()];
-    if (!y || row.reason != "finished") continue;
-    Sample& sample = curves[curve_of(axes, row, *along)][*number_in(row.values[*along])];
-    sample.sum += *y;
-    sample.squares += *y * *y;
-    ++sample.count;
+  measure_ = std::ranges::find(measures, plotted_measure, &SweepMeasure::name) - measures.begin();
+}
+
+void SweepTable::add(const SweepRow& row) {
+  std::vector<std::string> cells = {fmt::format("{}", row.run)};
+  cells.insert(cells.end(), row.values.begin(), row.values.end());
+  cells.insert(cells.end(), {row.reason, row.end_hash});
+  for (const std::optional<double>& number : row.numbers) cells.push_back(number ? fmt::format("{:.9g}", *number) : "");
+  csv_.add(cells);
+  if (!along_ || curves_.size() > most_curves || measure_ >= row.numbers.size() || !row.numbers[measure_] ||
+      row.reason != "finished")
+    return;
+  const double y = *row.numbers[measure_];
+  Sample& sample = curves_[curve_of(axes_, row, *along_)][*number_in(row.values[*along_])];
+  sample.sum += y;
+  sample.squares += y * y;
+  ++sample.count;
+}
+
+void SweepTable::finish() {
+  csv_.flush();
+  std::filesystem::rename(part_, file_);
+}
+
+/// With bars where a point has several seeds.
+Series SweepTable::series_of(const std::string& name, const Points& points) {
+  const bool bars = std::ranges::any_of(points, [](const auto& point) { return point.second.count > 1; });
+  Series series{.name = name, .x = {}, .y = {}, .style = SeriesStyle::line_and_points};
+  for (const auto& [x, sample] : points) {
+    series.x.push_back(x);
+    series.y.push_back(sample.mean());
+    if (!bars) continue;
+    series.low.push_back(sample.mean() - sample.standard_error());
+    series.high.push_back(sample.mean() + sample.standard_error());
   }
-  if (curves.empty() || curves.size() > most_curves) return false;
+  return series;
+}
+
+bool SweepTable::write_plot(const std::filesystem::path& file, const std::string& title) const {
+  if (curves_.empty() || curves_.size() > most_curves) return false;
   int most_seeds = 0;
-  for (const auto& [name, points] : curves)
+  for (const auto& [name, points] : curves_)
     for (const auto& [x, sample] : points) most_seeds = std::max(most_seeds, sample.count);
   const std::string bars =
       most_seeds > 1 ? fmt::format(" (bars: standard error of the mean of {} seeds)", most_seeds) : "";
-  Plot plot{.title = title, .x_label = axes[*along].path + bars, .y_label = std::string(which->label), .series = {}};
-  for (const auto& [name, points] : curves) plot.series.push_back(series_of(name, points));
+  Plot plot{.title = title,
+            .x_label = axes_[*along_].path + bars,
+            .y_label = std::string(sweep_measures()[measure_].label),
+            .series = {}};
+  for (const auto& [name, points] : curves_) plot.series.push_back(series_of(name, points));
   write_file(file, svg_of(plot));
   return true;
 }

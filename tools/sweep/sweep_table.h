@@ -2,11 +2,15 @@
 // What the runs of a sweep gave, as files.
 
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tools/output/csv.h"
+#include "tools/plot/plot.h"
 #include "tools/sweep/sweep_plan.h"
 
 namespace talus {
@@ -21,7 +25,7 @@ struct SweepMeasure {
 /// All such columns, in their order.
 std::vector<SweepMeasure> sweep_measures();
 
-/// A finished run. Where the summary has no number, the measure is empty.
+/// A run that has ended. Where the summary has no number, the measure is empty.
 struct SweepRow {
   int run = 0;
   std::vector<std::string> values;             // of the axes
@@ -30,17 +34,43 @@ struct SweepRow {
   std::string end_hash;
 };
 
-/// The row of a run folder. Throws std::runtime_error where it has no summary that can be read.
-SweepRow sweep_row(int number, const SweepRun& run, const std::filesystem::path& folder);
+/// The row of a run, from its summary.json.
+SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summary);
 
-/// Writes sweep.csv, over a file that is there.
-void write_sweep_csv(const std::filesystem::path& file, const std::vector<SweepAxis>& axes,
-                     const std::vector<SweepRow>& rows);
+/// Takes the rows one by one into sweep.csv and into the sums that sweep.svg shows: memory does not grow with the rows.
+class SweepTable {
+ public:
+  /// Replaces the file at once in finish(); until then an old one stays. Each call throws std::system_error where the
+  /// file cannot be written.
+  SweepTable(const std::filesystem::path& file, std::vector<SweepAxis> axes, std::string_view plotted_measure);
+  void add(const SweepRow& row);
+  void finish();
 
-/// A measure over the first axis that has several numbers, a curve for each combination of the other axes but `seed`,
-/// over whose values the mean is taken with its standard error. Nothing is drawn, and false returned, where there is no
-/// such axis, or more than seven curves.
-bool write_sweep_plot(const std::filesystem::path& file, const std::string& title, const std::vector<SweepAxis>& axes,
-                      const std::vector<SweepRow>& rows, std::string_view measure);
+  /// Writes a plot of the measure over the first axis that has several numbers, a curve for each combination of the
+  /// other axes but `seed`, over whose values the mean is taken with its standard error. Nothing is drawn, and false
+  /// returned, where there is no such axis, or more than seven curves.
+  bool write_plot(const std::filesystem::path& file, const std::string& title) const;
+
+ private:
+  /// The values of one point of a curve.
+  struct Sample {
+    double sum = 0.0;
+    double squares = 0.0;
+    int count = 0;
+    double mean() const { return sum / count; }
+    double standard_error() const;
+  };
+  using Points = std::map<double, Sample>;
+
+  static Series series_of(const std::string& name, const Points& points);
+
+  std::filesystem::path file_;
+  std::filesystem::path part_;  // the table until it is whole
+  std::vector<SweepAxis> axes_;
+  std::size_t measure_ = 0;
+  std::optional<std::size_t> along_;  // the axis along which to plot
+  GrowingCsv csv_;
+  std::map<std::string, Points> curves_;
+};
 
 }  // namespace talus

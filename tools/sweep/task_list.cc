@@ -1,0 +1,92 @@
+#include "tools/sweep/task_list.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include "common/text/file.h"
+#include "common/text/printable.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view array_script = R"(#!/bin/sh
+#SBATCH --job-name=talus --array=0-{last_task} --chdir={folder_for_sbatch} --output=slurm/%a.txt{sbatch}
+# Does chunk N of tasks.txt, {chunk} lines, for index N of an array job: `sbatch array.sh`, or `sh array.sh N`.
+# With --cpus-per-task=K, K lines at a time.
+cd {folder} || exit
+first=$((${{1:-${{SLURM_ARRAY_TASK_ID:?}}}} * {chunk} + 1))
+sed -n "$first,$((first + {more}))p" tasks.txt |
+  xargs -d '\n' -n 1 -P "${{SLURM_CPUS_PER_TASK:-1}}" sh -c 'sh -c "$1" || exit 1' line
+)";
+
+constexpr std::string_view collect_script = R"(#!/bin/sh
+#SBATCH --job-name=talus_collect --chdir={folder_for_sbatch} --output=slurm/collect.txt{sbatch}
+# Writes sweep.csv and sweep.svg.
+exec {talus} sweep --collect {folder}
+)";
+
+/// A word of the shell.
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char letter : text) word += letter == '\'' ? std::string(R"('\'')") : std::string(1, letter);
+  return word + "'";
+}
+
+/// A value in a line #SBATCH.
+std::string sbatch_word(const std::string& text) {
+  std::string word = "\"";
+  for (const char letter : text) word += (letter == '"' || letter == '\\' ? "\\" : "") + std::string(1, letter);
+  return word + "\"";
+}
+
+void require_one_line(std::string_view what, const std::string& text) {
+  if (text.find('\n') != std::string::npos)
+    throw std::invalid_argument(fmt::format("{} {}: must be one line", what, text));
+}
+
+void write_tasks(const Sweep& sweep, const std::vector<int>& numbers, const std::string& talus) {
+  const fs::path file = sweep.folder / "tasks.txt";
+  std::ofstream list(file);
+  for (const int number : numbers)
+    list << fmt::format(
+        "{} sweep --resume {} --only {}  # {}\n", talus, shell_word(sweep.folder.string()), number,
+        printable(fmt::format("{}", fmt::join(settings_of(sweep.axes, sweep_run(sweep.axes, number)), " "))));
+  list.close();
+  if (!list) throw std::system_error(errno, std::generic_category(), file.string());
+}
+
+}  // namespace
+
+TaskList write_task_list(const Sweep& sweep, const std::vector<int>& numbers, const TaskOptions& options) {
+  require_one_line("--sbatch", options.sbatch);
+  require_one_line("--out", sweep.folder.string());
+  const std::string talus = shell_word(fs::read_symlink("/proc/self/exe").string());
+  const int runs = static_cast<int>(numbers.size());
+  const int chunk = options.chunk > 0 ? options.chunk : (runs + most_array_tasks - 1) / most_array_tasks;
+  TaskList list{.runs = runs,
+                .chunk = chunk,
+                .tasks = (runs + chunk - 1) / chunk,
+                .array = sweep.folder / "array.sh",
+                .collect = sweep.folder / "collect.sh"};
+  const auto script = [&](const fs::path& file, std::string_view text) {
+    write_file(file, fmt::format(fmt::runtime(text), fmt::arg("last_task", list.tasks - 1),
+                                 fmt::arg("folder_for_sbatch", sbatch_word(sweep.folder.string())),
+                                 fmt::arg("sbatch", options.sbatch.empty() ? "" : " " + options.sbatch),
+                                 fmt::arg("chunk", chunk), fmt::arg("more", chunk - 1),
+                                 fmt::arg("folder", shell_word(sweep.folder.string())), fmt::arg("talus", talus)));
+  };
+  fs::create_directories(sweep.folder / "slurm");
+  write_tasks(sweep, numbers, talus);
+  script(list.array, array_script);
+  script(list.collect, collect_script);
+  return list;
+}
+
+}  // namespace talus
