@@ -125,15 +125,6 @@ std::string rows_of_shape() {
          rows_of<Material>(body_material_fields) + rows_of<Material>(surface_fields);
 }
 
-/// The first TOML block, each key with its default.
-std::string example_of(std::string_view document) {
-  constexpr std::string_view begin = "```toml\n";
-  const std::size_t from = document.find(begin) + begin.size();
-  const std::size_t to = document.find("```", from);
-  std::string text = with_every_default(document.substr(from, to - from), "the first example");
-  return fmt::format("```toml\n{}```\n", text.insert(text.find("\"\n"), ", every default written out"));
-}
-
 std::vector<std::pair<std::string, std::string>> tables_of_shapes() {
   return {
       {"[shape.NAME]", rows_of_shape()},
@@ -196,7 +187,6 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
 
 std::string with_reference(std::string_view document) {
   constexpr std::string_view keys_mark = "<!-- keys: ";
-  constexpr std::string_view example_mark = "<!-- every default -->";
   constexpr std::string_view end_mark = "<!-- end -->";
   const auto tables = key_tables();
   std::istringstream lines{std::string(document)};
@@ -205,17 +195,13 @@ std::string with_reference(std::string_view document) {
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    const bool begins = line.starts_with(keys_mark) || line == example_mark;
+    const bool begins = line.starts_with(keys_mark);
     if (begins == inside && (begins || line == end_mark))
       throw std::invalid_argument(fmt::format("line {}: {} must be one of a pair of marks", number, line));
     if (line == end_mark) inside = false;
     if (!inside) result += line + "\n";
     if (!begins) continue;
     inside = true;
-    if (line == example_mark) {
-      result += "\n" + example_of(document) + "\n";
-      continue;
-    }
     const std::string name = line.substr(keys_mark.size(), line.rfind(" -->") - keys_mark.size());
     const auto found = std::ranges::find(tables, name, [](const auto& table) { return table.first; });
     if (found == tables.end())

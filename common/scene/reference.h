@@ -12,9 +12,8 @@ namespace talus {
 /// `[[pile]]`, `root`; those of a kind of shape with `[shape.NAME] ring`.
 std::vector<std::pair<std::string, std::string>> key_tables();
 
-/// The document with new text between its pairs of marks. `<!-- keys: NAME -->` begins the table of that name;
-/// `<!-- every default -->` begins the first TOML block of the document with the default of every key; `<!-- end -->`
-/// ends both. Throws std::invalid_argument with the line of a mark that has no such name or no end.
+/// The document with new text between its pairs of marks. `<!-- keys: NAME -->` begins the table of that name
+/// and `<!-- end -->` ends it. Throws std::invalid_argument with the line of a mark that has no such name or no end.
 std::string with_reference(std::string_view document);
 
 }  // namespace talus

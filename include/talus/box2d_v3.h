@@ -90,6 +90,7 @@ class Box2dV3Sleeper {
 
   /// Before a force, an impulse or a velocity is given to a body.
   void wake(b2BodyId body) { carry_out(core_.wake(handle(body))); }
+  /// Wakes all watched bodies.
   void wake_all() { carry_out(core_.wake_all()); }
   /// Wakes what sleeps by a body that is not watched, such as a static one that is about to move or has moved.
   void wake_near(b2BodyId body) {
@@ -99,18 +100,23 @@ class Box2dV3Sleeper {
   /// After the program has put a body elsewhere.
   void moved(b2BodyId body) { carry_out(core_.moved(handle(body), pose(body))); }
 
+  /// Whether a body has been added.
   bool watches(b2BodyId body) const { return find(body) != Handle{}; }
+  /// Whether a watched body sleeps. Throws InvalidValue on any other.
   bool asleep(b2BodyId body) const { return core_.asleep(handle(body)); }
   /// Throws InvalidValue on a body that is not watched.
   Handle handle(b2BodyId body) const {
     require(watches(body), "body", "not watched", "must have been added");
     return find(body);
   }
+  /// The body of a handle. Throws InvalidValue on one that names none.
   b2BodyId body(Handle handle) const {
     require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
     return entries_[handle.slot].body;
   }
+  /// Bodies that are watched; kinematic ones count.
   int size() const { return core_.size(); }
+  /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
   /// What a saved program must keep beside its bodies. All bodies that are not kinematic are dynamic when awake.
