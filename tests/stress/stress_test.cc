@@ -92,6 +92,14 @@ TEST(StressCommand, PrintsEachMeasuredNumberBesideWhatItMustBe) {
   EXPECT_NE(outcome.out.find("9 numbers measured, 0 outside of their tolerances"), std::string::npos) << outcome.out;
 }
 
+TEST(StressCommand, PutsSolversSideBySide) {
+  const Outcome outcome =
+      talus_command("stress free-flight --backend box2d --policy full --solver small_steps --solver engine");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("box2d         full      small_steps  "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("box2d         full      engine       "), std::string::npos) << outcome.out;
+}
+
 TEST(StressCommand, RefusesWhatIsNeitherAGroupNorACase) {
   const Outcome outcome = talus_command("stress stak-5");
   EXPECT_EQ(outcome.exit_code, 2);

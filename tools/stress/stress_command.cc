@@ -23,7 +23,7 @@ struct StressOptions {
   std::vector<std::string> names;
   std::vector<std::string> backends;
   std::vector<std::string> policies;
-  std::string solver{small_steps_solver};
+  std::vector<std::string> solvers = {std::string(small_steps_solver)};
   int rings = 0;
   int jobs = 2;
   bool whole = false;
@@ -50,10 +50,29 @@ void check_names(const std::vector<std::string>& names) {
   }
 }
 
+/// Each task with each solver, side by side. The policy `engine` has the engine's own solver alone. The result refers
+/// to the options.
+std::vector<PhysicsTask> with_solvers(const std::vector<PhysicsTask>& tasks, const StressOptions& options) {
+  std::vector<PhysicsTask> all;
+  const auto add = [&](PhysicsTask task, std::string_view solver) {
+    task.cell.solver = solver;
+    task.cell.rings = options.rings;
+    all.push_back(task);
+  };
+  for (const PhysicsTask& task : tasks) {
+    if (task.cell.policy == "engine") {
+      add(task, engine_solver);
+      continue;
+    }
+    for (const std::string& solver : options.solvers) add(task, solver);
+  }
+  return all;
+}
+
 /// Slow cases only by name or with --long.
 std::vector<PhysicsTask> chosen_tasks(const StressOptions& options) {
   check_names(options.names);
-  const bool own_solver = options.solver == engine_solver;
+  const bool own_solver = std::ranges::find(options.solvers, engine_solver) != options.solvers.end();
   if (options.rings > 0 && own_solver) throw std::invalid_argument("--rings: must be 0 unless --solver is small_steps");
   std::vector<PhysicsTask> tasks = physics_tasks();
   std::erase_if(tasks, [&](const PhysicsTask& task) {
@@ -62,12 +81,8 @@ std::vector<PhysicsTask> chosen_tasks(const StressOptions& options) {
     return !(named || in_group) || !is_chosen(options.backends, task.cell.backend) ||
            !is_chosen(options.policies, task.cell.policy);
   });
-  for (PhysicsTask& task : tasks) {
-    task.cell.solver = options.solver;
-    task.cell.rings = options.rings;
-  }
   if (tasks.empty()) throw std::invalid_argument("stress: no case runs on the engines and policies that were chosen");
-  return tasks;
+  return with_solvers(tasks, options);
 }
 
 /// How many of the case's numbers lie outside of their tolerances; a case that failed has none.
@@ -79,9 +94,9 @@ int print_task(const PhysicsTask& task, const TaskOutcome& outcome) {
     const double measured = i < numbers.size() && numbers[i].is_number() ? numbers[i].get<double>() : std::nan("");
     const bool good = gate.holds(measured);
     outside += good ? 0 : 1;
-    print_result("  {:<14}{:<10}{} = {:.4g}{}{}, must be {:.4g} ± {:.4g}{}\n", task.cell.backend, task.cell.policy,
-                 gate.quantity, measured, gate.unit.empty() ? "" : " ", gate.unit, gate.reference, gate.tolerance,
-                 good ? "" : " OUTSIDE");
+    print_result("  {:<14}{:<10}{:<13}{} = {:.4g}{}{}, must be {:.4g} ± {:.4g}{}\n", task.cell.backend,
+                 task.cell.policy, task.cell.solver, gate.quantity, measured, gate.unit.empty() ? "" : " ", gate.unit,
+                 gate.reference, gate.tolerance, good ? "" : " OUTSIDE");
     if (!good)
       print_message("talus: {}{}{}", sentence(task, gate, measured), outcome.failed ? ": " : "",
                     outcome.failed ? outcome.text : "");
@@ -124,9 +139,10 @@ void add_stress_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(std::vector<std::string>(policy_kinds.begin(), policy_kinds.end())))
       ->allow_extra_args(false);
   command
-      ->add_option("--solver", options->solver,
-                   "World's solver of contacts; the policy `engine` has the engine's own in any case")
+      ->add_option("--solver", options->solvers,
+                   "World's solver of contacts, may be repeated; the policy `engine` has the engine's own in any case")
       ->check(CLI::IsMember(std::vector<std::string>(solver_kinds.begin(), solver_kinds.end())))
+      ->allow_extra_args(false)
       ->capture_default_str();
   command
       ->add_option("--rings", options->rings, "Rings of sleeping bodies that policy adaptive solves; with small_steps")
