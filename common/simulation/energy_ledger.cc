@@ -35,10 +35,12 @@ void EnergyLedger<Dim>::end_step(const World<Dim>& world) {
   work_ = work_of_obstacles(world);
   largest_kinetic_ = std::max(largest_kinetic_, kinetic_);
   largest_lift_ = std::max(largest_lift_, lift_);
-  rise_ = std::max(0.0, rise_ + change_ - work_);
+  const double given_back = std::clamp(-work_, 0.0, held_);
+  held_ = std::max(0.0, work_);
+  rise_ = std::max(0.0, rise_ + change_ - work_ - given_back);
   if (burst_ == 0.0) burst_lift_ = 0.0;
   burst_lift_ = std::max(burst_lift_, lift_);
-  burst_ = std::max(0.0, burst_ + gain_ - work_);
+  burst_ = std::max(0.0, burst_ + gain_ - work_ - given_back);
 }
 
 template <int Dim>
@@ -53,20 +55,27 @@ void EnergyLedger<Dim>::add(const World<Dim>& world, const Before& before) {
   lift_ += shape.mass * (gravity.norm() * shape.extent + 0.5 * rest_speed * rest_speed);
 }
 
+/// Sleeping bodies that feel forces pass on to awake ones what an obstacle does to them.
 template <int Dim>
-double EnergyLedger<Dim>::work_of_obstacles(const World<Dim>& world) const {
-  if (obstacles_.empty()) return 0.0;
+double EnergyLedger<Dim>::work_of_obstacles(const World<Dim>& world) {
   double work = 0.0;
-  for (const Contact<Dim>& contact : world.contacts()) {
-    if (contact.b > first_obstacle) continue;
-    const auto before = std::ranges::lower_bound(obstacles_, first_obstacle - contact.b, {}, &ObstacleBefore::number);
-    if (before == obstacles_.end() || before->number != first_obstacle - contact.b) continue;
-    const Pose<Dim>& after = world.obstacle_pose(before->number);
-    const Vec<Dim> own = before->pose.rotation.inverse() * (contact.point - before->pose.position);
-    const Vec<Dim> moved = after.position + after.rotation * own - contact.point;
-    work += (contact.normal_impulse * contact.normal + contact.friction_impulse).dot(moved) / dt_;
-  }
+  if (!obstacles_.empty())
+    for (const Contact<Dim>& contact : world.contacts()) work += work_of(world, contact);
+  sleeping_.clear();
+  for (const ObstacleBefore& before : obstacles_) world.sleeping_contacts(first_obstacle - before.number, sleeping_);
+  for (const Contact<Dim>& contact : sleeping_) work += work_of(world, contact);
   return work;
+}
+
+template <int Dim>
+double EnergyLedger<Dim>::work_of(const World<Dim>& world, const Contact<Dim>& contact) const {
+  if (contact.b > first_obstacle) return 0.0;
+  const auto before = std::ranges::lower_bound(obstacles_, first_obstacle - contact.b, {}, &ObstacleBefore::number);
+  if (before == obstacles_.end() || before->number != first_obstacle - contact.b) return 0.0;
+  const Pose<Dim>& after = world.obstacle_pose(before->number);
+  const Vec<Dim> own = before->pose.rotation.inverse() * (contact.point - before->pose.position);
+  const Vec<Dim> moved = after.position + after.rotation * own - contact.point;
+  return (contact.normal_impulse * contact.normal + contact.friction_impulse).dot(moved) / dt_;
 }
 
 template <int Dim>

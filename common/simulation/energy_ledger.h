@@ -61,14 +61,18 @@ class EnergyLedger {
     Pose<Dim> pose;
   };
   void add(const World<Dim>& world, const Before& before);
-  double work_of_obstacles(const World<Dim>& world) const;
+  double work_of_obstacles(const World<Dim>& world);
+  double work_of(const World<Dim>& world, const Contact<Dim>& contact) const;
 
   double dt_;                              // [s]
   std::vector<Before> before_;             // awake bodies before the step, ascending
   std::vector<ObstacleBefore> obstacles_;  // those that may move, before the step
+  std::vector<Contact<Dim>> sleeping_;     // scratch
   double change_ = 0.0;                    // of kinetic and potential energy in this step [J]
   double gain_ = 0.0;                      // of kinetic energy in this step beyond what gravity gives a free body [J]
   double work_ = 0.0;                      // [J]
+  double held_ = 0.0;                      // what contacts that an obstacle squeezed may give back to it in the next
+                                           // step: its work in this one, if positive [J]
   double kinetic_ = 0.0;                   // of the awake bodies after this step [J]
   double lift_ = 0.0;             // work that lifts each awake body of this step by its extent, and gives it a motion
                                   // too slow to be seen [J]

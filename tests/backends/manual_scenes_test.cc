@@ -58,6 +58,12 @@ std::vector<Block> manual_scenes() {
   return scenes;
 }
 
+/// What a run watches its states for is checked while somebody observes it.
+template <int Dim>
+struct Watched final : Observer<Dim> {
+  void on_frame(const Frame<Dim>& /*frame*/) override {}
+};
+
 template <typename Backend>
 class ManualScenes : public ::testing::Test {};
 
@@ -74,7 +80,10 @@ TYPED_TEST(ManualScenes, DropAllTheirBodiesBeforeTheirEndWithoutAWarning) {
     if (scene == nullptr) continue;
     EXPECT_EQ(warnings(*scene), std::vector<std::string>());
     auto simulation = simulation_on<TypeParam>(*scene);
+    Watched<dim> observer;
+    simulation.add_observer(observer);
     while (!simulation.finished()) simulation.step();
+    for (const Warning& warning : simulation.warnings()) ADD_FAILURE() << account(warning);
     EXPECT_EQ(simulation.emitter().emitted(), simulation.emitter().total());
     EXPECT_EQ(simulation.world().states().size(), simulation.emitter().total());
   }
