@@ -1,10 +1,12 @@
 #pragma once
-// Sleep body by body in a Box2D world of one's own, version 3.1. Compiled with the program's own Box2D; link
-// talus::core.
+/// @file
+/// Sleep body by body in a Box2D world of one's own, version 3.1. Compiled with the program's own Box2D; link
+/// talus::core.
 
 #include <box2d/box2d.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "common/math/require.h"

@@ -1,8 +1,7 @@
 """Parts taken out of a bin."""
 
-import unittest
-
 import numpy as np
+import pytest
 import talus
 
 PARTS = 60
@@ -16,37 +15,34 @@ source = [{count = 60, rate = 17, position = [0, 0, 4], spread = [0.5, 0.5, 0], 
 """
 
 
-class BinPicking(unittest.TestCase):
-    def test_begins_with_settled_parts_that_follow_from_the_seed(self):
-        first, info = talus.BinPicking(BIN, PARTS).reset(seed=1)
-        again, _ = talus.BinPicking(BIN, PARTS).reset(seed=1)
-        other, _ = talus.BinPicking(BIN, PARTS).reset(seed=2)
-        self.assertTrue(info["settled"])
-        self.assertTrue(first["asleep"].all() and first["present"].all())
-        np.testing.assert_array_equal(first["poses"], again["poses"])
-        self.assertFalse(np.array_equal(first["poses"], other["poses"]))
-
-    def test_the_parts_above_come_down_when_those_below_are_taken_out(self):
-        env = talus.BinPicking(BIN, PARTS)
-        start, _ = env.reset(seed=1)
-        upper = int(np.argmax(start["poses"][:, 2]))
-        for part in np.argsort(start["poses"][:, 2])[:-1]:
-            parts, reward, terminated, truncated, _ = env.step(part)
-            self.assertEqual((reward, terminated, truncated), (1.0, False, False))
-            self.assertFalse(parts["present"][part])
-        self.assertLess(parts["poses"][upper, 2], start["poses"][upper, 2] - 0.1)
-        self.assertTrue(env.step(upper)[2])
-
-    def test_gives_no_reward_for_a_part_that_is_not_there(self):
-        env = talus.BinPicking(BIN, PARTS)
-        with self.assertRaises(ValueError):
-            env.step(0)
-        env.reset(seed=1)
-        env.step(3)
-        for missing in (3, PARTS, -1):
-            _, reward, _, _, info = env.step(missing)
-            self.assertEqual((reward, info["moved"].max()), (0.0, 0.0))
+def test_begins_with_settled_parts_that_follow_from_the_seed():
+    first, info = talus.BinPicking(BIN, PARTS).reset(seed=1)
+    again, _ = talus.BinPicking(BIN, PARTS).reset(seed=1)
+    other, _ = talus.BinPicking(BIN, PARTS).reset(seed=2)
+    assert info["settled"]
+    assert first["asleep"].all() and first["present"].all()
+    np.testing.assert_array_equal(first["poses"], again["poses"])
+    assert not np.array_equal(first["poses"], other["poses"])
 
 
-if __name__ == "__main__":
-    unittest.main()
+def test_the_parts_above_come_down_when_those_below_are_taken_out():
+    env = talus.BinPicking(BIN, PARTS)
+    start, _ = env.reset(seed=1)
+    upper = int(np.argmax(start["poses"][:, 2]))
+    for part in np.argsort(start["poses"][:, 2])[:-1]:
+        parts, reward, terminated, truncated, _ = env.step(part)
+        assert (reward, terminated, truncated) == (1.0, False, False)
+        assert not parts["present"][part]
+    assert parts["poses"][upper, 2] < start["poses"][upper, 2] - 0.1
+    assert env.step(upper)[2]
+
+
+def test_gives_no_reward_for_a_part_that_is_not_there():
+    env = talus.BinPicking(BIN, PARTS)
+    with pytest.raises(ValueError):
+        env.step(0)
+    env.reset(seed=1)
+    env.step(3)
+    for missing in (3, PARTS, -1):
+        _, reward, _, _, info = env.step(missing)
+        assert (reward, info["moved"].max()) == (0.0, 0.0)

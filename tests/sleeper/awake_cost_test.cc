@@ -1,3 +1,5 @@
+// What a sleeper adds to a step of its engine while all bodies move: drums that turn, with and without it.
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
