@@ -45,7 +45,7 @@ class Game {
     lift_speed_ = 0.0;
     for (int i = 0; i < 900; ++i) step();
   }
-  /// Boxes that hang in the air: woken, they fall as if nothing held them, but for a tenth: a heap whose wedge slips
+  /// Boxes without support: once woken they fall by more than nine tenths of a free fall. A box of a heap that slips
   /// falls by less.
   int floating() {
     std::vector<double> heights;
@@ -64,7 +64,7 @@ class Game {
     std::string found;
     if (scene_.sleeper->size() != static_cast<int>(boxes_.size()) + 1) found += "other numbers of bodies; ";
     for (const Body* box : boxes_) {
-      const Vector at = scene_.place(*box);  // NaN is lost
+      const Vector at = scene_.place(*box);  // a box at NaN passes no comparison, so it counts as lost
       if (scene_.sleeper->watches(*box) && at[up] > 0.1 && at.cwiseAbs().maxCoeff() < 100) continue;
       for (const double number : at) found += std::to_string(number) + " ";
     }

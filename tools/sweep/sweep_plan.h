@@ -28,7 +28,7 @@ SweepAxis sweep_axis(const std::string& text);
 /// Number of all combinations. Throws std::invalid_argument where there are too many.
 int sweep_size(const std::vector<SweepAxis>& axes);
 
-/// The combination of this number; those of the last axis stand side by side.
+/// The combination of this number. From one number to the next the value of the last axis changes first.
 SweepRun sweep_run(const std::vector<SweepAxis>& axes, int number);
 
 /// PATH=VALUE for each axis.

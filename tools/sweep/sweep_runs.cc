@@ -24,7 +24,7 @@ void send_to(const fs::path& file, int descriptor) {
   if (target >= 0) dup2(target, descriptor);
 }
 
-/// In a process of its own. Standard output is of no use to anyone, standard error goes into a file.
+/// In a process of its own. Standard output is dropped, standard error goes into a file.
 std::string run_one(const Sweep& sweep, std::vector<std::string> settings, const fs::path& part) {
   fs::remove_all(part);  // of a process with the same number, from before a restart of the machine
   send_to("/dev/null", STDOUT_FILENO);

@@ -47,8 +47,8 @@ class SweepTable {
   void finish();
 
   /// Writes a plot of the measure over the first axis that has several numbers, a curve for each combination of the
-  /// other axes but `seed`, over whose values the mean is taken with its standard error. Nothing is drawn, and false
-  /// returned, where there is no such axis, or more than seven curves.
+  /// other axes but `seed`, over whose values the mean is taken with its standard error. Returns false, and
+  /// writes nothing, where there is no such axis, or more than seven curves.
   bool write_plot(const std::filesystem::path& file, const std::string& title) const;
 
  private:
