@@ -490,23 +490,20 @@ void SmallSteps::move_bodies(std::span<b2Body* const> bodies) const {
 
 void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& out) {
   const auto awake = [&](BodyIndex body) { return body >= 0 && states.asleep[body] == 0; };
-  const auto swapped = [&](const Source& source) {
+  ordered_.clear();
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Source& source = sources_[i];
     const BodyIndex a = owner_of(source.a);
     const BodyIndex b = owner_of(source.b);
-    return !awake(a) || (awake(b) && b < a);
-  };
-  ordered_.resize(sources_.size());
-  for (std::size_t i = 0; i < ordered_.size(); ++i) ordered_[i] = i;
-  std::ranges::stable_sort(ordered_, {}, [&](std::size_t i) {
-    const Source& source = sources_[i];
-    const bool swap = swapped(source);
+    const bool swap = !awake(a) || (awake(b) && b < a);
     const Tag first = swap ? source.b : source.a;
     const Tag second = swap ? source.a : source.b;
-    return std::tuple(owner_of(first), owner_of(second), second, first);
-  });
-  for (const std::size_t i : ordered_) {
-    const Source& source = sources_[i];
-    const ContactPoint<2>& point = solver_.points()[i];
+    ordered_.push_back({owner_of(first), owner_of(second), piece_of(second), piece_of(first), i, swap});
+  }
+  std::ranges::sort(ordered_);
+  for (const Listed& listed : ordered_) {
+    const Source& source = sources_[listed.source];
+    const ContactPoint<2>& point = solver_.points()[listed.source];
     const SolverBody<2>& a = solver_.body(point.a);
     const SolverBody<2>& b = solver_.body(point.b);
     const auto moved = [](const SolverBody<2>& body, const VecF<2>& arm) -> VecF<2> {
@@ -514,14 +511,12 @@ void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& ou
     };
     const float gap = point.gap + point.normal.dot(moved(b, point.arm_b) - moved(a, point.arm_a));
     if (source.contact == nullptr && point.normal_sum == 0.0F) continue;  // did not touch
-    const bool swap = swapped(source);
-    const double sign = swap ? 1.0 : -1.0;  // the result's normal points to its first body
+    const double sign = listed.swapped ? 1.0 : -1.0;  // the result's normal points to its first body
     Contact<2>& contact = out.emplace_back();
-    contact.a = owner_of(swap ? source.b : source.a);
-    contact.b = owner_of(swap ? source.a : source.b);
-    const BodyIndex mover = contact.a;
-    const VecF<2>& arm = swap ? point.arm_b : point.arm_a;
-    contact.point = states.pose[mover].position + arm.cast<double>();
+    contact.a = listed.a;
+    contact.b = listed.b;
+    const VecF<2>& arm = listed.swapped ? point.arm_b : point.arm_a;
+    contact.point = states.pose[contact.a].position + arm.cast<double>();
     contact.normal = sign * point.normal.cast<double>();
     contact.normal_impulse = point.normal_sum;
     contact.friction_impulse = sign * point.friction_sum.cast<double>();

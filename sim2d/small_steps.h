@@ -3,6 +3,7 @@
 
 #include <box2d/box2d.h>
 
+#include <compare>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,6 +59,16 @@ class SmallSteps {
     Tag b{};
     b2Contact* contact = nullptr;  // null: found ahead
     int number = 0;                // of the manifold's point
+  };
+  /// A contact point in the order of gather(); `a` is awake.
+  struct Listed {
+    BodyIndex a = 0;
+    BodyIndex b = 0;
+    int piece_b = 0;
+    int piece_a = 0;
+    std::size_t source = 0;
+    bool swapped = false;  // a is the source's b
+    auto operator<=>(const Listed&) const = default;
   };
   /// A rolling impulse, from the last step to the next.
   struct Rolling {
@@ -131,7 +142,7 @@ class SmallSteps {
   std::vector<b2Fixture*> found_;           // scratch
   std::vector<ContactPoint<2>> points_;     // scratch
   std::vector<SleepingPoint<2>> released_;  // scratch
-  std::vector<std::size_t> ordered_;        // scratch
+  std::vector<Listed> ordered_;             // scratch
 };
 
 }  // namespace talus::box2d

@@ -19,6 +19,9 @@ inline BodyIndex owner_of(Tag tag) {
   return static_cast<BodyIndex>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(tag) >> 32U));
 }
 
+/// Number of the owner's piece.
+inline int piece_of(Tag tag) { return static_cast<int>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(tag))); }
+
 inline b2FixtureUserData to_user_data(Tag tag) {
   static_assert(sizeof(std::uintptr_t) >= sizeof(Tag), "a tag must fit into Box2D's user data");
   b2FixtureUserData data;
