@@ -8,18 +8,10 @@
 #include <optional>
 
 #include "common/math/vector.h"
-#include "common/shape/piece.h"
+#include "common/shape/shape.h"
 
 namespace talus {
 namespace {
-
-/// Of its thickest piece: a thin one between others makes no body thin.
-template <int Dim>
-double thickness(const Shape<Dim>& shape) {
-  double width = 0.0;
-  for (const Piece<Dim>& piece : shape.pieces) width = std::max(width, smallest_width(piece));
-  return width;
-}
 
 /// The source of which a body goes farthest in a step, over its thickness; nothing without ground or sources.
 template <int Dim>

@@ -37,7 +37,7 @@ struct SetByScene {
 struct Arrival {
   double fall = 0.0;       // [m]
   double speed = 0.0;      // by energy [m/s]
-  double thickness = 0.0;  // of the thinnest body: the least width of its thickest piece [m]
+  double thickness = 0.0;  // of the thinnest body [m], see thickness()
 
   /// Thicknesses that a body goes in a step.
   double step(double dt) const { return speed * dt / thickness; }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/math/require.h"
@@ -136,6 +137,17 @@ double bounding_radius(const Shape<Dim>& shape) {
   return radius;
 }
 
+template <int Dim>
+double thickness(const Shape<Dim>& shape) {
+  std::vector<double> widths;
+  for (const Piece<Dim>& piece : shape.pieces) widths.push_back(smallest_width(piece));
+  const double widest = std::ranges::max(widths);
+  double least = widest;
+  for (const double width : widths)
+    if (width >= 0.5 * widest) least = std::min(least, width);
+  return least;
+}
+
 template MassProperties<2> mass_properties(const Piece<2>&);
 template MassProperties<3> mass_properties(const Piece<3>&);
 template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&);
@@ -152,5 +164,7 @@ template Box<2> bounds_at(const Shape<2>&, const Pose<2>&);
 template Box<3> bounds_at(const Shape<3>&, const Pose<3>&);
 template double bounding_radius(const Shape<2>&);
 template double bounding_radius(const Shape<3>&);
+template double thickness(const Shape<2>&);
+template double thickness(const Shape<3>&);
 
 }  // namespace talus

@@ -40,17 +40,13 @@ auto PassingWatch<Dim>::solid_of(const Shape<Dim>& shape) -> Solid {
     solid.pieces.push_back({std::move(piece), bounds});
   }
   solid.reach = bounding_radius(shape);
-  solid.width = solid.core = std::numeric_limits<double>::infinity();
-  double widest = 0.0;
-  for (const Piece<Dim>& piece : shape.pieces) {
-    widest = std::max(widest, smallest_width<Dim>(piece));
-    solid.width = std::min(solid.width, smallest_width<Dim>(piece));
-  }
+  const double main = thickness(shape);
+  solid.core = 0.5 * main;
+  solid.width = std::numeric_limits<double>::infinity();
   for (const Piece<Dim>& piece : shape.pieces) {
     const double width = smallest_width<Dim>(piece);
-    if (width < 0.5 * widest) continue;
-    solid.middles.push_back(mass_properties<Dim>(piece).centre);
-    solid.core = std::min(solid.core, 0.5 * width);
+    solid.width = std::min(solid.width, width);
+    if (width >= main) solid.middles.push_back(mass_properties<Dim>(piece).centre);
   }
   return solid;
 }

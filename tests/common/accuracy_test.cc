@@ -32,6 +32,26 @@ TEST(Accuracy, ChoosesTheStepByTheWayOfAnArrivingBodyOverItsThickness) {
   EXPECT_NEAR(steps_of({{"accuracy=fine"}}), 180.0, 1e-9);      // 125.3
 }
 
+/// Of a hammer with a head 0.4 m thick.
+double thickness_of_hammer(double handle) {
+  const std::string text = fmt::format(
+      "title = \"Hammer\"\ndimension = 2\nshape.head = {{kind = \"box\", size = [0.8, 0.4]}}\n"
+      "shape.handle = {{kind = \"box\", size = [{}, 1.4]}}\n"
+      "shape.hammer = {{kind = \"compound\", parts = [{{shape = \"handle\"}}, {{shape = \"head\", position = [0, "
+      "1]}}]}}\n"
+      "source = [{{shape = \"hammer\", count = 3, position = [0, 18]}}]\n",
+      handle);
+  const auto scene = std::get<Scene<2>>(parse_scene(text, "text"));
+  return arrival(scene.sources[0], scene.world).thickness;
+}
+
+TEST(Accuracy, TakesABodyForAsThickAsItsThinnestPartThatIsHalfAsThickAsTheThickest) {
+  EXPECT_NEAR(thickness_of_hammer(0.3), 0.3, 1e-9);
+  EXPECT_NEAR(thickness_of_hammer(0.2), 0.2, 1e-9);
+  EXPECT_NEAR(thickness_of_hammer(0.19), 0.4, 1e-9);
+  EXPECT_NEAR(thickness_of_hammer(0.5), 0.4, 1e-9);
+}
+
 TEST(Accuracy, OfASceneThatNamesNoneIsTheStandard) { EXPECT_EQ(steps_of({}), steps_of({{"accuracy=standard"}})); }
 
 TEST(Accuracy, ChoosesStepsOfWhichAFrameHasAWholeNumber) {
