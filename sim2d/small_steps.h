@@ -60,14 +60,14 @@ class SmallSteps {
     b2Contact* contact = nullptr;  // null: found ahead
     int number = 0;                // of the manifold's point
   };
-  /// A contact point in the order of gather(); `a` is awake.
+  /// A contact point with what gather() sorts by: its bodies, of which `a` is awake, then their pieces.
   struct Listed {
     BodyIndex a = 0;
     BodyIndex b = 0;
     int piece_b = 0;
     int piece_a = 0;
     std::size_t source = 0;
-    bool swapped = false;  // a is the source's b
+    bool swapped = false;  // the source has the bodies in the other order
     auto operator<=>(const Listed&) const = default;
   };
   /// A rolling impulse, from the last step to the next.

@@ -19,7 +19,7 @@ inline BodyIndex owner_of(Tag tag) {
   return static_cast<BodyIndex>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(tag) >> 32U));
 }
 
-/// Number of the owner's piece.
+/// Number of the fixture among the pieces of its owner.
 inline int piece_of(Tag tag) { return static_cast<int>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(tag))); }
 
 inline b2FixtureUserData to_user_data(Tag tag) {

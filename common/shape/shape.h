@@ -95,8 +95,8 @@ Box<Dim> bounds_at(const Shape<Dim>& shape, const Pose<Dim>& pose);
 template <int Dim>
 double bounding_radius(const Shape<Dim>& shape);
 
-/// Width of a body's thinnest main part: of the pieces that are at least half as wide as the widest [m]. A thin piece
-/// between others makes no body thin.
+/// Least width of the pieces that are at least half as wide as the widest piece [m]. A thin piece between wider
+/// ones does not make the body thin.
 template <int Dim>
 double thickness(const Shape<Dim>& shape);
 

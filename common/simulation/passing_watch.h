@@ -37,7 +37,7 @@ class PassingWatch {
       Box<Dim> bounds;
     };
     std::vector<Part> pieces;
-    std::vector<Vec<Dim>> middles;  // of its main parts
+    std::vector<Vec<Dim>> middles;  // centres of the pieces that are not thinner than thickness()
     double reach = 0.0;             // from the origin to the farthest point [m]
     double width = 0.0;             // of its thinnest piece [m]
     double core = 0.0;              // radius about the middles that other bodies do not reach [m]
