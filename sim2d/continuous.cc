@@ -18,12 +18,6 @@ constexpr float rounding = 1e-4F;
 
 bool is_sleeper(b2Fixture& fixture) { return fixture.GetBody()->GetType() == b2_staticBody && owner_of(fixture) >= 0; }
 
-double least_width(const Shape<2>& shape) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Piece<2>& piece : shape.pieces) least = std::min(least, smallest_width(piece));
-  return least;
-}
-
 /// How far the surface goes at most when the body turns by one radian [m]; a disc's about its centre stays.
 double reach_of(const Shape<2>& shape) {
   double reach = 0.0;

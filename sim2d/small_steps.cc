@@ -6,7 +6,6 @@
 #include <limits>
 #include <tuple>
 
-#include "common/shape/piece.h"
 #include "sim2d/conversions.h"
 
 namespace talus::box2d {
@@ -106,7 +105,7 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description)
   for (const Shape<2>& shape : description.shapes) {
     reach_ = std::max(reach_, static_cast<float>(shape.extent));
     reaches_.push_back(static_cast<float>(bounding_radius(shape)));
-    for (const Piece<2>& piece : shape.pieces) thinnest = std::min(thinnest, smallest_width(piece));
+    thinnest = std::min(thinnest, least_width(shape));
     arms_.push_back(rolling_arm(shape));
     rolls = rolls || arms_.back() > 0.0;
   }

@@ -180,9 +180,7 @@ BodyTemplate make_body_template(const Shape<Dim>& shape, double mass_scale) {
   made.surface.friction = static_cast<btScalar>(pair_friction(shape.material.friction, 1.0));  // Bullet multiplies both
   made.surface.restitution = static_cast<btScalar>(std::sqrt(shape.material.restitution));
   made.surface.rolling_arm = static_cast<btScalar>(rolling_arm(shape));
-  double width = smallest_width(shape.pieces[0]);
-  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
-  made.inner_radius = static_cast<btScalar>(0.5 * width);
+  made.inner_radius = static_cast<btScalar>(0.5 * least_width(shape));
   made.sweep_from = made.inner_radius;
   return made;
 }

@@ -12,19 +12,11 @@
 #include "common/scene/accuracy.h"
 #include "common/scene/spout_rate.h"
 #include "common/scene/typical_body.h"
-#include "common/shape/piece.h"
 
 namespace talus {
 namespace {
 
 using Lines = std::vector<std::string>;
-
-template <int Dim>
-double thinnest(const Shape<Dim>& shape) {
-  double width = std::numeric_limits<double>::infinity();
-  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
-  return width;
-}
 
 /// The errors of fast pours grow with the distance that a body travels in a step, over its thickness, whatever the
 /// solver and its passes (lab/notes/small_steps.md).
@@ -211,12 +203,12 @@ template <int Dim>
 void warn_of_gravity(const Scene<Dim>& scene, const EngineTraits& engine, EngineLines& lines) {
   const double fall = scene.world.gravity * scene.world.dt * scene.world.dt;
   for (const Shape<Dim>& shape : scene.world.shapes) {
-    const double most = engine.sinking_fall * thinnest(shape);
+    const double most = engine.sinking_fall * least_width(shape);
     if (fall > most) {
       lines.push_back(fmt::format(
           "world.gravity: a step's fall of {:.3g} m is more than a tenth of the thinnest piece of shape.{} ({:.3g} m): "
           "bodies sink into the ground; world.steps_per_second = {:.0f} helps",
-          fall, shape.name, thinnest(shape), std::ceil(std::sqrt(scene.world.gravity / most))));
+          fall, shape.name, least_width(shape), std::ceil(std::sqrt(scene.world.gravity / most))));
       return;
     }
   }

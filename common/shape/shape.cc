@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "common/math/require.h"
 #include "common/shape/moments.h"
@@ -117,9 +118,7 @@ Shape<Dim> make_compound(std::string name, const std::vector<CompoundPart<Dim>>&
 template <int Dim>
 double rolling_arm(const Shape<Dim>& shape) {
   if (shape.material.rolling_friction == 0.0) return 0.0;
-  double width = smallest_width(shape.pieces.front());
-  for (const Piece<Dim>& piece : shape.pieces) width = std::min(width, smallest_width(piece));
-  return 0.5 * width * shape.material.rolling_friction;
+  return 0.5 * least_width(shape) * shape.material.rolling_friction;
 }
 
 template <int Dim>
@@ -148,6 +147,12 @@ double thickness(const Shape<Dim>& shape) {
   return least;
 }
 
+template <int Dim>
+double least_width(const Shape<Dim>& shape) {
+  const auto width = [](const Piece<Dim>& piece) { return smallest_width(piece); };
+  return std::ranges::min(shape.pieces | std::views::transform(width));
+}
+
 template MassProperties<2> mass_properties(const Piece<2>&);
 template MassProperties<3> mass_properties(const Piece<3>&);
 template Shape<2> make_shape(std::string, std::vector<Piece<2>>, const Material&);
@@ -166,5 +171,7 @@ template double bounding_radius(const Shape<2>&);
 template double bounding_radius(const Shape<3>&);
 template double thickness(const Shape<2>&);
 template double thickness(const Shape<3>&);
+template double least_width(const Shape<2>&);
+template double least_width(const Shape<3>&);
 
 }  // namespace talus

@@ -99,5 +99,8 @@ double bounding_radius(const Shape<Dim>& shape);
 /// ones does not make the body thin.
 template <int Dim>
 double thickness(const Shape<Dim>& shape);
+/// Least width of its thinnest piece [m].
+template <int Dim>
+double least_width(const Shape<Dim>& shape);
 
 }  // namespace talus

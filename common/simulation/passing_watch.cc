@@ -42,12 +42,9 @@ auto PassingWatch<Dim>::solid_of(const Shape<Dim>& shape) -> Solid {
   solid.reach = bounding_radius(shape);
   const double main = thickness(shape);
   solid.core = 0.5 * main;
-  solid.width = std::numeric_limits<double>::infinity();
-  for (const Piece<Dim>& piece : shape.pieces) {
-    const double width = smallest_width<Dim>(piece);
-    solid.width = std::min(solid.width, width);
-    if (width >= main) solid.middles.push_back(mass_properties<Dim>(piece).centre);
-  }
+  solid.width = least_width(shape);
+  for (const Piece<Dim>& piece : shape.pieces)
+    if (smallest_width<Dim>(piece) >= main) solid.middles.push_back(mass_properties<Dim>(piece).centre);
   return solid;
 }
 
