@@ -22,7 +22,7 @@ void MomentWriter<Dim>::set_scene(const Scene<Dim>& scene) {
 
 template <int Dim>
 void MomentWriter<Dim>::run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto channels = channels_of_run(!events_.empty(), scene_ && !scene_->movers.empty());
+  auto channels = channels_of_run(!events_.empty(), !moving_.empty());
   if (!files_.empty()) channels.push_back(Channel::scene);
   send(to_run(info_, phase, reason, channels, encoder_), step, time);
 }
@@ -46,11 +46,27 @@ void MomentWriter<Dim>::shapes() {
 }
 
 template <int Dim>
+void MomentWriter<Dim>::set_shapes(std::span<const Shape<Dim>> shapes, std::span<const Obstacle<Dim>> obstacles) {
+  shapes_ = to_shapes<Dim>(shapes, obstacles);
+  moving_.clear();
+  for (int k = 0; k < std::ssize(obstacles); ++k)
+    if (obstacles[k].moves) moving_.push_back({k, obstacles[k].pose});
+}
+
+template <int Dim>
+void MomentWriter<Dim>::new_shapes(const Frame<Dim>& frame) {
+  if (frame.world.form() == form_) return;
+  form_ = frame.world.form();
+  set_shapes(frame.world.shapes(), frame.world.obstacles());
+  shapes(frame);
+}
+
+template <int Dim>
 void MomentWriter<Dim>::events(const Frame<Dim>& frame) {
+  removed_ = removed_ || frame.world.removals() != removals_;
+  removals_ = frame.world.removals();
   for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
-    if (event.number >= std::ssize(events_)) continue;
-    this->event(events_[event.number], frame);
-    removed_ = removed_ || events_[event.number].action == "remove";
+    if (event.number < std::ssize(events_)) this->event(events_[event.number], frame);
   }
   send_all(to_sleep(frame.events), frame.step, frame.time);
   if (!has_shapes()) return;
@@ -100,9 +116,13 @@ void MomentWriter<Dim>::piles(const Frame<Dim>& frame) {
 
 template <int Dim>
 void MomentWriter<Dim>::obstacles(const Frame<Dim>& frame, bool all) {
-  if (!scene_ || (!all && !any_moves_after<Dim>(scene_->movers, obstacles_time_))) return;
-  obstacles_time_ = frame.time;
-  const std::vector<ObstaclePose<Dim>> poses = moving_poses(scene_->world.obstacles, scene_->movers, frame.time);
+  std::vector<ObstaclePose<Dim>> poses;
+  for (ObstaclePose<Dim>& sent : moving_) {
+    const Pose<Dim>& now = frame.world.obstacle_pose(sent.obstacle);
+    if (!all && now == sent.pose) continue;
+    sent.pose = now;
+    poses.push_back(sent);
+  }
   send_all(to_obstacles<Dim>(poses), frame.step, frame.time);
 }
 

@@ -38,7 +38,7 @@ class MomentWriter {
       : info_(info), encoder_(run_id), sink_(sink) {}
 
   /// Before shapes() and bodies(). Throws std::invalid_argument on a shape too large for a message.
-  void set_world(const WorldDescription<Dim>& world) { shapes_ = to_shapes<Dim>(world); }
+  void set_world(const WorldDescription<Dim>& world) { set_shapes(world.shapes, world.obstacles); }
   /// The scene's events, its obstacles that move, and what its slope is measured of.
   void set_scene(const Scene<Dim>& scene);
   /// The files of the scene, which is written down then.
@@ -52,6 +52,8 @@ class MomentWriter {
   void shapes(const Frame<Dim>& frame);
   /// As they were at the start.
   void shapes();
+  /// All, if the frame's world has got other shapes or obstacles since the last call.
+  void new_shapes(const Frame<Dim>& frame);
 
   /// After each step: events of the scene and sleep events of it.
   void events(const Frame<Dim>& frame);
@@ -66,7 +68,7 @@ class MomentWriter {
   void stats(talus_lcm::talus_stats message, const Frame<Dim>& frame);
   /// Measures the slope at this frame; else stats() does so once a second of simulated time.
   void measure_slope(const Frame<Dim>& frame);
-  /// Of obstacles that have moved since the last time; all that ever move where `all` is set.
+  /// Of obstacles that have moved since the last time; all that may move where `all` is set.
   void obstacles(const Frame<Dim>& frame, bool all = false);
   /// Poses of the bodies awake, of those that fell asleep since the last time, and of `more`; how many these are and in
   /// how many messages.
@@ -77,10 +79,11 @@ class MomentWriter {
   Sent bodies(const Frame<Dim>& frame, std::span<const BodyIndex> more = {});
   /// A key frame: poses of all bodies in the world.
   void all_bodies(const Frame<Dim>& frame);
-  /// Whether an event took bodies out of the world since the last key frame: only a key frame says which are left.
+  /// Whether bodies have left the world since the last key frame: only a key frame says which are left.
   bool owes_key_frame() const { return removed_; }
 
  private:
+  void set_shapes(std::span<const Shape<Dim>> shapes, std::span<const Obstacle<Dim>> obstacles);
   template <class Message>
   void send(Message&& message, std::int64_t step, double time) {
     sink_.put(encoder_.encode(message, {.utime = sink_.stamp(time), .step = step, .sim_time = time}));
@@ -94,15 +97,17 @@ class MomentWriter {
   MessageEncoder encoder_;
   MessageSink& sink_;
   std::vector<talus_lcm::talus_shapes> shapes_;  // and obstacles; empty: not known
+  std::int64_t form_ = 0;                        // of the world that they are of
+  std::vector<ObstaclePose<Dim>> moving_;        // obstacles that may move, where they were when they were sent last
   std::vector<talus_lcm::talus_event> events_;   // of the scene, as far as they have happened
   std::size_t event_turn_ = 0;                   // the one from which on they are sent again
   std::optional<Scene<Dim>> scene_;
   Applicable<AngleOfRepose> slope_;
   double slope_time_ = -1.0;            // when it was measured last [s]; below 0: never
-  double obstacles_time_ = -1.0;        // when their poses were sent last [s]; below 0: never
   std::vector<BodyIndex> fell_asleep_;  // since poses were sent last
   std::vector<talus_lcm::talus_scene> files_;
   bool removed_ = false;
+  std::int64_t removals_ = 0;  // of the world in the last frame
 };
 
 }  // namespace talus

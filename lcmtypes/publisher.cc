@@ -80,6 +80,7 @@ void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
   if (piles_pulse_.due(now)) writer_.piles(frame);
   if (stats_pulse_.due(now)) send_stats(frame, now);
   if (run_pulse_.due(now)) writer_.run(talus_run::ALIVE, {}, frame.step, frame.time);
+  if (bodies_rate_ > 0.0) writer_.new_shapes(frame);
   if (!writer_.has_shapes()) return;
   if (shapes_pulse_.due(now)) writer_.shapes(frame);
   if (bodies_pulse_.due(now)) send_bodies(frame, now);

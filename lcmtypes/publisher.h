@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "lcmtypes/moment_writer.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/send_queue.h"

@@ -26,15 +26,29 @@ RecorderParams checked(const RecorderParams& params) {
 }  // namespace
 
 template <int Dim>
-RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, const Scene<Dim>& scene,
+RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, std::int64_t steps_per_frame,
                               const RecorderParams& params)
-    : steps_per_frame_(scene.steps_per_frame()),
+    : steps_per_frame_(steps_per_frame),
       steps_per_key_frame_(std::max<std::int64_t>(1, std::llround(checked(params).key_frame_interval / info.dt))),
       flush_interval_(params.flush_interval),
       log_(path),
       writer_(info, record_id(info), *this) {
   // A key frame is a frame of output too.
   steps_per_key_frame_ = std::max<std::int64_t>(1, steps_per_key_frame_ / steps_per_frame_) * steps_per_frame_;
+}
+
+template <int Dim>
+RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, double frame_rate,
+                              const RecorderParams& params)
+    : RunRecorder(path, info, std::max<std::int64_t>(1, std::llround(1.0 / (frame_rate * info.dt))), params) {
+  writer_.run(talus_run::BEGIN, {}, 0, 0.0);
+  log_.flush();
+}
+
+template <int Dim>
+RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, const Scene<Dim>& scene,
+                              const RecorderParams& params)
+    : RunRecorder(path, info, scene.steps_per_frame(), params) {
   writer_.set_world(scene.world);
   writer_.set_scene(scene);
   writer_.set_files(scene);
@@ -46,6 +60,7 @@ RunRecorder<Dim>::RunRecorder(const std::string& path, const RunInfo& info, cons
 
 template <int Dim>
 void RunRecorder<Dim>::on_frame(const Frame<Dim>& frame) {
+  writer_.new_shapes(frame);
   writer_.events(frame);
   if (frame.step % steps_per_frame_ == 0) {
     const bool due = frame.step % steps_per_key_frame_ == 0;

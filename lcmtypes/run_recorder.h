@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/moment_writer.h"
 #include "lcmtypes/run_info.h"
@@ -29,11 +29,14 @@ class RunRecorder final : public Observer<Dim>, private MessageSink {
   /// Throws std::system_error when the file cannot be made, std::invalid_argument on bad parameters and on a shape
   /// too large for a message, or where a file that the scene names can no longer be read.
   RunRecorder(const std::string& path, const RunInfo& info, const Scene<Dim>& scene, const RecorderParams& params = {});
+  /// Of a run without a scene, with `frame_rate` frames of output in a second. Shapes are written as they come.
+  RunRecorder(const std::string& path, const RunInfo& info, double frame_rate, const RecorderParams& params = {});
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
 
  private:
+  RunRecorder(const std::string& path, const RunInfo& info, std::int64_t steps_per_frame, const RecorderParams& params);
   std::int64_t stamp(double time) override;
   void put(Packet packet) override { log_.write(packet); }
   void write_output(const Frame<Dim>& frame, bool key_frame);

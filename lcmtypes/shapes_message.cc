@@ -97,14 +97,13 @@ talus_shapes to_message(const Shape<Dim>& shape, std::size_t index, std::size_t 
 }  // namespace
 
 template <int Dim>
-std::vector<talus_shapes> to_shapes(const WorldDescription<Dim>& world) {
+std::vector<talus_shapes> to_shapes(std::span<const Shape<Dim>> shapes, std::span<const Obstacle<Dim>> obstacles) {
   std::vector<talus_shapes> messages;
-  for (std::size_t i = 0; i < world.shapes.size(); ++i)
-    messages.push_back(to_message<Dim>(world.shapes[i], i, world.shapes.size()));
-  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    talus_shapes& message = messages.emplace_back(to_message<Dim>(world.obstacles[i].shape, i, world.obstacles.size()));
+  for (std::size_t i = 0; i < shapes.size(); ++i) messages.push_back(to_message<Dim>(shapes[i], i, shapes.size()));
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    talus_shapes& message = messages.emplace_back(to_message<Dim>(obstacles[i].shape, i, obstacles.size()));
     message.obstacle = 1;
-    set_pose<Dim>(world.obstacles[i].pose, message);
+    set_pose<Dim>(obstacles[i].pose, message);
   }
   return messages;
 }
@@ -182,8 +181,8 @@ Pose<Dim> pose_of(const talus_shapes& message) {
   return pose_from<Dim>(std::span<const double>(message.pose));
 }
 
-template std::vector<talus_shapes> to_shapes<2>(const WorldDescription<2>&);
-template std::vector<talus_shapes> to_shapes<3>(const WorldDescription<3>&);
+template std::vector<talus_shapes> to_shapes<2>(std::span<const Shape<2>>, std::span<const Obstacle<2>>);
+template std::vector<talus_shapes> to_shapes<3>(std::span<const Shape<3>>, std::span<const Obstacle<3>>);
 template void set_pose(const Pose<2>&, talus_shapes&);
 template void set_pose(const Pose<3>&, talus_shapes&);
 template Shape<2> to_shape<2>(const talus_shapes&);

@@ -1,6 +1,7 @@
 #pragma once
 // talus_shapes: one shape of bodies, or one obstacle.
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,7 +13,12 @@ namespace talus {
 /// All shapes of bodies, then all obstacles, one message each. Throws std::invalid_argument when a shape has so many
 /// corners that it does not fit one message.
 template <int Dim>
-std::vector<talus_lcm::talus_shapes> to_shapes(const WorldDescription<Dim>& world);
+std::vector<talus_lcm::talus_shapes> to_shapes(std::span<const Shape<Dim>> shapes,
+                                               std::span<const Obstacle<Dim>> obstacles);
+template <int Dim>
+std::vector<talus_lcm::talus_shapes> to_shapes(const WorldDescription<Dim>& world) {
+  return to_shapes<Dim>(world.shapes, world.obstacles);
+}
 
 /// Puts an obstacle elsewhere.
 template <int Dim>

@@ -59,6 +59,12 @@ struct Pose {
 
   /// A point given in the body's own axes, in the world's.
   Vec<Dim> operator*(const Vec<Dim>& local) const { return position + rotation * local; }
+  bool operator==(const Pose& other) const {
+    if constexpr (Dim == 2)
+      return position == other.position && rotation.angle() == other.rotation.angle();
+    else
+      return position == other.position && rotation.coeffs() == other.rotation.coeffs();
+  }
 };
 
 /// The constant spin that turns `from` into `to` within a time [s]: in 3D the shorter way round.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 
 namespace talus {
 

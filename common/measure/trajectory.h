@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "common/world/body.h"
 
 namespace talus {

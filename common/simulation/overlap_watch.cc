@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/scene/typical_body.h"
-
 namespace talus {
 namespace {
 
@@ -12,17 +10,13 @@ constexpr std::int64_t shortest_period = 16;  // [steps]
 constexpr double longest_period = 1.0;        // [s]; with little gravity
 constexpr double least_depth = 0.005;         // [D]; what engines leave at any contact
 
-std::int64_t period_of(double extent, double gravity, double dt) {
-  const double time = std::min(longest_period, std::sqrt(extent / std::max(gravity, 1e-3)));
-  return std::max<std::int64_t>(shortest_period, std::llround(time / dt));
-}
-
 }  // namespace
 
 template <int Dim>
-OverlapWatch<Dim>::OverlapWatch(const Scene<Dim>& scene)
-    : period_(period_of(typical_body(scene).extent, scene.world.gravity, scene.world.dt)),
-      extent_(typical_body(scene).extent) {}
+std::int64_t OverlapWatch<Dim>::period(double extent, double gravity, double dt) {
+  const double time = std::min(longest_period, std::sqrt(extent / std::max(gravity, 1e-3)));
+  return std::max<std::int64_t>(shortest_period, std::llround(time / dt));
+}
 
 template <int Dim>
 auto OverlapWatch<Dim>::sample(const World<Dim>& world) -> std::span<const Finding> {

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "common/scene/scene.h"
 #include "common/world/run_overlap.h"
 #include "common/world/world.h"
 
@@ -24,7 +23,8 @@ class OverlapWatch {
     double depth = 0.0;  // [D]
   };
 
-  explicit OverlapWatch(const Scene<Dim>& scene);
+  /// `extent`: D [m]. `gravity` [m/s^2]. `dt` of a step [s].
+  OverlapWatch(double extent, double gravity, double dt) : period_(period(extent, gravity, dt)), extent_(extent) {}
 
   /// Whether the step with this number is sampled, and so must record its contacts.
   bool due(std::int64_t step) const { return step % period_ == 0; }
@@ -42,6 +42,7 @@ class OverlapWatch {
 
     auto bodies() const { return std::pair(low, high); }
   };
+  static std::int64_t period(double extent, double gravity, double dt);
   void find_pairs(const World<Dim>& world);
   double lasting_depth(const World<Dim>& world, const Pair& before) const;
 

@@ -49,13 +49,13 @@ auto PassingWatch<Dim>::solid_of(const Shape<Dim>& shape) -> Solid {
 }
 
 template <int Dim>
-PassingWatch<Dim>::PassingWatch(const WorldDescription<Dim>& world)
+PassingWatch<Dim>::PassingWatch(std::span<const Shape<Dim>> shapes, std::span<const Obstacle<Dim>> obstacles)
     : smallest_core_(std::numeric_limits<double>::infinity()) {
-  for (const Shape<Dim>& shape : world.shapes) {
+  for (const Shape<Dim>& shape : shapes) {
     solids_.push_back(solid_of(shape));
     smallest_core_ = std::min(smallest_core_, solids_.back().core);
   }
-  for (const Obstacle<Dim>& obstacle : world.obstacles) {
+  for (const Obstacle<Dim>& obstacle : obstacles) {
     obstacles_.push_back(solid_of(obstacle.shape));
     obstacles_from_.push_back(obstacle.pose);
   }

@@ -22,7 +22,7 @@ class PassingWatch {
     double way = 0.0;  // relative to the other one, within the step [m]
   };
 
-  explicit PassingWatch(const WorldDescription<Dim>& world);
+  PassingWatch(std::span<const Shape<Dim>> shapes, std::span<const Obstacle<Dim>> obstacles);
 
   /// Just before World::step().
   void start_step(const World<Dim>& world);

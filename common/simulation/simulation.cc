@@ -67,6 +67,7 @@ void Simulation<Dim>::step() {
   interventions_.move(intervened());
   world_->record_contacts(needs_contacts());
   if (watched()) watchdog_.start_step(*world_);
+  for (Observer<Dim>* observer : observers_) observer->on_start(*world_);
   world_->step();
   ++step_;
   phases_.step = watch.lap();

@@ -12,7 +12,7 @@
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
 #include "common/simulation/interventions.h"
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "common/simulation/rest_check.h"
 #include "common/simulation/watchdog.h"
 

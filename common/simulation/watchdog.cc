@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "common/scene/typical_body.h"
 #include "common/world/energy.h"
 
 namespace talus {
@@ -31,8 +32,8 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
     : sources_(scene.sources),
       initial_bodies_(static_cast<int>(scene.bodies.size())),
       ledger_(scene.world),
-      overlap_(scene),
-      passing_(scene.world),
+      overlap_(typical_body(scene).extent, scene.world.gravity, scene.world.dt),
+      passing_(scene.world.shapes, scene.world.obstacles),
       lowest_(lowest_centre(scene.world.ground)),
       ground_(scene.world.ground.height),
       dt_(scene.world.dt),
@@ -56,9 +57,9 @@ void Watchdog<Dim>::start_step(const World<Dim>& world) {
 template <int Dim>
 void Watchdog<Dim>::end_step(const World<Dim>& world, std::int64_t step) {
   ledger_.end_step(world);
-  for (const auto& [body, way] : passing_.end_step(world)) note(WarningKind::passed, body, step, way);
+  for (const auto& [body, way] : passing_.end_step(world)) warnings_.note(WarningKind::passed, body, step, way);
   if (!overlap_.due(step)) return;
-  for (const auto& [body, depth] : overlap_.sample(world)) note(WarningKind::overlap, body, step, depth);
+  for (const auto& [body, depth] : overlap_.sample(world)) warnings_.note(WarningKind::overlap, body, step, depth);
 }
 
 template <int Dim>
@@ -78,48 +79,33 @@ void Watchdog<Dim>::check(const World<Dim>& world, std::span<const SleepEvent> e
 template <int Dim>
 void Watchdog<Dim>::check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
   const Vec<Dim>& place = states.pose[body].position;
-  if (height<Dim>(place) < lowest_) note(WarningKind::below_ground, body, step, ground_ - height<Dim>(place));
-  if (farthest<Dim>(place) > farthest_place) note(WarningKind::outside_world, body, step, farthest<Dim>(place));
+  if (height<Dim>(place) < lowest_) warnings_.note(WarningKind::below_ground, body, step, ground_ - height<Dim>(place));
+  if (farthest<Dim>(place) > farthest_place) warnings_.note(WarningKind::outside_world, body, step, farthest<Dim>(place));
 }
 
 template <int Dim>
 void Watchdog<Dim>::check_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
   const double speed = states.velocity[body].squaredNorm();
   const double spin = states.spin[body].squaredNorm();
-  if (speed >= speed_squared_) note(WarningKind::speed_limit, body, step, std::sqrt(speed));
-  if (spin >= spin_squared_) note(WarningKind::spin_limit, body, step, std::sqrt(spin));
+  if (speed >= speed_squared_) warnings_.note(WarningKind::speed_limit, body, step, std::sqrt(speed));
+  if (spin >= spin_squared_) warnings_.note(WarningKind::spin_limit, body, step, std::sqrt(spin));
 }
 
 template <int Dim>
 void Watchdog<Dim>::check_energy(const World<Dim>& world, std::int64_t step) {
   if (ledger_.created() == 0.0) return;
-  const auto known = std::ranges::find(warnings_, WarningKind::energy, &Warning::kind);
-  if (known != warnings_.end()) {
+  if (Warning* known = warnings_.find(WarningKind::energy)) {
     known->value = std::max(known->value, ledger_.created());
     return;
   }
   const auto kinetic = [&](BodyIndex body) { return kinetic_energy(world, body); };
   const auto awake = world.awake();
   const auto fastest = std::ranges::max_element(awake, {}, kinetic);
-  warnings_.push_back({.kind = WarningKind::energy,
-                       .step = step,
-                       .body = fastest == awake.end() ? -1 : *fastest,
-                       .bodies = static_cast<std::int64_t>(awake.size()),
-                       .value = ledger_.created()});
-}
-
-template <int Dim>
-void Watchdog<Dim>::note(WarningKind kind, BodyIndex body, std::int64_t step, double value) {
-  auto known = std::ranges::find(warnings_, kind, &Warning::kind);
-  if (known == warnings_.end()) {
-    warnings_.push_back({.kind = kind, .step = step, .body = body});
-    known = warnings_.end() - 1;
-  }
-  if (std::ssize(seen_) <= body) seen_.resize(body + 1, 0);
-  const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(kind));
-  if ((seen_[body] & bit) == 0) ++known->bodies;
-  seen_[body] |= bit;
-  known->value = std::max(known->value, value);
+  warnings_.add({.kind = WarningKind::energy,
+                 .step = step,
+                 .body = fastest == awake.end() ? -1 : *fastest,
+                 .bodies = static_cast<std::int64_t>(awake.size()),
+                 .value = ledger_.created()});
 }
 
 template <int Dim>
@@ -139,7 +125,7 @@ void Watchdog<Dim>::finish(const World<Dim>& world, std::int64_t step) {
   const bool stalled = due_long_ago > appeared && static_cast<double>(step - last_appearance_) * dt_ > patience;
   const int missing = due_by(last_emission) - appeared;
   if (missing <= 0 || !(over || stalled)) return;
-  warnings_.push_back(
+  warnings_.add(
       {.kind = WarningKind::not_appeared, .step = step, .bodies = missing, .value = static_cast<double>(missing)});
 }
 

@@ -40,7 +40,7 @@ class Watchdog {
   void finish(const World<Dim>& world, std::int64_t step);
 
   /// One of each kind that was seen, in the order of first sight.
-  std::span<const Warning> warnings() const { return warnings_; }
+  std::span<const Warning> warnings() const { return warnings_.all(); }
   const RunOverlap& overlap() const { return overlap_.overlap(); }
   /// Bodies of the scene in all.
   int bodies_planned() const { return bodies_planned_; }
@@ -50,7 +50,6 @@ class Watchdog {
   void check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
   void check_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
   void check_energy(const World<Dim>& world, std::int64_t step);
-  void note(WarningKind kind, BodyIndex body, std::int64_t step, double value);
 
   std::vector<Source<Dim>> sources_;
   int initial_bodies_;  // in the world from the start
@@ -65,8 +64,7 @@ class Watchdog {
   int bodies_planned_;
   BodyIndex appeared_ = 0;
   std::int64_t last_appearance_ = 0;  // [steps]
-  std::vector<Warning> warnings_;
-  std::vector<std::uint8_t> seen_;  // by body: bit k for kind k; empty until the first warning
+  WarningList warnings_;
 };
 
 /// Bodies in the world with the centre below the ground or outside the world's 10,000 m. Costs O(all bodies).

@@ -1,6 +1,9 @@
 #include "common/sleeper/body_traits.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <stdexcept>
 
 #include "common/math/require.h"
 
@@ -19,6 +22,8 @@ void check_traits(const BodyTraits<Dim>& traits, bool kinematic) {
           "must be finite and above 0 on every axis");
   require(std::isfinite(traits.friction) && traits.friction >= 0.0, "friction", traits.friction,
           "must be finite and at least 0");
+  for (std::size_t i = 0; i < traits.pieces.size(); ++i)
+    check_piece<Dim>(traits.pieces[i], fmt::format("pieces[{}]", i));
   if (kinematic) return;
   require(std::isfinite(traits.mass) && traits.mass > 0.0, "mass", traits.mass, "must be finite and above 0");
   require(traits.inertia.allFinite() && traits.inertia.determinant() > 0.0, "inertia", traits.inertia.determinant(),
@@ -26,6 +31,16 @@ void check_traits(const BodyTraits<Dim>& traits, bool kinematic) {
 }
 
 }  // namespace
+
+template <int Dim>
+void add_piece(const Piece<Dim>& piece, std::vector<Piece<Dim>>& pieces) {
+  try {
+    check_piece<Dim>(piece, "piece");
+  } catch (const std::invalid_argument&) {
+    return;
+  }
+  pieces.push_back(piece);
+}
 
 template <int Dim>
 BodyTraits<Dim> box_traits(double mass, const Vec<Dim>& size) {
@@ -48,7 +63,11 @@ BodyTraits<Dim> ball_traits(double mass, double radius) {
 
 template <int Dim>
 BodyTraits<Dim> traits_of(const Shape<Dim>& shape) {
-  return {.mass = shape.mass, .inertia = shape.inertia, .bounds = shape.bounds, .friction = shape.material.friction};
+  return {.mass = shape.mass,
+          .inertia = shape.inertia,
+          .bounds = shape.bounds,
+          .friction = shape.material.friction,
+          .pieces = shape.pieces};
 }
 
 template <int Dim>
@@ -56,17 +75,22 @@ Shape<Dim> shape_with(const BodyTraits<Dim>& traits, bool kinematic) {
   check_traits(traits, kinematic);
   const Vec<Dim> size = traits.bounds.max() - traits.bounds.min();
   Shape<Dim> shape;
-  shape.pieces = {BoxPiece<Dim>{.pose = {.position = traits.bounds.center()}, .half = 0.5 * size}};
+  shape.pieces = traits.pieces;
+  if (shape.pieces.empty())
+    shape.pieces = {BoxPiece<Dim>{.pose = {.position = traits.bounds.center()}, .half = 0.5 * size}};
   shape.material.friction = traits.friction;
   shape.mass = traits.mass;
   shape.inertia = traits.inertia;
   shape.bounds = traits.bounds;
   shape.bounding_volume = size.prod();
   shape.volume = shape.bounding_volume;
+  if (!kinematic) shape.material.density = shape.mass / shape.volume;
   shape.extent = size.norm();
   return shape;
 }
 
+template void add_piece<2>(const Piece<2>&, std::vector<Piece<2>>&);
+template void add_piece<3>(const Piece<3>&, std::vector<Piece<3>>&);
 template BodyTraits<2> box_traits<2>(double, const Vec<2>&);
 template BodyTraits<3> box_traits<3>(double, const Vec<3>&);
 template BodyTraits<2> ball_traits<2>(double, double);

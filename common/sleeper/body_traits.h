@@ -1,6 +1,8 @@
 #pragma once
 // What a sleeper must know of a body besides its motion.
 
+#include <vector>
+
 #include "common/shape/shape.h"
 
 namespace talus {
@@ -11,7 +13,12 @@ struct BodyTraits {
   Inertia<Dim> inertia = Inertia<Dim>::Zero();  // about the centre of mass, in the body's own axes [kg m^2]
   Box<Dim> bounds = {};                         // in the body's own axes, around the centre of mass [m]
   double friction = 0.5;                        // of its surface against one like it
+  std::vector<Piece<Dim>> pieces = {};          // convex, in the same axes; empty: the box of `bounds`
 };
+
+/// Adds a piece for BodyTraits::pieces, unless it is one that no shape of talus has, such as one without volume.
+template <int Dim>
+void add_piece(const Piece<Dim>& piece, std::vector<Piece<Dim>>& pieces);
 
 /// A box of uniform density; `size` [m].
 template <int Dim>
@@ -23,7 +30,7 @@ BodyTraits<Dim> ball_traits(double mass, double radius);
 template <int Dim>
 BodyTraits<Dim> traits_of(const Shape<Dim>& shape);
 
-/// The traits as a shape: a box of the size of `bounds` with the given mass and inertia. Throws InvalidValue.
+/// The traits as a shape. Throws InvalidValue.
 template <int Dim>
 Shape<Dim> shape_with(const BodyTraits<Dim>& traits, bool kinematic);
 

@@ -42,7 +42,9 @@ std::optional<BodyIndex> GivenWorld<Dim>::free_number() const {
 
 template <int Dim>
 BodyIndex GivenWorld<Dim>::put(const Shape<Dim>& shape, const Pose<Dim>& pose) {
-  const BodyIndex body = this->add_unchecked(shape, pose, free_number());
+  const auto taken = shapes_.take(shape);
+  if (taken.is_new) this->put_shape(taken.number, shape);
+  const BodyIndex body = this->add_unchecked(taken.number, pose, free_number());
   if (!free_.empty()) free_.pop_back();
   columns_.put(body, pose.position, shape.extent);
   return body;
@@ -59,7 +61,19 @@ void GivenWorld<Dim>::sort_for(double extent) {
 template <int Dim>
 void GivenWorld<Dim>::engine_remove(BodyIndex body) {
   columns_.take_out(body);
+  shapes_.release(this->states().shape[body]);
   free_.push_back(body);
+}
+
+template <int Dim>
+int GivenWorld<Dim>::add_obstacle(const Shape<Dim>& shape, const Pose<Dim>& pose, bool moves) {
+  int number = static_cast<int>(this->obstacles().size());
+  if (!free_obstacles_.empty()) {
+    number = free_obstacles_.back();
+    free_obstacles_.pop_back();
+  }
+  this->put_obstacle(number, {shape, pose, moves});
+  return number;
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/sleeper/body_columns.h"
+#include "common/sleeper/shape_store.h"
 #include "common/world/world.h"
 
 namespace talus {
@@ -21,6 +22,10 @@ class GivenWorld final : public World<Dim> {
   /// Whether put() will use the number of a removed body, and which.
   std::optional<BodyIndex> free_number() const;
   BodyIndex put(const Shape<Dim>& shape, const Pose<Dim>& pose);
+
+  /// Something that is no body, `moves` if it ever may. Its number may be that of a removed one.
+  int add_obstacle(const Shape<Dim>& shape, const Pose<Dim>& pose, bool moves);
+  using World<Dim>::place_obstacle;
 
   /// Sorts the bodies into columns that fit bodies of this extent [m] > 0. Costs O(bodies).
   void sort_for(double extent);
@@ -37,6 +42,7 @@ class GivenWorld final : public World<Dim> {
   // Not called: put() adds the bodies.
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
   void engine_remove(BodyIndex body) override;
+  void engine_remove_obstacle(int number) override { free_obstacles_.push_back(number); }
   EngineTimes engine_step() override { return {}; }
   std::optional<BodyIndex> engine_read(BodyStates<Dim>&) override { return std::nullopt; }  // give() has written them
   // What is to be done in the foreign engine, the caller does.
@@ -50,7 +56,9 @@ class GivenWorld final : public World<Dim> {
   bool is_awake(BodyIndex body) const { return body >= 0 && this->states().asleep[body] == 0; }
 
   BodyColumns<Dim> columns_{1.0};
+  ShapeStore<Dim> shapes_;
   std::vector<BodyIndex> free_;
+  std::vector<int> free_obstacles_;
   /// Contact points of one pair that were given side by side.
   struct Run {
     std::int64_t pair = 0;  // ascending as (a, b) are

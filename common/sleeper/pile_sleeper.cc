@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/math/require.h"
 #include "common/policy/adaptive/rest_criterion.h"
@@ -119,18 +120,38 @@ const SleepChanges<Dim>& PileSleeper<Dim>::after_step(const GivenStep<Dim>& step
   clear_changes();
   if (!enabled_) return changes_;
   check_step(step);
+  for (const auto& observer : observers_) observer->on_start(world());
   take_states(step);
   take_contacts(step);
   note(sleeping_.prepare(contacts_));
   if (sleeping_.any_asleep()) wake_reached();
   world().give_contacts(contacts_);
-  const Decision<Dim>& decision = sleeping_.decide(step.dt, follows_);
+  sleeping_.end_motion(step.dt);
+  for (const auto& observer : observers_) observer->on_motion(world(), sleeping_.time());
+  const Decision<Dim>& decision = sleeping_.decide(follows_);
   note(decision.thaw);
   note(decision.freeze);
   for (const VelocityChange<Dim>& change : decision.velocities)
     changes_.velocities.push_back(
         {handle_of(change.body), turn_.out(change.velocity), turn_.spin_out(change.spin), SleepCause::momentum});
+  if (!observers_.empty()) show_step();
   return changes_;
+}
+
+/// Of the observer that watches for faults.
+template <int Dim>
+std::span<const Warning> PileSleeper<Dim>::warnings() const {
+  for (const auto& observer : observers_)
+    if (!observer->warnings().empty()) return observer->warnings();
+  return {};
+}
+
+template <int Dim>
+void PileSleeper<Dim>::show_step() {
+  std::ranges::stable_sort(events_, {}, &SleepEvent::body);
+  for (SleepEvent& event : events_) event.step = sleeping_.step();
+  for (const auto& observer : observers_) observer->on_frame(sleeping_.frame(events_, warnings()));
+  events_.clear();
 }
 
 /// Wakes what kinematic bodies reach.
@@ -138,8 +159,7 @@ template <int Dim>
 void PileSleeper<Dim>::wake_reached() {
   reached_.clear();
   for (const Handle handle : kinematic_handles_)
-    kinematic_.find_sleepers(handles_.at(handle, "body").number, world(), touching_distance * sleeping_.extent(),
-                             reached_);
+    kinematic_.find_sleepers(handles_.at(handle, "body").number, touching_distance * sleeping_.extent(), reached_);
   note(sleeping_.wake(reached_, SleepCause::lost_support));
   for (const BodyIndex body : reached_) follows_[body] = 1;
 }
@@ -234,6 +254,7 @@ template <int Dim>
 void PileSleeper<Dim>::note(const Events& events) {
   for (const SleepEvent& event : events)
     (event.woke ? changes_.thaw : changes_.freeze).push_back({handle_of(event.body), event.cause});
+  if (!observers_.empty()) events_.insert(events_.end(), events.begin(), events.end());
 }
 
 template <int Dim>
@@ -241,6 +262,48 @@ void PileSleeper<Dim>::clear_changes() {
   changes_.thaw.clear();
   changes_.velocities.clear();
   changes_.freeze.clear();
+}
+
+template <int Dim>
+bool PileSleeper<Dim>::needs_all_contacts() const {
+  const auto needs = [](const auto& observer) { return observer->needs_contacts(); };
+  return enabled_ && (sleeping_.needs_all_contacts() || std::ranges::any_of(observers_, needs));
+}
+
+template <int Dim>
+void PileSleeper<Dim>::observe(std::unique_ptr<Observer<Dim>> observer) {
+  require(enabled_, "enabled", "false", "must be true: without it a sleeper is given no states to show");
+  observer->on_frame(sleeping_.frame({}, {}));
+  observers_.push_back(std::move(observer));
+}
+
+template <int Dim>
+void PileSleeper<Dim>::add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose) {
+  require(finite<Dim>(pose), "pose", pose.position.norm(), "must be finite");
+  BodyTraits<Dim> traits{.pieces = pieces};
+  traits.bounds.setEmpty();
+  for (const Piece<Dim>& piece : pieces)
+    traits.bounds.extend(bounds_of<Dim>(piece, Eigen::Matrix<double, Dim, Dim>::Identity(), Vec<Dim>::Zero()));
+  world().add_obstacle(shape_with(traits, true), turn_.in(pose), false);
+}
+
+template <int Dim>
+void PileSleeper<Dim>::end_observers(std::string_view reason) {
+  const std::vector<std::unique_ptr<Observer<Dim>>> ended = std::move(observers_);
+  std::span<const Warning> warnings;
+  observers_.clear();
+  for (const auto& observer : ended)
+    if (warnings.empty()) warnings = observer->warnings();
+  for (const auto& observer : ended) observer->on_end(sleeping_.frame({}, warnings), reason);
+}
+
+template <int Dim>
+PileSleeper<Dim>::~PileSleeper() {
+  try {
+    end_observers();
+  } catch (const std::exception&) {  // a full disk, say: there is nobody left to tell
+    return;
+  }
 }
 
 template <int Dim>

@@ -2,9 +2,12 @@
 // Sleep body by body for a world that talus does not simulate.
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "common/policy/observer.h"
 #include "common/sleeper/body_traits.h"
 #include "common/sleeper/given_step.h"
 #include "common/sleeper/handle_table.h"
@@ -29,7 +32,8 @@ class PileSleeper {
   explicit PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& options = {});
   PileSleeper(const PileSleeper&) = delete;
   PileSleeper& operator=(const PileSleeper&) = delete;
-  ~PileSleeper() = default;
+  /// Ends what observes; what goes wrong then is lost.
+  ~PileSleeper();
 
   /// Adds a body, awake, at the pose of its centre of mass.
   Handle add(const BodyTraits<Dim>& traits, const Pose<Dim>& pose, BodyRole role = BodyRole::sleeps);
@@ -44,7 +48,7 @@ class PileSleeper {
   /// The bodies whose states after_step() needs: those awake and the kinematic ones. Valid until the next call.
   std::span<const Handle> followed();
   /// Whether the next after_step() takes the contacts of all bodies that are awake, since something sleeps.
-  bool needs_all_contacts() const { return enabled_ && sleeping_.needs_all_contacts(); }
+  bool needs_all_contacts() const;
   /// If not: whether it takes those of this body. Contacts between bodies of which none is needed change nothing and
   /// may be left out.
   bool needs_contacts(Handle handle) const;
@@ -68,6 +72,17 @@ class PileSleeper {
   int size() const { return handles_.size(); }
   int awake() const { return static_cast<int>(world().awake().size()); }
 
+  /// From now on `observer` sees each step: a record, the live view, a watch for faults. Numbers of bodies are those of
+  /// handle_of(), axes those of talus, with the last one up. Throws InvalidValue without SleeperOptions::enabled, and
+  /// what the observer throws.
+  void observe(std::unique_ptr<Observer<Dim>> observer);
+  /// Something that never moves and that observers see, such as a floor. Throws InvalidValue as a piece's check does.
+  void add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose);
+  /// Ends what observes; without a call this object's end does it.
+  void end_observers(std::string_view reason = "finished");
+  /// The body of this number in frames, records and warnings: one that is there and not kinematic.
+  Handle handle_of(BodyIndex body) const { return handle_of_[body]; }
+
   /// Of every body that is not kinematic, in the order of their slots.
   std::vector<SavedSleep> snapshot() const;
   /// Puts to sleep again what slept, and wakes all others. Before it, the bodies must be in their saved places; `poses`
@@ -88,15 +103,16 @@ class PileSleeper {
   BodyIndex side(Handle handle) const;
   Box<Dim> bounds(const Entry& entry) const;
   std::vector<BodyIndex> near(const Box<Dim>& box, double extent) const;
-  Handle handle_of(BodyIndex body) const { return handle_of_[body]; }
   void note(const Events& events);
+  std::span<const Warning> warnings() const;
+  void show_step();
   void clear_changes();
   void wake_reached();
 
   bool enabled_;
   AxisTurn<Dim> turn_;
   SleepingWorld<Dim> sleeping_;
-  KinematicBodies<Dim> kinematic_;
+  KinematicBodies<Dim> kinematic_{world()};
   HandleTable handles_;
   std::vector<Handle> kinematic_handles_;
   std::vector<Handle> handle_of_;       // [body] of the world
@@ -107,6 +123,8 @@ class PileSleeper {
   std::vector<std::int64_t> given_;     // [slot] number of the last step that had it
   std::int64_t steps_ = 0;
   SleepChanges<Dim> changes_;
+  std::vector<std::unique_ptr<Observer<Dim>>> observers_;
+  Events events_;  // since the last frame, where there are observers
 };
 
 }  // namespace talus

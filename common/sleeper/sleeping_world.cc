@@ -131,13 +131,17 @@ typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::prepare(std::span<const 
 }
 
 template <int Dim>
-const Decision<Dim>& SleepingWorld<Dim>::decide(double dt, const std::vector<std::uint8_t>& follows) {
+void SleepingWorld<Dim>::end_motion(double dt) {
   time_ += dt;
   ++step_;
   world_.give_dt(dt);
   world_.step();
+}
+
+template <int Dim>
+const Decision<Dim>& SleepingWorld<Dim>::decide(const std::vector<std::uint8_t>& follows) {
   if (!control_) return nothing_;
-  control_->count_piles(dt, false);
+  control_->count_piles(world_.dt(), false);
   control_->decide({.step = step_,
                     .time = time_,
                     .world = world_,
@@ -151,6 +155,19 @@ const Decision<Dim>& SleepingWorld<Dim>::decide(double dt, const std::vector<std
   policy_->note_near_sleep(world_, near_sleep_);
   control_->apply(step_);
   return control_->decision();
+}
+
+template <int Dim>
+Frame<Dim> SleepingWorld<Dim>::frame(std::span<const SleepEvent> events, std::span<const Warning> warnings) const {
+  return {.step = step_,
+          .time = time_,
+          .world = world_,
+          .piles = control_ ? control_->piles() : no_piles_,
+          .events = events,
+          .phases = {},
+          .warnings = warnings,
+          .bodies_planned = count_,
+          .policy = policy_};
 }
 
 template <int Dim>

@@ -45,9 +45,15 @@ class SleepingWorld {
 
   /// Before the policy decides: makes it where it is missing or no longer fits. Returns the bodies that wake for that.
   Events prepare(std::span<const Contact<Dim>> contacts);
-  /// One step of `dt` [s] whose states and contacts world() has. `follows`: by body, whether it touches what moves it.
-  /// Returns what was done.
-  const Decision<Dim>& decide(double dt, const std::vector<std::uint8_t>& follows);
+  /// Ends the motion of a step of `dt` [s], whose states and contacts world() was given.
+  void end_motion(double dt);
+  /// After it. `follows`: by body, whether it touches what moves it. Returns what was done.
+  const Decision<Dim>& decide(const std::vector<std::uint8_t>& follows);
+
+  /// The last step, as observers see it.
+  Frame<Dim> frame(std::span<const SleepEvent> events, std::span<const Warning> warnings) const;
+  double time() const { return time_; }
+  std::int64_t step() const { return step_; }
 
   bool any_asleep() const { return count_ > std::ssize(world_.awake()); }
   /// Whether the next decision takes the contacts of all bodies that are awake.
@@ -79,6 +85,7 @@ class SleepingWorld {
   const AdaptivePolicy<Dim>* policy_ = nullptr;  // that of control_
   std::optional<GravityChange<Dim>> gravity_;
   Decision<Dim> nothing_;
+  PileSet<Dim> no_piles_{{}, {}};
   std::int64_t step_ = 0;
   double time_ = 0.0;  // [s]
 };

@@ -76,26 +76,11 @@ Pose<Dim> Mover<Dim>::pose_at(double time, const Pose<Dim>& initial) const {
 }
 
 template <int Dim>
-bool any_moves_after(const std::vector<Mover<Dim>>& movers, double time) {
-  return std::ranges::any_of(movers,
-                             [&](const Mover<Dim>& mover) { return time < 0.0 || mover.motion.moves_after(time); });
-}
-
-template <int Dim>
-std::vector<ObstaclePose<Dim>> moving_poses(const std::vector<Obstacle<Dim>>& obstacles,
-                                            const std::vector<Mover<Dim>>& movers, double time) {
-  std::vector<ObstaclePose<Dim>> poses;
-  for (const Mover<Dim>& mover : movers)
-    for (int k = mover.first; k < mover.first + mover.count; ++k)
-      poses.push_back({k, mover.pose_at(time, obstacles[k].pose)});
-  std::ranges::sort(poses, {}, &ObstaclePose<Dim>::obstacle);
-  return poses;
-}
-
-template <int Dim>
 std::vector<Obstacle<Dim>> obstacles_at(std::vector<Obstacle<Dim>> obstacles, const std::vector<Mover<Dim>>& movers,
                                         double time) {
-  for (const ObstaclePose<Dim>& each : moving_poses(obstacles, movers, time)) obstacles[each.obstacle].pose = each.pose;
+  for (const Mover<Dim>& mover : movers)
+    for (int k = mover.first; k < mover.first + mover.count; ++k)
+      obstacles[k].pose = mover.pose_at(time, obstacles[k].pose);
   return obstacles;
 }
 
@@ -103,12 +88,6 @@ template struct Motion<2>;
 template struct Motion<3>;
 template struct Mover<2>;
 template struct Mover<3>;
-template bool any_moves_after(const std::vector<Mover<2>>&, double);
-template bool any_moves_after(const std::vector<Mover<3>>&, double);
-template std::vector<ObstaclePose<2>> moving_poses(const std::vector<Obstacle<2>>&, const std::vector<Mover<2>>&,
-                                                   double);
-template std::vector<ObstaclePose<3>> moving_poses(const std::vector<Obstacle<3>>&, const std::vector<Mover<3>>&,
-                                                   double);
 template std::vector<Obstacle<2>> obstacles_at(std::vector<Obstacle<2>>, const std::vector<Mover<2>>&, double);
 template std::vector<Obstacle<3>> obstacles_at(std::vector<Obstacle<3>>, const std::vector<Mover<3>>&, double);
 

@@ -45,21 +45,12 @@ struct Mover {
   Pose<Dim> pose_at(double time, const Pose<Dim>& initial) const;
 };
 
-/// Whether any moves after a time [s]; below 0: whether there is any.
-template <int Dim>
-bool any_moves_after(const std::vector<Mover<Dim>>& movers, double time);
-
 /// Where an obstacle is.
 template <int Dim>
 struct ObstaclePose {
   int obstacle = 0;  // in WorldDescription::obstacles
   Pose<Dim> pose;
 };
-
-/// Where the obstacles that move are at a time [s], by ascending number.
-template <int Dim>
-std::vector<ObstaclePose<Dim>> moving_poses(const std::vector<Obstacle<Dim>>& obstacles,
-                                            const std::vector<Mover<Dim>>& movers, double time);
 
 /// The obstacles as they are at a time [s].
 template <int Dim>

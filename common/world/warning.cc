@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace talus {
@@ -76,6 +77,21 @@ std::string account(const Warning& warning) {
   if (warning.kind == WarningKind::energy) return fmt::format("since step {} {}", warning.step, finding(warning));
   return fmt::format("{} {} since step {}, at worst {}", warning.bodies, warning.bodies == 1 ? "body" : "bodies",
                      warning.step, finding(warning));
+}
+
+Warning* WarningList::find(WarningKind kind) {
+  const auto known = std::ranges::find(warnings_, kind, &Warning::kind);
+  return known == warnings_.end() ? nullptr : &*known;
+}
+
+void WarningList::note(WarningKind kind, BodyIndex body, std::int64_t step, double value) {
+  if (find(kind) == nullptr) warnings_.push_back({.kind = kind, .step = step, .body = body});
+  Warning& known = *find(kind);
+  if (std::ssize(seen_) <= body) seen_.resize(body + 1, 0);
+  const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(kind));
+  if ((seen_[body] & bit) == 0) ++known.bodies;
+  seen_[body] |= bit;
+  known.value = std::max(known.value, value);
 }
 
 }  // namespace talus

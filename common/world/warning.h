@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/world/body.h"
 
@@ -33,6 +35,21 @@ struct Warning {
   double value = 0.0;  // the largest so far: depth of the centre [m], coordinate [m], energy gained [J], speed [m/s],
                        // spin [rad/s], number of bodies, depth of overlap [D],
                        // way within the step, relative to the other body [m], mean drift [D]
+};
+
+/// What a run has shown, one warning of each kind in the order of first sight.
+class WarningList {
+ public:
+  /// A body, or the value that a warning of this kind has if it is the largest so far.
+  void note(WarningKind kind, BodyIndex body, std::int64_t step, double value);
+  /// Of a kind that a run shows once.
+  void add(const Warning& warning) { warnings_.push_back(warning); }
+  Warning* find(WarningKind kind);
+  std::span<const Warning> all() const { return warnings_; }
+
+ private:
+  std::vector<Warning> warnings_;
+  std::vector<std::uint8_t> seen_;  // by body: bit k for kind k; empty until the first warning
 };
 
 /// First step, body, value, and what to change in the scene; one line without end.

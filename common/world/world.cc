@@ -29,18 +29,17 @@ BodyIndex World<Dim>::add(const BodyDef<Dim>& body) {
 }
 
 template <int Dim>
-BodyIndex World<Dim>::add_unchecked(const Shape<Dim>& shape, const Pose<Dim>& pose, std::optional<BodyIndex> number) {
+BodyIndex World<Dim>::add_unchecked(int shape, const Pose<Dim>& pose, std::optional<BodyIndex> number) {
   const BodyIndex body = number.value_or(states_.size());
   if (!number) {
-    description_.shapes.emplace_back();
-    states_.shape.push_back(body);
+    states_.shape.emplace_back();
     states_.pose.emplace_back();
     states_.velocity.emplace_back();
     states_.spin.emplace_back();
     states_.asleep.push_back(0);
     states_.removed.push_back(0);
   }
-  description_.shapes[body] = shape;
+  states_.shape[body] = shape;
   states_.pose[body] = pose;
   states_.velocity[body].setZero();
   states_.spin[body].setZero();
@@ -51,8 +50,25 @@ BodyIndex World<Dim>::add_unchecked(const Shape<Dim>& shape, const Pose<Dim>& po
 }
 
 template <int Dim>
+void World<Dim>::put_shape(int number, const Shape<Dim>& shape) {
+  if (number == std::ssize(description_.shapes)) description_.shapes.emplace_back();
+  description_.shapes[number] = shape;
+  ++form_;
+}
+
+template <int Dim>
+void World<Dim>::put_obstacle(int number, const Obstacle<Dim>& obstacle) {
+  if (number == std::ssize(description_.obstacles)) description_.obstacles.emplace_back();
+  description_.obstacles[number] = obstacle;
+  if (!removed_obstacles_.empty()) removed_obstacles_.resize(description_.obstacles.size(), 0);
+  if (!removed_obstacles_.empty()) removed_obstacles_[number] = 0;
+  ++form_;
+}
+
+template <int Dim>
 void World<Dim>::remove(BodyIndex body) {
   require_present(body);
+  ++removals_;
   states_.removed[body] = 1;
   std::erase(awake_, body);
   engine_remove(body);

@@ -132,6 +132,11 @@ class World {
   /// (a lower corner above the upper one) touches nothing.
   void query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const;
 
+  /// Goes up when a shape or an obstacle is new or another one than before. Stays 0 in the engines of talus.
+  std::int64_t form() const { return form_; }
+  /// Calls of remove() so far.
+  std::int64_t removals() const { return removals_; }
+
   /// The shapes that BodyStates::shape counts.
   std::span<const Shape<Dim>> shapes() const { return description_.shapes; }
   const Shape<Dim>& shape_of(BodyIndex body) const { return description_.shapes[states_.shape[body]]; }
@@ -157,9 +162,13 @@ class World {
 
   // For a world that talus does not simulate: steps of any length, and bodies that come and go without end.
   void set_dt(double dt) { description_.dt = dt; }
-  /// Adds a body of a shape of its own, without the checks for engines of talus. It gets the number of a removed body
-  /// if `number` has one; that body's shape goes.
-  BodyIndex add_unchecked(const Shape<Dim>& shape, const Pose<Dim>& pose, std::optional<BodyIndex> number);
+  /// Adds a body without the checks for engines of talus. It gets the number of a removed body if `number` has one.
+  BodyIndex add_unchecked(int shape, const Pose<Dim>& pose, std::optional<BodyIndex> number);
+  /// The shape of this number, which is the next one or one that no body has.
+  void put_shape(int number, const Shape<Dim>& shape);
+  /// The same for an obstacle.
+  void put_obstacle(int number, const Obstacle<Dim>& obstacle);
+  void place_obstacle(int number, const Pose<Dim>& pose) { description_.obstacles[number].pose = pose; }
 
  private:
   // What an engine supplies. Indices are checked. freeze, thaw and remove have already changed states() and awake().
@@ -229,6 +238,8 @@ class World {
   std::vector<std::uint8_t> removed_obstacles_;   // by number; empty: none
   EngineTimes times_;
   std::int64_t steps_ = 0;
+  std::int64_t form_ = 0;
+  std::int64_t removals_ = 0;
   std::optional<NonFiniteState> failure_;
   bool record_contacts_ = false;
   bool has_ring_ = false;

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <compare>
+#include <initializer_list>
 #include <map>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "common/math/require.h"
@@ -222,6 +225,17 @@ class Box2dSleeper {
   /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
+  /// From now on `observer` sees each step: a record, the live view, a watch for faults (PileSleeper::observe()). It
+  /// sees the static bodies that there are at the first call, too.
+  void observe(std::unique_ptr<Observer<2>> observer) {
+    if (!std::exchange(shows_statics_, true)) add_statics();
+    core_.observe(std::move(observer));
+  }
+  /// Ends what observes; without a call this object's end does it, once all bodies have woken.
+  void end_observers() { core_.end_observers(); }
+  /// What decides. Its handle_of() names the body of a warning or a record.
+  const PileSleeper<2>& core() const { return core_; }
+
   /// What a saved program must keep beside its bodies. All bodies that are not kinematic are dynamic when awake.
   std::vector<SavedSleep> snapshot() const { return core_.snapshot(); }
   /// Once the bodies are in their saved places: those that slept sleep again, all others wake.
@@ -280,18 +294,53 @@ class Box2dSleeper {
     return box;
   }
 
+  /// In axes whose origin is `centre` of the body's own. Lines are given the thickness of Box2D's slop.
+  static void add_pieces(const b2Fixture& fixture, const Vec2& centre, std::vector<Piece<2>>& pieces) {
+    const b2Shape& shape = *fixture.GetShape();
+    const auto add = [&](std::initializer_list<b2Vec2> corners, double radius) {
+      HullPiece<2> hull = {.corners = {}, .radius = radius};
+      for (const b2Vec2& corner : corners) hull.corners.push_back(from_box2d(corner) - centre);
+      add_piece<2>(hull, pieces);
+    };
+    if (shape.GetType() == b2Shape::e_circle) {
+      add({static_cast<const b2CircleShape&>(shape).m_p}, shape.m_radius);
+    } else if (shape.GetType() == b2Shape::e_polygon) {
+      const auto& polygon = static_cast<const b2PolygonShape&>(shape);
+      HullPiece<2> hull;
+      for (int i = 0; i < polygon.m_count; ++i) hull.corners.push_back(from_box2d(polygon.m_vertices[i]) - centre);
+      add_piece<2>(hull, pieces);
+    } else if (shape.GetType() == b2Shape::e_edge) {
+      const auto& edge = static_cast<const b2EdgeShape&>(shape);
+      add({edge.m_vertex1, edge.m_vertex2}, b2_linearSlop);
+    } else {
+      const auto& chain = static_cast<const b2ChainShape&>(shape);
+      for (int i = 0; i + 1 < chain.m_count; ++i) add({chain.m_vertices[i], chain.m_vertices[i + 1]}, b2_linearSlop);
+    }
+  }
+  void add_statics() {
+    for (b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext()) {
+      if (body->GetType() != b2_staticBody || handles_.contains(body)) continue;
+      std::vector<Piece<2>> pieces;
+      for (const b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
+        if (!fixture->IsSensor()) add_pieces(*fixture, Vec2::Zero(), pieces);
+      if (!pieces.empty())
+        core_.add_static(pieces, {from_box2d(body->GetPosition()), Rotation<2>(body->GetAngle())});
+    }
+  }
+
   /// A body that cannot turn has no inertia; it counts as very heavy to turn.
   static BodyTraits<2> traits(const b2Body& body) {
     b2Transform own;
     own.SetIdentity();
+    const Vec2 centre = from_box2d(body.GetLocalCenter());
     BodyTraits<2> traits{.mass = body.GetMass()};
     traits.bounds.setEmpty();
     for (const b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
       if (fixture->IsSensor()) continue;
       traits.bounds.extend(bounds(*fixture, own));
       traits.friction = fixture->GetFriction();
+      add_pieces(*fixture, centre, traits.pieces);
     }
-    const Vec2 centre = from_box2d(body.GetLocalCenter());
     traits.bounds.translate(-centre);
     const double inertia = body.GetInertia() - traits.mass * centre.squaredNorm();
     traits.inertia(0, 0) = inertia > 0.0 ? inertia : 1e6 * traits.mass * traits.bounds.diagonal().squaredNorm();
@@ -416,6 +465,7 @@ class Box2dSleeper {
   b2World& world_;
   bool enabled_;
   bool all_contacts_ = true;  // are needed in this step
+  bool shows_statics_ = false;
   PileSleeper<2> core_;
   Box2dImpulses impulses_;
   Listener listener_{impulses_};

@@ -6,7 +6,10 @@
 #include <box2d/box2d.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/math/require.h"
@@ -121,6 +124,17 @@ class Box2dV3Sleeper {
   /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
+  /// From now on `observer` sees each step: a record, the live view, a watch for faults (PileSleeper::observe()). It
+  /// sees these static bodies, too: Box2D has no list of all.
+  void observe(std::unique_ptr<Observer<2>> observer, std::span<const b2BodyId> statics = {}) {
+    for (const b2BodyId body : statics) add_static(body);
+    core_.observe(std::move(observer));
+  }
+  /// Ends what observes; without a call this object's end does it, once all bodies have woken.
+  void end_observers() { core_.end_observers(); }
+  /// What decides. Its handle_of() names the body of a warning or a record.
+  const PileSleeper<2>& core() const { return core_; }
+
   /// What a saved program must keep beside its bodies. All bodies that are not kinematic are dynamic when awake.
   std::vector<SavedSleep> snapshot() const { return core_.snapshot(); }
   /// Once the bodies are in their saved places: those that slept sleep again, all others wake.
@@ -180,18 +194,54 @@ class Box2dV3Sleeper {
     }
   }
 
-  /// A body that cannot turn counts as very heavy to turn.
-  static BodyTraits<2> traits(b2BodyId body) {
+  /// In axes whose origin is `centre` of the body's own. Lines are given the thickness of Box2D's slop.
+  static void add_pieces(b2ShapeId shape, const Vec2& centre, std::vector<Piece<2>>& pieces) {
+    constexpr double slop = 0.005;  // [m]
+    const auto add = [&](std::span<const b2Vec2> corners, double radius) {
+      HullPiece<2> hull = {.corners = {}, .radius = radius};
+      for (const b2Vec2& corner : corners) hull.corners.push_back(from_box2d(corner) - centre);
+      add_piece<2>(hull, pieces);
+    };
+    if (b2Shape_GetType(shape) == b2_circleShape) {
+      const b2Circle circle = b2Shape_GetCircle(shape);
+      add({&circle.center, 1}, circle.radius);
+    } else if (b2Shape_GetType(shape) == b2_capsuleShape) {
+      const b2Capsule capsule = b2Shape_GetCapsule(shape);
+      add(std::array{capsule.center1, capsule.center2}, capsule.radius);
+    } else if (b2Shape_GetType(shape) == b2_polygonShape) {
+      const b2Polygon polygon = b2Shape_GetPolygon(shape);
+      add({polygon.vertices, static_cast<std::size_t>(polygon.count)}, 0.0);
+    } else {
+      const bool of_chain = b2Shape_GetType(shape) == b2_chainSegmentShape;
+      const b2Segment segment = of_chain ? b2Shape_GetChainSegment(shape).segment : b2Shape_GetSegment(shape);
+      add(std::array{segment.point1, segment.point2}, slop);
+    }
+  }
+  static std::vector<b2ShapeId> shapes_of(b2BodyId body) {
     std::vector<b2ShapeId> shapes(b2Body_GetShapeCount(body));
     b2Body_GetShapes(body, shapes.data(), static_cast<int>(shapes.size()));
+    return shapes;
+  }
+  void add_static(b2BodyId body) {
+    std::vector<Piece<2>> pieces;
+    for (const b2ShapeId shape : shapes_of(body))
+      if (!b2Shape_IsSensor(shape)) add_pieces(shape, Vec2::Zero(), pieces);
+    if (!pieces.empty())
+      core_.add_static(pieces, {from_box2d(b2Body_GetPosition(body)), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(body)))});
+  }
+
+  /// A body that cannot turn counts as very heavy to turn.
+  static BodyTraits<2> traits(b2BodyId body) {
+    const Vec2 centre = from_box2d(b2Body_GetLocalCenterOfMass(body));
     BodyTraits<2> traits{.mass = b2Body_GetMass(body)};
     traits.bounds.setEmpty();
-    for (const b2ShapeId shape : shapes) {
+    for (const b2ShapeId shape : shapes_of(body)) {
       if (b2Shape_IsSensor(shape)) continue;
       traits.bounds.extend(bounds(shape));
       traits.friction = b2Shape_GetFriction(shape);
+      add_pieces(shape, centre, traits.pieces);
     }
-    traits.bounds.translate(-from_box2d(b2Body_GetLocalCenterOfMass(body)));
+    traits.bounds.translate(-centre);
     const double inertia = b2Body_IsFixedRotation(body) ? 0.0 : b2Body_GetRotationalInertia(body);
     traits.inertia(0, 0) = inertia > 0.0 ? inertia : 1e6 * traits.mass * traits.bounds.diagonal().squaredNorm();
     return traits;

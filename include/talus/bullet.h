@@ -6,7 +6,10 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "common/math/require.h"
@@ -128,6 +131,17 @@ class BulletSleeper {
   /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
+  /// From now on `observer` sees each step: a record, the live view, a watch for faults (PileSleeper::observe()). It
+  /// sees the static planes, convex shapes and compounds that there are at the first call, too.
+  void observe(std::unique_ptr<Observer<3>> observer) {
+    if (!std::exchange(shows_statics_, true)) add_statics();
+    core_.observe(std::move(observer));
+  }
+  /// Ends what observes; without a call this object's end does it, once all bodies have woken.
+  void end_observers() { core_.end_observers(); }
+  /// What decides. Its handle_of() names the body of a warning or a record.
+  const PileSleeper<3>& core() const { return core_; }
+
   /// What a saved program must keep beside its bodies and their masses.
   std::vector<SavedSleep> snapshot() const { return core_.snapshot(); }
   /// Mass [kg] of a watched body, also of a sleeping one, which has none in Bullet. Throws InvalidValue on any other
@@ -164,16 +178,77 @@ class BulletSleeper {
   static btVector3 to_bullet(const Vec3& v) {
     return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
   }
-  static Pose<3> pose(const btRigidBody& body) {
-    const btQuaternion q = body.getWorldTransform().getRotation();
-    return {from_bullet(body.getWorldTransform().getOrigin()), Rotation<3>(q.w(), q.x(), q.y(), q.z())};
-  }
+  static Pose<3> pose(const btRigidBody& body) { return pose(body.getWorldTransform()); }
   /// Kinematic bodies often count as static too.
   static bool never_moves(const btCollisionObject& object) {
     return object.isStaticObject() && !object.isKinematicObject();
   }
   static BodyRole free_role(const btRigidBody& body) {
     return body.getNumConstraintRefs() > 0 ? BodyRole::stays_awake : BodyRole::sleeps;
+  }
+
+  static Pose<3> pose(const btTransform& at) {
+    const btQuaternion q = at.getRotation();
+    return {from_bullet(at.getOrigin()), Rotation<3>(q.w(), q.x(), q.y(), q.z())};
+  }
+  /// The convex pieces of a shape that is placed in other axes. Nothing of a mesh.
+  static void add_pieces(const btCollisionShape& shape, const btTransform& at, std::vector<Piece<3>>& pieces) {
+    const auto corner = [&](const btVector3& v) { return from_bullet(at * v); };
+    if (shape.isCompound()) {
+      const auto& compound = static_cast<const btCompoundShape&>(shape);
+      for (int i = 0; i < compound.getNumChildShapes(); ++i)
+        add_pieces(*compound.getChildShape(i), at * compound.getChildTransform(i), pieces);
+    } else if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
+      add_piece<3>(plane_piece(static_cast<const btStaticPlaneShape&>(shape), at), pieces);
+    } else if (shape.getShapeType() == BOX_SHAPE_PROXYTYPE) {
+      const auto& box = static_cast<const btBoxShape&>(shape);
+      add_piece<3>(BoxPiece<3>{.pose = pose(at), .half = from_bullet(box.getHalfExtentsWithMargin())}, pieces);
+    } else if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
+      const auto& ball = static_cast<const btSphereShape&>(shape);
+      add_piece<3>(HullPiece<3>{.corners = {corner({0, 0, 0})}, .radius = ball.getRadius()}, pieces);
+    } else if (shape.getShapeType() == CAPSULE_SHAPE_PROXYTYPE) {
+      const auto& capsule = static_cast<const btCapsuleShape&>(shape);
+      btVector3 end(0, 0, 0);
+      end[capsule.getUpAxis()] = capsule.getHalfHeight();
+      add_piece<3>(HullPiece<3>{.corners = {corner(-end), corner(end)}, .radius = capsule.getRadius()}, pieces);
+    } else if (shape.isConvex()) {
+      HullPiece<3> hull;
+      for (const btVector3& v : outline(static_cast<const btConvexShape&>(shape))) hull.corners.push_back(corner(v));
+      add_piece<3>(hull, pieces);
+    }
+  }
+  /// A thin plate below the plane about the point nearest to the origin.
+  static BoxPiece<3> plane_piece(const btStaticPlaneShape& plane, const btTransform& at) {
+    constexpr double size = 100.0;      // [m]
+    constexpr double thickness = 0.01;  // [m]
+    const Vec3 normal = from_bullet(plane.getPlaneNormal());
+    const Pose<3> placed = pose(at);
+    return {.pose = {placed * ((plane.getPlaneConstant() - 0.5 * thickness) * normal),
+                     placed.rotation * Rotation<3>::FromTwoVectors(Vec3::UnitZ(), normal)},
+            .half = 0.5 * Vec3(size, size, thickness)};
+  }
+  /// Points of a convex shape that lie farthest in directions all around.
+  static std::vector<btVector3> outline(const btConvexShape& shape) {
+    constexpr int directions = 100;
+    constexpr double golden_angle = 2.399963;  // [rad]
+    std::vector<btVector3> points;
+    for (int i = 0; i < directions; ++i) {
+      const double z = (2.0 * i + 1.0) / directions - 1.0;
+      const double r = std::sqrt(1.0 - z * z);
+      const btVector3 point = shape.localGetSupportingVertex(
+          to_bullet({r * std::cos(golden_angle * i), r * std::sin(golden_angle * i), z}));
+      if (std::ranges::find(points, point) == points.end()) points.push_back(point);
+    }
+    return points;
+  }
+  void add_statics() {
+    for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
+      const btCollisionObject& object = *world_.getCollisionObjectArray()[i];
+      if (!never_moves(object) || handles_.contains(&object)) continue;
+      std::vector<Piece<3>> pieces;
+      add_pieces(*object.getCollisionShape(), btTransform::getIdentity(), pieces);
+      if (!pieces.empty()) core_.add_static(pieces, pose(object.getWorldTransform()));
+    }
   }
 
   /// An axis about which a body cannot turn has no inverse inertia; it counts as very heavy there.
@@ -187,6 +262,7 @@ class BulletSleeper {
       const btScalar inverse = body.getInvInertiaDiagLocal()[axis];
       traits.inertia(axis, axis) = inverse > 0 ? 1.0 / inverse : locked;
     }
+    add_pieces(*body.getCollisionShape(), btTransform::getIdentity(), traits.pieces);
     traits.friction = body.getFriction() * body.getFriction();  // Bullet multiplies those of two bodies
     return traits;
   }
@@ -331,6 +407,7 @@ class BulletSleeper {
   btDiscreteDynamicsWorld& world_;
   bool enabled_;
   bool all_contacts_ = true;  // are needed in this step
+  bool shows_statics_ = false;
   PileSleeper<3> core_;
   std::unordered_map<const btCollisionObject*, Handle> handles_;
   std::vector<Known> known_;    // [place in Bullet's list]

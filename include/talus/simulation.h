@@ -6,3 +6,4 @@
 #include "common/shape/catalogue.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
+#include "common/simulation/sleeper_watch.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/read_scene.h"
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"

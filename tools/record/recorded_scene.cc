@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include "common/scene/write_scene.h"
+#include "common/text/printable.h"
 #include "lcmtypes/scene_message.h"
+#include "lcmtypes/shapes_message.h"
 #include "lcmtypes/wire.h"
 #include "tools/record/record_file.h"
 
@@ -18,22 +21,98 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct RecordedFiles {
+  std::vector<SceneFile> files;  // empty: not whole
+  bool announced = true;         // that the run's messages say it writes them
+};
+
 /// They stand before the first state.
-std::vector<SceneFile> recorded_files(const fs::path& file) {
+RecordedFiles recorded_files(const fs::path& file) {
   LogReader log(file.string());
   SceneFilesReader reader;
   OneRun run;
+  RecordedFiles found;
   std::int64_t events = 0;
   for (LogEvent event; log.next(event); ++events) {
     run.see(event, file);
     refuse_other_format(event, file);
     talus_lcm::talus_scene message;
     if (event.channel == name_of(Channel::scene) && decode(event.data, message).empty()) reader.take(message);
+    talus_lcm::talus_run identity;
+    if (event.channel == name_of(Channel::run) && decode(event.data, identity).empty())
+      found.announced = std::ranges::find(identity.channels, name_of(Channel::scene)) != identity.channels.end();
     if (event.channel == name_of(Channel::bodies)) break;
   }
   if (events == 0 && log.damage().bytes > 0) throw no_event_log(file);
-  return reader.files();
+  found.files = reader.files();
+  return found;
 }
+
+/// The other way round than in_space().
+template <int Dim>
+Vec<Dim> in_own_dimension(const Vec3& vector) {
+  if constexpr (Dim == 3) return vector;
+  else return {vector.x(), vector.z()};
+}
+
+/// What the messages of a run tell of its scene.
+class ToldScene {
+ public:
+  explicit ToldScene(const fs::path& file) {
+    LogReader log(file.string());
+    for (LogEvent event; log.next(event);)
+      if (const auto channel = channel_named(event.channel))
+        with_message_of(*channel, [&](auto message) {
+          if (decode(event.data, message).empty()) take(message);
+        });
+  }
+
+  AnyScene scene() const {
+    if (identity_.dimension == 2) return scene_in<2>();
+    return scene_in<3>();
+  }
+
+ private:
+  void take(const talus_lcm::talus_run& message) { identity_ = message; }
+  void take(const talus_lcm::talus_shapes& message) {
+    (message.obstacle != 0 ? obstacles_ : shapes_).insert_or_assign(message.index, message);
+  }
+  void take(const talus_lcm::talus_bodies& message) {
+    if (!message.body.empty()) bodies_ = std::max(bodies_, std::int64_t{message.body.back()} + 1);
+    last_step_ = std::max(last_step_, message.step);
+  }
+  template <class Message>
+  void take(const Message& /*message*/) {}
+
+  template <int Dim>
+  Scene<Dim> scene_in() const {
+    Scene<Dim> scene;
+    scene.title = printable(identity_.title);
+    scene.world.dt = identity_.dt;
+    scene.world.ground.present = identity_.ground != 0;
+    scene.world.ground.height = identity_.ground_height;
+    scene.policy.kind = identity_.policy;
+    scene.seed = static_cast<std::uint64_t>(identity_.seed);
+    const Vec<Dim> gravity = in_own_dimension<Dim>(Vec3(identity_.gravity));
+    scene.world.gravity = gravity.norm();
+    if (gravity.norm() > 0.0) scene.world.down = gravity / gravity.norm();
+    for (const auto& [index, message] : shapes_)
+      if (message.dimension == Dim && index == std::ssize(scene.world.shapes))
+        scene.world.shapes.push_back(to_shape<Dim>(message));
+    for (const auto& [index, message] : obstacles_)
+      if (message.dimension == Dim && index == std::ssize(scene.world.obstacles))
+        scene.world.obstacles.push_back({to_shape<Dim>(message), pose_of<Dim>(message), true});
+    scene.sources = {{.count = static_cast<int>(std::min<std::int64_t>(bodies_, most_bodies))}};
+    scene.run.frames = last_step_ / std::max<std::int64_t>(1, scene.steps_per_frame()) + 1;
+    return scene;
+  }
+
+  talus_lcm::talus_run identity_{};
+  std::map<int, talus_lcm::talus_shapes> shapes_;
+  std::map<int, talus_lcm::talus_shapes> obstacles_;
+  std::int64_t bodies_ = 0;
+  std::int64_t last_step_ = 0;
+};
 
 /// A new folder that goes with this object.
 class ScratchFolder {
@@ -57,7 +136,8 @@ class ScratchFolder {
 
 AnyScene scene_of_run(const fs::path& run) {
   const fs::path file = record_file(run);
-  const std::vector<SceneFile> files = recorded_files(file);
+  const auto [files, announced] = recorded_files(file);
+  if (!announced) return ToldScene(file).scene();
   if (files.size() == 1) return parse_scene(files.front().text, (file / scene_file_name).string());
   if (files.empty()) {
     const fs::path beside = file.parent_path() / scene_file_name;

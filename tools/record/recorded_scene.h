@@ -7,8 +7,9 @@
 namespace talus {
 
 /// The scene of a run folder or of a record without its folder: the one that the record holds, else, where that is
-/// damaged, scene.toml beside it. Throws std::invalid_argument where there is neither, SceneErrors where it cannot be
-/// read.
+/// damaged, scene.toml beside it. Of a run that a program made without a scene file: shapes, obstacles and as many
+/// bodies as the record has. Throws std::invalid_argument where there is none of these, SceneErrors where the scene
+/// cannot be read.
 AnyScene scene_of_run(const std::filesystem::path& run);
 
 }  // namespace talus

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "common/measure/avalanches.h"
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "tools/output/csv.h"
 
 namespace talus {

@@ -12,7 +12,7 @@
 #include "common/measure/load_meter.h"
 #include "common/measure/region_meter.h"
 #include "common/scene/scene.h"
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "tools/output/csv.h"
 
 namespace talus {

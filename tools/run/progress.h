@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "common/simulation/stopwatch.h"
 
 namespace talus {

@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "common/scene/scene.h"
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 
 namespace talus {
 

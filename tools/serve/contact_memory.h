@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/simulation/observer.h"
+#include "common/policy/observer.h"
 #include "common/world/body.h"
 
 namespace talus {

@@ -1,0 +1,106 @@
+// The record of a world that a program simulates, as the tools read it.
+#include <gtest/gtest.h>
+
+#include "common/sleeper/pile_sleeper.h"
+#include "common/sleeper/step_buffer.h"
+#include "lcmtypes/world_feed.h"
+#include "tests/lcmtypes/scratch_file.h"
+#include "tools/record/recorded_run.h"
+
+namespace talus::program_record_test {
+namespace {
+
+/// Three discs that rise and a plate that a program moves; their engine is arithmetic.
+class Program {
+ public:
+  explicit Program(const std::string& record) {
+    for (int i = 0; i < 3; ++i) add(0.5);
+    plate_ = sleeper_.add(box_traits<2>(0.0, {2.0, 0.5}), {Vec2(9, 1), Rotation<2>(0)}, BodyRole::kinematic);
+    sleeper_.add_static({BoxPiece<2>{.pose = {}, .half = Vec2(20, 0.5)}}, {Vec2(0, -0.5), Rotation<2>(0)});
+    sleeper_.observe(record_world<2>(record, {.name = "discs", .title = "Discs that rise", .dt = dt_}));
+  }
+  void add(double radius) {
+    BodyTraits<2> traits = ball_traits<2>(3.0, radius);
+    traits.pieces = {HullPiece<2>{.corners = {Vec2::Zero()}, .radius = radius}};
+    discs_.push_back(sleeper_.add(traits, at(discs_.size())));
+  }
+  void remove_first() {
+    sleeper_.remove(discs_.front());
+    discs_.front() = {};
+  }
+  void step() {
+    ++steps_;
+    StepBuffer<2> buffer;
+    for (std::size_t i = 0; i < discs_.size(); ++i)
+      if (!(discs_[i] == Handle{})) buffer.add(discs_[i], at(i), Vec2(0, 1), Spin<2>(0.0));
+    buffer.add(plate_, {Vec2(9, 1 + 0.01 * steps_), Rotation<2>(0)}, Vec2(0, 0.01 / dt_), Spin<2>(0.0));
+    sleeper_.after_step(buffer.step(dt_));
+  }
+
+ private:
+  Pose<2> at(std::size_t number) const {
+    return {Vec2(2.0 * static_cast<double>(number), 1 + steps_ * dt_), Rotation<2>(0)};
+  }
+
+  double dt_ = 1.0 / 60.0;
+  int steps_ = 0;
+  PileSleeper<2> sleeper_{Vec2(0, -9.81)};
+  std::vector<Handle> discs_;
+  Handle plate_;
+};
+
+RecordedRun<2> read(const std::string& path) { return std::get<RecordedRun<2>>(read_run(path)); }
+
+TEST(TheRecordOfAProgramsWorld, IsReadWithoutASceneFile) {
+  const ScratchFile file;
+  {
+    Program program(file.path());
+    for (int i = 0; i < 60; ++i) program.step();
+  }
+  const RecordedRun<2> run = read(file.path());
+  EXPECT_EQ(run.scene.title, "Discs that rise");
+  EXPECT_EQ(run.reason, "finished");
+  EXPECT_EQ(run.last_step, 60);
+  EXPECT_EQ(run.frames.frames(), 30U);
+  ASSERT_EQ(run.scene.world.shapes.size(), 1U);
+  EXPECT_NEAR(run.scene.world.shapes[0].mass, 3.0, 1e-12);
+  ASSERT_EQ(run.last.size(), 3);
+  EXPECT_NEAR(run.last.pose[2].position.y(), 2.0, 1e-6);  // poses are in single precision
+  EXPECT_NEAR(run.scene.world.gravity, 9.81, 1e-12);
+  ASSERT_EQ(run.scene.world.obstacles.size(), 2U);
+  EXPECT_TRUE(run.damage.none());
+}
+
+TEST(TheRecordOfAProgramsWorld, HasBodiesAndShapesThatCameLater) {
+  const ScratchFile file;
+  {
+    Program program(file.path());
+    for (int i = 0; i < 10; ++i) program.step();
+    program.add(0.25);
+    for (int i = 0; i < 10; ++i) program.step();
+  }
+  const RecordedRun<2> run = read(file.path());
+  ASSERT_EQ(run.last.size(), 4);
+  EXPECT_EQ(run.scene.world.shapes.size(), 2U);
+  EXPECT_EQ(run.last.shape, (std::vector{0, 0, 0, 1}));
+}
+
+TEST(TheRecordOfAProgramsWorld, LeavesOutBodiesThatWereTakenOut) {
+  const ScratchFile file;
+  {
+    Program program(file.path());
+    for (int i = 0; i < 10; ++i) program.step();
+    program.remove_first();
+    for (int i = 0; i < 10; ++i) program.step();
+  }
+  EXPECT_EQ(read(file.path()).last.removed, (std::vector<std::uint8_t>{1, 0, 0}));
+}
+
+TEST(TheRecordOfAProgramsWorld, RefusesABadLabelAndAFolderThatIsNotThereAtOnce) {
+  EXPECT_THROW(record_world<2>("a.lcm", {.dt = 0.0}), InvalidValue);
+  PileSleeper<2> sleeper(Vec2(0, -9.81));
+  EXPECT_THROW(sleeper.observe(record_world<2>("/no/such/folder/a.lcm")), std::system_error);
+}
+
+}  // namespace
+}  // namespace talus::program_record_test
