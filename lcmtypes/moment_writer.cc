@@ -65,9 +65,8 @@ template <int Dim>
 void MomentWriter<Dim>::events(const Frame<Dim>& frame) {
   removed_ = removed_ || frame.world.removals() != removals_;
   removals_ = frame.world.removals();
-  for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
+  for (const DoneEvent& event : frame.done_events.last(frame.done_now))
     if (event.number < std::ssize(events_)) this->event(events_[event.number], frame);
-  }
   send_all(to_sleep(frame.events), frame.step, frame.time);
   if (!has_shapes()) return;
   for (const SleepEvent& event : frame.events)

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "common/policy/observer.h"
 #include "common/policy/sleep_control.h"
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
 #include "common/simulation/interventions.h"
-#include "common/policy/observer.h"
 #include "common/simulation/rest_check.h"
 #include "common/simulation/watchdog.h"
 

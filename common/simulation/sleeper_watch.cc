@@ -16,8 +16,7 @@ void SleeperWatch<Dim>::on_motion(const World<Dim>& world, double /*time*/) {
   ++step_;
   for (const auto& [body, way] : passing_->end_step(world)) warnings_.note(WarningKind::passed, body, step_, way);
   if (overlap_ && overlap_->due(step_))
-    for (const auto& [body, depth] : overlap_->sample(world))
-      warnings_.note(WarningKind::overlap, body, step_, depth);
+    for (const auto& [body, depth] : overlap_->sample(world)) warnings_.note(WarningKind::overlap, body, step_, depth);
 }
 
 template <int Dim>

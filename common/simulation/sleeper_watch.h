@@ -10,9 +10,9 @@
 
 namespace talus {
 
-/// Watches a world that another program simulates (PileSleeper::observe) for bodies that get through each other within a
-/// step, that lie deep in each other, or that are farther away than positions are resolved. Energy is not watched, since
-/// the program may push its bodies. Costs O(awake) a step.
+/// Watches a world that another program simulates (PileSleeper::observe) for bodies that get through each other within
+/// a step, that lie deep in each other, or that are farther away than positions are resolved. Energy is not watched,
+/// since the program may push its bodies. Costs O(awake) a step.
 template <int Dim>
 class SleeperWatch final : public Observer<Dim> {
  public:

@@ -80,7 +80,8 @@ template <int Dim>
 void Watchdog<Dim>::check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
   const Vec<Dim>& place = states.pose[body].position;
   if (height<Dim>(place) < lowest_) warnings_.note(WarningKind::below_ground, body, step, ground_ - height<Dim>(place));
-  if (farthest<Dim>(place) > farthest_place) warnings_.note(WarningKind::outside_world, body, step, farthest<Dim>(place));
+  if (farthest<Dim>(place) > farthest_place)
+    warnings_.note(WarningKind::outside_world, body, step, farthest<Dim>(place));
 }
 
 template <int Dim>

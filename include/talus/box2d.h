@@ -323,8 +323,7 @@ class Box2dSleeper {
       std::vector<Piece<2>> pieces;
       for (const b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
         if (!fixture->IsSensor()) add_pieces(*fixture, Vec2::Zero(), pieces);
-      if (!pieces.empty())
-        core_.add_static(pieces, {from_box2d(body->GetPosition()), Rotation<2>(body->GetAngle())});
+      if (!pieces.empty()) core_.add_static(pieces, {from_box2d(body->GetPosition()), Rotation<2>(body->GetAngle())});
     }
   }
 

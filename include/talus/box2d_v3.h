@@ -227,7 +227,8 @@ class Box2dV3Sleeper {
     for (const b2ShapeId shape : shapes_of(body))
       if (!b2Shape_IsSensor(shape)) add_pieces(shape, Vec2::Zero(), pieces);
     if (!pieces.empty())
-      core_.add_static(pieces, {from_box2d(b2Body_GetPosition(body)), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(body)))});
+      core_.add_static(pieces,
+                       {from_box2d(b2Body_GetPosition(body)), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(body)))});
   }
 
   /// A body that cannot turn counts as very heavy to turn.

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "common/scene/read_scene.h"
 #include "common/policy/observer.h"
+#include "common/scene/read_scene.h"
 #include "common/simulation/simulation.h"
 #include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"

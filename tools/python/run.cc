@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "common/math/require.h"
-#include "common/scene/read_scene.h"
 #include "common/policy/observer.h"
+#include "common/scene/read_scene.h"
 #include "common/simulation/state_hash.h"
 #include "common/simulation/stopwatch.h"
 #include "tools/python/arrays.h"

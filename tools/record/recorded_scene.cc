@@ -51,8 +51,10 @@ RecordedFiles recorded_files(const fs::path& file) {
 /// The other way round than in_space().
 template <int Dim>
 Vec<Dim> in_own_dimension(const Vec3& vector) {
-  if constexpr (Dim == 3) return vector;
-  else return {vector.x(), vector.z()};
+  if constexpr (Dim == 3)
+    return vector;
+  else
+    return {vector.x(), vector.z()};
 }
 
 /// What the messages of a run tell of its scene.

@@ -11,8 +11,8 @@
 #include "common/measure/gate_counter.h"
 #include "common/measure/load_meter.h"
 #include "common/measure/region_meter.h"
-#include "common/scene/scene.h"
 #include "common/policy/observer.h"
+#include "common/scene/scene.h"
 #include "tools/output/csv.h"
 
 namespace talus {

@@ -3,8 +3,8 @@
 
 #include <deque>
 
-#include "common/scene/scene.h"
 #include "common/policy/observer.h"
+#include "common/scene/scene.h"
 
 namespace talus {
 
