@@ -41,10 +41,10 @@ class RunRecorder final : public Observer<Dim>, private MessageSink {
   void put(Packet packet) override { log_.write(packet); }
   void write_output(const Frame<Dim>& frame, bool key_frame);
 
-  std::int64_t steps_per_frame_;
-  std::int64_t steps_per_key_frame_;
+  std::int64_t steps_per_frame_ = 1;
+  std::int64_t steps_per_key_frame_ = 1;
   std::int64_t poses_since_key_frame_ = 0;
-  double flush_interval_;
+  double flush_interval_ = 0.0;
   EventLog log_;
   std::int64_t last_utime_ = -1;
   MomentWriter<Dim> writer_;
