@@ -49,6 +49,7 @@ template <int Dim>
 void MomentWriter<Dim>::set_shapes(std::span<const Shape<Dim>> shapes, std::span<const Obstacle<Dim>> obstacles) {
   shapes_ = to_shapes<Dim>(shapes, obstacles);
   moving_.clear();
+  moving_sent_ = false;
   for (int k = 0; k < std::ssize(obstacles); ++k)
     if (obstacles[k].moves) moving_.push_back({k, obstacles[k].pose});
 }
@@ -118,10 +119,11 @@ void MomentWriter<Dim>::obstacles(const Frame<Dim>& frame, bool all) {
   std::vector<ObstaclePose<Dim>> poses;
   for (ObstaclePose<Dim>& sent : moving_) {
     const Pose<Dim>& now = frame.world.obstacle_pose(sent.obstacle);
-    if (!all && now == sent.pose) continue;
+    if (moving_sent_ && !all && now == sent.pose) continue;
     sent.pose = now;
     poses.push_back(sent);
   }
+  moving_sent_ = true;
   send_all(to_obstacles<Dim>(poses), frame.step, frame.time);
 }
 

@@ -68,7 +68,7 @@ class MomentWriter {
   void stats(talus_lcm::talus_stats message, const Frame<Dim>& frame);
   /// Measures the slope at this frame; else stats() does so once a second of simulated time.
   void measure_slope(const Frame<Dim>& frame);
-  /// Of obstacles that have moved since the last time; all that may move where `all` is set.
+  /// Of obstacles that have moved since the last time; of all that may move the first time and where `all` is set.
   void obstacles(const Frame<Dim>& frame, bool all = false);
   /// Poses of the bodies awake, of those that fell asleep since the last time, and of `more`; how many these are and in
   /// how many messages.
@@ -99,6 +99,7 @@ class MomentWriter {
   std::vector<talus_lcm::talus_shapes> shapes_;  // and obstacles; empty: not known
   std::int64_t form_ = 0;                        // of the world that they are of
   std::vector<ObstaclePose<Dim>> moving_;        // obstacles that may move, where they were when they were sent last
+  bool moving_sent_ = false;                     // since they are these
   std::vector<talus_lcm::talus_event> events_;   // of the scene, as far as they have happened
   std::size_t event_turn_ = 0;                   // the one from which on they are sent again
   std::optional<Scene<Dim>> scene_;
