@@ -106,6 +106,19 @@ TEST(RunRecorder, TellsWhereObstaclesAreInEachFrameInWhichTheyMove) {
   EXPECT_LT(messages.size(), 20U) << "later only with key frames";
 }
 
+TEST(RunRecorder, TellsInItsFirstFrameWhereAnObstacleIsThatMovesLater) {
+  const ScratchFile file;
+  Scene<3> scene = still_scene<3>();
+  scene.world.obstacles[0].moves = true;
+  scene.movers = {{.first = 0, .count = 1, .motion = {.times = {1.0, 1.5}, .shifts = {Vec3::Zero(), Vec3::UnitZ()}}}};
+  record<3>(file.path(), 70, {}, scene);
+  const auto messages = read(file.path()).all<talus_lcm::talus_obstacles>();
+  ASSERT_GE(messages.size(), 2U);
+  EXPECT_EQ(messages[0].step, 2);
+  EXPECT_EQ(messages[0].poses[2], 7.0F);
+  EXPECT_GT(messages[1].step, 50) << "with a key frame, or when it moves";
+}
+
 TEST(RunRecorder, TellsTheLastPoseOfABodyThatFellAsleep) {
   const ScratchFile file;
   record<2>(file.path(), 8);
