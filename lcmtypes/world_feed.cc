@@ -22,7 +22,7 @@ WorldLabel checked(const WorldLabel& label) {
 template <int Dim>
 RunInfo info_of(const WorldLabel& label, const Frame<Dim>& frame) {
   RunInfo info = {.scene = label.name,
-                  .title = label.title,
+                  .title = label.title.empty() ? label.name : label.title,
                   .backend = label.engine,
                   .policy = "adaptive",
                   .version = TALUS_VERSION,

@@ -12,7 +12,7 @@ namespace talus {
 /// What a program's world is called where it is shown.
 struct WorldLabel {
   std::string name = "program";  // short, for lists
-  std::string title = {};        // one line
+  std::string title = {};        // one line; empty: the name
   std::string engine = "own";    // that simulates it
   double dt = 1.0 / 60.0;        // [s] > 0 of its usual step. A record counts its time in steps of this length
   double frame_rate = 30.0;      // [1/s] > 0 frames of a record in a second of simulated time
