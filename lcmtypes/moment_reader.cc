@@ -243,7 +243,7 @@ std::int64_t MomentReader::received() const {
 
 bool MomentReader::has_all_shapes() const {
   const auto complete = [](const std::map<int, talus_shapes>& known) {
-    return known.empty() || static_cast<int>(known.size()) == known.begin()->second.total;
+    return known.empty() || static_cast<int>(known.size()) == known.rbegin()->second.total;  // the one told last
   };
   return !shapes_.empty() && complete(shapes_) && complete(obstacles_);
 }

@@ -1,6 +1,7 @@
 #include "lcmtypes/moment_writer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/measure/resting_shape.h"
 #include "common/moment/moment.h"
@@ -58,8 +59,15 @@ template <int Dim>
 void MomentWriter<Dim>::new_shapes(const Frame<Dim>& frame) {
   if (frame.world.form() == form_) return;
   form_ = frame.world.form();
+  const std::vector<talus_lcm::talus_shapes> known = std::exchange(shapes_, {});
   set_shapes(frame.world.shapes(), frame.world.obstacles());
-  shapes(frame);
+  const auto is_known = [&](const talus_lcm::talus_shapes& message) {
+    return std::ranges::any_of(known, [&](const talus_lcm::talus_shapes& before) {
+      return before.obstacle == message.obstacle && before.index == message.index && before.values == message.values;
+    });
+  };
+  for (const talus_lcm::talus_shapes& message : shapes_)
+    if (!is_known(message)) send(talus_lcm::talus_shapes(message), frame.step, frame.time);
 }
 
 template <int Dim>

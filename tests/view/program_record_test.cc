@@ -85,6 +85,22 @@ TEST(TheRecordOfAProgramsWorld, HasBodiesAndShapesThatCameLater) {
   EXPECT_EQ(run.last.shape, (std::vector{0, 0, 0, 1}));
 }
 
+/// With as many shapes as bodies the record would else grow with their square.
+TEST(TheRecordOfAProgramsWorld, TellsEachShapeOnce) {
+  const ScratchFile file;
+  {
+    Program program(file.path());
+    for (int i = 0; i < 20; ++i) {
+      program.add(0.3 + 0.01 * i);
+      program.step();
+    }
+  }
+  LogReader log(file.path());
+  int shapes = 0;
+  for (LogEvent event; log.next(event);) shapes += event.channel == "TALUS_SHAPES" ? 1 : 0;
+  EXPECT_EQ(shapes, 21 + 2);  // and two obstacles
+}
+
 TEST(TheRecordOfAProgramsWorld, LeavesOutBodiesThatWereTakenOut) {
   const ScratchFile file;
   {
