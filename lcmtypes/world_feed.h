@@ -11,7 +11,7 @@ namespace talus {
 
 /// What a program's world is called where it is shown.
 struct WorldLabel {
-  std::string name = "program";  // short, for lists
+  std::string name = "program";  // short: lists of runs show it
   std::string title = {};        // one line; empty: the name
   std::string engine = "own";    // that simulates it
   double dt = 1.0 / 60.0;        // [s] > 0 of its usual step. A record counts its time in steps of this length

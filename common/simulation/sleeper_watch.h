@@ -10,9 +10,10 @@
 
 namespace talus {
 
-/// Watches a world that another program simulates (PileSleeper::observe) for bodies that get through each other within
-/// a step, that lie deep in each other, or that are farther away than positions are resolved. Energy is not watched,
-/// since the program may push its bodies. Costs O(awake) a step.
+/// Watches a world that another program simulates, see PileSleeper::observe(). It warns of bodies that pass through
+/// each other within a step, that overlap deeply, or that lie outside of the range of positions. It does not check
+/// energy, since the program may push its bodies. Costs O(awake) a step, and O(contacts) in steps in which overlap is
+/// sampled.
 template <int Dim>
 class SleeperWatch final : public Observer<Dim> {
  public:

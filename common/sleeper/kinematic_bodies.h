@@ -7,8 +7,8 @@
 
 namespace talus {
 
-/// Kinematic bodies, which are obstacles of the world, and their motion in the last step. A sleeping body would neither
-/// follow nor be pushed by one.
+/// Kinematic bodies and their motion in the last step. Each is an obstacle of the world. The engine neither carries nor
+/// pushes a sleeping body with one.
 template <int Dim>
 class KinematicBodies {
  public:

@@ -301,7 +301,7 @@ template <int Dim>
 PileSleeper<Dim>::~PileSleeper() {
   try {
     end_observers();
-  } catch (...) {  // a full disk, say: the program has ended them before if it wants to know
+  } catch (...) {  // such as a full disk; a destructor must not throw
     return;
   }
 }

@@ -32,7 +32,7 @@ class PileSleeper {
   explicit PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& options = {});
   PileSleeper(const PileSleeper&) = delete;
   PileSleeper& operator=(const PileSleeper&) = delete;
-  /// Ends what observes; what goes wrong then is lost.
+  /// Ends the observers and drops what they throw. Call end_observers() before to get it.
   ~PileSleeper();
 
   /// Adds a body, awake, at the pose of its centre of mass.
@@ -78,7 +78,7 @@ class PileSleeper {
   void observe(std::unique_ptr<Observer<Dim>> observer);
   /// Something that never moves and that observers see, such as a floor. Throws InvalidValue as a piece's check does.
   void add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose);
-  /// Ends what observes; without a call this object's end does it.
+  /// Ends the observers; else the destructor does.
   void end_observers(std::string_view reason = "finished");
   /// The body of this number in frames, records and warnings: one that is there and not kinematic.
   Handle handle_of(BodyIndex body) const { return handle_of_[body]; }

@@ -17,9 +17,9 @@ class ShapeStore {
     int number = 0;
     bool is_new = false;  // no shape had this number, or another one
   };
-  /// For one body more.
+  /// One body more has this shape.
   Taken take(const Shape<Dim>& shape);
-  /// For one body less. The number stays that of its shape for a while, so that what was recorded keeps its meaning.
+  /// One body less has it. Its number is not used again soon, since records name shapes by number.
   void release(int number);
 
  private:

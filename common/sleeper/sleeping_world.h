@@ -45,7 +45,7 @@ class SleepingWorld {
 
   /// Before the policy decides: makes it where it is missing or no longer fits. Returns the bodies that wake for that.
   Events prepare(std::span<const Contact<Dim>> contacts);
-  /// Ends the motion of a step of `dt` [s], whose states and contacts world() was given.
+  /// Finishes a step of `dt` [s]. Before, world() must have been given its states and contacts.
   void end_motion(double dt);
   /// After it. `follows`: by body, whether it touches what moves it. Returns what was done.
   const Decision<Dim>& decide(const std::vector<std::uint8_t>& follows);

@@ -40,9 +40,9 @@ struct Warning {
 /// What a run has shown, one warning of each kind in the order of first sight.
 class WarningList {
  public:
-  /// A body, or the value that a warning of this kind has if it is the largest so far.
+  /// A body shows a fault of this kind. The warning keeps the first step and body, and the largest value.
   void note(WarningKind kind, BodyIndex body, std::int64_t step, double value);
-  /// Of a kind that a run shows once.
+  /// A warning of a kind that is found once in a run.
   void add(const Warning& warning) { warnings_.push_back(warning); }
   Warning* find(WarningKind kind);
   std::span<const Warning> all() const { return warnings_; }

@@ -124,13 +124,13 @@ class Box2dV3Sleeper {
   /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
-  /// From now on `observer` sees each step: a record, the live view, a watch for faults (PileSleeper::observe()). It
+  /// `observer`, such as a record, the live view or a watch, sees each step from now on (PileSleeper::observe()). It
   /// sees these static bodies, too: Box2D has no list of all.
   void observe(std::unique_ptr<Observer<2>> observer, std::span<const b2BodyId> statics = {}) {
     for (const b2BodyId body : statics) add_static(body);
     core_.observe(std::move(observer));
   }
-  /// Ends what observes; without a call this object's end does it, once all bodies have woken.
+  /// Ends the observers; else the destructor does, after all bodies have woken.
   void end_observers() { core_.end_observers(); }
   /// What decides. Its handle_of() names the body of a warning or a record.
   const PileSleeper<2>& core() const { return core_; }
@@ -194,7 +194,8 @@ class Box2dV3Sleeper {
     }
   }
 
-  /// In axes whose origin is `centre` of the body's own. Lines are given the thickness of Box2D's slop.
+  /// Appends the convex pieces of a shape, relative to `centre`. A line becomes a capsule with the radius of Box2D's
+  /// slop.
   static void add_pieces(b2ShapeId shape, const Vec2& centre, std::vector<Piece<2>>& pieces) {
     constexpr double slop = 0.005;  // [m]
     const auto add = [&](std::span<const b2Vec2> corners, double radius) {

@@ -131,13 +131,13 @@ class BulletSleeper {
   /// Bodies that are watched and awake, without kinematic ones.
   int awake() const { return core_.awake(); }
 
-  /// From now on `observer` sees each step: a record, the live view, a watch for faults (PileSleeper::observe()). It
+  /// `observer`, such as a record, the live view or a watch, sees each step from now on (PileSleeper::observe()). It
   /// sees the static planes, convex shapes and compounds that there are at the first call, too.
   void observe(std::unique_ptr<Observer<3>> observer) {
     if (!std::exchange(shows_statics_, true)) add_statics();
     core_.observe(std::move(observer));
   }
-  /// Ends what observes; without a call this object's end does it, once all bodies have woken.
+  /// Ends the observers; else the destructor does, after all bodies have woken.
   void end_observers() { core_.end_observers(); }
   /// What decides. Its handle_of() names the body of a warning or a record.
   const PileSleeper<3>& core() const { return core_; }

@@ -11,7 +11,7 @@ namespace {
 
 using test::SleepingBox2dScene;
 
-/// Keeps what it was told.
+/// What the observer below has seen.
 struct Seen {
   std::int64_t frames = 0;
   double time = 0.0;
