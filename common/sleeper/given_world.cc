@@ -41,10 +41,22 @@ std::optional<BodyIndex> GivenWorld<Dim>::free_number() const {
 }
 
 template <int Dim>
-BodyIndex GivenWorld<Dim>::put(const Shape<Dim>& shape, const Pose<Dim>& pose) {
+int GivenWorld<Dim>::number_of(const Shape<Dim>& shape) {
   const auto taken = shapes_.take(shape);
   if (taken.is_new) this->put_shape(taken.number, shape);
-  const BodyIndex body = this->add_unchecked(taken.number, pose, free_number());
+  return taken.number;
+}
+
+template <int Dim>
+void GivenWorld<Dim>::reshape(BodyIndex body, const Shape<Dim>& shape) {
+  const int before = this->states().shape[body];
+  this->writable_states().shape[body] = number_of(shape);
+  shapes_.release(before);
+}
+
+template <int Dim>
+BodyIndex GivenWorld<Dim>::put(const Shape<Dim>& shape, const Pose<Dim>& pose) {
+  const BodyIndex body = this->add_unchecked(number_of(shape), pose, free_number());
   if (!free_.empty()) free_.pop_back();
   columns_.put(body, pose.position, shape.extent);
   return body;

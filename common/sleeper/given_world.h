@@ -23,9 +23,13 @@ class GivenWorld final : public World<Dim> {
   std::optional<BodyIndex> free_number() const;
   BodyIndex put(const Shape<Dim>& shape, const Pose<Dim>& pose);
 
+  /// The body has this shape from now on.
+  void reshape(BodyIndex body, const Shape<Dim>& shape);
+
   /// Something that is no body, `moves` if it ever may. Its number may be that of a removed one.
   int add_obstacle(const Shape<Dim>& shape, const Pose<Dim>& pose, bool moves);
   using World<Dim>::place_obstacle;
+  using World<Dim>::put_obstacle;
 
   /// Sorts the bodies into columns that fit bodies of this extent [m] > 0. Costs O(bodies).
   void sort_for(double extent);
@@ -39,6 +43,7 @@ class GivenWorld final : public World<Dim> {
   void give_contacts(std::span<const Contact<Dim>> contacts);
 
  private:
+  int number_of(const Shape<Dim>& shape);
   // Not called: put() adds the bodies.
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
   void engine_remove(BodyIndex body) override;

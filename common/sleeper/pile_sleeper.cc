@@ -278,6 +278,20 @@ void PileSleeper<Dim>::observe(std::unique_ptr<Observer<Dim>> observer) {
 }
 
 template <int Dim>
+void PileSleeper<Dim>::set_pieces(Handle handle, const std::vector<Piece<Dim>>& pieces) {
+  const Entry& entry = handles_.at(handle, "body");
+  for (const Piece<Dim>& piece : pieces) check_piece<Dim>(piece, "piece");
+  if (pieces.empty()) return;
+  const bool kinematic = entry.role == BodyRole::kinematic;
+  Shape<Dim> shape = kinematic ? world().obstacle_shape(entry.number) : world().shape_of(entry.number);
+  shape.pieces = pieces;
+  if (kinematic)
+    world().put_obstacle(entry.number, {shape, world().obstacle_pose(entry.number), true});
+  else
+    world().reshape(entry.number, shape);
+}
+
+template <int Dim>
 void PileSleeper<Dim>::add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose) {
   require(finite<Dim>(pose), "pose", pose.position.norm(), "must be finite");
   BodyTraits<Dim> traits{.pieces = pieces};

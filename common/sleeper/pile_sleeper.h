@@ -76,6 +76,9 @@ class PileSleeper {
   /// handle_of(), axes those of talus, with the last one up. Throws InvalidValue without SleeperOptions::enabled, and
   /// what the observer throws.
   void observe(std::unique_ptr<Observer<Dim>> observer);
+  /// The shape that observers see of a body, in the axes of its traits; empty: they see its box still. Decisions need
+  /// the box alone. Throws InvalidValue as a piece's check does.
+  void set_pieces(Handle handle, const std::vector<Piece<Dim>>& pieces);
   /// Something that never moves and that observers see, such as a floor. Throws InvalidValue as a piece's check does.
   void add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose);
   /// Ends the observers; else the destructor does.

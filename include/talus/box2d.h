@@ -136,7 +136,9 @@ class Box2dSleeper {
     require(body.GetType() != b2_staticBody, "body", "static", "must be dynamic or kinematic");
     require(!handles_.contains(&body), "body", "watched", "must not be watched already");
     const BodyRole role = body.GetType() == b2_kinematicBody ? BodyRole::kinematic : free_role(body);
-    const Handle handle = core_.add(traits(body), pose(body), role);
+    BodyTraits<2> told = traits(body);
+    if (observed_) told.pieces = pieces_of(body, from_box2d(body.GetLocalCenter()));
+    const Handle handle = core_.add(told, pose(body), role);
     if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
     entries_[handle.slot] = {.body = &body, .slept_alone = body.IsSleepingAllowed()};
     handles_[&body] = handle;
@@ -228,7 +230,7 @@ class Box2dSleeper {
   /// `observer`, such as a record, the live view or a watch, sees each step from now on (PileSleeper::observe()). It
   /// sees the static bodies that there are at the first call, too.
   void observe(std::unique_ptr<Observer<2>> observer) {
-    if (!std::exchange(shows_statics_, true)) add_statics();
+    if (!std::exchange(observed_, true)) show_all();
     core_.observe(std::move(observer));
   }
   /// Ends the observers; else the destructor does, after all bodies have woken.
@@ -318,12 +320,24 @@ class Box2dSleeper {
       for (int i = 0; i + 1 < chain.m_count; ++i) add({chain.m_vertices[i], chain.m_vertices[i + 1]}, b2_linearSlop);
     }
   }
-  void add_statics() {
+  static std::vector<Piece<2>> pieces_of(const b2Body& body, const Vec2& centre) {
+    std::vector<Piece<2>> pieces;
+    for (const b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
+      if (!fixture->IsSensor()) add_pieces(*fixture, centre, pieces);
+    return pieces;
+  }
+  /// A sleeping body is static, and static bodies have their centre of mass at their origin.
+  void show_pieces(const Entry& entry) {
+    const Handle shown = handle(*entry.body);
+    core_.set_pieces(shown, pieces_of(*entry.body, from_box2d(core_.asleep(shown) ? entry.mass.center
+                                                                                  : entry.body->GetLocalCenter())));
+  }
+  void show_all() {
+    for (const Entry& entry : entries_)
+      if (entry.body != nullptr) show_pieces(entry);
     for (b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext()) {
       if (body->GetType() != b2_staticBody || handles_.contains(body)) continue;
-      std::vector<Piece<2>> pieces;
-      for (const b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
-        if (!fixture->IsSensor()) add_pieces(*fixture, Vec2::Zero(), pieces);
+      const std::vector<Piece<2>> pieces = pieces_of(*body, Vec2::Zero());
       if (!pieces.empty()) core_.add_static(pieces, {from_box2d(body->GetPosition()), Rotation<2>(body->GetAngle())});
     }
   }
@@ -339,7 +353,6 @@ class Box2dSleeper {
       if (fixture->IsSensor()) continue;
       traits.bounds.extend(bounds(*fixture, own));
       traits.friction = fixture->GetFriction();
-      add_pieces(*fixture, centre, traits.pieces);
     }
     traits.bounds.translate(-centre);
     const double inertia = body.GetInertia() - traits.mass * centre.squaredNorm();
@@ -465,7 +478,7 @@ class Box2dSleeper {
   b2World& world_;
   bool enabled_;
   bool all_contacts_ = true;  // are needed in this step
-  bool shows_statics_ = false;
+  bool observed_ = false;
   PileSleeper<2> core_;
   Box2dImpulses impulses_;
   Listener listener_{impulses_};

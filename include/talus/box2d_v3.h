@@ -48,7 +48,9 @@ class Box2dV3Sleeper {
     require(b2Body_GetType(body) != b2_staticBody, "body", "static", "must be dynamic or kinematic");
     require(!watches(body), "body", "watched", "must not be watched already");
     const BodyRole role = is_kinematic(body) ? BodyRole::kinematic : free_role(body);
-    const Handle handle = core_.add(traits(body), pose(body), role);
+    BodyTraits<2> told = traits(body);
+    if (observed_) told.pieces = pieces_of(body, from_box2d(b2Body_GetLocalCenterOfMass(body)));
+    const Handle handle = core_.add(told, pose(body), role);
     if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
     entries_[handle.slot] = {.body = body, .slept_alone = b2Body_IsSleepEnabled(body)};
     const auto number = static_cast<std::size_t>(body.index1);
@@ -128,6 +130,9 @@ class Box2dV3Sleeper {
   /// sees these static bodies, too: Box2D has no list of all.
   void observe(std::unique_ptr<Observer<2>> observer, std::span<const b2BodyId> statics = {}) {
     for (const b2BodyId body : statics) add_static(body);
+    if (!std::exchange(observed_, true))
+      for (const Entry& entry : entries_)
+        if (B2_IS_NON_NULL(entry.body)) show_pieces(entry);
     core_.observe(std::move(observer));
   }
   /// Ends the observers; else the destructor does, after all bodies have woken.
@@ -223,10 +228,21 @@ class Box2dV3Sleeper {
     b2Body_GetShapes(body, shapes.data(), static_cast<int>(shapes.size()));
     return shapes;
   }
-  void add_static(b2BodyId body) {
+  static std::vector<Piece<2>> pieces_of(b2BodyId body, const Vec2& centre) {
     std::vector<Piece<2>> pieces;
     for (const b2ShapeId shape : shapes_of(body))
-      if (!b2Shape_IsSensor(shape)) add_pieces(shape, Vec2::Zero(), pieces);
+      if (!b2Shape_IsSensor(shape)) add_pieces(shape, centre, pieces);
+    return pieces;
+  }
+  /// A sleeping body is static, and static bodies have their centre of mass at their origin.
+  void show_pieces(const Entry& entry) {
+    const Handle shown = find(entry.body);
+    core_.set_pieces(shown,
+                     pieces_of(entry.body, from_box2d(core_.asleep(shown) ? entry.mass.center
+                                                                          : b2Body_GetLocalCenterOfMass(entry.body))));
+  }
+  void add_static(b2BodyId body) {
+    const std::vector<Piece<2>> pieces = pieces_of(body, Vec2::Zero());
     if (!pieces.empty())
       core_.add_static(pieces,
                        {from_box2d(b2Body_GetPosition(body)), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(body)))});
@@ -241,7 +257,6 @@ class Box2dV3Sleeper {
       if (b2Shape_IsSensor(shape)) continue;
       traits.bounds.extend(bounds(shape));
       traits.friction = b2Shape_GetFriction(shape);
-      add_pieces(shape, centre, traits.pieces);
     }
     traits.bounds.translate(-centre);
     const double inertia = b2Body_IsFixedRotation(body) ? 0.0 : b2Body_GetRotationalInertia(body);
@@ -331,6 +346,7 @@ class Box2dV3Sleeper {
 
   b2WorldId world_;
   bool enabled_;
+  bool observed_ = false;
   PileSleeper<2> core_;
   std::vector<Known> handles_;           // [number of Box2D]
   std::vector<Entry> entries_;           // [slot]

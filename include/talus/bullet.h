@@ -45,7 +45,9 @@ class BulletSleeper {
     require(!never_moves(body), "body", "static", "must be dynamic or kinematic");
     require(!handles_.contains(&body), "body", "watched", "must not be watched already");
     const BodyRole role = body.isKinematicObject() ? BodyRole::kinematic : free_role(body);
-    const Handle handle = core_.add(traits(body), pose(body), role);
+    BodyTraits<3> told = traits(body);
+    if (observed_) told.pieces = pieces_of(body);
+    const Handle handle = core_.add(told, pose(body), role);
     if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
     entries_[handle.slot] = {.body = &body};
     handles_[&body] = handle;
@@ -134,7 +136,7 @@ class BulletSleeper {
   /// `observer`, such as a record, the live view or a watch, sees each step from now on (PileSleeper::observe()). It
   /// sees the static planes, convex shapes and compounds that there are at the first call, too.
   void observe(std::unique_ptr<Observer<3>> observer) {
-    if (!std::exchange(shows_statics_, true)) add_statics();
+    if (!std::exchange(observed_, true)) show_all();
     core_.observe(std::move(observer));
   }
   /// Ends the observers; else the destructor does, after all bodies have woken.
@@ -241,12 +243,18 @@ class BulletSleeper {
     }
     return points;
   }
-  void add_statics() {
+  static std::vector<Piece<3>> pieces_of(const btCollisionObject& object) {
+    std::vector<Piece<3>> pieces;
+    add_pieces(*object.getCollisionShape(), btTransform::getIdentity(), pieces);
+    return pieces;
+  }
+  void show_all() {
+    for (const Entry& entry : entries_)
+      if (entry.body != nullptr) core_.set_pieces(handle(*entry.body), pieces_of(*entry.body));
     for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
       const btCollisionObject& object = *world_.getCollisionObjectArray()[i];
       if (!never_moves(object) || handles_.contains(&object)) continue;
-      std::vector<Piece<3>> pieces;
-      add_pieces(*object.getCollisionShape(), btTransform::getIdentity(), pieces);
+      const std::vector<Piece<3>> pieces = pieces_of(object);
       if (!pieces.empty()) core_.add_static(pieces, pose(object.getWorldTransform()));
     }
   }
@@ -262,7 +270,6 @@ class BulletSleeper {
       const btScalar inverse = body.getInvInertiaDiagLocal()[axis];
       traits.inertia(axis, axis) = inverse > 0 ? 1.0 / inverse : locked;
     }
-    add_pieces(*body.getCollisionShape(), btTransform::getIdentity(), traits.pieces);
     traits.friction = body.getFriction() * body.getFriction();  // Bullet multiplies those of two bodies
     return traits;
   }
@@ -407,7 +414,7 @@ class BulletSleeper {
   btDiscreteDynamicsWorld& world_;
   bool enabled_;
   bool all_contacts_ = true;  // are needed in this step
-  bool shows_statics_ = false;
+  bool observed_ = false;
   PileSleeper<3> core_;
   std::unordered_map<const btCollisionObject*, Handle> handles_;
   std::vector<Known> known_;    // [place in Bullet's list]

@@ -77,14 +77,27 @@ TEST_F(AnObservedWorld, TellsEachChangeOfSleepAlsoThoseBetweenSteps) {
 }
 
 TEST_F(AnObservedWorld, HasEachDistinctShapeOnce) {
-  for (int i = 0; i < 5; ++i) scene.drop({Vec2(2 * i, 3), Rotation<2>(0.1 * i)});
   observe();
+  for (int i = 0; i < 5; ++i) scene.drop({Vec2(2 * i, 3), Rotation<2>(0.1 * i)});
+  run(1);
   EXPECT_EQ(seen.shapes.size(), 1U);
   scene.sleeper->add(scene.add_box({0.5, 0.25}, {0, 8}, b2_dynamicBody));
   run(1);
   ASSERT_EQ(seen.shapes.size(), 2U);
   EXPECT_NEAR(seen.shapes[1].mass, 125.0, 1e-4);  // [kg]: 1000 kg/m^2 x 0.5 m x 0.25 m, in single precision
   EXPECT_TRUE(std::holds_alternative<HullPiece<2>>(seen.shapes[1].pieces.at(0)));
+}
+
+TEST_F(AnObservedWorld, HasTheTrueShapesOfBodiesThatWereThereBefore) {
+  auto& sleeper = scene.drop({Vec2(0, 0.4), Rotation<2>(0)});
+  run(200);
+  ASSERT_TRUE(scene.sleeper->asleep(sleeper));
+  scene.drop({Vec2(5, 3), Rotation<2>(0)});
+  observe();
+  const auto& pieces = seen.shapes.back().pieces;  // one shape, whether it sleeps or not
+  EXPECT_EQ(seen.shapes.size(), 2U);               // and their box
+  ASSERT_TRUE(std::holds_alternative<HullPiece<2>>(pieces.at(0)));
+  EXPECT_EQ(std::get<HullPiece<2>>(pieces.at(0)).corners.size(), 4U);
 }
 
 TEST_F(AnObservedWorld, HasStaticAndKinematicBodiesAsObstaclesWhereTheyAre) {
