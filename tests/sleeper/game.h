@@ -46,8 +46,8 @@ class Game {
     lift_speed_ = 0.0;
     for (int i = 0; i < 900; ++i) step();
   }
-  /// Boxes without support. Each is woken by itself, from the top of the heap down, while those below it sleep. It counts
-  /// if it then falls by more than nine tenths of a free fall.
+  /// Boxes without support. Each is woken by itself, from the top of the heap down, while those below it sleep. It
+  /// counts if it then falls by more than nine tenths of a free fall.
   int floating() {
     std::vector<Body*> from_top = boxes_;
     std::ranges::sort(from_top, std::greater{}, [&](const Body* box) { return scene_.place(*box)[up]; });
