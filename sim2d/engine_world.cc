@@ -57,7 +57,7 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
   world_.SetContactListener(&listener_);
   world_.SetContactFilter(&continuous_);
   if (description.ground.present) add_ground();
-  add_obstacles();
+  for (int k = 0; k < std::ssize(obstacles()); ++k) obstacles_.push_back(make_obstacle(k));
 }
 
 void EngineWorld::add_ground() {
@@ -71,24 +71,21 @@ void EngineWorld::add_ground() {
   world_.CreateBody(&fixed)->CreateFixture(&fixture);
 }
 
-void EngineWorld::add_obstacles() {
-  BodyIndex index = first_obstacle;
-  for (const Obstacle<2>& obstacle : description().obstacles) {
-    b2BodyDef fixed;
-    if (obstacle.moves) fixed.type = b2_kinematicBody;
-    fixed.position = to_engine(obstacle.pose.position);
-    fixed.angle = engine_angle(obstacle.pose.rotation.angle());
-    b2Body& body = *world_.CreateBody(&fixed);
-    obstacles_.push_back(&body);
-    b2FixtureDef fixture = fixture_of(obstacle.shape.material, description().solver);
-    int number = 0;
-    for (const EnginePiece& piece : engine_pieces(obstacle.shape, description().solver)) {
-      fixture.shape = &base(piece);
-      fixture.userData = to_user_data(make_tag(index, number++));
-      body.CreateFixture(&fixture);
-    }
-    --index;
+b2Body* EngineWorld::make_obstacle(int number) {
+  const Obstacle<2>& obstacle = obstacles()[number];
+  b2BodyDef fixed;
+  if (obstacle.moves) fixed.type = b2_kinematicBody;
+  fixed.position = to_engine(obstacle.pose.position);
+  fixed.angle = engine_angle(obstacle.pose.rotation.angle());
+  b2Body* body = world_.CreateBody(&fixed);
+  b2FixtureDef fixture = fixture_of(obstacle.shape.material, description().solver);
+  int part = 0;
+  for (const EnginePiece& piece : engine_pieces(obstacle.shape, description().solver)) {
+    fixture.shape = &base(piece);
+    fixture.userData = to_user_data(make_tag(first_obstacle - number, part++));
+    body->CreateFixture(&fixture);
   }
+  return body;
 }
 
 Pose<2> EngineWorld::engine_add(BodyIndex body, const BodyDef<2>& def) {
@@ -215,6 +212,11 @@ void EngineWorld::engine_remove_obstacle(int number) {
   world_.DestroyBody(obstacles_[number]);
   obstacles_[number] = nullptr;
   if (small_steps_) small_steps_->forget(first_obstacle - number);
+}
+
+void EngineWorld::engine_restore_obstacle(int number) {
+  obstacles_[number] = make_obstacle(number);
+  proxies_moved_ = true;
 }
 
 void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {

@@ -47,6 +47,7 @@ class EngineWorld final : public World<2> {
   void engine_move_obstacle(int number, const Vec<2>& velocity, const Spin<2>& spin) override;
   void engine_place_obstacle(int number, const Pose<2>& at) override;
   void engine_remove_obstacle(int number) override;
+  void engine_restore_obstacle(int number) override;
   void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
   void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
   std::span<const BodyIndex> engine_stirred() const override;
@@ -59,10 +60,10 @@ class EngineWorld final : public World<2> {
   const Ring<2>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
   bool idle() const;
   void keep_contacts(std::span<const BodyIndex> bodies);
-  StepInput step_input() const { return {awake(), states(), templates_, obstacles_}; }
+  StepInput step_input() const { return {awake(), states(), templates_, obstacles_, belts(), pushes()}; }
   void resume(BodyIndex body);
   void add_ground();
-  void add_obstacles();
+  b2Body* make_obstacle(int number);
   b2Body* create(BodyIndex index, int shape, const Pose<2>& pose);
   std::vector<b2Fixture*> fixtures_of(std::span<const BodyIndex> bodies) const;
   void create_thawed(std::span<const BodyIndex> bodies);

@@ -274,6 +274,10 @@ void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bod
     const b2MassData& mass = input.templates[input.states.shape[input.awake[i]]].mass;
     solver_.add(solver_body(*bodies[i], mass));
   }
+  for (const Push<2>& push : input.pushes) {
+    const b2MassData& mass = input.templates[input.states.shape[push.body]].mass;
+    solver_.push(slots_[push.body], push.force.cast<float>() / mass.mass);
+  }
   obstacle_slots_.assign(input.obstacles.size(), 0);
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
     const b2Body* from = input.obstacles[i];
@@ -285,9 +289,14 @@ void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bod
   }
 }
 
-int SmallSteps::slot_of(b2Fixture& fixture, const StepInput& input) {
+/// For a contact with this normal.
+int SmallSteps::slot_of(b2Fixture& fixture, const b2Vec2& normal, const StepInput& input) {
   const BodyIndex owner = owner_of(fixture);
-  if (owner <= first_obstacle) return obstacle_slots_[first_obstacle - owner];
+  if (owner <= first_obstacle) {
+    const int number = first_obstacle - owner;
+    if (input.belts.empty() || input.belts[number].isZero(0.0)) return obstacle_slots_[number];
+    return solver_.add_belt(input.belts[number].cast<float>(), vector(normal));
+  }
   if (owner < 0) return 0;
   if (ring_ && ring_->has(owner)) return ring_->join(owner, solver_);
   if (slots_[owner] == 0) {
@@ -321,8 +330,8 @@ void SmallSteps::add_contacts(b2World& world, const StepInput& input) {
 
 void SmallSteps::add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
                             const StepInput& input) {
-  const int a = slot_of(*pair.a, input);
-  const int b = slot_of(*pair.b, input);
+  const int a = slot_of(*pair.a, place.normal, input);
+  const int b = slot_of(*pair.b, place.normal, input);
   int number = 0;
   for (ContactPoint<2> point : points_of(pair, manifold, place, input)) {
     point.a = a;

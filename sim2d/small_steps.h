@@ -23,6 +23,8 @@ struct StepInput {
   const BodyStates<2>& states;              // of the start of the step
   std::span<const BodyTemplate> templates;  // by shape
   std::span<b2Body* const> obstacles;       // null: removed
+  std::span<const Vec<2>> belts;            // by number: velocity of the surface [m/s]; empty: no belt
+  std::span<const Push<2>> pushes;
 };
 
 /// Box2D keeps its bodies, broad phase, narrow phase and manifolds, in which the impulses are carried from step to
@@ -103,7 +105,7 @@ class SmallSteps {
   bool is_passed(const Ahead& ahead) const;
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
   void keep(b2Contact& contact, const StepInput& input);
-  int slot_of(b2Fixture& fixture, const StepInput& input);
+  int slot_of(b2Fixture& fixture, const b2Vec2& normal, const StepInput& input);
   static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);
   void add_contacts(b2World& world, const StepInput& input);
   void add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,

@@ -75,10 +75,17 @@ template <int Dim>
 void EngineWorld<Dim>::use_small_steps() {
   engine_.keep_points_of_spheres();
   if constexpr (Dim == 3) engine_.find_points_on_ground();
-  engine_.world.set_contact_step(
-      {.solve =
-           [this] { small_steps_->solve(engine_.dispatcher, rigid_, moving_obstacles_, engine_.world.getGravity()); },
-       .finish = [this] { small_steps_->finish(rigid_); }});
+  engine_.world.set_contact_step({.solve = [this] { small_steps_->solve(engine_.dispatcher, rigid_, actions()); },
+                                  .finish = [this] { small_steps_->finish(rigid_); }});
+}
+
+template <int Dim>
+typename SmallSteps<Dim>::Actions EngineWorld<Dim>::actions() {
+  typename SmallSteps<Dim>::Actions actions{
+      .moving = moving_obstacles_, .belts = this->belts(), .pushes = {}, .gravity = engine_.world.getGravity()};
+  for (const Push<Dim>& push : this->pushes())
+    actions.pushes.emplace_back(rigid_body(push.body), push.force / this->shape_of(push.body).mass);
+  return actions;
 }
 
 // Bullet holds the bodies by address: they leave it before they are destroyed.
@@ -199,6 +206,18 @@ void EngineWorld<Dim>::engine_remove_obstacle(int number) {
   object.setBroadphaseHandle(nullptr);
   object.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
   object.forceActivationState(ISLAND_SLEEPING);
+}
+
+template <int Dim>
+void EngineWorld<Dim>::engine_restore_obstacle(int number) {
+  btCollisionObject& object = obstacle(number);
+  object.setWorldTransform(to_bullet(this->obstacle_pose(number), obstacles_[number].frame));
+  object.setInterpolationWorldTransform(object.getWorldTransform());
+  if (btRigidBody::upcast(&object) != nullptr) {
+    object.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    object.forceActivationState(DISABLE_DEACTIVATION);
+  }
+  engine_.world.restore_static(object);
 }
 
 template <int Dim>

@@ -37,6 +37,7 @@ class EngineWorld final : public World<Dim> {
   void engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin) override;
   void engine_place_obstacle(int number, const Pose<Dim>& at) override;
   void engine_remove_obstacle(int number) override;
+  void engine_restore_obstacle(int number) override;
   void engine_set_gravity(const Vec<Dim>& gravity) override;
   void engine_contacts(std::vector<Contact<Dim>>& contacts) override { contacts_.gather(engine_, contacts); }
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
@@ -47,6 +48,7 @@ class EngineWorld final : public World<Dim> {
   int engine_solved_sleepers() const override;
 
   void use_small_steps();
+  typename SmallSteps<Dim>::Actions actions();
   const Ring<Dim>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
   bool idle() const { return rigid_.empty() && (!small_steps_ || small_steps_->idle(moving_obstacles_)); }
   void keep_contacts(std::span<const BodyIndex> bodies);

@@ -126,18 +126,17 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
 }
 
 template <int Dim>
-void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies,
-                            std::span<btRigidBody* const> moving, const btVector3& gravity) {
+void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const Actions& actions) {
   ++step_;
   solver_.start();
   sources_.clear();
   parts_.clear();
   if (ring_) ring_->start();
-  add_bodies(bodies, moving);
-  add_points(dispatcher);
+  add_bodies(bodies, actions);
+  add_points(dispatcher, actions.belts);
   if (ring_) ring_->extend(solver_, obstacle_slots_);
-  solver_.solve(params_, to_solver<Dim>(gravity), dt_);
-  if (ring_) ring_->read(solver_, gravity.length());
+  solver_.solve(params_, to_solver<Dim>(actions.gravity), dt_);
+  if (ring_) ring_->read(solver_, actions.gravity.length());
   write_points();
   set_mean_velocities(bodies);
   for (btCollisionObject* other : others_) other->setCompanionId(-1);
@@ -146,11 +145,13 @@ void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* con
 
 /// The slots of the bodies are 1 and up.
 template <int Dim>
-void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving) {
+void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, const Actions& actions) {
   for (btRigidBody* body : bodies) body->setCompanionId(solver_.add(awake_body<Dim>(*body, dt_)));
+  for (const auto& [body, acceleration] : actions.pushes)
+    solver_.push(body->getCompanionId(), acceleration.template cast<float>());
   if (!ring_) return;
   std::ranges::fill(obstacle_slots_, 0);
-  for (const btRigidBody* obstacle : moving)
+  for (const btRigidBody* obstacle : actions.moving)
     obstacle_slots_[first_obstacle - obstacle->getUserIndex()] = slot_of(*obstacle);
 }
 
@@ -168,7 +169,7 @@ int SmallSteps<Dim>::slot_of(const btCollisionObject& object) {
 }
 
 template <int Dim>
-void SmallSteps<Dim>::add_points(btDispatcher& dispatcher) {
+void SmallSteps<Dim>::add_points(btDispatcher& dispatcher, std::span<const Vec<Dim>> belts) {
   btPersistentManifold** manifolds = dispatcher.getInternalManifoldPointer();
   const int count = dispatcher.getNumManifolds();
   for (int i = 0; i < count; ++i) {
@@ -180,16 +181,21 @@ void SmallSteps<Dim>::add_points(btDispatcher& dispatcher) {
     // Bullet's normals point from the second body to the first.
     const int a = slot_of(*manifold.getBody1());
     const int b = slot_of(*manifold.getBody0());
-    if (solver_.body(a).moves || solver_.body(b).moves) add_points(manifold, a, b);
+    if (solver_.body(a).moves || solver_.body(b).moves) add_points(manifold, a, b, belts);
   }
 }
 
 template <int Dim>
-void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b) {
+void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b, std::span<const Vec<Dim>> belts) {
   collect(manifold, step_ - 1);
+  const auto slot_at = [&](const btCollisionObject& object, int slot, const VecF<Dim>& normal) {
+    const int number = first_obstacle - object.getUserIndex();
+    if (belts.empty() || number < 0 || belts[number].isZero(0.0)) return slot;
+    return solver_.add_belt(belts[number].template cast<float>(), normal);
+  };
   for (ContactPoint<Dim>& contact : contacts_) {
-    contact.a = a;
-    contact.b = b;
+    contact.a = slot_at(*manifold.getBody1(), a, contact.normal);
+    contact.b = slot_at(*manifold.getBody0(), b, contact.normal);
     solver_.add(contact);
   }
 }

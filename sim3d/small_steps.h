@@ -27,10 +27,16 @@ class SmallSteps {
   /// `fastest_spin`: to which a body's is cut [rad/s].
   SmallSteps(const WorldDescription<Dim>& description, double fastest_spin);
 
-  /// Solves the contacts of a step. `bodies`: all that are not frozen; `moving`: the obstacles that move in it. Leaves
-  /// the bodies with the mean velocity of the step, by which Bullet is to move them.
-  void solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving,
-             const btVector3& gravity);
+  /// What acts on the bodies in a step besides their contacts.
+  struct Actions {
+    std::span<btRigidBody* const> moving;  // the obstacles that move in it
+    std::span<const Vec<Dim>> belts;       // by number of the obstacle: velocity of the surface [m/s]; empty: no belt
+    std::vector<std::pair<const btRigidBody*, Vec<Dim>>> pushes;  // accelerations of bodies [m/s^2]
+    btVector3 gravity;                                            // [m/s^2]
+  };
+  /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves the bodies with the mean velocity of the
+  /// step, by which Bullet is to move them.
+  void solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const Actions& actions);
 
   /// After they have moved: gives them the velocity at the end of the step.
   void finish(std::span<btRigidBody* const> bodies) const;
@@ -53,9 +59,9 @@ class SmallSteps {
   void forget(BodyIndex side);
 
  private:
-  void add_bodies(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving);
-  void add_points(btDispatcher& dispatcher);
-  void add_points(btPersistentManifold& manifold, int a, int b);
+  void add_bodies(std::span<btRigidBody* const> bodies, const Actions& actions);
+  void add_points(btDispatcher& dispatcher, std::span<const Vec<Dim>> belts);
+  void add_points(btPersistentManifold& manifold, int a, int b, std::span<const Vec<Dim>> belts);
   void collect(btPersistentManifold& manifold, std::uint32_t last_step);
   int collect(const ContactPoint<Dim>& contact, int first);
   void keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep);

@@ -67,6 +67,12 @@ struct Pose {
   }
 };
 
+/// The part of a vector along a plane with this unit normal.
+template <typename Vector>
+Vector along_plane(const Vector& vector, const Vector& normal) {
+  return vector - normal.dot(vector) * normal;
+}
+
 /// The constant spin that turns `from` into `to` within a time [s]: in 3D the shorter way round.
 template <int Dim>
 Spin<Dim> spin_between(const Rotation<Dim>& from, const Rotation<Dim>& to, double time) {

@@ -9,17 +9,19 @@ namespace talus {
 
 namespace {
 
-/// By obstacle: whether an event that happened by a time [s] has removed it.
+/// By obstacle: whether events that happened by a time [s] have removed it, or none has added it yet.
 template <int Dim>
 std::vector<std::uint8_t> removed_obstacles(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
   std::vector<std::uint8_t> removed(scene.world.obstacles.size(), 0);
-  for (const DoneEvent& each : done) {
-    if (each.time > time) break;
-    const Event<Dim>& event = scene.events[each.number];
-    if (!event.obstacle) continue;
+  const auto set = [&](const Event<Dim>& event, bool is_removed) {
+    if (!event.obstacle) return;
     const ObstacleName& name = scene.obstacle_names[*event.obstacle];
-    std::fill_n(removed.begin() + name.first, name.count, std::uint8_t{1});
-  }
+    std::fill_n(removed.begin() + name.first, name.count, static_cast<std::uint8_t>(is_removed));
+  };
+  for (const Event<Dim>& event : scene.events)
+    if (event.action == EventAction::add) set(event, true);
+  for (const DoneEvent& each : done)
+    if (each.time <= time) set(scene.events[each.number], scene.events[each.number].action == EventAction::remove);
   return removed;
 }
 
@@ -29,7 +31,7 @@ template <int Dim>
 std::string event_text(const Scene<Dim>& scene, int number) {
   const Event<Dim>& event = scene.events[number];
   const std::string_view action = to_string(event.action);
-  if (event.obstacle) return fmt::format("remove obstacle {}", scene.obstacle_names[*event.obstacle].name);
+  if (event.obstacle) return fmt::format("{} obstacle {}", action, scene.obstacle_names[*event.obstacle].name);
   switch (event.action) {
     case EventAction::gravity:
       return fmt::format("gravity [{:#}]", fmt::join(event.gravity, ", "));
@@ -37,8 +39,11 @@ std::string event_text(const Scene<Dim>& scene, int number) {
       return fmt::format("policy {}", event.policy);
     case EventAction::rate:
       return fmt::format("rate {:g} of source {}", event.rate, event.source);
+    case EventAction::add:
+      return fmt::format("add the bodies of source {}", event.source);
     case EventAction::picture:
       return std::string(action);
+    case EventAction::force:
     case EventAction::remove:
     case EventAction::wake:
     case EventAction::kick:

@@ -48,14 +48,14 @@ std::int64_t bodies_in_all(const BodyParams<Dim>& params) {
   return bodies;
 }
 
-/// Where a body of a layer lies, seen from the middle of the first layer.
+/// Where a body of a layer lies, seen from the first body. Layers that taper stand in the middle of the one beneath.
 template <int Dim>
 Vec<Dim> place_in_layer(const BodyParams<Dim>& params, int layer, int number) {
   Vec<Dim> place = layer % 2 == 1 ? params.stagger : Vec<Dim>::Zero();
   place[Dim - 1] += layer * params.step[Dim - 1];
   for (int axis = 0; axis < Dim - 1; ++axis) {
     const int along = bodies_along(params, axis, layer);
-    place[axis] += (number % along - 0.5 * (along - 1)) * params.step[axis];
+    place[axis] += (number % along + 0.5 * (params.repeat[axis] - along)) * params.step[axis];
     number /= along;
   }
   return place;

@@ -42,7 +42,8 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
       .unit = "m",
       .range = coordinate_range,
       .default_text = "origin",
-      .meaning = "where the origin of the shape's own axes goes, as for an [obstacle](#obstacles-obstacle). "
+      .meaning = "where the origin of the shape's own axes goes, as for an [obstacle](#obstacles-obstacle); with "
+                 "`repeat`, that of the first body. "
                  "Bodies may touch each other, obstacles and ground; overlap deeper than `overlap` is refused"}},
     {{}, angle_key},
     {{}, axis_key},
@@ -55,8 +56,9 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
     {place_of<&BodyParams<Dim>::repeat>,
      {.name = "repeat",
       .range = between(1.0, 1e4),
-      .meaning = "bodies along each axis, around `position` and upwards from it; the last number is that of layers; at "
-                 "most 100,000 bodies and obstacles in all"}},
+      .meaning =
+          "bodies along each axis, from `position` on; the last number is that of layers; at most 100,000 bodies "
+          "and obstacles in all"}},
     {place_of<&BodyParams<Dim>::step>,
      {.name = "step", .unit = "m", .range = coordinate_range, .meaning = "from one body to the next along each axis"}},
     {place_of<&BodyParams<Dim>::stagger>,

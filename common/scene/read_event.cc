@@ -12,12 +12,14 @@ namespace {
 
 /// The keys that belong to each action, besides its condition.
 bool belongs(std::string_view key, EventAction action) {
-  const bool of_bodies = action == EventAction::remove || action == EventAction::wake || action == EventAction::kick;
+  const bool of_bodies = action == EventAction::remove || action == EventAction::wake || action == EventAction::kick ||
+                         action == EventAction::force;
   if (key == "shape" || key == "body" || key == "box") return of_bodies;
-  if (key == "obstacle") return action == EventAction::remove;
+  if (key == "obstacle") return action == EventAction::remove || action == EventAction::add;
   if (key == "velocity" || key == "spin") return action == EventAction::kick;
-  if (key == "source") return action == EventAction::rate;
-  return key == to_string(action);  // rate, policy, gravity
+  if (key == "seconds") return action == EventAction::force;
+  if (key == "source") return action == EventAction::rate || action == EventAction::add;
+  return key == to_string(action);  // force, rate, policy, gravity
 }
 
 EventAction read_action(TableReader& table) {
@@ -28,11 +30,13 @@ EventAction read_action(TableReader& table) {
 }
 
 void check_keys(TableReader& table, EventAction action) {
-  for (const std::string_view key :
-       {"shape", "body", "box", "obstacle", "velocity", "spin", "source", "rate", "policy", "gravity"})
+  for (const std::string_view key : {"shape", "body", "box", "obstacle", "velocity", "spin", "force", "seconds",
+                                     "source", "rate", "policy", "gravity"})
     if (!belongs(key, action)) table.forbid(key, fmt::format("means nothing for do = \"{}\"", to_string(action)));
-  for (const std::string_view key : {"rate", "policy", "gravity"})
+  for (const std::string_view key : {"force", "rate", "policy", "gravity"})
     if (key == to_string(action)) table.require(key);
+  if (action == EventAction::add && table.has("obstacle") == table.has("source"))
+    table.error("", "must have one of obstacle and source for do = \"add\"");
   if (table.has("obstacle"))
     for (const std::string_view key : {"shape", "body", "box"}) table.forbid(key, "must not be given beside obstacle");
 }
@@ -88,7 +92,7 @@ void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& 
     table.error("box", "must be two corners, the lower one first");
   if (std::ranges::any_of(event.numbers, [](double number) { return number != std::floor(number); }))
     table.error("body", "must be whole numbers");
-  if (event.action == EventAction::rate && event.source >= std::ssize(scene.sources))
+  if ((table.has("source") || event.action == EventAction::rate) && event.source >= std::ssize(scene.sources))
     table.error("source", fmt::format("must be the number of a source, of which there are {}", scene.sources.size()));
   if (event.action == EventAction::policy && scene.policy.kind == "engine")
     table.error("do", "must not be policy where policy.kind is engine, whose sleeping is part of its world");
@@ -96,6 +100,16 @@ void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& 
     table.error("do", "must not be gravity where world.gravity_motion is given");
   if (event.action == EventAction::kick && event.velocity.norm() > fastest_speed<Dim>(scene.world.dt))
     table.error("velocity", fmt::format("must be at most {:.6g} m/s", fastest_speed<Dim>(scene.world.dt)));
+}
+
+/// Bodies and obstacles are added once, and what an event adds is not there before.
+template <int Dim>
+void check_added(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& event) {
+  const auto same = [&](const Event<Dim>& other) {
+    return other.action == EventAction::add && other.obstacle == event.obstacle && other.source == event.source;
+  };
+  if (std::ranges::any_of(scene.events, same))
+    table.error(event.obstacle ? "obstacle" : "source", "must be added by no other event");
 }
 
 }  // namespace
@@ -109,6 +123,7 @@ Event<Dim> read_event(TableReader& table, const ShapeNames& shapes, const Scene<
   read_event_obstacle(table, scene, event);
   if (table.ok()) check_keys(table, event.action);
   if (table.ok()) check_event(table, scene, event);
+  if (table.ok() && event.action == EventAction::add) check_added(table, scene, event);
   return event;
 }
 

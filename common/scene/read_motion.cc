@@ -49,7 +49,7 @@ template <int Dim>
 void check_motion(TableReader& table, const Motion<Dim>& motion, const Vec<Dim>& position, double reach, double dt) {
   if (motion.end && *motion.end <= motion.start) table.error("end", "must be after start");
   if (!table.ok()) return;
-  const double speed = motion.fastest_shift() + reach * motion.fastest_turn();
+  const double speed = motion.fastest_shift() + reach * motion.fastest_turn() + motion.belt.norm();
   if (speed > fastest_speed<Dim>(dt))
     table.error("", fmt::format("must move at most at {:.4g} m/s, here {:.4g}", fastest_speed<Dim>(dt), speed));
   if (motion.fastest_turn() > fastest_spin(dt))
@@ -75,6 +75,8 @@ Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double rea
     table.read_fields(motion, path_fields<Dim>);
     read_motion_axis(table, motion_axis_key, motion, !motion.angles.empty());
     check_path(table, motion);
+  } else if (kind == "belt") {
+    table.read_fields(motion, belt_fields<Dim>);
   }
   check_motion(table, motion, position, reach, dt);
   return motion;
@@ -83,7 +85,7 @@ Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double rea
 template <int Dim>
 Motion<Dim> read_gravity_motion(TableReader& table, const Vec<Dim>& gravity) {
   Motion<Dim> motion;
-  const std::string kind = read_kind(table, {motion_kinds.begin(), motion_kinds.end()});
+  const std::string kind = read_kind(table, {gravity_motion_kinds.begin(), gravity_motion_kinds.end()});
   if (kind == "sine") {
     table.read_fields(motion, gravity_sine_fields<Dim>);
   } else if (kind == "turn") {

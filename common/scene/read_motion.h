@@ -10,12 +10,17 @@
 
 namespace talus {
 
-inline constexpr std::array<std::string_view, 3> motion_kinds = {"sine", "turn", "path"};
-inline constexpr Key motion_kind_key = {.name = "kind",
-                                        .required = true,
-                                        .type = "text",
-                                        .choices = motion_kinds,
-                                        .meaning = "decides which of the keys below belong here"};
+inline constexpr std::array<std::string_view, 4> motion_kinds = {"sine", "turn", "path", "belt"};
+inline constexpr std::span<const std::string_view> gravity_motion_kinds = std::span(motion_kinds).first(3);
+constexpr Key kind_of_motion(std::span<const std::string_view> kinds) {
+  return {.name = "kind",
+          .required = true,
+          .type = "text",
+          .choices = kinds,
+          .meaning = "decides which of the keys below belong here"};
+}
+inline constexpr Key motion_kind_key = kind_of_motion(motion_kinds);
+inline constexpr Key gravity_motion_kind_key = kind_of_motion(gravity_motion_kinds);
 constexpr Key axis_of_turn(std::string_view meaning) {
   return {.name = "axis",
           .dimension = 3,
@@ -110,6 +115,20 @@ inline constexpr auto path_fields = std::to_array<Field<Motion<Dim>>>({
     {place_of<&Motion<Dim>::angles>,
      angles_of_path("as many as `times`, the first 0", "no turn", "turn about `position`, counter-clockwise")},
     {{}, motion_axis_key},
+});
+
+template <int Dim>
+inline constexpr auto belt_fields = std::to_array<Field<Motion<Dim>>>({
+    {place_of<&Motion<Dim>::belt>,
+     {.name = "surface_velocity",
+      .required = true,
+      .unit = "m/s",
+      .range = speed_range,
+      .further_rule = "below 2 m a step in 2D, 500 m/s in 3D",
+      .meaning = "the obstacle stays in its place, and its surface moves: on each side the part of this vector along "
+                 "the side. Not with the engines' own solvers"}},
+    motion_start_field<Dim>,
+    motion_end_field<Dim>,
 });
 
 template <int Dim>

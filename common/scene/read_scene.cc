@@ -152,6 +152,25 @@ void read_policy(TableReader& table, Scene<Dim>& scene, Named& named) {
   });
 }
 
+/// A source that an event adds waits for it.
+template <int Dim>
+void read_events(TableReader& root, const ShapeNames& shapes, Scene<Dim>& scene) {
+  root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
+  for (const Event<Dim>& event : scene.events)
+    if (event.action == EventAction::add && !event.obstacle && event.source < std::ssize(scene.sources))
+      scene.sources[event.source].waits_for_event = true;
+}
+
+/// What the engines' own solvers cannot do.
+template <int Dim>
+void check_solver(TableReader& root, const Scene<Dim>& scene) {
+  if (scene.world.solver.small_steps()) return;
+  if (std::ranges::any_of(scene.movers, [](const Mover<Dim>& mover) { return !mover.motion.belt.isZero(0.0); }))
+    root.error("obstacle", R"(must have no motion of kind "belt" with the engines' own solvers)");
+  if (std::ranges::count(scene.events, EventAction::force, &Event<Dim>::action) > 0)
+    root.error("event", R"(must not be of do = "force" with the engines' own solvers)");
+}
+
 /// Sleeping bodies must feel forces where something other than a falling body disturbs them, or where their loads
 /// count.
 template <int Dim>
@@ -205,7 +224,8 @@ Scene<Dim> read_root(TableReader& root) {
   root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
   read_bodies(root, shapes, scene);
   root.table("policy", [&](TableReader& table) { read_policy(table, scene, named); });
-  root.tables("event", [&](TableReader& table) { scene.events.push_back(read_event(table, shapes, scene)); });
+  read_events(root, shapes, scene);
+  check_solver(root, scene);
   read_instruments(root, scene);
   if (!named.rings && scene.world.solver.small_steps() && needs_rings(scene)) scene.policy.adaptive.rings = usual_rings;
   root.table("run", [&](TableReader& table) { read_run(table, scene, named.of_accuracy, root.ok()); });

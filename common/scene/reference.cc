@@ -151,7 +151,7 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
   std::vector<std::pair<std::string, std::string>> rows = {
       {"root", rows_of<Scene<3>>(scene_fields<3>)},
       {"[world]", rows_of<WorldDescription<3>>(world_fields<3>)},
-      {"[world.gravity_motion]", row_of(motion_kind_key, "text", "")},
+      {"[world.gravity_motion]", row_of(gravity_motion_kind_key, "text", "")},
       {"[world.gravity_motion] sine", rows_of<Motion<3>>(gravity_sine_fields<3>)},
       {"[world.gravity_motion] turn", rows_of<Motion<3>>(gravity_turn_fields<3>)},
       {"[world.gravity_motion] path", rows_of<Motion<3>>(gravity_path_fields<3>)},
@@ -162,6 +162,7 @@ std::vector<std::pair<std::string, std::string>> key_tables() {
       {"[obstacle.motion] sine", rows_of<Motion<3>>(sine_fields<3>)},
       {"[obstacle.motion] turn", rows_of<Motion<3>>(turn_fields<3>)},
       {"[obstacle.motion] path", rows_of<Motion<3>>(path_fields<3>)},
+      {"[obstacle.motion] belt", rows_of<Motion<3>>(belt_fields<3>)},
       {"[[obstacle]] container", rows_of<ContainerParams<3>>(container_fields<3>)},
       {"[[obstacle]] round container", rows_of<ConvexContainerParams>(convex_container_fields)},
       {"[[body]]", rows_of<BodyParams<3>>(body_fields<3>)},

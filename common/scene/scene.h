@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,7 @@ struct Source {
   std::vector<double> shares = {};  // of each size, added up to 1; empty: one size
   int count = 400;
   double start = 0.0;
+  bool waits_for_event = false;  // with do = "add"
   double rate = 6.6;
   Vec<Dim> position = Vec<Dim>::Unit(Dim - 1) * 10.0;
   Eigen::Vector<int, Dim> grid = Eigen::Vector<int, Dim>::Ones();
@@ -58,8 +60,9 @@ struct Source {
   int bodies_at_once() const { return grid.prod(); }
   /// Overlap of bounding boxes [m] that still leaves a place free: bodies of a grid of one rotation may touch.
   double overlap_allowed() const { return orientation && bodies_at_once() > 1 ? 1e-4 : 0.0; }
-  /// When the body of this number is due, from 0 on [s].
+  /// When the body of this number is due, from 0 on [s]; infinite where an event decides.
   double due_time(int number) const {
+    if (waits_for_event) return std::numeric_limits<double>::infinity();
     const int before_its_grid = number - number % bodies_at_once();
     return start + before_its_grid / rate;
   }
@@ -103,10 +106,10 @@ inline constexpr std::string_view when_at_rest = "rest";
 inline constexpr std::string_view when_layer_density = "layer_density";
 inline constexpr std::array<std::string_view, 2> event_conditions = {when_at_rest, when_layer_density};
 /// What an event does.
-enum class EventAction : std::uint8_t { remove, wake, kick, rate, policy, gravity, picture };
+enum class EventAction : std::uint8_t { remove, add, wake, kick, force, rate, policy, gravity, picture };
 /// Their names, in the same order.
-inline constexpr std::array<std::string_view, 7> event_actions = {"remove", "wake",    "kick",   "rate",
-                                                                  "policy", "gravity", "picture"};
+inline constexpr std::array<std::string_view, 9> event_actions = {"remove", "add",    "wake",    "kick",   "force",
+                                                                  "rate",   "policy", "gravity", "picture"};
 constexpr std::string_view to_string(EventAction action) { return event_actions[static_cast<std::size_t>(action)]; }
 /// Policies that a run may switch between: the engine's own sleeping is part of its world.
 inline constexpr std::array<std::string_view, 3> switchable_policies = {"full", "paper", "adaptive"};
@@ -126,6 +129,8 @@ struct Event {
   std::optional<int> obstacle = {};  // index of Scene::obstacle_names
   Vec<Dim> velocity = Vec<Dim>::Zero();
   Spin<Dim> spin = Spin<Dim>::Zero();
+  Vec<Dim> force = Vec<Dim>::Zero();
+  std::optional<double> seconds = {};
   int source = 0;
   double rate = 0.0;
   std::string policy = {};

@@ -216,8 +216,9 @@ inline constexpr Key event_action_key = {
     .required = true,
     .choices = event_actions,
     .meaning =
-        "`remove`: bodies or an obstacle. `wake`: bodies. `kick`: bodies get `velocity` and `spin` in "
-        "addition. `rate`: of a source. `policy`: another from now on, all bodies awake. `gravity`: another "
+        "`remove`: bodies or an obstacle. `add`: an obstacle, or the bodies of a source; before, they are not there. "
+        "`wake`: bodies. `kick`: bodies get `velocity` and `spin` in addition. `force`: bodies are pushed by `force`. "
+        "`rate`: of a source. `policy`: another from now on, all bodies awake. `gravity`: another "
         "from now on, all bodies awake. `picture`: of the run folder, `event_0.png` for the first event"};
 
 template <int Dim>
@@ -254,26 +255,27 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
       .type = "text or texts",
       .further_rule = "names of shapes",
       .default_text = "any",
-      .meaning = "`remove`, `wake`, `kick`: bodies of these shapes only"}},
+      .meaning = "`remove`, `wake`, `kick`, `force`: bodies of these shapes only"}},
     {place_of<&Event<Dim>::numbers>,
      {.name = "body",
       .type = "whole number or numbers",
       .range = between(0.0, 1e7),
       .default_text = "any",
-      .meaning = "`remove`, `wake`, `kick`: these bodies only, counted from 0 in the order in which they appear"}},
+      .meaning =
+          "`remove`, `wake`, `kick`, `force`: these bodies only, counted from 0 in the order in which they appear"}},
     {place_of<&Event<Dim>::box>,
      {.name = "box",
       .unit = "m",
       .range = coordinate_range,
       .further_rule = "two corners, the lower one first",
       .default_text = "anywhere",
-      .meaning = "`remove`, `wake`, `kick`: bodies whose centre of mass is within only"}},
+      .meaning = "`remove`, `wake`, `kick`, `force`: bodies whose centre of mass is within only"}},
     {{},
      {.name = "obstacle",
       .type = "text",
       .further_rule = "`name` of an obstacle",
       .default_text = "none",
-      .meaning = "`remove`: this obstacle and no body"}},
+      .meaning = "`remove`, `add`: this obstacle and no body"}},
     {place_of<&Event<Dim>::velocity>,
      {.name = "velocity", .unit = "m/s", .range = speed_range, .meaning = "`kick`: added to that of each body"}},
     {place_of<&Event<Dim>::spin>,
@@ -282,8 +284,20 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
       .unit = "rad/s",
       .range = between(-1e4, 1e4),
       .meaning = "`kick`: added to that of each body"}},
+    {place_of<&Event<Dim>::force>,
+     {.name = "force",
+      .unit = "N",
+      .range = between(-1e12, 1e12),
+      .default_text = "required for `force`",
+      .meaning = "`force`: on the centre of mass of each body, which stays awake. Not with the engines' own solvers"}},
+    {place_of<&Event<Dim>::seconds>,
+     {.name = "seconds",
+      .unit = "s",
+      .range = above(0.0, 1e6),
+      .default_text = "to the end",
+      .meaning = "`force`: for so long"}},
     {place_of<&Event<Dim>::source>,
-     {.name = "source", .range = between(0.0, 4095.0), .meaning = "`rate`: number of the source, from 0 on"}},
+     {.name = "source", .range = between(0.0, 4095.0), .meaning = "`rate`, `add`: number of the source, from 0 on"}},
     {place_of<&Event<Dim>::rate>,
      {.name = "rate",
       .unit = "1/s",

@@ -22,13 +22,13 @@ Emitter<Dim>::Emitter(const Scene<Dim>& scene) : total_(static_cast<int>(scene.b
   for (const Source<Dim>& source : scene.sources) {
     std::seed_seq seed{scene.seed, number++};
     spouts_.push_back({.source = source, .random = std::mt19937_64(seed)});
+    if (source.waits_for_event) waiting_ += source.count;
   }
 }
 
 template <int Dim>
 void Emitter<Dim>::emit(World<Dim>& world, double time) {
   if (finished()) return;
-  add_initial(world);
   const double gravity = world.gravity_size();
   const double slow_time = gravity > 0.0 ? settled_speed / gravity : 0.0;  // [s]
   while (!births_.empty() && births_.front().time + slow_time <= time) births_.pop_front();
@@ -72,6 +72,14 @@ int Emitter<Dim>::draw_size(Spout& spout) const {
   if (shares.empty()) return 0;
   const auto found = std::ranges::upper_bound(shares, uniform(spout.random));
   return static_cast<int>(std::min(found, shares.end() - 1) - shares.begin());
+}
+
+template <int Dim>
+void Emitter<Dim>::start(int source, double time) {
+  Source<Dim>& started = spouts_[source].source;
+  if (started.waits_for_event) waiting_ -= started.count;
+  started.waits_for_event = false;
+  started.start = time;
 }
 
 template <int Dim>

@@ -19,14 +19,19 @@ class Emitter {
  public:
   explicit Emitter(const Scene<Dim>& scene);
 
-  /// Adds all bodies that are due at `time` [s] and have room.
+  /// Before the first step: adds the bodies that are there from the start.
+  void add_initial(World<Dim>& world);
+  /// Adds all bodies of sources that are due at `time` [s] and have room.
   void emit(World<Dim>& world, double time);
 
+  /// A source that waits for an event begins at `time` [s].
+  void start(int source, double time);
   /// Another rate of a source from `time` [s] on; its next body is due at once.
   void set_rate(int source, double rate, double time);
   const Source<Dim>& source(int number) const { return spouts_[number].source; }
 
-  bool finished() const { return emitted_ == total_; }
+  /// Whether all have appeared but for those of sources that wait for an event.
+  bool finished() const { return emitted_ + waiting_ == total_; }
   int emitted() const { return emitted_; }
   /// Of a source.
   int emitted(int number) const { return spouts_[number].emitted; }
@@ -51,7 +56,6 @@ class Emitter {
   };
 
   bool due(const Spout& spout, double time) const;
-  void add_initial(World<Dim>& world);
   int draw_size(Spout& spout) const;
   void draw(Spout& spout) const;
   Vec<Dim> place(const Spout& spout, double time) const;
@@ -69,6 +73,7 @@ class Emitter {
   std::vector<BodyIndex> beneath_;                            // scratch
   int emitted_ = 0;
   int total_ = 0;
+  int waiting_ = 0;  // bodies of sources that wait for an event
   std::int64_t waits_ = 0;
 };
 

@@ -58,8 +58,9 @@ void Interventions<Dim>::move(const Intervened<Dim>& run) {
   time_ = run.time;
   run.wake(obstacles_.move(run.world, run.time), SleepCause::lost_support);
   if (gravity_motion_) change_gravity(run);
-  pulled_.clear();
+  held_awake_.clear();
   if (pull_) pull_body(run);
+  push_bodies(run);
 }
 
 /// Sleeping bodies do not feel that gravity changes: once it has by more than a little, all wake.
@@ -78,8 +79,8 @@ void Interventions<Dim>::wake_for_gravity(const Intervened<Dim>& run) {
 
 template <int Dim>
 bool Interventions<Dim>::must_stay_awake(const World<Dim>& world, BodyIndex body) const {
-  return gravity_change_.keeps_awake(time_) || std::ranges::binary_search(pulled_, body) ||
-         (!world.has_ring() && obstacles_.touch(world, body));
+  return gravity_change_.keeps_awake(time_) || std::ranges::binary_search(held_awake_, body) ||
+         obstacles_.keep_awake(world, body);
 }
 
 template <int Dim>
@@ -95,10 +96,23 @@ void Interventions<Dim>::pull_body(const Intervened<Dim>& run) {
     release();
     return;
   }
-  pulled_ = bodies_near<Dim>(run.world, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
-  run.wake(pulled_, SleepCause::user);
+  held_awake_ = bodies_near<Dim>(run.world, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
+  run.wake(held_awake_, SleepCause::user);
   const VelocityChange<Dim> change = pulled(run.world, *pull_, dt_);
   run.world.set_velocity(body, change.velocity, change.spin);
+}
+
+template <int Dim>
+void Interventions<Dim>::push_bodies(const Intervened<Dim>& run) {
+  std::erase_if(pushes_, [&](const TimedPush& push) {
+    return (push.end && run.time >= *push.end) || run.world.states().removed[push.push.body] != 0;
+  });
+  for (const TimedPush& each : pushes_) {
+    const BodyIndex body = each.push.body;
+    if (run.world.states().asleep[body] != 0) run.wake({&body, 1}, SleepCause::user);
+    run.world.push(body, each.push.force);
+    held_awake_.insert(std::ranges::upper_bound(held_awake_, body), body);
+  }
 }
 
 template <int Dim>
@@ -106,11 +120,18 @@ void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event
   switch (event.action) {
     case EventAction::remove:
       if (event.obstacle) {
-        const ObstacleName& name = obstacle_names_[*event.obstacle];
-        for (int k = name.first; k < name.first + name.count; ++k)
-          if (run.world.has_obstacle(k)) cut_obstacle(run, k);
+        for (const int number : obstacles_named(event))
+          if (run.world.has_obstacle(number)) cut_obstacle(run, number);
       } else {
         for (const BodyIndex body : bodies_meant(run.world, event)) remove(run, body);
+      }
+      return;
+    case EventAction::add:
+      return add(run, event);
+    case EventAction::force:
+      for (const BodyIndex body : bodies_meant(run.world, event)) {
+        const std::optional<double> end = event.seconds ? std::optional(run.time + *event.seconds) : std::nullopt;
+        pushes_.push_back({{body, event.force}, end});
       }
       return;
     case EventAction::wake:
@@ -128,6 +149,36 @@ void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event
     case EventAction::picture:
       return;
   }
+}
+
+template <int Dim>
+void Interventions<Dim>::take_out_absent(World<Dim>& world) const {
+  for (const Event<Dim>& event : events_)
+    if (event.action == EventAction::add && event.obstacle)
+      for (const int number : obstacles_named(event))
+        if (world.has_obstacle(number)) world.remove_obstacle(number);
+}
+
+template <int Dim>
+void Interventions<Dim>::add(const Intervened<Dim>& run, const Event<Dim>& event) const {
+  if (!event.obstacle) {
+    run.emitter.start(event.source, run.time);
+    return run.watchdog.note_source(event.source, run.emitter.source(event.source));
+  }
+  for (const int number : obstacles_named(event)) {
+    if (run.world.has_obstacle(number)) continue;
+    const Pose<Dim> at = obstacles_.pose_at(run.world, number, run.time);
+    run.world.restore_obstacle(number, at);
+    run.wake(bodies_near<Dim>(run.world, bounds_at(run.world.obstacle_shape(number), at), 0.0), SleepCause::user);
+  }
+}
+
+template <int Dim>
+std::vector<int> Interventions<Dim>::obstacles_named(const Event<Dim>& event) const {
+  const ObstacleName& name = obstacle_names_[*event.obstacle];
+  std::vector<int> numbers(name.count);
+  std::iota(numbers.begin(), numbers.end(), name.first);
+  return numbers;
 }
 
 template <int Dim>

@@ -42,6 +42,9 @@ class Interventions {
  public:
   explicit Interventions(const Scene<Dim>& scene);
 
+  /// Before the first step: takes the obstacles out that events will add.
+  void take_out_absent(World<Dim>& world) const;
+
   /// Before a step: what is due of the scene, where the world is at rest or not, with its piles.
   void do_due_events(const Intervened<Dim>& run, bool at_rest, std::span<const Pile<Dim>> piles);
   /// After that and after bodies were added: obstacles and gravity move on, and the pull acts.
@@ -68,9 +71,17 @@ class Interventions {
   std::span<const DoneEvent> done_events() const { return done_events_; }
 
  private:
+  /// Of an event, until a time [s] if there is one.
+  struct TimedPush {
+    Push<Dim> push;
+    std::optional<double> end;
+  };
   void change_gravity(const Intervened<Dim>& run);
   void wake_for_gravity(const Intervened<Dim>& run);
   void pull_body(const Intervened<Dim>& run);
+  void push_bodies(const Intervened<Dim>& run);
+  void add(const Intervened<Dim>& run, const Event<Dim>& event) const;
+  std::vector<int> obstacles_named(const Event<Dim>& event) const;
   void kick(const Intervened<Dim>& run, const Event<Dim>& event) const;
   static std::vector<BodyIndex> sleepers_by(const World<Dim>& world, BodyIndex side, const Box<Dim>& bounds,
                                             double reach);
@@ -87,7 +98,9 @@ class Interventions {
   GravityChange<Dim> gravity_change_;
   double time_ = 0.0;  // at which the last step began [s]
   std::optional<Pull<Dim>> pull_;
-  std::vector<BodyIndex> pulled_;  // in this step: the body and what lies beside it, ascending
+  std::vector<TimedPush> pushes_;
+  std::vector<BodyIndex>
+      held_awake_;  // in this step: what is pushed, the pulled body and what lies beside it, ascending
 };
 
 }  // namespace talus

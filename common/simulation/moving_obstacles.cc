@@ -6,16 +6,6 @@
 #include "common/shape/convex_distance.h"
 
 namespace talus {
-namespace {
-
-bool same_pose(const Pose<2>& a, const Pose<2>& b) {
-  return a.position == b.position && a.rotation.angle() == b.rotation.angle();
-}
-bool same_pose(const Pose<3>& a, const Pose<3>& b) {
-  return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
-}
-
-}  // namespace
 
 template <int Dim>
 MovingObstacles<Dim>::MovingObstacles(const Scene<Dim>& scene) : movers_(scene.movers), dt_(scene.world.dt) {
@@ -43,11 +33,13 @@ void MovingObstacles<Dim>::move(World<Dim>& world, const Mover<Dim>& mover, int 
   if (!world.has_obstacle(obstacle)) return;
   const Pose<Dim> from = world.obstacle_pose(obstacle);
   const Pose<Dim> to = mover.pose_at(time + dt_, obstacles_[obstacle].pose);
-  if (same_pose(from, to)) return;
-  world.move_obstacle(obstacle, to);
+  const Vec<Dim> belt = mover.motion.belt_at(time);
+  if (belt != world.surface_velocity(obstacle)) world.set_surface_velocity(obstacle, belt);
+  if (from == to && belt.isZero(0.0)) return;
+  if (from != to) world.move_obstacle(obstacle, to);
   for (const ConvexPiece<Dim>& piece : pieces_[obstacle]) {
     const ConvexPiece<Dim> before = moved(piece, from);
-    Piece moving{.obstacle = obstacle, .piece = moved(piece, to), .bounds = before.bounds()};
+    Piece moving{.obstacle = obstacle, .belt = !belt.isZero(0.0), .piece = moved(piece, to), .bounds = before.bounds()};
     for (std::size_t i = 0; i < before.corners.size(); ++i)
       moving.travel = std::max(moving.travel, (moving.piece.corners[i] - before.corners[i]).norm());
     moving.bounds.extend(moving.piece.bounds());
@@ -61,7 +53,7 @@ void MovingObstacles<Dim>::find_sleepers(const World<Dim>& world, const Piece& p
   near_.clear();
   world.query_box({piece.bounds.min() - reach, piece.bounds.max() + reach}, near_);
   for (const BodyIndex body : near_)
-    if (world.states().asleep[body] != 0 && !world.feels(body, first_obstacle - piece.obstacle) &&
+    if (world.states().asleep[body] != 0 && (piece.belt || !world.feels(body, first_obstacle - piece.obstacle)) &&
         touches(world, piece, body))
       touched_.push_back(body);
 }
@@ -77,8 +69,17 @@ bool MovingObstacles<Dim>::touches(const World<Dim>& world, const Piece& piece, 
 }
 
 template <int Dim>
-bool MovingObstacles<Dim>::touch(const World<Dim>& world, BodyIndex body) const {
-  return std::ranges::any_of(moving_, [&](const Piece& piece) { return touches(world, piece, body); });
+bool MovingObstacles<Dim>::keep_awake(const World<Dim>& world, BodyIndex body) const {
+  return std::ranges::any_of(
+      moving_, [&](const Piece& piece) { return (piece.belt || !world.has_ring()) && touches(world, piece, body); });
+}
+
+template <int Dim>
+Pose<Dim> MovingObstacles<Dim>::pose_at(const World<Dim>& world, int obstacle, double time) const {
+  for (const Mover<Dim>& mover : movers_)
+    if (obstacle >= mover.first && obstacle < mover.first + mover.count)
+      return mover.pose_at(time, obstacles_[obstacle].pose);
+  return world.obstacle_pose(obstacle);
 }
 
 template <int Dim>

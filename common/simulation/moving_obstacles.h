@@ -22,14 +22,18 @@ class MovingObstacles {
   /// Whether any moved in the last call of move().
   bool any_moved() const { return !moving_.empty(); }
 
-  /// Whether a body touches an obstacle that moved in the last step.
-  bool touch(const World<Dim>& world, BodyIndex body) const;
+  /// Whether a body touches an obstacle that moved in the last step and that it would not follow in its sleep.
+  bool keep_awake(const World<Dim>& world, BodyIndex body) const;
+
+  /// Where the plan has an obstacle at a time [s].
+  Pose<Dim> pose_at(const World<Dim>& world, int obstacle, double time) const;
 
   bool moves_after(const World<Dim>& world, double time) const;
 
  private:
   struct Piece {
     int obstacle = 0;        // number
+    bool belt = false;       // its surface moves, which sleeping bodies do not feel
     ConvexPiece<Dim> piece;  // in the world's axes, after the step
     Box<Dim> bounds;         // of it before and after
     double travel = 0.0;     // of its fastest point [m]

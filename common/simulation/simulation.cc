@@ -43,6 +43,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       with_other.policy.kind = kind;
       return make_policy(with_other);
     };
+  interventions_.take_out_absent(*world_);
   for (std::size_t i = 0; sleep_.policy().decides() && i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
 }
@@ -59,6 +60,7 @@ void Simulation<Dim>::step() {
   Stopwatch watch;
   probed_drift_.reset();
   sleep_.start_step();
+  if (step_ == 0) emitter_.add_initial(*world_);
   interventions_.do_due_events(intervened(), rested_, piles().piles());
   emitter_.emit(*world_, time());
   if (!asleep_at_start_.empty()) freeze_initial_bodies();

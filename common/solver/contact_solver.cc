@@ -160,7 +160,7 @@ struct ContactSolver<Dim>::Work {
   void fill_point(int number, PointBlock<Dim>& to, int lane, const Spring& of_contact);
   void fill_rolling(const ContactPoint<Dim>& point, ContactBlock<Dim>& block, int lane);
   void load_bodies();
-  void begin_sub_step(const VecF<Dim>& gravity);
+  void begin_sub_step(const VecF<Dim>& gravity, std::span<const Push> pushes);
   void move();
   void keep_changes();
   void push_deep();
@@ -367,7 +367,8 @@ void ContactSolver<Dim>::Work::load_bodies() {
 }
 
 template <int Dim>
-void ContactSolver<Dim>::Work::begin_sub_step(const VecF<Dim>& gravity) {
+void ContactSolver<Dim>::Work::begin_sub_step(const VecF<Dim>& gravity, std::span<const Push> pushes) {
+  for (const Push& push : pushes) add_to<Dim>(&velocity[quads * push.slot], h * push.acceleration, SpinF<Dim>::Zero());
   std::array<Quad, quads> fall{};
   set<Dim>(fall.data(), h * gravity, SpinF<Dim>::Zero());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -476,6 +477,7 @@ template <int Dim>
 void ContactSolver<Dim>::start() {
   bodies_.resize(1);
   points_.clear();
+  pushes_.clear();
 }
 
 template <int Dim>
@@ -491,7 +493,7 @@ void ContactSolver<Dim>::solve(const ContactSolverParams& params, const VecF<Dim
   work.load_bodies();
   for (int step = 0; step < params.sub_steps; ++step) {
     const int passes = step == 0 ? first_passes : 1;
-    work.begin_sub_step(gravity);
+    work.begin_sub_step(gravity, pushes_);
     for (int i = 0; i < passes; ++i) work.run(Pass::soft);
     work.move();
     for (int i = 1; i < passes; ++i) work.run(Pass::relax);

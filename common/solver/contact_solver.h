@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "common/math/vector.h"
+
 namespace talus {
 
 /// Single precision, as the engines have it. Spins and turns are one number in 2D (counter-clockwise), a vector in 3D.
@@ -100,6 +102,14 @@ class ContactSolver {
     return static_cast<int>(bodies_.size()) - 1;
   }
   void add(const ContactPoint<Dim>& point) { points_.push_back(point); }
+  /// Returns a slot for the surface of an obstacle that moves along itself, at a point with this normal.
+  int add_belt(const VecF<Dim>& velocity, const VecF<Dim>& normal) {
+    SolverBody<Dim> belt;
+    belt.velocity = along_plane<VecF<Dim>>(velocity, normal);
+    return add(belt);
+  }
+  /// Accelerates a body throughout the step [m/s^2], beside gravity.
+  void push(int slot, const VecF<Dim>& acceleration) { pushes_.push_back({slot, acceleration}); }
 
   /// Advances velocities by `dt` [s] under `gravity` [m/s^2]. The caller moves the bodies by `way` and `turn`.
   void solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt);
@@ -110,9 +120,14 @@ class ContactSolver {
 
  private:
   struct Work;
+  struct Push {
+    int slot = 0;
+    VecF<Dim> acceleration = VecF<Dim>::Zero();  // [m/s^2]
+  };
 
   std::vector<SolverBody<Dim>> bodies_;
   std::vector<ContactPoint<Dim>> points_;
+  std::vector<Push> pushes_;
   std::unique_ptr<Work> work_;
 };
 

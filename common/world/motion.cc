@@ -48,8 +48,13 @@ Rotation<Dim> Motion<Dim>::turn_at(double time) const {
 }
 
 template <int Dim>
+Vec<Dim> Motion<Dim>::belt_at(double time) const {
+  return time < start || (end && time >= *end) ? Vec<Dim>::Zero() : belt;
+}
+
+template <int Dim>
 bool Motion<Dim>::moves_after(double time) const {
-  const bool goes_on = speed != 0.0 || frequency != 0.0;
+  const bool goes_on = speed != 0.0 || frequency != 0.0 || !belt.isZero(0.0);
   return (goes_on && (!end || time < *end)) || (!times.empty() && time < times.back());
 }
 

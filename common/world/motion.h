@@ -10,14 +10,16 @@
 namespace talus {
 
 /// A motion as a function of time alone: a shift and a turn about a pivot, both 0 for an obstacle in its place. A
-/// sine, a constant turn and a path of straight pieces; their sum where several are given.
+/// sine, a constant turn and a path of straight pieces; their sum where several are given. Or a belt: the obstacle
+/// stays and its surface moves along itself.
 template <int Dim>
 struct Motion {
   Vec<Dim> amplitude = Vec<Dim>::Zero();  // of the sine [m]
   double frequency = 0.0;                 // [1/s]
   double speed = 0.0;                     // of the turn [rad/s]
-  double start = 0.0;                     // of sine and turn [s]
-  std::optional<double> end = {};         // of sine and turn [s]; the obstacle stays where it is then
+  Vec<Dim> belt = Vec<Dim>::Zero();       // velocity of the surface [m/s]
+  double start = 0.0;                     // of sine, turn and belt [s]
+  std::optional<double> end = {};         // of sine, turn and belt [s]; the obstacle stays where it is then
   std::vector<double> times = {};         // of the path's corners [s], ascending
   std::vector<Vec<Dim>> shifts = {};      // there [m]
   std::vector<double> angles = {};        // there [rad]; empty: no turn
@@ -26,6 +28,8 @@ struct Motion {
   Vec<Dim> shift_at(double time) const;
   double angle_at(double time) const;
   Rotation<Dim> turn_at(double time) const;
+  /// Velocity of the surface [m/s].
+  Vec<Dim> belt_at(double time) const;
   /// Whether it may move after this time [s].
   bool moves_after(double time) const;
   /// Upper bounds of the speed of the pivot [m/s] and of the turn [rad/s].

@@ -81,6 +81,7 @@ void World<Dim>::step() {
   ++steps_;
   contacts_.clear();
   times_ = engine_step();
+  pushes_.clear();
   if (!awake_.empty()) read_step();
   place_obstacles();
 }
@@ -102,11 +103,30 @@ void World<Dim>::engine_move_obstacle(int number, const Vec<Dim>& /*velocity*/, 
 }
 
 template <int Dim>
+void World<Dim>::set_surface_velocity(int number, const Vec<Dim>& velocity) {
+  require_obstacle(number);
+  require(description_.obstacles[number].moves, "obstacle", number, "must be one that may move");
+  require(description_.solver.small_steps(), "surface velocity", velocity.norm(),
+          "must be 0 unless the solver is small_steps");
+  belts_.resize(description_.obstacles.size(), Vec<Dim>::Zero());
+  belts_[number] = velocity;
+}
+
+template <int Dim>
 void World<Dim>::remove_obstacle(int number) {
   require_obstacle(number);
   engine_remove_obstacle(number);
   removed_obstacles_.resize(description_.obstacles.size(), 0);
   removed_obstacles_[number] = 1;
+}
+
+template <int Dim>
+void World<Dim>::restore_obstacle(int number, const Pose<Dim>& at) {
+  require(number >= 0 && number < std::ssize(description_.obstacles) && !has_obstacle(number), "obstacle", number,
+          "must be the number of an obstacle that was removed");
+  description_.obstacles[number].pose = at;
+  engine_restore_obstacle(number);
+  removed_obstacles_[number] = 0;
 }
 
 template <int Dim>
@@ -163,6 +183,15 @@ void World<Dim>::set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Sp
   engine_set_velocity(body, velocity, spin);
   states_.velocity[body] = velocity;
   states_.spin[body] = spin;
+}
+
+template <int Dim>
+void World<Dim>::push(BodyIndex body, const Vec<Dim>& force) {
+  require_present(body);
+  require(states_.asleep[body] == 0, "body", body, "must be awake to be pushed");
+  require(force.allFinite(), "force", force.norm(), "must be finite");
+  require(description_.solver.small_steps(), "force", force.norm(), "must be 0 unless the solver is small_steps");
+  pushes_.push_back({body, force});
 }
 
 template <int Dim>

@@ -42,6 +42,13 @@ struct SpeedLimits {
   double spin = std::numeric_limits<double>::infinity();   // [rad/s]
 };
 
+/// A force on the centre of mass of a body [N].
+template <int Dim>
+struct Push {
+  BodyIndex body = 0;
+  Vec<Dim> force = Vec<Dim>::Zero();
+};
+
 /// A world of rigid bodies in one engine. A new world with the same calls gives the same bits.
 ///
 /// A frozen body is solid and immovable: bodies rest on it, only thaw() wakes it, and a step does no work for it.
@@ -64,6 +71,10 @@ class World {
 
   /// Sets the velocity of an awake body.
   void set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
+
+  /// A force on the centre of mass of an awake body throughout the next step [N], in addition to others. Only with the
+  /// solver `small_steps`.
+  void push(BodyIndex body, const Vec<Dim>& force);
 
   /// Stops awake bodies and makes them immovable: the engine no longer simulates them. Bodies already asleep are left
   /// alone. Acts at once; must not be called during step().
@@ -94,6 +105,11 @@ class World {
   /// Where an obstacle that may move goes within the next step, with the velocity that this takes; it pushes awake
   /// bodies. Sleeping ones stay asleep: the caller wakes them. `number` in WorldDescription::obstacles.
   void move_obstacle(int number, const Pose<Dim>& to);
+  /// The velocity of the surface of an obstacle that may move, from the next step on [m/s]: of a belt, which stays in
+  /// its place. Its part along the surface drags awake bodies; sleeping ones stay asleep: the caller wakes them. Only
+  /// with the solver `small_steps`.
+  void set_surface_velocity(int number, const Vec<Dim>& velocity);
+  Vec<Dim> surface_velocity(int number) const { return belts_.empty() ? Vec<Dim>::Zero() : belts_[number]; }
   /// All obstacles, where they are; those removed too.
   std::span<const Obstacle<Dim>> obstacles() const { return description_.obstacles; }
   const Pose<Dim>& obstacle_pose(int number) const { return description_.obstacles[number].pose; }
@@ -101,6 +117,8 @@ class World {
   /// Takes an obstacle out of the world. Sleeping bodies that rested on it stay asleep; the caller decides whether to
   /// wake them.
   void remove_obstacle(int number);
+  /// Puts one that was taken out back, at this pose.
+  void restore_obstacle(int number, const Pose<Dim>& at);
   const Shape<Dim>& obstacle_shape(int number) const { return description_.obstacles[number].shape; }
   bool has_obstacle(int number) const { return removed_obstacles_.empty() || removed_obstacles_[number] == 0; }
 
@@ -155,6 +173,10 @@ class World {
   World& operator=(World&&) noexcept = default;
 
   const WorldDescription<Dim>& description() const { return description_; }
+  /// By number of the obstacle, see set_surface_velocity(); empty: none ever had one.
+  std::span<const Vec<Dim>> belts() const { return belts_; }
+  /// What push() has added for this step.
+  std::span<const Push<Dim>> pushes() const { return pushes_; }
   bool records_contacts() const { return record_contacts_; }
 
   /// For an engine that moves bodies outside of step().
@@ -195,6 +217,7 @@ class World {
 
   /// An engine that has no such functions throws.
   virtual void engine_remove_obstacle(int number);
+  virtual void engine_restore_obstacle(int /*number*/) {}
   virtual void engine_set_gravity(const Vec<Dim>& gravity);
 
   /// Bodies that were awake; ascending, each once, at least one.
@@ -236,6 +259,8 @@ class World {
   std::vector<BodyIndex> chosen_;                 // scratch
   std::vector<std::pair<int, Pose<Dim>>> moves_;  // of obstacles in the next step
   std::vector<std::uint8_t> removed_obstacles_;   // by number; empty: none
+  std::vector<Push<Dim>> pushes_;                 // in the next step
+  std::vector<Vec<Dim>> belts_;                   // by number: velocity of the surface [m/s]; empty: no belt
   EngineTimes times_;
   std::int64_t steps_ = 0;
   std::int64_t form_ = 0;

@@ -3,6 +3,11 @@
 #include <chrono>
 
 namespace talus::bullet {
+namespace {
+
+constexpr int meets_static = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
+
+}  // namespace
 
 DynamicsWorld::DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, PairCache& pairs,
                              btConstraintSolver& solver, btCollisionConfiguration& configuration,
@@ -22,9 +27,17 @@ void DynamicsWorld::set_bodies(std::span<btRigidBody* const> bodies) {
 }
 
 void DynamicsWorld::add_static(btCollisionObject& object) {
-  addCollisionObject(&object, btBroadphaseProxy::StaticFilter,
-                     btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
+  addCollisionObject(&object, btBroadphaseProxy::StaticFilter, meets_static);
   ++statics_;
+}
+
+void DynamicsWorld::restore_static(btCollisionObject& object) {
+  btVector3 low;
+  btVector3 high;
+  object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
+  object.setBroadphaseHandle(getBroadphase()->createProxy(low, high, object.getCollisionShape()->getShapeType(),
+                                                          &object, btBroadphaseProxy::StaticFilter, meets_static,
+                                                          getDispatcher()));
 }
 
 void DynamicsWorld::performDiscreteCollisionDetection() {

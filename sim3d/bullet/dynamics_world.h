@@ -35,6 +35,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
 
   /// Gives the static object a broadphase entry and a place in the lists, before any body.
   void add_static(btCollisionObject& object);
+  /// Of which the entry in the broad phase was taken away.
+  void restore_static(btCollisionObject& object);
 
   int listed_objects() const { return m_collisionObjects.size(); }
 

@@ -52,9 +52,9 @@ TEST(SceneBodies, NeedNoSource) {
   EXPECT_DOUBLE_EQ(typical_body(scene).mass, 500.0);
 }
 
-TEST(SceneBodies, RepeatAroundTheirPlaceAndUpwardsFromIt) {
+TEST(SceneBodies, RepeatFromTheirPlaceOn) {
   const Scene<2> scene =
-      scene_of<2>("position = [10.0, 0.25]\nrepeat = [2, 2]\nstep = [1.0, 0.5]\nstagger = [0.5, 0]\n");
+      scene_of<2>("position = [9.5, 0.25]\nrepeat = [2, 2]\nstep = [1.0, 0.5]\nstagger = [0.5, 0]\n");
   const std::vector<Vec2> expected = {{9.5, 0.25}, {10.5, 0.25}, {10.0, 0.75}, {11.0, 0.75}};
   EXPECT_EQ(places(scene), expected);
 }
@@ -62,7 +62,7 @@ TEST(SceneBodies, RepeatAroundTheirPlaceAndUpwardsFromIt) {
 TEST(SceneBodies, TaperToAPyramidThatEndsInOneBody) {
   const Scene<3> scene = scene_of<3>("position = [0, 0, 0.5]\nrepeat = [3, 3, 9]\nstep = [1, 1, 1]\ntaper = 1\n");
   ASSERT_EQ(scene.bodies.size(), 9U + 4U + 1U);
-  EXPECT_EQ(places(scene).back(), Vec3(0.0, 0.0, 2.5));
+  EXPECT_EQ(places(scene).back(), Vec3(1.0, 1.0, 2.5));
 }
 
 TEST(SceneBodies, ThatAreOneDeepTaperAlongTheirLength) {

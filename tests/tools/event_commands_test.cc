@@ -23,7 +23,7 @@ class EventCommands : public testing::Test {
   void SetUp() override {
     std::ofstream(folder_.path() / "scene.toml")
         << "title = \"shelf\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5, colour = \"blue\"}\n"
-           "run = {frames = 150}\nbody = [{position = [0, 2.5], repeat = [3, 1], step = [1.1, 0]}]\n"
+           "run = {frames = 150}\nbody = [{position = [-1.1, 2.5], repeat = [3, 1], step = [1.1, 0]}]\n"
            "obstacle = [{kind = \"box\", size = [6, 1], position = [0, 1.5], name = \"shelf\"}]\n"
            "event = [{time = 1, do = \"remove\", body = 1}, {time = 2, do = \"remove\", obstacle = \"shelf\"},\n"
            "         {time = 4, do = \"gravity\", gravity = [0, -5]}]\n";

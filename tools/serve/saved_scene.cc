@@ -117,7 +117,7 @@ class Saving {
       const int count = scene_.obstacles_of_tables[i];
       std::vector<int> left;
       for (int k = first; k < first + count; ++k)
-        if (world_.has_obstacle(k)) left.push_back(k);
+        if (world_.has_obstacle(k) || is_to_come(k)) left.push_back(k);
       toml::table& table = *tables_of->get(i)->as_table();
       if (std::ssize(left) == count) {
         note_motion(table, first);
@@ -137,6 +137,21 @@ class Saving {
     return text;
   }
 
+  bool is_done(std::size_t event) const {
+    return std::ranges::count(simulation_.done_events(), static_cast<int>(event), &DoneEvent::number) > 0;
+  }
+
+  /// Whether an event will add an obstacle.
+  bool is_to_come(int obstacle) const {
+    for (std::size_t i = 0; i < scene_.events.size(); ++i) {
+      const Event<Dim>& event = scene_.events[i];
+      if (event.action != EventAction::add || !event.obstacle || is_done(i)) continue;
+      const ObstacleName& name = scene_.obstacle_names[*event.obstacle];
+      if (obstacle >= name.first && obstacle < name.first + name.count) return true;
+    }
+    return false;
+  }
+
   void note_motion(const toml::table& table, int obstacle) {
     if (table.contains("motion"))
       lost(fmt::format("where obstacle {} is in its motion: it begins again from its first place", obstacle));
@@ -154,7 +169,8 @@ class Saving {
       toml::table table = *tables_of->get(i)->as_table();
       if (!table.contains("shape")) table.insert("shape", shape_list());
       table.insert_or_assign("count", std::int64_t{source.count - emitted});
-      table.insert_or_assign("start", std::max(0.0, source.due_time(emitted) - simulation_.time()));
+      if (!source.waits_for_event)
+        table.insert_or_assign("start", std::max(0.0, source.due_time(emitted) - simulation_.time()));
       table.insert_or_assign("rate", source.rate);
       source_numbers_[i] = std::ssize(kept);
       kept.push_back(std::move(table));
@@ -196,16 +212,16 @@ class Saving {
   void put_events() {
     toml::array* tables_of = tables("event");
     toml::array kept;
-    const auto done = simulation_.done_events();
     for (std::size_t i = 0; i < scene_.events.size(); ++i) {
       const Event<Dim>& event = scene_.events[i];
-      if (std::ranges::any_of(done, [&](const DoneEvent& each) { return each.number == static_cast<int>(i); }))
-        continue;
+      if (is_done(i)) continue;
       toml::table table = *tables_of->get(i)->as_table();
       if (moved(event, table)) kept.push_back(std::move(table));
     }
-    for (const DoneEvent& each : done)
+    for (const DoneEvent& each : simulation_.done_events()) {
       if (action_of(each) == EventAction::policy) put_policy(scene_.events[each.number].policy);
+      if (action_of(each) == EventAction::force) lost(fmt::format("the force of event {}", each.number));
+    }
     root_.erase("event");
     if (!kept.empty()) root_.insert("event", std::move(kept));
   }
@@ -221,11 +237,14 @@ class Saving {
     if (event.bodies > 0)
       table.insert_or_assign(
           "bodies", std::max<std::int64_t>(1, event.bodies - simulation_.emitter().emitted() + numbers_.present()));
-    if (event.action == EventAction::rate) {
+    if (event.action == EventAction::rate || (event.action == EventAction::add && !event.obstacle)) {
       if (source_numbers_[event.source] < 0) return false;
       table.insert_or_assign("source", source_numbers_[event.source]);
     }
-    if (event.obstacle && !world_.has_obstacle(scene_.obstacle_names[*event.obstacle].first)) return false;
+    if (event.action == EventAction::remove && event.obstacle) {
+      const int first = scene_.obstacle_names[*event.obstacle].first;
+      if (!world_.has_obstacle(first) && !is_to_come(first)) return false;
+    }
     if (event.numbers.empty()) return true;
     toml::array bodies;
     for (const double body : event.numbers)
