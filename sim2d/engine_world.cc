@@ -193,7 +193,7 @@ void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
 
 bool EngineWorld::engine_awake(BodyIndex body) const { return at(body).body != nullptr && at(body).body->IsAwake(); }
 
-void EngineWorld::engine_move_obstacle(int number, const Vec<2>& velocity, const Spin<2>& spin) {
+void EngineWorld::engine_move_obstacle(int number, const Pose<2>& /*to*/, const Vec<2>& velocity, const Spin<2>& spin) {
   give_velocity(*obstacles_[number], velocity, spin);
   moving_obstacles_.push_back(first_obstacle - number);
   continuous_.note_moving_obstacle();

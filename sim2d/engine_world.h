@@ -44,7 +44,7 @@ class EngineWorld final : public World<2> {
   void engine_query_box(const Box<2>& box, std::vector<BodyIndex>& found) const override;
   void engine_contacts(std::vector<Contact<2>>& contacts) override;
   bool engine_awake(BodyIndex body) const override;
-  void engine_move_obstacle(int number, const Vec<2>& velocity, const Spin<2>& spin) override;
+  void engine_move_obstacle(int number, const Pose<2>& to, const Vec<2>& velocity, const Spin<2>& spin) override;
   void engine_place_obstacle(int number, const Pose<2>& at) override;
   void engine_remove_obstacle(int number) override;
   void engine_restore_obstacle(int number) override;

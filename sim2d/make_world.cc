@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/math/require.h"
+#include "common/world/scaled_world.h"
 #include "sim2d/engine_world.h"
 
 namespace talus {
@@ -30,9 +31,11 @@ EngineTraits box2d_traits() {
 }
 
 std::unique_ptr<World<2>> make_box2d_world(const WorldDescription<2>& description) {
-  auto world = std::make_unique<box2d::EngineWorld>(description);  // checks what every engine demands
-  check_for_box2d(description);
-  return world;
+  return make_in_engine_units<2>(description, [](const WorldDescription<2>& inner) {
+    auto world = std::make_unique<box2d::EngineWorld>(inner);  // checks what every engine demands
+    check_for_box2d(inner);
+    return world;
+  });
 }
 
 }  // namespace talus

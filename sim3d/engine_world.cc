@@ -181,7 +181,8 @@ std::optional<BodyIndex> EngineWorld<Dim>::engine_read(BodyStates<Dim>& states) 
 }
 
 template <int Dim>
-void EngineWorld<Dim>::engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin) {
+void EngineWorld<Dim>::engine_move_obstacle(int number, const Pose<Dim>& /*to*/, const Vec<Dim>& velocity,
+                                            const Spin<Dim>& spin) {
   btRigidBody* body = btRigidBody::upcast(&obstacle(number));
   give_velocity<Dim>(*body, velocity, spin);
   moving_obstacles_.push_back(body);

@@ -34,7 +34,7 @@ class EngineWorld final : public World<Dim> {
   void engine_freeze(std::span<const BodyIndex> bodies) override;
   void engine_thaw(std::span<const BodyIndex> bodies) override;
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override;
-  void engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin) override;
+  void engine_move_obstacle(int number, const Pose<Dim>& to, const Vec<Dim>& velocity, const Spin<Dim>& spin) override;
   void engine_place_obstacle(int number, const Pose<Dim>& at) override;
   void engine_remove_obstacle(int number) override;
   void engine_restore_obstacle(int number) override;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/math/require.h"
+#include "common/world/scaled_world.h"
 #include "sim3d/engine_world.h"
 
 namespace talus {
@@ -48,13 +49,16 @@ EngineTraits bullet_traits() { return in_space; }
 EngineTraits bullet_planar_traits() { return in_the_plane; }
 
 std::unique_ptr<World<3>> make_bullet_world(const WorldDescription<3>& description) {
-  auto world = std::make_unique<bullet::EngineWorld<3>>(description);  // checks what every engine demands
-  check_for_bullet(description);
-  return world;
+  return make_in_engine_units<3>(description, [](const WorldDescription<3>& inner) {
+    auto world = std::make_unique<bullet::EngineWorld<3>>(inner);  // checks what every engine demands
+    check_for_bullet(inner);
+    return world;
+  });
 }
 
 std::unique_ptr<World<2>> make_bullet_planar_world(const WorldDescription<2>& description) {
-  return std::make_unique<bullet::EngineWorld<2>>(description);
+  return make_in_engine_units<2>(
+      description, [](const WorldDescription<2>& inner) { return std::make_unique<bullet::EngineWorld<2>>(inner); });
 }
 
 }  // namespace talus

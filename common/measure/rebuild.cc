@@ -25,7 +25,7 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
   std::vector<BodyIndex> asleep;
   for (BodyIndex body = 0; body < states.size(); ++body) {
     world->add({states.shape[body], states.pose[body],
-                limited(states.velocity[body], fastest_speed<Dim>(description.dt)),
+                limited(states.velocity[body], fastest_speed<Dim>(description.dt, description.units)),
                 limited(states.spin[body], fastest_spin(description.dt))});
     if (states.removed[body])
       world->remove(body);
@@ -53,7 +53,8 @@ template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDesc
 
 template <int Dim>
 Scene<Dim> reference_scene(Scene<Dim> scene) {
-  const double steps = fitting_steps_per_second(scene, 0.25, reference_steps_per_second);
+  const double steps =
+      fitting_steps_per_second(scene, 0.25, reference_steps_per_second * std::max(1.0, scene.world.units.times()));
   scene.policy.kind = "full";
   scene.world = reference_settings(scene.world);
   scene.world.solver.sub_steps = std::max(scene.world.solver.sub_steps, usual_sub_steps);

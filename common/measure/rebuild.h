@@ -1,17 +1,12 @@
 #pragma once
 // A recorded state in a fresh world.
 
-#include <functional>
 #include <memory>
 
 #include "common/scene/scene.h"
-#include "common/world/world.h"
+#include "common/world/scaled_world.h"
 
 namespace talus {
-
-/// Makes an empty world of some engine.
-template <int Dim>
-using WorldMaker = std::function<std::unique_ptr<World<Dim>>(const WorldDescription<Dim>&)>;
 
 /// Whether bodies that slept are rebuilt awake or frozen.
 enum class Sleepers { awake, frozen };

@@ -4,7 +4,7 @@ namespace talus {
 
 template <int Dim>
 std::vector<PlacedBody<Dim>> resting_bodies(const Scene<Dim>& scene, const BodyStates<Dim>& states) {
-  constexpr double fastest_at_rest = 1.0;  // [m/s]
+  const double fastest_at_rest = 1.0 / scene.world.units.speeds();  // [m/s]
   return placed_bodies<Dim>(scene.world.shapes, states, fastest_at_rest);
 }
 

@@ -46,7 +46,7 @@ inline constexpr Range gravity_component_range = between(-gravity_range.high, gr
 /// Beyond 10 km from the origin a single-precision engine places bodies a millimetre off.
 inline constexpr Range coordinate_range = between(-1e4, 1e4);
 /// Sizes that both engines can simulate; `talus check` warns of those for which contacts are inaccurate.
-inline constexpr Range length_range = between(0.01, 1e4);
+inline constexpr Range length_range = between(1e-5, 1e4);
 inline constexpr Range spread_range = between(0.0, 1e4);
 /// Faster, and a step of 1/60 s is longer than any pile.
 inline constexpr Range speed_range = between(-1e3, 1e3);

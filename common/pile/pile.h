@@ -13,8 +13,8 @@
 
 namespace talus {
 
-/// Time between updates of what changes slowly in a pile: its place, its slope and what depends on it [s]. Chosen, not
-/// measured: a hundredth of the time in which the scenes' piles grow.
+/// Time between updates of what changes slowly in a pile: its place, its slope and what depends on it [s], in the time
+/// of the engine (UnitScale). Chosen, not measured: a hundredth of the time in which the scenes' piles grow.
 inline constexpr double slow_update_interval = 0.5;
 
 /// The same in steps of `dt` [s], at least 1.

@@ -50,6 +50,7 @@ inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
      {.name = "drift_rate",
       .unit = "1/s",
       .range = between(0.0, 1e3),
+      .default_text = "0.5, for [small bodies](#small-and-large-bodies) more",
       .meaning = "share of the way to its bodies' mean position that the centre goes per second. High: layers change "
                  "while bodies sleep by them"}},
     {place_of<&PileParams<Dim>::count_flying>,

@@ -71,15 +71,16 @@ void PileSet<Dim>::forget(BodyIndex body) {
 }
 
 template <int Dim>
-void PileSet<Dim>::update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt) {
-  const bool slow_update_due = ++since_slow_update_ >= steps_between_slow_updates(dt);
+void PileSet<Dim>::update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt, double times) {
+  const std::int64_t steps = steps_between_slow_updates(dt * times);
+  const bool slow_update_due = ++since_slow_update_ >= steps;
   if (slow_update_due) since_slow_update_ = 0;
   if (awake.empty()) return;
   for (std::size_t p = 0; p < piles_.size(); ++p) {
     records_[p].counts.resize(states.shape.size());
     for (const BodyIndex body : awake) records_[p].counts.count(piles_[p], body, counted_now(p, states, body));
   }
-  if (slow_update_due) update_slowly(states, dt);
+  if (slow_update_due) update_slowly(states, static_cast<double>(steps) * dt);
   for (std::size_t p = 0; p < piles_.size(); ++p) grow(p, states);
 }
 
@@ -148,9 +149,9 @@ bool PileSet<Dim>::counts_match(const BodyStates<Dim>& states) const {
 
 /// What changes slowly: the piles' places, their slopes, and which of them are one.
 template <int Dim>
-void PileSet<Dim>::update_slowly(const BodyStates<Dim>& states, double dt) {
+void PileSet<Dim>::update_slowly(const BodyStates<Dim>& states, double time) {
   for (std::size_t p = 0; p < piles_.size(); ++p) {
-    drift(p, states, dt);
+    drift(p, states, time);
     update_slope(p, states);
   }
   if (piles_.size() > 1) merge_near(states);
@@ -158,13 +159,12 @@ void PileSet<Dim>::update_slowly(const BodyStates<Dim>& states, double dt) {
 
 /// Section 3.2: the centre approaches the horizontal mean of the pile's bodies. Walls hold it in place.
 template <int Dim>
-void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double dt) {
+void PileSet<Dim>::drift(std::size_t pile, const BodyStates<Dim>& states, double time) {
   const Record& record = records_[pile];
   if (record.counts.bodies() == 0 || record.params.boundary) return;
   Vec<Dim> step = Vec<Dim>::Zero();
   for (Eigen::Index axis = 0; axis < Dim - 1; ++axis) step[axis] = record.counts.mean(axis) - piles_[pile].centre[axis];
-  const auto steps = static_cast<double>(steps_between_slow_updates(dt));
-  step *= 1.0 - std::exp(-record.params.drift_rate * steps * dt);
+  step *= 1.0 - std::exp(-record.params.drift_rate * time);
   if (step.norm() < min_drift * body_.extent) return;
   piles_[pile].centre += step;
   recount(pile, states);

@@ -45,7 +45,7 @@ class PileSet {
   /// `slow_update_interval` also drifts centres, measures slopes that are not given, and merges piles (3.5). Costs
   /// O(awake), nothing while all bodies sleep: then centres stay where they are. A pile that grew or moved is recounted
   /// in O(all bodies), which is rare.
-  void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt);
+  void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt, double times = 1.0);
 
   /// Recounts every body, to the same result. Costs O(all bodies).
   void recount_all(const BodyStates<Dim>& states);
@@ -74,8 +74,8 @@ class PileSet {
   void recount(std::size_t pile, const BodyStates<Dim>& states);
   void replace(std::size_t pile, Pile<Dim> structure, const BodyStates<Dim>& states);
   void grow(std::size_t pile, const BodyStates<Dim>& states);
-  void update_slowly(const BodyStates<Dim>& states, double dt);
-  void drift(std::size_t pile, const BodyStates<Dim>& states, double dt);
+  void update_slowly(const BodyStates<Dim>& states, double time);
+  void drift(std::size_t pile, const BodyStates<Dim>& states, double time);
   void update_slope(std::size_t pile, const BodyStates<Dim>& states);
   void merge_near(const BodyStates<Dim>& states);
   bool may_merge(std::size_t a, std::size_t b) const;

@@ -31,7 +31,7 @@ void SleepControl<Dim>::count_piles(double dt, bool recount) {
   if (piles_.has_unplaced()) place_pile();
   if (piles_.needs_contacts() && !world_.awake().empty()) piles_.note_contacts(world_.contacts(), world_.states());
   if (recount) piles_.recount_all(world_.states());
-  piles_.update(world_.states(), world_.awake(), dt);
+  piles_.update(world_.states(), world_.awake(), dt, world_.units().times());
   assert(piles_.counts_match(world_.states()));
 }
 

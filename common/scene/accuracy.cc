@@ -37,8 +37,9 @@ Arrival arrival(const Source<Dim>& source, const WorldDescription<Dim>& world) {
 }
 
 template <int Dim>
-double fitting_steps_per_second(const Scene<Dim>& scene, double step, double least) {
+double fitting_steps_per_second(const Scene<Dim>& scene, double step, std::optional<double> least_given) {
   constexpr double finest = 8.0;
+  const double least = least_given.value_or(usual_steps_per_second(scene.world));
   const double frames = scene.run.frame_rate;
   const std::optional<Arrival> coarsest = coarsest_arrival(scene);
   const double needed = coarsest ? std::min(coarsest->step(1.0) / step, finest * least) : least;
@@ -62,14 +63,17 @@ std::string accuracy_text(const Scene<Dim>& scene) {
   if (const auto coarsest = coarsest_arrival(scene))
     text += fmt::format(", bodies arrive at {:.3g} m/s and go {:.2g} times their thickness in a step", coarsest->speed,
                         coarsest->step(world.dt));
+  if (world.units.power != 0)
+    text += fmt::format(", simulated {:g} times as large and {:g} times as slowly", world.units.lengths(),
+                        world.units.times());
   if (const auto tolerance = scene.policy.tolerance()) text += fmt::format(", tolerance {:g} D", *tolerance);
   return text;
 }
 
 template Arrival arrival(const Source<2>&, const WorldDescription<2>&);
 template Arrival arrival(const Source<3>&, const WorldDescription<3>&);
-template double fitting_steps_per_second(const Scene<2>&, double, double);
-template double fitting_steps_per_second(const Scene<3>&, double, double);
+template double fitting_steps_per_second(const Scene<2>&, double, std::optional<double>);
+template double fitting_steps_per_second(const Scene<3>&, double, std::optional<double>);
 template void apply_accuracy(Scene<2>&, const SetByScene&);
 template void apply_accuracy(Scene<3>&, const SetByScene&);
 template std::string accuracy_text(const Scene<2>&);

@@ -1,7 +1,9 @@
 #pragma once
 // What the accuracy that a scene names sets, where the scene does not set it itself.
 
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,14 +45,21 @@ struct Arrival {
   double step(double dt) const { return speed * dt / thickness; }
 };
 
+/// Of a scene that says nothing about its step; more where bodies are small.
+template <int Dim>
+double usual_steps_per_second(const WorldDescription<Dim>& world) {
+  return std::max(1.0, world.units.times()) / WorldDescription<Dim>{}.dt;
+}
+
 template <int Dim>
 Arrival arrival(const Source<Dim>& source, const WorldDescription<Dim>& world);
 
-/// Steps a second, at least `least`, at which no body of the sources goes farther than `step` times its thickness in a
-/// step as it arrives; a multiple of frames and at most eight times the least. The errors of fast pours grow with this
-/// distance, whatever the solver and its passes (lab/notes/small_steps.md). Without ground: the least.
+/// Steps a second, at least `least` (else usual_steps_per_second()), at which no body of the sources goes farther than
+/// `step` times its thickness in a step as it arrives; a multiple of frames and at most eight times the least. The
+/// errors of fast pours grow with this distance, whatever the solver and its passes (lab/notes/small_steps.md). Without
+/// ground: the least.
 template <int Dim>
-double fitting_steps_per_second(const Scene<Dim>& scene, double step, double least = 1.0 / WorldDescription<Dim>{}.dt);
+double fitting_steps_per_second(const Scene<Dim>& scene, double step, std::optional<double> least = {});
 
 /// Puts in the values of the scene's accuracy, but for those that it sets itself.
 template <int Dim>

@@ -7,11 +7,8 @@
 
 namespace talus {
 
-namespace {
-
-/// By obstacle: whether events that happened by a time [s] have removed it, or none has added it yet.
 template <int Dim>
-std::vector<std::uint8_t> removed_obstacles(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
+std::vector<std::uint8_t> absent_obstacles(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
   std::vector<std::uint8_t> removed(scene.world.obstacles.size(), 0);
   const auto set = [&](const Event<Dim>& event, bool is_removed) {
     if (!event.obstacle) return;
@@ -24,8 +21,6 @@ std::vector<std::uint8_t> removed_obstacles(const Scene<Dim>& scene, std::span<c
     if (each.time <= time) set(scene.events[each.number], scene.events[each.number].action == EventAction::remove);
   return removed;
 }
-
-}  // namespace
 
 template <int Dim>
 std::string event_text(const Scene<Dim>& scene, int number) {
@@ -65,21 +60,23 @@ WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEven
   }
   world.gravity = gravity.norm();
   if (world.gravity > 0.0) world.down = gravity / world.gravity;
-  const std::vector<std::uint8_t> removed = removed_obstacles(scene, done, time);
-  for (std::size_t k = removed.size(); k-- > 0;)
-    if (removed[k] != 0) world.obstacles.erase(world.obstacles.begin() + static_cast<std::ptrdiff_t>(k));
+  const std::vector<std::uint8_t> absent = absent_obstacles(scene, done, time);
+  for (std::size_t k = absent.size(); k-- > 0;)
+    if (absent[k] != 0) world.obstacles.erase(world.obstacles.begin() + static_cast<std::ptrdiff_t>(k));
   return world;
 }
 
 template <int Dim>
 bool still_moves(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
-  const std::vector<std::uint8_t> removed = removed_obstacles(scene, done, time);
+  const std::vector<std::uint8_t> absent = absent_obstacles(scene, done, time);
   const auto moves = [&](const Mover<Dim>& mover) {
-    return removed[mover.first] == 0 && mover.motion.moves_after(time);
+    return absent[mover.first] == 0 && mover.motion.moves_after(time);
   };
   return std::ranges::any_of(scene.movers, moves) || (scene.gravity_motion && scene.gravity_motion->moves_after(time));
 }
 
+template std::vector<std::uint8_t> absent_obstacles(const Scene<2>&, std::span<const DoneEvent>, double);
+template std::vector<std::uint8_t> absent_obstacles(const Scene<3>&, std::span<const DoneEvent>, double);
 template std::string event_text(const Scene<2>&, int);
 template std::string event_text(const Scene<3>&, int);
 template WorldDescription<2> world_at(const Scene<2>&, std::span<const DoneEvent>, double);

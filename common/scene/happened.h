@@ -1,8 +1,10 @@
 #pragma once
 // What events of a scene have made of it.
 
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/scene/scene.h"
 #include "common/world/done_event.h"
@@ -13,8 +15,12 @@ namespace talus {
 template <int Dim>
 std::string event_text(const Scene<Dim>& scene, int number);
 
+/// By obstacle: 1 if events that happened by a time [s] have removed it, or one that has not happened will add it.
+template <int Dim>
+std::vector<std::uint8_t> absent_obstacles(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
+
 /// The world as it is at a time [s], after events that happened by then: obstacles where they are, without those
-/// removed, and gravity.
+/// that are absent, and gravity.
 template <int Dim>
 WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
 

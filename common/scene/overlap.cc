@@ -35,9 +35,12 @@ std::size_t OverlapCheck<Dim>::CellHash::operator()(const Cell& cell) const {
 }
 
 template <int Dim>
-OverlapCheck<Dim>::OverlapCheck(const WorldDescription<Dim>& world) : world_(world) {
+OverlapCheck<Dim>::OverlapCheck(const WorldDescription<Dim>& world, std::span<const std::uint8_t> absent)
+    : world_(world), allowed_(overlap_allowed(world.units)) {
   for (const Shape<Dim>& shape : world.shapes) shapes_.push_back(convex_pieces(shape));
-  for (const Obstacle<Dim>& obstacle : world.obstacles) {
+  for (std::size_t k = 0; k < world.obstacles.size(); ++k) {
+    if (!absent.empty() && absent[k] != 0) continue;
+    const Obstacle<Dim>& obstacle = world.obstacles[k];
     keep({.pieces = static_cast<int>(obstacles_.size()),
           .pose = obstacle.pose,
           .bounds = bounds_at(obstacle.shape, obstacle.pose),
@@ -61,15 +64,15 @@ template <int Dim>
 void OverlapCheck<Dim>::compare(Added& added, const Solid& other) const {
   const auto& [body, pieces, deepest] = added;
   if (body.fixed && other.fixed) return;
-  if (box_overlap(body.bounds, other.bounds) <= most_overlap) return;
+  if (box_overlap(body.bounds, other.bounds) <= allowed_) return;
   if (pieces.empty()) pieces_of(body, added.pieces);
   Pieces room;
   const auto others = pieces_of(other, room);
   for (const ConvexPiece<Dim>& a : pieces) {
     for (const ConvexPiece<Dim>& b : others) {
-      if (box_overlap(a.bounds(), b.bounds()) <= most_overlap) continue;
-      const double depth = -signed_distance(a, b, -most_overlap);
-      if (depth > std::max(deepest.depth, most_overlap)) added.deepest = {depth, name_of(other)};
+      if (box_overlap(a.bounds(), b.bounds()) <= allowed_) continue;
+      const double depth = -signed_distance(a, b, -allowed_);
+      if (depth > std::max(deepest.depth, allowed_)) added.deepest = {depth, name_of(other)};
     }
   }
 }
@@ -128,7 +131,7 @@ Overlap OverlapCheck<Dim>::add(int shape, const Pose<Dim>& pose, bool fixed, con
   body.number = solids_.empty() || solids_.back().name != body.name ? 0 : solids_.back().number + 1;
   Added added = {.body = body, .pieces = {}, .deepest = {}};
   const double in_ground = world_.ground.height - height<Dim>(body.bounds.min());
-  if (!fixed && world_.ground.present && in_ground > most_overlap) added.deepest = {in_ground, "the ground"};
+  if (!fixed && world_.ground.present && in_ground > allowed_) added.deepest = {in_ground, "the ground"};
   for (const Level& level : levels_)
     if (!fixed || !level.fixed) compare_near(added, level);
   keep(body, 2.0 * bounding_radius(world_.shapes[shape]));

@@ -12,9 +12,10 @@
 
 namespace talus {
 
-/// Depth [m] up to which bodies may overlap at the start: Box2D's slop (b2_linearSlop), to which it lets contacts sink
-/// in. From deeper overlap an engine throws bodies apart.
+/// Depth [m] up to which bodies may overlap at the start, in the units of the engine: Box2D's slop (b2_linearSlop), to
+/// which it lets contacts sink in. From deeper overlap an engine throws bodies apart.
 inline constexpr double most_overlap = 0.005;
+inline double overlap_allowed(const UnitScale& units) { return most_overlap / units.lengths(); }
 
 /// The deepest overlap of a body with what was there before it.
 struct Overlap {
@@ -26,11 +27,12 @@ struct Overlap {
 template <int Dim>
 class OverlapCheck {
  public:
-  /// `world`: its ground and obstacles count, and bodies have its shapes.
-  explicit OverlapCheck(const WorldDescription<Dim>& world);
+  /// `world`: its ground and obstacles count, and bodies have its shapes. `absent`: by number, obstacles that are not
+  /// there; empty: all are.
+  explicit OverlapCheck(const WorldDescription<Dim>& world, std::span<const std::uint8_t> absent = {});
 
   /// Adds a body, the next one of the table of this path. Returns its deepest overlap; depth 0 if none is deeper than
-  /// `most_overlap`. What is fixed may overlap what is fixed.
+  /// overlap_allowed(). What is fixed may overlap what is fixed.
   Overlap add(int shape, const Pose<Dim>& pose, bool fixed, const std::string& path);
 
  private:
@@ -78,6 +80,7 @@ class OverlapCheck {
   void keep(const Solid& solid, double width);
 
   const WorldDescription<Dim>& world_;
+  double allowed_;                 // [m]
   std::vector<Pieces> shapes_;     // of the world, in their own axes
   std::vector<Pieces> obstacles_;  // at their poses
   std::vector<Solid> solids_;

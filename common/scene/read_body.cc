@@ -104,14 +104,15 @@ void check_limits(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, c
 /// would take hours.
 template <int Dim>
 void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, const BodyParams<Dim>& params,
-                   OverlapCheck<Dim>& placed) {
+                   const WorldDescription<Dim>& world, OverlapCheck<Dim>& placed) {
+  const double allowed = std::max(params.overlap.value_or(0.0), overlap_allowed(world.units));
   constexpr int enough = 20;
   Overlap deepest;
   std::size_t first = 0;
   int found = 0;
   for (std::size_t i = 0; i < bodies.size() && found < enough; ++i) {
     const Overlap overlap = placed.add(bodies[i].shape, bodies[i].pose, params.fixed, table.path());
-    if (overlap.depth <= params.overlap) continue;
+    if (overlap.depth <= allowed) continue;
     ++found;
     if (overlap.depth <= deepest.depth) continue;
     deepest = overlap;
@@ -120,8 +121,9 @@ void check_overlap(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, 
   if (deepest.depth <= 0.0) return;
   const bool of_itself = deepest.other.ends_with(" of " + table.path());
   const std::string which = bodies.size() > 1 ? fmt::format("its body {} ", first) : "it ";
-  table.error(of_itself ? "step" : "position", fmt::format("must leave no overlap above {} m: {}is {:.3g} m deep in {}",
-                                                           params.overlap, which, deepest.depth, deepest.other));
+  table.error(of_itself ? "step" : "position",
+              fmt::format("must leave no overlap above {:.3g} m: {}is {:.3g} m deep in {}", allowed, which,
+                          deepest.depth, deepest.other));
 }
 
 template <int Dim>
@@ -150,7 +152,7 @@ void read_body(TableReader& table, const ShapeNames& shapes, OverlapCheck<Dim>& 
   }
   const auto bodies = bodies_of(params, turn, *shape, scene.world.shapes[*shape]);
   check_limits(table, bodies, scene.world);
-  if (table.ok()) check_overlap(table, bodies, params, placed);
+  if (table.ok()) check_overlap(table, bodies, params, scene.world, placed);
   if (table.ok()) append(bodies, params, scene);
 }
 

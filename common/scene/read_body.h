@@ -2,6 +2,7 @@
 // Bodies at given places, in scene files.
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -25,7 +26,7 @@ struct BodyParams {
   Spin<Dim> spin = Spin<Dim>::Zero();
   bool fixed = false;
   bool asleep = false;
-  double overlap = most_overlap;
+  std::optional<double> overlap = {};
 };
 
 template <int Dim>
@@ -93,7 +94,8 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
     {place_of<&BodyParams<Dim>::overlap>,
      {.name = "overlap",
       .unit = "m",
-      .range = between(most_overlap, 10.0),
+      .range = between(0.0, 10.0),
+      .default_text = "0.005, for [small bodies](#small-and-large-bodies) less",
       .meaning = "deepest overlap allowed. In a pile taken from a run, contacts are deeper than a body that is placed "
                  "by hand may be: from much overlap an engine throws bodies apart"}},
 });

@@ -46,24 +46,26 @@ void check_gravity_path(TableReader& table, const Motion<Dim>& motion) {
 
 /// The engines' limits hold for obstacles too.
 template <int Dim>
-void check_motion(TableReader& table, const Motion<Dim>& motion, const Vec<Dim>& position, double reach, double dt) {
+void check_motion(TableReader& table, const Motion<Dim>& motion, const Vec<Dim>& position, double reach,
+                  const WorldDescription<Dim>& world) {
   if (motion.end && *motion.end <= motion.start) table.error("end", "must be after start");
   if (!table.ok()) return;
   const double speed = motion.fastest_shift() + reach * motion.fastest_turn() + motion.belt.norm();
-  if (speed > fastest_speed<Dim>(dt))
-    table.error("", fmt::format("must move at most at {:.4g} m/s, here {:.4g}", fastest_speed<Dim>(dt), speed));
-  if (motion.fastest_turn() > fastest_spin(dt))
-    table.error("", fmt::format("must turn by at most {:.4g} rad/s, a quarter turn a step", fastest_spin(dt)));
+  const double fastest = fastest_speed<Dim>(world.dt, world.units);
+  if (speed > fastest) table.error("", fmt::format("must move at most at {:.4g} m/s, here {:.4g}", fastest, speed));
+  if (motion.fastest_turn() > fastest_spin(world.dt))
+    table.error("", fmt::format("must turn by at most {:.4g} rad/s, a quarter turn a step", fastest_spin(world.dt)));
   double farthest = motion.amplitude.norm();
   for (const Vec<Dim>& shift : motion.shifts) farthest = std::max(farthest, shift.norm());
-  if (position.norm() + reach + farthest > farthest_place)
-    table.error("", fmt::format("must stay within {:g} m of the origin", farthest_place));
+  if (position.norm() + reach + farthest > farthest_place(world.units))
+    table.error("", fmt::format("must stay within {:g} m of the origin", farthest_place(world.units)));
 }
 
 }  // namespace
 
 template <int Dim>
-Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double reach, double dt) {
+Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double reach,
+                        const WorldDescription<Dim>& world) {
   Motion<Dim> motion;
   const std::string kind = read_kind(table, {motion_kinds.begin(), motion_kinds.end()});
   if (kind == "sine") {
@@ -78,7 +80,7 @@ Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double rea
   } else if (kind == "belt") {
     table.read_fields(motion, belt_fields<Dim>);
   }
-  check_motion(table, motion, position, reach, dt);
+  check_motion(table, motion, position, reach, world);
   return motion;
 }
 
@@ -103,7 +105,7 @@ Motion<Dim> read_gravity_motion(TableReader& table, const Vec<Dim>& gravity) {
 
 template Motion<2> read_gravity_motion(TableReader&, const Vec<2>&);
 template Motion<3> read_gravity_motion(TableReader&, const Vec<3>&);
-template Motion<2> read_motion(TableReader&, const Vec<2>&, double, double);
-template Motion<3> read_motion(TableReader&, const Vec<3>&, double, double);
+template Motion<2> read_motion(TableReader&, const Vec<2>&, double, const WorldDescription<2>&);
+template Motion<3> read_motion(TableReader&, const Vec<3>&, double, const WorldDescription<3>&);
 
 }  // namespace talus

@@ -177,6 +177,6 @@ Motion<Dim> read_gravity_motion(TableReader& table, const Vec<Dim>& gravity);
 
 /// `[obstacle.motion]` of an obstacle at `position` [m], no point of which is farther than `reach` [m] from there.
 template <int Dim>
-Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double reach, double dt);
+Motion<Dim> read_motion(TableReader& table, const Vec<Dim>& position, double reach, const WorldDescription<Dim>& world);
 
 }  // namespace talus

@@ -1,5 +1,7 @@
 #include "common/scene/read_obstacle.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -104,7 +106,7 @@ void read_mover(TableReader& table, const Vec<Dim>& pivot, std::vector<Obstacle<
     scene.movers.push_back({.first = static_cast<int>(scene.world.obstacles.size()),
                             .count = static_cast<int>(obstacles.size()),
                             .pivot = pivot,
-                            .motion = read_motion<Dim>(own, pivot, reach, scene.world.dt)});
+                            .motion = read_motion<Dim>(own, pivot, reach, scene.world)});
   });
 }
 
@@ -135,7 +137,9 @@ void read_obstacle(TableReader& table, Scene<Dim>& scene) {
       alone.obstacles = read_container(table, pose, material);
     else if (const auto shapes = read_shape<Dim>(table, kind, table.path(), material, scene.seed); !shapes.empty())
       alone.obstacles = {{shapes.front(), pose_of_centre(shapes.front(), pose)}};
-    check(alone);  // here, so that the error has its place in the file
+    // Here, so that the error has its place in the file.
+    for (std::size_t i = 0; i < alone.obstacles.size(); ++i)
+      check(alone.obstacles[i], scene.world.units, fmt::format("world.obstacles[{}]", i));
   });
   if (table.has("motion")) read_mover(table, pose.position, alone.obstacles, scene);
   std::vector<Obstacle<Dim>>& obstacles = scene.world.obstacles;

@@ -13,6 +13,7 @@
 #include "common/pile/angle_of_repose.h"
 #include "common/pile/pile_fields.h"
 #include "common/scene/accuracy.h"
+#include "common/scene/happened.h"
 #include "common/scene/include.h"
 #include "common/scene/policy_fields.h"
 #include "common/scene/read_body.h"
@@ -27,6 +28,7 @@
 #include "common/scene/text_limits.h"
 #include "common/scene/toml_text.h"
 #include "common/shape/shape_fields.h"
+#include "common/world/scaled_world.h"
 #include "common/world/world_fields.h"
 
 namespace talus {
@@ -35,6 +37,7 @@ namespace {
 /// What the scene names itself; the rest follows from what it holds.
 struct Named {
   bool solver = false;
+  bool restitution_threshold = false;
   bool rings = false;
   SetByScene of_accuracy;
 };
@@ -61,6 +64,7 @@ void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
   table.table("solver", [&](TableReader& solver) {
     named.solver = solver.has("kind");
     named.of_accuracy.sub_steps = solver.has("sub_steps");
+    named.restitution_threshold = solver.has("restitution_threshold");
     solver.read_fields(world.solver, solver_fields);
   });
 }
@@ -92,6 +96,15 @@ void read_shapes(TableReader& root, ShapeNames& names, Scene<Dim>& scene) {
   if (well_formed && names.names().empty()) root.error("shape", "must be given: at least one [shape.NAME] to drop");
 }
 
+/// And what a scene of the usual size says without saying it.
+template <int Dim>
+void fit_units(WorldDescription<Dim>& world, const Named& named) {
+  world.units = fitting_units(world);
+  if (!named.of_accuracy.steps) world.dt = 1.0 / usual_steps_per_second(world);
+  if (!named.restitution_threshold)
+    world.solver.restitution_threshold = SolverParams{}.restitution_threshold / world.units.speeds();
+}
+
 template <int Dim>
 void read_sources(TableReader& root, ShapeNames& shapes, Scene<Dim>& scene) {
   root.tables("source",
@@ -100,10 +113,11 @@ void read_sources(TableReader& root, ShapeNames& shapes, Scene<Dim>& scene) {
     root.error("source", fmt::format("must drop at most {} bodies together", most_bodies));
 }
 
-/// After all obstacles, which bodies must not overlap.
+/// After all obstacles, which bodies must not overlap, and the events that add some of them.
 template <int Dim>
 void read_bodies(TableReader& root, const ShapeNames& shapes, Scene<Dim>& scene) {
-  OverlapCheck<Dim> placed(scene.world);
+  const std::vector<std::uint8_t> absent = absent_obstacles(scene, {}, 0.0);
+  OverlapCheck<Dim> placed(scene.world, absent);
   root.tables("body", [&](TableReader& table) { read_body(table, shapes, placed, scene); });
   if (!root.has("source") && !root.has("body"))
     root.error("source", "must be given: at least one [[source]] or [[body]], where bodies come from");
@@ -122,15 +136,16 @@ void read_pile_boundary(TableReader& table, PileParams<Dim>& pile, std::vector<O
 
 /// One `[[pile]]`; walls around it that are to be built are appended to the obstacles.
 template <int Dim>
-PileParams<Dim> read_pile(TableReader& table, std::vector<Obstacle<Dim>>& obstacles) {
+PileParams<Dim> read_pile(TableReader& table, WorldDescription<Dim>& world) {
   PileParams<Dim> pile;
   table.read_fields(pile, pile_fields<Dim>);
+  if (!table.has("drift_rate")) pile.drift_rate *= world.units.times();
   if (pile.control_slope) {
     table.require("alpha_deg");
     if (pile.alpha.value_or(0.0) > max_angle_of_repose)
       table.error("alpha_deg", "must be at most 75 with control_slope: no steeper slope is measured");
   }
-  if (table.has("boundary")) read_pile_boundary(table, pile, obstacles);
+  if (table.has("boundary")) read_pile_boundary(table, pile, world.obstacles);
   return pile;
 }
 
@@ -217,14 +232,16 @@ Scene<Dim> read_root(TableReader& root) {
   Named named;
   root.table("world", [&](TableReader& table) { read_world(table, scene, named); });
   root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
-  root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
   ShapeNames shapes;
   read_shapes(root, shapes, scene);
+  fit_units(scene.world, named);
+  root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
   read_sources(root, shapes, scene);
-  root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world.obstacles)); });
-  read_bodies(root, shapes, scene);
+  fit_units(scene.world, named);  // there may be smaller ones now
+  root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world)); });
   root.table("policy", [&](TableReader& table) { read_policy(table, scene, named); });
   read_events(root, shapes, scene);
+  read_bodies(root, shapes, scene);
   check_solver(root, scene);
   read_instruments(root, scene);
   if (!named.rings && scene.world.solver.small_steps() && needs_rings(scene)) scene.policy.adaptive.rings = usual_rings;

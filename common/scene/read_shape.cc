@@ -7,12 +7,14 @@
 
 #include "common/mesh/mesh_file.h"
 #include "common/mesh/parts_volume.h"
+#include "common/scene/accuracy.h"
 #include "common/scene/overlap.h"
 #include "common/shape/catalogue.h"
 #include "common/shape/colour.h"
 #include "common/shape/convex_distance.h"
 #include "common/shape/convex_piece.h"
 #include "common/shape/shape_fields.h"
+#include "common/world/scaled_world.h"
 
 namespace talus {
 namespace {
@@ -109,15 +111,16 @@ std::vector<Shape<Dim>> read_any(TableReader& table, const std::string& kind, co
   return {};
 }
 
-/// Whether the engines can simulate the shapes: checked here, so that the error has its place in the file.
+}  // namespace
+
 template <int Dim>
 void check_alone(const std::vector<Shape<Dim>>& shapes) {
   WorldDescription<Dim> world;
   world.shapes = shapes;
+  world.units = fitting_units(world);
+  world.dt = 1.0 / usual_steps_per_second(world);
   check(world);
 }
-
-}  // namespace
 
 template <int Dim>
 std::vector<ShapeKind<Dim>> shape_kinds() {
@@ -212,7 +215,7 @@ void warn_of_overlap(TableReader& table, const std::vector<CompoundPart<Dim>>& p
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double depth = overlap_of(parts[i], parts[j]);
-      if (depth > most_overlap)
+      if (depth > most_overlap * std::min(1.0, parts[i].shape.extent))
         table.warn(
             fmt::format("parts[{}] and parts[{}] overlap by {:.3g} m, where the mass of both counts", j, i, depth));
     }
@@ -318,5 +321,8 @@ template std::vector<Shape<3>> read_shape(TableReader&, const std::string&, cons
                                           std::uint64_t);
 template class BodyShapes<2>;
 template class BodyShapes<3>;
+
+template void check_alone(const std::vector<Shape<2>>&);
+template void check_alone(const std::vector<Shape<3>>&);
 
 }  // namespace talus

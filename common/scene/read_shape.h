@@ -174,6 +174,11 @@ class BodyShapes {
   std::vector<std::string> under_way_;  // compounds, each a part of the one before
 };
 
+/// Throws unless the engines can simulate bodies of these shapes: where they are read, so that the error has its place
+/// in the file.
+template <int Dim>
+void check_alone(const std::vector<Shape<Dim>>& shapes);
+
 /// All shapes that bodies may have, as scene files name them.
 class ShapeNames {
  public:

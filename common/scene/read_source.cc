@@ -74,24 +74,24 @@ void read_scale(TableReader& table, ShapeNames& shapes, WorldDescription<Dim>& w
   const std::vector<double> factors = factors_of(params);
   params.shares.resize(factors.size(), 1.0);
   const double whole = std::accumulate(params.shares.begin(), params.shares.end(), 0.0);
-  WorldDescription<Dim> sized;
+  std::vector<Shape<Dim>> sized;
   double sum = 0.0;
   table.check([&] {
     for (std::size_t i = 0; i < factors.size(); ++i) {
       for (const int shape : source.shapes) {
         const Shape<Dim>& original = world.shapes[shape];
-        sized.shapes.push_back(scaled(original, factors[i], fmt::format("{}*{:g}", original.name, factors[i])));
+        sized.push_back(scaled(original, factors[i], fmt::format("{}*{:g}", original.name, factors[i])));
       }
       sum += params.shares[i] / whole;
       source.shares.push_back(sum);
     }
-    check(sized);
+    check_alone(sized);
   });
   if (!table.ok()) return;
-  source.shapes.resize(sized.shapes.size());
+  source.shapes.resize(sized.size());
   std::iota(source.shapes.begin(), source.shapes.end(), static_cast<int>(world.shapes.size()));
-  shapes.add_unnamed(static_cast<int>(sized.shapes.size()));
-  world.shapes.insert(world.shapes.end(), sized.shapes.begin(), sized.shapes.end());
+  shapes.add_unnamed(static_cast<int>(sized.size()));
+  world.shapes.insert(world.shapes.end(), sized.begin(), sized.end());
 }
 
 template <int Dim>

@@ -58,11 +58,11 @@ void warn_of_sources(const Scene<Dim>& scene, Lines& lines) {
 
 // The engines' contact skins and tolerances are made for bodies of about a metre.
 template <int Dim>
-void warn_of_sizes(const std::vector<Shape<Dim>>& shapes, Lines& lines) {
-  constexpr double smallest = Dim == 2 ? 0.5 : 0.2;
-  constexpr double largest = Dim == 2 ? 5.0 : 100.0;
+void warn_of_sizes(const WorldDescription<Dim>& world, Lines& lines) {
+  const double smallest = (Dim == 2 ? 0.5 : 0.2) / world.units.lengths();
+  const double largest = (Dim == 2 ? 5.0 : 100.0) / world.units.lengths();
   std::map<std::string, std::pair<double, double>> widths;  // of all sizes and variants of a name [m]
-  for (const Shape<Dim>& shape : shapes) {
+  for (const Shape<Dim>& shape : world.shapes) {
     const Vec<Dim> sides = shape.bounds.sizes();
     if (sides.minCoeff() >= smallest && sides.maxCoeff() <= largest) continue;
     const std::pair<double, double> own(sides.minCoeff(), sides.maxCoeff());
@@ -71,8 +71,8 @@ void warn_of_sizes(const std::vector<Shape<Dim>>& shapes, Lines& lines) {
     most = std::max(most, own.second);
   }
   for (const auto& [name, width] : widths)
-    lines.push_back(fmt::format("shape.{}: {:.4g} to {:.4g} m wide; contacts are held best between {} and {} m", name,
-                                width.first, width.second, smallest, largest));
+    lines.push_back(fmt::format("shape.{}: {:.4g} to {:.4g} m wide; contacts are held best between {:.3g} and {:.3g} m",
+                                name, width.first, width.second, smallest, largest));
 }
 
 // Largest over smallest value among shapes.
@@ -130,8 +130,9 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
     lines.push_back(
         fmt::format("policy.kind = \"{}\" controls no slope; pile.control_slope has no effect", scene.policy.kind));
   }
-  if (scene.world.dt > 1.0 / 60.0)
-    lines.emplace_back("world.steps_per_second below 60: bodies sink visibly into each other");
+  const double few_steps = 60.0 * scene.world.units.times();
+  if (scene.world.dt > 1.0 / few_steps)
+    lines.push_back(fmt::format("world.steps_per_second below {:g}: bodies sink visibly into each other", few_steps));
 }
 
 /// Number of the [[obstacle]] that made the obstacles that move as one.
@@ -184,7 +185,7 @@ template <int Dim>
 std::vector<std::string> warnings(const Scene<Dim>& scene) {
   Lines lines = scene.reader_warnings;
   warn_of_sources(scene, lines);
-  warn_of_sizes(scene.world.shapes, lines);
+  warn_of_sizes(scene.world, lines);
   warn_of_mixtures(scene, lines);
   warn_of_settings(scene, lines);
   warn_of_coarse_steps(scene, lines);

@@ -13,9 +13,9 @@
 namespace talus {
 namespace {
 
-std::string steps_rule(const EngineTraits& engine) {
+std::string steps_rule(const EngineTraits& engine, const UnitScale& units = {}) {
   return fmt::format("must be at least {:g} on {}: in longer steps bodies sink into each other and into the ground",
-                     engine.window.fewest_steps, engine.name);
+                     engine.window.fewest_steps * units.times(), engine.name);
 }
 
 std::string iterations_rule(const EngineTraits& engine) {
@@ -30,12 +30,11 @@ std::string masses_rule(const EngineTraits& engine) {
       engine.window.iterations_for_masses, engine.name, engine.window.largest_mass_ratio);
 }
 
-std::string width_rule(const EngineTraits& engine) {
+std::string width_rule(const EngineTraits& engine, const UnitScale& units = {}) {
   return fmt::format(
-      "must be at least {:g} m wide on {}: the engine's contact margin does not shrink with the bodies, so smaller "
-      "ones "
-      "stand apart and stacks slide; larger units with as many times the gravity give the same pile",
-      engine.window.narrowest_body, engine.name);
+      "must be at least {:.3g} m wide on {}: the engine's contact margin does not shrink with the bodies, so smaller "
+      "ones stand apart and stacks slide",
+      engine.window.narrowest_body / units.lengths(), engine.name);
 }
 
 std::string obstacle_rule(const EngineTraits& engine) {
@@ -82,8 +81,8 @@ class WindowCheck {
   void check_settings(const Scene<Dim>& scene) {
     const Window& window = engine_.window;
     const double steps = 1.0 / scene.world.dt;
-    if (steps < window.fewest_steps * (1.0 - 1e-9))
-      add("world.steps_per_second", fmt::format("{:.4g}", steps), steps_rule(engine_));
+    if (steps < window.fewest_steps * scene.world.units.times() * (1.0 - 1e-9))
+      add("world.steps_per_second", fmt::format("{:.4g}", steps), steps_rule(engine_, scene.world.units));
     const int iterations = scene.world.solver.velocity_iterations;
     if (!scene.world.solver.small_steps() && iterations < window.fewest_iterations)
       add("world.solver.velocity_iterations", fmt::format("{}", iterations), iterations_rule(engine_));
@@ -98,9 +97,9 @@ class WindowCheck {
     if (shapes.empty()) return;
     const auto width = [](const Shape<Dim>* shape) { return shape->bounds.sizes().minCoeff(); };
     const Shape<Dim>& narrowest = **std::ranges::min_element(shapes, {}, width);
-    if (width(&narrowest) < window.narrowest_body * (1.0 - 1e-9))
+    if (width(&narrowest) * scene.world.units.lengths() < window.narrowest_body * (1.0 - 1e-9))
       add(fmt::format("shape.{}", narrowest.name), fmt::format("{:.3g} m wide", width(&narrowest)),
-          width_rule(engine_));
+          width_rule(engine_, scene.world.units));
     const auto [light, heavy] = std::ranges::minmax_element(shapes, {}, [](const auto* each) { return each->mass; });
     const double ratio = (*heavy)->mass / (*light)->mass;
     const int iterations = scene.world.solver.velocity_iterations;

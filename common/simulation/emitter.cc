@@ -8,7 +8,8 @@
 namespace talus {
 namespace {
 
-constexpr double settled_speed = 1.0;  // [m/s]: what moves faster is in flight and does not lift a spout
+constexpr double settled_speed =
+    1.0;  // [m/s] in the units of the engine: what moves faster is in flight and does not lift a spout
 
 }  // namespace
 
@@ -30,7 +31,7 @@ template <int Dim>
 void Emitter<Dim>::emit(World<Dim>& world, double time) {
   if (finished()) return;
   const double gravity = world.gravity_size();
-  const double slow_time = gravity > 0.0 ? settled_speed / gravity : 0.0;  // [s]
+  const double slow_time = gravity > 0.0 ? settled_speed / world.units().speeds() / gravity : 0.0;  // [s]
   while (!births_.empty() && births_.front().time + slow_time <= time) births_.pop_front();
   for (Spout& spout : spouts_) {
     bool ridden = spout.source.ride_above == 0.0;
@@ -40,7 +41,7 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
       ridden = true;
       BodyDef<Dim> body = spout.next;
       body.pose.position += place(spout, time) + place_in_grid(spout);
-      if (!has_room(world, body, spout.source.overlap_allowed())) {
+      if (!has_room(world, body, spout.source.overlap_allowed() / world.units().lengths())) {
         ++waits_;
         break;
       }
@@ -151,9 +152,10 @@ void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   near_.clear();
   world.query_box(column, near_);
   const BodyStates<Dim>& states = world.states();
+  const double settled = settled_speed / world.units().speeds();
   const BodyIndex newborn = births_.empty() ? states.size() : births_.front().body;
   for (const BodyIndex body : near_) {
-    if (body >= newborn || states.velocity[body].norm() > settled_speed) continue;
+    if (body >= newborn || states.velocity[body].norm() > settled) continue;
     const Box<Dim> bounds = world.bounds_of(body);
     const double lift = height<Dim>(bounds.max()) + spout.source.ride_above - height<Dim>(spout.source.position);
     if (lift > spout.lift && lies_on_something(world, body, bounds)) spout.lift = lift;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double tolerated_share = 0.1;
 constexpr double tolerated_burst = 0.02;  // of the work that lifts each awake body by its own extent
-constexpr double rest_speed = 0.5;        // [m/s]; without gravity the only scale of a world at rest
+constexpr double rest_speed =
+    0.5;  // [m/s] in the units of the engine; without gravity the only scale of a world at rest
 
 }  // namespace
 
@@ -52,7 +53,8 @@ void EnergyLedger<Dim>::add(const World<Dim>& world, const Before& before) {
   change_ += gained - shape.mass * gravity.dot(world.states().pose[before.body].position - before.position);
   gain_ += gained - shape.mass * dt_ * gravity.dot(before.velocity + 0.5 * dt_ * gravity);
   kinetic_ += kinetic;
-  lift_ += shape.mass * (gravity.norm() * shape.extent + 0.5 * rest_speed * rest_speed);
+  const double slow = rest_speed / world.units().speeds();
+  lift_ += shape.mass * (gravity.norm() * shape.extent + 0.5 * slow * slow);
 }
 
 /// Sleeping bodies that feel forces pass on to awake ones what an obstacle does to them.

@@ -152,11 +152,10 @@ void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event
 }
 
 template <int Dim>
-void Interventions<Dim>::take_out_absent(World<Dim>& world) const {
-  for (const Event<Dim>& event : events_)
-    if (event.action == EventAction::add && event.obstacle)
-      for (const int number : obstacles_named(event))
-        if (world.has_obstacle(number)) world.remove_obstacle(number);
+void Interventions<Dim>::take_out_absent(const Scene<Dim>& scene, World<Dim>& world) {
+  const std::vector<std::uint8_t> absent = absent_obstacles(scene, {}, 0.0);
+  for (std::size_t k = 0; k < absent.size(); ++k)
+    if (absent[k] != 0) world.remove_obstacle(static_cast<int>(k));
 }
 
 template <int Dim>
@@ -215,7 +214,7 @@ void Interventions<Dim>::kick(const Intervened<Dim>& run, const Event<Dim>& even
   for (const BodyIndex body : bodies) {
     Vec<Dim> velocity = states.velocity[body] + event.velocity;
     Spin<Dim> spin = states.spin[body] + event.spin;
-    velocity *= std::min(1.0, fastest_speed<Dim>(dt_) / std::max(velocity.norm(), 1e-9));
+    velocity *= std::min(1.0, fastest_speed<Dim>(dt_, run.world.units()) / std::max(velocity.norm(), 1e-9));
     spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
     run.world.set_velocity(body, velocity, spin);
   }

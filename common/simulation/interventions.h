@@ -43,7 +43,7 @@ class Interventions {
   explicit Interventions(const Scene<Dim>& scene);
 
   /// Before the first step: takes the obstacles out that events will add.
-  void take_out_absent(World<Dim>& world) const;
+  static void take_out_absent(const Scene<Dim>& scene, World<Dim>& world);
 
   /// Before a step: what is due of the scene, where the world is at rest or not, with its piles.
   void do_due_events(const Intervened<Dim>& run, bool at_rest, std::span<const Pile<Dim>> piles);

@@ -60,7 +60,7 @@ VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, doubl
   // Twice the force of the spring stretched to the full leaves damping for a body that is struck.
   apply_impulse<Dim>(shape, pose, point, at_most<Dim>(impulse, 2.0 * shape.mass * strength * dt), change.velocity,
                      change.spin);
-  change.velocity = at_most<Dim>(change.velocity, fastest_speed<Dim>(dt));
+  change.velocity = at_most<Dim>(change.velocity, fastest_speed<Dim>(dt, world.units()));
   change.spin *= std::min(1.0, fastest_spin(dt) / std::max(change.spin.norm(), 1e-12));
   return change;
 }

@@ -23,7 +23,7 @@ template <int Dim>
 void SleeperWatch<Dim>::on_frame(const Frame<Dim>& frame) {
   for (const BodyIndex body : frame.world.awake()) {
     const double farthest = frame.world.states().pose[body].position.cwiseAbs().maxCoeff();
-    if (farthest > farthest_place) warnings_.note(WarningKind::outside_world, body, step_, farthest);
+    if (farthest > farthest_place()) warnings_.note(WarningKind::outside_world, body, step_, farthest);
   }
   if (const double extent = frame.piles.typical_body().extent; extent != extent_) {
     extent_ = extent;

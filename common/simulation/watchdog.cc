@@ -11,13 +11,13 @@ namespace talus {
 namespace {
 
 constexpr double patience = 2.0;      // [s]: so long a due body may wait for its place without being missed
-constexpr double contact_gap = 0.01;  // [m]: so far engines let bodies that rest sink in, however thin
+constexpr double contact_gap = 0.01;  // [m] of the engine: so far bodies that rest sink in, however thin
 constexpr double near_limit = 0.999;  // share of a limit; engines compute in single precision
 
 double at_limit(double limit) { return near_limit * near_limit * limit * limit; }
 
-double lowest_centre(const Ground& ground) {
-  return ground.present ? ground.height - contact_gap : -std::numeric_limits<double>::infinity();
+double lowest_centre(const Ground& ground, const UnitScale& units) {
+  return ground.present ? ground.height - contact_gap / units.lengths() : -std::numeric_limits<double>::infinity();
 }
 
 template <int Dim>
@@ -34,7 +34,8 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
       ledger_(scene.world),
       overlap_(typical_body(scene).extent, scene.world.gravity, scene.world.dt),
       passing_(scene.world.shapes, scene.world.obstacles),
-      lowest_(lowest_centre(scene.world.ground)),
+      lowest_(lowest_centre(scene.world.ground, scene.world.units)),
+      farthest_(farthest_place(scene.world.units)),
       ground_(scene.world.ground.height),
       dt_(scene.world.dt),
       speed_squared_(at_limit(limits.speed)),
@@ -80,8 +81,7 @@ template <int Dim>
 void Watchdog<Dim>::check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step) {
   const Vec<Dim>& place = states.pose[body].position;
   if (height<Dim>(place) < lowest_) warnings_.note(WarningKind::below_ground, body, step, ground_ - height<Dim>(place));
-  if (farthest<Dim>(place) > farthest_place)
-    warnings_.note(WarningKind::outside_world, body, step, farthest<Dim>(place));
+  if (farthest<Dim>(place) > farthest_) warnings_.note(WarningKind::outside_world, body, step, farthest<Dim>(place));
 }
 
 template <int Dim>
@@ -131,19 +131,20 @@ void Watchdog<Dim>::finish(const World<Dim>& world, std::int64_t step) {
 }
 
 template <int Dim>
-int bodies_lost(const BodyStates<Dim>& states, const Ground& ground) {
+int bodies_lost(const BodyStates<Dim>& states, const Ground& ground, const UnitScale& units) {
+  const double lowest = lowest_centre(ground, units);
   int lost = 0;
   for (std::size_t i = 0; i < states.pose.size(); ++i) {
     const Vec<Dim>& place = states.pose[i].position;
     if (states.removed[i] != 0) continue;
-    lost += height<Dim>(place) < lowest_centre(ground) || farthest<Dim>(place) > farthest_place ? 1 : 0;
+    lost += height<Dim>(place) < lowest || farthest<Dim>(place) > farthest_place(units) ? 1 : 0;
   }
   return lost;
 }
 
 template class Watchdog<2>;
 template class Watchdog<3>;
-template int bodies_lost(const BodyStates<2>&, const Ground&);
-template int bodies_lost(const BodyStates<3>&, const Ground&);
+template int bodies_lost(const BodyStates<2>&, const Ground&, const UnitScale&);
+template int bodies_lost(const BodyStates<3>&, const Ground&, const UnitScale&);
 
 }  // namespace talus

@@ -57,6 +57,7 @@ class Watchdog {
   OverlapWatch<Dim> overlap_;
   PassingWatch<Dim> passing_;
   double lowest_;         // height that no centre may lie below [m]
+  double farthest_;       // from the origin that a coordinate may be [m]
   double ground_;         // [m]
   double dt_;             // [s]
   double speed_squared_;  // from here on a speed is at the limit
@@ -69,6 +70,6 @@ class Watchdog {
 
 /// Bodies in the world with the centre below the ground or outside the world's 10,000 m. Costs O(all bodies).
 template <int Dim>
-int bodies_lost(const BodyStates<Dim>& states, const Ground& ground);
+int bodies_lost(const BodyStates<Dim>& states, const Ground& ground, const UnitScale& units = {});
 
 }  // namespace talus

@@ -92,13 +92,14 @@ void World<Dim>::move_obstacle(int number, const Pose<Dim>& to) {
   require(description_.obstacles[number].moves, "obstacle", number, "must be one that may move");
   // From the poses in double precision: those of an engine are too coarse for the difference of a short step.
   const Pose<Dim>& from = obstacle_pose(number);
-  engine_move_obstacle(number, (to.position - from.position) / description_.dt,
+  engine_move_obstacle(number, to, (to.position - from.position) / description_.dt,
                        spin_between<Dim>(from.rotation, to.rotation, description_.dt));
   moves_.emplace_back(number, to);
 }
 
 template <int Dim>
-void World<Dim>::engine_move_obstacle(int number, const Vec<Dim>& /*velocity*/, const Spin<Dim>& /*spin*/) {
+void World<Dim>::engine_move_obstacle(int number, const Pose<Dim>& /*to*/, const Vec<Dim>& /*velocity*/,
+                                      const Spin<Dim>& /*spin*/) {
   require(false, "obstacle", number, "must stand still: this engine moves no obstacles");
 }
 

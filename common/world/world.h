@@ -163,6 +163,7 @@ class World {
 
   EngineTimes times() const { return times_; }
   SpeedLimits speed_limits() const { return limits_; }
+  const UnitScale& units() const { return description_.units; }
 
  protected:
   /// Throws std::invalid_argument on a bad description.
@@ -211,7 +212,7 @@ class World {
 
   /// Before a step: gives an obstacle that may move the velocity of its centre and the spin that take it to its next
   /// pose. An engine without moving obstacles throws.
-  virtual void engine_move_obstacle(int number, const Vec<Dim>& velocity, const Spin<Dim>& spin);
+  virtual void engine_move_obstacle(int number, const Pose<Dim>& to, const Vec<Dim>& velocity, const Spin<Dim>& spin);
   /// After the step: puts it there, at rest.
   virtual void engine_place_obstacle(int /*number*/, const Pose<Dim>& /*at*/) {}
 

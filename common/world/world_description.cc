@@ -20,42 +20,41 @@ void require_within(double value, double low, double high, const std::string& fi
 }
 
 template <int Dim>
-void check_pose(const Pose<Dim>& pose, const std::string& field) {
+void check_pose(const Pose<Dim>& pose, const UnitScale& units, const std::string& field) {
+  const double farthest = farthest_place(units);
   for (int axis = 0; axis < Dim; ++axis) {
-    require_within(pose.position[axis], -farthest_place, farthest_place, fmt::format("{}.position[{}]", field, axis),
-                   "must be within 10,000 m of the origin");
+    require_within(pose.position[axis], -farthest, farthest, fmt::format("{}.position[{}]", field, axis),
+                   fmt::format("must be within {:.6g} m of the origin", farthest));
   }
   check_rotation<Dim>(pose.rotation, field + ".rotation");
 }
 
-// Both limits come from the engines' contact skins; Box2D 2.4.1 keeps bodies 0.005 m apart (b2_linearSlop) and welds
-// corners that lie closer.
+/// Of all parts of bodies and obstacles, in the units of the engine.
 template <int Dim>
-void check_width(const Piece<Dim>& piece, const std::string& field) {
-  if constexpr (Dim == 2) {
-    require(smallest_width(piece) >= 0.005, field + " width", smallest_width(piece),
-            "must be at least 0.005 m, better 0.5 m: Box2D's contacts keep a gap of that size");
-  } else {
-    require(smallest_width(piece) >= thinnest_piece_in_space, field + " width", smallest_width(piece),
-            "must be at least 0.05 m, better 0.2 m: Bullet's contacts miss what is thinner");
+void check_widths(const Shape<Dim>& shape, const UnitScale& units, const std::string& field) {
+  const double least = thinnest_piece<Dim> / units.lengths();
+  const std::string_view why =
+      Dim == 2 ? "Box2D's contacts keep a gap of that size" : "Bullet's contacts miss what is thinner";
+  for (std::size_t i = 0; i < shape.pieces.size(); ++i) {
+    const double width = smallest_width(shape.pieces[i]);
+    require(width >= least, fmt::format("{}.pieces[{}] width", field, i), width,
+            fmt::format("must be at least {:.3g} m beside the smallest body: {}", least, why));
   }
 }
 
 template <int Dim>
-void check_shape(const Shape<Dim>& shape, const std::string& field) {
+void check_shape(const Shape<Dim>& shape, const UnitScale& units, const std::string& field) {
   require(!shape.pieces.empty(), field + ".pieces.size", 0.0, "must be one piece or more");
   check_material(shape.material, field + ".material");
-  for (std::size_t i = 0; i < shape.pieces.size(); ++i) {
-    const std::string piece = fmt::format("{}.pieces[{}]", field, i);
-    check_piece(shape.pieces[i], piece);
-    check_width(shape.pieces[i], piece);
-  }
+  for (std::size_t i = 0; i < shape.pieces.size(); ++i)
+    check_piece(shape.pieces[i], fmt::format("{}.pieces[{}]", field, i));
   require(std::isfinite(shape.mass) && shape.mass >= least_mass, field + ".mass", shape.mass,
           fmt::format("must be finite and at least {} kg", least_mass));
-  const double least_inertia = shape.inertia.diagonal().minCoeff();
+  const double least_inertia = std::pow(units.lengths(), 2) * shape.inertia.diagonal().minCoeff();
   require(shape.inertia.allFinite() && least_inertia >= least_mass && shape.inertia.determinant() > 0.0,
           field + ".inertia", least_inertia, fmt::format("must be finite and at least {} kg m^2", least_mass));
-  require(shape.extent <= 2.0 * farthest_place, field + ".extent", shape.extent, "must be at most 20,000 m");
+  require(shape.extent <= 2.0 * farthest_place(units), field + ".extent", shape.extent,
+          fmt::format("must be at most {:.6g} m", 2.0 * farthest_place(units)));
 }
 
 template <int Dim>
@@ -78,8 +77,17 @@ std::string solved_by(std::string_view backend, std::string_view solver_kind) {
 }
 
 template <int Dim>
+void check(const Obstacle<Dim>& obstacle, const UnitScale& units, const std::string& field) {
+  check_shape(obstacle.shape, units, field + ".shape");
+  check_pose(obstacle.pose, units, field + ".pose");
+}
+
+template <int Dim>
 void check(const WorldDescription<Dim>& description) {
   check_fields(description, world_fields<Dim>, "world");
+  const double fewest_steps = fewest_steps_per_second * description.units.times();
+  require(description.dt <= (1.0 + 1e-9) / fewest_steps, "world.steps_per_second", 1.0 / description.dt,
+          fmt::format("must be at least {:g} for bodies of this size", fewest_steps));
   check_fields(description.solver, solver_fields, "world.solver");
   require(!description.engine_sleep || !description.solver.small_steps(), "world.solver.kind",
           fmt::format("\"{}\"", description.solver.kind),
@@ -90,13 +98,14 @@ void check(const WorldDescription<Dim>& description) {
   }
   for (std::size_t i = 0; i < description.obstacles.size(); ++i) {
     const std::string field = fmt::format("world.obstacles[{}]", i);
-    check_shape(description.obstacles[i].shape, field + ".shape");
-    check_pose(description.obstacles[i].pose, field + ".pose");
+    check(description.obstacles[i], description.units, field);
+    check_widths(description.obstacles[i].shape, description.units, field + ".shape");
   }
   for (std::size_t i = 0; i < description.shapes.size(); ++i) {
     const std::string field = fmt::format("world.shapes[{}] ('{}')", i, description.shapes[i].name);
     const double rolling_friction = description.shapes[i].material.rolling_friction;
-    check_shape(description.shapes[i], field);
+    check_shape(description.shapes[i], description.units, field);
+    check_widths(description.shapes[i], description.units, field);
     require(rolling_friction == 0.0 || description.solver.small_steps(), field + ".material.rolling_friction",
             rolling_friction,
             R"(must be 0 with world.solver.kind = "engine": the engines' own solvers resist no rolling)");
@@ -109,13 +118,13 @@ void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description) {
   const int shapes = static_cast<int>(description.shapes.size());
   require(body.shape >= 0 && body.shape < shapes, "body.shape", body.shape,
           fmt::format("must be the number of one of the {} shapes, counted from 0", shapes));
-  check_pose(body.pose, "body.pose");
+  check_pose(body.pose, description.units, "body.pose");
   for (int axis = 0; axis < Dim; ++axis) {
     require(std::isfinite(body.velocity[axis]), fmt::format("body.velocity[{}]", axis), body.velocity[axis],
             "must be finite");
   }
   require(body.spin.allFinite(), "body.spin", body.spin.norm(), "must be finite");
-  const double fastest = fastest_speed<Dim>(description.dt);
+  const double fastest = fastest_speed<Dim>(description.dt, description.units);
   require(body.velocity.norm() <= fastest, "body.velocity", body.velocity.norm(),
           fmt::format("must be at most {:.6g} m/s: faster ones are slowed down or go through walls", fastest));
   const double most = fastest_spin(description.dt);
@@ -123,6 +132,8 @@ void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description) {
           fmt::format("must be at most {:.6g} rad/s, a quarter turn a step", most));
 }
 
+template void check(const Obstacle<2>&, const UnitScale&, const std::string&);
+template void check(const Obstacle<3>&, const UnitScale&, const std::string&);
 template void check(const WorldDescription<2>&);
 template void check(const WorldDescription<3>&);
 template void check(const BodyDef<2>&, const WorldDescription<2>&);

@@ -13,6 +13,7 @@
 #include "common/shape/shape.h"
 #include "common/world/body.h"
 #include "common/world/debug_options.h"
+#include "common/world/unit_scale.h"
 
 namespace talus {
 
@@ -74,6 +75,7 @@ struct WorldDescription {
   Ground ground;
   std::vector<Obstacle<Dim>> obstacles;
   std::vector<Shape<Dim>> shapes;  // BodyDef::shape indexes these
+  UnitScale units;                 // of the engine, see fitting_units()
 
   /// [m/s^2]
   Vec<Dim> gravity_vector() const { return gravity * down; }
@@ -101,19 +103,28 @@ template <int Dim>
 void check(const WorldDescription<Dim>& description);
 template <int Dim>
 void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description);
+/// But for the widths of its parts, which depend on the bodies of the world.
+template <int Dim>
+void check(const Obstacle<Dim>& obstacle, const UnitScale& units, const std::string& field);
+
+/// In the units of the engine: with fewer, bodies sink into each other.
+inline constexpr double fewest_steps_per_second = 30.0;
 
 /// Farthest from the origin that a coordinate of a place may be [m]. Beyond, single precision resolves a millimetre at
 /// best and contacts jitter.
-inline constexpr double farthest_place = 1e4;
+inline double farthest_place(const UnitScale& units = {}) { return 1e4 / units.lengths(); }
 
-/// Least width of a piece in 3D [m]: Bullet 3.24 lets cubes of 0.04 m sink through the ground (margin 0.04 m).
+/// Least width of a piece in the units of an engine [m]. In 3D Bullet 3.24 lets cubes of 0.04 m sink through the ground
+/// (margin 0.04 m). In 2D Box2D 2.4.1 keeps bodies 0.005 m apart (b2_linearSlop) and welds corners that lie closer.
 inline constexpr double thinnest_piece_in_space = 0.05;
+template <int Dim>
+inline constexpr double thinnest_piece = Dim == 2 ? 0.005 : thinnest_piece_in_space;
 
 /// Fastest that a body may be given [m/s] with steps of `dt` [s]. Box2D moves a body by at most 2 m a step
 /// (b2_maxTranslation); Bullet's continuous collision was tried up to 500 m/s.
 template <int Dim>
-double fastest_speed(double dt) {
-  return Dim == 2 ? 2.0 / dt : 500.0;
+double fastest_speed(double dt, const UnitScale& units = {}) {
+  return Dim == 2 ? 2.0 / units.lengths() / dt : 500.0 / units.speeds();
 }
 
 /// Fastest spin that a body may be given [rad/s]. Both engines cut it to a quarter turn a step (b2_maxRotation,

@@ -37,6 +37,7 @@ inline constexpr auto solver_fields = std::to_array<Field<SolverParams>>({
      {.name = "restitution_threshold",
       .unit = "m/s",
       .range = between(0.0, 1e3),
+      .default_text = "0.5, for [small bodies](#small-and-large-bodies) less",
       .meaning = "slower approaches do not bounce. Too low: piles never come to rest"}},
 });
 
@@ -65,7 +66,8 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
      {.name = "steps_per_second",
       .unit = "1/s",
       .stored = Stored::as_inverse,
-      .range = between(30.0, 1e5),
+      .range = between(1.0, 1e5),
+      .further_rule = "from 30 on; for [small bodies](#small-and-large-bodies) more, for large ones fewer",
       .default_text = "by `accuracy`, 60 or more",
       .meaning =
           "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m, below by a third of a "

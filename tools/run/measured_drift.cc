@@ -23,9 +23,10 @@ std::string obstruction(const Scene<Dim>& scene, std::span<const DoneEvent> done
 
 /// Without the bodies that lie outside the world: no new world takes them, nor removed ones there.
 template <int Dim>
-BodyStates<Dim> within_world(BodyStates<Dim> states) {
+BodyStates<Dim> within_world(BodyStates<Dim> states, const UnitScale& units) {
+  const double farthest = farthest_place(units);
   for (std::size_t body = 0; body < states.pose.size(); ++body) {
-    if (states.pose[body].position.cwiseAbs().maxCoeff() <= farthest_place) continue;
+    if (states.pose[body].position.cwiseAbs().maxCoeff() <= farthest) continue;
     states.removed[body] = 1;
     states.pose[body] = {};
   }
@@ -55,7 +56,7 @@ MeasuredDrift measure_drift(const Simulation<Dim>& simulation, const Scene<Dim>&
   MeasuredDrift drift;
   drift.missing = obstruction<Dim>(scene, simulation.done_events(), simulation.time());
   if (!drift.missing.empty()) return drift;
-  const BodyStates<Dim> last = within_world(simulation.world().states());
+  const BodyStates<Dim> last = within_world(simulation.world().states(), simulation.world().units());
   const WorldDescription<Dim> world = world_at(scene, simulation.done_events(), simulation.time());
   drift.seconds = wake_time(world.gravity);
   const WakeTest test = wake_all<Dim>(world, backend, last, {.duration = drift.seconds, .stop = stop});
@@ -93,7 +94,7 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
                                           const std::string& backend, double body_steps,
                                           const std::function<bool()>& stop) {
   if (!obstruction<Dim>(scene, simulation.done_events(), simulation.time()).empty()) return std::nullopt;
-  const BodyStates<Dim> last = within_world(simulation.world().states());
+  const BodyStates<Dim> last = within_world(simulation.world().states(), simulation.world().units());
   const WorldDescription<Dim> world = world_at(scene, simulation.done_events(), simulation.time());
   std::vector<std::uint8_t> sleepers = last.asleep;
   for (std::size_t body = 0; body < sleepers.size(); ++body)

@@ -191,7 +191,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
       {"bodies", bodies},
       {"bodies_planned", simulation.emitter().total()},
       {"bodies_appeared", simulation.emitter().emitted()},
-      {"bodies_lost", bodies_lost(world.states(), scene.world.ground)},
+      {"bodies_lost", bodies_lost(world.states(), scene.world.ground, scene.world.units)},
       {"at_rest", simulation.at_rest()},
       {"events", events_json(scene, simulation.done_events())},
       {"asleep_at_end", bodies - world.awake().size()},

@@ -180,9 +180,9 @@ class SimulatedScene final : public ShownRun {
     const auto index = static_cast<BodyIndex>(body);
     const double reach = bounding_radius(simulation_.world().shape_of(index));
     const std::optional<Vec<Dim>> from = vector_of(point, 1.01 * reach);
-    const std::optional<Vec<Dim>> to = vector_of(target, farthest_place);
+    const std::optional<Vec<Dim>> to = vector_of(target, farthest_place());
     if (!from) return fmt::format("point: must be {} numbers, within the body", Dim);
-    if (!to) return fmt::format("to: must be {} numbers of -{} to {}", Dim, farthest_place, farthest_place);
+    if (!to) return fmt::format("to: must be {} numbers of -{} to {}", Dim, farthest_place(), farthest_place());
     simulation_.pull({.body = index, .point = *from, .target = *to});
     return {};
   }
@@ -193,8 +193,8 @@ class SimulatedScene final : public ShownRun {
     const auto& shapes = scene_.world.shapes;
     const auto found = std::ranges::find(shapes, shape, &Shape<Dim>::name);
     if (found == shapes.end()) return fmt::format("shape: the scene has none named '{}'", printable(shape));
-    const std::optional<Vec<Dim>> at = vector_of(position, farthest_place);
-    if (!at) return fmt::format("position: must be {} numbers of -{} to {}", Dim, farthest_place, farthest_place);
+    const std::optional<Vec<Dim>> at = vector_of(position, farthest_place());
+    if (!at) return fmt::format("position: must be {} numbers of -{} to {}", Dim, farthest_place(), farthest_place());
     const int number = static_cast<int>(found - shapes.begin());
     const std::optional<Vec<Dim>> place = free_place(simulation_.world(), fixed_supports(scene_), number, *at);
     if (!place) return "position: must have a free place above it";

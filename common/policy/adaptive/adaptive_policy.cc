@@ -53,7 +53,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   output_.clear();
   rest_.update(in);
   find_wakes(in);
-  limit_velocities(in.world.dt());
+  limit_velocities(in.world);
   for (const auto& [body, wake] : output_.wakes) {
     const Placement place = placement(frame, body);
     decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = wake.cause});
@@ -104,9 +104,9 @@ void AdaptivePolicy<Dim>::forget(BodyIndex body) {
 }
 
 template <int Dim>
-void AdaptivePolicy<Dim>::limit_velocities(double dt) {
-  const double max_speed = speed_margin * fastest_speed<Dim>(dt);
-  const double max_spin = max_turn_per_step / dt;
+void AdaptivePolicy<Dim>::limit_velocities(const World<Dim>& world) {
+  const double max_speed = speed_margin * fastest_speed<Dim>(world.dt(), world.units());
+  const double max_spin = max_turn_per_step / world.dt();
   for (VelocityChange<Dim>& change : output_.velocities) {
     change.velocity *= max_speed / std::max(change.velocity.norm(), max_speed);
     change.spin *= max_spin / std::max(change.spin.norm(), max_spin);

@@ -68,7 +68,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   };
 
   void find_wakes(const RuleInput<Dim>& in);
-  void limit_velocities(double dt);
+  void limit_velocities(const World<Dim>& world);
   void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
   bool is_fast(const RuleInput<Dim>& in, BodyIndex body) const;
