@@ -14,11 +14,11 @@
 namespace talus {
 
 /// One kind of message each.
-enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events, obstacles, scene };
+enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events, obstacles, scene, instruments };
 
-inline constexpr std::array<const char*, 9> channel_names = {"TALUS_RUN",    "TALUS_PILES",     "TALUS_SLEEP",
-                                                             "TALUS_STATS",  "TALUS_BODIES",    "TALUS_SHAPES",
-                                                             "TALUS_EVENTS", "TALUS_OBSTACLES", "TALUS_SCENE"};
+inline constexpr std::array<const char*, 10> channel_names = {
+    "TALUS_RUN",    "TALUS_PILES",  "TALUS_SLEEP",     "TALUS_STATS", "TALUS_BODIES",
+    "TALUS_SHAPES", "TALUS_EVENTS", "TALUS_OBSTACLES", "TALUS_SCENE", "TALUS_INSTRUMENTS"};
 
 inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
 
@@ -53,6 +53,9 @@ inline constexpr Channel channel_of<talus_lcm::talus_obstacles> = Channel::obsta
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_scene> = Channel::scene;
 
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_instruments> = Channel::instruments;
+
 /// Calls `use` with a default message of the type that the channel carries.
 template <class Use>
 void with_message_of(Channel channel, const Use& use) {
@@ -75,15 +78,19 @@ void with_message_of(Channel channel, const Use& use) {
       return use(talus_lcm::talus_obstacles{});
     case Channel::scene:
       return use(talus_lcm::talus_scene{});
+    case Channel::instruments:
+      return use(talus_lcm::talus_instruments{});
   }
 }
 
-/// The channels that a run sends and records on: the last two only where its scene has events, or obstacles that move.
-inline std::vector<Channel> channels_of_run(bool events, bool moving_obstacles) {
+/// The channels that a run sends and records on: the last three only where its scene has events, obstacles that move,
+/// or instruments.
+inline std::vector<Channel> channels_of_run(bool events, bool moving_obstacles, bool instruments) {
   std::vector channels = {Channel::run,   Channel::piles,  Channel::sleep,
                           Channel::stats, Channel::bodies, Channel::shapes};
   if (events) channels.push_back(Channel::events);
   if (moving_obstacles) channels.push_back(Channel::obstacles);
+  if (instruments) channels.push_back(Channel::instruments);
   return channels;
 }
 

@@ -16,6 +16,7 @@ namespace talus {
 
 using talus_lcm::talus_bodies;
 using talus_lcm::talus_event;
+using talus_lcm::talus_instruments;
 using talus_lcm::talus_obstacles;
 using talus_lcm::talus_piles;
 using talus_lcm::talus_run;
@@ -212,6 +213,7 @@ bool MomentReader::take(const talus_obstacles& message) {
 }
 
 bool MomentReader::take(const talus_scene& message) { return counted_only(message); }
+bool MomentReader::take(const talus_instruments& message) { return counted_only(message); }
 
 void MomentReader::place_obstacle(int obstacle, std::span<const float> values) {
   std::vector<int>& moved = moment_.moved_obstacle;

@@ -62,6 +62,7 @@ class MomentReader {
   bool take(const talus_lcm::talus_event& message);
   bool take(const talus_lcm::talus_obstacles& message);
   bool take(const talus_lcm::talus_scene& message);
+  bool take(const talus_lcm::talus_instruments& message);
 
   /// Valid until the next call of take(). A step that is told again, as at the end of a run, keeps its events.
   const Moment& moment() const { return moment_; }

@@ -8,6 +8,7 @@
 #include "common/world/motion.h"
 #include "lcmtypes/bodies_message.h"
 #include "lcmtypes/event_message.h"
+#include "lcmtypes/instruments_message.h"
 #include "lcmtypes/obstacles_message.h"
 #include "lcmtypes/piles_message.h"
 #include "lcmtypes/run_message.h"
@@ -23,7 +24,7 @@ void MomentWriter<Dim>::set_scene(const Scene<Dim>& scene) {
 
 template <int Dim>
 void MomentWriter<Dim>::run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto channels = channels_of_run(!events_.empty(), !moving_.empty());
+  auto channels = channels_of_run(!events_.empty(), !moving_.empty(), scene_ && !scene_->instruments.empty());
   if (!files_.empty()) channels.push_back(Channel::scene);
   send(to_run(info_, phase, reason, channels, encoder_), step, time);
 }
@@ -120,6 +121,12 @@ void MomentWriter<Dim>::measure_slope(const Frame<Dim>& frame) {
 template <int Dim>
 void MomentWriter<Dim>::piles(const Frame<Dim>& frame) {
   send_all(to_piles(piles_in_space(frame)), frame.step, frame.time);
+}
+
+template <int Dim>
+void MomentWriter<Dim>::instruments(const Frame<Dim>& frame) {
+  if (meters_ == nullptr || meters_->instruments().empty()) return;
+  send_all(to_instruments(*meters_, scene_->obstacle_names), frame.step, frame.time);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/measure/instrument_meters.h"
 #include "common/measure/pile_form.h"
 #include "common/policy/frame.h"
 #include "common/scene/happened.h"
@@ -43,6 +44,8 @@ class MomentWriter {
   void set_scene(const Scene<Dim>& scene);
   /// The files of the scene, which is written down then.
   void set_files(const Scene<Dim>& scene) { files_ = to_scene_files(scene); }
+  /// What the scene measures, if it measures anything; must live longer than this object.
+  void set_instruments(const InstrumentMeters<Dim>& meters) { meters_ = &meters; }
   bool has_shapes() const { return !shapes_.empty(); }
 
   /// `phase` as in talus_run.
@@ -68,6 +71,8 @@ class MomentWriter {
   void stats(talus_lcm::talus_stats message, const Frame<Dim>& frame);
   /// Measures the slope at this frame; else stats() does so once a second of simulated time.
   void measure_slope(const Frame<Dim>& frame);
+  /// The readings of the scene's instruments, where it has any.
+  void instruments(const Frame<Dim>& frame);
   /// Of obstacles that have moved since the last time; of all that may move the first time and where `all` is set.
   void obstacles(const Frame<Dim>& frame, bool all = false);
   /// Poses of the bodies awake, of those that fell asleep since the last time, and of `more`; how many these are and in
@@ -103,6 +108,7 @@ class MomentWriter {
   std::vector<talus_lcm::talus_event> events_;   // of the scene, as far as they have happened
   std::size_t event_turn_ = 0;                   // the one from which on they are sent again
   std::optional<Scene<Dim>> scene_;
+  const InstrumentMeters<Dim>* meters_ = nullptr;
   Applicable<AngleOfRepose> slope_;
   double slope_time_ = -1.0;            // when it was measured last [s]; below 0: never
   std::vector<BodyIndex> fell_asleep_;  // since poses were sent last

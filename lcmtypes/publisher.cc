@@ -133,6 +133,7 @@ void Publisher<Dim>::send_stats(const Frame<Dim>& frame, Clock::time_point now) 
   stats_wall_ = now;
   stats_time_ = frame.time;
   writer_.stats(std::move(message), frame);
+  writer_.instruments(frame);
 }
 
 template <int Dim>

@@ -69,6 +69,10 @@ class Publisher final : public Observer<Dim>, private MessageSink {
   /// The scene's events and the poses of its obstacles that move are sent too.
   void set_scene(const Scene<Dim>& scene) { writer_.set_scene(scene); }
 
+  /// After set_scene(), before the first frame: the readings of the scene's instruments are told too. `meters` must be
+  /// an observer of the run before this one, and live longer.
+  void set_instruments(const InstrumentMeters<Dim>& meters) { writer_.set_instruments(meters); }
+
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
 

@@ -32,6 +32,10 @@ class RunRecorder final : public Observer<Dim>, private MessageSink {
   /// Of a run without a scene, with `frame_rate` frames of output in a second. Shapes are written as they come.
   RunRecorder(const std::string& path, const RunInfo& info, double frame_rate, const RecorderParams& params = {});
 
+  /// Before the first frame: the readings of the scene's instruments are told too. `meters` must be an
+  /// observer of the run before this one, and live longer.
+  void set_instruments(const InstrumentMeters<Dim>& meters) { writer_.set_instruments(meters); }
+
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
 

@@ -8,6 +8,7 @@
 
 #include "lcmtypes/bodies_message.h"
 #include "lcmtypes/event_message.h"
+#include "lcmtypes/instruments_message.h"
 #include "lcmtypes/obstacles_message.h"
 #include "lcmtypes/piles_message.h"
 #include "lcmtypes/run_message.h"

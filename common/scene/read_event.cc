@@ -125,6 +125,7 @@ Event<Dim> read_event(TableReader& table, const ShapeNames& shapes, const Scene<
   if (table.ok()) check_keys(table, event.action);
   if (table.ok()) check_event(table, scene, event);
   if (table.ok() && event.action == EventAction::add) check_added(table, scene, event);
+  if (!table.ok()) return {};
   return event;
 }
 

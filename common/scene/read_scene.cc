@@ -57,6 +57,9 @@ void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
   } else {
     table.read_fields(world, fields);
   }
+  const double fewest_steps = fewest_steps_per_second * fitting_units(world).times();
+  if (named.of_accuracy.steps && world.dt * fewest_steps > 1.0 + 1e-9)
+    table.error("steps_per_second", fmt::format("must be at least {:g} for bodies of this size", fewest_steps));
   if (table.has("gravity_motion"))
     table.table("gravity_motion", [&](TableReader& own) {
       scene.gravity_motion = read_gravity_motion<Dim>(own, world.gravity_vector());
@@ -230,14 +233,14 @@ Scene<Dim> read_root(TableReader& root) {
   std::int64_t dimension = Dim;
   root.read(dimension_key, dimension);
   Named named;
-  root.table("world", [&](TableReader& table) { read_world(table, scene, named); });
-  root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
   ShapeNames shapes;
   read_shapes(root, shapes, scene);
+  root.table("world", [&](TableReader& table) { read_world(table, scene, named); });
+  root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
   fit_units(scene.world, named);
   root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
   read_sources(root, shapes, scene);
-  fit_units(scene.world, named);  // there may be smaller ones now
+  fit_units(scene.world, named);  // sources may have smaller ones
   root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world)); });
   root.table("policy", [&](TableReader& table) { read_policy(table, scene, named); });
   read_events(root, shapes, scene);

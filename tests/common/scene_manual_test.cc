@@ -82,7 +82,7 @@ std::set<std::string> keys_of_the_reader() {
     obstacles += ", {kind = \"" + kind + "\", angle_deg = 0}";
   }
   obstacles += ", {kind = \"container\", radius = 1}, {kind = \"container\", corners = []}";
-  for (const char* motion : {"sine", "turn", "path"})
+  for (const char* motion : {"sine", "turn", "path", "belt"})
     obstacles += fmt::format(", {{kind = \"container\", motion = {{kind = \"{}\"}}}}", motion);
   text += "obstacle = [" + obstacles + "]\n";
   text +=

@@ -78,7 +78,7 @@ TEST(SceneMotion, OfATurnIsAboutThePositionOfTheObstacle) {
 }
 
 TEST(SceneMotion, IsRefusedWhereItIsIncompleteOrTooFast) {
-  EXPECT_EQ(error_of("kind = \"sin\""), "obstacle[0].motion.kind: must be one of sine, turn, path");
+  EXPECT_EQ(error_of("kind = \"sin\""), "obstacle[0].motion.kind: must be one of sine, turn, path, belt");
   EXPECT_EQ(error_of("kind = \"sine\", amplitude = [1, 0]"), "obstacle[0].motion.frequency: must be given");
   EXPECT_EQ(error_of("kind = \"turn\", speed_deg = 9", 3), "obstacle[0].motion.axis: must be given");
   EXPECT_EQ(error_of("kind = \"turn\", speed_deg = 9, axis = [0, 0, 1]"),

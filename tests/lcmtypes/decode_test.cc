@@ -175,6 +175,29 @@ TEST(Decoder, RefusesObstaclesThatNoRunGives) {
   EXPECT_NE(fault(2, {-1, 5}, 6), "");
 }
 
+TEST(Decoder, RefusesInstrumentsThatNoRunGives) {
+  MessageEncoder encoder(1);
+  const auto fault = [&](std::int64_t passed, std::int8_t kind, std::int32_t obstacle, std::size_t values) {
+    talus_lcm::talus_instruments message{};
+    message.parts = 1;
+    message.gates.resize(1);
+    message.gates[0].forward = passed;
+    message.gates[0].outline.assign(values, 0.5F);
+    message.gates[0].value_count = static_cast<std::int32_t>(values);
+    message.regions.resize(1);
+    message.regions[0].kind = kind;
+    message.loads.resize(1);
+    message.loads[0].obstacle = {obstacle};
+    message.loads[0].obstacle_count = message.gate_count = message.region_count = message.load_count = 1;
+    return fault_of<talus_lcm::talus_instruments>(encoder.encode(message, {0, 1, 0.5}).bytes);
+  };
+  EXPECT_EQ(fault(3, 0, -1, 6), "");
+  EXPECT_NE(fault(-1, 0, -1, 6), "");
+  EXPECT_NE(fault(3, 3, -1, 6), "");
+  EXPECT_NE(fault(3, 0, -2, 6), "");
+  EXPECT_NE(fault(3, 0, -1, 5), "");
+}
+
 TEST(Decoder, RefusesWarningsThatNoRunGives) {
   MessageEncoder encoder(1);
   const auto fault = [&](std::int8_t kind, std::int64_t step, double value, std::size_t number) {

@@ -10,6 +10,7 @@ namespace {
 
 using talus_lcm::talus_bodies;
 using talus_lcm::talus_event;
+using talus_lcm::talus_instruments;
 using talus_lcm::talus_obstacles;
 using talus_lcm::talus_piles;
 using talus_lcm::talus_run;
@@ -29,6 +30,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_shapes::getHash()), 0xAB1C584AF8545F4CU);
   EXPECT_EQ(fingerprint(talus_event::getHash()), 0x08CAFE02AB0A6093U);
   EXPECT_EQ(fingerprint(talus_obstacles::getHash()), 0x00D92F75D07931CFU);
+  EXPECT_EQ(fingerprint(talus_instruments::getHash()), 0x79EEC3AFA1437207U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "common/policy/paper_policy.h"
 #include "lcmtypes/bodies_message.h"
 #include "lcmtypes/event_message.h"
+#include "lcmtypes/instruments_message.h"
 #include "lcmtypes/piles_message.h"
 #include "lcmtypes/run_message.h"
 #include "lcmtypes/scene_message.h"
@@ -407,6 +408,53 @@ TEST(SceneFiles, ComeInPartsThatMakeTheWhole) {
   }
   EXPECT_EQ(text, scene.toml);
   expect_sendable(messages);
+}
+
+TEST(InstrumentsMessage, HasTheFormAndTheReadingsOfEachInstrument) {
+  Scene<3> scene = still_scene<3>();
+  scene.instruments.gates = {{.name = "round", .centre = {1.0, 2.0, 3.0}, .radius = 2.0},
+                             {.name = "flat", .corners = {{0.0, 0.0, 1.0}, {2.0, 0.0, 1.0}, {0.0, 4.0, 1.0}}}};
+  scene.instruments.regions = {{.name = "ball", .centre = Vec3(0.0, 0.0, 5.0), .radius = 4.0},
+                               {.name = "slice", .layer = {1.0, 2.0}}};
+  scene.instruments.loads = {{.name = "all", .on_ground = true, .obstacles = {0}}};
+  scene.obstacle_names = {{.name = "wall", .first = 0, .count = 1}};
+  const InstrumentMeters<3> meters(scene);
+  const auto messages = to_instruments(meters, scene.obstacle_names);
+  ASSERT_EQ(messages.size(), 1U);
+  const talus_lcm::talus_instruments& message = messages[0];
+  ASSERT_EQ(message.gate_count, 2);
+  for (std::size_t i = 0; i < message.gates[0].outline.size(); i += 3) {
+    const Vec3 corner(message.gates[0].outline[i], message.gates[0].outline[i + 1], message.gates[0].outline[i + 2]);
+    EXPECT_NEAR((corner - Vec3(1.0, 2.0, 3.0)).norm(), 2.0, 1e-6);
+    EXPECT_NEAR(corner.z(), 3.0, 1e-6);
+  }
+  EXPECT_EQ(message.gates[1].outline, (std::vector<float>{0, 0, 1, 2, 0, 1, 2, 4, 1, 0, 4, 1}));
+  ASSERT_EQ(message.region_count, 2);
+  EXPECT_EQ(message.regions[0].kind, talus_lcm::talus_region::BALL);
+  EXPECT_EQ(message.regions[0].low[2], 5.0);
+  EXPECT_EQ(message.regions[0].high[0], 4.0);
+  EXPECT_EQ(message.regions[0].packing, -1.0) << "not known before the first frame";
+  EXPECT_EQ(message.regions[1].kind, talus_lcm::talus_region::LAYER);
+  ASSERT_EQ(message.load_count, 1);
+  EXPECT_EQ(message.loads[0].obstacle, (std::vector<std::int32_t>{-1, 0}));
+  EXPECT_EQ(message.loads[0].known, 0) << "no step yet";
+}
+
+TEST(InstrumentsMessage, OfMoreThanFitOneComesInSeveral) {
+  Scene<2> scene = still_scene<2>();
+  for (int i = 0; i < 2000; ++i)
+    scene.instruments.gates.push_back({.name = "gate " + std::to_string(i), .corners = {{0.0, 1.0}, {1.0, 1.0}}});
+  const InstrumentMeters<2> meters(scene);
+  auto messages = to_instruments(meters, scene.obstacle_names);
+  ASSERT_GT(messages.size(), 1U);
+  MessageEncoder encoder(1);
+  int gates = 0;
+  for (talus_lcm::talus_instruments& message : messages) {
+    gates += message.gate_count;
+    EXPECT_EQ(message.parts, static_cast<std::int32_t>(messages.size()));
+    EXPECT_LE(encoder.encode(message, {0, 1, 0.5}).bytes.size(), max_message_bytes);
+  }
+  EXPECT_EQ(gates, 2000);
 }
 
 }  // namespace

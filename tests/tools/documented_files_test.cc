@@ -25,23 +25,25 @@ constexpr const char* instruments =
     "load = [{name = \"shelf\", on = \"shelf\"}]\n"
     "world.solver.kind = \"small_steps\"\npolicy.adaptive.rings = 2\n";
 
-/// Three discs fall; one that is too narrow for the engine's window is thrown beyond the world's edge, which gives a
-/// warning. The folder that the run leaves.
+/// Three discs fall, in steps longer than the engine's window has them; one is thrown beyond the world's edge, which
+/// gives a warning. The folder that the run leaves.
 std::filesystem::path run_in(const TemporaryFolder& folder) {
   std::ofstream(folder.path() / "scene.toml")
       << "title = \"three discs and one that is lost\"\n"
          "dimension = 2\n"
          "shape.disc = {kind = \"ball\", radius = 0.5, rolling_friction = 0.3}\n"
-         "shape.small = {kind = \"ball\", radius = 0.014, density = 1e6}\n"
+         "shape.small = {kind = \"ball\", radius = 0.2, density = 6000}\n"
       << instruments
       << "source = [{shape = \"brick\", count = 2, rate = 1, position = [8, 4.5], spread = [0, 0], angle_deg = 0},\n"
          "          {shape = \"disc\", count = 3, rate = 10, position = [0, 3]},\n"
-         "          {shape = \"small\", count = 1, rate = 10, position = [9990, 5], velocity = [90, 0]}]\n"
+         "          {shape = \"small\", count = 1, rate = 10, position = [9990, 5], velocity = [50, 0]}]\n"
          "pile = [{alpha_deg = 30, at = [0, 0]}]\n"
          "event = [{time = 0.5, do = \"wake\"}, {time = 1.9, do = \"remove\", shape = \"small\"}]\n"
-         "run = {frames = 120, frame_rate = 30}\n";
-  const Outcome outcome = talus_command("run " + (folder / "scene.toml") +
-                                        " --no-telemetry --force --measure-drift --out " + (folder / "run"));
+         "run = {frames = 120, frame_rate = 30}\n"
+         "world.steps_per_second = 30\n";
+  const Outcome outcome =
+      talus_command("run " + (folder / "scene.toml") +
+                    " --no-telemetry --backend bullet-planar --force --measure-drift --out " + (folder / "run"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   return folder.path() / "run";
 }
@@ -129,6 +131,21 @@ void record(const std::string& folder, const std::string& policy) {
       "--policy " +
       policy + " --out " + folder);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST(RecordedInstruments, EndWithTheNumbersOfTheSummary) {
+  const TemporaryFolder folder;
+  const std::filesystem::path run = run_in(folder);
+  const Outcome outcome = talus_command("info " + run.string() + " --messages --channel TALUS_INSTRUMENTS");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string lines = outcome.out.substr(0, outcome.out.find_last_not_of('\n') + 1);
+  const Json last = Json::parse(lines.substr(lines.rfind('\n') + 1))["message"];
+  const Json summary = Json::parse(contents(run / "summary.json"));
+  EXPECT_EQ(last["gates"][0]["forward"], summary["gates"][0]["forward"]);
+  EXPECT_EQ(last["gates"][0]["jammed"], summary["gates"][0]["jammed"]);
+  EXPECT_EQ(last["regions"][0]["bodies"], summary["regions"][0]["bodies"]);
+  EXPECT_EQ(last["regions"][0]["packing"], summary["regions"][0]["packing"]);
+  EXPECT_EQ(last["loads"][0]["force"][2], summary["loads"][0]["at_end"]["force_N"][1]);
 }
 
 TEST(DocumentedFiles, HaveAllKeysOfCompare) {

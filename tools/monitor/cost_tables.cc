@@ -24,7 +24,8 @@ void draw_phases(const RunView& view, const Area& area) {
 }
 
 std::vector<Channel> channels_of(const RunView& view) {
-  return channels_of_run(view.reader().received(Channel::events) > 0, view.reader().received(Channel::obstacles) > 0);
+  return channels_of_run(view.reader().received(Channel::events) > 0, view.reader().received(Channel::obstacles) > 0,
+                         view.reader().received(Channel::instruments) > 0);
 }
 
 void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {

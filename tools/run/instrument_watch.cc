@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <limits>
-
-#include "common/scene/typical_body.h"
 #include "common/text/printable.h"
 #include "tools/run/json_null.h"
 
@@ -110,109 +107,89 @@ std::vector<std::string> load_columns() {
 
 template <int Dim>
 InstrumentWatch<Dim>::InstrumentWatch(const Scene<Dim>& scene, const std::filesystem::path& folder)
-    : instruments_(scene.instruments),
-      dt_(scene.world.dt),
-      steps_per_frame_(scene.steps_per_frame()),
-      ground_(scene.world.ground.present ? scene.world.ground.height : -std::numeric_limits<double>::infinity()),
-      readings_(instruments_.regions.size()) {
-  const double extent = typical_body(scene).extent;
-  for (const GateParams<Dim>& gate : instruments_.gates) gates_.emplace_back(gate, extent);
-  for (const RegionParams<Dim>& region : instruments_.regions) regions_.emplace_back(region);
-  for (const LoadParams<Dim>& load : instruments_.loads) loads_.emplace_back(scene, load);
-  if (!gates_.empty())
+    : meters_(scene), dt_(scene.world.dt) {
+  const Instruments<Dim>& instruments = scene.instruments;
+  if (!instruments.gates.empty())
     gates_csv_ = GrowingCsv(folder / "gates.csv", {"step", "time_s", "gate", "forward", "backward", "jammed"});
-  if (!regions_.empty())
+  if (!instruments.regions.empty())
     regions_csv_ = GrowingCsv(folder / "regions.csv", {"step", "time_s", "region", "bodies", "packing", "solid_volume",
                                                        "mean_speed_m_per_s", "kinetic_energy_J"});
-  if (loads_.empty()) return;
-  loads_csv_ = GrowingCsv(folder / "loads.csv", load_columns<Dim>());
-  everything_.emplace(scene);
-}
-
-template <int Dim>
-void InstrumentWatch<Dim>::on_motion(const World<Dim>& world, double time) {
-  for (GateCounter<Dim>& gate : gates_) gate.update(world, time, dt_);
-  for (LoadMeter<Dim>& load : loads_) load.update(world);
-  if (everything_) everything_->update(world);
+  if (!instruments.loads.empty()) loads_csv_ = GrowingCsv(folder / "loads.csv", load_columns<Dim>());
 }
 
 template <int Dim>
 void InstrumentWatch<Dim>::on_frame(const Frame<Dim>& frame) {
-  if (frame.step % steps_per_frame_ == 0) write_rows(frame);
+  meters_.on_frame(frame);
+  if (meters_.read_step() > written_step_) write_rows();
 }
 
 template <int Dim>
-void InstrumentWatch<Dim>::on_end(const Frame<Dim>& last, std::string_view /*reason*/) {
-  if (last.step > written_step_) write_rows(last);
+void InstrumentWatch<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
+  meters_.on_end(last, reason);
+  if (meters_.read_step() > written_step_) write_rows();
   for (GrowingCsv* file : {&gates_csv_, &regions_csv_, &loads_csv_}) file->flush();
 }
 
 template <int Dim>
-void InstrumentWatch<Dim>::write_rows(const Frame<Dim>& frame) {
-  written_step_ = frame.step;
+void InstrumentWatch<Dim>::write_rows() {
+  written_step_ = meters_.read_step();
+  const Instruments<Dim>& instruments = meters_.instruments();
   const auto row = [&](const std::string& name) {
-    return std::vector<std::string>{fmt::format("{}", frame.step), fmt::format("{:.6f}", frame.time), name};
+    return std::vector<std::string>{fmt::format("{}", written_step_),
+                                    fmt::format("{:.6f}", static_cast<double>(written_step_) * dt_), name};
   };
   const auto add = [](std::vector<std::string>& cells, double value) { cells.push_back(fmt::format("{:.6g}", value)); };
-  for (std::size_t i = 0; i < gates_.size(); ++i) {
-    std::vector<std::string> cells = row(instruments_.gates[i].name);
-    for (const std::int64_t count : {gates_[i].forward(), gates_[i].backward(), std::int64_t{gates_[i].jammed()}})
+  for (std::size_t i = 0; i < instruments.gates.size(); ++i) {
+    const GateCounter<Dim>& gate = meters_.gates()[i];
+    std::vector<std::string> cells = row(instruments.gates[i].name);
+    for (const std::int64_t count : {gate.forward(), gate.backward(), std::int64_t{gate.jammed()}})
       cells.push_back(fmt::format("{}", count));
     gates_csv_.add(cells);
   }
-  for (std::size_t i = 0; i < regions_.size(); ++i) {
-    const RegionReading& reading = readings_[i] = regions_[i].read(frame.world, ground_);
-    std::vector<std::string> cells = row(instruments_.regions[i].name);
+  for (std::size_t i = 0; i < instruments.regions.size(); ++i) {
+    const RegionReading& reading = meters_.regions()[i];
+    std::vector<std::string> cells = row(instruments.regions[i].name);
     cells.push_back(fmt::format("{}", reading.bodies));
     cells.push_back(reading.packing ? fmt::format("{:.6g}", *reading.packing) : "");
     for (const double value : {reading.solid_volume, reading.mean_speed, reading.kinetic_energy}) add(cells, value);
     regions_csv_.add(cells);
   }
-  for (std::size_t i = 0; i < loads_.size(); ++i) {
-    loads_[i].end_frame();
-    std::vector<std::string> cells = row(instruments_.loads[i].name);
-    for (const double value : loads_[i].frame().mean)
-      cells.push_back(loads_[i].frame().known ? fmt::format("{:.6g}", value) : "");
+  for (std::size_t i = 0; i < instruments.loads.size(); ++i) {
+    const LoadSpan<Dim>& span = meters_.loads()[i].frame();
+    std::vector<std::string> cells = row(instruments.loads[i].name);
+    for (const double value : span.mean) cells.push_back(span.known ? fmt::format("{:.6g}", value) : "");
     loads_csv_.add(cells);
   }
-  if (!loads_.empty()) weigh(frame.world);
-}
-
-template <int Dim>
-void InstrumentWatch<Dim>::weigh(const World<Dim>& world) {
-  everything_->end_frame();
-  double mass = 0.0;
-  for (BodyIndex body = 0; body < world.states().size(); ++body)
-    if (world.states().removed[body] == 0) mass += world.shape_of(body).mass;
-  const double weight = mass * world.gravity_size();
-  carried_.reset();
-  if (everything_->frame().known && weight > 0.0)
-    carried_ = world.down().dot(everything_->frame().mean.template head<Dim>()) / weight;
 }
 
 template <int Dim>
 void InstrumentWatch<Dim>::add_to(nlohmann::ordered_json& summary) const {
+  const Instruments<Dim>& instruments = meters_.instruments();
   summary["gates"] = Json::array();
-  for (std::size_t i = 0; i < gates_.size(); ++i)
-    summary["gates"].push_back(gate_json(instruments_.gates[i].name, gates_[i]));
+  for (std::size_t i = 0; i < instruments.gates.size(); ++i)
+    summary["gates"].push_back(gate_json(instruments.gates[i].name, meters_.gates()[i]));
   summary["regions"] = Json::array();
-  for (std::size_t i = 0; i < regions_.size(); ++i)
-    summary["regions"].push_back(region_json(instruments_.regions[i].name, readings_[i]));
+  for (std::size_t i = 0; i < instruments.regions.size(); ++i)
+    summary["regions"].push_back(region_json(instruments.regions[i].name, meters_.regions()[i]));
   summary["loads"] = Json::array();
-  for (std::size_t i = 0; i < loads_.size(); ++i)
-    summary["loads"].push_back(load_json(instruments_.loads[i].name, loads_[i]));
-  summary["carried_weight"] = or_null(carried_);
+  for (std::size_t i = 0; i < instruments.loads.size(); ++i)
+    summary["loads"].push_back(load_json(instruments.loads[i].name, meters_.loads()[i]));
+  summary["carried_weight"] = or_null(meters_.carried());
 }
 
 template <int Dim>
 std::vector<std::string> InstrumentWatch<Dim>::lines() const {
+  const Instruments<Dim>& instruments = meters_.instruments();
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < gates_.size(); ++i) lines.push_back(gate_line(instruments_.gates[i].name, gates_[i]));
-  for (std::size_t i = 0; i < regions_.size(); ++i)
-    lines.push_back(region_line<Dim>(instruments_.regions[i].name, readings_[i]));
-  for (std::size_t i = 0; i < loads_.size(); ++i) lines.push_back(load_line(instruments_.loads[i].name, loads_[i]));
-  if (carried_)
-    lines.push_back(fmt::format("ground and obstacles carry {:.4g} % of the weight of all bodies", 100.0 * *carried_));
+  for (std::size_t i = 0; i < instruments.gates.size(); ++i)
+    lines.push_back(gate_line(instruments.gates[i].name, meters_.gates()[i]));
+  for (std::size_t i = 0; i < instruments.regions.size(); ++i)
+    lines.push_back(region_line<Dim>(instruments.regions[i].name, meters_.regions()[i]));
+  for (std::size_t i = 0; i < instruments.loads.size(); ++i)
+    lines.push_back(load_line(instruments.loads[i].name, meters_.loads()[i]));
+  if (meters_.carried())
+    lines.push_back(
+        fmt::format("ground and obstacles carry {:.4g} % of the weight of all bodies", 100.0 * *meters_.carried()));
   return lines;
 }
 

@@ -96,13 +96,16 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
 #ifdef TALUS_LCM
   RunInfo info = run_info(scene, scene_name, backend);
   info.version = version_text();
-  add(std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene), simulation);
+  auto recorder = std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene);
+  recorder->set_instruments(instruments_.meters());
+  add(std::move(recorder), simulation);
   if (options.telemetry) {
     const PublisherParams params{
         .url = options.lcm_url, .piles_rate = options.telemetry_hz, .bodies_rate = options.bodies_hz};
     auto publisher = std::make_unique<Publisher<Dim>>(info, params);
     publisher->set_world(scene.world);
     publisher->set_scene(scene);
+    publisher->set_instruments(instruments_.meters());
     add(std::move(publisher), simulation);
   }
 #endif

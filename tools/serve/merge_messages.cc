@@ -104,7 +104,8 @@ std::string merge_messages(std::string_view first, std::string_view second) {
   std::string log;
   for (const LogEvent& event : a.others) {
     const Channel channel = *channel_named(event.channel);
-    const bool is_state = channel == Channel::piles || channel == Channel::stats || channel == Channel::obstacles;
+    const bool is_state = channel == Channel::piles || channel == Channel::stats || channel == Channel::obstacles ||
+                          channel == Channel::instruments;
     if (!is_state || !b.has(event.channel)) append(event, log);
   }
   for (const LogEvent& event : b.others) append(event, log);

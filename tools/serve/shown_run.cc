@@ -106,11 +106,14 @@ class SimulatedScene final : public ShownRun {
         writer_(info_of(scene, name, backend), 0, messages_),
         steps_(writer_),
         contacts_(scene.world.dt),
+        meters_(scene),
         simulation_(make_simulation(scene, backend)) {
     writer_.set_world(scene.world);
     writer_.set_scene(scene);
+    writer_.set_instruments(meters_);
     writer_.run(talus_lcm::talus_run::BEGIN, {}, 0, 0.0);
     writer_.shapes();
+    if (!scene.instruments.empty()) simulation_.add_observer(meters_);
     simulation_.add_observer(steps_);
     simulation_.add_observer(contacts_);
   }
@@ -140,6 +143,7 @@ class SimulatedScene final : public ShownRun {
     const bool all = std::exchange(all_due_, false) || writer_.owes_key_frame();
     writer_.piles(frame);
     writer_.stats(steps_.stats(frame), frame);
+    writer_.instruments(frame);
     writer_.obstacles(frame, all);
     all ? writer_.all_bodies(frame) : void(writer_.bodies(frame));
     ShownFrame shown = {.step = frame.step, .block = messages_.take()};
@@ -249,6 +253,7 @@ class SimulatedScene final : public ShownRun {
   StepWriter<Dim> steps_;
   bool all_due_ = true;  // the next frame must name all bodies
   ContactMemory<Dim> contacts_;
+  InstrumentMeters<Dim> meters_;
   Simulation<Dim> simulation_;
 };
 
