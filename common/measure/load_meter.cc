@@ -36,17 +36,22 @@ void LoadSpan<Dim>::add(const Wrench<Dim>& value) {
 
 template <int Dim>
 LoadMeter<Dim>::LoadMeter(const Scene<Dim>& scene, const LoadParams<Dim>& params)
-    : LoadMeter(scene, sides_of(scene, params), params.about) {}
+    : LoadMeter(scene, sides_of(scene, params), params) {}
 
 template <int Dim>
-LoadMeter<Dim>::LoadMeter(const Scene<Dim>& scene) : LoadMeter(scene, {ground_index}, Vec<Dim>::Zero()) {
+LoadMeter<Dim>::LoadMeter(const Scene<Dim>& scene) : LoadMeter(scene, {ground_index}, {}) {
   for (BodyIndex k = 0; k < std::ssize(scene.world.obstacles); ++k) sides_.push_back(first_obstacle - k);
   std::ranges::sort(sides_);
 }
 
 template <int Dim>
-LoadMeter<Dim>::LoadMeter(const Scene<Dim>& scene, std::vector<BodyIndex> sides, const Vec<Dim>& about)
-    : sides_(std::move(sides)), about_(about), dt_(scene.world.dt) {
+LoadMeter<Dim>::LoadMeter(const Scene<Dim>& scene, std::vector<BodyIndex> sides, const LoadParams<Dim>& params)
+    : sides_(std::move(sides)),
+      about_(params.about),
+      heights_(params.heights),
+      profile_(heights_.empty() ? 0 : heights_.size() - 1, Vec<Dim>::Zero()),
+      next_profile_(profile_),
+      dt_(scene.world.dt) {
   std::ranges::sort(sides_);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_from_start_.push_back(static_cast<BodyIndex>(i));
@@ -71,6 +76,11 @@ void LoadMeter<Dim>::update(const World<Dim>& world) {
 template <int Dim>
 void LoadMeter<Dim>::end_frame() {
   if (next_frame_.steps == 0) return;
+  const double time = static_cast<double>(next_frame_.steps) * dt_;
+  for (std::size_t i = 0; i < profile_.size(); ++i) {
+    profile_[i] = next_profile_[i] / time;
+    next_profile_[i].setZero();
+  }
   frame_ = next_frame_;
   next_frame_ = {};
 }
@@ -92,12 +102,15 @@ bool LoadMeter<Dim>::knows_all_forces(const World<Dim>& world) {
 }
 
 template <int Dim>
-void LoadMeter<Dim>::add(std::span<const Contact<Dim>> contacts, Wrench<Dim>& sum) const {
+void LoadMeter<Dim>::add(std::span<const Contact<Dim>> contacts, Wrench<Dim>& sum) {
   for (const Contact<Dim>& contact : contacts) {
     if (!std::ranges::binary_search(sides_, contact.b)) continue;
     const Vec<Dim> impulse = -(contact.normal_impulse * contact.normal + contact.friction_impulse);
     sum.template head<Dim>() += impulse;
     sum.template tail<Wrench<Dim>::RowsAtCompileTime - Dim>() += moment(Vec<Dim>(contact.point - about_), impulse);
+    if (heights_.empty()) continue;
+    const auto above = std::ranges::upper_bound(heights_, height<Dim>(contact.point));
+    if (above != heights_.begin() && above != heights_.end()) next_profile_[above - heights_.begin() - 1] += impulse;
   }
 }
 

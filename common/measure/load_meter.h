@@ -45,16 +45,21 @@ class LoadMeter {
   /// Ends a frame of output. Its steps, where it has any, are then those of frame().
   void end_frame();
   const LoadSpan<Dim>& frame() const { return frame_; }
+  /// Force between each two of LoadParams::heights, mean over the frame [N].
+  const std::vector<Vec<Dim>>& profile() const { return profile_; }
   /// Why forces are not known; empty where all are.
   const std::string& reason() const { return reason_; }
 
  private:
-  LoadMeter(const Scene<Dim>& scene, std::vector<BodyIndex> sides, const Vec<Dim>& about);
+  LoadMeter(const Scene<Dim>& scene, std::vector<BodyIndex> sides, const LoadParams<Dim>& params);
   bool knows_all_forces(const World<Dim>& world);
-  void add(std::span<const Contact<Dim>> contacts, Wrench<Dim>& sum) const;
+  void add(std::span<const Contact<Dim>> contacts, Wrench<Dim>& sum);
 
   std::vector<BodyIndex> sides_;  // ascending
   Vec<Dim> about_;
+  std::vector<double> heights_;
+  std::vector<Vec<Dim>> profile_;
+  std::vector<Vec<Dim>> next_profile_;  // impulses so far [N s]
   double dt_ = 0.0;
   std::vector<BodyIndex> asleep_from_start_;
   std::vector<Contact<Dim>> sleeping_;  // scratch

@@ -99,6 +99,14 @@ inline constexpr auto load_fields = std::to_array<Field<LoadParams<Dim>>>({
       .range = coordinate_range,
       .default_text = "origin",
       .meaning = "the torque is about this point"}},
+    {place_of<&LoadParams<Dim>::heights>,
+     {.name = "heights",
+      .unit = "m",
+      .range = coordinate_range,
+      .further_rule = "ascending, two or more",
+      .default_text = "none",
+      .meaning = "the force is also summed by the height of its contacts: between each two of these, as on the wall of "
+                 "a silo"}},
 });
 
 }  // namespace talus

@@ -42,6 +42,7 @@ struct LoadParams {
   bool on_ground = false;
   std::vector<int> obstacles = {};  // indices of Scene::obstacle_names
   Vec<Dim> about = Vec<Dim>::Zero();
+  std::vector<double> heights = {};  // between slices of the profile; empty: none
 };
 
 template <int Dim>

@@ -57,6 +57,9 @@ template <int Dim>
 LoadParams<Dim> read_load(TableReader& table, const Scene<Dim>& scene) {
   LoadParams<Dim> load;
   table.read_fields(load, load_fields<Dim>);
+  if (table.has("heights") &&
+      (load.heights.size() < 2 || !std::ranges::is_sorted(load.heights, std::ranges::less_equal())))
+    table.error("heights", "must be two or more, each above the one before");
   std::vector<std::string> sides;
   for (const ObstacleName& each : scene.obstacle_names) sides.push_back(each.name);
   const bool named_ground = std::ranges::count(sides, load_on_ground) > 0;

@@ -169,6 +169,29 @@ TYPED_TEST(InstrumentTest, ABoxAtRestPutsItsWeightOnWhatCarriesItWithItsTorque) 
   EXPECT_LE(plate.whole().least[dim - 1], plate.frame().least[dim - 1]);
 }
 
+TYPED_TEST(InstrumentTest, AProfileHasTheForcesByTheHeightOfTheirContacts) {
+  constexpr int dim = TypeParam::dim;
+  const WorldDescription<dim> description = TestFixture::with_plate();
+  const Scene<dim> scene = TestFixture::scene_of(description);
+  auto world = TypeParam::make(description);
+  world->record_contacts(true);
+  world->add(TestFixture::at(TestFixture::point(0.0, 0.5)));
+  world->add(TestFixture::on_plate(0.5));
+  LoadMeter<dim> all(scene, {.name = "all", .on_ground = true, .obstacles = {0}, .heights = {-1.0, 0.5, 1.0, 5.0}});
+  LoadMeter<dim> ground(scene, {.name = "ground", .on_ground = true});
+  LoadMeter<dim> plate(scene, {.name = "plate", .obstacles = {0}});
+  for (int i = 0; i < 240; ++i) {
+    world->step();
+    for (auto* load : {&all, &ground, &plate}) load->update(*world);
+  }
+  for (auto* load : {&all, &ground, &plate}) load->end_frame();
+  ASSERT_EQ(all.profile().size(), 3U);
+  EXPECT_NEAR((all.profile()[0] - ground.frame().mean.template head<dim>()).norm(), 0.0, 1e-6);
+  EXPECT_EQ(all.profile()[1].norm(), 0.0);
+  EXPECT_NEAR((all.profile()[2] - plate.frame().mean.template head<dim>()).norm(), 0.0, 1e-6);
+  EXPECT_GT(ground.frame().mean.norm(), 0.0);
+}
+
 TYPED_TEST(InstrumentTest, TheEnginesOwnSolverKnowsNoForcesOfSleepingBodiesAndTheLoadSaysSo) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(TestFixture::with_plate());  // without a ring small_steps keeps none either

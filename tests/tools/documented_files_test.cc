@@ -22,7 +22,7 @@ constexpr const char* instruments =
     "obstacle = [{name = \"shelf\", kind = \"box\", size = [4, 1], position = [8, 2]}]\n"
     "gate = [{name = \"between\", corners = [[7, 3.5], [9, 3.5]], jam_after = 2}]\n"
     "region = [{name = \"shelf\", box = [[6, 2.5], [10, 5]]}]\n"
-    "load = [{name = \"shelf\", on = \"shelf\"}]\n"
+    "load = [{name = \"shelf\", on = \"shelf\", heights = [0, 3]}]\n"
     "world.solver.kind = \"small_steps\"\npolicy.adaptive.rings = 2\n";
 
 /// Three discs fall, in steps longer than the engine's window has them; one is thrown beyond the world's edge, which
@@ -71,12 +71,16 @@ TEST(DocumentedFiles, HaveAllColumnsOfInstruments) {
   const std::filesystem::path run = run_in(folder);
   for (const char* name : {"gates.csv", "regions.csv"}) expect_documented(split(header_of(run / name)), name);
   const Outcome outcome = talus_command(
-      "run drop_in_a_pile_3d --no-telemetry --set run.frames=2 --set 'load=[{name=\"below\", on=\"ground\"}]' --out " +
+      "run drop_in_a_pile_3d --no-telemetry --set run.frames=2 --set 'load=[{name=\"below\", on=\"ground\", "
+      "heights=[-1, 1]}]' --out " +
       (folder / "run3d"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   Names columns = split(header_of(run / "loads.csv"));
   columns.merge(split(header_of(folder.path() / "run3d" / "loads.csv")));
   expect_documented(columns, "loads.csv");
+  columns = split(header_of(run / "profiles.csv"));
+  columns.merge(split(header_of(folder.path() / "run3d" / "profiles.csv")));
+  expect_documented(columns, "profiles.csv");
 }
 
 TEST(DocumentedFiles, HaveAllColumnsOfSweepCsv) {

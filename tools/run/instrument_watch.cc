@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "common/text/printable.h"
 #include "tools/run/json_null.h"
 
@@ -53,12 +55,21 @@ Json region_json(const std::string& name, const RegionReading& reading) {
 }
 
 template <int Dim>
-Json load_json(const std::string& name, const LoadMeter<Dim>& load) {
-  return {{"name", name},
+Json profile_json(const std::vector<double>& heights, const LoadMeter<Dim>& load) {
+  Json slices = Json::array();
+  for (std::size_t i = 0; i < load.profile().size(); ++i)
+    slices.push_back({{"from_m", heights[i]}, {"to_m", heights[i + 1]}, {"force_N", numbers<Dim>(load.profile()[i])}});
+  return slices;
+}
+
+template <int Dim>
+Json load_json(const LoadParams<Dim>& params, const LoadMeter<Dim>& load) {
+  return {{"name", params.name},
           {"mean", wrench_json<Dim>(load.whole().mean, load.whole())},
           {"least", wrench_json<Dim>(load.whole().least, load.whole())},
           {"most", wrench_json<Dim>(load.whole().most, load.whole())},
           {"at_end", wrench_json<Dim>(load.frame().mean, load.frame())},
+          {"profile", profile_json(params.heights, load)},
           {"reason", or_null(load.reason())}};
 }
 
@@ -95,6 +106,14 @@ std::string load_line(const std::string& name, const LoadMeter<Dim>& load) {
 }
 
 template <int Dim>
+std::vector<std::string> profile_columns() {
+  if constexpr (Dim == 2)
+    return {"step", "time_s", "load", "from_m", "to_m", "force_x_N", "force_z_N"};
+  else
+    return {"step", "time_s", "load", "from_m", "to_m", "force_x_N", "force_y_N", "force_z_N"};
+}
+
+template <int Dim>
 std::vector<std::string> load_columns() {
   if constexpr (Dim == 2)
     return {"step", "time_s", "load", "force_x_N", "force_z_N", "torque_Nm"};
@@ -114,6 +133,8 @@ InstrumentWatch<Dim>::InstrumentWatch(const Scene<Dim>& scene, const std::filesy
   if (!instruments.regions.empty())
     regions_csv_ = GrowingCsv(folder / "regions.csv", {"step", "time_s", "region", "bodies", "packing", "solid_volume",
                                                        "mean_speed_m_per_s", "kinetic_energy_J"});
+  if (std::ranges::any_of(instruments.loads, [](const LoadParams<Dim>& load) { return !load.heights.empty(); }))
+    profiles_csv_ = GrowingCsv(folder / "profiles.csv", profile_columns<Dim>());
   if (!instruments.loads.empty()) loads_csv_ = GrowingCsv(folder / "loads.csv", load_columns<Dim>());
 }
 
@@ -127,7 +148,7 @@ template <int Dim>
 void InstrumentWatch<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   meters_.on_end(last, reason);
   if (meters_.read_step() > written_step_) write_rows();
-  for (GrowingCsv* file : {&gates_csv_, &regions_csv_, &loads_csv_}) file->flush();
+  for (GrowingCsv* file : {&gates_csv_, &regions_csv_, &loads_csv_, &profiles_csv_}) file->flush();
 }
 
 template <int Dim>
@@ -159,6 +180,14 @@ void InstrumentWatch<Dim>::write_rows() {
     std::vector<std::string> cells = row(instruments.loads[i].name);
     for (const double value : span.mean) cells.push_back(span.known ? fmt::format("{:.6g}", value) : "");
     loads_csv_.add(cells);
+    const std::vector<double>& heights = instruments.loads[i].heights;
+    for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+      std::vector<std::string> slice = row(instruments.loads[i].name);
+      for (const double value : {heights[k], heights[k + 1]}) add(slice, value);
+      for (const double value : meters_.loads()[i].profile()[k])
+        slice.push_back(span.known ? fmt::format("{:.6g}", value) : "");
+      profiles_csv_.add(slice);
+    }
   }
 }
 
@@ -173,7 +202,7 @@ void InstrumentWatch<Dim>::add_to(nlohmann::ordered_json& summary) const {
     summary["regions"].push_back(region_json(instruments.regions[i].name, meters_.regions()[i]));
   summary["loads"] = Json::array();
   for (std::size_t i = 0; i < instruments.loads.size(); ++i)
-    summary["loads"].push_back(load_json(instruments.loads[i].name, meters_.loads()[i]));
+    summary["loads"].push_back(load_json(instruments.loads[i], meters_.loads()[i]));
   summary["carried_weight"] = or_null(meters_.carried());
 }
 

@@ -11,8 +11,8 @@
 
 namespace talus {
 
-/// Writes what the scene measures by [[gate]], [[region]] and [[load]] to gates.csv, regions.csv and loads.csv: a row
-/// for each of them and each frame of output. docs/files.md explains columns and keys.
+/// Writes what the scene measures by [[gate]], [[region]] and [[load]] to gates.csv, regions.csv, loads.csv and
+/// profiles.csv: a row for each of them and each frame of output. docs/files.md explains columns and keys.
 template <int Dim>
 class InstrumentWatch final : public Observer<Dim> {
  public:
@@ -38,6 +38,7 @@ class InstrumentWatch final : public Observer<Dim> {
   GrowingCsv gates_csv_;
   GrowingCsv regions_csv_;
   GrowingCsv loads_csv_;
+  GrowingCsv profiles_csv_;
 };
 
 }  // namespace talus
