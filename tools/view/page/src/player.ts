@@ -267,7 +267,7 @@ export class Player {
     element<HTMLInputElement>("scrub").max = String(Math.max(0, this.timeline.frames - 1));
     this.showWarnings();
     const { timeline, wantedTime } = this;
-    if (wantedTime !== null && timeline.time(timeline.frames - 1) >= wantedTime) this.seekTime(wantedTime);
+    if (wantedTime !== null && timeline.time(timeline.frames - 1) + this.head.dt / 2 >= wantedTime) this.seekTime(wantedTime);
     else if (this.following && !this.led) this.goTo(timeline.frames - 1);
     const { woken, avalanches, newWarnings } = timeline;
     for (const [id, counts] of Object.entries({ wake: woken, avalanche: avalanches, warning: newWarnings })) element(id).hidden = !counts.some((count) => count > 0);
@@ -336,13 +336,15 @@ export class Player {
     this.stage.accompany(element<HTMLInputElement>("follow").checked ? this.stage.selected : -1);
   }
 
+  /// Shows the frame at or before a time; digits that an address or a pointer lacks make no difference.
   seekTime(time: number): void {
-    this.seek(this.timeline.frameAt(time));
+    this.seek(this.timeline.frameAt(time + this.head.dt / 2));
   }
 
   /// Shows the moment of a time, also between two frames.
   showMoment(time: number): void {
     this.following = false;
+    this.time = time;
     if (this.timeline.frames > 0) this.update(this.timeline.seekTime(time), time);
   }
 
