@@ -168,7 +168,7 @@ for (const [name, { run, url }] of Object.entries({ flat, solid })) {
 
 test("layers are named where there are piles, and those that a message has no room for", async () => {
   const page = await openAt(flat.url, 449);
-  assert.match(await page.locator(".names").last().textContent(), /density of layers/);
+  assert.match(await page.locator(".names").last().textContent(), /density/);
   assert.doesNotMatch(await page.textContent("#measured"), /layers: the lowest/);
   const layers = await page.evaluate(() => {
     const { talus } = window;

@@ -11,6 +11,9 @@ import { CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, Matrix4, Mesh
 const longest = 2;
 const up = new Vector3(0, 1, 0);
 
+/// Width of a line, in lengths of a bar.
+export const lineWidth = 0.07;
+
 export type ContactWay = "none" | "points" | "chains";
 
 /// The force above which one in five lies.
@@ -20,7 +23,7 @@ function largeForce(forces: number[]): number {
 
 export class ContactMarks {
   readonly group = new Group();
-  /// Length of a bar, and ten widths of a line, of the force below [m].
+  /// Length of a bar of the force below [m]; a line is narrower by lineWidth.
   readonly length: number;
   /// [N]; changes only where bars would be much too long or short.
   force = 0;
@@ -70,7 +73,7 @@ export class ContactMarks {
     const share = Math.min(longest, force / this.force);
     const along = b.clone().sub(a);
     const length = along.length() || 1e-9;
-    const radius = this.length * Math.max(0.006, 0.05 * share);
+    const radius = this.length * Math.max(0.006, (lineWidth / 2) * share);
     this.bars!.setMatrixAt(i, new Matrix4().compose(a.add(b).multiplyScalar(0.5), new Quaternion().setFromUnitVectors(up, along.divideScalar(length)), new Vector3(radius, length, radius)));
     this.bars!.setColorAt(i, colour(this.tint(share, kept)));
   }

@@ -1,6 +1,6 @@
 // The choice of how contacts are drawn, and what is said of those shown.
 
-import type { ContactWay } from "./contact_marks";
+import { type ContactWay, lineWidth } from "./contact_marks";
 import { type Contact, Contacts, type ContactsText, magnitude } from "./contacts";
 import type { Head } from "./head";
 import { element } from "./element";
@@ -83,7 +83,7 @@ export class ContactPanel {
     else if (!contacts) text.textContent = "This frame came without contacts: the next step has them.";
     else {
       const kept = contacts.filter((contact) => contact.kept).length;
-      const scale = this.way === "chains" ? `; a line ${(length / 10).toPrecision(3)} m wide: ${withUnit(force, "N")}` : `; a bar of ${length.toPrecision(3)} m: ${withUnit(force, "N")}`;
+      const scale = this.way === "chains" ? `; a line ${(lineWidth * length).toPrecision(2)} m wide: ${withUnit(force, "N")}` : `; a bar of ${length.toPrecision(3)} m: ${withUnit(force, "N")}`;
       text.textContent = `${contacts.length} points with a force, ${kept} between sleeping bodies, as it was before they slept${contacts.length > 0 && this.way !== "none" ? scale : ""}`;
     }
   }

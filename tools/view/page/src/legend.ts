@@ -56,32 +56,39 @@ function ramp(colours: Rgb[], [low, high]: [string, string]): HTMLElement {
   return make("span", { className: "ramp" }, make("small", { textContent: low }), bar, make("small", { textContent: high }));
 }
 
-/// On a picture, in a line that begins at x; where it ends. Lengths in pixels of the picture, `unit` of them for one of the page.
-export function paintLegend(paper: CanvasRenderingContext2D, entries: Entry[], marks: Mark[], x: number, y: number, unit: number, text: Rgb): number {
+/// Draws a legend on a picture from x on, in lines not longer than `width`. Returns how many
+/// there are. All in pixels of the picture; `unit` of them are one of the page.
+export function paintLegend(paper: CanvasRenderingContext2D, marks: Mark[], at: { x: number; y: number; width: number; unit: number; line: number }, text: Rgb): number {
+  const { unit } = at;
+  const [gap, band, box] = [5 * unit, 60 * unit, 10 * unit];
+  paper.font = `${12 * unit}px system-ui, sans-serif`;
   paper.textBaseline = "middle";
-  const put = (words: string): void => {
-    paper.fillStyle = css(text);
-    paper.fillText(words, x, y);
-    x += paper.measureText(words).width + 6 * unit;
-  };
-  const box = (colours: Rgb[], width: number, height: number): void => {
-    const fill = paper.createLinearGradient(x, 0, x + width, 0);
-    colours.forEach((each, i) => fill.addColorStop(colours.length > 1 ? i / (colours.length - 1) : 0, css(each)));
-    paper.fillStyle = fill;
-    paper.fillRect(x, y - height / 2, width, height);
-    x += width + 5 * unit;
-  };
-  for (const { colours, ends, count, text: words } of entries) {
-    if (ends) put(ends[0]);
-    if (ends) box(colours, 60 * unit, 10 * unit);
-    else for (const each of colours) box([each], 10 * unit, 10 * unit);
-    put(`${ends ? `${ends[1]} ` : ""}${words}${count === undefined ? "" : ` ${count}`}`);
-    x += 8 * unit;
+  let [x, lines] = [0, 1];
+  for (const { colours, ends, line, count, text: words } of marks) {
+    const parts = [ends?.[0] ?? "", `${ends ? `${ends[1]} ` : ""}${words}${count === undefined ? "" : ` ${count}`}`];
+    const whole = ends || line || count === undefined; // one box with all colours
+    const boxes = whole ? [colours] : colours.map((each) => [each]);
+    const size = ends ? band : box;
+    const room = parts.reduce((sum, part) => sum + (part ? paper.measureText(part).width + gap : 0), boxes.length * (size + gap));
+    if (x > 0 && x + room > at.width) [x, lines] = [0, lines + 1];
+    const y = at.y + (lines - 1) * at.line;
+    const put = (part: string): void => {
+      if (!part) return;
+      paper.fillStyle = css(text);
+      paper.fillText(part, at.x + x, y);
+      x += paper.measureText(part).width + gap;
+    };
+    put(parts[0]);
+    for (const each of boxes) {
+      const fill = paper.createLinearGradient(at.x + x, 0, at.x + x + size, 0);
+      each.forEach((one, i) => fill.addColorStop(each.length > 1 ? i / (each.length - 1) : 0, css(one)));
+      paper.fillStyle = fill;
+      const height = line ? 2 * unit : box;
+      paper.fillRect(at.x + x, y - height / 2, size, height);
+      x += size + gap;
+    }
+    put(parts[1]);
+    x += 2 * gap;
   }
-  for (const { colours, line, text: words } of marks) {
-    box(colours, 12 * unit, (line ? 2 : 10) * unit);
-    put(words);
-    x += 8 * unit;
-  }
-  return x;
+  return lines;
 }

@@ -16,40 +16,37 @@ export interface Scenery {
   marks: Mark[];
 }
 
-const captionHeight = 64; // [CSS pixels]
+const lineHeight = 20; // of the caption, and its margin [CSS pixels]
+const margin = 14;
 
 const nameOf = ({ head, time }: Scenery): string => `${head.name.replace(/\W+/g, "_")}_${time.toFixed(2)}_s`;
 
 export const factsOf = ({ name, backend, policy, seed, version }: Head): string => [name, backend, `policy ${policy}`, `seed ${seed}`, version].filter((part) => part !== "").join(", ");
 
-/// Draws them side by side; the canvas gets their size where it has none.
+/// Draws them side by side; `resize`: on a canvas that gets the size of what is shown now.
 function paint(canvas: HTMLCanvasElement, sides: Scenery[], resize: boolean): void {
   const { width, height, clientWidth } = sides[0].canvases[0];
   const unit = width / clientWidth;
-  if (resize) Object.assign(canvas, { width: sides.length * width, height: height + captionHeight * unit });
   const paper = canvas.getContext("2d")!;
+  const line = lineHeight * unit;
+  const legend = ({ entries, marks, head }: Scenery, x: number): number => paintLegend(paper, [...entries, ...marks], { x, y: height + 2.6 * line, width: width - 2 * margin * unit, unit, line }, head.colours.text);
+  if (resize) Object.assign(canvas, { width: sides.length * width, height: Math.ceil(height + (2.2 + Math.max(...sides.map((side) => legend(side, 0)))) * line) });
   sides.forEach((side, i) => {
-    const { head, time, canvases, entries, marks } = side;
+    const { head, time, canvases } = side;
     const left = i * width;
     paper.fillStyle = css(head.colours.paper);
     paper.fillRect(left, 0, width, canvas.height);
     for (const each of canvases) paper.drawImage(each, left, 0);
-    const line = (number: number): number => height + (12 + 20 * number) * unit;
-    const put = (text: string, font: string, y: number): void => {
-      paper.font = `${font} ${12 * unit}px system-ui, sans-serif`;
-      paper.fillText(text, left + 14 * unit, y, width - 28 * unit);
+    const put = (text: string, weight: string, y: number): void => {
+      paper.font = `${weight} ${12 * unit}px system-ui, sans-serif`;
+      paper.fillText(text, left + margin * unit, height + y * line, width - 2 * margin * unit);
     };
     paper.textBaseline = "middle";
     paper.fillStyle = css(head.colours.text);
-    put(`${time.toFixed(2)} s   ${head.title}`, "600", line(0));
+    put(`${time.toFixed(2)} s   ${head.title}`, "600", 0.6);
     paper.fillStyle = css(head.colours.quiet_text);
-    put(factsOf(head), "", line(1));
-    paper.save();
-    paper.beginPath();
-    paper.rect(left, 0, width, canvas.height);
-    paper.clip();
-    paintLegend(paper, entries, marks, left + 14 * unit, line(2), unit, head.colours.text);
-    paper.restore();
+    put(factsOf(head), "", 1.6);
+    legend(side, left + margin * unit);
   });
 }
 

@@ -200,7 +200,7 @@ export class Plots {
   private legend(row: Row, runs: PlottedRun[]): HTMLElement {
     const { timeline, name } = runs[0];
     const legend = make("div", { className: "names" });
-    const unit = row.map ? "height [m]; " : row === counts ? "bodies" : `[${row.unit}]`;
+    const unit = row.map ? "layers [m]" : row === counts ? "bodies" : `[${row.unit}]`;
     legend.append(unit);
     if (row.map) {
       const { layer: full } = timeline.head.colours;
@@ -208,7 +208,7 @@ export class Plots {
       const most = layer ? fullest(layer) : 1;
       const bar = make("i", { className: "scale" });
       bar.style.background = `linear-gradient(to right, ${css(full, 0)}, ${css(full, 0.9)} 66%, ${css(overfull, 0.5)} 66%, ${css(overfull)})`;
-      legend.append(`density of layers ${name} 0`, bar, most === 1 ? "1 and above" : `${most.toFixed(2)}, above which the pile wakes`);
+      legend.append(`density ${name} 0`, bar, most === 1 ? "> 1" : `> ${most.toFixed(2)}: the pile wakes`);
       return legend;
     }
     for (const { label, colour } of row.lines(timeline)) {
@@ -243,10 +243,11 @@ export class Plots {
     return Math.max(...this.runs.map(({ timeline }) => (timeline.frames > 0 ? timeline.time(timeline.frames - 1) : 0)), 1e-3);
   }
 
-  /// From the first frame to the last of all runs.
+  /// From the start, or the first frame where that comes much later, to the last frame of all runs.
   private showAll(plot: uPlot): void {
     this.zooming = true;
-    plot.setScale("x", { min: Math.min(...this.runs.map(({ timeline }) => (timeline.frames > 0 ? timeline.time(0) : 0))), max: this.end });
+    const first = Math.min(...this.runs.map(({ timeline }) => (timeline.frames > 0 ? timeline.time(0) : 0)));
+    plot.setScale("x", { min: first < 0.05 * this.end ? 0 : first, max: this.end });
     this.zooming = false;
   }
 

@@ -259,7 +259,7 @@ export class Stage {
       this.camera.position.copy(middle).addScaledVector(back, this.distanceFor(low, high, middle, back));
     } else {
       const aspect = this.camera.right / this.camera.top;
-      const half = 1.08 * Math.max((high.y - low.y) / 2, (high.x - low.x) / 2 / aspect, 1e-3);
+      const half = 1.08 * Math.max((high.y - low.y) / 2, ((this.timeline?.newest.piles.length ? 1.08 : 1) * (high.x - low.x)) / 2 / aspect, 1e-3); // with room for densities
       if (this.head.ground.present) middle.y = Math.max(middle.y, low.y + 0.86 * half); // rather sky than soil
       this.camera.zoom = this.camera.top / half;
       this.camera.position.set(middle.x, middle.y, 100);
