@@ -2,8 +2,8 @@
 
 const mostOften = 400; // [ms] between two changes of the address: browsers refuse more than some a second
 
-/// `t`: time [s], none: the newest; `camera`; `colours`; `body`; `folded`: panels; `plots`: those shown; `layers`, `contacts`.
-export type View = Partial<Record<"t" | "camera" | "colours" | "body" | "folded" | "plots" | "layers" | "contacts", string>>;
+/// `t`: time [s], none: the newest; `camera`; `colours`; `body`; `panels`: that are folded, or open, otherwise than usual; `plots`: those shown; `layers`, `contacts`.
+export type View = Partial<Record<"t" | "camera" | "colours" | "body" | "panels" | "plots" | "layers" | "contacts", string>>;
 
 export const viewOfAddress = (): View => Object.fromEntries(new URLSearchParams(location.hash.slice(1))) as View;
 

@@ -184,7 +184,7 @@ export class Player {
     element("follow").addEventListener("change", () => this.accompany());
     element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
     const paint = element<HTMLSelectElement>("paint");
-    paint.append(...Object.entries(ways).map(([way, text]) => new Option(text, way)));
+    paint.append(...Object.entries(ways).map(([way, text]) => Object.assign(new Option(text, way), { disabled: way === "force" })));
     paint.addEventListener("change", () => this.colourBy(paint.value as Way));
     element("layers").addEventListener("change", () => {
       this.stage.showLayers = element<HTMLInputElement>("layers").checked;
@@ -451,6 +451,7 @@ export class Player {
       if (layers.length < layer_total) lines.push(`A pile has ${layer_total} layers: the lowest ${layers.length} are shown, which a message holds`);
     const { hidden } = this.stage.enclosed;
     if (hidden > 0) lines.push(`${hidden} enclosed bodies not drawn`);
+    element("measures").hidden = lines.length === 0 && element("history").hidden;
     element("measured").replaceChildren(...lines.map((textContent) => make("p", { className: "hint", textContent })));
   }
 
@@ -472,15 +473,15 @@ export class Player {
     if (stage.selected >= 0) view.body = String(stage.selected);
     if (!stage.showLayers) view.layers = "off";
     if (element<HTMLSelectElement>("contacts").value !== "none") view.contacts = element<HTMLSelectElement>("contacts").value;
-    if (toggled.length > 0) view.folded = toggled.join(",");
+    if (toggled.length > 0) view.panels = toggled.join(",");
     const plots = this.plots ? this.plots.shown : this.wantedPlots;
     if (plots !== null) view.plots = plots;
     return view;
   }
 
   /// Shows what an address says.
-  restore({ t, camera, colours, body, folded, plots, layers, contacts }: View): void {
-    const toggled = folded?.split(",") ?? [];
+  restore({ t, camera, colours, body, panels: changed, plots, layers, contacts }: View): void {
+    const toggled = changed?.split(",") ?? [];
     for (const panel of panels()) panel.open = panel.hasAttribute("data-open") !== toggled.includes(panel.id);
     document.body.classList.toggle("folded", toggled.includes("dock"));
     if (plots !== undefined) {
@@ -494,7 +495,7 @@ export class Player {
       element<HTMLSelectElement>("contacts").value = contacts;
       element("contacts").dispatchEvent(new Event("change"));
     }
-    if (colours && colours in ways) this.colourBy(colours as Way);
+    if (colours && colours in ways && (colours !== "force" || this.contacts.known)) this.colourBy(colours as Way);
     if (t !== undefined && Number.isFinite(Number(t))) this.wantedTime = Number(t);
     if (this.wantedTime !== null && !this.simulation) this.seekTime(this.wantedTime);
     if (body !== undefined && Number.isInteger(Number(body))) this.select(Number(body));
@@ -567,6 +568,7 @@ export class Player {
   /// The run takes commands.
   steer(): void {
     offerPaces(element<HTMLSelectElement>("rate"), [...paces, 64, 0]);
+    for (const option of element<HTMLSelectElement>("paint").options) option.disabled = false;
     this.contacts.listen(
       (wanted) => this.command({ do: "contacts", value: wanted }),
       () => this.repaint(),
