@@ -394,3 +394,23 @@ test("the key ? lists all keys, and panels fold", async () => {
   assert.ok((await width()) > before + 200);
   await page.close();
 });
+
+test("in 3D the camera stands where the pictures' does, and turns about the vertical", async () => {
+  const page = await openAt(solid.url, 400);
+  const angles = () =>
+    page.evaluate(() => {
+      const { eye, target } = window.talus.stage.view();
+      const [x, y, z] = eye.map((part, i) => part - target[i]);
+      return { azimuth: Math.atan2(y, x), elevation: Math.atan2(z, Math.hypot(x, y)), first: window.talus.timeline.head.camera };
+    });
+  const { azimuth, elevation, first } = await angles();
+  assert.ok(Math.abs(azimuth - first.azimuth) < 1e-3 && Math.abs(elevation - first.elevation) < 1e-3, `${azimuth}, ${elevation}`);
+  const { x, y, width, height } = await page.locator("#bodies").boundingBox();
+  await page.mouse.move(x + 0.5 * width, y + 0.2 * height);
+  await page.mouse.down();
+  await page.mouse.move(x + 0.7 * width, y + 0.2 * height, { steps: 4 });
+  await page.mouse.up();
+  const turned = await angles();
+  assert.ok(Math.abs(turned.azimuth - azimuth) > 0.3 && Math.abs(turned.elevation - elevation) < 0.02, JSON.stringify(turned));
+  await page.close();
+});

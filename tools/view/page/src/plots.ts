@@ -200,7 +200,7 @@ export class Plots {
   private legend(row: Row, runs: PlottedRun[]): HTMLElement {
     const { timeline, name } = runs[0];
     const legend = make("div", { className: "names" });
-    const unit = row.map ? "layers [m]" : row === counts ? "bodies" : `[${row.unit}]`;
+    const unit = row.map ? "layers [m]\u00a0\u00a0" : row === counts ? "bodies" : `[${row.unit}]`;
     legend.append(unit);
     if (row.map) {
       const { layer: full } = timeline.head.colours;

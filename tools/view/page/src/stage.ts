@@ -85,6 +85,7 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.labels = overlay.getContext("2d")!;
     this.camera = this.flat ? new OrthographicCamera() : new PerspectiveCamera(26);
+    if (!this.flat) this.camera.up.set(0, 0, 1); // before the controls, which take it over once
     this.controls = new OrbitControls(this.camera, canvas);
     this.prepareControls();
     if (!this.flat) {
@@ -240,7 +241,6 @@ export class Stage {
       this.controls.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
       this.controls.touches = { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
     } else {
-      this.camera.up.set(0, 0, 1);
       this.controls.maxPolarAngle = 0.5 * Math.PI;
     }
   }
