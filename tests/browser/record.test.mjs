@@ -414,3 +414,14 @@ test("in 3D the camera stands where the pictures' does, and turns about the vert
   assert.ok(Math.abs(turned.azimuth - azimuth) > 0.3 && Math.abs(turned.elevation - elevation) < 0.02, JSON.stringify(turned));
   await page.close();
 });
+
+test("every sleeping body is drawn with the outline of sleep", async () => {
+  const page = await openAt(flat.url, 449);
+  const outlines = await page.evaluate(() => {
+    const { stage, timeline } = window.talus;
+    return stage.shapes.flatMap(({ bodies, sleeping }) => bodies.map((body, place) => [timeline.state.asleep[body], sleeping.getX(place)]));
+  });
+  assert.ok(outlines.filter(([asleep]) => asleep === 1).length > 20);
+  for (const [asleep, outline] of outlines) assert.equal(outline, asleep);
+  await page.close();
+});

@@ -145,16 +145,10 @@ export function headOf(reader: MomentReader, settings: Settings, name: string): 
 }
 
 /// What to show of a state: bodies within 1.5 times the width of the middle half of all and two bodies more, so that one
-/// that was shot away does not make a dot of all others; layers of piles; obstacles unless they are much larger.
-export function boxOf({ dimension, shapes, obstacles }: Head, { bodies, removed, pose, shape, piles }: State): Box {
+/// that was shot away does not make a dot of all others; obstacles unless they are much larger.
+export function boxOf({ dimension, shapes, obstacles }: Head, { bodies, removed, pose, shape }: State): Box {
   const width = dimension === 2 ? 3 : 7;
   const box = emptyBox(dimension);
-  for (const { centre, layers } of piles)
-    for (const { top, radius } of layers) {
-      const across = Array.from({ length: dimension - 1 }, (_, axis) => centre[axis]);
-      extend(box, [...across.map((value) => value - radius), centre[dimension - 1]]);
-      extend(box, [...across.map((value) => value + radius), centre[dimension - 1] + top]);
-    }
   const present = Array.from({ length: bodies }, (_, body) => body).filter((body) => removed[body] === 0);
   const at = (body: number, axis: number): number => pose[width * body + axis];
   const reach = 2 * Math.max(0, ...shapes.map(({ extent }) => extent));

@@ -3,7 +3,7 @@
 
 import { keepAddress, type View, viewOfAddress } from "./address";
 import { type Way, ways } from "./colourings";
-import { onTheme } from "./colours";
+import { onTheme, themed } from "./colours";
 import { element, make, offerPaces, onClick, showGoing, showPace } from "./element";
 import { Keys } from "./keys";
 import { listed } from "./legend";
@@ -93,6 +93,7 @@ class Pair {
   private plot(shown: string | null): void {
     this.plots?.dispose();
     const [a, b] = (this.plotted = this.players.map(({ timeline }) => timeline));
+    for (const { head } of this.plotted) head.colours = themed(head.light);
     this.plots = new Plots(element("plots"), [{ timeline: a, name: "left" }, { timeline: b, name: "right" }], (time) => this.seek(time), shown);
   }
 

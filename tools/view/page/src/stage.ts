@@ -130,13 +130,6 @@ export class Stage {
       low.min(at.clone().subScalar(reach));
       high.max(at.addScalar(reach));
     }
-    for (const { centre, layers } of this.timeline!.state.piles)
-      for (const { top, radius } of layers) {
-        const middle = new Vector3(centre[0], this.flat ? centre[1] + top : centre[1], this.flat ? 0 : centre[2] + top);
-        const across = new Vector3(radius, this.flat ? 0 : radius, 0);
-        low.min(middle.clone().sub(across));
-        high.max(middle.add(across));
-      }
     if (this.flat) low.z = high.z = 0;
     if (this.head.ground.present) low.setComponent(this.flat ? 1 : 2, Math.max(low.getComponent(this.flat ? 1 : 2), this.head.ground.height));
     if (low.distanceTo(high) > before) this.fit(false);
@@ -259,7 +252,7 @@ export class Stage {
       this.camera.position.copy(middle).addScaledVector(back, this.distanceFor(low, high, middle, back));
     } else {
       const aspect = this.camera.right / this.camera.top;
-      const half = 1.08 * Math.max((high.y - low.y) / 2, ((this.timeline?.newest.piles.length ? 1.08 : 1) * (high.x - low.x)) / 2 / aspect, 1e-3); // with room for densities
+      const half = 1.08 * Math.max((high.y - low.y) / 2, (high.x - low.x) / 2 / aspect, 1e-3);
       if (this.head.ground.present) middle.y = Math.max(middle.y, low.y + 0.86 * half); // rather sky than soil
       this.camera.zoom = this.camera.top / half;
       this.camera.position.set(middle.x, middle.y, 100);
