@@ -425,3 +425,25 @@ test("every sleeping body is drawn with the outline of sleep", async () => {
   for (const [asleep, outline] of outlines) assert.equal(outline, asleep);
   await page.close();
 });
+
+test("the edges of plots and panels can be dragged", async () => {
+  const page = await openAt(flat.url, 10, { viewport: { width: 1280, height: 800 } });
+  for (const [edge, dx, dy] of [["#plots-edge", 0, -60], ["#dock-edge", -60, 0]]) {
+    const size = async () => {
+      const { width, height } = await page.locator("#stage").boundingBox();
+      return [width, height];
+    };
+    const before = await size();
+    const { x, y, width, height } = await page.locator(edge).boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + dx, y + height / 2 + dy, { steps: 3 });
+    await page.mouse.up();
+    const after = await size();
+    assert.ok(Math.abs(after[0] - before[0] - dx) < 5 && Math.abs(after[1] - before[1] - dy) < 5, `${before} to ${after}`);
+  }
+  await page.waitForTimeout(300);
+  const [plot, plots] = await page.evaluate(() => [window.talus.plots.drawn[0].plot.height, document.getElementById("plots").clientHeight]);
+  assert.ok(plot > 0.35 * plots, `${plot} of ${plots}`);
+  await page.close();
+});

@@ -30,6 +30,26 @@ export function showGoing(button: HTMLElement, going: boolean): void {
   button.setAttribute("aria-label", going ? "Pause" : "Play");
 }
 
+/// Lets the user drag an edge; `moved`: where the pointer is [CSS pixels]. A double click gives back the usual size.
+export function draggable(edge: HTMLElement, moved: (x: number, y: number) => void, usual: () => void): void {
+  edge.addEventListener("pointerdown", (event) => {
+    event.preventDefault();
+    edge.setPointerCapture(event.pointerId);
+  });
+  edge.addEventListener("pointermove", (event) => edge.hasPointerCapture(event.pointerId) && moved(event.clientX, event.clientY));
+  edge.addEventListener("dblclick", usual);
+}
+
+/// Lets the user drag the upper edge of the plots.
+export function dragPlots(): void {
+  const plots = element("plots");
+  draggable(
+    element("plots-edge"),
+    (_, y) => (plots.style.height = `${Math.max(40, plots.getBoundingClientRect().bottom - y)}px`),
+    () => (plots.style.height = ""),
+  );
+}
+
 /// Gives the user a file.
 export function download(name: string, content: Blob): void {
   const link = make("a", { href: URL.createObjectURL(content), download: name });

@@ -4,7 +4,7 @@
 import { keepAddress, type View, viewOfAddress } from "./address";
 import { type Way, ways } from "./colourings";
 import { onTheme, themed } from "./colours";
-import { element, make, offerPaces, onClick, showGoing, showPace } from "./element";
+import { dragPlots, element, make, offerPaces, onClick, showGoing, showPace } from "./element";
 import { Keys } from "./keys";
 import { listed } from "./legend";
 import { offerPictures } from "./picture";
@@ -68,6 +68,7 @@ class Pair {
     this.showLabels();
     this.plot(viewOfAddress().plots ?? null);
     onTheme(() => this.plot(this.plots!.shown));
+    dragPlots();
     offerPictures(() => this.players.map((player) => player.scenery()));
     this.restore(viewOfAddress());
     keepAddress(() => this.view());

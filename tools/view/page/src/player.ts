@@ -5,7 +5,7 @@ import { type Account, BodyPanel } from "./body_panel";
 import { Colouring, type Way, ways } from "./colourings";
 import { onTheme, themed } from "./colours";
 import { ContactPanel } from "./contact_panel";
-import { element, make, offerPaces, onClick, showGoing } from "./element";
+import { draggable, dragPlots, element, make, offerPaces, onClick, showGoing } from "./element";
 import type { Head } from "./head";
 import { type Key, Keys } from "./keys";
 import { type Drawn, marksOf, showLegend } from "./legend";
@@ -194,6 +194,12 @@ export class Player {
     offerPaces(element<HTMLSelectElement>("rate"), paces);
     element("rate").addEventListener("change", () => this.steered() && this.command({ do: "pace", value: this.rate() }));
     if (!this.half) offerPictures(() => [this.scenery()]);
+    dragPlots();
+    draggable(
+      element("dock-edge"),
+      (x) => document.body.style.setProperty("--dock", `${Math.max(180, innerWidth - x)}px`),
+      () => document.body.style.removeProperty("--dock"),
+    );
     onTheme(() => this.retheme());
     this.listenToStage();
   }
