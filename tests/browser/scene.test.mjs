@@ -113,7 +113,7 @@ test("a body is thrown by shift and drag, and removed by Delete", async () => {
   await page.keyboard.down("Shift");
   await page.mouse.move(x + body.x, y + body.y);
   await page.mouse.down();
-  await page.mouse.move(x + body.x, y + body.y - 60, { steps: 4 });
+  await page.mouse.move(x + body.x, y + body.y - 120, { steps: 4 });
   await page.mouse.up();
   await page.keyboard.up("Shift");
   for (let i = 0; i < 12; ++i) await page.click("#forward");
@@ -347,6 +347,22 @@ test("a page of a simulation that is loaded again shows the time that was chosen
   await until(page, ({ time }) => time > 3);
   await page.waitForTimeout(600);
   assert.doesNotMatch(page.url(), /#.*t=/);
+  await page.close();
+  child.kill();
+});
+
+test("the time of a step is plotted where the user switches it on, while the run goes on", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "4", ...endless);
+  const page = await openPage(url);
+  await until(page, ({ bodies }) => bodies > 10);
+  await page.waitForFunction(() => document.querySelectorAll("#rows button").length === 3);
+  const drawn = () => page.evaluate(() => window.talus.plots.drawn.map(({ row }) => row.name));
+  assert.deepEqual(await drawn(), ["bodies", "layers"]);
+  await page.click("#rows button:last-child");
+  assert.deepEqual(await drawn(), ["bodies", "layers", "step time"]);
+  const { max } = await page.evaluate(() => window.talus.plots.drawn[2].plot.scales.y);
+  assert.ok(max > 0, `${max}`);
+  assert.deepEqual(page.faults, []);
   await page.close();
   child.kill();
 });

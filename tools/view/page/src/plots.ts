@@ -68,6 +68,7 @@ export class Plots {
   private readonly hint = make("div", { className: "hover", hidden: true });
   /// Frames of each run, and which rows can be shown, when last drawn.
   private known = "";
+  private offered = "";
   private time = 0;
   private zooming = false;
   private zoomed: [number, number] | null = null;
@@ -139,8 +140,11 @@ export class Plots {
     this.resize();
   }
 
-  /// Buttons that switch the rows.
+  /// Buttons that switch the rows; the same ones as long as nothing changes, since a button that is replaced takes no click.
   private offer(able: Row[]): void {
+    const offered = able.map((row) => `${row.name} ${this.wants(row)}`).join();
+    if (this.offered === offered) return;
+    this.offered = offered;
     element("rows").replaceChildren(
       ...able.map((row) => {
         const button = make("button", { textContent: row.name, title: `Plot of ${row.name}`, onclick: () => this.switch(row) });

@@ -418,7 +418,7 @@ export class Stage {
       [this.camera.near, this.camera.far] = [0, 200];
     }
     this.camera.updateProjectionMatrix();
-    if (!this.moved) this.fit(false);
+    if (!this.moved && this.accompanied < 0) this.fit(false);
     this.redraw();
   }
 
