@@ -40,9 +40,9 @@ let browser;
 after(() => browser?.close());
 
 /// A new page, of talus unless `talus` is false; what goes wrong in it is in `faults`.
-export async function openPage(url, { offline = false, talus = true, viewport = { width: 900, height: 640 } } = {}) {
+export async function openPage(url, { offline = false, talus = true, viewport = { width: 900, height: 640 }, colorScheme = "light" } = {}) {
   browser ??= await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", ...software, ...quiet] });
-  const context = await browser.newContext({ viewport, offline });
+  const context = await browser.newContext({ viewport, offline, colorScheme });
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
   page.faults = [];
@@ -106,10 +106,24 @@ export const endless = ["--set", "run.frames=20000", "--set", "run.until=frames"
 
 /// Pauses a run; resolves once the page shows where it stands.
 export async function pause(page) {
-  await page.click("#run");
+  await page.click("#play");
   await page.waitForFunction(() => document.getElementById("speed").textContent === "paused");
   await page.waitForFunction(() => window.talus.shown().step >= window.talus.simulation.status.step);
   await page.waitForTimeout(500); // a step that the pause met half-way
+}
+
+/// Opens the panel with the scene's text.
+export const openScene = (page) => page.evaluate(() => void (document.getElementById("scene").open = true));
+
+/// The scene's text in the editor, and to write another one.
+export const sceneText = (page) => page.evaluate(() => window.talus.simulation.editor.text);
+export const writeScene = (page, text) => page.evaluate((written) => void (window.talus.simulation.editor.text = written), text);
+
+/// Writes a scene into the editor and runs it.
+export async function runScene(page, text) {
+  await openScene(page);
+  await writeScene(page, text);
+  await page.click("#apply");
 }
 
 /// Waits until `holds` of what is shown, at most so many seconds.

@@ -31,7 +31,7 @@ for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
     await until(page, ({ asleep }) => asleep > 3, 60);
     const body = await highest(page);
     const before = await onScreen(page, body.number);
-    await page.selectOption("#tool", "pull");
+    await page.click("[data-tool=pull]");
     await page.mouse.move(body.x, body.y);
     await page.mouse.down();
     await page.mouse.move(body.x + 40, body.y - 60, { steps: 4 });
@@ -59,7 +59,7 @@ for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
     await until(page, ({ asleep }) => asleep > 3, 60);
     const body = await highest(page);
     assert.ok(await page.isHidden("#shape"));
-    await page.selectOption("#tool", "add");
+    await page.click("[data-tool=add]");
     assert.deepEqual(await page.locator("#shape option").allTextContents(), await page.evaluate(() => window.talus.timeline.head.shapes.map(({ name }) => name)));
     const before = await shown(page);
     await page.mouse.click(body.x, body.y);

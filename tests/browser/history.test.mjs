@@ -5,7 +5,7 @@ import { once } from "node:events";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { awakeBySteps, endless, openPage, pause, serve, shown, talus, temporaryFolder, until } from "./browser.mjs";
+import { awakeBySteps, endless, openPage, pause, runScene, sceneText, serve, shown, talus, temporaryFolder, until } from "./browser.mjs";
 
 const bus = "udpm://239.255.76.67:7673?ttl=0";
 const finished = (page) => page.waitForFunction(() => document.getElementById("speed").textContent.startsWith("finished"), null, { timeout: 60_000 });
@@ -52,15 +52,13 @@ test("after a restart and after another scene a page has the frames of the new r
   await pause(page);
   await page.click("#restart");
   await until(page, ({ step }) => step === 0);
-  await page.click("#run");
+  await page.click("#play");
   await until(page, ({ step }) => step > 120);
   const late = await openPage(url);
   const { step } = await history(late);
   assert.equal(step[0], 0);
   assert.ok(step.every((each, i) => i === 0 || each >= step[i - 1]), "steps grow");
-  const text = (await page.inputValue("#text")).replace(/^title = .*/m, 'title = "Another"');
-  await page.fill("#text", text);
-  await page.click("#apply");
+  await runScene(page, (await sceneText(page)).replace(/^title = .*/m, 'title = "Another"'));
   for (const each of [page, late]) await each.waitForFunction(() => document.getElementById("title").textContent === "Another");
   const later = await openPage(url);
   await until(later, ({ bodies }) => bodies > 3);
@@ -153,7 +151,7 @@ test("no line of a plot crosses frames that are missing", async () => {
   talus("run", "drop_in_a_pile_2d", "--no-telemetry", "--set", "run.frames=60", "--out", folder);
   const { url, child } = await serve(folder);
   const page = await openPage(url);
-  const gaps = () => page.evaluate(() => window.talus.plots.counts.data.map((column) => column.filter((value) => value === null).length));
+  const gaps = () => page.evaluate(() => window.talus.plots.drawn[0].plot.data.map((column) => column.filter((value) => value === null).length));
   assert.deepEqual(await gaps(), [0, 0, 0, 0]);
   // As where messages of a live run are lost: the steps of later frames lie further on.
   await page.evaluate(() => {

@@ -51,10 +51,9 @@ async function sidesOf(page) {
   return Promise.all(
     page.frames().slice(1).map((side) =>
       side.evaluate(() => {
-        const { timeline, stage, plots } = window.talus;
+        const { timeline, stage } = window.talus;
         const canvas = document.getElementById("bodies");
-        const { min, max } = plots.counts.scales.x;
-        return { time: plots.time, shown: timeline.time(timeline.shown), view: stage.view(), size: [canvas.clientWidth, canvas.clientHeight], plot: [min, max, plots.counts.scales.y.max, plots.densities.scales.y.max], grid: stage.surroundings.gridLength };
+        return { time: window.talus.time, shown: timeline.time(timeline.shown), view: stage.view(), size: [canvas.clientWidth, canvas.clientHeight], grid: stage.surroundings.gridLength };
       }),
     ),
   );
@@ -89,7 +88,9 @@ for (const dimension of ["2d", "3d"]) {
     await page.evaluate(() => window.pair.seek(99));
     const [first, second] = await assertTogether(page, 3);
     assert.ok(Math.abs(second.shown - 3) < 0.15 && Math.abs(first.shown - 3) < 1e-6);
-    assert.deepEqual(first.plot, second.plot, "plots have one scale");
+    const axis = await page.evaluate(() => window.pair.plots.drawn.map(({ plot, runs }) => [plot.scales.x.min, plot.scales.x.max, runs.length]));
+    assert.deepEqual(axis[0], [0, 5, 2], "both runs are in one plot, from the start to the end of the longer one");
+    assert.ok(axis.every(([from, to]) => from === 0 && to === 5), "all plots have one time axis");
     // A body of the right run between two of its frames is drawn between their places.
     await page.evaluate(() => window.pair.seek(1.47));
     const steps = await page.frames()[2].evaluate(() => {
@@ -114,7 +115,7 @@ for (const dimension of ["2d", "3d"]) {
     for (const width of [1280, 390]) {
       await page.setViewportSize({ width, height: 800 });
       await page.waitForTimeout(300);
-      const cut = await page.evaluate(() => [...document.querySelectorAll(".label, .label b, #difference td, #time")].filter((each) => each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).display !== "inline").map((each) => each.textContent));
+      const cut = await page.evaluate(() => [...document.querySelectorAll(".label, .label b, #difference td, #time, #transport button")].filter((each) => each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).display !== "inline").map((each) => each.textContent));
       assert.deepEqual(cut, [], `nothing is cut off at ${width} pixels`);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
       await assertTogether(page);
@@ -125,17 +126,17 @@ for (const dimension of ["2d", "3d"]) {
   });
 }
 
-test("keys and clicks on one side go to both runs", async () => {
+test("a click into the plot and keys pressed on one side go to both runs", async () => {
   const run = join(temporaryFolder(), "run");
   talus("run", "drop_in_a_pile_2d", "--no-telemetry", "--set", "run.frames=90", "--out", run);
   const { url, child } = await serve(run, run);
   const page = await openPair(url);
   await page.evaluate(() => (window.pair.pause(), window.pair.seek(1)));
-  const right = page.frames()[2];
-  const over = await right.locator(".u-over").first().boundingBox();
+  const over = await page.locator(".u-over").first().boundingBox();
   await page.mouse.click(over.x + 0.5 * over.width, over.y + 20);
   const [{ time }] = await assertTogether(page);
   assert.ok(Math.abs(time - 1.5) < 0.1, `${time}`);
+  await page.frames()[2].locator("#bodies").click({ position: { x: 5, y: 5 } });
   await page.keyboard.press(".");
   const [after] = await assertTogether(page);
   assert.ok(after.time > time && after.time < time + 0.05, `${after.time}`);
@@ -146,15 +147,15 @@ test("keys and clicks on one side go to both runs", async () => {
 test("two simulations are shown at one moment while they run, paused and after a restart", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d", "--against", "full", "--pace", "8", "--set", "run.frames=150");
   const page = await openPair(url);
-  await page.waitForFunction(() => document.getElementById("pace").value === "8");
+  await page.waitForFunction(() => document.getElementById("rate").value === "8");
   for (let i = 0; i < 5; ++i) {
     await page.waitForTimeout(200);
     await assertTogether(page);
   }
   await page.waitForFunction(() => window.pair.ended() && window.pair.difference().step === 300, null, { timeout: 60_000 });
   await assertTogether(page, 5);
-  assert.equal(await page.textContent("#play"), "\u25B6", "a run that has ended offers to play it");
-  await page.selectOption("#pace", "1"); // so that what follows lasts long enough to be seen before its end
+  assert.equal(await page.getAttribute("#play", "aria-label"), "Play", "a run that has ended offers to play it");
+  await page.selectOption("#rate", "1"); // so that what follows lasts long enough to be seen before its end
   await page.click("#play");
   await page.waitForFunction(() => window.pair.difference().step > 5 && window.pair.difference().step < 300);
   await page.evaluate(() => (window.pair.pause(), window.pair.seek(2.01)));
@@ -173,7 +174,7 @@ test("a scene runs under two policies, and one button pauses both", async () => 
   await page.waitForFunction(() => window.pair.difference().step > 60, null, { timeout: 60_000 });
   await page.click("#play");
   const sides = page.frames().slice(1);
-  for (const side of sides) await side.waitForFunction(() => document.getElementById("run").textContent === "Run", null, { polling: 100, timeout: 60_000 });
+  for (const side of sides) await side.waitForFunction(() => !window.talus.simulates(), null, { polling: 100, timeout: 60_000 });
   const policies = await Promise.all(sides.map((side) => side.inputValue("#policy")));
   assert.deepEqual(policies, ["adaptive", "full"]);
   assert.deepEqual(page.faults, []);

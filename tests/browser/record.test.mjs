@@ -168,7 +168,7 @@ for (const [name, { run, url }] of Object.entries({ flat, solid })) {
 
 test("layers are named where there are piles, and those that a message has no room for", async () => {
   const page = await openAt(flat.url, 449);
-  assert.ok(await page.isVisible("#of-layers"));
+  assert.match(await page.locator(".names").last().textContent(), /density/);
   assert.doesNotMatch(await page.textContent("#measured"), /layers: the lowest/);
   const layers = await page.evaluate(() => {
     const { talus } = window;
@@ -180,7 +180,6 @@ test("layers are named where there are piles, and those that a message has no ro
   await page.close();
   const without = record("rings_in_a_box_2d", "--set", "pile=[]", "--set", "run.frames=30");
   const other = await openAt(without.url, 20);
-  assert.ok(await other.isHidden("#of-layers"));
   assert.ok(await other.isHidden("#layers"));
   assert.equal(await other.locator("#plots .uplot:visible").count(), 1);
   assert.deepEqual(other.faults, []);
@@ -219,4 +218,232 @@ test("talus view shows a run folder", async () => {
   assert.deepEqual(page.faults, []);
   await page.close();
   child.kill();
+});
+
+test("the stage has two thirds of the window, and the card of a body stands beside it and follows it", async () => {
+  for (const [width, height] of [[1280, 800], [1920, 1080]]) {
+    const page = await openAt(flat.url, 300, { viewport: { width, height } });
+    const stage = await page.locator("#stage").boundingBox();
+    assert.ok(stage.width * stage.height > 0.666 * width * height, JSON.stringify(stage));
+    const body = await page.evaluate(() => window.talus.timeline.state.asleep.indexOf(0));
+    const away = async () => {
+      await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+      return page.evaluate((i) => {
+        const card = document.getElementById("card").getBoundingClientRect();
+        const { x, y } = window.talus.stage.placeOf(i);
+        return [Math.max(card.left - x, x - card.right, 0), Math.max(card.top - y, y - card.bottom, 0), Math.max(card.right - innerWidth, card.bottom - innerHeight)];
+      }, body);
+    };
+    await page.evaluate((i) => window.talus.select(i), body);
+    for (const frame of [300, 310, 320]) {
+      await page.evaluate((number) => window.talus.seek(number), frame);
+      const [right, down, out] = await away();
+      assert.ok(right < 80 && down < 40 && right + down > 5 && out < 0, `${right}, ${down}, ${out}`);
+    }
+    await page.keyboard.press("Escape");
+    assert.ok(await page.isHidden("#card"));
+    await page.close();
+  }
+});
+
+test("a page that is loaded again, or opened at the same address, shows the same", async () => {
+  const page = await openAt(flat.url, 0);
+  await page.evaluate(() => window.talus.seek(300));
+  await page.evaluate(() => window.talus.select(5));
+  await page.selectOption("#paint", "speed");
+  await page.click("#measures summary");
+  await page.click("#rows button:last-child");
+  await page.mouse.move(300, 200);
+  await page.mouse.wheel(0, -400);
+  const stateOf = async (shownPage) => ({
+    ...(await shown(shownPage)),
+    ...(await shownPage.evaluate(() => ({ body: window.talus.stage.selected, camera: window.talus.stage.cameraText, paint: document.getElementById("paint").value, open: document.getElementById("measures").open, plots: window.talus.plots.drawn.length, text: document.getElementById("body").innerText }))),
+  });
+  await page.waitForTimeout(1200);
+  const before = await stateOf(page);
+  assert.equal(before.frame, 300);
+  assert.deepEqual([before.body, before.paint, before.open, before.plots], [5, "speed", false, 1]);
+  const address = page.url();
+  await page.reload();
+  await page.waitForFunction(() => window.talus !== undefined);
+  await page.waitForTimeout(300);
+  assert.deepEqual(await stateOf(page), before);
+  const other = await openPage(address);
+  await other.waitForTimeout(300);
+  assert.deepEqual(await stateOf(other), before);
+  assert.deepEqual([...page.faults, ...other.faults], []);
+  for (const each of [page, other]) await each.close();
+});
+
+/// Of two colours as a style sheet has them.
+function contrast(a, b) {
+  const luminance = (colour) => {
+    const [red, green, blue] = colour.match(/[\d.]+/g).slice(0, 3).map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  };
+  const [low, high] = [luminance(a), luminance(b)].sort((x, y) => x - y);
+  return (high + 0.05) / (low + 0.05);
+}
+
+test("page, stage and plots have the theme of the system, also when it changes, with readable texts in both", async () => {
+  const page = await openAt(flat.url, 400);
+  const measured = () =>
+    page.evaluate(() => {
+      const colour = (selector, property) => getComputedStyle(document.querySelector(selector))[property];
+      return { panel: colour("#dock", "backgroundColor"), texts: [["h1", "color"], [".hint", "color"], ["summary", "color"], [".names", "color"]].map(([selector, property]) => colour(selector, property)) };
+    });
+  for (const [theme, white] of [["light", [0.3, 1]], ["dark", [0, 0.01]], ["light", [0.3, 1]]]) {
+    await page.emulateMedia({ colorScheme: theme });
+    await page.waitForTimeout(300);
+    const share = await colours(page);
+    assert.ok(share.white >= white[0] && share.white <= white[1], `${theme}: ${share.white}`);
+    assert.ok(share.orange > 0.002, `${theme}: awake bodies, ${share.orange}`);
+    const { panel, texts } = await measured();
+    for (const text of texts) assert.ok(contrast(panel, text) >= 4.5, `${theme}: ${text} on ${panel}`);
+    const axis = await page.evaluate(() => String(window.talus.plots.drawn[0].plot.axes[0].stroke));
+    assert.ok(contrast(panel, axis) >= 4.5, `${theme}: ${axis} on ${panel}`);
+  }
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test("the plots tell values under the pointer, go to a time by a click, and zoom together by a drag", async () => {
+  const page = await openAt(flat.url, 0);
+  const over = await page.locator(".u-over").last().boundingBox();
+  const at = (share) => over.x + share * over.width;
+  await page.mouse.move(at(0.5), over.y + 0.7 * over.height);
+  const text = await page.locator(".hover").innerText();
+  const frame = await page.evaluate(() => window.talus.timeline.frameAt(0.5 * window.talus.timeline.time(449)));
+  const { awake, asleep } = await page.evaluate((i) => ({ awake: window.talus.timeline.awake[i], asleep: window.talus.timeline.asleep[i] }), frame);
+  assert.match(text, /^7\.\d\d s\n/);
+  for (const [name, value] of [["awake", awake], ["asleep", asleep]]) assert.ok(Math.abs(Number(new RegExp(`${name} +(\\d+)`).exec(text)[1]) - value) <= 3, text);
+  assert.match(text, /height .* m/);
+  await page.mouse.click(at(0.25), over.y + 10);
+  assert.ok(Math.abs((await shown(page)).time - 0.25 * 14.97) < 0.15);
+  const ranges = () => page.evaluate(() => window.talus.plots.drawn.map(({ plot }) => [plot.scales.x.min, plot.scales.x.max].map((time) => Math.round(10 * time) / 10)));
+  const [whole] = await ranges();
+  await page.mouse.move(at(0.4), over.y + 10);
+  await page.mouse.down();
+  await page.mouse.move(at(0.6), over.y + 10, { steps: 4 });
+  await page.mouse.up();
+  const [a, b] = await ranges();
+  assert.deepEqual(a, b, "both plots");
+  assert.ok(a[1] - a[0] < 0.3 * (whole[1] - whole[0]), JSON.stringify([whole, a]));
+  await page.mouse.dblclick(at(0.5), over.y + 10);
+  assert.deepEqual(await ranges(), [whole, whole]);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test("each way of colouring has a legend with all bodies, and colours more than one", async () => {
+  const page = await openAt(flat.url, 400);
+  const { bodies } = await shown(page);
+  for (const way of ["state", "cause", "speed", "age", "layer"]) {
+    await page.selectOption("#paint", way);
+    const counts = (await page.locator("#counts td.count").allTextContents()).map(Number);
+    assert.equal(counts.reduce((sum, count) => sum + count, 0), bodies, way);
+    const different = await page.evaluate(() => {
+      const { coloured, timeline } = window.talus;
+      return new Set(Array.from({ length: timeline.state.bodies }, (_, body) => coloured.paint(body).join())).size;
+    });
+    assert.ok(different > 1, `${way}: ${different}`);
+  }
+  const speeds = await page.evaluate(() => {
+    const { timeline } = window.talus;
+    const at = (frame, body) => (timeline.seek(frame), Array.from(timeline.state.pose.slice(3 * body, 3 * body + 2)));
+    const body = timeline.state.asleep.indexOf(0);
+    const [a, b] = [at(399, body), at(400, body)];
+    return [timeline.speed(body), Math.hypot(b[0] - a[0], b[1] - a[1]) * 30];
+  });
+  assert.ok(Math.abs(speeds[0] - speeds[1]) < 1e-3, JSON.stringify(speeds));
+  await page.close();
+});
+
+test("a button gives a picture of what is seen with a caption, another one a film", async () => {
+  const page = await openAt(solid.url, 400);
+  const [picture] = await Promise.all([page.waitForEvent("download"), page.click("#picture")]);
+  assert.match(picture.suggestedFilename(), /_13\.37_s\.png$/);
+  const file = join(folder, "seen.png");
+  await picture.saveAs(file);
+  const bytes = readFileSync(file);
+  const stage = await page.evaluate(() => [document.getElementById("bodies").width, document.getElementById("bodies").height]);
+  assert.equal(bytes.readUInt32BE(16), stage[0]);
+  assert.ok(bytes.readUInt32BE(20) > stage[1] + 40, "below it there is room for time, seed and legend");
+  await page.click("#film");
+  await page.click("#play");
+  await page.waitForTimeout(1500);
+  const [film] = await Promise.all([page.waitForEvent("download"), page.click("#film")]);
+  assert.match(film.suggestedFilename(), /\.webm$/);
+  await film.saveAs(join(folder, "seen.webm"));
+  const begin = readFileSync(join(folder, "seen.webm"));
+  assert.equal(begin.readUInt32BE(0), 0x1a45dfa3, "Matroska");
+  assert.ok(begin.length > 5000, `${begin.length} bytes`);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test("the key ? lists all keys, and panels fold", async () => {
+  const page = await openAt(flat.url, 10);
+  await page.keyboard.press("?");
+  assert.match(await page.locator("#keys").innerText(), /space\s+play, pause/);
+  await page.keyboard.press("?");
+  assert.ok(await page.isHidden("#keys"));
+  const width = async () => (await page.locator("#stage").boundingBox()).width;
+  const before = await width();
+  await page.keyboard.press("d");
+  assert.ok((await width()) > before + 200);
+  await page.close();
+});
+
+test("in 3D the camera stands where the pictures' does, and turns about the vertical", async () => {
+  const page = await openAt(solid.url, 400);
+  const angles = () =>
+    page.evaluate(() => {
+      const { eye, target } = window.talus.stage.view();
+      const [x, y, z] = eye.map((part, i) => part - target[i]);
+      return { azimuth: Math.atan2(y, x), elevation: Math.atan2(z, Math.hypot(x, y)), first: window.talus.timeline.head.camera };
+    });
+  const { azimuth, elevation, first } = await angles();
+  assert.ok(Math.abs(azimuth - first.azimuth) < 1e-3 && Math.abs(elevation - first.elevation) < 1e-3, `${azimuth}, ${elevation}`);
+  const { x, y, width, height } = await page.locator("#bodies").boundingBox();
+  await page.mouse.move(x + 0.5 * width, y + 0.2 * height);
+  await page.mouse.down();
+  await page.mouse.move(x + 0.7 * width, y + 0.2 * height, { steps: 4 });
+  await page.mouse.up();
+  const turned = await angles();
+  assert.ok(Math.abs(turned.azimuth - azimuth) > 0.3 && Math.abs(turned.elevation - elevation) < 0.02, JSON.stringify(turned));
+  await page.close();
+});
+
+test("every sleeping body is drawn with the outline of sleep", async () => {
+  const page = await openAt(flat.url, 449);
+  const outlines = await page.evaluate(() => {
+    const { stage, timeline } = window.talus;
+    return stage.shapes.flatMap(({ bodies, sleeping }) => bodies.map((body, place) => [timeline.state.asleep[body], sleeping.getX(place)]));
+  });
+  assert.ok(outlines.filter(([asleep]) => asleep === 1).length > 20);
+  for (const [asleep, outline] of outlines) assert.equal(outline, asleep);
+  await page.close();
+});
+
+test("the edges of plots and panels can be dragged", async () => {
+  const page = await openAt(flat.url, 10, { viewport: { width: 1280, height: 800 } });
+  for (const [edge, dx, dy] of [["#plots-edge", 0, -60], ["#dock-edge", -60, 0]]) {
+    const size = async () => {
+      const { width, height } = await page.locator("#stage").boundingBox();
+      return [width, height];
+    };
+    const before = await size();
+    const { x, y, width, height } = await page.locator(edge).boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + dx, y + height / 2 + dy, { steps: 3 });
+    await page.mouse.up();
+    const after = await size();
+    assert.ok(Math.abs(after[0] - before[0] - dx) < 5 && Math.abs(after[1] - before[1] - dy) < 5, `${before} to ${after}`);
+  }
+  await page.waitForTimeout(300);
+  const [plot, plots] = await page.evaluate(() => [window.talus.plots.drawn[0].plot.height, document.getElementById("plots").clientHeight]);
+  assert.ok(plot > 0.35 * plots, `${plot} of ${plots}`);
+  await page.close();
 });

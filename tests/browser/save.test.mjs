@@ -135,7 +135,7 @@ test("enclosed bodies of a large pile are not drawn, and the pile looks the same
   await page.evaluate(() => {
     const { timeline, stage } = window.talus;
     stage.enclosed.fewest = Infinity;
-    stage.update("all", (body) => timeline.head.shapes[timeline.state.shape[body]].asleep);
+    stage.update("all", () => timeline.head.colours.asleep);
   });
   assert.equal(await drawn(), edge ** 3);
   const all = await picture();

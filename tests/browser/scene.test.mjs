@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { endless, openPage, pause, serve, shown, statusOf, talus, temporaryFolder, until, upgrade } from "./browser.mjs";
+import { endless, openPage, openScene, pause, runScene, sceneText, serve, shown, statusOf, talus, temporaryFolder, until, upgrade } from "./browser.mjs";
 
 test("something moves within three seconds of the command", async () => {
   await (await openPage("about:blank", { talus: false })).close(); // the browser is running
@@ -26,7 +26,7 @@ test("run, pause, step, restart, pace and policy steer the simulation", async ()
   await until(page, ({ bodies }) => bodies > 30);
   await pause(page);
   const paused = await shown(page);
-  await page.click("#single");
+  await page.click("#forward");
   await until(page, ({ step }) => step === paused.step + 1);
   await page.waitForTimeout(300);
   assert.equal((await shown(page)).step, paused.step + 1, "one step is one step");
@@ -34,9 +34,9 @@ test("run, pause, step, restart, pace and policy steer the simulation", async ()
   assert.equal((await shown(page)).step, paused.step, "what came can be scrubbed");
   await page.click("#restart");
   await until(page, ({ step }) => step === 0);
-  assert.equal(await page.locator("#plots .uplot").count(), 2, "the plots of the run before have gone");
+  assert.equal(await page.locator("#plots .uplot").count(), 1, "the plots of the run before have gone, and before there is a pile there are no layers to plot");
   await page.selectOption("#policy", "full");
-  await page.selectOption("#pace", "64");
+  await page.selectOption("#rate", "64");
   const full = await until(page, ({ bodies, step }) => bodies > 30 && step > 0);
   assert.equal(full.asleep, 0, "under policy full no body sleeps");
   assert.match(await page.textContent("#subtitle"), /policy full/);
@@ -61,21 +61,17 @@ test("the wall time of a step is drawn over time, and how far the page lies behi
 test("the scene's text is checked and run again", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d");
   const page = await openPage(url);
-  await page.waitForFunction(() => document.getElementById("text").value !== "");
-  const text = await page.inputValue("#text");
+  await page.waitForFunction(() => window.talus.simulation.editor.text !== "");
+  const text = await sceneText(page);
   const line = text.split("\n").findIndex((row) => row.startsWith("dimension")) + 1;
-  await page.fill("#text", text.replace(/^dimension = 2/m, "dimension = 7"));
-  await page.click("#apply");
+  await runScene(page, text.replace(/^dimension = 2/m, "dimension = 7"));
   await page.waitForFunction(() => document.getElementById("errors").textContent !== "");
   assert.match(await page.textContent("#errors"), new RegExp(`:${line}:\\d+: dimension = 7: must be`));
-  const selected = await page.evaluate(() => {
-    const area = document.getElementById("text");
-    return area.value.slice(area.selectionStart, area.selectionEnd);
-  });
-  assert.equal(selected, "dimension = 7", "the line of the error is marked");
+  assert.equal(await page.evaluate(() => getSelection().toString()), "dimension = 7", "the line of the error is chosen");
+  assert.equal(await page.locator(".cm-lintRange-error").first().textContent(), "dimension = 7", "and marked");
+  assert.equal(await page.locator(".cm-lint-marker-error").count(), 1);
   const start = Date.now();
-  await page.fill("#text", text.replace(/^title = .*/m, 'title = "Another"'));
-  await page.click("#apply");
+  await runScene(page, text.replace(/^title = .*/m, 'title = "Another"'));
   await page.waitForFunction(() => document.getElementById("title").textContent === "Another");
   console.log(`runs again after ${Date.now() - start} ms`);
   assert.equal(await page.textContent("#errors"), "");
@@ -86,9 +82,7 @@ test("the scene's text is checked and run again", async () => {
 test("a scene of the other dimension can follow", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d");
   const page = await openPage(url);
-  await page.waitForFunction(() => document.getElementById("text").value !== "");
-  await page.fill("#text", 'title = "Cubes"\ndimension = 3\nshape.cube = {kind = "box", size = [1.0, 1.0, 1.0]}\n[[source]]\ncount = 9\n[[pile]]\n');
-  await page.click("#apply");
+  await runScene(page, 'title = "Cubes"\ndimension = 3\nshape.cube = {kind = "box", size = [1.0, 1.0, 1.0]}\n[[source]]\ncount = 9\n[[pile]]\n');
   await page.waitForFunction(() => document.getElementById("title").textContent === "Cubes");
   await until(page, ({ bodies }) => bodies > 0);
   assert.equal(await page.textContent("#errors"), "");
@@ -119,10 +113,10 @@ test("a body is thrown by shift and drag, and removed by Delete", async () => {
   await page.keyboard.down("Shift");
   await page.mouse.move(x + body.x, y + body.y);
   await page.mouse.down();
-  await page.mouse.move(x + body.x, y + body.y - 60, { steps: 4 });
+  await page.mouse.move(x + body.x, y + body.y - 120, { steps: 4 });
   await page.mouse.up();
   await page.keyboard.up("Shift");
-  for (let i = 0; i < 12; ++i) await page.click("#single");
+  for (let i = 0; i < 12; ++i) await page.click("#forward");
   await until(page, ({ step }) => step >= before.step + 12);
   const now = await page.evaluate((i) => ({ height: window.talus.timeline.state.pose[3 * i + 1], asleep: window.talus.timeline.state.asleep[i], extent: window.talus.timeline.head.shapes[0].extent }), body.i);
   assert.equal(now.asleep, 0, "a thrown body wakes");
@@ -179,10 +173,11 @@ test("a slider changes a number of the scene, which runs again", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8");
   const page = await openPage(url);
   await until(page, ({ bodies }) => bodies > 5);
+  await openScene(page);
   await page.selectOption("#number", "source[0].count");
   assert.equal(await page.inputValue("#slider"), "400");
   await page.locator("#slider").fill("7");
-  await page.waitForFunction(() => document.getElementById("text").value.includes("count = 7"));
+  await page.waitForFunction(() => window.talus.simulation.editor.text.includes("count = 7"));
   await until(page, ({ bodies }) => bodies === 7, 60);
   await page.locator("#value").fill("-3");
   await page.locator("#value").press("Enter");
@@ -195,7 +190,7 @@ test("a slider changes a number of the scene, which runs again", async () => {
 test("the sliders begin with a number that is worth to change, and have no dimension", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d");
   const page = await openPage(url);
-  await page.waitForFunction(() => document.getElementById("text").value !== "");
+  await page.waitForFunction(() => window.talus.simulation.editor.text !== "");
   assert.match(await page.inputValue("#number"), /friction$/);
   const paths = await page.locator("#number option").allTextContents();
   assert.ok(paths.length > 3 && !paths.includes("dimension"), paths.join(" "));
@@ -219,15 +214,13 @@ test("a run until rest ends when talus run does, with its estimate of drift, and
   assert.equal(end.asleep, summary.asleep_at_end);
   const drift = await page.evaluate(() => window.talus.timeline.state.drift);
   assert.ok(Math.abs(drift - summary.estimate.drift_D) <= 1e-6 * summary.estimate.drift_D, `${drift}, not ${summary.estimate.drift_D}`);
-  assert.equal(await page.textContent("#run"), "Run again");
-  assert.equal(await page.textContent("#play"), "\u25B6");
-  assert.ok(await page.isDisabled("#single"));
+  assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
   await page.click("#play");
   await page.waitForFunction(() => window.talus.shown().playing && window.talus.shown().frame > 3 && window.talus.shown().frame < window.talus.timeline.frames - 1);
-  assert.equal(await page.textContent("#play"), "\u2016");
+  assert.equal(await page.getAttribute("#play", "aria-label"), "Pause");
   await page.click("#play");
   await page.waitForFunction(() => !window.talus.shown().playing);
-  await page.click("#run");
+  await page.click("#restart");
   await page.waitForFunction(() => window.talus.shown().step === 0 || window.talus.timeline.frames < 100);
   await page.waitForFunction(() => document.getElementById("speed").textContent.startsWith("finished"), null, { timeout: 60_000 });
   assert.deepEqual(page.faults, []);
@@ -260,8 +253,8 @@ test("after a resize the line of the time shown and the cursor are where they sh
     await page.setViewportSize({ width, height: 800 });
     await page.waitForTimeout(300);
     const [line, expected] = await page.evaluate(() => {
-      const { counts } = window.talus.plots;
-      return [document.querySelector(".playhead").offsetLeft, counts.valToPos(window.talus.shown().time, "x")];
+      const { plot, head } = window.talus.plots.drawn[0];
+      return [parseFloat(head.style.left), plot.valToPos(window.talus.shown().time, "x")];
     });
     assert.ok(Math.abs(line - expected) < 1.5, `${line} for ${expected} at ${width}`);
     const over = page.locator(".u-over").first();
@@ -310,4 +303,66 @@ test("a page says that the server has gone, and still plays what came", async ()
   await page.evaluate(() => window.talus.seek(0));
   assert.equal((await shown(page)).frame, 0);
   await page.close();
+});
+
+test("the editor completes keys and values with range and meaning from the program's reference", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d");
+  const page = await openPage(url, { viewport: { width: 1280, height: 800 } });
+  await page.waitForFunction(() => window.talus.simulation.editor.text !== "");
+  await openScene(page);
+  const type = async (text) => {
+    const lines = (await sceneText(page)).split("\n");
+    await page.evaluate((line) => window.talus.simulation.editor.goTo(line), lines.findIndex((line) => line.startsWith("[shape.L]")) + 1);
+    await page.keyboard.press("End");
+    await page.keyboard.press("Enter");
+    await page.keyboard.type(text);
+    await page.waitForSelector(".cm-tooltip-autocomplete");
+  };
+  await type("rolling_f");
+  assert.match(await page.locator(".cm-completionInfo").innerText(), /rolling_friction[\s\S]*range \[0, 10\][\s\S]*default 0[\s\S]*does not roll/);
+  await page.waitForTimeout(200); // CodeMirror takes no key until the list has stood for some time
+  await page.keyboard.press("Enter");
+  await page.keyboard.type("0.25");
+  assert.match(await sceneText(page), /\[shape\.L\]\nrolling_friction = 0\.25\n/);
+  await type("kind = \"ba");
+  assert.ok((await page.locator(".cm-tooltip-autocomplete li").allInnerTexts()).some((text) => text.includes("ball")));
+  await page.keyboard.press("Escape");
+  assert.deepEqual(page.faults, []);
+  await page.close();
+  child.kill();
+});
+
+test("a page of a simulation that is loaded again shows the time that was chosen, while the run goes on", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "4", ...endless);
+  const page = await openPage(url);
+  await until(page, ({ time }) => time > 3);
+  await page.evaluate(() => window.talus.seekTime(2));
+  const { step } = await shown(page);
+  await page.waitForTimeout(1000);
+  assert.match(page.url(), /#.*t=2/);
+  await page.reload();
+  await page.waitForFunction(() => window.talus !== undefined);
+  await until(page, (now) => now.step === step);
+  await page.click("#last");
+  await until(page, ({ time }) => time > 3);
+  await page.waitForTimeout(600);
+  assert.doesNotMatch(page.url(), /#.*t=/);
+  await page.close();
+  child.kill();
+});
+
+test("the time of a step is plotted where the user switches it on, while the run goes on", async () => {
+  const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "4", ...endless);
+  const page = await openPage(url);
+  await until(page, ({ bodies }) => bodies > 10);
+  await page.waitForFunction(() => document.querySelectorAll("#rows button").length === 3);
+  const drawn = () => page.evaluate(() => window.talus.plots.drawn.map(({ row }) => row.name));
+  assert.deepEqual(await drawn(), ["bodies", "layers"]);
+  await page.click("#rows button:last-child");
+  assert.deepEqual(await drawn(), ["bodies", "layers", "step time"]);
+  const { max } = await page.evaluate(() => window.talus.plots.drawn[2].plot.scales.y);
+  assert.ok(max > 0, `${max}`);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+  child.kill();
 });

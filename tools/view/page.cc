@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/scene/reference.h"
 #include "common/text/base64.h"
 #include "tools/run/data_folder.h"
 #include "tools/view/page_settings.h"
@@ -53,11 +54,13 @@ std::string data_in_page(const char* id, const nlohmann::ordered_json& data) {
   return fmt::format(R"(<script type="application/json" id="{}">{}</script>)", id, in_script(data));
 }
 
-/// `source`: whether the page shows a "run" or a "record", and the name of that; `held`: the record, else empty.
-std::string page_of(const nlohmann::ordered_json& source, const std::string& held) {
+std::string built_script(const char* name) { return "<script>\n" + built_file(name) + "</script>"; }
+
+/// `source`: whether the page shows a "run" or a "record", and the name of that; `more`: what else that kind needs.
+std::string page_of(const nlohmann::ordered_json& source, const std::string& more) {
   std::string page = built_file("page.html");
-  put(page, "<!-- vendor -->", "<script>\n" + built_file("vendor.js") + "</script>");
-  put(page, "<!-- data -->", data_in_page("settings", page_settings()) + data_in_page("source", source) + held);
+  put(page, "<!-- vendor -->", built_script("vendor.js"));
+  put(page, "<!-- data -->", data_in_page("settings", page_settings()) + data_in_page("source", source) + more);
   return page;
 }
 
@@ -70,14 +73,17 @@ std::string page_with(std::string_view log, const std::string& name) {
 
 std::string page_of_pair(const PairTexts& texts) {
   std::string page = built_file("pair.html");
+  put(page, "<!-- vendor -->", built_script("vendor.js"));
   nlohmann::ordered_json data = {{"of_runs", texts.of_runs}, {"ms_per_step", texts.ms_per_step}};
   data["differences"] = nlohmann::ordered_json::array();
   for (const SettingDifference& each : texts.differences) data["differences"].push_back({each.path, each.a, each.b});
-  put(page, "<!-- data -->", data_in_page("pair-data", data));
+  put(page, "<!-- data -->", data_in_page("settings", page_settings()) + data_in_page("pair-data", data));
   return page;
 }
 
-std::string page_of_run() { return page_of({{"kind", "run"}}, ""); }
+std::string page_of_run() {
+  return page_of({{"kind", "run"}}, data_in_page("keys-data", key_tables()) + built_script("editor.js"));
+}
 
 std::string page_of_record(const std::string& name) { return page_of({{"kind", "record"}, {"name", name}}, ""); }
 

@@ -1,5 +1,5 @@
-// Builds dist/vendor.js (three.js and uPlot: changes with their versions only), dist/page.html (all of our own) and
-// dist/pair.html (two of these pages side by side), and writes the checksums of sources and results, which a test compares (tests/house/built_page_is_of_its_sources.sh).
+// Builds dist/vendor.js (three.js and uPlot: changes with their versions only), dist/editor.js (CodeMirror and what we make
+// of it), dist/page.html (all else of our own) and dist/pair.html (two of these pages side by side), and writes the checksums of sources and results, which a test compares (tests/house/built_page_is_of_its_sources.sh).
 import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -30,14 +30,15 @@ async function script(entry, name, minify) {
   return result[0].output[0].code.replaceAll("</script", "<\\/script");
 }
 
-const ownStyle = readFileSync(join(root, "src/style.css"), "utf8");
-const style = readFileSync(join(root, "node_modules/uplot/dist/uPlot.min.css"), "utf8") + ownStyle;
+const source = (name) => readFileSync(join(root, "src", name), "utf8");
+const style = readFileSync(join(root, "node_modules/uplot/dist/uPlot.min.css"), "utf8") + source("style.css");
 
-/// src/NAME.html with its style and the script that NAME begins with.
-async function page(name, entry, css) {
+/// src/NAME.html with its style, its icons and the script that NAME begins with.
+async function page(name, entry) {
   const code = await script(entry, "talusPage", false);
-  return readFileSync(join(root, "src", `${name}.html`), "utf8")
-    .replace("<!-- style -->", () => `<style>\n${css}</style>`)
+  return source(`${name}.html`)
+    .replace("<!-- style -->", () => `<style>\n${style}</style>`)
+    .replace("<!-- icons -->", () => source("icons.html"))
     .replace("<!-- script -->", () => `<script>\n${code}</script>`);
 }
 
@@ -45,13 +46,15 @@ const licence = (name) => `/*! ${name}\n${readFileSync(join(root, "node_modules"
 
 mkdirSync(dist, { recursive: true });
 writeFileSync(join(dist, "vendor.js"), licence("three") + licence("uplot") + (await script("vendor.ts", vendorName, "esbuild")));
-writeFileSync(join(dist, "page.html"), await page("page", "main.ts", style));
-writeFileSync(join(dist, "pair.html"), await page("pair", "pair.ts", ownStyle));
+const editorParts = ["autocomplete", "commands", "language", "legacy-modes", "lint", "state", "view"].map((name) => `@codemirror/${name}`);
+writeFileSync(join(dist, "editor.js"), [...editorParts, "@lezer/highlight"].map(licence).join("") + (await script("editor.ts", "talusEditor", "esbuild")));
+writeFileSync(join(dist, "page.html"), await page("page", "main.ts"));
+writeFileSync(join(dist, "pair.html"), await page("pair", "pair.ts"));
 
 const sources = ["build.mjs", "package-lock.json", "package.json", "tsconfig.json", ...readdirSync(join(root, "src")).map((name) => `src/${name}`)];
 const checksum = (path) => createHash("sha256").update(readFileSync(path)).digest("hex");
 const lines = [
-  ...["dist/page.html", "dist/pair.html", "dist/vendor.js"].map((name) => `${checksum(join(dist, name.slice(5)))}  ${name}`),
+  ...["dist/editor.js", "dist/page.html", "dist/pair.html", "dist/vendor.js"].map((name) => `${checksum(join(dist, name.slice(5)))}  ${name}`),
   ...sources.sort().map((name) => `${checksum(join(root, name))}  ${name}`),
 ];
 writeFileSync(join(dist, "checksums.sha256"), `${lines.join("\n")}\n`);

@@ -1,8 +1,10 @@
-// What is known of the body that was clicked, and why it sleeps or not.
+// A card beside the body that was clicked: what is known of it, and why it sleeps or not.
 
-import { element } from "./element";
+import { element, make } from "./element";
 import { causes } from "./causes";
+import { layerOf } from "./pile_layers";
 import { withUnit } from "./scale";
+import type { Stage } from "./stage";
 import type { Timeline } from "./timeline";
 
 /// A number that the policy goes by.
@@ -21,6 +23,9 @@ export interface Account {
   supports?: { on: number; name: string; force?: number }[];
   readings?: Reading[];
 }
+
+const gap = 10; // between a body and its card [CSS pixels]
+const edge = 8; // that the card keeps from the ends of the stage
 
 const digits = (value: number): string => String(Number(value.toPrecision(3)));
 
@@ -41,13 +46,26 @@ export class BodyPanel {
   /// `newest`: the frame shown is that of the simulation now, so that its account of the body holds.
   show(timeline: Timeline, body: number, newest: boolean): void {
     const { state } = timeline;
-    if (body < 0 || body >= state.bodies) {
-      const hint = Object.assign(document.createElement("p"), { className: "hint", textContent: body < 0 ? "Click a body to see why it sleeps." : `Body ${body} has not appeared yet.` });
-      element("body").replaceChildren(hint);
-      return;
-    }
-    const texts = [...this.describe(timeline, body), ...(newest ? this.now(body) : [])];
-    element("body").replaceChildren(...texts.map((text) => Object.assign(document.createElement("p"), { textContent: text })));
+    element("card").hidden = body < 0;
+    if (body < 0) return;
+    const texts = body < state.bodies ? [...this.describe(timeline, body), ...(newest ? this.now(body) : [])] : [`Body ${body} has not appeared yet.`];
+    element("body").replaceChildren(...texts.map((textContent) => make("p", { textContent })));
+  }
+
+  /// Brings the card beside the body as it is drawn, where there is room.
+  place(stage: Stage, timeline: Timeline): void {
+    const card = element("card");
+    const { state } = timeline;
+    const body = stage.selected;
+    if (card.hidden || body < 0 || body >= state.bodies) return;
+    const area = element("stage");
+    const { x, y } = stage.placeOf(body);
+    const away = stage.radiusOf(body) + gap;
+    const right = x + away + card.offsetWidth <= area.clientWidth - edge ? x + away : x - away - card.offsetWidth;
+    const within = (value: number, room: number): number => Math.max(edge, Math.min(value, room - edge));
+    const left = within(right, area.clientWidth - card.offsetWidth);
+    const top = within(y - 24, area.clientHeight - card.offsetHeight);
+    card.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
   }
 
   /// Which body, since when it is as it is, and why.
@@ -65,8 +83,9 @@ export class BodyPanel {
       const threshold = head.score_threshold >= 0 && cause?.name === "score" ? `, threshold ${digits(head.score_threshold)}` : "";
       lines.push(`Score ${digits(event.score)} when it fell asleep${threshold}`);
     }
-    const layer = layerOf(timeline, body);
-    lines.push(layer === null ? "In no layer" : `Layer ${layer.layer} from the bottom of pile ${layer.pile}, density ${layer.density.toFixed(2)}${layer.wake > 0 ? `, the pile wakes above ${layer.wake.toFixed(2)}` : ""}`);
+    const at = layerOf(state, head.dimension, body);
+    const wakes = at && at.layer.wake_density > 0 ? `, the pile wakes above ${at.layer.wake_density.toFixed(2)}` : "";
+    lines.push(at ? `Layer ${at.number} from the bottom of pile ${at.pile}, density ${at.layer.density.toFixed(2)}${wakes}` : "In no layer");
     return lines;
   }
 
@@ -82,18 +101,4 @@ export class BodyPanel {
     for (const reading of readings ?? []) lines.push(capital(textOf(reading)));
     return lines;
   }
-}
-
-/// Layer in which the centre of a body lies; the first pile counts.
-function layerOf({ state, head }: Timeline, body: number): { pile: number; layer: number; density: number; wake: number } | null {
-  const axes = head.dimension;
-  const components = axes === 2 ? 3 : 7;
-  const at = Array.from({ length: axes }, (_, i) => state.pose[components * body + i]);
-  for (const [pile, { centre, layers }] of state.piles.entries()) {
-    const height = at[axes - 1] - centre[axes - 1];
-    const away = Math.hypot(...at.slice(0, -1).map((value, i) => value - centre[i]));
-    const layer = layers.findIndex(({ bottom, top, radius }) => height >= bottom && height < top && away <= radius);
-    if (layer >= 0) return { pile, layer, density: layers[layer].density, wake: layers[layer].wake_density };
-  }
-  return null;
 }

@@ -1,72 +1,96 @@
-// Contacts on the screen: a disc at each point, and a bar along the normal as long as the normal force is large.
+// Contacts on the screen: at each point a disc with a bar along the normal as long as the normal force is large, or
+// force chains, which are lines between the middles of bodies as wide as their force is large.
 
-import { colour } from "./colours";
-import { type Contact, magnitude } from "./contacts";
-import type { Head, Rgb } from "./head";
-import { Color, CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Quaternion, Vector3 } from "./vendor";
+import { colour, force as tints, mixed } from "./colours";
+import { chainsOf, type Contact, magnitude } from "./contacts";
+import type { Head, Point, Rgb } from "./head";
+import { roundUp } from "./scale";
+import { CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Quaternion, Vector3 } from "./vendor";
 
-const weak: Rgb = [0.1, 0.75, 0.7];
-const strong: Rgb = [0.85, 0.05, 0.5];
 /// Longest bar, in lengths of that of the scale.
 const longest = 2;
+const up = new Vector3(0, 1, 0);
+
+/// Width of a line, in lengths of a bar.
+export const lineWidth = 0.07;
+
+export type ContactWay = "none" | "points" | "chains";
 
 /// The force above which one in five lies.
-function largeForce(contacts: Contact[]): number {
-  const forces = contacts.map(({ normalForce }) => magnitude(normalForce)).sort((a, b) => a - b);
-  return forces[Math.floor(0.8 * forces.length)] ?? 0;
-}
-
-/// 1, 2 or 5 times a power of ten, at least `value`.
-function roundUp(value: number): number {
-  const power = 10 ** Math.floor(Math.log10(value));
-  return power * ([1, 2, 5].find((digit) => digit * power >= value) ?? 10);
+function largeForce(forces: number[]): number {
+  return forces.sort((a, b) => a - b)[Math.floor(0.8 * forces.length)] ?? 0;
 }
 
 export class ContactMarks {
   readonly group = new Group();
-  /// Length of a bar [m] of the force below.
+  /// Length of a bar of the force below [m]; a line is narrower by lineWidth.
   readonly length: number;
   /// [N]; changes only where bars would be much too long or short.
   force = 0;
+  /// How many are drawn.
+  count = 0;
   private discs: InstancedMesh | null = null;
   private bars: InstancedMesh | null = null;
   private readonly flat: boolean;
 
-  constructor(head: Head) {
+  constructor(private readonly head: Head) {
     this.flat = head.dimension === 2;
     this.length = Math.min(...head.shapes.map(({ extent }) => extent));
     if (!Number.isFinite(this.length)) this.length = 1;
     this.group.renderOrder = 20;
   }
 
-  show(contacts: Contact[]): void {
-    this.makeRoom(contacts.length);
+  /// `middle`: of a body [m].
+  show(contacts: Contact[], way: ContactWay, middle: (body: number) => Point): void {
+    const chains = way === "chains" ? chainsOf(contacts) : [];
+    const count = (this.count = way === "chains" ? chains.length : contacts.length);
+    this.makeRoom(count);
     if (!this.discs || !this.bars) return;
-    this.discs.count = this.bars.count = contacts.length;
-    if (contacts.length === 0) return;
-    const large = largeForce(contacts);
+    this.bars.count = count;
+    this.discs.count = way === "chains" ? 0 : count;
+    if (count === 0) return;
+    const large = largeForce(way === "chains" ? chains.map(({ force }) => force) : contacts.map(({ normalForce }) => magnitude(normalForce)));
     if (large > 1.5 * this.force || large < 0.2 * this.force) this.force = roundUp(large);
-    contacts.forEach((contact, i) => this.place(contact, i));
+    if (way === "chains") chains.forEach(({ a, b, point, force, kept }, i) => this.placeLine(middle(a), b < 0 ? point : middle(b), force, kept, i));
+    else contacts.forEach((contact, i) => this.placePoint(contact, i));
     for (const mesh of [this.discs, this.bars]) {
       mesh.instanceMatrix.needsUpdate = true;
-      mesh.instanceColor!.needsUpdate = true;
+      if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
   }
 
-  private place({ point, normalForce, kept }: Contact, i: number): void {
+  private vector(point: Point): Vector3 {
+    return new Vector3(point[0], point[1], this.flat ? 1 : point[2]);
+  }
+
+  private tint(share: number, kept: boolean): Rgb {
+    const tint = mixed(tints[0], tints[1], Math.min(1, share));
+    return kept ? mixed(tint, this.head.colours.paper, 0.35) : tint;
+  }
+
+  private placeLine(from: Point, to: Point, force: number, kept: boolean, i: number): void {
+    const [a, b] = [this.vector(from), this.vector(to)];
+    const share = Math.min(longest, force / this.force);
+    const along = b.clone().sub(a);
+    const length = along.length() || 1e-9;
+    const radius = this.length * Math.max(0.006, (lineWidth / 2) * share);
+    this.bars!.setMatrixAt(i, new Matrix4().compose(a.add(b).multiplyScalar(0.5), new Quaternion().setFromUnitVectors(up, along.divideScalar(length)), new Vector3(radius, length, radius)));
+    this.bars!.setColorAt(i, colour(this.tint(share, kept)));
+  }
+
+  private placePoint({ point, normalForce, kept }: Contact, i: number): void {
     const size = magnitude(normalForce);
     const share = Math.min(longest, size / this.force);
-    const at = new Vector3(point[0], point[1], this.flat ? 1 : point[2]);
+    const at = this.vector(point);
     const normal = new Vector3(normalForce[0], normalForce[1], normalForce[2] ?? 0).divideScalar(size || 1);
-    const along = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), normal);
+    const along = new Quaternion().setFromUnitVectors(up, normal);
     // Seen from above in 2D; in 3D in the plane in which the bodies touch.
-    const facing = this.flat ? new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(0, 0, 1)) : along;
+    const facing = this.flat ? new Quaternion().setFromUnitVectors(up, new Vector3(0, 0, 1)) : along;
     const radius = this.length * (this.flat ? 0.05 : 0.07);
     const width = this.length * (0.014 + 0.03 * Math.min(1, share));
     this.discs!.setMatrixAt(i, new Matrix4().compose(at, facing, new Vector3(radius, 0.01 * this.length, radius)));
     this.bars!.setMatrixAt(i, new Matrix4().compose(at, along, new Vector3(width, this.length * share, width)));
-    const tint: Color = colour(weak).lerp(colour(strong), Math.min(1, share));
-    if (kept) tint.lerp(colour([1, 1, 1]), 0.35);
+    const tint = colour(this.tint(share, kept));
     this.discs!.setColorAt(i, tint);
     this.bars!.setColorAt(i, tint);
   }

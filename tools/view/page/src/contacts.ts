@@ -22,6 +22,28 @@ export interface ContactsText {
   contacts: number[][];
 }
 
+/// What two sides exert on each other, all their contacts together.
+export interface Chain {
+  a: number;
+  b: number;
+  /// Of the first contact.
+  point: Point;
+  force: number;
+  kept: boolean;
+}
+
+/// Of the contacts of a frame, one for each pair of bodies; of a body and an obstacle or the ground one for each point.
+export function chainsOf(contacts: Contact[]): Chain[] {
+  const chains = new Map<string, Chain>();
+  contacts.forEach(({ a, b, kept, point, normalForce }, i) => {
+    const key = b < 0 ? `${i}` : `${Math.min(a, b)}-${Math.max(a, b)}`;
+    const chain = chains.get(key);
+    if (chain) chain.force += magnitude(normalForce);
+    else chains.set(key, { a, b, kept, point, force: magnitude(normalForce) });
+  });
+  return [...chains.values()];
+}
+
 export const magnitude = (force: Point): number => Math.hypot(...force);
 
 export class Contacts {

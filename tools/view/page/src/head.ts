@@ -1,5 +1,6 @@
 // What is known of a run before its first moment.
 
+import { type Colours, themed } from "./colours";
 import type { Layouts } from "./messages";
 import type { EventMessage, MomentReader, ShapeMessage, State } from "./moments";
 import { matrixOf } from "./pose";
@@ -18,8 +19,9 @@ export interface Piece {
 
 export interface ShapeHead {
   name: string;
-  awake: Rgb;
-  asleep: Rgb;
+  /// That the scene gives it; null: by state.
+  own: Rgb | null;
+  index: number;
   /// D: diagonal of the box around it [m].
   extent: number;
   pieces: Piece[];
@@ -51,7 +53,10 @@ export interface Settings extends Layouts {
   };
 }
 
-export interface Head extends Pick<Settings, "camera" | "colours"> {
+export interface Head extends Pick<Settings, "camera"> {
+  /// Of the theme now, and of the light one.
+  colours: Colours;
+  light: Settings["colours"];
   title: string;
   name: string;
   backend: string;
@@ -101,16 +106,15 @@ function boundsOf(pieces: Piece[], pose: number[]): Box {
 
 const middlePose = (flat: boolean): number[] => (flat ? [0, 0, 0] : [0, 0, 0, 1, 0, 0, 0]);
 
-function shapeHead(shape: ShapeMessage, { colours }: Settings, flat: boolean, segments: number): ShapeHead {
+function shapeHead(shape: ShapeMessage, flat: boolean, segments: number): ShapeHead {
   const pieces = piecesOf(shape, flat, segments);
-  const own = shape.colour === "" ? null : colourOf(shape.colour);
-  return {
-    name: shape.name,
-    awake: own ?? colours.awake[shape.index % colours.awake.length],
-    asleep: own ? (own.map((part) => (1 - colours.sleep_shade) * part) as Rgb) : colours.asleep,
-    extent: diagonal(boundsOf(pieces, middlePose(flat))),
-    pieces,
-  };
+  return { name: shape.name, own: shape.colour === "" ? null : colourOf(shape.colour), index: shape.index, extent: diagonal(boundsOf(pieces, middlePose(flat))), pieces };
+}
+
+/// Of bodies of a shape by their state.
+export function colourOfState({ own, index }: ShapeHead, asleep: boolean, colours: Colours): Rgb {
+  if (!asleep) return own ?? colours.awake[index % colours.awake.length];
+  return own ? (own.map((part) => (1 - colours.sleep_shade) * part) as Rgb) : colours.asleep;
 }
 
 /// Shapes with colours of their own: each once, variants and sizes under the name that the scene gives them.
@@ -132,25 +136,19 @@ export function headOf(reader: MomentReader, settings: Settings, name: string): 
   const segments = reader.planned > manyBodies ? 12 : 24;
   return {
     ...{ title, name, backend, policy, version, seed, dimension, dt, score_threshold, tolerance },
-    ...{ camera: settings.camera, colours: settings.colours, damage: "", box: emptyBox(dimension), events: reader.sceneEvents },
+    ...{ camera: settings.camera, light: settings.colours, colours: themed(settings.colours), damage: "", box: emptyBox(dimension), events: reader.sceneEvents },
     ground: { present: ground === 1, height: ground_height },
     coloured_shapes: colouredShapes(reader.shapes),
-    shapes: reader.shapes.map((shape) => shapeHead(shape, settings, dimension === 2, segments)),
+    shapes: reader.shapes.map((shape) => shapeHead(shape, dimension === 2, segments)),
     obstacles: obstaclesOf(reader),
   };
 }
 
 /// What to show of a state: bodies within 1.5 times the width of the middle half of all and two bodies more, so that one
-/// that was shot away does not make a dot of all others; layers of piles; obstacles unless they are much larger.
-export function boxOf({ dimension, shapes, obstacles }: Head, { bodies, removed, pose, shape, piles }: State): Box {
+/// that was shot away does not make a dot of all others; obstacles unless they are much larger.
+export function boxOf({ dimension, shapes, obstacles }: Head, { bodies, removed, pose, shape }: State): Box {
   const width = dimension === 2 ? 3 : 7;
   const box = emptyBox(dimension);
-  for (const { centre, layers } of piles)
-    for (const { top, radius } of layers) {
-      const across = Array.from({ length: dimension - 1 }, (_, axis) => centre[axis]);
-      extend(box, [...across.map((value) => value - radius), centre[dimension - 1]]);
-      extend(box, [...across.map((value) => value + radius), centre[dimension - 1] + top]);
-    }
   const present = Array.from({ length: bodies }, (_, body) => body).filter((body) => removed[body] === 0);
   const at = (body: number, axis: number): number => pose[width * body + axis];
   const reach = 2 * Math.max(0, ...shapes.map(({ extent }) => extent));

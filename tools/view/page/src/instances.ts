@@ -39,10 +39,11 @@ export class Instances {
   add(body: number): number {
     const room = this.sleeping.count;
     if (this.bodies.length === room) {
-      const old = this.mesh;
+      const [old, asleep] = [this.mesh, this.sleeping];
       [this.mesh, this.sleeping] = this.make(2 * room);
       this.mesh.instanceMatrix.array.set(old.instanceMatrix.array);
       this.mesh.instanceColor!.array.set(old.instanceColor!.array);
+      this.sleeping.array.set(asleep.array);
       old.parent?.add(this.mesh);
       old.removeFromParent();
       old.dispose();

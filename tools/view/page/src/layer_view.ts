@@ -1,46 +1,47 @@
-// The layers of piles: translucent slices with their densities beside them.
+// The layers of piles: outlines behind the bodies, with their densities beside them.
 
-import { colour, css, overfull } from "./colours";
+import { colour, css, mixed, overfull } from "./colours";
 import type { Pile } from "./moments";
 import type { Head } from "./head";
-import { type Camera, CylinderGeometry, DoubleSide, Group, type Material, Mesh, MeshBasicMaterial, PlaneGeometry, type Vector2, Vector3 } from "./vendor";
+import { fullest } from "./pile_layers";
+import { BufferAttribute, BufferGeometry, type Camera, LineBasicMaterial, LineSegments, type Vector2, Vector3 } from "./vendor";
 
 const mostLayers = 32; // drawn of a pile; thinner ones would be lines only
+const corners = 64; // of a circle
 
 export class LayerView {
-  readonly group = new Group();
+  readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false }));
   private drawn: Pile[] | null = null;
 
   constructor(private readonly head: Head) {
-    this.group.renderOrder = this.flat() ? -1 : 10;
+    this.lines.frustumCulled = false;
   }
 
   private flat(): boolean {
     return this.head.dimension === 2;
   }
 
+  /// Another run, or other colours.
+  forget(): void {
+    this.drawn = null;
+  }
+
   update(piles: Pile[]): void {
     if (this.drawn === piles) return;
     this.drawn = piles;
-    for (const child of this.group.children as Mesh[]) {
-      child.geometry.dispose();
-      (child.material as Material).dispose();
-    }
-    this.group.clear();
-    for (const pile of piles) for (const slice of coarse(pile)) this.add(pile, slice);
-  }
-
-  private add(pile: Pile, { layer, bottom, top, value }: Slice): void {
-    const { radius } = pile.layers[layer];
-    const opacity = 0.1 + 0.22 * Math.min(1, Math.max(0, value));
-    const material = new MeshBasicMaterial({ color: colour(this.head.colours.layer), transparent: true, opacity: (this.flat() ? 1 : 0.5) * opacity, depthWrite: false, side: DoubleSide });
-    const mesh = this.flat()
-      ? new Mesh(new PlaneGeometry(2 * radius, 0.97 * (top - bottom)), material)
-      : new Mesh(new CylinderGeometry(radius, radius, 0.97 * (top - bottom), 48, 1, true).rotateX(0.5 * Math.PI), material);
-    const height = (bottom + top) / 2;
-    if (this.flat()) mesh.position.set(pile.centre[0], pile.centre[1] + height, -0.5); // behind the bodies
-    else mesh.position.set(pile.centre[0], pile.centre[1], pile.centre[2] + height);
-    this.group.add(mesh);
+    const points: number[] = [];
+    const tints: number[] = [];
+    for (const pile of piles)
+      for (const { layer, bottom, top, value } of coarse(pile)) {
+        const { paper, layer: full } = this.head.colours;
+        const most = fullest(pile.layers[layer]);
+        const tint = colour(value > most ? overfull : mixed(paper, full, 0.25 + (0.75 * Math.max(0, value)) / most));
+        const outline = this.flat() ? frame(pile, pile.layers[layer].radius, bottom, top) : circles(pile, pile.layers[layer].radius, [bottom, top]);
+        points.push(...outline);
+        for (let i = 0; i < outline.length; i += 3) tints.push(tint.r, tint.g, tint.b);
+      }
+    this.lines.geometry.dispose();
+    this.lines.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3)).setAttribute("color", new BufferAttribute(new Float32Array(tints), 3));
   }
 
   drawLabels(paper: CanvasRenderingContext2D, piles: Pile[], camera: Camera, onScreen: (point: Vector3) => Vector2): void {
@@ -68,6 +69,22 @@ export class LayerView {
       }
     }
   }
+}
+
+/// Ends of lines about a layer in 2D, behind the bodies.
+function frame({ centre }: Pile, radius: number, bottom: number, top: number): number[] {
+  const [left, right] = [centre[0] - radius, centre[0] + radius];
+  const [low, high] = [centre[1] + bottom, centre[1] + top];
+  const loop = [left, low, right, low, right, high, left, high, left, low];
+  return [0, 2, 4, 6].flatMap((i) => [loop[i], loop[i + 1], -0.5, loop[i + 2], loop[i + 3], -0.5]);
+}
+
+function circles({ centre }: Pile, radius: number, heights: number[]): number[] {
+  const at = (i: number, height: number): number[] => {
+    const angle = (2 * Math.PI * i) / corners;
+    return [centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle), centre[2] + height];
+  };
+  return heights.flatMap((height) => Array.from({ length: corners }, (_, i) => [...at(i, height), ...at(i + 1, height)]).flat());
 }
 
 interface Slice {

@@ -1,7 +1,8 @@
 // A run that goes on: its messages come over a WebSocket, commands go back (tools/serve/run_loop.h).
 
 import type { Account } from "./body_panel";
-import { element, showPace } from "./element";
+import type { Editor } from "./editor";
+import { download, element, make, onClick, showPace } from "./element";
 import { type Box, boxOf, headOf, obstaclesOf, type Settings } from "./head";
 import { LogReader } from "./messages";
 import { type Moment, MomentReader } from "./moments";
@@ -31,7 +32,8 @@ interface Status {
   woken?: number;
 }
 
-interface Fault {
+/// At a line and column counted from 1; 0: at none.
+export interface Fault {
   line: number;
   column: number;
   text: string;
@@ -49,7 +51,15 @@ interface Thinned {
 
 type Message = Status | Begin | (ContactsText & { kind: "contacts" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | Thinned | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
 
-const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 64, 0];
+declare global {
+  interface Window {
+    /// The script of the editor, which pages of runs have.
+    talusEditor: { Editor: typeof Editor };
+  }
+}
+
+/// Parts of the page that a run of another process has not.
+const commands = ["scene", "by-hand", "restart", "steering"];
 
 class Live implements Simulation {
   private player: Player | null = null;
@@ -64,12 +74,18 @@ class Live implements Simulation {
   /// Of this run, once frames were left out.
   private thinned: Thinned | null = null;
   private form = 0;
+  /// Of the scene's text.
+  readonly editor: Editor;
 
   constructor(
     private readonly settings: Settings,
     private readonly ready: (player: Player) => void,
   ) {
     this.reader = new MomentReader(settings);
+    this.editor = new window.talusEditor.Editor(element("text"), JSON.parse(element("keys-data").textContent) as [string, string][], {
+      changed: () => this.listNumbers(),
+      run: () => this.apply(),
+    });
     this.socket = new WebSocket(`ws://${location.host}${location.pathname}stream${location.search}`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
@@ -78,30 +94,19 @@ class Live implements Simulation {
     };
     this.socket.onclose = () => {
       element("status").textContent = "The server has gone, or has too many pages. What came can still be played.";
-      for (const id of ["run", "single", "restart", "save", "apply", "pace", "policy"]) element<HTMLButtonElement>(id).disabled = true;
+      for (const id of ["restart", "save", "apply", "policy"]) element<HTMLButtonElement>(id).disabled = true;
     };
     this.prepare();
   }
 
   private prepare(): void {
-    element("simulation").hidden = element("scene").hidden = false;
-    document.body.classList.add("editing");
-    const click = (id: string, action: () => void): void => element(id).addEventListener("click", action);
-    click("run", () => this.toggle());
-    click("single", () => this.player?.stepSimulation());
-    click("restart", () => this.restart());
-    click("save", () => this.send({ do: "save" }));
-    click("apply", () => this.apply());
-    for (const pace of paces) element("pace").append(new Option(pace === 0 ? "as fast as possible" : `${pace}x`, String(pace)));
-    element("pace").addEventListener("change", () => this.send({ do: "pace", value: Number(element<HTMLSelectElement>("pace").value) }));
+    for (const id of commands) element(id).hidden = false;
+    onClick("save", () => this.send({ do: "save" }));
+    onClick("apply", () => this.apply());
     element("policy").addEventListener("change", () => this.send({ do: "policy", value: element<HTMLSelectElement>("policy").value }));
-    element("text").addEventListener("input", () => this.listNumbers());
     element("number").addEventListener("change", () => this.showNumber());
     element("slider").addEventListener("input", () => (element<HTMLInputElement>("value").value = element<HTMLInputElement>("slider").value));
     for (const id of ["slider", "value"]) element(id).addEventListener("change", () => this.setNumber(Number(element<HTMLInputElement>(id).value)));
-    element("text").addEventListener("keydown", (event) => {
-      if (event.key === "Enter" && event.ctrlKey) this.apply();
-    });
   }
 
   send(command: object): void {
@@ -109,7 +114,7 @@ class Live implements Simulation {
   }
 
   private apply(): void {
-    this.send({ do: "scene", text: element<HTMLTextAreaElement>("text").value });
+    this.send({ do: "scene", text: this.editor.text });
   }
 
   private numbers: SceneNumber[] = [];
@@ -118,7 +123,7 @@ class Live implements Simulation {
   private listNumbers(): void {
     const list = element<HTMLSelectElement>("number");
     const chosen = list.value;
-    this.numbers = numbersOf(element<HTMLTextAreaElement>("text").value).filter(({ path }) => path !== "dimension");
+    this.numbers = numbersOf(this.editor.text).filter(({ path }) => path !== "dimension");
     list.replaceChildren(...this.numbers.map(({ path }) => new Option(path)));
     const first = this.numbers.find(({ path }) => /\bfriction$/.test(path)) ?? this.numbers.find(({ path }) => path.startsWith("source"));
     const kept = this.numbers.find(({ path }) => path === chosen) ?? first;
@@ -141,10 +146,8 @@ class Live implements Simulation {
   /// Writes the number into the text and runs the scene.
   private setNumber(value: number): void {
     const number = this.chosenNumber();
-    const area = element<HTMLTextAreaElement>("text");
     if (!number || Number.isNaN(value)) return;
-    area.value = withNumber(area.value, number, value);
-    this.listNumbers();
+    this.editor.text = withNumber(this.editor.text, number, value);
     this.apply();
   }
 
@@ -163,8 +166,7 @@ class Live implements Simulation {
         if (this.begun) this.player?.contacts.add(message);
         break;
       case "scene":
-        element<HTMLTextAreaElement>("text").value = message.text;
-        this.listNumbers();
+        this.editor.text = message.text;
         break;
       case "thinned":
         this.thinned = message;
@@ -174,7 +176,7 @@ class Live implements Simulation {
         this.player?.takeAccount(message);
         break;
       case "saved":
-        download(`${message.name}_step_${this.player?.shown().step ?? 0}.toml`, message.text);
+        download(`${message.name}_step_${this.player?.shown().step ?? 0}.toml`, new Blob([message.text], { type: "application/toml" }));
         break;
       case "errors":
         this.showErrors(message.errors);
@@ -233,12 +235,10 @@ class Live implements Simulation {
     this.behind = Math.max(0, status.step - (steps.at(-1) ?? 0));
     if (status.live) this.hideCommands();
     if (status.channels) showMessages(status.channels, status);
-    element("run").textContent = this.ended() ? "Run again" : status.running ? "Pause" : "Run";
-    element<HTMLButtonElement>("single").disabled = this.ended();
     const policies = element<HTMLSelectElement>("policy");
     if (policies.options.length === 0) policies.append(...status.policies.map((name) => new Option(name)));
     policies.value = status.policy;
-    showPace(element<HTMLSelectElement>("pace"), status.pace);
+    if (!status.live) showPace(element<HTMLSelectElement>("rate"), status.pace);
     const speed = `${status.ms_per_step.toFixed(2)} ms a step, ${status.real_time_factor.toPrecision(3)} x real time, this page ${this.behind} steps behind`;
     const time = (status.step * (this.player?.timeline.head.dt ?? 0)).toFixed(2);
     const end = status.at_rest ? `finished: all at rest after ${time} s` : "finished";
@@ -247,23 +247,15 @@ class Live implements Simulation {
   }
 
   private hideCommands(): void {
-    element("scene").hidden = element("by-hand").hidden = true;
-    document.body.classList.remove("editing");
-    for (const id of ["run", "single", "restart", "save"]) element(id).hidden = true;
-    for (const id of ["pace", "policy"]) element(id).parentElement!.hidden = true;
+    for (const id of commands) element(id).hidden = true;
   }
 
   private showErrors(errors: Fault[]): void {
-    const area = element<HTMLTextAreaElement>("text");
-    element("errors").replaceChildren(
-      ...errors.map(({ line, text }) => {
-        const item = Object.assign(document.createElement("li"), { textContent: text });
-        if (line > 0) item.addEventListener("click", () => selectLine(area, line));
-        return item;
-      }),
-    );
+    this.editor.mark(errors);
+    if (errors.length > 0) element<HTMLDetailsElement>("scene").open = true;
+    element("errors").replaceChildren(...errors.map(({ line, text }) => make("li", { textContent: text, onclick: () => this.editor.goTo(line) })));
     const first = errors.find(({ line }) => line > 0);
-    if (first) selectLine(area, first.line);
+    if (first) this.editor.goTo(first.line);
   }
 
   toggle(): void {
@@ -275,7 +267,7 @@ class Live implements Simulation {
   }
 
   restart(): void {
-    this.send({ do: "restart" });
+    this.send({ do: this.ended() ? "run" : "restart" });
   }
 
   steered(): boolean {
@@ -305,8 +297,7 @@ function showMessages(channels: [string, number, number][], { undecodable = 0, s
   section.hidden = false;
   section.querySelector("table")!.replaceChildren(
     ...[["channel", "came", "lost"], ...channels].map((cells, row) => {
-      const line = document.createElement("tr");
-      line.append(...cells.map((text, i) => Object.assign(document.createElement(row > 0 ? "td" : "th"), { textContent: String(text), className: i > 0 ? "count" : "" })));
+      const line = make("tr", {}, ...cells.map((text, i) => make(row > 0 ? "td" : "th", { textContent: String(text), className: i > 0 ? "count" : "" })));
       if (row > 0 && Number(cells[2]) > 0) line.lastElementChild!.classList.add("fault");
       return line;
     }),
@@ -316,23 +307,6 @@ function showMessages(channels: [string, number, number][], { undecodable = 0, s
   if (undecodable > 0) lines.push(`${undecodable} messages could not be decoded.`);
   if (lost) lines.push("Against loss, as root: sysctl -w net.core.rmem_max=4194304");
   section.querySelector("p")!.textContent = lines.join(" ");
-}
-
-/// Gives the user a file.
-function download(name: string, text: string): void {
-  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([text], { type: "application/toml" })), download: name });
-  link.click();
-  URL.revokeObjectURL(link.href);
-}
-
-/// Marks a line of the text, counted from 1, and brings it into sight.
-function selectLine(area: HTMLTextAreaElement, line: number): void {
-  const lines = area.value.split("\n");
-  const begin = lines.slice(0, line - 1).reduce((sum, text) => sum + text.length + 1, 0);
-  area.focus();
-  area.setSelectionRange(begin, begin + (lines[line - 1]?.length ?? 0));
-  const lineHeight = area.scrollHeight / lines.length;
-  area.scrollTop = Math.max(0, (line - 4) * lineHeight);
 }
 
 export function connect(settings: Settings, ready: (player: Player) => void): void {

@@ -1,3 +1,4 @@
+import { keepAddress, viewOfAddress } from "./address";
 import { boxOf, headOf, obstaclesOf, type Settings } from "./head";
 import { connect } from "./live";
 import { LogReader } from "./messages";
@@ -55,7 +56,7 @@ async function start(): Promise<void> {
   const settings = dataOf<Settings>("settings");
   const { kind, name } = dataOf<{ kind: "run" | "record"; name: string }>("source");
   if (kind === "run") {
-    connect(settings, (player) => (window.talus = player));
+    connect(settings, begin);
     return;
   }
   const held = document.getElementById("log")?.textContent;
@@ -63,8 +64,16 @@ async function start(): Promise<void> {
   const player = new Player(timelineOf(new Uint8Array(log), settings, name));
   player.grown();
   player.seek(0);
-  player.play();
+  begin(player);
+  if (viewOfAddress().t === undefined) player.play();
+}
+
+/// Shows what the address says, which follows the user from now on; one of two pages side by side leaves both to that of both.
+function begin(player: Player): void {
   window.talus = player;
+  if (document.body.classList.contains("half")) return;
+  player.restore(viewOfAddress());
+  keepAddress(() => player.view());
 }
 
 start().catch((error: unknown) => {

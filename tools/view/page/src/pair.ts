@@ -1,8 +1,16 @@
 // Two runs side by side, played in step: the pages a/ and b/ show them, this one steers both and compares what they
 // show.
 
-import { showPace } from "./element";
+import { keepAddress, type View, viewOfAddress } from "./address";
+import { type Way, ways } from "./colourings";
+import { onTheme, themed } from "./colours";
+import { dragPlots, element, make, offerPaces, onClick, showGoing, showPace } from "./element";
+import { Keys } from "./keys";
+import { listed } from "./legend";
+import { offerPictures } from "./picture";
 import type { Player } from "./player";
+import { Plots } from "./plots";
+import type { Timeline } from "./timeline";
 
 interface PairTexts {
   of_runs: boolean;
@@ -11,9 +19,9 @@ interface PairTexts {
   differences: [string, string, string][];
 }
 
-const element = <T extends HTMLElement = HTMLElement>(id: string): T => document.getElementById(id) as T;
 const texts = JSON.parse(element("pair-data").textContent) as PairTexts;
-const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, ...(texts.of_runs ? [64, 0] : [])];
+const rate = element<HTMLSelectElement>("rate");
+const paint = element<HTMLSelectElement>("paint");
 
 /// What the two runs differ in at one time.
 export interface Difference {
@@ -34,22 +42,80 @@ class Pair {
   /// Whether the newest time is shown, of runs that go on.
   private following = texts.of_runs;
   private clock = 0;
-  private measured = 0; // time of the browser at which the plots were given one scale [ms]
+  private compared = 0; // time of the browser at which the two were compared [ms]
+  private plots: Plots | null = null;
+  /// Of the plots: a run that begins anew has another one.
+  private plotted: Timeline[] = [];
+  /// That the address asks for, as long as there are no frames of it [s].
+  private wantedTime: number | null = null;
 
   constructor(private readonly players: [Player, Player]) {
-    const click = (id: string, action: () => void): void => element(id).addEventListener("click", action);
-    click("play", () => this.toggle());
-    click("step", () => this.step());
-    click("restart", () => this.restart());
-    for (const pace of paces) element("pace").append(new Option(pace === 0 ? "as fast as possible" : `${pace}x`, String(pace), false, pace === 1));
-    element("pace").addEventListener("change", () => this.both((player) => player.command({ do: "pace", value: this.pace() })));
+    onClick("play", () => this.toggle());
+    onClick("forward", () => this.step());
+    onClick("first", () => this.seek(0));
+    onClick("last", () => this.toEnd());
+    onClick("restart", () => this.restart());
+    onClick("fit", () => this.players[0].resetCamera());
+    onClick("help", () => keys.toggle());
+    offerPaces(rate, [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, ...(texts.of_runs ? [64, 0] : [])]);
+    rate.addEventListener("change", () => this.both((player) => player.command({ do: "pace", value: this.pace() })));
+    paint.append(...Object.entries(ways).map(([way, text]) => new Option(text, way)).filter(({ value }) => value !== "force"));
+    paint.addEventListener("change", () => this.colourBy(paint.value as Way));
     element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
-    for (const page of [document, ...["a", "b"].map((side) => element<HTMLIFrameElement>(side).contentDocument!)])
-      page.addEventListener("keydown", (event) => this.key(event));
+    const keys = new Keys(() => this.keyList(), [document, ...["a", "b"].map((side) => element<HTMLIFrameElement>(side).contentDocument!)]);
     this.both((player) => player.pause());
-    this.players[0].pairWith(this.players[1], (time) => this.seek(time));
+    this.players[0].pairWith(this.players[1]);
     this.showLabels();
+    this.plot(viewOfAddress().plots ?? null);
+    onTheme(() => this.plot(this.plots!.shown));
+    dragPlots();
+    offerPictures(() => this.players.map((player) => player.scenery()));
+    this.restore(viewOfAddress());
+    keepAddress(() => this.view());
     requestAnimationFrame((now) => this.tick(now));
+  }
+
+  private keyList(): ReturnType<ConstructorParameters<typeof Keys>[0]> {
+    return [
+      { key: " ", name: "space", does: "run, play or pause both", action: () => this.toggle() },
+      { key: ".", does: "one step or frame of both", action: () => this.step() },
+      { key: "Home", name: "Home", does: "start", action: () => this.seek(0) },
+      { key: "End", name: "End", does: "newest time", action: () => this.toEnd() },
+      { key: "r", does: "both from the start", action: () => this.restart() },
+      { key: "f", does: "reset the camera", action: () => this.players[0].resetCamera() },
+    ];
+  }
+
+  private colourBy(way: Way): void {
+    paint.value = way;
+    this.both((player) => player.colourBy(way));
+  }
+
+  private plot(shown: string | null): void {
+    this.plots?.dispose();
+    const [a, b] = (this.plotted = this.players.map(({ timeline }) => timeline));
+    for (const { head } of this.plotted) head.colours = themed(head.light);
+    this.plots = new Plots(element("plots"), [{ timeline: a, name: "left" }, { timeline: b, name: "right" }], (time) => this.seek(time), shown);
+  }
+
+  private view(): View {
+    const { camera, colours, layers } = this.players[0].view();
+    const plots = this.plots!.shown;
+    return {
+      ...(this.following ? {} : { t: String(Number((this.wantedTime ?? this.time).toFixed(4))) }),
+      ...(camera ? { camera } : {}),
+      ...(colours ? { colours } : {}),
+      ...(layers ? { layers } : {}),
+      ...(plots !== null ? { plots } : {}),
+    };
+  }
+
+  private restore({ t, camera, colours, layers }: View): void {
+    this.both((player) => player.restore({ ...(camera ? { camera } : {}), ...(layers ? { layers } : {}) }));
+    if (colours && colours in ways) this.colourBy(colours as Way);
+    if (t === undefined || !Number.isFinite(Number(t))) return;
+    this.playing = false;
+    this.wantedTime = Number(t);
   }
 
   private both(action: (player: Player) => void): void {
@@ -57,16 +123,7 @@ class Pair {
   }
 
   private pace(): number {
-    return Number(element<HTMLSelectElement>("pace").value);
-  }
-
-  private key(event: KeyboardEvent): void {
-    if ((event.target as HTMLElement).tagName === "SELECT") return;
-    const actions: Record<string, () => void> = { " ": () => this.toggle(), ".": () => this.step(), r: () => this.restart(), f: () => this.players[0].resetCamera() };
-    const action = actions[event.key];
-    if (!action) return;
-    event.preventDefault();
-    action();
+    return Number(rate.value);
   }
 
   /// Large above each run what it has otherwise than the other one, and its name where they have all in common.
@@ -82,15 +139,7 @@ class Pair {
     ];
     const different = all.filter(([, first, second]) => first !== second);
     const rows = different.length > 0 ? different : [["run", a.name, b.name]];
-    ["a", "b"].forEach((side, i) => {
-      element(`label-${side}`).replaceChildren(
-        ...rows.map((row) => {
-          const line = Object.assign(document.createElement("div"), { textContent: `${row[0]} ` });
-          line.append(Object.assign(document.createElement("b"), { textContent: row[i + 1] || "(not given)" }));
-          return line;
-        }),
-      );
-    });
+    ["a", "b"].forEach((side, i) => element(`label-${side}`).replaceChildren(...rows.map((row) => make("div", { textContent: `${row[0]} ` }, make("b", { textContent: row[i + 1] || "(not given)" })))));
   }
 
   /// Whether a simulation goes on that is shown as it goes.
@@ -144,8 +193,15 @@ class Pair {
     this.playing = this.following = false;
   }
 
+  toEnd(): void {
+    this.seek(this.end());
+    this.playing = false;
+    this.following = texts.of_runs;
+  }
+
   seek(time: number): void {
     this.following = false;
+    this.wantedTime = null;
     this.time = Math.min(time, this.end());
     this.show();
   }
@@ -154,32 +210,32 @@ class Pair {
     const passed = this.clock > 0 ? (now - this.clock) / 1000 : 0;
     this.clock = now;
     const before = this.time;
+    if (this.wantedTime !== null && this.end() >= this.wantedTime) this.seek(this.wantedTime);
     if (this.following || this.time > this.end()) this.time = this.end();
     else if (this.playing) this.time = Math.min(this.end(), this.time + passed * (this.pace() || 1));
     if (this.playing && this.time >= this.end()) {
       this.playing = false;
       this.following = texts.of_runs;
     }
-    element("play").textContent = this.playing || this.runs() ? "\u2016" : "\u25B6";
+    showGoing(element("play"), this.playing || this.runs());
     Object.assign(element<HTMLInputElement>("scrub"), { max: String(this.end()), value: String(this.time) });
-    if (now - this.measured > 500) this.measure(now);
+    if (this.players.some(({ timeline }, i) => timeline !== this.plotted[i])) this.plot(this.plots!.shown);
+    this.plots!.refresh();
+    if (now - this.compared > 500) this.compare(now);
     if (this.time !== before) this.show();
     requestAnimationFrame((next) => this.tick(next));
   }
 
-  /// One scale for the plots of both.
-  private measure(now: number): void {
-    this.measured = now;
-    const [a, b] = this.players.map((player) => player.extent());
-    const larger = (of: (extent: typeof a) => number): number => Math.max(of(a), of(b));
-    const both = { time: larger(({ time }) => time), bodies: larger(({ bodies }) => bodies), ms: larger(({ ms }) => ms), top: larger(({ top }) => top) };
-    this.both((player) => player.reach(both));
-    if (this.following) showPace(element<HTMLSelectElement>("pace"), this.players[0].pace());
+  private compare(now: number): void {
+    this.compared = now;
+    if (this.following) showPace(rate, this.players[0].pace());
     this.showDifference();
+    ["a", "b"].forEach((side, i) => element(`legend-${side}`).replaceChildren(...listed(this.players[i].scenery().entries)));
   }
 
   private show(): void {
     this.both((player) => player.showMoment(this.time));
+    this.plots!.showTime(this.time);
     this.showDifference();
   }
 
@@ -201,7 +257,7 @@ class Pair {
 
   private showDifference(): void {
     const { time, awake, bodies, mean, largest, speedUp } = this.difference();
-    element("time").textContent = `${time.toFixed(2)} s in both${this.whichEnds()}`;
+    element("time").textContent = `${time.toFixed(2)} s${this.whichEnds()}`;
     const length = (metres: number): string => `${metres.toPrecision(2)} m`;
     const cells = [
       ["awake", `${awake[0]} and ${awake[1]}`],
@@ -210,13 +266,7 @@ class Pair {
       ["largest", length(largest)],
       ["a step of the right run takes", speedUp > 0 ? `${speedUp.toFixed(2)} times as long` : "(not known)"],
     ];
-    element("difference").replaceChildren(
-      ...cells.map(([name, value]) => {
-        const row = document.createElement("tr");
-        for (const text of [name, value]) row.append(Object.assign(document.createElement("td"), { textContent: text }));
-        return row;
-      }),
-    );
+    element("difference").replaceChildren(...cells.map((cell) => make("tr", {}, ...cell.map((textContent) => make("td", { textContent })))));
   }
 
   /// Where one run ends before the other there is nothing to compare from then on.

@@ -1,55 +1,23 @@
 // What the user does with the frames of a run: play, step, scrub, choose a body.
 
+import type { View } from "./address";
 import { type Account, BodyPanel } from "./body_panel";
+import { Colouring, type Way, ways } from "./colourings";
+import { onTheme, themed } from "./colours";
 import { ContactPanel } from "./contact_panel";
-import { element } from "./element";
-import { causes } from "./causes";
-import type { Head, Rgb } from "./head";
-import { type Extent, largest, Plots } from "./plots";
-import { css, type Paint } from "./colours";
+import { draggable, dragPlots, element, make, offerPaces, onClick, showGoing } from "./element";
+import type { Head } from "./head";
+import { type Key, Keys } from "./keys";
+import { type Drawn, marksOf, showLegend } from "./legend";
+import { factsOf, offerPictures, type Scenery } from "./picture";
+import { largest } from "./pile_layers";
+import { Plots } from "./plots";
 import { PointerTools } from "./pointer_tools";
 import { Stage } from "./stage";
 import { type Changed, Timeline } from "./timeline";
 
-const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
-
-/// Of sleeping and awake bodies by the number of the cause.
-const causeColours: Rgb[] = [
-  [0.1, 0.3, 0.55],
-  [0.17, 0.18, 0.2],
-  [0.85, 0.2, 0.15],
-  [0.95, 0.5, 0.1],
-  [0.75, 0.3, 0.75],
-  [0.5, 0.5, 0.5],
-  [0.5, 0.5, 0.5],
-  [0.15, 0.5, 0.45],
-  [0.95, 0.8, 0.2],
-  [0.45, 0.7, 0.95],
-];
-
-function cell(text: string, name = ""): HTMLTableCellElement {
-  const td = document.createElement("td");
-  td.textContent = text;
-  td.className = name;
-  return td;
-}
-
-/// A box of each colour.
-function swatch(colours: Rgb[]): HTMLTableCellElement {
-  const td = cell("");
-  for (const colour of colours) {
-    const box = document.createElement("span");
-    box.className = "swatch";
-    box.style.background = css(colour);
-    td.append(box);
-  }
-  return td;
-}
-
-/// Each colour once.
-function different(colours: Rgb[]): Rgb[] {
-  return [...new Map(colours.map((colour) => [css(colour), colour])).values()];
-}
+const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+const fastest = 16; // at which is played what was simulated as fast as possible
 
 /// What a simulation that is still going on does with the controls.
 export interface Simulation {
@@ -81,52 +49,74 @@ export interface Shown {
   playing: boolean;
 }
 
+const panels = (): HTMLDetailsElement[] => [...document.querySelectorAll<HTMLDetailsElement>("#dock details")];
+
 export class Player {
   stage: Stage;
   readonly contacts: ContactPanel;
   readonly body = new BodyPanel();
   private readonly tools: PointerTools;
-  private plots!: Plots; // made by show()
+  private readonly colouring: Colouring;
+  private coloured: ReturnType<Colouring["now"]>;
+  private readonly keys: Keys | null;
+  private plots: Plots | null = null;
   private simulation: Simulation | null = null;
   private playing = false;
   private following = false;
-  /// Of a page with two runs, which alone decides what time is shown: goes to a time.
-  private led: ((time: number) => void) | null = null;
+  /// Of a page with two runs, which alone decides what time is shown.
+  private led = false;
   private clock = 0;
   private time = 0;
+  /// Rows of the plots and time [s] that the address asks for, as long as there are no frames of that time.
+  private wantedPlots: string | null = null;
+  private wantedTime: number | null = null;
 
   constructor(public timeline: Timeline) {
     const { head } = timeline;
     this.contacts = new ContactPanel(head);
+    this.colouring = new Colouring(() => this.timeline, this.contacts);
+    this.coloured = this.colouring.now();
     this.tools = new PointerTools({
       stage: () => this.stage,
-      steered: () => this.simulation?.steered() ?? false,
+      steered: () => this.steered(),
       command: (command) => this.command(command),
       select: (body) => this.select(body),
     });
-    this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
+    this.stage = this.newStage();
     this.show();
     this.listen();
+    this.keys = this.half ? null : new Keys(() => this.keyList());
     requestAnimationFrame((now) => this.tick(now));
+  }
+
+  private newStage(): Stage {
+    const stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), this.head);
+    stage.onDrawn = () => this.body.place(this.stage, this.timeline);
+    return stage;
+  }
+
+  /// Whether this is one of two pages side by side.
+  private get half(): boolean {
+    return document.body.classList.contains("half");
   }
 
   /// Another run on the same page: everything from the start.
   replace(timeline: Timeline): void {
     const { dimension } = this.head;
-    const { head } = timeline;
     this.timeline = timeline;
-    this.contacts.replace(head);
+    this.contacts.replace(timeline.head);
+    this.colouring.forget();
     this.pause();
     this.following = this.simulation !== null;
-    if (head.dimension === dimension) {
+    if (timeline.head.dimension === dimension) {
       this.show();
       if (this.stage.follows) this.stage.fit(false);
       return;
     }
     // A camera of another kind.
     this.stage.dispose();
-    for (const id of ["bodies", "labels"]) element(id).replaceWith(Object.assign(document.createElement("canvas"), { id }));
-    this.stage = new Stage(element<HTMLCanvasElement>("bodies"), element<HTMLCanvasElement>("labels"), head);
+    for (const id of ["bodies", "labels"]) element(id).replaceWith(make("canvas", { id }));
+    this.stage = this.newStage();
     this.stage.follows = this.following;
     this.listenToStage();
     this.show();
@@ -136,12 +126,14 @@ export class Player {
     return this.timeline.head;
   }
 
+  private steered(): boolean {
+    return this.simulation?.steered() ?? false;
+  }
+
   attach(simulation: Simulation): void {
     this.simulation = simulation;
     this.following = this.stage.follows = true;
     element("loop-label").hidden = true;
-    element("timed").hidden = false;
-    this.show();
   }
 
   private show(): void {
@@ -150,39 +142,70 @@ export class Player {
     this.stage.selected = -1;
     document.title = `${head.title} - talus`;
     element("title").textContent = head.title;
-    const seed = `seed ${head.seed}`;
-    element("subtitle").textContent = [head.name, head.backend, `policy ${head.policy}`, seed, head.version].filter((part) => part !== "").join(", ");
+    element("subtitle").textContent = factsOf(head);
     element("status").textContent = head.damage;
     element("history").hidden = true;
     this.stage.setRun(this.timeline);
     this.tools.setShapes(head.shapes.map(({ name }) => name));
-    this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
+    this.showBody();
     this.showWarnings();
+    this.plot();
+  }
+
+  private plot(): void {
+    if (this.half) return; // the page with both has the plots of both
+    this.wantedPlots = this.plots ? this.plots.shown : this.wantedPlots;
     this.plots?.dispose();
-    this.plots = new Plots(element("plots"), head, this.timeline, this.simulation !== null, (time) => (this.led ? this.led(time) : this.seekTime(time)));
+    this.plots = new Plots(element("plots"), [{ timeline: this.timeline, name: "" }], (time) => this.seekTime(time), this.wantedPlots);
+  }
+
+  /// Takes over the colours of the system's theme.
+  private retheme(): void {
+    this.head.colours = themed(this.head.light);
+    this.stage.setRun(this.timeline);
+    this.plot();
+    this.repaint();
   }
 
   private listen(): void {
-    const click = (id: string, action: () => void): void => element(id).addEventListener("click", action);
-    click("play", () => this.toggle());
-    click("back", () => this.stepBy(-1));
-    click("forward", () => this.stepBy(1));
-    click("first", () => this.seek(0));
-    click("last", () => this.toEnd());
-    click("wake", () => this.toNext(this.timeline.woken));
-    click("avalanche", () => this.toNext(this.timeline.avalanches));
-    click("warning", () => this.toNext(this.timeline.newWarnings));
+    onClick("play", () => this.toggle());
+    onClick("back", () => this.stepBy(-1));
+    onClick("forward", () => this.stepBy(1));
+    onClick("first", () => this.seek(0));
+    onClick("last", () => this.toEnd());
+    onClick("restart", () => this.simulation?.restart());
+    onClick("wake", () => this.toNext(this.timeline.woken));
+    onClick("avalanche", () => this.toNext(this.timeline.avalanches));
+    onClick("warning", () => this.toNext(this.timeline.newWarnings));
+    onClick("fit", () => this.resetCamera());
+    onClick("help", () => this.keys?.toggle());
+    onClick("fold", () => this.foldDock());
+    onClick("close", () => this.select(-1));
     element("follow").addEventListener("change", () => this.accompany());
-    click("fit", () => this.resetCamera());
     element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
-    element("paint").addEventListener("change", () => this.repaint());
+    const paint = element<HTMLSelectElement>("paint");
+    paint.append(...Object.entries(ways).map(([way, text]) => Object.assign(new Option(text, way), { disabled: way === "force" })));
+    paint.addEventListener("change", () => this.colourBy(paint.value as Way));
     element("layers").addEventListener("change", () => {
       this.stage.showLayers = element<HTMLInputElement>("layers").checked;
       this.stage.redraw();
+      this.showCounts();
     });
-    for (const speed of speeds) element("rate").append(new Option(`${speed}x`, String(speed), false, speed === 1));
-    document.addEventListener("keydown", (event) => this.key(event));
+    offerPaces(element<HTMLSelectElement>("rate"), paces);
+    element("rate").addEventListener("change", () => this.steered() && this.command({ do: "pace", value: this.rate() }));
+    if (!this.half) offerPictures(() => [this.scenery()]);
+    dragPlots();
+    draggable(
+      element("dock-edge"),
+      (x) => document.body.style.setProperty("--dock", `${Math.max(180, innerWidth - x)}px`),
+      () => document.body.style.removeProperty("--dock"),
+    );
+    onTheme(() => this.retheme());
     this.listenToStage();
+  }
+
+  private rate(): number {
+    return Number(element<HTMLSelectElement>("rate").value);
   }
 
   private listenToStage(): void {
@@ -201,38 +224,43 @@ export class Player {
   }
 
   private removeBody(): void {
-    if (this.stage.selected < 0 || !this.simulation?.steered()) return;
+    if (this.stage.selected < 0 || !this.steered()) return;
     this.command({ do: "remove", body: this.stage.selected });
     this.select(-1);
   }
 
-  private key(event: KeyboardEvent): void {
-    const target = event.target as HTMLElement;
-    if (this.led || event.ctrlKey || event.altKey || event.metaKey || ["TEXTAREA", "SELECT"].includes(target.tagName) || (target as HTMLInputElement).type === "number") return;
-    const actions: Record<string, () => void> = {
-      " ": () => this.toggle(),
-      ".": () => this.stepBy(1),
-      ",": () => this.stepBy(-1),
-      n: () => this.toNext(this.timeline.woken),
-      v: () => this.toNext(this.timeline.avalanches),
-      w: () => this.toNext(this.timeline.newWarnings),
-      t: () => element("follow").click(),
-      s: () => this.simulation?.steered() && this.command({ do: "save" }),
-      x: () => this.tools.choose("cut"),
-      f: () => this.resetCamera(),
-      r: () => (this.simulation ? this.simulation.restart() : this.seek(0)),
-      l: () => element("loop").click(),
-      c: () => this.tools.choose("camera"),
-      g: () => this.tools.choose("pull"),
-      a: () => this.tools.choose("add"),
-      Delete: () => this.removeBody(),
-      Home: () => this.seek(0),
-      End: () => this.toEnd(),
-    };
-    const action = actions[event.key];
-    if (!action) return;
-    event.preventDefault();
-    action();
+  private keyList(): Key[] {
+    if (this.led) return [];
+    const all: Key[] = [
+      { key: " ", name: "space", does: "play, pause", action: () => this.toggle() },
+      { key: ".", does: "step forward", action: () => this.stepBy(1) },
+      { key: ",", does: "step back", action: () => this.stepBy(-1) },
+      { key: "Home", name: "Home", does: "first frame", action: () => this.seek(0) },
+      { key: "End", name: "End", does: "last frame", action: () => this.toEnd() },
+      { key: "n", does: "next frame in which bodies wake", action: () => this.toNext(this.timeline.woken) },
+      { key: "v", does: "next avalanche", action: () => this.toNext(this.timeline.avalanches) },
+      { key: "w", does: "next warning", action: () => this.toNext(this.timeline.newWarnings) },
+      { key: "t", does: "the camera follows the chosen body, or no more", action: () => element("follow").click() },
+      { key: "f", does: "reset the camera", action: () => this.resetCamera() },
+      { key: "d", does: "fold or unfold the panels", action: () => this.foldDock() },
+      { key: "Escape", name: "Esc", does: "choose no body", action: () => this.select(-1) },
+      { key: "r", does: this.simulation ? "restart" : "first frame", action: () => (this.simulation ? this.simulation.restart() : this.seek(0)) },
+    ];
+    if (!this.simulation) all.push({ key: "l", does: "loop", action: () => element("loop").click() });
+    if (this.steered())
+      all.push(
+        { key: "c", does: "the pointer moves the camera", action: () => this.tools.choose("camera") },
+        { key: "g", does: "the pointer pulls bodies along", action: () => this.tools.choose("pull") },
+        { key: "a", does: "the pointer adds bodies", action: () => this.tools.choose("add") },
+        { key: "x", does: "the pointer cuts walls away", action: () => this.tools.choose("cut") },
+        { key: "Delete", name: "Delete", does: "remove the chosen body", action: () => this.removeBody() },
+        { key: "s", does: "save the state as a scene", action: () => this.command({ do: "save" }) },
+      );
+    return all;
+  }
+
+  private foldDock(): void {
+    document.body.classList.toggle("folded");
   }
 
   resetCamera(): void {
@@ -244,7 +272,11 @@ export class Player {
   grown(): void {
     element<HTMLInputElement>("scrub").max = String(Math.max(0, this.timeline.frames - 1));
     this.showWarnings();
-    if (this.following && !this.led) this.goTo(this.timeline.frames - 1);
+    const { timeline, wantedTime } = this;
+    if (wantedTime !== null && timeline.time(timeline.frames - 1) + this.head.dt / 2 >= wantedTime) this.seekTime(wantedTime);
+    else if (this.following && !this.led) this.goTo(timeline.frames - 1);
+    const { woken, avalanches, newWarnings } = timeline;
+    for (const [id, counts] of Object.entries({ wake: woken, avalanche: avalanches, warning: newWarnings })) element(id).hidden = !counts.some((count) => count > 0);
   }
 
   private atEnd(): boolean {
@@ -274,8 +306,8 @@ export class Player {
 
   /// The play button follows what is going on: the simulation where the newest frame is shown.
   showPlaying(): void {
-    const going = this.playing || (this.following && (this.simulation?.running() ?? false));
-    element("play").textContent = going ? "\u2016" : "\u25B6";
+    showGoing(element("play"), this.playing || (this.following && (this.simulation?.running() ?? false)));
+    element("last").classList.toggle("wanted", this.simulation !== null && !this.following && !this.simulation.ended());
   }
 
   stepBy(frames: number): void {
@@ -288,7 +320,7 @@ export class Player {
   }
 
   /// One step of the simulation, shown when it has come.
-  stepSimulation(): void {
+  private stepSimulation(): void {
     this.pause();
     this.following = true;
     this.simulation?.step();
@@ -310,19 +342,22 @@ export class Player {
     this.stage.accompany(element<HTMLInputElement>("follow").checked ? this.stage.selected : -1);
   }
 
+  /// Shows the frame at or before a time; digits that an address or a pointer lacks make no difference.
   seekTime(time: number): void {
-    this.seek(this.timeline.frameAt(time));
+    this.seek(this.timeline.frameAt(time + this.head.dt / 2));
   }
 
   /// Shows the moment of a time, also between two frames.
   showMoment(time: number): void {
     this.following = false;
+    this.time = time;
     if (this.timeline.frames > 0) this.update(this.timeline.seekTime(time), time);
   }
 
   /// Shows a frame; the nearest where there is none of that number.
   seek(frame: number): void {
     this.following = false;
+    this.wantedTime = null;
     this.goTo(frame);
     this.time = this.timeline.shown < 0 ? 0 : this.timeline.time(this.timeline.shown);
     this.showPlaying();
@@ -335,25 +370,31 @@ export class Player {
   }
 
   private update(changed: Changed, time: number): void {
-    this.stage.update(changed, this.paint());
+    this.coloured = this.colouring.now();
+    this.stage.update(["state", "cause"].includes(this.colouring.way) ? changed : "all", this.coloured.paint);
     this.showContacts();
     element<HTMLInputElement>("scrub").value = String(this.timeline.shown);
     this.showCounts();
-    this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
-    this.plots.showTime(time);
+    this.showBody();
+    this.plots?.showTime(time);
   }
 
   private repaint(): void {
-    this.stage.update("all", this.paint());
-    this.showCounts();
+    if (this.timeline.shown >= 0) this.update("all", this.timeline.time(this.timeline.shown));
+  }
+
+  colourBy(way: Way): void {
+    this.colouring.way = element<HTMLSelectElement>("paint").value = way;
+    if (this.contacts.known) this.contacts.colourBodies(way === "force");
+    this.repaint();
   }
 
   /// Called before each picture of the browser.
   private tick(now: number): void {
     const passed = this.clock > 0 ? (now - this.clock) / 1000 : 0;
     this.clock = now;
-    this.plots.refresh();
-    if (this.playing) this.advance(passed * Number(element<HTMLSelectElement>("rate").value));
+    this.plots?.refresh();
+    if (this.playing) this.advance(passed * (this.rate() || fastest));
     requestAnimationFrame((next) => this.tick(next));
   }
 
@@ -366,53 +407,39 @@ export class Player {
     if (this.playing) this.goTo(this.timeline.frameAt(this.time));
   }
 
-  private byCause(): boolean {
-    return element<HTMLSelectElement>("paint").value === "cause";
-  }
-
-  private paint(): Paint {
-    const { shapes } = this.head;
-    const { state } = this.timeline;
-    const plain: Paint = (body) => (state.asleep[body] !== 0 ? shapes[state.shape[body]].asleep : shapes[state.shape[body]].awake);
-    if (!this.byCause()) return plain;
-    return (body) => {
-      const { event } = this.timeline.since(body);
-      return event && event.woke === (state.asleep[body] === 0) ? causeColours[event.cause] : plain(body);
-    };
-  }
-
   select(body: number): void {
     const before = this.stage.selected;
-    if (this.simulation?.steered()) this.command({ do: "choose", body });
+    if (this.steered()) this.command({ do: "choose", body });
     this.stage.selected = body;
     this.accompany();
-    this.stage.update([before, body].filter((one) => one >= 0), this.paint());
+    this.stage.update([before, body].filter((one) => one >= 0), this.coloured.paint);
+    this.showBody();
+    this.showCounts();
+  }
+
+  private showBody(): void {
     this.body.show(this.timeline, this.stage.selected, this.simulation !== null && this.following);
+    this.body.place(this.stage, this.timeline);
   }
 
   private showCounts(): void {
     const { state } = this.timeline;
-    const { coloured_shapes } = this.head;
     const now = state.step * this.head.dt;
     const last = this.timeline.happenedSoFar().at(-1);
-    const note = last && now - last.time < 2 ? `: ${this.timeline.textOf(last)}` : "";
-    element("time").textContent = `${now.toFixed(2)} s, step ${state.step}${note}`;
-    const { shapes } = this.head;
-    const rows: [Rgb[], number | string, string][] = this.byCause()
-      ? this.countsByCause().map(([colour, count, text]) => [[colour], count, text])
-      : [
-          [different(shapes.map(({ awake }) => awake)), state.awake, "awake"],
-          [different(shapes.map(({ asleep }) => asleep)), state.asleepCount, coloured_shapes.length > 0 ? "asleep (darker)" : "asleep"],
-          ...coloured_shapes.map(({ name, colour }): [Rgb[], string, string] => [[colour], "", name]),
-        ];
+    element("time").textContent = `${now.toFixed(2)} s`;
+    element("step").textContent = `step ${state.step}${last && now - last.time < 2 ? `: ${this.timeline.textOf(last)}` : ""}`;
     this.showMeasured();
-    element("counts").replaceChildren(
-      ...rows.map(([colours, count, text]) => {
-        const row = document.createElement("tr");
-        row.append(swatch(colours), cell(String(count), "count"), cell(text));
-        return row;
-      }),
-    );
+    showLegend(this.coloured.legend, marksOf(this.timeline, this.drawn()));
+  }
+
+  private drawn(): Drawn {
+    return { layers: this.stage.showLayers, contacts: this.stage.marked, chosen: this.stage.selected >= 0 };
+  }
+
+  /// For pictures.
+  scenery(): Scenery {
+    const { timeline, head } = this;
+    return { head, time: timeline.state.step * head.dt, canvases: ["bodies", "labels"].map((id) => element<HTMLCanvasElement>(id)), entries: this.coloured.legend, marks: marksOf(timeline, this.drawn()) };
   }
 
   /// Slope and error as measured, beside what they should be.
@@ -421,6 +448,7 @@ export class Player {
     const degrees = (angle: number): string => `${((180 * angle) / Math.PI).toFixed(1)}\u00B0`;
     const lines: string[] = [];
     const pile = largest(state.piles);
+    element("layers").parentElement!.hidden = !pile;
     if (pile) lines.push(`Slope ${state.slope < 0 ? `not measured${state.noSlope}` : `${degrees(state.slope)} measured`}; layers: ${degrees(pile.alpha)} (alpha)`);
     const { tolerance } = this.head;
     if (tolerance >= 0 || state.drift >= 0)
@@ -429,30 +457,55 @@ export class Player {
       if (layers.length < layer_total) lines.push(`A pile has ${layer_total} layers: the lowest ${layers.length} are shown, which a message holds`);
     const { hidden } = this.stage.enclosed;
     if (hidden > 0) lines.push(`${hidden} enclosed bodies not drawn`);
-    element("measured").replaceChildren(...lines.map((text) => Object.assign(document.createElement("p"), { className: "hint", textContent: text })));
-  }
-
-  private countsByCause(): [Rgb, number, string][] {
-    const { state } = this.timeline;
-    const counts = new Map<string, [Rgb, number, string]>();
-    const paint = this.paint();
-    for (let body = 0; body < state.bodies; ++body) {
-      if (state.removed[body] !== 0) continue;
-      const { event } = this.timeline.since(body);
-      const awake = state.asleep[body] === 0;
-      const named = event && event.woke === awake ? `${awake ? "awake" : "asleep"}: ${causes[event.cause]?.name}` : awake ? "awake since it appeared" : "asleep";
-      const row = counts.get(named) ?? [paint(body), 0, named];
-      ++row[1];
-      counts.set(named, row);
-    }
-    return [...counts.values()].sort((a, b) => a[2].localeCompare(b[2]));
+    element("measures").hidden = lines.length === 0 && element("history").hidden;
+    element("measured").replaceChildren(...lines.map((textContent) => make("p", { className: "hint", textContent })));
   }
 
   private showWarnings(): void {
     const { warnings } = this.timeline;
     element("warnings").hidden = warnings.size === 0;
-    const lines = [...warnings.values()].map(({ text }) => Object.assign(document.createElement("li"), { textContent: text }));
-    element("warnings").querySelector("ul")!.replaceChildren(...lines);
+    element("warnings").querySelector("ul")!.replaceChildren(...[...warnings.values()].map(({ text }) => make("li", { textContent: text })));
+  }
+
+  /// For an address.
+  view(): View {
+    const { stage } = this;
+    const view: View = {};
+    const toggled = panels().filter((panel) => panel.open !== panel.hasAttribute("data-open")).map(({ id }) => id);
+    if (document.body.classList.contains("folded")) toggled.push("dock");
+    if (!(this.simulation && this.following)) view.t = String(Number((this.wantedTime ?? this.timeline.state.step * this.head.dt).toFixed(4)));
+    if (stage.moved) view.camera = stage.cameraText;
+    if (this.colouring.way !== "state") view.colours = this.colouring.way;
+    if (stage.selected >= 0) view.body = String(stage.selected);
+    if (!stage.showLayers) view.layers = "off";
+    if (element<HTMLSelectElement>("contacts").value !== "none") view.contacts = element<HTMLSelectElement>("contacts").value;
+    if (toggled.length > 0) view.panels = toggled.join(",");
+    const plots = this.plots ? this.plots.shown : this.wantedPlots;
+    if (plots !== null) view.plots = plots;
+    return view;
+  }
+
+  /// Shows what an address says.
+  restore({ t, camera, colours, body, panels: changed, plots, layers, contacts }: View): void {
+    const toggled = changed?.split(",") ?? [];
+    for (const panel of panels()) panel.open = panel.hasAttribute("data-open") !== toggled.includes(panel.id);
+    document.body.classList.toggle("folded", toggled.includes("dock"));
+    if (plots !== undefined) {
+      this.wantedPlots = plots;
+      this.plots?.dispose();
+      this.plots = null;
+      this.plot();
+    }
+    if (layers === "off") element("layers").click();
+    if (contacts && this.contacts.known) {
+      element<HTMLSelectElement>("contacts").value = contacts;
+      element("contacts").dispatchEvent(new Event("change"));
+    }
+    if (colours && colours in ways && (colours !== "force" || this.contacts.known)) this.colourBy(colours as Way);
+    if (t !== undefined && Number.isFinite(Number(t))) this.wantedTime = Number(t);
+    if (this.wantedTime !== null && !this.simulation) this.seekTime(this.wantedTime);
+    if (body !== undefined && Number.isInteger(Number(body))) this.select(Number(body));
+    if (camera) this.stage.cameraText = camera;
   }
 
   /// For a page that steers this one.
@@ -474,18 +527,10 @@ export class Player {
     return this.simulation?.msPerStep() ?? 0;
   }
 
-  /// Both show one part of space at one scale from now on, and the times that they are told. `seek`: to where the user
-  /// clicks in a plot.
-  pairWith(other: Player, seek: (time: number) => void): void {
-    this.led = other.led = seek;
+  /// Both show one part of space at one scale from now on, and the times that they are told.
+  pairWith(other: Player): void {
+    this.led = other.led = true;
     this.stage.pairWith(other.stage);
-  }
-  /// How far the plots reach, and to have them reach at least so far.
-  extent(): Extent {
-    return this.plots.extent();
-  }
-  reach(extent: Extent): void {
-    this.plots.reach(extent);
   }
 
   /// Mean and largest distance [m] from the places of the bodies that another player shows.
@@ -528,9 +573,11 @@ export class Player {
 
   /// The run takes commands.
   steer(): void {
+    offerPaces(element<HTMLSelectElement>("rate"), [...paces, 64, 0]);
+    for (const option of element<HTMLSelectElement>("paint").options) option.disabled = false;
     this.contacts.listen(
       (wanted) => this.command({ do: "contacts", value: wanted }),
-      () => this.showContacts(),
+      () => this.repaint(),
     );
   }
 

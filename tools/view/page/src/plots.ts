@@ -1,77 +1,89 @@
-// Counts and layer densities over time.
+// Numbers of one run or of two over one time axis, and the densities of layers.
 
-import type { Pile } from "./moments";
-import type { Head } from "./head";
 import { css, overfull } from "./colours";
-import { element } from "./element";
+import { element, make } from "./element";
+import type { Rgb } from "./head";
+import { fullest, largest } from "./pile_layers";
+import { niceLength } from "./scale";
 import type { Timeline } from "./timeline";
 import { uPlot } from "./vendor";
 
 const mostColumns = 800; // drawn of a density map
+const axisHeight = 20; // [CSS pixels] of the time axis, which the lowest row has
+const gutter = 44; // [CSS pixels] left of all rows, so that they have one time axis
 
-/// The pile with the most bodies.
-export function largest(piles: Pile[]): Pile | undefined {
-  const bodies = (pile: Pile): number => pile.layers.reduce((sum, { count }) => sum + count, 0);
-  return piles.reduce<Pile | undefined>((best, pile) => (best === undefined || bodies(pile) > bodies(best) ? pile : best), undefined);
+type Column = (number | null)[];
+
+/// A series of numbers by frame.
+export interface Line {
+  label: string;
+  colour: Rgb;
+  values: Column;
+  bars?: boolean;
 }
 
-function shortened(text: string): string {
-  return text.length > 40 ? `${text.slice(0, 39)}\u2026` : text;
+/// A plot of a row: lines of one unit, or a map of the layers' densities.
+interface Row {
+  name: string;
+  unit: string;
+  lines: (timeline: Timeline) => Line[];
+  map?: boolean;
+  /// Shown unless the user chooses otherwise.
+  usual: boolean;
 }
 
-/// How far plots reach: simulated time [s], bodies, time of a step [ms], height of the layers [m].
-export interface Extent {
-  time: number;
-  bodies: number;
-  ms: number;
-  top: number;
+const counts: Row = {
+  name: "bodies",
+  unit: "bodies",
+  usual: true,
+  lines: ({ head: { colours }, awake, asleep, woken }) => [
+    { label: "awake", colour: colours.awake[0], values: awake },
+    { label: "asleep", colour: colours.asleep, values: asleep },
+    { label: "woken", colour: colours.woken, values: woken, bars: true },
+  ],
+};
+const layers: Row = { name: "layers", unit: "m", usual: true, map: true, lines: ({ head, piles }) => [{ label: "height", colour: head.colours.layer, values: piles.map((all) => largest(all)?.layers.at(-1)?.top ?? 0) }] };
+const stepTime: Row = { name: "step time", unit: "ms", usual: false, lines: ({ head, msPerStep }) => [{ label: "wall time of a step", colour: head.colours.layer, values: msPerStep }] };
+const rows = [counts, layers, stepTime];
+
+export interface PlottedRun {
+  timeline: Timeline;
+  /// What tells it from the other one; empty: there is only one.
+  name: string;
 }
 
-const most = (values: (number | null)[]): number => values.reduce<number>((high, value) => Math.max(high, value ?? 0), 0);
+const shortened = (text: string): string => (text.length > 40 ? `${text.slice(0, 39)}\u2026` : text);
+
+/// A row as it is on the page.
+interface Drawn {
+  row: Row;
+  runs: PlottedRun[];
+  plot: uPlot;
+  head: HTMLElement;
+}
 
 export class Plots {
-  private readonly counts: uPlot;
-  private readonly densities: uPlot;
-  private readonly heads: HTMLElement[];
+  private drawn: Drawn[] = [];
   private readonly resizes = new ResizeObserver(() => this.resize());
-  private frames = 0;
-  private piled = false; // whether the run has had a pile
+  private readonly hint = make("div", { className: "hover", hidden: true });
+  /// Frames of each run, and which rows can be shown, when last drawn.
+  private known = "";
+  private offered = "";
   private time = 0;
-  private atLeast: Extent = { time: 0, bodies: 0, ms: 0, top: 0 };
+  private zooming = false;
+  private zoomed: [number, number] | null = null;
+  /// Names of the rows that the user has switched away from what is usual.
+  private switched: Set<string>;
 
-  /// `timed`: the frames come with the wall time of a step. `seek` is called with a time where the user clicks.
+  /// `seek` is called with a time where the user clicks; `shown`: names of the rows to show, null: the usual ones.
   constructor(
     private readonly parent: HTMLElement,
-    private readonly head: Head,
-    private readonly timeline: Timeline,
-    private readonly timed: boolean,
-    seek: (time: number) => void,
+    private readonly runs: PlottedRun[],
+    private readonly seek: (time: number) => void,
+    shown: string | null = null,
   ) {
-    for (const [name, colour] of [["awake", head.colours.awake[1]], ["layer", head.colours.layer], ["dense", overfull]] as const)
-      document.querySelectorAll<HTMLElement>(`#caption .${name}`).forEach((text) => (text.style.color = css(colour)));
-    const speed: uPlot.Series = { ...this.series("ms a step", css(head.colours.layer), 1), scale: "ms" };
-    this.counts = this.plot(
-      [
-        this.series("awake", css(head.colours.awake[1]), 2),
-        this.series("asleep", css(head.colours.asleep), 1.5),
-        { label: "woken", auto: false, stroke: css(head.colours.awake_outline), fill: css(head.colours.awake_outline, 0.6), paths: uPlot.paths.bars!({ size: [1, 3] }), points: { show: false } },
-        ...(timed ? [speed] : []),
-      ],
-      "bodies",
-      { draw: [(plot: uPlot) => this.drawEvents(plot)] },
-    );
-    this.densities = this.plot([this.series("", "transparent", 0)], "layers [m]", { drawAxes: [(plot: uPlot) => this.drawDensities(plot)] });
-    this.heads = [this.counts, this.densities].map((plot) => {
-      const line = document.createElement("div");
-      line.className = "playhead";
-      plot.over.append(line);
-      let down = 0;
-      plot.over.addEventListener("mousedown", (event) => (down = event.clientX));
-      plot.over.addEventListener("mouseup", (event) => {
-        if (Math.abs(event.clientX - down) < 3) seek(plot.posToVal(event.offsetX, "x"));
-      });
-      return line;
-    });
+    const wanted = shown?.split(",");
+    this.switched = new Set(wanted ? rows.filter(({ name, usual }) => usual !== wanted.includes(name)).map(({ name }) => name) : []);
     this.resizes.observe(parent);
     this.refresh();
   }
@@ -79,134 +91,235 @@ export class Plots {
   /// Takes them off the page.
   dispose(): void {
     this.resizes.disconnect();
-    for (const plot of [this.counts, this.densities]) plot.destroy();
+    this.clear();
   }
 
-  private series(label: string, stroke: string, width: number): uPlot.Series {
-    return { label, stroke, width, points: { show: false } };
+  private clear(): void {
+    for (const { plot } of this.drawn) plot.destroy();
+    this.drawn = [];
+    this.parent.replaceChildren();
   }
 
-  private plot(series: uPlot.Series[], label: string, hooks: uPlot.Hooks.Arrays): uPlot {
-    const speed = series.some(({ scale }) => scale === "ms");
-    const axis = { stroke: css(this.head.colours.quiet_text), grid: { stroke: "#0001" }, font: "11px system-ui", labelFont: "11px system-ui" };
-    return new uPlot(
-      {
-        width: 400,
-        height: 120,
-        series: [{ label: "s" }, ...series],
-        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(1, high, label === "bodies" ? this.atLeast.bodies : this.atLeast.top)] }, ms: { range: (_, __, high) => [0, Math.max(high, this.atLeast.ms) || 1] } },
-        axes: [
-          { ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
-          { ...axis, label, labelSize: 16, size: 40, space: 18 },
-          ...(speed ? [{ ...axis, scale: "ms", side: 1 as const, grid: { show: false }, label: "ms a step", labelSize: 16, size: 44 }] : []),
-        ],
-        padding: [null, this.timed && !speed ? 60 : null, null, null], // both plots have the same time line
-        legend: { show: false },
-        cursor: { sync: { key: "talus" }, points: { show: false }, drag: { x: true, y: false } },
-        hooks,
-      },
-      [[], ...series.map(() => [])],
-      this.parent,
-    );
+  /// Names of the rows shown, for an address; null: the usual ones.
+  get shown(): string | null {
+    return this.switched.size === 0 ? null : rows.filter((row) => this.wants(row)).map(({ name }) => name).join(",");
   }
 
-  private resize(): void {
-    const width = this.parent.clientWidth;
-    const height = Math.max(60, Math.floor(this.parent.clientHeight / (this.piled ? 2 : 1)));
-    this.densities.root.hidden = !this.piled;
-    element("of-layers").hidden = element("layers").parentElement!.hidden = !this.piled;
-    if (width > 0) for (const plot of [this.counts, this.densities]) plot.setSize({ width, height });
-    queueMicrotask(() => this.showTime(this.time)); // uPlot takes the new size over in a microtask of its own
+  private wants({ name, usual }: Row): boolean {
+    return usual !== this.switched.has(name);
   }
 
-  extent(): Extent {
-    const { timeline } = this;
-    const time = timeline.frames > 0 ? timeline.time(timeline.frames - 1) : 0;
-    return { time, bodies: most([...timeline.awake, ...timeline.asleep]), ms: this.timed ? most(timeline.msPerStep) : 0, top: most(this.tops()) };
-  }
-
-  /// The plots reach at least so far from now on.
-  reach(extent: Extent): void {
-    const { time, bodies, ms, top } = this.atLeast;
-    if (time === extent.time && bodies === extent.bodies && ms === extent.ms && top === extent.top) return;
-    this.atLeast = extent;
-    this.draw();
-  }
-
-  private tops(): number[] {
-    return this.timeline.piles.map((piles) => largest(piles)?.layers.at(-1)?.top ?? 0);
+  /// Whether there is anything to draw: no plot is empty.
+  private has(row: Row, { timeline }: PlottedRun): boolean {
+    if (timeline.frames === 0) return false;
+    if (row.map) return timeline.piles.some((piles) => piles.length > 0);
+    return row.lines(timeline).some(({ values }) => values.some((value) => value !== null));
   }
 
   /// Takes in the frames that came since the last call.
   refresh(): void {
-    const { timeline } = this;
-    if (this.frames === timeline.frames) return;
-    this.frames = timeline.frames;
+    const known = this.runs.map(({ timeline }) => timeline.frames).join();
+    if (this.known === known) return;
+    this.known = known;
+    this.layOut();
     this.draw();
   }
 
-  private draw(): void {
-    const { timeline } = this;
-    const series = [timeline.awake, timeline.asleep, timeline.woken, ...(this.timed ? [timeline.msPerStep] : [])];
-    const [time, ...lines] = this.withGaps([timeline.step.map((step) => step * this.head.dt), ...series]);
-    this.counts.setData([time as number[], ...lines]);
-    const [times, top] = this.withGaps([timeline.step.map((step) => step * this.head.dt), this.tops()]);
-    this.densities.setData([times as number[], top]);
-    const piled = timeline.piles.some((piles) => piles.length > 0);
-    if (piled !== this.piled) {
-      this.piled = piled;
-      this.resize();
+  /// Makes the rows where others are to be shown than those that are there.
+  private layOut(): void {
+    const able = rows.filter((row) => this.runs.some((run) => this.has(row, run)));
+    const wanted = able
+      .filter((row) => this.wants(row))
+      .flatMap((row) => (row.map ? this.runs.filter((run) => this.has(row, run)).map((run) => ({ row, runs: [run] })) : [{ row, runs: this.runs }]));
+    const same = wanted.length === this.drawn.length && wanted.every(({ row, runs }, i) => this.drawn[i].row === row && this.drawn[i].runs[0] === runs[0]);
+    this.offer(able);
+    if (same) return;
+    this.clear();
+    this.drawn = wanted.map(({ row, runs }, i) => this.make(row, runs, i + 1 === wanted.length));
+    this.parent.append(this.hint);
+    this.resize();
+  }
+
+  /// Buttons that switch the rows; the same ones as long as nothing changes, since a button that is replaced takes no click.
+  private offer(able: Row[]): void {
+    const offered = able.map((row) => `${row.name} ${this.wants(row)}`).join();
+    if (this.offered === offered) return;
+    this.offered = offered;
+    element("rows").replaceChildren(
+      ...able.map((row) => {
+        const button = make("button", { textContent: row.name, title: `Plot of ${row.name}`, onclick: () => this.switch(row) });
+        button.setAttribute("aria-pressed", String(this.wants(row)));
+        return button;
+      }),
+    );
+  }
+
+  private switch({ name }: Row): void {
+    if (!this.switched.delete(name)) this.switched.add(name);
+    this.layOut();
+    this.draw();
+  }
+
+  private make(row: Row, runs: PlottedRun[], last: boolean): Drawn {
+    const box = make("div", { className: "plot" });
+    this.parent.append(box);
+    const { colours } = this.runs[0].timeline.head;
+    const axis = { stroke: css(colours.quiet_text), grid: { stroke: css(colours.text, 0.08), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
+    const lines = runs.flatMap((run, i) => row.lines(run.timeline).map((line) => ({ ...line, dashed: i > 0 })));
+    const plot = new uPlot(
+      {
+        width: 400,
+        height: 60,
+        series: [{}, ...lines.map(({ label, colour, bars, dashed }) => (row.map ? { label } : { label, stroke: css(colour), width: 1.5, points: { show: false }, ...(dashed ? { dash: [5, 3] } : {}), ...(bars ? { auto: false, fill: css(colour, dashed ? 0.25 : 0.7), width: 0, paths: uPlot.paths.bars!({ size: [1, 3] }) } : {}) }))],
+        scales: { x: { time: false }, y: { range: (_, __, high) => [0, 1.05 * Math.max(row === stepTime ? 1e-3 : 1, high)] } },
+        axes: [
+          { ...axis, show: last, size: axisHeight, gap: 2, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))} s`) },
+          { ...axis, size: gutter, gap: 4, splits: (_, __, ___, high) => [0, niceLength(high) / 2, niceLength(high)], values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(3))}`) },
+        ],
+        padding: [4, 16, last ? 0 : 4, 0],
+        legend: { show: false },
+        cursor: { sync: { key: "talus" }, points: { show: false }, drag: { x: true, y: false }, y: false },
+        hooks: {
+          drawAxes: row.map ? [(self: uPlot) => drawDensities(self, runs[0].timeline)] : [],
+          draw: row.map ? [] : [(self: uPlot) => this.drawEvents(self, runs[0].timeline)],
+          setScale: [(self: uPlot, key: string) => key === "x" && this.zoom(self)],
+          setCursor: [(self: uPlot) => this.showHint(self)],
+        },
+      },
+      [[], ...lines.map(() => [])],
+      box,
+    );
+    const head = make("div", { className: "playhead" });
+    plot.over.append(head);
+    box.append(this.legend(row, runs));
+    let down = 0;
+    plot.over.addEventListener("mousedown", (event) => (down = event.clientX));
+    plot.over.addEventListener("mouseup", (event) => Math.abs(event.clientX - down) < 3 && this.seek(plot.posToVal(event.offsetX, "x")));
+    plot.over.addEventListener("dblclick", () => this.zoomTo(null));
+    plot.over.addEventListener("mouseleave", () => (this.hint.hidden = true));
+    return { row, runs, plot, head };
+  }
+
+  /// Names and colours of the lines, or the scale of densities.
+  private legend(row: Row, runs: PlottedRun[]): HTMLElement {
+    const { timeline, name } = runs[0];
+    const legend = make("div", { className: "names" });
+    const unit = row.map ? "layers [m]\u00a0\u00a0" : row === counts ? "bodies" : `[${row.unit}]`;
+    legend.append(unit);
+    if (row.map) {
+      const { layer: full } = timeline.head.colours;
+      const layer = largest(timeline.piles[timeline.frames - 1] ?? [])?.layers[0];
+      const most = layer ? fullest(layer) : 1;
+      const bar = make("i", { className: "scale" });
+      bar.style.background = `linear-gradient(to right, ${css(full, 0)}, ${css(full, 0.9)} 66%, ${css(overfull, 0.5)} 66%, ${css(overfull)})`;
+      legend.append(`density ${name} 0`, bar, most === 1 ? "> 1" : `> ${most.toFixed(2)}: the pile wakes`);
+      return legend;
     }
-    this.showScale();
+    for (const { label, colour } of row.lines(timeline)) {
+      const mark = make("i", {});
+      mark.style.color = css(colour);
+      legend.append(mark, label);
+    }
+    if (runs.length > 1) legend.append(`\u00a0(${name}; dashed: ${runs[1].name})`);
+    return legend;
+  }
+
+  private resize(): void {
+    const width = this.parent.clientWidth;
+    const height = Math.floor((this.parent.clientHeight - axisHeight) / Math.max(1, this.drawn.length));
+    this.parent.classList.toggle("bare", this.drawn.length === 0);
+    this.parent.style.setProperty("--rows", String(this.drawn.length));
+    if (width > 0) this.drawn.forEach(({ plot }, i) => plot.setSize({ width, height: Math.max(24, height) + (i + 1 === this.drawn.length ? axisHeight : 0) }));
+    queueMicrotask(() => this.showTime(this.time)); // uPlot takes the new size over in a microtask of its own
+  }
+
+  private draw(): void {
+    for (const { row, runs, plot } of this.drawn) {
+      const tables = runs.map(({ timeline }) => withGaps(timeline, [timeline.step.map((step) => step * timeline.head.dt), ...row.lines(timeline).map(({ values }) => values)]));
+      plot.setData((tables.length > 1 ? uPlot.join(tables as uPlot.AlignedData[]) : tables[0]) as uPlot.AlignedData, this.zoomed === null);
+      if (this.zoomed === null) this.showAll(plot);
+      else plot.redraw();
+    }
     queueMicrotask(() => this.showTime(this.time)); // uPlot takes the new range over in a microtask of its own
   }
 
-  /// The columns with an empty place wherever frames are missing, which no line crosses, and at both ends where plots of
-  /// two runs reach farther.
-  private withGaps(columns: (number | null)[][]): (number | null)[][] {
-    const { timeline } = this;
-    const result: (number | null)[][] = columns.map(() => []);
-    const put = (values: (number | null)[]): void => values.forEach((value, column) => result[column].push(value));
-    const nothing = (time: number): (number | null)[] => columns.map((_, column) => (column === 0 ? time : null));
-    if (this.atLeast.time > 0) put(nothing(0));
-    for (let frame = 0; frame < timeline.frames; ++frame) {
-      if (timeline.lacksBefore(frame)) put(nothing((timeline.time(frame - 1) + timeline.time(frame)) / 2));
-      put(columns.map((column) => column[frame]));
-    }
-    if (this.atLeast.time > (columns[0].at(-1) ?? 0)) put(nothing(this.atLeast.time));
-    return result;
+  private get end(): number {
+    return Math.max(...this.runs.map(({ timeline }) => (timeline.frames > 0 ? timeline.time(timeline.frames - 1) : 0)), 1e-3);
   }
 
-  /// What red means in the map of densities.
-  private showScale(): void {
-    const { timeline } = this;
-    const layer = largest(timeline.piles[timeline.frames - 1] ?? [])?.layers[0];
-    const wakes = layer !== undefined && layer.wake_density > 0;
-    const thresholds = wakes ? `the threshold of ${layer.wake_density.toFixed(2)}, above which the pile wakes; up to ${layer.sleep_density.toFixed(2)} no body of a layer falls asleep` : "";
-    element("density-scale").replaceChildren("blue", wakes ? ` up to ${thresholds}` : " up to 1");
+  /// From the start, or the first frame where that comes much later, to the last frame of all runs.
+  private showAll(plot: uPlot): void {
+    this.zooming = true;
+    const first = Math.min(...this.runs.map(({ timeline }) => (timeline.frames > 0 ? timeline.time(0) : 0)));
+    plot.setScale("x", { min: first < 0.05 * this.end ? 0 : first, max: this.end });
+    this.zooming = false;
+  }
+
+  /// The user has chosen a range in one plot: all have it.
+  private zoom(plot: uPlot): void {
+    if (this.zooming) return;
+    const { min, max } = plot.scales.x;
+    if (min === undefined || max === undefined || min === null || max === null || (this.zoomed && this.zoomed[0] === min && this.zoomed[1] === max)) return;
+    if (plot.select.width > 0) this.zoomTo([min, max]);
+  }
+
+  private zoomTo(range: [number, number] | null): void {
+    this.zoomed = range;
+    this.zooming = true;
+    for (const { plot } of this.drawn) range ? plot.setScale("x", { min: range[0], max: range[1] }) : this.showAll(plot);
+    this.zooming = false;
+    this.showTime(this.time);
+    queueMicrotask(() => this.showTime(this.time));
   }
 
   /// Moves the line of the time shown.
   showTime(time: number): void {
     this.time = time;
-    if (this.timeline.shown < 0) return;
-    const at = Math.min(this.counts.over.clientWidth, this.counts.valToPos(time, "x"));
-    for (const line of this.heads) line.style.left = `${at}px`;
+    for (const { plot, head } of this.drawn) {
+      const at = plot.valToPos(time, "x");
+      head.hidden = !(at >= -1 && at <= plot.over.clientWidth + 1);
+      head.style.left = `${at}px`;
+    }
+  }
+
+  /// Beside the cursor, time and values of all rows.
+  private showHint(plot: uPlot): void {
+    const { left = -1, top = -1, event } = plot.cursor;
+    if (!event || left < 0) return; // the cursor of another row, which tells
+    const time = plot.posToVal(left, "x");
+    const texts: HTMLElement[] = [make("b", { textContent: `${time.toFixed(2)} s` })];
+    for (const { row, runs, plot: own } of this.drawn)
+      for (const { timeline, name } of runs) {
+        const frame = timeline.frameAt(time);
+        for (const { label, colour, values } of row.lines(timeline)) {
+          const value = values[frame];
+          const mark = make("i", {});
+          mark.style.color = css(colour);
+          if (value !== null) texts.push(make("span", {}, mark, `${label} ${name} ${Number(value.toPrecision(4))} ${row === counts ? "" : row.unit}`));
+        }
+        const layer = row.map && own === plot ? largest(timeline.piles[frame])?.layers.find(({ bottom, top: above }) => plot.posToVal(top, "y") >= bottom && plot.posToVal(top, "y") < above) : undefined;
+        if (layer) texts.push(make("span", { textContent: `density here ${layer.density.toFixed(2)}, ${layer.count} bodies` }));
+      }
+    this.hint.replaceChildren(...texts);
+    this.hint.hidden = false;
+    const at = gutter + left;
+    this.hint.style.left = `${at + 14 + this.hint.offsetWidth < this.parent.clientWidth ? at + 14 : at - 14 - this.hint.offsetWidth}px`;
   }
 
   /// A line with its text where an event of the scene happened or a warning came first.
-  private drawEvents(plot: uPlot): void {
+  private drawEvents(plot: uPlot, timeline: Timeline): void {
+    if (plot !== this.drawn[0]?.plot) return;
     const paper = plot.ctx;
+    const { head } = timeline;
     paper.save();
-    paper.font = `${Math.round(11 * devicePixelRatio)}px system-ui`;
+    paper.font = `${Math.round(11 * devicePixelRatio)}px system-ui, sans-serif`;
     paper.textAlign = "left";
     paper.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
-    const { timeline } = this;
-    const ends: number[] = new Array<number>(3).fill(-Infinity); // of the texts in each row
-    const warnings = [...timeline.warnings.values()].map(({ step, text }) => ({ time: step * this.head.dt, text: shortened(text), warns: true }));
+    const ends: number[] = new Array<number>(2).fill(-Infinity); // of the texts in each row
+    const warnings = [...timeline.warnings.values()].map(({ step, text }) => ({ time: step * head.dt, text: shortened(text), warns: true }));
     const events = timeline.happened.map((event) => ({ time: event.time, text: timeline.textOf(event), warns: false }));
     for (const { time, text, warns } of [...events, ...warnings].sort((a, b) => a.time - b.time)) {
-      paper.strokeStyle = paper.fillStyle = css(warns ? overfull : this.head.colours.text);
+      paper.strokeStyle = paper.fillStyle = css(warns ? overfull : head.colours.text);
       const left = plot.valToPos(time, "x", true);
       if (left < plot.bbox.left || left > plot.bbox.left + plot.bbox.width) continue;
       paper.beginPath();
@@ -216,39 +329,49 @@ export class Plots {
       const width = paper.measureText(text).width + 8 * devicePixelRatio;
       const fits = left + width < plot.bbox.left + plot.bbox.width;
       const begin = fits ? left + 4 * devicePixelRatio : left - width + 4 * devicePixelRatio;
-      const row = ends.findIndex((end) => end < begin);
-      if (row < 0) continue; // no room: the line stands for it
-      ends[row] = begin + width;
-      paper.fillText(text, begin, plot.bbox.top + (12 + 13 * row) * devicePixelRatio);
+      const line = ends.findIndex((end) => end < begin);
+      if (line < 0) continue; // no room: the line stands for it
+      ends[line] = begin + width;
+      paper.fillText(text, begin, plot.bbox.top + (12 + 13 * line) * devicePixelRatio);
     }
     paper.restore();
   }
+}
 
-  /// Time from left to right, layers from bottom to top, dark where dense.
-  private drawDensities(plot: uPlot): void {
-    const { timeline } = this;
-    const paper = plot.ctx;
-    paper.save();
-    paper.beginPath();
-    paper.rect(plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height);
-    paper.clip();
-    const each = Math.max(1, Math.ceil(timeline.frames / mostColumns));
-    for (let frame = 0; frame < timeline.frames; frame += each) {
-      const pile = largest(timeline.piles[frame]);
-      if (!pile) continue;
-      const pixel = (value: number, scale: string): number => Math.round(plot.valToPos(value, scale, true));
-      const left = pixel(timeline.time(frame), "x");
-      const next = Math.min(timeline.frames - 1, frame + each);
-      const right = timeline.lacksBefore(next) ? left + 1 : pixel(timeline.time(next), "x");
-      pile.layers.forEach((layer) => {
-        const value = layer.density;
-        if (value <= 0) return;
-        const top = pixel(layer.top, "y");
-        const most = layer.wake_density > 0 ? layer.wake_density : 1;
-        paper.fillStyle = value > most ? css(overfull, Math.min(1, 0.4 + 0.5 * (value / most - 1))) : css(this.head.colours.layer, (0.9 * value) / most);
-        paper.fillRect(left, top, Math.max(1, right - left), pixel(layer.bottom, "y") - top);
-      });
-    }
-    paper.restore();
+/// The columns, the first of which has times, with an empty place wherever frames are missing, which no line crosses.
+function withGaps(timeline: Timeline, columns: Column[]): Column[] {
+  const result: Column[] = columns.map(() => []);
+  for (let frame = 0; frame < timeline.frames; ++frame) {
+    if (timeline.lacksBefore(frame)) result.forEach((column, i) => column.push(i === 0 ? (timeline.time(frame - 1) + timeline.time(frame)) / 2 : null));
+    result.forEach((column, i) => column.push(columns[i][frame]));
   }
+  return result;
+}
+
+/// Time from left to right, layers from bottom to top, full colour where dense.
+function drawDensities(plot: uPlot, timeline: Timeline): void {
+  const paper = plot.ctx;
+  const { layer: full } = timeline.head.colours;
+  paper.save();
+  paper.beginPath();
+  paper.rect(plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height);
+  paper.clip();
+  const [first, last] = [plot.scales.x.min ?? 0, plot.scales.x.max ?? 0].map((time) => timeline.frameAt(time));
+  const each = Math.max(1, Math.ceil((last - first) / mostColumns));
+  const pixel = (value: number, scale: string): number => Math.round(plot.valToPos(value, scale, true));
+  for (let frame = first; frame <= last; frame += each) {
+    const pile = largest(timeline.piles[frame]);
+    if (!pile) continue;
+    const left = pixel(timeline.time(frame), "x");
+    const next = Math.min(timeline.frames - 1, frame + each);
+    const right = timeline.lacksBefore(next) ? left + 1 : pixel(timeline.time(next), "x");
+    for (const layer of pile.layers) {
+      if (layer.density <= 0) continue;
+      const share = layer.density / fullest(layer);
+      paper.fillStyle = share > 1 ? css(overfull, Math.min(1, share - 0.5)) : css(full, 0.9 * share);
+      const top = pixel(layer.top, "y");
+      paper.fillRect(left, top, Math.max(1, right - left), pixel(layer.bottom, "y") - top);
+    }
+  }
+  paper.restore();
 }

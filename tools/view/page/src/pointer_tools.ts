@@ -20,21 +20,32 @@ export class PointerTools {
   private thrown: { body: number; from: Place } | null = null;
   private pulled: { body: number; point: number[]; grabbed: number[]; to: Place } | null = null;
   private moved = false;
+  private tool = "camera";
 
   constructor(private readonly hands: Hands) {
     const area = element("stage");
     // Before the camera takes the event.
     area.addEventListener("pointerdown", (event) => this.press(event), true);
-    area.addEventListener("pointermove", (event) => this.move([event.offsetX, event.offsetY]));
-    window.addEventListener("pointerup", (event) => this.letGo([event.offsetX, event.offsetY]));
+    const placeOf = ({ clientX, clientY }: PointerEvent): Place => {
+      const { left, top } = area.getBoundingClientRect();
+      return [clientX - left, clientY - top];
+    };
+    area.addEventListener("pointermove", (event) => this.move(placeOf(event)));
+    window.addEventListener("pointerup", (event) => this.letGo(placeOf(event)));
     window.addEventListener("pointercancel", () => this.release());
     window.addEventListener("blur", () => this.release());
-    element("tool").addEventListener("change", () => this.showShapes());
+    for (const button of this.buttons) button.addEventListener("click", () => this.choose(button.dataset.tool!));
   }
 
-  choose(tool: "camera" | "pull" | "add" | "cut"): void {
-    element<HTMLSelectElement>("tool").value = tool;
-    this.showShapes();
+  private get buttons(): NodeListOf<HTMLElement> {
+    return document.querySelectorAll<HTMLElement>("[data-tool]");
+  }
+
+  /// camera, pull, add or cut.
+  choose(tool: string): void {
+    this.tool = tool;
+    for (const button of this.buttons) button.setAttribute("aria-checked", String(button.dataset.tool === tool));
+    element("shape").hidden = tool !== "add";
   }
 
   /// Those that can be added.
@@ -42,23 +53,15 @@ export class PointerTools {
     element("shape").replaceChildren(...names.map((name) => new Option(name)));
   }
 
-  private tool(): string {
-    return element<HTMLSelectElement>("tool").value;
-  }
-
-  private showShapes(): void {
-    element("shape").hidden = this.tool() !== "add";
-  }
-
   /// A click that is no drag; whether a tool has taken it.
   click(x: number, y: number): boolean {
     if (!this.hands.steered()) return false;
-    if (this.tool() === "cut") {
+    if (this.tool === "cut") {
       const obstacle = this.hands.stage().obstacleAt(x, y);
       if (obstacle >= 0) this.hands.command({ do: "cut", obstacle });
       return true;
     }
-    if (this.tool() !== "add") return false;
+    if (this.tool !== "add") return false;
     const position = this.hands.stage().placeAt(x, y);
     if (position) this.hands.command({ do: "add", shape: element<HTMLSelectElement>("shape").value, position });
     return true;
@@ -66,7 +69,7 @@ export class PointerTools {
 
   private press(event: PointerEvent): void {
     const throws = event.shiftKey;
-    if (event.button !== 0 || !this.hands.steered() || !(throws || this.tool() === "pull")) return;
+    if (event.button !== 0 || (event.target as HTMLElement).id !== "bodies" || !this.hands.steered() || !(throws || this.tool === "pull")) return;
     const at: Place = [event.offsetX, event.offsetY];
     const stage = this.hands.stage();
     const grab = stage.grabAt(...at);

@@ -1,10 +1,18 @@
 // Round numbers and units for people.
 
+const digits = [1, 2, 5, 10];
+
 /// The largest of 1, 2, 5 times a power of ten that is at most `limit`.
 export function niceLength(limit: number): number {
   const power = 10 ** Math.floor(Math.log10(limit));
-  const share = limit / power;
-  return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+  return power * (digits.findLast((digit) => digit * power <= limit) ?? 1);
+}
+
+/// The smallest of these numbers that is at least `value`; 0 of 0.
+export function roundUp(value: number): number {
+  if (!(value > 0)) return 0;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * digits.find((digit) => digit * power >= value)!;
 }
 
 /// A quantity with three digits and a prefix of its unit.

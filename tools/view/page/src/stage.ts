@@ -1,10 +1,10 @@
 // The pile on the screen, and the camera.
 
-import { colour, css, type Paint } from "./colours";
+import { colour, css, highlight, type Paint } from "./colours";
 import { Enclosed } from "./enclosed";
-import type { Head, Point, Rgb } from "./head";
+import type { Head, Point } from "./head";
 import type { Contact } from "./contacts";
-import { ContactMarks } from "./contact_marks";
+import { ContactMarks, type ContactWay } from "./contact_marks";
 import { Instances, outlined } from "./instances";
 import { LayerView } from "./layer_view";
 import { matrixOf } from "./pose";
@@ -29,7 +29,6 @@ import {
 } from "./vendor";
 
 const updatesBetweenSearches = 8; // for what is hidden
-const highlight: Rgb = [0.1, 0.5, 0.95];
 
 export class Stage {
   private readonly scene = new Scene();
@@ -44,7 +43,7 @@ export class Stage {
   private readonly place: number[] = [];
   private surroundings: Surroundings;
   private contactMarks: ContactMarks;
-  private readonly layers: LayerView;
+  private layers: LayerView;
   private readonly flat: boolean;
   private head: Head;
   private timeline: Timeline | null = null;
@@ -61,13 +60,17 @@ export class Stage {
   tether: { body: number; point: number[]; to: [number, number] } | null = null;
   /// Whether the camera moves back as the pile grows, until the user moves it.
   follows = false;
+  /// Whether the user has moved the camera.
+  moved = false;
   private accompanied = -1;
   private accompaniedAt: Vector3 | null = null;
   private box: [Vector3, Vector3];
   /// That of another run, which shows the same part of space at the same scale; null: none.
   private partner: Stage | null = null;
   private copying = false;
-  /// Times at which frames were drawn [ms], the last few.
+  /// Called after each picture.
+  onDrawn: () => void = () => undefined;
+  /// Durations of the last pictures [ms].
   readonly drawn: number[] = [];
 
   constructor(
@@ -80,9 +83,9 @@ export class Stage {
     this.flat = head.dimension === 2;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-    this.scene.background = colour(head.colours.paper);
     this.labels = overlay.getContext("2d")!;
     this.camera = this.flat ? new OrthographicCamera() : new PerspectiveCamera(26);
+    if (!this.flat) this.camera.up.set(0, 0, 1); // before the controls, which take it over once
     this.controls = new OrbitControls(this.camera, canvas);
     this.prepareControls();
     if (!this.flat) {
@@ -94,7 +97,6 @@ export class Stage {
     this.scene.add(this.surroundings.group);
     this.contactMarks = new ContactMarks(head);
     this.layers = new LayerView(head);
-    this.scene.add(this.layers.group);
     this.resizes.observe(canvas.parentElement!);
     this.resize();
     this.fit();
@@ -185,6 +187,33 @@ export class Stage {
     this.copying = false;
   }
 
+  /// Where the camera is, for an address: its target and, in 2D, half the height in sight, in 3D the eye [m].
+  get cameraText(): string {
+    const { target } = this.controls;
+    const { camera } = this;
+    const numbers = camera instanceof OrthographicCamera ? [target.x, target.y, camera.top / camera.zoom] : [...target.toArray(), ...camera.position.toArray()];
+    return numbers.map((number) => Number(number.toPrecision(5))).join(",");
+  }
+
+  /// Takes the camera to where such a text says.
+  set cameraText(text: string) {
+    const numbers = text.split(",").map(Number);
+    if (numbers.length !== (this.flat ? 3 : 6) || !numbers.every(Number.isFinite)) return;
+    if (this.camera instanceof OrthographicCamera) {
+      this.controls.target.set(numbers[0], numbers[1], 0);
+      this.camera.position.set(numbers[0], numbers[1], 100);
+      this.camera.zoom = this.camera.top / Math.max(1e-6, numbers[2]);
+    } else {
+      this.controls.target.fromArray(numbers);
+      this.camera.position.fromArray(numbers, 3);
+    }
+    this.follows = false;
+    this.moved = true;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.cameraMoved();
+  }
+
   /// For tests: metres that a pixel shows in the middle of the view, and from where.
   view(): { metresPerPixel: number; eye: number[]; target: number[] } {
     const { target } = this.controls;
@@ -196,19 +225,22 @@ export class Stage {
   private prepareControls(): void {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.cameraMoved());
-    this.controls.addEventListener("start", () => (this.follows = false));
+    this.controls.addEventListener("start", () => {
+      this.follows = false;
+      this.moved = true;
+    });
     if (this.flat) {
       this.controls.enableRotate = false;
       this.controls.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
       this.controls.touches = { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
     } else {
-      this.camera.up.set(0, 0, 1);
       this.controls.maxPolarAngle = 0.5 * Math.PI;
     }
   }
 
   /// Shows the whole box, from where the pictures do unless `turn` is false.
   fit(turn = true): void {
+    this.moved = false;
     this.surroundings.placeSun(...this.box);
     const [low, high] = this.wholeBox();
     const middle = low.clone().add(high).multiplyScalar(0.5);
@@ -221,6 +253,7 @@ export class Stage {
     } else {
       const aspect = this.camera.right / this.camera.top;
       const half = 1.08 * Math.max((high.y - low.y) / 2, (high.x - low.x) / 2 / aspect, 1e-3);
+      if (this.head.ground.present) middle.y = Math.max(middle.y, low.y + 0.86 * half); // rather sky than soil
       this.camera.zoom = this.camera.top / half;
       this.camera.position.set(middle.x, middle.y, 100);
     }
@@ -252,10 +285,12 @@ export class Stage {
     this.timeline = timeline;
     this.head = timeline.head;
     this.box = this.boxOf(this.head);
+    this.scene.background = colour(this.head.colours.paper);
     this.surround();
-    this.contactMarks.group.removeFromParent();
+    for (const part of [this.contactMarks.group, this.layers.lines]) part.removeFromParent();
     this.contactMarks = new ContactMarks(this.head);
-    this.scene.add(this.contactMarks.group);
+    this.layers = new LayerView(this.head);
+    this.scene.add(this.contactMarks.group, this.layers.lines);
     const { awake_outline, asleep_outline } = this.head.colours;
     const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
     for (const shape of this.head.shapes) {
@@ -330,8 +365,8 @@ export class Stage {
   }
 
   /// Draws these; none: takes the marks away. The force [N] of a bar of so many metres.
-  showContacts(contacts: Contact[]): { force: number; length: number } {
-    this.contactMarks.show(contacts);
+  showContacts(contacts: Contact[], way: ContactWay): { force: number; length: number } {
+    this.contactMarks.show(contacts, way, (body) => Array.from(this.poseOf(body)).slice(0, this.head.dimension));
     this.redraw();
     return this.contactMarks;
   }
@@ -362,6 +397,7 @@ export class Stage {
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene, this.camera);
     this.drawLabels();
+    this.onDrawn();
     this.drawn.push(performance.now() - start);
     if (this.drawn.length > 60) this.drawn.shift();
   }
@@ -382,6 +418,7 @@ export class Stage {
       [this.camera.near, this.camera.far] = [0, 200];
     }
     this.camera.updateProjectionMatrix();
+    if (!this.moved && this.accompanied < 0) this.fit(false);
     this.redraw();
   }
 
@@ -399,6 +436,7 @@ export class Stage {
     paper.clearRect(0, 0, overlay.width, overlay.height);
     this.drawScale();
     this.drawArrow();
+    this.drawChosen();
     if (this.showLayers && this.timeline) this.layers.drawLabels(paper, this.timeline.state.piles, this.camera, (point) => this.onScreen(point));
   }
 
@@ -423,6 +461,33 @@ export class Stage {
     paper.beginPath();
     paper.arc(x1, y1, 4, 0, 2 * Math.PI);
     paper.fill();
+  }
+
+  /// A ring about the chosen body, so that it is found among others of its colour.
+  private drawChosen(): void {
+    const { state } = this.timeline ?? {};
+    if (!state || this.selected < 0 || this.selected >= state.bodies || state.removed[this.selected] !== 0) return;
+    const { x, y } = this.placeOf(this.selected);
+    const paper = this.labels;
+    paper.strokeStyle = css(highlight);
+    paper.lineWidth = 2;
+    paper.beginPath();
+    paper.arc(x, y, this.radiusOf(this.selected), 0, 2 * Math.PI);
+    paper.stroke();
+  }
+
+  /// Of a circle about a body on the canvas [CSS pixels].
+  radiusOf(body: number): number {
+    const { extent } = this.head.shapes[this.timeline!.state.shape[body]];
+    const [x, y, z] = Array.from(this.poseOf(body));
+    const centre = new Vector3(x, y, this.flat ? 0 : z);
+    const side = new Vector3(0.55 * extent, 0, 0).applyQuaternion(this.camera.quaternion);
+    return Math.max(8, this.onScreen(centre.clone().add(side)).distanceTo(this.onScreen(centre)));
+  }
+
+  /// Whether contacts are drawn.
+  get marked(): boolean {
+    return this.contactMarks.count > 0;
   }
 
   private drawScale(): void {

@@ -49,6 +49,8 @@ export class Timeline {
   /// What is drawn: `state`, or one between it and the next.
   drawn: State;
 
+  /// Step, poses and removed bodies of the frame before the one shown.
+  private before: Pick<State, "step" | "bodies" | "pose" | "removed"> | null = null;
   /// Of each frame; more than one where a step was told again.
   private readonly moments: Moment[][] = [];
   private readonly kept: State[] = [];
@@ -117,17 +119,32 @@ export class Timeline {
   private goTo(frame: number): Changed {
     if (frame === this.shown && !this.stale) return [];
     this.stale = false;
-    if (frame === this.shown + 1) {
-      this.shown = frame;
-      return this.moments[frame].flatMap((moment) => this.state.apply(moment));
+    if (frame === this.shown + 1) return this.goOn();
+    const nearest = Math.floor(Math.max(0, frame - 1) / keepEvery); // so that the frame before is passed
+    if (this.shown > frame || this.shown < nearest * keepEvery || frame === this.shown) {
+      this.state = this.kept[nearest].copy();
+      this.shown = nearest * keepEvery;
+      this.before = null;
     }
-    const nearest = Math.floor(frame / keepEvery);
-    const forward = this.shown < frame && this.shown >= nearest * keepEvery;
-    if (!forward) this.state = this.kept[nearest].copy();
-    for (let next = forward ? this.shown + 1 : nearest * keepEvery + 1; next <= frame; ++next)
-      for (const moment of this.moments[next]) this.state.apply(moment);
-    this.shown = frame;
+    while (this.shown < frame) this.goOn();
     return "all";
+  }
+
+  /// To the next frame.
+  private goOn(): number[] {
+    const { step, bodies, pose, removed } = this.state;
+    this.before = this.shown < 0 ? null : { step, bodies, pose: pose.slice(), removed: removed.slice() };
+    return this.moments[++this.shown].flatMap((moment) => this.state.apply(moment));
+  }
+
+  /// Mean speed of an awake body since the frame before [m/s]; null: it sleeps, or was not there.
+  speed(body: number): number | null {
+    const { before, state } = this;
+    if (!before || body >= before.bodies || before.removed[body] !== 0 || state.asleep[body] !== 0) return null;
+    const { dimension, dt } = this.head;
+    const at = (dimension === 2 ? 3 : 7) * body;
+    const way = Math.hypot(...Array.from({ length: dimension }, (_, axis) => state.pose[at + axis] - before.pose[at + axis]));
+    return way / Math.max(dt, (state.step - before.step) * dt);
   }
 
   /// Steps between two frames above which frames are missing between them: what happened there is not known.
