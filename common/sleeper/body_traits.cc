@@ -58,7 +58,8 @@ BodyTraits<Dim> ball_traits(double mass, double radius) {
   const double share = Dim == 2 ? 0.5 : 0.4;
   return {.mass = mass,
           .inertia = share * mass * radius * radius * Inertia<Dim>::Identity(),
-          .bounds = centred_box<Dim>(Vec<Dim>::Constant(2.0 * radius))};
+          .bounds = centred_box<Dim>(Vec<Dim>::Constant(2.0 * radius)),
+          .pieces = {HullPiece<Dim>{.corners = {Vec<Dim>::Zero()}, .radius = radius}}};
 }
 
 template <int Dim>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "common/math/require.h"
@@ -308,7 +309,15 @@ void PileSleeper<Dim>::end_observers(std::string_view reason) {
   observers_.clear();
   for (const auto& observer : ended)
     if (warnings.empty()) warnings = observer->warnings();
-  for (const auto& observer : ended) observer->on_end(sleeping_.frame({}, warnings), reason);
+  std::exception_ptr first;  // each is told of the end, whatever another one throws
+  for (const auto& observer : ended) {
+    try {
+      observer->on_end(sleeping_.frame({}, warnings), reason);
+    } catch (...) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
 }
 
 template <int Dim>

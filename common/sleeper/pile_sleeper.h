@@ -81,7 +81,7 @@ class PileSleeper {
   void set_pieces(Handle handle, const std::vector<Piece<Dim>>& pieces);
   /// Something that never moves and that observers see, such as a floor. Throws InvalidValue as a piece's check does.
   void add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose);
-  /// Ends the observers; else the destructor does.
+  /// Ends the observers; else the destructor does. Throws what the first of them throws, once all have ended.
   void end_observers(std::string_view reason = "finished");
   /// The body of this number in frames, records and warnings: one that is there and not kinematic.
   Handle handle_of(BodyIndex body) const { return handle_of_[body]; }

@@ -334,6 +334,8 @@ class BulletSleeper {
       if (a.hasContactResponse() && b.hasContactResponse()) read_manifold(manifold, a, b);
     }
   }
+  bool sleeps(Handle handle) const { return handle != Handle{} && core_.asleep(handle); }
+  /// A support that has just woken may carry nothing in its first step, and be gone in the next: it counts too.
   void read_manifold(const btPersistentManifold& manifold, const btCollisionObject& a, const btCollisionObject& b) {
     const Handle first = find(a);
     const Handle second = find(b);
@@ -342,7 +344,7 @@ class BulletSleeper {
     const double sign = swap ? -1.0 : 1.0;
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
       const btManifoldPoint& point = manifold.getContactPoint(i);
-      if (point.getDistance() > 0 && point.m_appliedImpulse <= 0) continue;
+      if (point.getDistance() > 0 && point.m_appliedImpulse <= 0 && !sleeps(first) && !sleeps(second)) continue;
       const btVector3& where = point.getPositionWorldOnB();
       const btVector3 friction = point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
                                  point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;

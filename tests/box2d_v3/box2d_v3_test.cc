@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <ctime>
+#include <memory>
+#include <vector>
 
 #include "tests/box2d_v3/box2d_v3_scene.h"
 #include "tests/sleeper/game.h"
@@ -125,6 +128,46 @@ TEST(Box2dV3Sleeper, RefusesWhatItCannotWatch) {
   b2BodyDef def = b2DefaultBodyDef();
   def.type = b2_dynamicBody;
   EXPECT_THROW(scene.sleeper->add(b2CreateBody(scene.world, &def)), InvalidValue);  // without shapes
+}
+
+/// What observers see.
+class Seen final : public Observer<2> {
+ public:
+  struct Last {
+    int frames = 0;
+    std::vector<Shape<2>> shapes;
+    std::vector<Obstacle<2>> obstacles;
+    std::vector<Vec2> places;
+  };
+  explicit Seen(Last& last) : last_(last) {}
+  void on_frame(const Frame<2>& frame) override {
+    ++last_.frames;
+    last_.shapes.assign(frame.world.shapes().begin(), frame.world.shapes().end());
+    last_.obstacles.assign(frame.world.obstacles().begin(), frame.world.obstacles().end());
+    last_.places.clear();
+    for (const Pose<2>& pose : frame.world.states().pose) last_.places.push_back(pose.position);
+  }
+
+ private:
+  Last& last_;
+};
+
+TEST_F(SleepingBox2dV3Stack, IsSeenWithItsTrueShapesAndTheStaticBodiesThatAreNamed) {
+  Seen::Last last;
+  scene.sleeper->observe(std::make_unique<Seen>(last), std::array{scene.ground});
+  const b2BodyId box = scene.add_box({1, 1}, {5, 3}, b2_dynamicBody);
+  scene.sleeper->add(box);
+  scene.run(30);
+  EXPECT_EQ(last.frames, 31);  // the first is the state at the start
+  ASSERT_EQ(last.obstacles.size(), 1U);
+  EXPECT_NEAR(last.obstacles[0].pose.position.y(), -1.0, 1e-6);
+  const auto& pieces = last.shapes.back().pieces;
+  ASSERT_TRUE(std::holds_alternative<HullPiece<2>>(pieces.at(0)));
+  EXPECT_EQ(std::get<HullPiece<2>>(pieces.at(0)).corners.size(), 4U);
+  ASSERT_EQ(last.places.size(), 5U);
+  EXPECT_NEAR(last.places[0].y(), height_of(0), 1e-6);
+  EXPECT_NEAR(last.places[4].y(), b2Body_GetPosition(box).y, 1e-6);
+  EXPECT_LT(last.places[4].y(), 2.9);
 }
 
 TEST(Box2dV3Sleeper, ChangesNoBitWhenItIsOff) {

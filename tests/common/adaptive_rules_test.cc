@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/policy/adaptive/impacts.h"
@@ -254,6 +255,22 @@ TEST(Impacts, AreOnlyWhatExceedsTheLoadOfTheStepBefore) {
   collision.strike(4.0, 4.0);
   collision.strike(4.0, 0.0);  // still the same load, as of a heap that leans against the sleeping body
   EXPECT_FALSE(collision.wakes());
+}
+
+TEST(Impacts, AreNotTheLoadUnderWhichABodyFallsAsleep) {
+  for (const BodyIndex sleeper : {0, 1}) {
+    Collision collision;
+    collision.world.thaw(std::vector<BodyIndex>{1});
+    collision.strike(4.0, 9.0);  // as of a body that something else drives against both
+    collision.world.freeze(std::vector<BodyIndex>{sleeper});
+    Contact<3>& touch = collision.world.touching[0];
+    if (sleeper == 0) {
+      std::swap(touch.a, touch.b);  // the awake body comes first
+      touch.normal *= -1.0;
+    }
+    collision.step();
+    EXPECT_FALSE(collision.wakes()) << sleeper;
+  }
 }
 
 TEST(Impacts, GiveNoBodyMoreSpeedThanTheFastestApproachOfTheStep) {

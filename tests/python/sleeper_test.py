@@ -228,6 +228,21 @@ def test_a_restored_sleeper_sleeps_as_the_saved_one_in_new_bodies_too(sleeper):
     assert again.sleeper.awake == 1
 
 
+def test_an_observed_sleeper_leaves_a_record_of_its_bodies(sleeper, tmp_path):
+    path = tmp_path / "balls.lcm"
+    sleeper.observe(path, name="balls", engine="numpy", dt=DT, frame_rate=60)
+    engine = tower(sleeper)
+    sleeper.end_observers()
+    record = talus.open(path)
+    assert len(record.steps) == 121  # each second step, and the start
+    np.testing.assert_allclose(record.positions[-1], engine.position, atol=1e-5)
+    assert record.asleep[-1].all()
+    with pytest.raises(OSError):
+        sleeper.observe(tmp_path / "no" / "folder.lcm")
+    with pytest.raises(ValueError, match="enabled"):
+        type(sleeper)(enabled=False).observe(tmp_path / "off.lcm")
+
+
 def test_another_axis_may_be_up():
     sleeper = talus.PileSleeper3D(gravity=(0, -9.81, 0))
     engine = Balls(sleeper, up=1)

@@ -178,6 +178,25 @@ TEST(BulletSleeper, CarriesASleeperOnAPlatform) {
   }
 }
 
+/// The lower box wakes as the platform begins to sink under it, and carries nothing in its first step.
+TEST(BulletSleeper, LowersAStackOfSleepersOnAPlatform) {
+  for (int i = 0; i < 20; ++i) {
+    SleepingBulletScene scene;
+    btRigidBody& lift = scene.add_lift({4, 4, 1}, {0, 0, 1.5});
+    const double turn = 0.07 * i;
+    btRigidBody& lower = scene.drop({{0, 0, 2.3}, Rotation<3>(Eigen::AngleAxisd(turn, Vec3::UnitZ()))});
+    btRigidBody& upper = scene.drop({{0.01 * i, 0, 2.85}, Rotation<3>::Identity()});
+    scene.run(240);
+    ASSERT_TRUE(scene.sleeper->asleep(lower) && scene.sleeper->asleep(upper));
+    const double apart = place(upper).z() - place(lower).z();
+    for (int step = 1; step <= 60; ++step) {
+      scene.move_lift(lift, {0, 0, 1.5 - 0.3 * drop_dt * step}, drop_dt);
+      scene.step();
+    }
+    EXPECT_NEAR(place(upper).z() - place(lower).z(), apart, 0.03) << i;
+  }
+}
+
 /// The engine's bits: nothing that a switched-off sleeper does reaches the world.
 TEST(BulletSleeper, ChangesNoBitWhenItIsOff) {
   SleepingBulletScene with({.enabled = false});

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <stdexcept>
 
 #include "common/simulation/sleeper_watch.h"
 #include "tests/sleeper/box2d_scene.h"
@@ -131,6 +132,19 @@ TEST_F(AnObservedWorld, EndsWithTheSleeperOrBefore) {
   EXPECT_EQ(seen.end, "finished");
   run(1);
   EXPECT_EQ(seen.frames, 2);
+}
+
+TEST_F(AnObservedWorld, EndsForEachObserverThoughOneFails) {
+  struct Failing final : Observer<2> {
+    void on_frame(const Frame<2>& /*frame*/) override {}
+    void on_end(const Frame<2>& /*last*/, std::string_view /*reason*/) override {
+      throw std::runtime_error("disk full");
+    }
+  };
+  scene.sleeper->observe(std::make_unique<Failing>());
+  observe();
+  EXPECT_THROW(scene.sleeper->end_observers(), std::runtime_error);
+  EXPECT_EQ(seen.end, "finished");
 }
 
 TEST(AnObserver, IsRefusedWhereNoBodyMaySleep) {

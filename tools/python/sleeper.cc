@@ -10,6 +10,9 @@
 #include "common/math/require.h"
 #include "common/sleeper/pile_sleeper.h"
 #include "common/sleeper/step_buffer.h"
+#ifdef TALUS_LCM
+#include "lcmtypes/world_feed.h"
+#endif
 #include "tools/python/arrays.h"
 #include "tools/python/contact_row.h"
 #include "tools/python/module.h"
@@ -161,6 +164,16 @@ class ArraySleeper {
     return changes(sleeper_.set_gravity(vector_in<Dim>(gravity, "gravity")));
   }
 
+#ifdef TALUS_LCM
+  void observe(const std::optional<std::string>& record, bool publish, const std::string& name,
+               const std::string& title, const std::string& engine, double dt, double frame_rate) {
+    const WorldLabel label{.name = name, .title = title, .engine = engine, .dt = dt, .frame_rate = frame_rate};
+    if (record) sleeper_.observe(record_world<Dim>(*record, label));
+    if (publish) sleeper_.observe(publish_world<Dim>(label));
+  }
+#endif
+  void end_observers() { sleeper_.end_observers(); }
+
   bool has(std::int64_t body) const { return sleeper_.has(handle_of(body)); }
   bool asleep(std::int64_t body) const { return sleeper_.asleep(handle_of(body)); }
   int size() const { return sleeper_.size(); }
@@ -215,8 +228,11 @@ class ArraySleeper {
 template <int Dim>
 void add_sleeper(py::module_& module, const char* name) {
   using Sleeper = ArraySleeper<Dim>;
-  py::class_<Sleeper>(module, name)
-      .def(py::init<const DoubleArray&, bool, std::optional<int>, std::optional<double>, double>())
+  py::class_<Sleeper> bound(module, name);
+#ifdef TALUS_LCM
+  bound.def("observe", &Sleeper::observe);
+#endif
+  bound.def(py::init<const DoubleArray&, bool, std::optional<int>, std::optional<double>, double>())
       .def_property_readonly_static("contact_dtype", [](const py::object&) { return py::dtype::of<ContactRow<Dim>>(); })
       .def("add_box", &Sleeper::add_box)
       .def("add_ball", &Sleeper::add_ball)
@@ -230,6 +246,7 @@ void add_sleeper(py::module_& module, const char* name) {
       .def("wake_near", &Sleeper::wake_near)
       .def("moved", &Sleeper::moved)
       .def("set_gravity", &Sleeper::set_gravity)
+      .def("end_observers", &Sleeper::end_observers)
       .def("has", &Sleeper::has)
       .def("asleep", &Sleeper::asleep)
       .def("size", &Sleeper::size)

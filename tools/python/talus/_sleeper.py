@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import NamedTuple
 
 import numpy as np
@@ -178,6 +179,29 @@ class _PileSleeper:
     def set_gravity(self, gravity: ArrayLike) -> Changes:
         """From the next step on [m/s^2]: Changes. All bodies wake if it differs by more than a hundredth."""
         return _changes(self._sleeper.set_gravity(gravity))
+
+    def observe(
+        self,
+        record: str | os.PathLike | None = None,
+        *,
+        publish: bool = False,
+        name: str = "program",
+        title: str = "",
+        engine: str = "own",
+        dt: float = 1 / 60,
+        frame_rate: float = 30.0,
+    ) -> None:
+        """Shows the bodies from now on. record: path of a new file, for talus.open(), `talus view` and `talus film`.
+        publish: to `talus monitor` and `talus view --live`.
+
+        name, title, engine: what they are called there. dt: of the usual step [s], in which a record counts its time.
+        frame_rate: frames of a record in a second of simulated time. Without an `enabled` sleeper: ValueError.
+        """
+        self._sleeper.observe(record and os.fspath(record), publish, name, title, engine, dt, frame_rate)
+
+    def end_observers(self) -> None:
+        """Ends record and live view; else they end with the sleeper. OSError: the disk is full."""
+        self._sleeper.end_observers()
 
     def asleep(self, body: int) -> bool:
         """Whether the body sleeps."""
