@@ -25,15 +25,19 @@ namespace fs = std::filesystem;
 
 /// Those whose scenes are named; all where none is.
 std::vector<Experiment> chosen(std::vector<Experiment> all, const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const Experiment& each : all)
+    if (std::ranges::count(known, each.name) == 0) known.push_back(each.name);
   for (const std::string& name : names)
-    if (std::ranges::find(all, name, &Experiment::name) == all.end())
-      throw std::invalid_argument(fmt::format("{} {}: no such experiment in scenes/published", published_word, name));
+    if (std::ranges::count(known, name) == 0)
+      throw std::invalid_argument(
+          fmt::format("{} {}: must be one of {}", published_word, name, fmt::join(known, ", ")));
   if (!names.empty())
     std::erase_if(all, [&](const Experiment& each) { return std::ranges::count(names, each.name) == 0; });
   return all;
 }
 
-/// All seeds, then all policies of a row follow each other. What is wrong with a scene shows before the first run.
+/// Row by row, the seeds side by side. What is wrong with a scene shows before the first run.
 std::vector<PublishedRun> runs_of(const std::vector<Experiment>& experiments, const BenchOptions& options) {
   std::vector<PublishedRun> runs;
   for (const Experiment& experiment : experiments) {
