@@ -82,7 +82,7 @@ TEST(PublishedExperiments, AllErrorsOfAFileComeAtOnceWithTheirPlaces) {
   } catch (const SceneErrors& errors) {
     const std::string text = errors.what();
     for (const char* part : {":4:9: experiment[0].scene = \"none\": must be the name of a scene beside this file",
-                             ":6:28: experiment[0].fit[0].kind = \"line\": must be one of exponent, factor, saturation",
+                             ":6:28: experiment[0].fit[0].kind = \"line\": must be one of exponent, factor",
                              "experiment[0].row[0].published", "must be one number or two"})
       EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
@@ -91,14 +91,9 @@ TEST(PublishedExperiments, AllErrorsOfAFileComeAtOnceWithTheirPlaces) {
 TEST(Fits, FindTheLawThatTheValuesFollow) {
   const std::vector<double> x = {1.0, 2.0, 4.0, 7.0};
   std::vector<double> power;
-  std::vector<double> saturating;
-  for (const double each : x) {
-    power.push_back(3.0 * std::pow(each, 2.5));
-    saturating.push_back(2.0 * (1.0 - std::exp(-each / 2.0)));
-  }
+  for (const double each : x) power.push_back(3.0 * std::pow(each, 2.5));
   EXPECT_NEAR(fitted({.kind = "exponent"}, x, power), 2.5, 1e-9);
   EXPECT_NEAR(fitted({.kind = "factor", .power = 2.5}, x, power), 3.0, 1e-9);
-  EXPECT_NEAR(fitted({.kind = "saturation"}, x, saturating), 2.0, 1e-6);
 }
 
 TEST(Fits, HaveNoNumberWhereAValueIsMissing) {

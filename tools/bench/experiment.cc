@@ -114,24 +114,6 @@ double factor_of(double power, const std::vector<double>& x, const std::vector<d
   return std::exp(sum / static_cast<double>(x.size()));
 }
 
-/// Least squares by golden section in log(s).
-double saturation_of(const std::vector<double>& x, const std::vector<double>& values) {
-  const auto squares = [&](double log_s) {
-    const double s = std::exp(log_s);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(values[i] + s * std::expm1(-x[i] / s), 2.0);
-    return sum;
-  };
-  constexpr double golden = 0.6180339887498949;
-  double low = std::log(1e-3 * *std::ranges::max_element(x));
-  double high = std::log(1e3 * *std::ranges::max_element(x));
-  while (high - low > 1e-9) {
-    const double left = high - golden * (high - low), right = low + golden * (high - low);
-    (squares(left) < squares(right) ? high : low) = squares(left) < squares(right) ? right : left;
-  }
-  return std::exp(low);
-}
-
 }  // namespace
 
 std::vector<Experiment> read_experiments(const std::filesystem::path& file) {
@@ -156,9 +138,7 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file) {
 double fitted(const ExperimentFit& fit, const std::vector<double>& x, const std::vector<double>& values) {
   if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value) && value > 0.0; }))
     return std::numeric_limits<double>::quiet_NaN();
-  if (fit.kind == "exponent") return exponent_of(x, values);
-  if (fit.kind == "factor") return factor_of(fit.power, x, values);
-  return saturation_of(x, values);
+  return fit.kind == "exponent" ? exponent_of(x, values) : factor_of(fit.power, x, values);
 }
 
 }  // namespace talus

@@ -30,8 +30,8 @@ struct ExperimentFit {
   Published published = {};
 };
 
-/// `exponent`: p of value = c x^p. `factor`: c of value = c x^power. `saturation`: s of value = s (1 - exp(-x / s)).
-inline constexpr auto fit_kinds = std::to_array<std::string_view>({"exponent", "factor", "saturation"});
+/// `exponent`: p of value = c x^p. `factor`: c of value = c x^power. Both by least squares of the logarithms.
+inline constexpr auto fit_kinds = std::to_array<std::string_view>({"exponent", "factor"});
 
 /// A scene, what is measured in it, and what others found.
 struct Experiment {
