@@ -12,11 +12,9 @@
 namespace talus {
 namespace {
 
-using Lines = std::vector<const PublishedRun*>;
-
 /// Runs of one experiment on one engine under one policy.
 struct PublishedGroup {
-  Lines runs;
+  std::vector<const PublishedRun*> runs;
 
   std::vector<double> values_at(std::size_t row) const {
     std::vector<double> values;
