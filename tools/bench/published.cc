@@ -73,7 +73,7 @@ double value_in(const nlohmann::json& summary, const Experiment& experiment) {
   return experiment.at_least ? (divided >= *experiment.at_least ? 1.0 : 0.0) : divided;
 }
 
-void write_runs(const fs::path& file, const std::vector<PublishedRun>& runs) {
+void write_results(const std::vector<PublishedRun>& runs, const BenchOptions& options) {
   std::string text = "run,experiment,setting,engine,policy,seed,value,wall_s,failure\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PublishedRun& each = runs[i];
@@ -82,9 +82,11 @@ void write_runs(const fs::path& file, const std::vector<PublishedRun>& runs) {
                       std::isfinite(each.value) ? fmt::format("{:.9g}", each.value) : "",
                       fmt::format("{:.3f}", each.seconds), each.failure});
   }
-  write_file(file, text);
+  write_file(options.out / "runs.csv", text);
+  write_file(options.out / "published.md", published_page(runs, options.policies));
 }
 
+/// After each run the files have what is measured so far.
 void do_published(std::vector<PublishedRun>& runs, const BenchOptions& options) {
   std::size_t done = 0;
   in_processes(
@@ -100,6 +102,7 @@ void do_published(std::vector<PublishedRun>& runs, const BenchOptions& options) 
           run.failure = outcome.text;
         else
           std::sscanf(outcome.text.c_str(), "%lf %lf", &run.value, &run.seconds);
+        write_results(runs, options);
         print_message("[{}/{}] {}, {}, {}, {}, seed {}: {}", ++done, runs.size(), run.experiment->name,
                       run.experiment->rows[run.row].name, run.run.backend, run.run.policy, run.run.seed,
                       outcome.failed ? "failed: " + outcome.text : fmt::format("{:.4g}", run.value));
@@ -118,8 +121,6 @@ int bench_published(const BenchOptions& given) {
   std::vector<PublishedRun> runs = runs_of(experiments, options);
   fs::create_directories(options.out);
   do_published(runs, options);
-  write_runs(options.out / "runs.csv", runs);
-  write_file(options.out / "published.md", published_page(runs, options.policies));
   const auto failed = std::ranges::count_if(runs, [](const PublishedRun& run) { return !run.failure.empty(); });
   print_result("{} runs, {} failed: {}/published.md, runs.csv\n", runs.size(), failed, printable(options.out.string()));
   return failed == 0 ? exit_codes::success : exit_codes::failed;

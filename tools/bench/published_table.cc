@@ -52,7 +52,8 @@ std::string policy_cells(const std::string& ours, const Difference& off) {
 
 /// As "3 of 4".
 std::string share_text(const std::vector<double>& values) {
-  return fmt::format("{} of {}", std::ranges::count(values, 1.0), values.size());
+  const auto measured = std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
+  return measured > 0 ? fmt::format("{} of {}", std::ranges::count(values, 1.0), measured) : "-";
 }
 
 class ExperimentTable {
