@@ -66,6 +66,15 @@ TEST_F(EventCommands, ARemovedBodyIsGoneFromTheNextFrameOn) {
   EXPECT_EQ(last_of_other, 300);
 }
 
+TEST_F(EventCommands, ARemovedBodyDoesNotCountAsAsleep) {
+  const Outcome outcome =
+      talus_command("run " + (folder_ / "scene.toml") + " --policy full --no-telemetry --out " + (folder_ / "full"));
+  EXPECT_NE(outcome.out.find("3 bodies, 0 asleep at the end"), std::string::npos) << outcome.out;
+  const Json summary = Json::parse(contents(folder_.path() / "full" / "summary.json"));
+  EXPECT_EQ(summary["asleep_at_end"], 0);
+  EXPECT_EQ(summary["work_skipped"], 0.0);
+}
+
 TEST_F(EventCommands, ARecordOfASceneWithoutEventsNamesNoSuchChannel) {
   std::ofstream(folder_.path() / "plain.toml")
       << "title = \"plain\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\nrun = {frames = 5}\n"

@@ -12,6 +12,7 @@
 #include "common/text/printable.h"
 #include "tools/bench/bench_plan.h"
 #include "tools/bench/bench_table.h"
+#include "tools/bench/published.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/pool/in_processes.h"
@@ -31,7 +32,8 @@ constexpr const char* footer =
     "Examples:\n"
     "  talus bench --preset table1 --quick\n"
     "  talus bench drop_in_a_pile_2d --policy full,adaptive,reference --seeds 8\n"
-    "  talus bench drop_in_a_pile_2d --policy full,adaptive --set policy.adaptive.tolerance=0.02,0.05,0.1 --drift";
+    "  talus bench drop_in_a_pile_2d --policy full,adaptive --set policy.adaptive.tolerance=0.02,0.05,0.1 --drift\n"
+    "  talus bench published arch_2d   # experiments of scenes/published, what others found beside what talus gives";
 
 void require_new_folder(const fs::path& folder) {
   std::error_code unused;
@@ -70,7 +72,18 @@ std::vector<BenchRow> measured_rows(const std::vector<BenchCase>& cases, const B
   return rows;
 }
 
+/// The experiments have settings and measures of their own.
+void check_published(const BenchOptions& options) {
+  if (!options.preset.empty() || !options.settings.empty() || options.extras.drift || options.extras.motion_error)
+    throw std::invalid_argument("--preset, --set, --drift, --motion-error: must be left out with published");
+}
+
 int bench(const BenchOptions& given) {
+  if (!given.scenes.empty() && given.scenes.front() == published_word) {
+    check_published(given);
+    require_new_folder(given.out);
+    return bench_published(given);
+  }
   const BenchOptions options = completed(given);
   const std::vector<BenchCase> cases = bench_cases(options);
   require_new_folder(options.out);
@@ -97,7 +110,8 @@ void add_choices(CLI::App& command, BenchOptions& options) {
     presets.emplace_back(preset.name);
     about += fmt::format("{}{}", about.empty() ? "" : "; ", preset.about);
   }
-  command.add_option("scene", options.scenes, "Scene files, or names of scenes that `talus list` shows");
+  command.add_option("scene", options.scenes,
+                     "Scene files, or names of scenes that `talus list` shows; or published, and which");
   command.add_option("--preset", options.preset, "What the paper has: " + about)->check(CLI::IsMember(presets));
   command.add_option("-p,--policy", options.policies, "Policies, separated by commas; may be repeated")
       ->delimiter(',')

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "common/measure/ensemble.h"
 #include "common/text/file.h"
 #include "tools/bench/bench_plan.h"
 #include "tools/output/csv.h"
@@ -68,15 +67,6 @@ std::vector<std::string> key_cells(const BenchCase& run) {
           fmt::format("{}", run.seed)};
 }
 
-/// "2.91 ± 0.08"; "-" for what was not measured.
-std::string shown(const MeanWithError& number) {
-  if (!std::isfinite(number.mean)) return "-";
-  const double finest = number.error > 0.0 ? number.error : std::abs(number.mean);
-  const int digits = finest > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(finest))), 0, 6) : 0;
-  if (!(number.error > 0.0)) return fmt::format("{:.{}f}", number.mean, digits);
-  return fmt::format("{:.{}f} ± {:.{}f}", number.mean, digits, number.error, digits);
-}
-
 /// A number of the paper, as it stands there.
 std::string published(double number) { return std::isfinite(number) ? fmt::format("{:g}", number) : "-"; }
 
@@ -91,13 +81,13 @@ Cells summary_cells(const BenchGroup& group, std::string_view preset) {
           group.first->policy,
           fmt::format("{}", fmt::join(group.first->settings, " ")),
           fmt::format("{}", group.rows.size()),
-          shown(group.of(&BenchNumbers::seconds)),
-          shown(group.of(&BenchNumbers::speed_up)),
-          shown(group.of(&BenchNumbers::mean_awake)),
-          shown(group.of(&BenchNumbers::centre_error, &BenchNumbers::centre_error_se)),
-          shown(group.of(&BenchNumbers::r50_error, &BenchNumbers::r50_error_se)),
-          shown(group.of(&BenchNumbers::drift)),
-          shown({100.0 * motion.mean, 100.0 * motion.error}),
+          mean_text(group.of(&BenchNumbers::seconds)),
+          mean_text(group.of(&BenchNumbers::speed_up)),
+          mean_text(group.of(&BenchNumbers::mean_awake)),
+          mean_text(group.of(&BenchNumbers::centre_error, &BenchNumbers::centre_error_se)),
+          mean_text(group.of(&BenchNumbers::r50_error, &BenchNumbers::r50_error_se)),
+          mean_text(group.of(&BenchNumbers::drift)),
+          mean_text({100.0 * motion.mean, 100.0 * motion.error}),
           published(papers.speed_up),
           published(papers.error)};
 }
@@ -181,6 +171,14 @@ Plot frame_plot(const std::vector<BenchGroup>& groups, const std::string& label,
 }
 
 }  // namespace
+
+std::string mean_text(const MeanWithError& number) {
+  if (!std::isfinite(number.mean)) return "-";
+  const double finest = number.error > 0.0 ? number.error : std::abs(number.mean);
+  const int digits = finest > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(finest))), 0, 6) : 0;
+  if (!(number.error > 0.0)) return fmt::format("{:.{}f}", number.mean, digits);
+  return fmt::format("{:.{}f} ± {:.{}f}", number.mean, digits, number.error, digits);
+}
 
 void compare_rows(std::vector<BenchRow>& rows) {
   for (BenchRow& row : rows) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/measure/ensemble.h"
 #include "tools/bench/bench_run.h"
 
 namespace talus {
@@ -19,6 +20,9 @@ void write_bench_csv(const std::filesystem::path& file, const std::vector<BenchR
 
 /// One row a frame of each run, frames.csv; not written where no row has frames.
 void write_frames_csv(const std::filesystem::path& file, const std::vector<BenchRow>& rows);
+
+/// "2.91 ± 0.08"; "-" for what was not measured.
+std::string mean_text(const MeanWithError& number);
 
 /// A line for each case, with means over its seeds; columns without any number are left out. `preset` gives the paper's
 /// own numbers beside ours; empty: none.

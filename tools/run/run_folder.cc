@@ -194,7 +194,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
       {"bodies_lost", bodies_lost(world.states(), scene.world.ground, scene.world.units)},
       {"at_rest", simulation.at_rest()},
       {"events", events_json(scene, simulation.done_events())},
-      {"asleep_at_end", bodies - world.awake().size()},
+      {"asleep_at_end", bodies_present(world) - static_cast<std::int64_t>(world.awake().size())},
       {"outside_window", outside_json(input.outside_window)},
       {"scene_warnings", input.scene_warnings},
       {"warnings", warnings_json(input.warnings)},

@@ -47,7 +47,7 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
           printable(scene.title),
           fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep",
                       solved_by(backend, scene.world.solver.kind), scene.policy.kind, scene.seed, frame.time, bodies,
-                      bodies - world.awake().size())};
+                      bodies_present(world) - static_cast<std::int64_t>(world.awake().size()))};
 }
 
 /// Draws the pictures that events want, and prints a line for each event.
@@ -186,8 +186,8 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                printable(scene.title), solved_by(summary.backend, scene.world.solver.kind), scene.policy.kind);
   print_result(
       "  {} bodies, {} asleep at the end; over {} steps {:.1f} awake in the mean, {:.1f} % of body-steps skipped\n",
-      bodies, bodies - world.awake().size(), statistics.steps(), statistics.mean_awake(),
-      100.0 * statistics.work_skipped());
+      bodies, bodies_present(world) - static_cast<std::int64_t>(world.awake().size()), statistics.steps(),
+      statistics.mean_awake(), 100.0 * statistics.work_skipped());
   print_result("  {}\n", accuracy_text(scene));
   print_result("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,

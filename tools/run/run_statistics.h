@@ -1,12 +1,19 @@
 #pragma once
 // What a run cost and what it left, for summary.json and the closing lines.
 
+#include <algorithm>
 #include <deque>
 
 #include "common/policy/observer.h"
 #include "common/scene/scene.h"
 
 namespace talus {
+
+/// Bodies in the world, without those that events have removed. Costs O(all bodies).
+template <int Dim>
+std::int64_t bodies_present(const World<Dim>& world) {
+  return std::ranges::count(world.states().removed, 0);
+}
 
 /// Sums over the steps of a run.
 template <int Dim>
