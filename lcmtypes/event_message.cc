@@ -23,8 +23,8 @@ std::vector<talus_event> to_events(const Scene<Dim>& scene) {
     message.text = clipped(event_text(scene, message.number));
     const ObstacleName name = event.obstacle ? scene.obstacle_names[*event.obstacle] : ObstacleName();
     const int most = static_cast<int>((max_message_bytes - 3000) / sizeof(std::int32_t));
-    for (int k = 0; k < std::min(name.count, most); ++k) message.removed.push_back(name.first + k);
-    message.removed_count = static_cast<std::int32_t>(message.removed.size());
+    for (int k = 0; k < std::min(name.count, most); ++k) message.obstacle.push_back(name.first + k);
+    message.obstacle_count = static_cast<std::int32_t>(message.obstacle.size());
   }
   return messages;
 }
@@ -39,7 +39,7 @@ std::string_view range_fault(const talus_event& m) {
   if (!header_holds(m)) return "header out of range";
   if (m.number < 0 || m.number >= m.total) return "number out of range";
   if (m.happened_step < -1 || !(m.happened_time >= 0.0 || m.happened_time == -1.0)) return "time out of range";
-  if (std::any_of(m.removed.begin(), m.removed.end(), is_negative)) return "negative obstacle";
+  if (std::any_of(m.obstacle.begin(), m.obstacle.end(), is_negative)) return "negative obstacle";
   return {};
 }
 

@@ -22,7 +22,6 @@ void check_for_box2d(const WorldDescription<2>& description) {
 
 EngineTraits box2d_traits() {
   return {.name = "box2d",
-          .window = {.narrowest_body = 0.1},
           .fastest_step = b2_maxTranslation,
           .restitution_gain = 0.06,
           .awake_bytes = 1200.0,

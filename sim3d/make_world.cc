@@ -36,7 +36,7 @@ constexpr EngineTraits in_space = {
     .awake_seconds = 7e-6};
 constexpr EngineTraits in_the_plane = {
     .name = "bullet-planar",
-    .window = {.fewest_steps = 40.0, .fewest_iterations = 5, .largest_mass_ratio = 20.0, .narrowest_body = 0.03},
+    .window = {.fewest_steps = 40.0, .fewest_iterations = 5, .largest_mass_ratio = 20.0},
     .sinking_fall = 0.1,
     .restitution_gain = 0.05,
     .awake_bytes = 6000.0,

@@ -30,13 +30,6 @@ std::string masses_rule(const EngineTraits& engine) {
       engine.window.iterations_for_masses, engine.name, engine.window.largest_mass_ratio);
 }
 
-std::string width_rule(const EngineTraits& engine, const UnitScale& units = {}) {
-  return fmt::format(
-      "must be at least {:.3g} m wide on {}: the engine's contact margin does not shrink with the bodies, so smaller "
-      "ones stand apart and stacks slide",
-      engine.window.narrowest_body / units.lengths(), engine.name);
-}
-
 std::string obstacle_rule(const EngineTraits& engine) {
   return fmt::format(
       "must be at most {:g} times as long as it is thick on {}: contacts with longer parts are missed; several shorter "
@@ -95,11 +88,6 @@ class WindowCheck {
     const Window& window = engine_.window;
     const std::vector<const Shape<Dim>*> shapes = shapes_of_bodies(scene);
     if (shapes.empty()) return;
-    const auto width = [](const Shape<Dim>* shape) { return shape->bounds.sizes().minCoeff(); };
-    const Shape<Dim>& narrowest = **std::ranges::min_element(shapes, {}, width);
-    if (width(&narrowest) * scene.world.units.lengths() < window.narrowest_body * (1.0 - 1e-9))
-      add(fmt::format("shape.{}", narrowest.name), fmt::format("{:.3g} m wide", width(&narrowest)),
-          width_rule(engine_, scene.world.units));
     const auto [light, heavy] = std::ranges::minmax_element(shapes, {}, [](const auto* each) { return each->mass; });
     const double ratio = (*heavy)->mass / (*light)->mass;
     const int iterations = scene.world.solver.velocity_iterations;
@@ -150,7 +138,6 @@ std::vector<WindowRule> window_rules(const EngineTraits& engine) {
   if (window.fewest_iterations > 1) rules.push_back({"world.solver.velocity_iterations", iterations_rule(engine)});
   if (window.largest_mass_ratio < largest_mass_ratio_of_all)
     rules.push_back({"world.solver.velocity_iterations", masses_rule(engine)});
-  if (window.narrowest_body > 0.0) rules.push_back({"shape.*", width_rule(engine)});
   if (std::isfinite(window.longest_obstacle)) rules.push_back({"obstacle", obstacle_rule(engine)});
   rules.push_back({"policy.tau", tau_rule()});
   return rules;

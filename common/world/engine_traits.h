@@ -20,8 +20,6 @@ struct Window {
   /// Largest over smallest mass of bodies with fewer than `iterations_for_masses`.
   double largest_mass_ratio = largest_mass_ratio_of_all;
   int iterations_for_masses = 50;
-  /// Least width of a body's bounding box in its own axes [m].
-  double narrowest_body = 0.0;
   /// Longest side of an obstacle's part over its smallest width, at most.
   double longest_obstacle = std::numeric_limits<double>::infinity();
 };

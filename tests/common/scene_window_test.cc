@@ -12,7 +12,6 @@ constexpr EngineTraits narrow_engine = {.name = "narrow",
                                         .window = {.fewest_steps = 50.0,
                                                    .fewest_iterations = 5,
                                                    .largest_mass_ratio = 20.0,
-                                                   .narrowest_body = 0.2,
                                                    .longest_obstacle = 100.0}};
 
 // What of a sound scene with these changes lies outside, a line each.
@@ -62,11 +61,6 @@ TEST(SceneWindow, EndsAtMassesTooDifferentForTheIterations) {
   EXPECT_EQ(outside_with({solver, heavy(21'000), {"source[0].shape=\"ball\""}}), "");
 }
 
-TEST(SceneWindow, EndsAtNarrowBodies) {
-  expect_one(outside_with({{"shape.ball.radius=0.095"}}), "scene.toml: shape.ball = 0.19 m wide: must be at least 0.2");
-  EXPECT_EQ(outside_with({{"shape.ball.radius=0.1"}}), "");
-}
-
 TEST(SceneWindow, EndsAtObstaclesThatAreLongBesideTheirThickness) {
   const Override longer{"obstacle[0].size=[10.5,1,0.1]"};
   EXPECT_NE(outside_with({longer}).find("10.5 m long and 0.1 m thick: must be at most 100 times"), std::string::npos)
@@ -91,7 +85,7 @@ TEST(SceneWindow, OfAnotherEngineHasTheSameTextButForNameAndNumber) {
 }
 
 TEST(SceneWindow, ListsARuleForEachLimitThatAnEngineHas) {
-  EXPECT_EQ(window_rules(narrow_engine).size(), 6U);
+  EXPECT_EQ(window_rules(narrow_engine).size(), 5U);
   EXPECT_EQ(window_rules({.name = "wide"}).size(), 2U);
 }
 

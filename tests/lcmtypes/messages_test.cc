@@ -92,9 +92,9 @@ TEST(EventMessage, SaysWhatTheEventRemovesAndWhenItHappened) {
   EXPECT_EQ(messages[1].number, 1);
   EXPECT_EQ(messages[1].total, 2);
   EXPECT_EQ(messages[1].text, "remove obstacle gate");
-  EXPECT_EQ(messages[1].removed, std::vector<std::int32_t>{0});
+  EXPECT_EQ(messages[1].obstacle, std::vector<std::int32_t>{0});
   EXPECT_EQ(messages[1].happened_step, -1);
-  EXPECT_TRUE(messages[0].removed.empty());
+  EXPECT_TRUE(messages[0].obstacle.empty());
 }
 
 TEST(PilesMessage, ComesInPartsWhenPilesAreMany) {

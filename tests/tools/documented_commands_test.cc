@@ -61,10 +61,6 @@ constexpr auto shortened = std::to_array<Shortened>({
      "world.solver.kind=engine,small_steps --seeds 8 --drift --out solvers",
      "talus bench drop_in_a_pile_2d --policy full,adaptive --set world.solver.kind=engine,small_steps --seeds 1 --set "
      "run.frames=20 --drift --out solvers"},
-    {"talus bench drop_in_a_pile_2d --policy full,adaptive,reference --set policy.adaptive.tolerance=0,0.05 --set "
-     "shape.L.friction=0.2 --set ground.friction=0.2 --seeds 16 --drift --out checks",
-     "talus bench drop_in_a_pile_2d --policy full,adaptive --set policy.adaptive.tolerance=0,0.05 --set "
-     "shape.L.friction=0.2 --set ground.friction=0.2 --seeds 1 --set run.frames=20 --drift --out checks"},
     {"talus bench lab/truth/scenes/*.toml --policy full,adaptive,reference --set accuracy=fast,standard,fine --seeds 4 "
      "--out levels",
      "talus bench drop_in_a_pile_2d --policy full,adaptive,reference --set accuracy=fast,standard,fine --seeds 1 --set "

@@ -129,7 +129,7 @@ void expect_shown() {
   ASSERT_EQ(heard.events().size(), 2U);
   EXPECT_EQ(heard.events().at(0).text, "wake all bodies");
   EXPECT_EQ(heard.events().at(1).text, "remove obstacle gate");
-  EXPECT_EQ(heard.events().at(1).removed, std::vector<std::int32_t>{0});
+  EXPECT_EQ(heard.events().at(1).obstacle, std::vector<std::int32_t>{0});
   EXPECT_EQ(heard.moment().bodies.size(), 12);
   const Json end = socket.text("status", [](const Json& status) { return status["finished"].get<bool>(); });
   EXPECT_EQ(end["live"], true);

@@ -218,8 +218,8 @@ class SimulatedScene final : public ShownRun {
     event.total = own + static_cast<std::int32_t>(scene_.world.obstacles.size());
     event.action = to_string(EventAction::remove);
     event.text = fmt::format("obstacle {} cut away by hand", obstacle);
-    event.removed_count = 1;
-    event.removed = {static_cast<std::int32_t>(obstacle)};
+    event.obstacle_count = 1;
+    event.obstacle = {static_cast<std::int32_t>(obstacle)};
     writer_.event(event, simulation_.frame());
     return {};
   }

@@ -40,8 +40,10 @@ export interface EventMessage extends Header {
   number: number;
   happened_step: number;
   happened_time: number;
+  action: string;
   text: string;
-  removed: Int32Array;
+  /// Obstacles that it removes or adds.
+  obstacle: Int32Array;
 }
 
 interface StatsMessage extends Header {
@@ -137,6 +139,42 @@ export interface SceneEvent {
   time: number;
 }
 
+interface Gate {
+  name: string;
+  forward: number;
+  backward: number;
+  jammed: number;
+  outline: Float32Array;
+}
+
+export interface Region {
+  name: string;
+  kind: number;
+  low: Float64Array;
+  high: Float64Array;
+  bodies: number;
+  packing: number;
+  mean_speed: number;
+}
+
+interface Load {
+  name: string;
+  known: number;
+  force: Float64Array;
+}
+
+/// What the scene measures.
+export interface Instruments {
+  gates: Gate[];
+  regions: Region[];
+  loads: Load[];
+}
+
+interface InstrumentsMessage extends Header, Instruments {
+  part: number;
+  parts: number;
+}
+
 /// What is new at a moment.
 export interface Moment {
   step: number;
@@ -144,6 +182,8 @@ export interface Moment {
   bodies: Message[];
   piles: Pile[];
   stats: StatsMessage | null;
+  /// The newest readings; null: the scene measures nothing.
+  instruments: Instruments | null;
   obstacles: ObstaclesMessage[];
   events: SleepEvent[];
   sceneEvents: SceneEvent[];
@@ -163,6 +203,8 @@ export class MomentReader {
   private piles: Pile[] = [];
   private nextPiles: Pile[] = [];
   private stats: StatsMessage | null = null;
+  private instruments: Instruments | null = null;
+  private nextInstruments: Instruments = { gates: [], regions: [], loads: [] };
   private news: Pick<Moment, "obstacles" | "events" | "sceneEvents"> = { obstacles: [], events: [], sceneEvents: [] };
   private bodies: Message[] = [];
   private bodiesOf = { step: -1, parts: 0 };
@@ -188,6 +230,9 @@ export class MomentReader {
         break;
       case "TALUS_STATS":
         this.stats = read<StatsMessage>();
+        break;
+      case "TALUS_INSTRUMENTS":
+        this.takeInstruments(read<InstrumentsMessage>());
         break;
       case "TALUS_SLEEP":
         this.takeSleep(read<SleepMessage>());
@@ -231,6 +276,12 @@ export class MomentReader {
     if (part + 1 === parts) this.piles = this.nextPiles;
   }
 
+  private takeInstruments({ part, parts, ...here }: InstrumentsMessage): void {
+    const before = part === 0 ? { gates: [], regions: [], loads: [] } : this.nextInstruments;
+    this.nextInstruments = { gates: [...before.gates, ...here.gates], regions: [...before.regions, ...here.regions], loads: [...before.loads, ...here.loads] };
+    if (part + 1 === parts) this.instruments = this.nextInstruments;
+  }
+
   private takeSleep({ step, body, pile, layer, woke, cause, score }: SleepMessage): void {
     body.forEach((each, i) => this.news.events.push({ step, body: each, pile: pile[i], layer: layer[i], woke: woke[i] === 1, cause: cause[i], score: score[i] }));
   }
@@ -246,7 +297,7 @@ export class MomentReader {
     }
     this.bodies.push(message);
     if (part + 1 < parts) return null;
-    const moment = { step, bodies: this.bodies, piles: this.piles, stats: this.stats, ...this.news };
+    const moment = { step, bodies: this.bodies, piles: this.piles, stats: this.stats, instruments: this.instruments, ...this.news };
     this.bodies = [];
     this.news = { obstacles: [], events: [], sceneEvents: [] };
     return moment;
@@ -260,6 +311,7 @@ export class State {
   awake = 0;
   asleepCount = 0;
   piles: Pile[] = [];
+  instruments: Instruments | null = null;
   stats: StatsMessage | null = null;
   shape = new Uint16Array(64);
   asleep = new Uint8Array(64);
@@ -281,8 +333,8 @@ export class State {
 
   copy(): State {
     const copy = new State(this.dimension, this.layouts);
-    const { step, bodies, awake, asleepCount, piles, stats } = this;
-    Object.assign(copy, { step, bodies, awake, asleepCount, piles, stats });
+    const { step, bodies, awake, asleepCount, piles, stats, instruments } = this;
+    Object.assign(copy, { step, bodies, awake, asleepCount, piles, stats, instruments });
     copy.shape = this.shape.slice(0, bodies);
     copy.asleep = this.asleep.slice(0, bodies);
     copy.removed = this.removed.slice(0, bodies);
@@ -315,6 +367,7 @@ export class State {
   apply(moment: Moment): number[] {
     this.step = moment.step;
     this.piles = moment.piles;
+    this.instruments = moment.instruments;
     this.stats = moment.stats;
     for (const { obstacle, poses } of moment.obstacles)
       obstacle.forEach((number, i) => this.obstacles.set(number, Array.from(poses.subarray(i * this.components, (i + 1) * this.components))));

@@ -3,6 +3,8 @@
 import { css, overfull } from "./colours";
 import { element, make } from "./element";
 import type { Rgb } from "./head";
+import { forceOf, tone } from "./instrument_view";
+import type { Instruments } from "./moments";
 import { fullest, largest } from "./pile_layers";
 import { niceLength } from "./scale";
 import type { Timeline } from "./timeline";
@@ -44,7 +46,31 @@ const counts: Row = {
 };
 const layers: Row = { name: "layers", unit: "m", usual: true, map: true, lines: ({ head, piles }) => [{ label: "height", colour: head.colours.layer, values: piles.map((all) => largest(all)?.layers.at(-1)?.top ?? 0) }] };
 const stepTime: Row = { name: "step time", unit: "ms", usual: false, lines: ({ head, msPerStep }) => [{ label: "wall time of a step", colour: head.colours.layer, values: msPerStep }] };
-const rows = [counts, layers, stepTime];
+/// A line for each gate, region or load.
+const instrumentLines = (timeline: Timeline, of: (all: Instruments) => { name: string; value: number | null }[], first: (all: Instruments) => number): Line[] => {
+  const newest = timeline.instruments.at(-1);
+  if (!newest) return [];
+  return of(newest).map(({ name }, i) => ({ label: name, colour: tone(first(newest) + i), values: timeline.instruments.map((all) => (all && of(all)[i]?.value) ?? null) }));
+};
+const passed: Row = {
+  name: "gates",
+  unit: "passed",
+  usual: true,
+  lines: (timeline) => instrumentLines(timeline, ({ gates }) => gates.map(({ name, forward, backward }) => ({ name, value: forward - backward })), () => 0),
+};
+const packing: Row = {
+  name: "packing",
+  unit: "packing",
+  usual: true,
+  lines: (timeline) => instrumentLines(timeline, ({ regions }) => regions.map(({ name, packing: value }) => ({ name, value: value >= 0 ? value : null })), ({ gates }) => gates.length),
+};
+const loads: Row = {
+  name: "loads",
+  unit: "N",
+  usual: true,
+  lines: (timeline) => instrumentLines(timeline, ({ loads: all }) => all.map(({ name, known, force }) => ({ name, value: known ? forceOf(force) : null })), ({ gates, regions }) => gates.length + regions.length),
+};
+const rows = [counts, layers, passed, packing, loads, stepTime];
 
 export interface PlottedRun {
   timeline: Timeline;
@@ -171,7 +197,7 @@ export class Plots {
         width: 400,
         height: 60,
         series: [{}, ...lines.map(({ label, colour, bars, dashed }) => (row.map ? { label } : { label, stroke: css(colour), width: 1.5, points: { show: false }, ...(dashed ? { dash: [5, 3] } : {}), ...(bars ? { auto: false, fill: css(colour, dashed ? 0.25 : 0.7), width: 0, paths: uPlot.paths.bars!({ size: [1, 3] }) } : {}) }))],
-        scales: { x: { time: false }, y: { range: (_, __, high) => [0, 1.05 * Math.max(row === stepTime ? 1e-3 : 1, high)] } },
+        scales: { x: { time: false }, y: { range: (_, __, high) => [0, 1.05 * Math.max(row === counts ? 1 : 1e-3, high)] } },
         axes: [
           { ...axis, show: last, size: axisHeight, gap: 2, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))} s`) },
           { ...axis, size: gutter, gap: 4, splits: (_, __, ___, high) => [0, niceLength(high) / 2, niceLength(high)], values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(3))}`) },

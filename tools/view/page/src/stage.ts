@@ -6,6 +6,7 @@ import type { Head, Point } from "./head";
 import type { Contact } from "./contacts";
 import { ContactMarks, type ContactWay } from "./contact_marks";
 import { Instances, outlined } from "./instances";
+import { InstrumentView } from "./instrument_view";
 import { LayerView } from "./layer_view";
 import { matrixOf } from "./pose";
 import { niceLength } from "./scale";
@@ -44,6 +45,7 @@ export class Stage {
   private surroundings: Surroundings;
   private contactMarks: ContactMarks;
   private layers: LayerView;
+  private instruments: InstrumentView;
   private readonly flat: boolean;
   private head: Head;
   private timeline: Timeline | null = null;
@@ -97,6 +99,7 @@ export class Stage {
     this.scene.add(this.surroundings.group);
     this.contactMarks = new ContactMarks(head);
     this.layers = new LayerView(head);
+    this.instruments = new InstrumentView(head);
     this.resizes.observe(canvas.parentElement!);
     this.resize();
     this.fit();
@@ -287,10 +290,11 @@ export class Stage {
     this.box = this.boxOf(this.head);
     this.scene.background = colour(this.head.colours.paper);
     this.surround();
-    for (const part of [this.contactMarks.group, this.layers.lines]) part.removeFromParent();
+    for (const part of [this.contactMarks.group, this.layers.lines, this.instruments.lines]) part.removeFromParent();
     this.contactMarks = new ContactMarks(this.head);
     this.layers = new LayerView(this.head);
-    this.scene.add(this.contactMarks.group, this.layers.lines);
+    this.instruments = new InstrumentView(this.head);
+    this.scene.add(this.contactMarks.group, this.layers.lines, this.instruments.lines);
     const { awake_outline, asleep_outline } = this.head.colours;
     const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
     for (const shape of this.head.shapes) {
@@ -338,8 +342,16 @@ export class Stage {
   }
 
   private updateObstacles(): void {
-    const removed = new Set(this.timeline!.happenedSoFar().flatMap(({ number }) => Array.from(this.head.events[number]?.removed ?? [])));
-    this.surroundings.hideObstacles(removed);
+    const absent = new Set<number>();
+    for (const event of this.head.events) if (event?.action === "add") for (const each of event.obstacle) absent.add(each);
+    for (const { number } of this.timeline!.happenedSoFar()) {
+      const event = this.head.events[number];
+      for (const each of event?.obstacle ?? []) {
+        if (event?.action === "add") absent.delete(each);
+        else absent.add(each);
+      }
+    }
+    this.surroundings.hideObstacles(absent);
     for (const [obstacle, pose] of this.timeline!.drawn.obstacles) this.surroundings.placeObstacle(obstacle, pose);
   }
 
@@ -393,6 +405,7 @@ export class Stage {
 
   private draw(): void {
     const start = performance.now();
+    if (this.timeline) this.instruments.update(this.timeline.state.instruments);
     if (this.timeline) this.layers.update(this.showLayers ? this.timeline.state.piles : []);
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene, this.camera);
@@ -437,6 +450,7 @@ export class Stage {
     this.drawScale();
     this.drawArrow();
     this.drawChosen();
+    if (this.timeline) this.instruments.drawLabels(paper, this.timeline.state.instruments, (point) => this.onScreen(point));
     if (this.showLayers && this.timeline) this.layers.drawLabels(paper, this.timeline.state.piles, this.camera, (point) => this.onScreen(point));
   }
 

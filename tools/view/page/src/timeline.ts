@@ -4,7 +4,7 @@ import { causes } from "./causes";
 import type { Head } from "./head";
 import type { Layouts } from "./messages";
 import { mixedPose } from "./pose";
-import { type Moment, type Pile, type SceneEvent, type SleepEvent, State, type Warning } from "./moments";
+import { type Instruments, type Moment, type Pile, type SceneEvent, type SleepEvent, State, type Warning } from "./moments";
 
 /// Frames between two kept states: a step back costs at most as many moments.
 const keepEvery = 32;
@@ -31,6 +31,7 @@ export class Timeline {
   /// Kinds of warning that appeared first in it.
   readonly newWarnings: number[] = [];
   readonly piles: Pile[][] = [];
+  readonly instruments: (Instruments | null)[] = [];
   /// Mean wall time of a step since the frame before [ms]; null: not known.
   readonly msPerStep: (number | null)[] = [];
   /// The scene's events so far.
@@ -96,6 +97,7 @@ export class Timeline {
     put(this.asleep, this.newest.asleepCount);
     put(this.msPerStep, this.newest.msPerStep, (before) => before ?? this.newest.msPerStep);
     put(this.piles, moment.piles);
+    put(this.instruments, moment.instruments);
     count(this.newWarnings, this.takeWarnings(moment));
     count(this.woken, woken.length);
     count(this.avalanches, woken.filter((event) => event.cause === avalanche).length);
