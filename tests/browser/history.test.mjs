@@ -45,22 +45,25 @@ test("a page of a scene that is loaded again, or comes late, has the run from it
   for (const page of [first, late]) await page.close();
 });
 
+/// Three pages draw in software here: with small stages.
+const small = { viewport: { width: 800, height: 420 } };
+
 test("after a restart and after another scene a page has the frames of the new run only", async () => {
   const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "16", ...endless);
-  const page = await openPage(url);
+  const page = await openPage(url, small);
   await until(page, ({ bodies }) => bodies > 30);
   await pause(page);
   await page.click("#restart");
   await until(page, ({ step }) => step === 0);
   await page.click("#play");
   await until(page, ({ step }) => step > 120);
-  const late = await openPage(url);
+  const late = await openPage(url, small);
   const { step } = await history(late);
   assert.equal(step[0], 0);
   assert.ok(step.every((each, i) => i === 0 || each >= step[i - 1]), "steps grow");
   await runScene(page, (await sceneText(page)).replace(/^title = .*/m, 'title = "Another"'));
   for (const each of [page, late]) await each.waitForFunction(() => document.getElementById("title").textContent === "Another");
-  const later = await openPage(url);
+  const later = await openPage(url, small);
   await until(later, ({ bodies }) => bodies > 3);
   const again = await history(later);
   assert.equal(again.step[0], 0);

@@ -136,8 +136,12 @@ for (const [policy, wanted] of [
   test(`a click under policy ${policy} names cause, score, supports and thresholds`, async () => {
     const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--policy", policy, ...endless);
     const page = await openPage(url);
-    await until(page, ({ asleep }) => asleep > 3, 60);
-    await pause(page);
+    for (;;) {
+      await until(page, ({ asleep }) => asleep > 3, 60);
+      await pause(page);
+      if ((await shown(page)).asleep > 3) break;
+      await page.click("#play"); // the pile has woken meanwhile
+    }
     const place = await page.evaluate(() => {
       const { state } = window.talus.timeline;
       const { stage } = window.talus;

@@ -178,23 +178,25 @@ TEST(BulletSleeper, CarriesASleeperOnAPlatform) {
   }
 }
 
-/// The lower box wakes as the platform begins to sink under it, and carries nothing in its first step.
+/// The upper box sleeps a little above the lower one, as rounding leaves it, so that the lower one carries nothing when
+/// it wakes.
 TEST(BulletSleeper, LowersAStackOfSleepersOnAPlatform) {
-  for (int i = 0; i < 20; ++i) {
-    SleepingBulletScene scene;
-    btRigidBody& lift = scene.add_lift({4, 4, 1}, {0, 0, 1.5});
-    const double turn = 0.07 * i;
-    btRigidBody& lower = scene.drop({{0, 0, 2.3}, Rotation<3>(Eigen::AngleAxisd(turn, Vec3::UnitZ()))});
-    btRigidBody& upper = scene.drop({{0.01 * i, 0, 2.85}, Rotation<3>::Identity()});
-    scene.run(240);
-    ASSERT_TRUE(scene.sleeper->asleep(lower) && scene.sleeper->asleep(upper));
-    const double apart = place(upper).z() - place(lower).z();
-    for (int step = 1; step <= 60; ++step) {
-      scene.move_lift(lift, {0, 0, 1.5 - 0.3 * drop_dt * step}, drop_dt);
-      scene.step();
-    }
-    EXPECT_NEAR(place(upper).z() - place(lower).z(), apart, 0.03) << i;
+  SleepingBulletScene scene;
+  btRigidBody& lift = scene.add_lift({4, 4, 1}, {0, 0, 1.5});
+  btRigidBody& lower = scene.drop({{0, 0, 2.3}, Rotation<3>::Identity()});
+  btRigidBody& upper = scene.drop({{0, 0, 2.85}, Rotation<3>::Identity()});
+  scene.run(240);
+  ASSERT_TRUE(scene.sleeper->asleep(lower) && scene.sleeper->asleep(upper));
+  const std::vector<SavedSleep> saved = scene.sleeper->snapshot();
+  upper.getWorldTransform().getOrigin() += btVector3(0, 0, btScalar(0.004));
+  scene.sleeper->restore(saved);
+  ASSERT_TRUE(scene.sleeper->asleep(upper));
+  for (int step = 1; step <= 60; ++step) {
+    scene.move_lift(lift, {0, 0, 1.5 - 0.3 * drop_dt * step}, drop_dt);
+    scene.step();
   }
+  EXPECT_LT(place(lower).z(), 2.0);
+  EXPECT_NEAR(place(upper).z() - place(lower).z(), 0.5, 0.02);
 }
 
 /// The engine's bits: nothing that a switched-off sleeper does reaches the world.

@@ -63,8 +63,8 @@ class Game {
     }
     return count;
   }
-  /// Boxes that are lost or sleep in the ground, with their places; empty: none. One that falls again and again, since it
-  /// is taken up or loaded, is within the ground for a step or two when it lands, until the engine pushes it out.
+  /// Boxes that are lost or sleep in the ground, with their places; empty: none. One that falls again and again, since
+  /// it is taken up or loaded, is within the ground for a step or two when it lands, until the engine pushes it out.
   std::string lost() const {
     std::string found;
     if (scene_.sleeper->size() != static_cast<int>(boxes_.size()) + 1) found += "other numbers of bodies; ";

@@ -4,10 +4,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "common/scene/table_reader.h"
 #include "common/text/file.h"

@@ -1,9 +1,11 @@
 #pragma once
 // Published experiments as data: scenes/published/experiments.toml.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace talus {
