@@ -78,6 +78,11 @@ export interface PlottedRun {
   name: string;
 }
 
+/// Fits beside an axis: 250, 0.05, 20k, 1.5M.
+const brief = (value: number): string => {
+  const power = value >= 1e6 ? 6 : value >= 1e4 ? 3 : 0;
+  return `${Number((value / 10 ** power).toPrecision(3))}${power === 6 ? "M" : power === 3 ? "k" : ""}`;
+};
 const shortened = (text: string): string => (text.length > 40 ? `${text.slice(0, 39)}\u2026` : text);
 
 /// A row as it is on the page.
@@ -200,7 +205,7 @@ export class Plots {
         scales: { x: { time: false }, y: { range: (_, __, high) => [0, 1.05 * Math.max(row === counts ? 1 : 1e-3, high)] } },
         axes: [
           { ...axis, show: last, size: axisHeight, gap: 2, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))} s`) },
-          { ...axis, size: gutter, gap: 4, splits: (_, __, ___, high) => [0, niceLength(high) / 2, niceLength(high)], values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(3))}`) },
+          { ...axis, size: gutter, gap: 4, splits: (_, __, ___, high) => [0, niceLength(high) / 2, niceLength(high)], values: (_, ticks) => ticks.map(brief) },
         ],
         padding: [4, 16, last ? 0 : 4, 0],
         legend: { show: false },
