@@ -56,7 +56,7 @@ void ContactListener::start_step(bool sleepers, bool recording) {
   records_.clear();
 }
 
-void ContactListener::gather(std::span<const std::uint8_t> asleep, std::vector<Contact<2>>& out) {
+void ContactListener::gather(std::span<const std::uint8_t> asleep, std::vector<Contact<2>>& out) const {
   const auto awake = [asleep](BodyIndex body) { return body >= 0 && asleep[body] == 0; };
   touches_.clear();
   for (const ContactRecord& record : records_.all()) {

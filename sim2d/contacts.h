@@ -32,7 +32,7 @@ class ContactListener final : public b2ContactListener {
 
   /// After a step that recorded: appends its touching contacts, sorted by their bodies and pieces. Each is listed once:
   /// that of two awake bodies under the one with the lower index. `asleep`: by body.
-  void gather(std::span<const std::uint8_t> asleep, std::vector<Contact<2>>& out);
+  void gather(std::span<const std::uint8_t> asleep, std::vector<Contact<2>>& out) const;
 
  private:
   /// A contact, and its two sides in the order of the result.
@@ -49,7 +49,7 @@ class ContactListener final : public b2ContactListener {
   bool sleepers_ = false;
   bool recording_ = false;
   ContactRecords records_;
-  std::vector<Touch> touches_;  // scratch
+  mutable std::vector<Touch> touches_;  // scratch
 };
 
 }  // namespace talus::box2d

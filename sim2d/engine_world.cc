@@ -37,6 +37,14 @@ b2Transform stored_pose(const Pose<2>& pose) {
   return {to_engine(pose.position), b2Rot(static_cast<float>(pose.rotation.angle()))};
 }
 
+/// Removing one walks the list of its host, so a thaw costs more with more of them. Box2D's own step visits all hosts,
+/// so it costs more with fewer: at 128 a step of 100 awake bodies costs the same over 100,000 frozen ones as over
+/// 1,000; at 64 it costs 7 % more, at 16 75 %. The steps of SmallSteps visit none.
+int sleepers_in_a_host(const WorldDescription<2>& description) {
+  if (description.debug.keep_sleepers) return 1;
+  return description.solver.small_steps() ? 8 : 128;
+}
+
 void give_velocity(b2Body& body, const Vec<2>& velocity, const Spin<2>& spin) {
   body.SetLinearVelocity(to_engine(velocity));
   body.SetAngularVelocity(static_cast<float>(spin[0]));
@@ -47,7 +55,7 @@ void give_velocity(b2Body& body, const Vec<2>& velocity, const Spin<2>& spin) {
 EngineWorld::EngineWorld(const WorldDescription<2>& description)
     : World<2>(description, {fastest_speed<2>(description.dt), fastest_spin(description.dt)}),
       world_(to_engine(description.gravity_vector())),
-      hosts_(world_, !description.debug.keep_sleepers),
+      hosts_(world_, sleepers_in_a_host(description)),
       continuous_(description),
       listener_(description, warm_start_, continuous_) {
   for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
@@ -184,7 +192,7 @@ std::optional<BodyIndex> EngineWorld::engine_read(BodyStates<2>& states) {
   return std::nullopt;
 }
 
-void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) {
+void EngineWorld::engine_contacts(std::vector<Contact<2>>& contacts) const {
   if (small_steps_)
     small_steps_->gather(states(), contacts);
   else
@@ -200,6 +208,7 @@ void EngineWorld::engine_move_obstacle(int number, const Pose<2>& /*to*/, const 
 }
 
 void EngineWorld::engine_place_obstacle(int number, const Pose<2>& at) {
+  if (!small_steps_) contacts();  // Box2D measures them from where the obstacle is
   b2Body& body = *obstacles_[number];
   body.SetTransform(to_engine(at.position), engine_angle(at.rotation.angle()));
   give_velocity(body, Vec<2>::Zero(), Spin<2>::Zero());

@@ -42,7 +42,7 @@ class EngineWorld final : public World<2> {
   void engine_freeze(std::span<const BodyIndex> bodies) override;
   void engine_thaw(std::span<const BodyIndex> bodies) override;
   void engine_query_box(const Box<2>& box, std::vector<BodyIndex>& found) const override;
-  void engine_contacts(std::vector<Contact<2>>& contacts) override;
+  void engine_contacts(std::vector<Contact<2>>& contacts) const override;
   bool engine_awake(BodyIndex body) const override;
   void engine_move_obstacle(int number, const Pose<2>& to, const Vec<2>& velocity, const Spin<2>& spin) override;
   void engine_place_obstacle(int number, const Pose<2>& at) override;

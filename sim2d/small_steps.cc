@@ -26,6 +26,12 @@ float skin_of(const b2Fixture& fixture) {
   return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
 }
 
+/// Ascending as (first, second) are.
+std::uint64_t ascending_pair(std::int32_t first, std::int32_t second) {
+  constexpr std::uint32_t sign = 0x80000000;
+  return (std::uint64_t{static_cast<std::uint32_t>(first) ^ sign} << 32U) | (static_cast<std::uint32_t>(second) ^ sign);
+}
+
 /// As Box2D has it.
 VecF<2> tangent_of(const ContactPoint<2>& point) { return {point.normal.y(), -point.normal.x()}; }
 
@@ -496,7 +502,7 @@ void SmallSteps::move_bodies(std::span<b2Body* const> bodies) const {
   }
 }
 
-void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& out) {
+void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& out) const {
   const auto awake = [&](BodyIndex body) { return body >= 0 && states.asleep[body] == 0; };
   ordered_.clear();
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -506,23 +512,24 @@ void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& ou
     const bool swap = !awake(a) || (awake(b) && b < a);
     const Tag first = swap ? source.b : source.a;
     const Tag second = swap ? source.a : source.b;
-    ordered_.push_back({owner_of(first), owner_of(second), piece_of(second), piece_of(first), i, swap});
+    ordered_.push_back({ascending_pair(owner_of(first), owner_of(second)),
+                        ascending_pair(piece_of(second), piece_of(first)), static_cast<std::uint32_t>(i), swap});
   }
   std::ranges::sort(ordered_);
   for (const Listed& listed : ordered_) {
     const Source& source = sources_[listed.source];
     const ContactPoint<2>& point = solver_.points()[listed.source];
+    if (source.contact == nullptr && point.normal_sum == 0.0F) continue;  // did not touch
     const SolverBody<2>& a = solver_.body(point.a);
     const SolverBody<2>& b = solver_.body(point.b);
     const auto moved = [](const SolverBody<2>& body, const VecF<2>& arm) -> VecF<2> {
       return body.way + body.turn[0] * VecF<2>(-arm.y(), arm.x());
     };
     const float gap = point.gap + point.normal.dot(moved(b, point.arm_b) - moved(a, point.arm_a));
-    if (source.contact == nullptr && point.normal_sum == 0.0F) continue;  // did not touch
     const double sign = listed.swapped ? 1.0 : -1.0;  // the result's normal points to its first body
     Contact<2>& contact = out.emplace_back();
-    contact.a = listed.a;
-    contact.b = listed.b;
+    contact.a = owner_of(listed.swapped ? source.b : source.a);
+    contact.b = owner_of(listed.swapped ? source.a : source.b);
     const VecF<2>& arm = listed.swapped ? point.arm_b : point.arm_a;
     contact.point = states.pose[contact.a].position + arm.cast<double>();
     contact.normal = sign * point.normal.cast<double>();

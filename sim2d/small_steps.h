@@ -52,7 +52,7 @@ class SmallSteps {
 
   /// Appends the contacts of the last step, sorted by their bodies and pieces. Each is listed once: that of two awake
   /// bodies under the one with the lower index.
-  void gather(const BodyStates<2>& states, std::vector<Contact<2>>& out);
+  void gather(const BodyStates<2>& states, std::vector<Contact<2>>& out) const;
 
  private:
   /// Where a point of the solver comes from.
@@ -64,11 +64,9 @@ class SmallSteps {
   };
   /// A contact point with what gather() sorts by: its bodies, of which `a` is awake, then their pieces.
   struct Listed {
-    BodyIndex a = 0;
-    BodyIndex b = 0;
-    int piece_b = 0;
-    int piece_a = 0;
-    std::size_t source = 0;
+    std::uint64_t bodies = 0;  // a, then b
+    std::uint64_t pieces = 0;  // of b, then of a
+    std::uint32_t source = 0;
     bool swapped = false;  // the source has the bodies in the other order
     auto operator<=>(const Listed&) const = default;
   };
@@ -144,7 +142,7 @@ class SmallSteps {
   std::vector<b2Fixture*> found_;           // scratch
   std::vector<ContactPoint<2>> points_;     // scratch
   std::vector<SleepingPoint<2>> released_;  // scratch
-  std::vector<Listed> ordered_;             // scratch
+  mutable std::vector<Listed> ordered_;     // scratch
 };
 
 }  // namespace talus::box2d

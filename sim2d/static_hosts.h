@@ -16,8 +16,8 @@ namespace talus::box2d {
 /// The shared static bodies (hosts) and the frozen bodies in each.
 class StaticHosts {
  public:
-  /// `shared`: whether frozen bodies share hosts; otherwise each has one of its own.
-  StaticHosts(b2World& world, bool shared) : world_(&world), capacity_(shared ? 128 : 1) {}
+  /// `capacity`: frozen bodies in one host.
+  StaticHosts(b2World& world, int capacity) : world_(&world), capacity_(capacity) {}
 
   /// Adds solid, immovable fixtures at a pose. Returns the first; the body's others follow by GetNext().
   b2Fixture* add(BodyIndex body, const BodyTemplate& from, const b2Transform& pose);
@@ -41,10 +41,7 @@ class StaticHosts {
   static std::size_t slot_of(b2Body& host) { return host.GetUserData().pointer; }
 
   b2World* world_;
-  // Frozen bodies in one host. Removing a fixture walks the host's list, so a thaw costs more with more of them; a step
-  // visits all hosts, so it costs more with fewer. At 128 a step of 100 awake bodies costs the same over 100,000 frozen
-  // ones as over 1,000; at 64 it costs 7 % more, at 16 75 %. A single thaw costs up to 1.5 times one among 16.
-  int capacity_;
+  int capacity_;  // frozen bodies in one host
   std::vector<Host> hosts_;
   std::vector<std::size_t> vacant_;  // slots without a body
   std::vector<std::size_t> open_;    // slots with room; may name hosts that have been filled or dropped since

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim3d/conversions.h"
+#include "sim3d/fetch.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
@@ -17,25 +18,30 @@ bool is_awake_body(const btCollisionObject& object) { return object.isActive() &
 }  // namespace
 
 template <int Dim>
-void Contacts<Dim>::note_motion(std::span<btRigidBody* const> bodies) {
+void Contacts<Dim>::note_motion(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving_obstacles) {
   first_ = bodies.empty() ? 0 : bodies.front()->getWorldArrayIndex();
   motion_.clear();
-  for (const btRigidBody* body : bodies) motion_.push_back({body->getLinearVelocity(), body->getAngularVelocity()});
+  for (const btRigidBody* body : bodies) motion_.emplace_back(*body);
+  obstacles_.clear();
+  for (const btRigidBody* obstacle : moving_obstacles) obstacles_.emplace_back(obstacle, Motion(*obstacle));
 }
 
 template <int Dim>
-void Contacts<Dim>::gather(const Engine& engine, std::vector<Contact<Dim>>& contacts) {
+void Contacts<Dim>::gather(const Engine& engine, std::vector<Contact<Dim>>& contacts) const {
   find_touches(engine);
-  // The manifolds' order depends on the history of pairs; those of one pair keep theirs.
-  std::ranges::stable_sort(touches_, {}, &Touch::place);
-  for (const Touch& touch : touches_) append(touch, contacts);
+  std::ranges::sort(places_);
+  for (const Place& place : places_) append(touches_[place.touch], contacts);
 }
 
 template <int Dim>
-void Contacts<Dim>::find_touches(const Engine& engine) {
+void Contacts<Dim>::find_touches(const Engine& engine) const {
   touches_.clear();
-  for (int i = 0; i < engine.dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *const_cast<Engine&>(engine).dispatcher.getManifoldByIndexInternal(i);
+  places_.clear();
+  btPersistentManifold** manifolds = const_cast<Engine&>(engine).dispatcher.getInternalManifoldPointer();
+  const int count = engine.dispatcher.getNumManifolds();
+  for (int i = 0; i < count; ++i) {
+    if (i + 12 < count) fetch_head(*manifolds[i + 12]);
+    const btPersistentManifold& manifold = *manifolds[i];
     const btCollisionObject& first = *manifold.getBody0();
     const btCollisionObject& second = *manifold.getBody1();
     if (manifold.getNumContacts() == 0 || (!is_awake_body(first) && !is_awake_body(second))) continue;
@@ -43,7 +49,8 @@ void Contacts<Dim>::find_touches(const Engine& engine) {
     const bool swap = !is_awake_body(first) || (is_awake_body(second) && second.getUserIndex() < first.getUserIndex());
     const btCollisionObject& a = swap ? second : first;
     const btCollisionObject& b = swap ? first : second;
-    touches_.push_back({place_of_pair(a.getUserIndex(), b.getUserIndex()), &manifold, &a, &b, swap});
+    places_.push_back({place_of_pair(a.getUserIndex(), b.getUserIndex()), touches_.size()});
+    touches_.push_back({&manifold, &a, &b, swap});
   }
 }
 
@@ -74,8 +81,8 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
 template <int Dim>
 typename Contacts<Dim>::Motion Contacts<Dim>::motion_before(const btCollisionObject& object) const {
   if (object.isKinematicObject()) {
-    const btRigidBody& obstacle = *btRigidBody::upcast(&object);
-    return {obstacle.getLinearVelocity(), obstacle.getAngularVelocity()};
+    const auto moving = std::ranges::find(obstacles_, &object, &decltype(obstacles_)::value_type::first);
+    return moving == obstacles_.end() ? Motion() : moving->second;
   }
   if (object.isStaticObject() || object.getUserIndex() < 0) return {};
   return motion_[object.getWorldArrayIndex() - first_];

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/world/body.h"
@@ -19,15 +20,17 @@ class Contacts {
   /// `mass_scale`: of the world; impulses are divided by it. `small_steps`: whether SmallSteps solves them.
   Contacts(double mass_scale, bool small_steps) : impulse_unit_(1.0 / mass_scale), small_steps_(small_steps) {}
 
-  /// Before a step whose contacts will be gathered: notes the velocities, from which the approach speeds follow.
+  /// Before a step whose contacts may be gathered: notes the velocities, from which the approach speeds follow.
   /// `bodies` are those that stand one after the other in Bullet's list.
-  void note_motion(std::span<btRigidBody* const> bodies);
+  void note_motion(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving_obstacles);
 
   /// After a step: appends its contacts, see World::contacts().
-  void gather(const Engine& engine, std::vector<Contact<Dim>>& contacts);
+  void gather(const Engine& engine, std::vector<Contact<Dim>>& contacts) const;
 
  private:
   struct Motion {
+    explicit Motion(const btRigidBody& body) : velocity(body.getLinearVelocity()), spin(body.getAngularVelocity()) {}
+    Motion() = default;
     btVector3 velocity = btVector3(0, 0, 0);
     btVector3 spin = btVector3(0, 0, 0);
     btVector3 at(const btCollisionObject& object, const btVector3& point) const {
@@ -36,20 +39,28 @@ class Contacts {
   };
   /// The contact of a pair, or of two of its pieces, and its bodies in the order of the result.
   struct Touch {
-    std::int64_t place = 0;  // in the order of pairs
     const btPersistentManifold* manifold = nullptr;
     const btCollisionObject* a = nullptr;
     const btCollisionObject* b = nullptr;
     bool swap = false;  // b is Bullet's first
   };
-  void find_touches(const Engine& engine);
+  /// Where a touch comes in the result. The manifolds' order depends on the history of pairs; those of one pair keep
+  /// theirs.
+  struct Place {
+    std::int64_t pair = 0;
+    std::size_t touch = 0;
+    auto operator<=>(const Place&) const = default;
+  };
+  void find_touches(const Engine& engine) const;
   void append(const Touch& touch, std::vector<Contact<Dim>>& contacts) const;
   Motion motion_before(const btCollisionObject& object) const;
 
-  std::vector<Touch> touches_;  // scratch
-  std::vector<Motion> motion_;  // before the step
-  int first_ = 0;               // place of the first body of motion_ in Bullet's list
-  double impulse_unit_;         // [N s]
+  mutable std::vector<Touch> touches_;                                  // scratch
+  mutable std::vector<Place> places_;                                   // scratch: of the touches
+  std::vector<Motion> motion_;                                          // before the step
+  std::vector<std::pair<const btCollisionObject*, Motion>> obstacles_;  // those that move, in the step
+  int first_ = 0;        // place of the first body of motion_ in Bullet's list
+  double impulse_unit_;  // [N s]
   bool small_steps_;
 };
 

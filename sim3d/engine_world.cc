@@ -151,7 +151,7 @@ void EngineWorld<Dim>::engine_set_velocity(BodyIndex body, const Vec<Dim>& veloc
 
 template <int Dim>
 EngineTimes EngineWorld<Dim>::engine_step() {
-  if (this->records_contacts()) contacts_.note_motion(rigid_);
+  if (this->records_contacts()) contacts_.note_motion(rigid_, moving_obstacles_);
   if (!this->description().debug.step_when_idle && idle()) {
     if (small_steps_) small_steps_->skip();
     // Upkeep of the broadphase's trees: their form decides the order of pairs, and so how a run continues after a thaw.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim3d/body_template.h"
+#include "sim3d/fetch.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
@@ -80,18 +81,6 @@ SolverBody<Dim> moving_obstacle(const btRigidBody& obstacle) {
   body.velocity = to_solver<Dim>(obstacle.getLinearVelocity());
   body.spin = spin_to_solver<Dim>(obstacle.getAngularVelocity());
   return body;
-}
-
-void fetch(const btManifoldPoint& point) {
-  const auto* memory = reinterpret_cast<const char*>(&point);
-  for (std::size_t at = 0; at < sizeof(btManifoldPoint); at += 64) __builtin_prefetch(memory + at);
-}
-
-/// The last bytes of a manifold, which hold its bodies and the number of its points.
-void fetch_head(const btPersistentManifold& manifold) {
-  const char* end = reinterpret_cast<const char*>(&manifold + 1);
-  __builtin_prefetch(end - 64);
-  __builtin_prefetch(end - 1);
 }
 
 // Two points of a planar pair that are nearer are one, at the front and the back of the bodies [extents of the

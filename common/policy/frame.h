@@ -44,7 +44,7 @@ inline constexpr std::array<Phase, 9> all_phases = {{
     {"step", "the engine's step", &PhaseTimes::step},
     {"collide", "of it: finding contacts", &PhaseTimes::collide},
     {"solve", "of it: solving and moving", &PhaseTimes::solve},
-    {"read", "of it: copying states and contacts out", &PhaseTimes::read},
+    {"read", "of it: copying states out", &PhaseTimes::read},
     {"count", "counting piles", &PhaseTimes::count},
     {"decide", "the policy", &PhaseTimes::decide},
     {"apply", "freezing and thawing", &PhaseTimes::apply},

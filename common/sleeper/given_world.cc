@@ -126,7 +126,7 @@ void GivenWorld<Dim>::give_contacts(std::span<const Contact<Dim>> contacts) {
 }
 
 template <int Dim>
-void GivenWorld<Dim>::engine_contacts(std::vector<Contact<Dim>>& contacts) {
+void GivenWorld<Dim>::engine_contacts(std::vector<Contact<Dim>>& contacts) const {
   contacts.insert(contacts.end(), given_.begin(), given_.end());
 }
 

@@ -56,7 +56,7 @@ class GivenWorld final : public World<Dim> {
   void engine_freeze(std::span<const BodyIndex>) override {}
   void engine_thaw(std::span<const BodyIndex>) override {}
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override;
-  void engine_contacts(std::vector<Contact<Dim>>& contacts) override;
+  void engine_contacts(std::vector<Contact<Dim>>& contacts) const override;
   bool engine_awake(BodyIndex body) const override { return this->states().asleep[body] == 0; }
   bool is_awake(BodyIndex body) const { return body >= 0 && this->states().asleep[body] == 0; }
 

@@ -84,7 +84,7 @@ class ScaledWorld final : public World<Dim> {
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override {
     inner_->query_box({lengths_ * box.min(), lengths_ * box.max()}, found);
   }
-  void engine_contacts(std::vector<Contact<Dim>>& contacts) override {
+  void engine_contacts(std::vector<Contact<Dim>>& contacts) const override {
     for (const Contact<Dim>& contact : inner_->contacts()) contacts.push_back(outward(contact));
   }
   Contact<Dim> outward(Contact<Dim> contact) const {
@@ -103,7 +103,8 @@ class ScaledWorld final : public World<Dim> {
   double times_;
 };
 
-/// A shape in larger units, of the same density; without rounding, unlike scaled(), which computes mass and inertia anew.
+/// A shape in larger units, of the same density; without rounding, unlike scaled(), which computes mass and inertia
+/// anew.
 template <int Dim>
 void enlarge(Shape<Dim>& shape, double lengths) {
   for (Piece<Dim>& piece : shape.pieces) scale(piece, lengths);

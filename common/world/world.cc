@@ -68,6 +68,7 @@ void World<Dim>::put_obstacle(int number, const Obstacle<Dim>& obstacle) {
 template <int Dim>
 void World<Dim>::remove(BodyIndex body) {
   require_present(body);
+  gather_contacts();
   ++removals_;
   states_.removed[body] = 1;
   std::erase(awake_, body);
@@ -80,9 +81,11 @@ void World<Dim>::step() {
   if (failure_) throw NonFiniteState(*failure_);
   ++steps_;
   contacts_.clear();
+  contacts_wait_ = false;
   times_ = engine_step();
   pushes_.clear();
   if (!awake_.empty()) read_step();
+  if (description_.debug.gather_contacts) gather_contacts();
   place_obstacles();
 }
 
@@ -116,6 +119,7 @@ void World<Dim>::set_surface_velocity(int number, const Vec<Dim>& velocity) {
 template <int Dim>
 void World<Dim>::remove_obstacle(int number) {
   require_obstacle(number);
+  gather_contacts();
   engine_remove_obstacle(number);
   removed_obstacles_.resize(description_.obstacles.size(), 0);
   removed_obstacles_[number] = 1;
@@ -172,8 +176,14 @@ void World<Dim>::read_step() {
     throw NonFiniteState(*failure_);
   }
   if (description_.engine_sleep) follow_engine_sleep();
-  if (record_contacts_) engine_contacts(contacts_);
+  contacts_wait_ = record_contacts_;
   times_.read = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <int Dim>
+void World<Dim>::gather_contacts() const {
+  if (contacts_wait_) engine_contacts(contacts_);
+  contacts_wait_ = false;
 }
 
 template <int Dim>
@@ -199,6 +209,7 @@ template <int Dim>
 void World<Dim>::freeze(std::span<const BodyIndex> bodies) {
   choose(bodies, false);
   if (chosen_.empty()) return;
+  gather_contacts();
   for (const BodyIndex body : chosen_) stop(body);
   std::erase_if(awake_, [this](BodyIndex body) { return states_.asleep[body] != 0; });
   engine_freeze(chosen_);
@@ -209,6 +220,7 @@ template <int Dim>
 void World<Dim>::thaw(std::span<const BodyIndex> bodies) {
   choose(bodies, true);
   if (chosen_.empty()) return;
+  gather_contacts();
   for (const BodyIndex body : chosen_) states_.asleep[body] = 0;
   const auto middle = static_cast<std::ptrdiff_t>(awake_.size());
   awake_.insert(awake_.end(), chosen_.begin(), chosen_.end());

@@ -32,7 +32,7 @@ class NonFiniteState : public std::runtime_error {
 struct EngineTimes {
   double collide = 0.0;  // broad and narrow phase
   double solve = 0.0;    // islands, constraints, integration
-  double read = 0.0;     // copying the states of the awake bodies, and the contacts where they are recorded
+  double read = 0.0;     // copying the states of the awake bodies
 };
 
 /// Limits at which an engine cuts the motion of a body. Box2D cuts speed and spin and Bullet the spin; the speed of
@@ -132,13 +132,17 @@ class World {
   double gravity_size() const { return description_.gravity; }
   const Vec<Dim>& down() const { return description_.down; }
 
-  /// Whether the steps from now on record their contacts, which takes 5 to 15 % of a step. Off in a new world.
+  /// Whether the steps from now on record their contacts. Off in a new world.
   void record_contacts(bool record) { record_contacts_ = record; }
 
   /// Contact points of awake bodies in the last step, if the step recorded them: in the same order whenever the input
   /// is the same, the points of one pair side by side. Each point is listed once: between two awake bodies under the
   /// one with the lower index. Depths follow from the shapes and may be negative. Nothing but a step changes this list.
-  std::span<const Contact<Dim>> contacts() const { return contacts_; }
+  /// Its first use after a step takes 5 to 15 % of the step.
+  std::span<const Contact<Dim>> contacts() const {
+    gather_contacts();
+    return contacts_;
+  }
 
   /// States of all bodies; changes with add, remove, step, set_velocity, freeze, thaw.
   const BodyStates<Dim>& states() const { return states_; }
@@ -236,8 +240,9 @@ class World {
   /// Appends the bodies near `box` in any order; a body may come several times.
   virtual void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const = 0;
 
-  /// Appends the contacts of the last step, as contacts() describes them.
-  virtual void engine_contacts(std::vector<Contact<Dim>>& contacts) = 0;
+  /// Appends the contacts of the last step, as contacts() describes them. Since then no body was removed, fell asleep
+  /// or woke; velocities may be new, and obstacles are where they went.
+  virtual void engine_contacts(std::vector<Contact<Dim>>& contacts) const = 0;
 
   /// Whether the engine's own sleeping rule leaves a body awake; false for a frozen one. Called only with
   /// WorldDescription::engine_sleep.
@@ -249,6 +254,7 @@ class World {
   /// Those of `bodies` that are asleep, or those that are not: ascending, each once.
   void choose(std::span<const BodyIndex> bodies, bool asleep);
   void read_step();
+  void gather_contacts() const;
   void stop(BodyIndex body);
   void follow_engine_sleep();
 
@@ -256,7 +262,8 @@ class World {
   SpeedLimits limits_;
   BodyStates<Dim> states_;
   std::vector<BodyIndex> awake_;
-  std::vector<Contact<Dim>> contacts_;
+  mutable std::vector<Contact<Dim>> contacts_;
+  mutable bool contacts_wait_ = false;            // those of the last step are still to be gathered
   std::vector<BodyIndex> chosen_;                 // scratch
   std::vector<std::pair<int, Pose<Dim>>> moves_;  // of obstacles in the next step
   std::vector<std::uint8_t> removed_obstacles_;   // by number; empty: none

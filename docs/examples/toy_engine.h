@@ -73,7 +73,7 @@ class ToyWorld final : public World<3> {
     }
     return std::nullopt;
   }
-  void engine_contacts(std::vector<Contact<3>>& contacts) override {
+  void engine_contacts(std::vector<Contact<3>>& contacts) const override {
     for (const BodyIndex body : awake()) {
       const Sphere& sphere = at(body);
       if (sphere.approach_speed == 0.0) continue;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/policy/adaptive/adaptive_policy.h"
 #include "common/policy/adaptive/impacts.h"
 #include "common/policy/adaptive/impacts_ahead.h"
 #include "common/policy/adaptive/support_criterion.h"
@@ -134,6 +135,41 @@ bool sleeps_at(double height) {
 TEST(AdaptivePolicy, LetsABodySleepOnTheGroundAndNotBelowIt) {
   EXPECT_TRUE(sleeps_at(0.1));
   EXPECT_FALSE(sleeps_at(-0.1));
+}
+
+/// How often the policy takes contacts out of a world in which a cube that rests or falls is simulated so long.
+int gathers_of(int steps, const Vec3& velocity, int rings) {
+  const RuleParts parts;
+  AdaptivePolicy<3> policy({.rings = rings}, cubes(), parts.typical);
+  const PileSet<3> piles({}, parts.typical);
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5)});
+  world.record_contacts(true);
+  for (int step = 1; step <= steps; ++step) {
+    world.step();
+    world.move(0, {.position = world.states().pose[0].position + world.dt() * velocity});
+    Decision<3> decision;
+    policy.decide({.step = step, .world = world, .piles = piles, .events = {}, .phases = {}}, decision);
+  }
+  return world.gathers;
+}
+
+TEST(AdaptivePolicy, ReadsContactsWithARingOnlyWhereABodyHasRestedLongEnough) {
+  EXPECT_EQ(gathers_of(60, Vec3::UnitZ(), 2), 0);
+  EXPECT_EQ(gathers_of(60, Vec3::UnitZ(), 0), 60) << "the rules read them in each step";
+  EXPECT_GT(gathers_of(60, Vec3::Zero(), 2), 0);
+}
+
+TEST(World, KeepsTheContactsOfAStepHoweverLateTheyAreRead) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5)});
+  world.touching = {contact(0, ground_index, Vec3::Zero(), Vec3::UnitZ(), 1.0)};
+  world.record_contacts(true);
+  world.step();
+  EXPECT_EQ(world.gathers, 0) << "nothing has read them";
+  world.freeze(std::vector<BodyIndex>{0});
+  world.touching.clear();
+  EXPECT_EQ(world.contacts().size(), 1U);
+  EXPECT_EQ(world.contacts().size(), 1U);
+  EXPECT_EQ(world.gathers, 1);
 }
 
 /// The rule with a slack of 0.01 m, and the bodies that it wakes in each step.

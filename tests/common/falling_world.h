@@ -38,7 +38,7 @@ class FallingWorld final : public World<Dim> {
   void engine_query_box(const Box<Dim>&, std::vector<BodyIndex>&) const override {
     throw std::logic_error("a falling world has no query");
   }
-  void engine_contacts(std::vector<Contact<Dim>>&) override {}
+  void engine_contacts(std::vector<Contact<Dim>>&) const override {}
   bool engine_awake(BodyIndex) const override { return true; }
 };
 

@@ -18,6 +18,7 @@ class StillWorld final : public World<Dim> {
   }
 
   std::vector<Contact<Dim>> touching;  // the contacts of each step
+  mutable int gathers = 0;             // of them by the world
 
  private:
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
@@ -35,7 +36,10 @@ class StillWorld final : public World<Dim> {
       if (box.intersects(this->bounds_of(body))) found.push_back(body);
     }
   }
-  void engine_contacts(std::vector<Contact<Dim>>& contacts) override { contacts = touching; }
+  void engine_contacts(std::vector<Contact<Dim>>& contacts) const override {
+    ++gathers;
+    contacts = touching;
+  }
   bool engine_awake(BodyIndex) const override { return true; }
 };
 

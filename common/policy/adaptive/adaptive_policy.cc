@@ -49,7 +49,8 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   assert(sleepers_.matches(frame.world.states()));
   const bool nothing_to_wake = ring_ ? frame.world.stirred().empty() : !checks_.may_begin(sleepers_);
   if (frame.world.awake().empty() && nothing_to_wake) return;
-  const RuleInput<Dim> in{frame.world, frame.world.contacts(), frame.piles.piles(), frame.step};
+  RuleInput<Dim> in{frame.world, {}, frame.piles.piles(), frame.step};
+  if (!ring_ || std::ranges::any_of(in.piles, &Pile<Dim>::slope_controlled)) in.contacts = in.world.contacts();
   output_.clear();
   rest_.update(in);
   find_wakes(in);
@@ -114,7 +115,7 @@ void AdaptivePolicy<Dim>::limit_velocities(const World<Dim>& world) {
 }
 
 template <int Dim>
-void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision) {
+void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, RuleInput<Dim>& in, Decision<Dim>& decision) {
   bodies_.clear();
   const RestTimes times = rest_times_in(in.world);
   for (const Rest& rest : rest_.references()) {
@@ -123,6 +124,8 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, const RuleInp
     if (ring_ && is_fast(in, body)) continue;
     if (frame.may_sleep(body)) bodies_.push_back(body);
   }
+  if (bodies_.empty()) return;
+  in.contacts = in.world.contacts();
   support_.keep_supported(in, bodies_);
   for (const BodyIndex body : bodies_) {
     const Placement place = placement(frame, body);

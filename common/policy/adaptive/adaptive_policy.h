@@ -69,7 +69,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
 
   void find_wakes(const RuleInput<Dim>& in);
   void limit_velocities(const World<Dim>& world);
-  void choose_sleepers(const Frame<Dim>& frame, const RuleInput<Dim>& in, Decision<Dim>& decision);
+  void choose_sleepers(const Frame<Dim>& frame, RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
   bool is_fast(const RuleInput<Dim>& in, BodyIndex body) const;
   RestTimes rest_times_in(const World<Dim>& world) const;

@@ -39,7 +39,7 @@ double time_unit(double extent, const World<Dim>& world) {
 template <int Dim>
 struct RuleInput {
   const World<Dim>& world;
-  std::span<const Contact<Dim>> contacts;  // those of the world
+  std::span<const Contact<Dim>> contacts;  // those of the world; with a ring, none for rules that need none
   std::span<const Pile<Dim>> piles;
   std::int64_t step = 0;  // steps done, 1 after the first
 
