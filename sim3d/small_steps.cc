@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "sim3d/body_template.h"
-#include "sim3d/fetch.h"
+#include "sim3d/bullet/fetch.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {

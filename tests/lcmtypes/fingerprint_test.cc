@@ -28,7 +28,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_stats::getHash()), 0x2045780C8D6043CDU);
   EXPECT_EQ(fingerprint(talus_bodies::getHash()), 0xC6FA8471FD1162E7U);
   EXPECT_EQ(fingerprint(talus_shapes::getHash()), 0xAB1C584AF8545F4CU);
-  EXPECT_EQ(fingerprint(talus_event::getHash()), 0x08CAFE02AB0A6093U);
+  EXPECT_EQ(fingerprint(talus_event::getHash()), 0x6F5F4E167CF5A516U);
   EXPECT_EQ(fingerprint(talus_obstacles::getHash()), 0x00D92F75D07931CFU);
   EXPECT_EQ(fingerprint(talus_instruments::getHash()), 0x79EEC3AFA1437207U);
 }

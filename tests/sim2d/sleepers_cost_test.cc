@@ -40,10 +40,10 @@ void drop(World<2>& world, int count) {
 
 TEST(Sleepers, AreNoBodiesOfTheEngineAndHaveNoContacts) {
   const auto world = bed_of_sleepers(2000);
-  EXPECT_EQ(engine_of(*world).GetBodyCount(), 1 + 16);  // the ground and 2000 / 128 hosts
+  EXPECT_EQ(engine_of(*world).GetBodyCount(), 1 + 250);  // the ground and 2000 / 8 hosts
   drop(*world, 20);
   run(*world, 120);
-  EXPECT_EQ(engine_of(*world).GetBodyCount(), 1 + 16 + 20);
+  EXPECT_EQ(engine_of(*world).GetBodyCount(), 1 + 250 + 20);
   EXPECT_GT(engine_of(*world).GetContactCount(), 0);
   for (const b2Contact* contact = engine_of(*world).GetContactList(); contact != nullptr;
        contact = contact->GetNext()) {
@@ -77,7 +77,7 @@ TEST(Sleepers, NeedNoMoreHostsHoweverOftenTheyChange) {
     world->step();
     world->freeze(some);
   }
-  EXPECT_LE(engine_of(*world).GetBodyCount(), 1 + 8 + 1);
+  EXPECT_LE(engine_of(*world).GetBodyCount(), 1 + 125 + 1);
 }
 
 double step_time(World<2>& world, int steps) {

@@ -22,7 +22,7 @@ TEST(ReplayCommand, WritesOneFileThatNamesNoOther) {
   ASSERT_EQ(talus_command("replay " + (folder / "run") + " --out " + (folder / "a.html")).exit_code, 0);
   const std::string page = contents(folder / "a.html");
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
-  for (const char* reference : {"src=\"", "href=\"", "@import", "url(http"})
+  for (const char* reference : {"src=\"", "href=\"h", "href=\"/", "@import", "url(http"})
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
   EXPECT_EQ(page.find("<!-- "), std::string::npos) << "every mark of the page is replaced";
   ASSERT_EQ(talus_command("replay " + (folder / "run") + " --out " + (folder / "b.html")).exit_code, 0);
