@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sim3d/conversions.h"
 #include "sim3d/bullet/fetch.h"
+#include "sim3d/conversions.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {

@@ -8,11 +8,9 @@
 namespace talus::scene_window_test {
 namespace {
 
-constexpr EngineTraits narrow_engine = {.name = "narrow",
-                                        .window = {.fewest_steps = 50.0,
-                                                   .fewest_iterations = 5,
-                                                   .largest_mass_ratio = 20.0,
-                                                   .longest_obstacle = 100.0}};
+constexpr EngineTraits narrow_engine = {
+    .name = "narrow",
+    .window = {.fewest_steps = 50.0, .fewest_iterations = 5, .largest_mass_ratio = 20.0, .longest_obstacle = 100.0}};
 
 // What of a sound scene with these changes lies outside, a line each.
 std::string outside_with(const std::vector<Override>& overrides, const EngineTraits& engine = narrow_engine) {
