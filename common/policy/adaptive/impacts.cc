@@ -10,7 +10,7 @@ namespace {
 
 template <typename ContactImpulse>
 bool pair_before(const ContactImpulse& l, const ContactImpulse& r) {
-  return std::tie(l.awake, l.other) < std::tie(r.awake, r.other);
+  return std::tie(l.awake, l.sleeper) < std::tie(r.awake, r.sleeper);
 }
 
 /// Part of an impact that counts, by how steeply the impulse on the awake body rises, from -1 to 1: 1/3 for an impact
@@ -36,19 +36,18 @@ void Impacts<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& re
   collect(in);
   const double wake_speed = speed_to_rise(in.world.gravity_size(), wake_height_);
   for (const ContactImpulse& contact : impulses_) {
-    if (!in.asleep(contact.other)) continue;
     const Impact impact = evaluate(in, rest, contact);
     if (!(impact.speed > wake_speed)) continue;
-    out.wakes.add(contact.other, {.cause = SleepCause::momentum});
+    out.wakes.add(contact.sleeper, {.cause = SleepCause::momentum});
     change_velocity<Dim>(in, contact.awake, contact.point, (impact.share - 1.0) * impact.impulse, out);
-    change_velocity<Dim>(in, contact.other, contact.point, -impact.share * impact.impulse, out);
+    change_velocity<Dim>(in, contact.sleeper, contact.point, -impact.share * impact.impulse, out);
   }
 }
 
 template <int Dim>
 void Impacts<Dim>::forget(BodyIndex body) {
   std::erase_if(impulses_,
-                [body](const ContactImpulse& contact) { return contact.awake == body || contact.other == body; });
+                [body](const ContactImpulse& contact) { return contact.awake == body || contact.sleeper == body; });
 }
 
 template <int Dim>
@@ -58,9 +57,9 @@ void Impacts<Dim>::collect(const RuleInput<Dim>& in) {
   fastest_approach_ = 0.0;
   for (const Contact<Dim>& contact : in.contacts) {
     fastest_approach_ = std::max(fastest_approach_, contact.approach_speed);
-    if (contact.b < 0) continue;
-    if (impulses_.empty() || impulses_.back().awake != contact.a || impulses_.back().other != contact.b)
-      impulses_.push_back({.awake = contact.a, .other = contact.b});
+    if (contact.b < 0 || !in.asleep(contact.b)) continue;
+    if (impulses_.empty() || impulses_.back().awake != contact.a || impulses_.back().sleeper != contact.b)
+      impulses_.push_back({.awake = contact.a, .sleeper = contact.b});
     ContactImpulse& sum = impulses_.back();
     sum.impulse += contact.normal_impulse * contact.normal + contact.friction_impulse;
     sum.normal_impulse += contact.normal_impulse;
@@ -83,7 +82,7 @@ typename Impacts<Dim>::Impact Impacts<Dim>::evaluate(const RuleInput<Dim>& in, c
     return inverse_effective_mass<Dim>(in.shape_of(body), in.pose_of(body), contact.point, direction);
   };
   const double awake = inverse_mass(contact.awake);
-  const double sleeper = inverse_mass(contact.other);
+  const double sleeper = inverse_mass(contact.sleeper);
   Impact impact;
   impact.share = awake / (awake + sleeper);
   const double most = fastest_approach_ / (impact.share * sleeper);
@@ -92,22 +91,18 @@ typename Impacts<Dim>::Impact Impacts<Dim>::evaluate(const RuleInput<Dim>& in, c
   return impact;
 }
 
-/// The part of the impulse that exceeds the load of the step before [N s]. The load of a body that has just woken is
-/// unknown; there the impulse that stops its approach is an upper bound.
+/// The part of the impulse that exceeds the load of the step before [N s]. The load is unknown where one of the two has
+/// just woken or fallen asleep; there the impulse that stops their approach is an upper bound.
 template <int Dim>
 double Impacts<Dim>::increase(const RestCriterion<Dim>& rest, const ContactImpulse& contact, const Vec<Dim>& direction,
                               double awake_inverse_mass) const {
-  if (!rest.was_awake(contact.awake)) return contact.approach_speed / awake_inverse_mass;
-  const Vec<Dim> load = last_impulse(contact.awake, contact.other) - last_impulse(contact.other, contact.awake);
-  return (contact.impulse - load).dot(direction);
-}
-
-/// Of the last step, on `a`; 0 if there was none, or if `b` came first.
-template <int Dim>
-Vec<Dim> Impacts<Dim>::last_impulse(BodyIndex a, BodyIndex b) const {
-  const ContactImpulse pair{.awake = a, .other = b};
-  const auto last = std::lower_bound(last_impulses_.begin(), last_impulses_.end(), pair, pair_before<ContactImpulse>);
-  return last == last_impulses_.end() || pair_before(pair, *last) ? Vec<Dim>::Zero() : last->impulse;
+  if (!rest.was_awake(contact.awake) || rest.was_awake(contact.sleeper))
+    return contact.approach_speed / awake_inverse_mass;
+  const auto last =
+      std::lower_bound(last_impulses_.begin(), last_impulses_.end(), contact, pair_before<ContactImpulse>);
+  if (last != last_impulses_.end() && !pair_before(contact, *last))
+    return (contact.impulse - last->impulse).dot(direction);
+  return contact.impulse.norm();
 }
 
 template class Impacts<2>;

@@ -28,11 +28,10 @@ class Impacts {
   void forget(BodyIndex body);
 
  private:
-  /// The sum of one awake body's contacts with another body in a step. That of two awake bodies is kept for the step
-  /// after which one of them falls asleep: it is the load that the sleeping one then bears.
+  /// The sum of one awake body's contacts with one sleeping body in a step.
   struct ContactImpulse {
     BodyIndex awake = 0;
-    BodyIndex other = 0;
+    BodyIndex sleeper = 0;
     Vec<Dim> impulse = Vec<Dim>::Zero();  // on the awake body [N s]
     Vec<Dim> point = Vec<Dim>::Zero();    // mean of the contact points, weighted by normal impulse [m]
     double normal_impulse = 0.0;          // sum over the contact points [N s]
@@ -49,8 +48,6 @@ class Impacts {
   Impact evaluate(const RuleInput<Dim>& in, const RestCriterion<Dim>& rest, const ContactImpulse& contact) const;
   double increase(const RestCriterion<Dim>& rest, const ContactImpulse& contact, const Vec<Dim>& direction,
                   double awake_inverse_mass) const;
-
-  Vec<Dim> last_impulse(BodyIndex a, BodyIndex b) const;
 
   double wake_height_;                         // to which the struck point of a body must be able to rise [m]
   std::vector<ContactImpulse> impulses_;       // of this step, ascending by pair
