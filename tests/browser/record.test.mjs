@@ -447,3 +447,76 @@ test("the edges of plots and panels can be dragged", async () => {
   assert.ok(plot > 0.35 * plots, `${plot} of ${plots}`);
   await page.close();
 });
+
+/// Runs a scene of this text and opens its page.
+async function openScene(name, text) {
+  const scene = join(folder, `${name}.toml`);
+  writeFileSync(scene, text);
+  talus("run", scene, "--no-telemetry", "--out", join(folder, name));
+  const html = join(folder, `${name}.html`);
+  talus("replay", join(folder, name), "--out", html);
+  return openPage(pathToFileURL(html));
+}
+
+/// Pixels of the stage that are near a colour; those of thin lines are mixed with what is behind.
+const pixelsNear = async (page, colour, within = 12) => {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return page.evaluate(([wanted, within]) => {
+    const source = document.getElementById("bodies");
+    const canvas = Object.assign(document.createElement("canvas"), { width: source.width, height: source.height });
+    const paper = canvas.getContext("2d");
+    paper.drawImage(source, 0, 0);
+    const { data } = paper.getImageData(0, 0, canvas.width, canvas.height);
+    let near = 0;
+    for (let i = 0; i < data.length; i += 4) near += wanted.every((part, j) => Math.abs(data[i + j] - part) < within) ? 1 : 0;
+    return near;
+  }, [colour, within]);
+};
+
+test("gates and regions are drawn, and their readings and those of loads plotted", async () => {
+  const page = await openScene("measured", `title = "Measured"
+dimension = 2
+shape.disc = {kind = "ball", radius = 0.5, rolling_friction = 0.2}
+source = [{count = 5, rate = 5, position = [0, 8]}]
+gate = [{name = "gate", corners = [[-3, 4], [3, 4]]}]
+region = [{name = "below", box = [[-3, 0], [3, 3]]}]
+load = [{name = "ground", on = "ground"}]
+run.frames = 120
+`);
+  const rows = await page.locator("#rows button").allTextContents();
+  for (const row of ["gates", "packing", "loads"]) assert.ok(rows.includes(row), `${row} among ${rows}`);
+  await page.evaluate(() => {
+    window.talus.pause();
+    window.talus.seek(119);
+  });
+  const gate = await pixelsNear(page, [0, 140, 128], 135);
+  const region = await pixelsNear(page, [191, 89, 26], 70);
+  assert.ok(gate > 50 && region > 50, `pixels of the gate ${gate}, of the region ${region}`);
+  await page.locator(".plot").nth(1).hover({ position: { x: 200, y: 15 } });
+  assert.match(await page.locator(".hover").innerText(), /gate [0-5] passed/);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test("an obstacle that an event adds is drawn from then on", async () => {
+  const page = await openScene("added", `title = "Added"
+dimension = 2
+shape.disc = {kind = "ball", radius = 0.5}
+source = [{count = 2, rate = 1, position = [0, 8]}]
+obstacle = [{name = "lid", kind = "box", size = [6, 2], position = [0, 4]}]
+event = [{time = 2, do = "add", obstacle = "lid"}]
+run.frames = 120
+`);
+  const at = async (frame) => {
+    await page.evaluate((number) => {
+      window.talus.pause();
+      window.talus.seek(number);
+    }, frame);
+    return pixelsNear(page, [178, 184, 189]);
+  };
+  const after = await at(110);
+  assert.ok(after > 1000, `${after} pixels`);
+  assert.ok((await at(30)) < after / 4);
+  assert.ok((await at(100)) > after / 2);
+  await page.close();
+});
