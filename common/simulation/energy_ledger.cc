@@ -76,7 +76,7 @@ double EnergyLedger<Dim>::work_of(const World<Dim>& world, const Contact<Dim>& c
   if (before == obstacles_.end() || before->number != first_obstacle - contact.b) return 0.0;
   const Pose<Dim>& after = world.obstacle_pose(before->number);
   const Vec<Dim> own = before->pose.rotation.inverse() * (contact.point - before->pose.position);
-  const Vec<Dim> belt = along_plane<Vec<Dim>>(world.surface_velocity(before->number), contact.normal);
+  const auto belt = along_plane<Vec<Dim>>(world.surface_velocity(before->number), contact.normal);
   const Vec<Dim> moved = after.position + after.rotation * own - contact.point + dt_ * belt;
   return (contact.normal_impulse * contact.normal + contact.friction_impulse).dot(moved) / dt_;
 }

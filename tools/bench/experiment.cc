@@ -93,7 +93,7 @@ Experiment read_experiment(TableReader& table, const toml::node_view<const toml:
 
 /// Least squares of log(value) = log(c) + p log(x).
 double exponent_of(const std::vector<double>& x, const std::vector<double>& values) {
-  const double n = static_cast<double>(x.size());
+  const auto n = static_cast<double>(x.size());
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double lx = std::log(x[i]), ly = std::log(values[i]);

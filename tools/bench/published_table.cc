@@ -128,8 +128,7 @@ Difference difference(const MeanWithError& ours, const Published& published) {
 
 MeanWithError mean_of(const std::vector<double>& values, bool share) {
   MeanWithError mean = mean_with_error(values);
-  const double n =
-      static_cast<double>(std::ranges::count_if(values, [](double value) { return std::isfinite(value); }));
+  const auto n = static_cast<double>(std::ranges::count_if(values, [](double value) { return std::isfinite(value); }));
   if (share && n > 0.0) {
     const double middle = (mean.mean * n + 1.0) / (n + 2.0);
     mean.error = std::sqrt(middle * (1.0 - middle) / (n + 2.0));
