@@ -53,8 +53,7 @@ template std::unique_ptr<World<3>> rebuild(const WorldMaker<3>&, const WorldDesc
 
 template <int Dim>
 Scene<Dim> reference_scene(Scene<Dim> scene) {
-  const double steps =
-      fitting_steps_per_second(scene, 0.25, reference_steps_per_second * std::max(1.0, scene.world.units.times()));
+  const double steps = fitting_steps_per_second(scene, 0.25, reference_steps_per_second * scene.world.units.steps());
   scene.policy.kind = "full";
   scene.world = reference_settings(scene.world);
   scene.world.solver.sub_steps = std::max(scene.world.solver.sub_steps, usual_sub_steps);

@@ -45,7 +45,7 @@ inline constexpr Range gravity_range = between(0.0, 1e3);
 inline constexpr Range gravity_component_range = between(-gravity_range.high, gravity_range.high);
 /// Beyond 10 km from the origin a single-precision engine places bodies a millimetre off.
 inline constexpr Range coordinate_range = between(-1e4, 1e4);
-/// Sizes that both engines can simulate; `talus check` warns of those for which contacts are inaccurate.
+/// Sizes of bodies and obstacles; those of the smallest bodies decide the units of the engine (fitting_units()).
 inline constexpr Range length_range = between(1e-5, 1e4);
 inline constexpr Range spread_range = between(0.0, 1e4);
 /// Faster, and a step of 1/60 s is longer than any pile.

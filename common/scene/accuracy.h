@@ -1,7 +1,6 @@
 #pragma once
 // What the accuracy that a scene names sets, where the scene does not set it itself.
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -48,7 +47,7 @@ struct Arrival {
 /// Of a scene that says nothing about its step; more where bodies are small.
 template <int Dim>
 double usual_steps_per_second(const WorldDescription<Dim>& world) {
-  return std::max(1.0, world.units.times()) / WorldDescription<Dim>{}.dt;
+  return world.units.steps() / WorldDescription<Dim>{}.dt;
 }
 
 template <int Dim>

@@ -25,7 +25,11 @@ void EnergyLedger<Dim>::start_step(const World<Dim>& world) {
   const BodyStates<Dim>& states = world.states();
   before_.clear();
   for (const BodyIndex body : world.awake())
-    before_.push_back({body, states.pose[body].position, states.velocity[body], kinetic_energy(world, body)});
+    before_.push_back(
+        {body, states.pose[body].position, states.velocity[body], kinetic_energy(world, body), world.gravity()});
+  for (const Push<Dim>& push : world.pushes())
+    std::ranges::lower_bound(before_, push.body, {}, &Before::body)->acceleration +=
+        push.force / world.shape_of(push.body).mass;
   for (ObstacleBefore& obstacle : obstacles_) obstacle.pose = world.obstacle_pose(obstacle.number);
 }
 
@@ -47,14 +51,14 @@ void EnergyLedger<Dim>::end_step(const World<Dim>& world) {
 template <int Dim>
 void EnergyLedger<Dim>::add(const World<Dim>& world, const Before& before) {
   const Shape<Dim>& shape = world.shape_of(before.body);
-  const Vec<Dim> gravity = world.gravity();
+  const Vec<Dim>& acceleration = before.acceleration;
   const double kinetic = kinetic_energy(world, before.body);
   const double gained = kinetic - before.kinetic;
-  change_ += gained - shape.mass * gravity.dot(world.states().pose[before.body].position - before.position);
-  gain_ += gained - shape.mass * dt_ * gravity.dot(before.velocity + 0.5 * dt_ * gravity);
+  change_ += gained - shape.mass * acceleration.dot(world.states().pose[before.body].position - before.position);
+  gain_ += gained - shape.mass * dt_ * acceleration.dot(before.velocity + 0.5 * dt_ * acceleration);
   kinetic_ += kinetic;
   const double slow = rest_speed / world.units().speeds();
-  lift_ += shape.mass * (gravity.norm() * shape.extent + 0.5 * slow * slow);
+  lift_ += shape.mass * (world.gravity_size() * shape.extent + 0.5 * slow * slow);
 }
 
 /// Sleeping bodies that feel forces pass on to awake ones what an obstacle does to them.

@@ -10,7 +10,7 @@ namespace talus {
 /// Keeps account of the energy that an engine creates within its steps. Costs O(awake) a step, and O(contacts) while
 /// an obstacle moves.
 ///
-/// A step of a rigid-body engine may lose energy (friction, impact) but gets it from gravity and from obstacles that
+/// A step of a rigid-body engine may lose energy (friction, impact) but gets it from gravity, pushes and obstacles that
 /// move alone. What happens between steps (sources, sleep, kicks, a change of gravity) is not the engine's and does
 /// not count. Each sum below never falls below 0, so it is the rise over the lowest value so far: an early loss does
 /// not hide a late gain.
@@ -54,7 +54,8 @@ class EnergyLedger {
     BodyIndex body = 0;
     Vec<Dim> position = Vec<Dim>::Zero();
     Vec<Dim> velocity = Vec<Dim>::Zero();
-    double kinetic = 0.0;  // [J]
+    double kinetic = 0.0;                      // [J]
+    Vec<Dim> acceleration = Vec<Dim>::Zero();  // by gravity and pushes in the step [m/s^2]
   };
   struct ObstacleBefore {
     int number = 0;

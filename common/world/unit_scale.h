@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus {
@@ -14,6 +15,8 @@ struct UnitScale {
   double lengths() const { return std::ldexp(1.0, 2 * power); }
   double times() const { return std::ldexp(1.0, power); }
   double speeds() const { return times(); }
+  /// Of the steps a second that a world needs: small bodies need more, large ones no fewer.
+  double steps() const { return std::max(1.0, times()); }
   bool operator==(const UnitScale&) const = default;
 };
 

@@ -75,6 +75,8 @@ class World {
   /// A force on the centre of mass of an awake body throughout the next step [N], in addition to others. Only with the
   /// solver `small_steps`.
   void push(BodyIndex body, const Vec<Dim>& force);
+  /// What push() has added for the next step.
+  std::span<const Push<Dim>> pushes() const { return pushes_; }
 
   /// Stops awake bodies and makes them immovable: the engine no longer simulates them. Bodies already asleep are left
   /// alone. Acts at once; must not be called during step().
@@ -180,8 +182,6 @@ class World {
   const WorldDescription<Dim>& description() const { return description_; }
   /// By number of the obstacle, see set_surface_velocity(); empty: none ever had one.
   std::span<const Vec<Dim>> belts() const { return belts_; }
-  /// What push() has added for this step.
-  std::span<const Push<Dim>> pushes() const { return pushes_; }
   bool records_contacts() const { return record_contacts_; }
 
   /// For an engine that moves bodies outside of step().

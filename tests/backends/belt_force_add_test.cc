@@ -148,6 +148,18 @@ TYPED_TEST(Force, AboveItAcceleratesForItsTime) {
   EXPECT_TRUE(simulation.world().awake().empty());
 }
 
+TYPED_TEST(Force, CreatesNoEnergyInTheAccount) {
+  constexpr int dim = TypeParam::dim;
+  auto simulation = TestFixture::simulation(scene_of<dim>(pushed<dim>(3.0), "full"));
+  struct Watching final : Observer<dim> {
+    void on_frame(const Frame<dim>&) override {}
+  } watching;
+  simulation.add_observer(watching);
+  TestFixture::run_until(simulation, 4.0);
+  EXPECT_GT(TestFixture::speed(simulation), 20.0);
+  EXPECT_TRUE(simulation.warnings().empty());
+}
+
 // Two boxes are pressed against both sides of a third with twice what their friction needs to hold it.
 TYPED_TEST(Force, OfAGripperHoldsABodyInTheAir) {
   constexpr int dim = TypeParam::dim;
