@@ -44,7 +44,7 @@ class PileSet {
   /// Section 3.2, after a step of `dt` [s]: recounts the awake bodies and doubles full piles; at each
   /// `slow_update_interval` also drifts centres, measures slopes that are not given, and merges piles (3.5). Costs
   /// O(awake), nothing while all bodies sleep: then centres stay where they are. A pile that grew or moved is recounted
-  /// in O(all bodies), which is rare.
+  /// in O(all bodies), which is rare. `times`: of the engine over those of the world (UnitScale).
   void update(const BodyStates<Dim>& states, std::span<const BodyIndex> awake, double dt, double times = 1.0);
 
   /// Recounts every body, to the same result. Costs O(all bodies).

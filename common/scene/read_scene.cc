@@ -99,7 +99,7 @@ void read_shapes(TableReader& root, ShapeNames& names, Scene<Dim>& scene) {
   if (well_formed && names.names().empty()) root.error("shape", "must be given: at least one [shape.NAME] to drop");
 }
 
-/// And what a scene of the usual size says without saying it.
+/// Sets the units of the engine, and the defaults that depend on them: step and restitution threshold.
 template <int Dim>
 void fit_units(WorldDescription<Dim>& world, const Named& named) {
   world.units = fitting_units(world);

@@ -8,8 +8,8 @@
 namespace talus {
 namespace {
 
-constexpr double settled_speed =
-    1.0;  // [m/s] in the units of the engine: what moves faster is in flight and does not lift a spout
+// In the units of the engine [m/s]: what moves faster is in flight and does not lift a spout.
+constexpr double settled_speed = 1.0;
 
 }  // namespace
 

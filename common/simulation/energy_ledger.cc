@@ -9,8 +9,7 @@ namespace {
 
 constexpr double tolerated_share = 0.1;
 constexpr double tolerated_burst = 0.02;  // of the work that lifts each awake body by its own extent
-constexpr double rest_speed =
-    0.5;  // [m/s] in the units of the engine; without gravity the only scale of a world at rest
+constexpr double rest_speed = 0.5;        // in the units of the engine [m/s]; without gravity the only scale of rest
 
 }  // namespace
 

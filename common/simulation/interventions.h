@@ -99,8 +99,7 @@ class Interventions {
   double time_ = 0.0;  // at which the last step began [s]
   std::optional<Pull<Dim>> pull_;
   std::vector<TimedPush> pushes_;
-  std::vector<BodyIndex>
-      held_awake_;  // in this step: what is pushed, the pulled body and what lies beside it, ascending
+  std::vector<BodyIndex> held_awake_;  // in this step, ascending: pushed and pulled bodies, and what lies beside those
 };
 
 }  // namespace talus

@@ -43,6 +43,12 @@ std::string on_belt(double speed, const std::string& more = "") {
       point<Dim>(0.0, 0.751), box<Dim>(40.0, 0.5), point<Dim>(0.0, 0.25), friction, point<Dim>(speed, 0.0), more);
 }
 
+/// With an observer a simulation looks for faults.
+template <int Dim>
+struct Watching final : Observer<Dim> {
+  void on_frame(const Frame<Dim>& /*frame*/) override {}
+};
+
 template <typename Backend>
 class OnEachEngine : public ::testing::Test {
  protected:
@@ -106,9 +112,7 @@ TYPED_TEST(Belt, CreatesNoEnergyInTheAccount) {
   constexpr int dim = TypeParam::dim;
   const Scene<dim> scene = scene_of<dim>(on_belt<dim>(5.0), "full");
   auto simulation = TestFixture::simulation(scene);
-  struct Watching final : Observer<dim> {
-    void on_frame(const Frame<dim>&) override {}
-  } watching;
+  Watching<dim> watching;
   simulation.add_observer(watching);
   TestFixture::run_until(simulation, 3.0);
   EXPECT_GT(TestFixture::speed(simulation), 4.9);
@@ -151,9 +155,7 @@ TYPED_TEST(Force, AboveItAcceleratesForItsTime) {
 TYPED_TEST(Force, CreatesNoEnergyInTheAccount) {
   constexpr int dim = TypeParam::dim;
   auto simulation = TestFixture::simulation(scene_of<dim>(pushed<dim>(3.0), "full"));
-  struct Watching final : Observer<dim> {
-    void on_frame(const Frame<dim>&) override {}
-  } watching;
+  Watching<dim> watching;
   simulation.add_observer(watching);
   TestFixture::run_until(simulation, 4.0);
   EXPECT_GT(TestFixture::speed(simulation), 20.0);
