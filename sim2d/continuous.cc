@@ -151,6 +151,7 @@ bool ContinuousCollision::is_slow(const b2Body& body) const {
 }
 
 bool ContinuousCollision::ShouldCollide(b2Fixture* a, b2Fixture* b) {
+  if (!b2ContactFilter::ShouldCollide(a, b)) return false;
   b2Body& first = *a->GetBody();
   b2Body& second = *b->GetBody();
   if (!stepping_ || !is_dynamic(first) || !is_dynamic(second)) return true;

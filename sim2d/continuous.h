@@ -43,7 +43,7 @@ class ContinuousCollision final : public b2ContactFilter {
   /// search, and those of one that has become fast put back.
   void note_solved(b2Contact& contact, bool sleepers);
 
-  /// Notes a pair that Box2D finds after the solver. All pairs collide.
+  /// Notes a pair that Box2D finds after the solver. All pairs collide but those of images (see Image).
   bool ShouldCollide(b2Fixture* a, b2Fixture* b) override;
 
  private:

@@ -37,6 +37,24 @@ b2Transform stored_pose(const Pose<2>& pose) {
   return {to_engine(pose.position), b2Rot(static_cast<float>(pose.rotation.angle()))};
 }
 
+/// See Image. Box2D lets two fixtures meet that are each in a category of the other's mask.
+b2Filter filter_of(int sides) {
+  b2Filter filter;
+  filter.categoryBits = static_cast<std::uint16_t>(1U << static_cast<unsigned>(sides));
+  if (sides == 0) return filter;
+  filter.maskBits = 0;
+  for (int others = 0; others < 4; ++others)
+    if ((sides & others) == 0) filter.maskBits |= static_cast<std::uint16_t>(1U << static_cast<unsigned>(others));
+  return filter;
+}
+
+/// Of ground and obstacles, which images do not meet.
+b2Filter filter_of_fixed() {
+  b2Filter filter;
+  filter.categoryBits = 1U << 4U;
+  return filter;
+}
+
 /// Removing one walks the list of its host, so a thaw costs more with more of them. Box2D's own step visits all hosts,
 /// so it costs more with fewer: at 128 a step of 100 awake bodies costs the same over 100,000 frozen ones as over
 /// 1,000; at 64 it costs 7 % more, at 16 75 %. The steps of SmallSteps visit none.
@@ -74,6 +92,7 @@ void EngineWorld::add_ground() {
   line.SetTwoSided({-ground_reach, z}, {ground_reach, z});
   b2FixtureDef fixture = fixture_of(description().ground.material, description().solver);
   fixture.shape = &line;
+  fixture.filter = filter_of_fixed();
   fixture.userData = to_user_data(make_tag(ground_index, 0));
   const b2BodyDef fixed;
   world_.CreateBody(&fixed)->CreateFixture(&fixture);
@@ -87,6 +106,7 @@ b2Body* EngineWorld::make_obstacle(int number) {
   fixed.angle = engine_angle(obstacle.pose.rotation.angle());
   b2Body* body = world_.CreateBody(&fixed);
   b2FixtureDef fixture = fixture_of(obstacle.shape.material, description().solver);
+  fixture.filter = filter_of_fixed();
   int part = 0;
   for (const EnginePiece& piece : engine_pieces(obstacle.shape, description().solver)) {
     fixture.shape = &base(piece);
@@ -99,14 +119,14 @@ b2Body* EngineWorld::make_obstacle(int number) {
 Pose<2> EngineWorld::engine_add(BodyIndex body, const BodyDef<2>& def) {
   check_memory();
   Pose<2> pose{from_engine(to_engine(def.pose.position)), Rotation<2>(engine_angle(def.pose.rotation.angle()))};
-  b2Body* made = create(body, def.shape, pose);
+  b2Body* made = create(body, def.shape, pose, def.image ? def.image->sides : 0);
   give_velocity(*made, def.velocity, def.spin);
   bodies_.push_back({made, nullptr});
   proxies_moved_ = true;
   return pose;
 }
 
-b2Body* EngineWorld::create(BodyIndex index, int shape, const Pose<2>& pose) {
+b2Body* EngineWorld::create(BodyIndex index, int shape, const Pose<2>& pose, int sides) {
   const BodyTemplate& from = template_of(shape);
   b2BodyDef def;
   def.userData.pointer = static_cast<std::uintptr_t>(shape);  // for ContinuousCollision
@@ -115,6 +135,7 @@ b2Body* EngineWorld::create(BodyIndex index, int shape, const Pose<2>& pose) {
   def.angle = static_cast<float>(pose.rotation.angle());
   b2Body* body = world_.CreateBody(&def);
   b2FixtureDef fixture = from.material;
+  fixture.filter = filter_of(sides);
   int number = 0;
   for (const EnginePiece& piece : from.pieces) {
     fixture.shape = &base(piece);
@@ -134,6 +155,13 @@ void EngineWorld::engine_remove(BodyIndex body) {
   at(body) = {};
   warm_start_.forget(body);
   if (small_steps_) small_steps_->forget(body);
+}
+
+Pose<2> EngineWorld::engine_place(BodyIndex body, const Pose<2>& pose) {
+  b2Body& placed = *at(body).body;
+  placed.SetTransform(to_engine(pose.position), engine_angle(pose.rotation.angle()));
+  proxies_moved_ = true;
+  return {from_engine(placed.GetPosition()), Rotation<2>(placed.GetAngle())};
 }
 
 void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, const Spin<2>& spin) {
@@ -236,7 +264,7 @@ void EngineWorld::engine_freeze(std::span<const BodyIndex> bodies) {
   for (std::size_t i = bodies.size(); i-- > 0;) world_.DestroyBody(at(bodies[i]).body);
   for (const BodyIndex body : bodies) {
     const Pose<2>& pose = states().pose[body];
-    at(body) = {nullptr, hosts_.add(body, template_of_body(body), stored_pose(pose))};
+    at(body) = {nullptr, hosts_.add(body, template_of_body(body), stored_pose(pose), filter_of(images()[body].sides))};
   }
   proxies_moved_ = true;
 }
@@ -309,7 +337,7 @@ std::vector<b2Fixture*> EngineWorld::fixtures_of(std::span<const BodyIndex> bodi
 void EngineWorld::create_thawed(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies)
     if (at(body).body == nullptr) {
-      at(body) = {create(body, states().shape[body], states().pose[body]), nullptr};
+      at(body) = {create(body, states().shape[body], states().pose[body], images()[body].sides), nullptr};
       give_velocity(*at(body).body, states().velocity[body], states().spin[body]);
     }
 }

@@ -38,6 +38,7 @@ class EngineWorld final : public World<2> {
   void engine_remove(BodyIndex body) override;
   EngineTimes engine_step() override;
   std::optional<BodyIndex> engine_read(BodyStates<2>& states) override;
+  Pose<2> engine_place(BodyIndex body, const Pose<2>& pose) override;
   void engine_set_velocity(BodyIndex body, const Vec<2>& velocity, const Spin<2>& spin) override;
   void engine_freeze(std::span<const BodyIndex> bodies) override;
   void engine_thaw(std::span<const BodyIndex> bodies) override;
@@ -60,11 +61,11 @@ class EngineWorld final : public World<2> {
   const Ring<2>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
   bool idle() const;
   void keep_contacts(std::span<const BodyIndex> bodies);
-  StepInput step_input() const { return {awake(), states(), templates_, obstacles_, belts(), pushes()}; }
+  StepInput step_input() const { return {awake(), states(), templates_, obstacles_, belts(), pushes(), images()}; }
   void resume(BodyIndex body);
   void add_ground();
   b2Body* make_obstacle(int number);
-  b2Body* create(BodyIndex index, int shape, const Pose<2>& pose);
+  b2Body* create(BodyIndex index, int shape, const Pose<2>& pose, int sides);
   std::vector<b2Fixture*> fixtures_of(std::span<const BodyIndex> bodies) const;
   void create_thawed(std::span<const BodyIndex> bodies);
   /// Throws std::bad_alloc where Box2D could not get the memory for its next step.

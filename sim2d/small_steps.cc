@@ -135,12 +135,12 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
     const double added = now();
     solver_.solve(params_, vector(world.GetGravity()), dt_);
     solving += now() - added;
-    if (!passes_unseen(world, bodies)) break;
+    if (!passes_unseen(world, input, bodies)) break;
     if (ring_) ring_->start_again();
   }
   if (ring_) ring_->read(solver_, world.GetGravity().Length());
   write_impulses();
-  move_bodies(bodies);
+  move_bodies(input, bodies);
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
   sleepers_.clear();
   for (const BodyIndex body : input.awake) slots_[body] = 0;
@@ -154,7 +154,9 @@ void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span
   ahead_.clear();
   fast_bodies_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    slots_[input.awake[i]] = static_cast<int>(i) + 1;
+    const BodyIndex body = input.awake[i];
+    const Image& image = input.images[body];  // comes after what it is an image of
+    slots_[body] = image.sides == 0 ? static_cast<int>(i) + 1 : slots_[image.of];
     expected_.push_back(motion_by_velocity(*bodies[i]));
     if (is_fast(expected_[i])) fast_bodies_.push_back(bodies[i]);
   }
@@ -167,10 +169,10 @@ SmallSteps::Motion SmallSteps::motion_by_velocity(const b2Body& body) const {
 
 /// After a step is solved: whether a body that was struck, and so moves fast, gets past something. Finds what is ahead
 /// of it.
-bool SmallSteps::passes_unseen(b2World& world, std::span<b2Body* const> bodies) {
+bool SmallSteps::passes_unseen(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
   fast_bodies_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const SolverBody<2>& body = solver_.body(static_cast<int>(i) + 1);
+    const SolverBody<2>& body = solver_.body(slots_[input.awake[i]]);
     const Motion motion{to_box2d(body.way), reach_ * std::abs(body.turn[0])};
     if (is_fast(expected_[i]) || !is_fast(motion)) continue;
     expected_[i] = motion;
@@ -210,6 +212,7 @@ void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const 
     const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
   detected_ = input.states.size();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (input.images[bodies[i]].sides != 0) continue;
     const int shape = input.states.shape[bodies[i]];
     ring_->put_to_sleep(bodies[i], solver_body(*from[i], input.templates[shape].mass), reaches_[shape]);
   }
@@ -232,7 +235,8 @@ void SmallSteps::keep(b2Contact& contact, const StepInput& input) {
                       &contact};
   int number = 0;
   for (const ContactPoint<2>& point : points_of(pair, *contact.GetManifold(), place, input)) {
-    SleepingPoint<2> kept{.a = owner_of(*pair.a), .b = owner_of(*pair.b), .contact = point, .key = {}};
+    SleepingPoint<2> kept{
+        .a = input.original(owner_of(*pair.a)), .b = input.original(owner_of(*pair.b)), .contact = point, .key = {}};
     if (number > 0) kept.contact.rolling_impulse.setZero();
     kept.key = {static_cast<std::uint64_t>(tag_of(*pair.a)), static_cast<std::uint64_t>(tag_of(*pair.b)),
                 contact.GetManifold()->points[number].id.key};
@@ -304,7 +308,7 @@ int SmallSteps::slot_of(b2Fixture& fixture, const b2Vec2& normal, const StepInpu
     return solver_.add_belt(input.belts[number].cast<float>(), vector(normal));
   }
   if (owner < 0) return 0;
-  if (ring_ && ring_->has(owner)) return ring_->join(owner, solver_);
+  if (ring_ && ring_->has(input.original(owner))) return ring_->join(input.original(owner), solver_);
   if (slots_[owner] == 0) {
     const b2MassData& mass = input.templates[input.states.shape[owner]].mass;
     SolverBody<2> sleeper;
@@ -369,16 +373,17 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
       point.normal_impulse = manifold.points[i].normalImpulse;
       point.friction_impulse = manifold.points[i].tangentImpulse * tangent;
     }
-    if (ring_) point.gap += point.normal.dot(shift_of(*pair.b, point.arm_b) - shift_of(*pair.a, point.arm_a));
+    if (ring_)
+      point.gap += point.normal.dot(shift_of(input.original(owner_of(*pair.b)), point.arm_b) -
+                                    shift_of(input.original(owner_of(*pair.a)), point.arm_a));
     points_.push_back(point);
   }
   return points_;
 }
 
 /// Of a sleeper's point, which Box2D does not know.
-VecF<2> SmallSteps::shift_of(b2Fixture& fixture, const VecF<2>& arm) const {
-  const BodyIndex owner = owner_of(fixture);
-  return owner >= 0 && ring_->has(owner) ? ring_->shift(owner, arm) : VecF<2>::Zero();
+VecF<2> SmallSteps::shift_of(BodyIndex side, const VecF<2>& arm) const {
+  return side >= 0 && ring_->has(side) ? ring_->shift(side, arm) : VecF<2>::Zero();
 }
 
 void SmallSteps::add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const {
@@ -435,7 +440,7 @@ void SmallSteps::find_ahead(b2World& world, b2Fixture& fixture, float others, bo
   FixtureFinder finder(found_);
   world.QueryAABB(&finder, box);
   std::erase_if(found_, [&](b2Fixture* other) {
-    if (other->GetBody() == &body) return true;
+    if (other->GetBody() == &body || !b2ContactFilter().ShouldCollide(&fixture, other)) return true;
     if (!is_dynamic(*other->GetBody()) || !is_fast(motion_of(*other))) return false;
     return first ? tag_of(*other) < tag_of(fixture) : is_known(fixture, *other);  // found from there
   });
@@ -488,9 +493,9 @@ void SmallSteps::sort_rolling() {
 }
 
 /// Box2D's own limits of a step hold.
-void SmallSteps::move_bodies(std::span<b2Body* const> bodies) const {
+void SmallSteps::move_bodies(const StepInput& input, std::span<b2Body* const> bodies) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const SolverBody<2>& from = solver_.body(static_cast<int>(i) + 1);
+    const SolverBody<2>& from = solver_.body(slots_[input.awake[i]]);
     b2Body& body = *bodies[i];
     const float longest = b2_maxTranslation / std::max(from.way.norm(), b2_maxTranslation);
     const float largest = b2_maxRotation / std::max(std::abs(from.turn[0]), b2_maxRotation);

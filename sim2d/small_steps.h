@@ -25,6 +25,10 @@ struct StepInput {
   std::span<b2Body* const> obstacles;       // null: removed
   std::span<const Vec<2>> belts;            // by number: velocity of the surface [m/s]; empty: no belt
   std::span<const Push<2>> pushes;
+  std::span<const Image> images;  // by body
+
+  /// Of a side of a contact, where it is an image.
+  BodyIndex original(BodyIndex side) const { return side < 0 ? side : images[side].of; }
 };
 
 /// Box2D keeps its bodies, broad phase, narrow phase and manifolds, in which the impulses are carried from step to
@@ -99,7 +103,7 @@ class SmallSteps {
   };
 
   void expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
-  bool passes_unseen(b2World& world, std::span<b2Body* const> bodies);
+  bool passes_unseen(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
   bool is_passed(const Ahead& ahead) const;
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
   void keep(b2Contact& contact, const StepInput& input);
@@ -117,10 +121,10 @@ class SmallSteps {
   Motion motion_by_velocity(const b2Body& body) const;
   Motion motion_of(b2Fixture& fixture) const;
   bool is_fast(const Motion& motion) const;
-  VecF<2> shift_of(b2Fixture& fixture, const VecF<2>& arm) const;
+  VecF<2> shift_of(BodyIndex side, const VecF<2>& arm) const;
   void write_impulses();
   void sort_rolling();
-  void move_bodies(std::span<b2Body* const> bodies) const;
+  void move_bodies(const StepInput& input, std::span<b2Body* const> bodies) const;
 
   ContactSolverParams params_;
   float dt_;

@@ -22,10 +22,11 @@ std::size_t StaticHosts::open_host() {
   return slot;
 }
 
-b2Fixture* StaticHosts::add(BodyIndex body, const BodyTemplate& from, const b2Transform& pose) {
+b2Fixture* StaticHosts::add(BodyIndex body, const BodyTemplate& from, const b2Transform& pose, const b2Filter& filter) {
   Host& host = hosts_[open_host()];
   ++host.frozen;
   b2FixtureDef fixture = from.material;
+  fixture.filter = filter;
   b2Fixture* last = nullptr;
   int number = 0;
   for (const EnginePiece& own : from.pieces) {

@@ -20,7 +20,7 @@ class StaticHosts {
   StaticHosts(b2World& world, int capacity) : world_(&world), capacity_(capacity) {}
 
   /// Adds solid, immovable fixtures at a pose. Returns the first; the body's others follow by GetNext().
-  b2Fixture* add(BodyIndex body, const BodyTemplate& from, const b2Transform& pose);
+  b2Fixture* add(BodyIndex body, const BodyTemplate& from, const b2Transform& pose, const b2Filter& filter);
 
   /// Removes the fixtures that add() returned.
   void remove(b2Fixture* first, const BodyTemplate& from);

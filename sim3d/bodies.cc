@@ -53,6 +53,17 @@ std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, c
   return object;
 }
 
+bool MeetingOfImages::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+  if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
+      (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0)
+    return false;
+  const auto& first = *static_cast<const btCollisionObject*>(a->m_clientObject);
+  const auto& second = *static_cast<const btCollisionObject*>(b->m_clientObject);
+  if (first.getUserIndex() < 0) return image_of(second).sides == 0;
+  if (second.getUserIndex() < 0) return image_of(first).sides == 0;
+  return (image_of(first).sides & image_of(second).sides) == 0;
+}
+
 std::unique_ptr<btCollisionObject> make_moving_obstacle(const BodyTemplate& shape, const btTransform& place,
                                                         BodyIndex index) {
   btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape.whole);

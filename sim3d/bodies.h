@@ -36,6 +36,22 @@ class RigidBodyMaker {
 std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, const Surface& surface,
                                                       const btTransform& place, BodyIndex index);
 
+/// What a body is an image of; frozen and awake form of a body have the same.
+inline void set_image(btCollisionObject& object, const Image& image) {
+  object.setUserIndex2(image.sides);
+  object.setUserIndex3(image.of);
+}
+/// Of ground and obstacles it means nothing.
+inline Image image_of(const btCollisionObject& object) {
+  return object.getUserIndex2() > 0 ? Image{object.getUserIndex3(), object.getUserIndex2()}
+                                    : Image{object.getUserIndex(), 0};
+}
+
+/// Which pairs collide in a world with images: Bullet's own rule and that of Image.
+struct MeetingOfImages final : btOverlapFilterCallback {
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+};
+
 /// An obstacle that moves by plan, with the velocity that it is given for each step.
 std::unique_ptr<btCollisionObject> make_moving_obstacle(const BodyTemplate& shape, const btTransform& place,
                                                         BodyIndex index);

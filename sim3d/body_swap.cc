@@ -37,6 +37,7 @@ void BodySwap::thaw(std::unique_ptr<btCollisionObject>& object, const BodyTempla
 void BodySwap::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_ptr<btCollisionObject> successor) {
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
   successor->setBroadphaseHandle(proxy);
+  set_image(*successor, image_of(*object));
   for (btBroadphaseProxy* partner : engine_.pairs.partners(proxy)) {
     btBroadphasePair* pair = engine_.pairs.findPair(proxy, partner);
     if (pair->m_algorithm != nullptr) {

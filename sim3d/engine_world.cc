@@ -124,6 +124,10 @@ Pose<Dim> EngineWorld<Dim>::engine_add(BodyIndex body, const BodyDef<Dim>& def) 
   const BodyTemplate& from = template_of(def.shape);
   auto made = engine_.rigid_bodies.make(from, to_bullet(def.pose, from.frame), body, this->description().engine_sleep);
   give_velocity<Dim>(*made, def.velocity, def.spin);
+  if (def.image) {
+    set_image(*made, *def.image);
+    engine_.pairs.setOverlapFilterCallback(&meeting_);
+  }
   engine_.world.addRigidBody(made.get());
   listed_.push_back(body);
   rigid_.push_back(made.get());
@@ -142,6 +146,15 @@ void EngineWorld<Dim>::engine_remove(BodyIndex body) {
   const auto leaving = std::move(at(body));  // outlives Bullet's lists of it
   if (!frozen) std::erase(listed_, body);
   if (!frozen || this->description().debug.keep_sleepers) update_lists();
+}
+
+template <int Dim>
+Pose<Dim> EngineWorld<Dim>::engine_place(BodyIndex body, const Pose<Dim>& pose) {
+  btRigidBody& placed = *rigid_body(body);
+  placed.setWorldTransform(to_bullet(pose, template_of_body(body).frame));
+  placed.setInterpolationWorldTransform(placed.getWorldTransform());
+  strayed_known_ = false;
+  return from_bullet<Dim>(placed.getWorldTransform(), template_of_body(body).frame_inverse);
 }
 
 template <int Dim>

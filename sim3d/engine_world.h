@@ -30,6 +30,7 @@ class EngineWorld final : public World<Dim> {
   void engine_remove(BodyIndex body) override;
   EngineTimes engine_step() override;
   std::optional<BodyIndex> engine_read(BodyStates<Dim>& states) override;
+  Pose<Dim> engine_place(BodyIndex body, const Pose<Dim>& pose) override;
   void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) override;
   void engine_freeze(std::span<const BodyIndex> bodies) override;
   void engine_thaw(std::span<const BodyIndex> bodies) override;
@@ -74,6 +75,7 @@ class EngineWorld final : public World<Dim> {
   std::unique_ptr<btCollisionShape> ground_;
   std::vector<std::unique_ptr<btCollisionObject>> statics_;  // the ground if there is one, then the obstacles
   std::vector<std::unique_ptr<btCollisionObject>> objects_;  // by body; null once removed
+  MeetingOfImages meeting_;
   Engine engine_;
   BodySwap swap_{engine_};
   std::unique_ptr<SmallSteps<Dim>> small_steps_;  // null: Bullet's own solver

@@ -132,10 +132,16 @@ void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* con
   others_.clear();
 }
 
-/// The slots of the bodies are 1 and up.
+/// An image has the slot of what it is an image of, which comes before it.
 template <int Dim>
 void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, const Actions& actions) {
-  for (btRigidBody* body : bodies) body->setCompanionId(solver_.add(awake_body<Dim>(*body, dt_)));
+  for (btRigidBody* body : bodies) {
+    const Image image = image_of(*body);
+    const auto slot = [&] {
+      return (*std::ranges::lower_bound(bodies, image.of, {}, &btRigidBody::getUserIndex))->getCompanionId();
+    };
+    body->setCompanionId(image.sides == 0 ? solver_.add(awake_body<Dim>(*body, dt_)) : slot());
+  }
   for (const auto& [body, acceleration] : actions.pushes)
     solver_.push(body->getCompanionId(), acceleration.template cast<float>());
   if (!ring_) return;
@@ -149,8 +155,7 @@ int SmallSteps<Dim>::slot_of(const btCollisionObject& object) {
   if (object.getCompanionId() >= 0) return object.getCompanionId();
   const btRigidBody* rigid = btRigidBody::upcast(&object);
   if (rigid == nullptr && object.getUserIndex() < 0) return 0;
-  if (rigid == nullptr && ring_ && ring_->has(object.getUserIndex()))
-    return ring_->join(object.getUserIndex(), solver_);
+  if (rigid == nullptr && ring_ && ring_->has(image_of(object).of)) return ring_->join(image_of(object).of, solver_);
   auto& other = const_cast<btCollisionObject&>(object);  // manifolds give const access only
   other.setCompanionId(solver_.add(rigid != nullptr ? moving_obstacle<Dim>(*rigid) : sleeper<Dim>(object)));
   others_.push_back(&other);
@@ -227,7 +232,7 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
 /// Of a sleeper's point, which Bullet does not know.
 template <int Dim>
 VecF<Dim> SmallSteps<Dim>::shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const {
-  const BodyIndex body = object.getUserIndex();
+  const BodyIndex body = image_of(object).of;
   return body >= 0 && ring_->has(body) ? ring_->shift(body, arm) : VecF<Dim>::Zero();
 }
 
@@ -283,20 +288,20 @@ void SmallSteps<Dim>::write_points() {
 
 template <int Dim>
 void SmallSteps<Dim>::set_mean_velocities(std::span<btRigidBody* const> bodies) const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const SolverBody<Dim>& solved = solver_.body(static_cast<int>(i) + 1);
-    bodies[i]->setLinearVelocity(from_solver<Dim>(solved.way / dt_));
-    bodies[i]->setAngularVelocity(spin_from_solver<Dim>(solved.turn / dt_));
+  for (btRigidBody* body : bodies) {
+    const SolverBody<Dim>& solved = solver_.body(body->getCompanionId());
+    body->setLinearVelocity(from_solver<Dim>(solved.way / dt_));
+    body->setAngularVelocity(spin_from_solver<Dim>(solved.turn / dt_));
   }
 }
 
 template <int Dim>
 void SmallSteps<Dim>::finish(std::span<btRigidBody* const> bodies) const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const SolverBody<Dim>& solved = solver_.body(static_cast<int>(i) + 1);
-    bodies[i]->setLinearVelocity(from_solver<Dim>(solved.velocity));
+  for (btRigidBody* body : bodies) {
+    const SolverBody<Dim>& solved = solver_.body(body->getCompanionId());
+    body->setLinearVelocity(from_solver<Dim>(solved.velocity));
     const float share = fastest_spin_ / std::max(solved.spin.norm(), fastest_spin_);
-    bodies[i]->setAngularVelocity(spin_from_solver<Dim>(share * solved.spin));
+    body->setAngularVelocity(spin_from_solver<Dim>(share * solved.spin));
   }
 }
 
@@ -323,7 +328,8 @@ template <int Dim>
 void SmallSteps<Dim>::freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies,
                              std::span<const int> shapes) {
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    ring_->put_to_sleep(bodies[i]->getUserIndex(), awake_body<Dim>(*bodies[i], dt_), reaches_[shapes[i]]);
+    if (image_of(*bodies[i]).sides == 0)
+      ring_->put_to_sleep(bodies[i]->getUserIndex(), awake_body<Dim>(*bodies[i], dt_), reaches_[shapes[i]]);
   btPersistentManifold** manifolds = dispatcher.getInternalManifoldPointer();
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i)
     if (manifolds[i]->getNumContacts() > 0) keep(*manifolds[i], bodies);
@@ -333,16 +339,20 @@ void SmallSteps<Dim>::freeze(btDispatcher& dispatcher, std::span<btRigidBody* co
 /// bodies.
 template <int Dim>
 void SmallSteps<Dim>::keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep) {
-  const BodyIndex a = manifold.getBody1()->getUserIndex();
-  const BodyIndex b = manifold.getBody0()->getUserIndex();
+  const btCollisionObject& object_a = *manifold.getBody1();
+  const btCollisionObject& object_b = *manifold.getBody0();
+  const PointKey key{.a = static_cast<std::uint64_t>(object_a.getUserIndex()),
+                     .b = static_cast<std::uint64_t>(object_b.getUserIndex())};
+  const BodyIndex a = image_of(object_a).of;
+  const BodyIndex b = image_of(object_b).of;
   const auto falls_asleep = [&](BodyIndex body) {
     return std::ranges::binary_search(falling_asleep, body, {}, &btRigidBody::getUserIndex);
   };
   const auto is_awake = [&](BodyIndex body) { return body >= 0 && !ring_->has(body); };
   if (!(falls_asleep(a) || falls_asleep(b)) || is_awake(a) || is_awake(b)) return;
-  manifold.refreshContactPoints(manifold.getBody0()->getWorldTransform(), manifold.getBody1()->getWorldTransform());
+  manifold.refreshContactPoints(object_b.getWorldTransform(), object_a.getWorldTransform());
   collect(manifold, step_);
-  for (const ContactPoint<Dim>& contact : contacts_) ring_->keep({.a = a, .b = b, .contact = contact, .key = {}});
+  for (const ContactPoint<Dim>& contact : contacts_) ring_->keep({.a = a, .b = b, .contact = contact, .key = key});
 }
 
 template <int Dim>
@@ -352,10 +362,12 @@ btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, btVector3& ve
   const SolverBody<Dim> state = ring_->wake(object.getUserIndex(), released_);
   renewed.clear();
   for (const SleepingPoint<Dim>& point : released_) {
-    const bool of_b = WarmStart::owns(point.b, point.a);
+    const auto a = static_cast<BodyIndex>(point.key.a);
+    const auto b = static_cast<BodyIndex>(point.key.b);
+    const bool of_b = WarmStart::owns(b, a);
     const btVector3 friction = from_solver<Dim>(point.contact.friction_impulse);
-    renewed.push_back({.owner = of_b ? point.b : point.a,
-                       .partner = of_b ? point.a : point.b,
+    renewed.push_back({.owner = of_b ? b : a,
+                       .partner = of_b ? a : b,
                        .arm = from_solver<Dim>(of_b ? point.contact.arm_b : point.contact.arm_a),
                        .distance = point.contact.gap,
                        .impulse = point.contact.normal_impulse,

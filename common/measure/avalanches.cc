@@ -10,7 +10,7 @@ void AvalancheWatch<Dim>::on_frame(const Frame<Dim>& frame) {
   for (Lasting& lasting : lasting_) {
     if (!quiet(lasting, states)) continue;
     lasting.record.seconds = static_cast<double>(frame.step - lasting.record.step) * dt_;
-    end(lasting, states);
+    end(lasting, frame.world);
   }
   std::erase_if(lasting_, [](const Lasting& lasting) { return lasting.record.seconds >= 0.0; });
   begin(frame);
@@ -46,10 +46,10 @@ bool AvalancheWatch<Dim>::quiet(const Lasting& lasting, const BodyStates<Dim>& s
 }
 
 template <int Dim>
-void AvalancheWatch<Dim>::end(Lasting& lasting, const BodyStates<Dim>& states) {
+void AvalancheWatch<Dim>::end(Lasting& lasting, const World<Dim>& world) {
   double sum = 0.0;
   for (std::size_t i = 0; i < lasting.bodies.size(); ++i) {
-    const double way = (states.pose[lasting.bodies[i]].position - lasting.from[i]).norm();
+    const double way = (world.pose_near(lasting.bodies[i], lasting.from[i]).position - lasting.from[i]).norm();
     sum += way;
     lasting.record.longest_way = std::max(lasting.record.longest_way, way);
   }
@@ -59,7 +59,7 @@ void AvalancheWatch<Dim>::end(Lasting& lasting, const BodyStates<Dim>& states) {
 
 template <int Dim>
 void AvalancheWatch<Dim>::on_end(const Frame<Dim>& last, std::string_view) {
-  for (Lasting& lasting : lasting_) end(lasting, last.world.states());
+  for (Lasting& lasting : lasting_) end(lasting, last.world);
   lasting_.clear();
 }
 

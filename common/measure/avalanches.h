@@ -42,7 +42,7 @@ class AvalancheWatch final : public Observer<Dim> {
 
   void begin(const Frame<Dim>& frame);
   bool quiet(const Lasting& lasting, const BodyStates<Dim>& states) const;
-  void end(Lasting& lasting, const BodyStates<Dim>& states);
+  void end(Lasting& lasting, const World<Dim>& world);
 
   double dt_;
   double quiet_speed_;

@@ -17,11 +17,12 @@ constexpr int most_samples = 12;
 constexpr double certain = 3.0;  // `most` over `least` at which a probe may end
 
 template <int Dim>
-double mean_displacement(const BodyStates<Dim>& from, const BodyStates<Dim>& to, std::span<const std::uint8_t> counted,
+double mean_displacement(const BodyStates<Dim>& from, const World<Dim>& to, std::span<const std::uint8_t> counted,
                          int bodies) {
   double sum = 0.0;
   for (BodyIndex body = 0; body < from.size(); ++body)
-    if (counted[body] != 0) sum += (to.pose[body].position - from.pose[body].position).norm();
+    if (counted[body] != 0)
+      sum += (to.pose_near(body, from.pose[body].position).position - from.pose[body].position).norm();
   return sum / bodies;
 }
 
@@ -56,7 +57,7 @@ DriftProbe probe_drift(const WorldMaker<Dim>& make_world, const WorldDescription
       if (params.stop && params.stop()) return {};
       world->step();
     }
-    samples.push_back(mean_displacement(states, world->states(), counted, bodies) / params.extent);
+    samples.push_back(mean_displacement(states, *world, counted, bodies) / params.extent);
     const double seconds = static_cast<double>(samples.size()) * between;
     const double rest = std::max(0.0, params.duration - seconds);
     probe = {bodies, seconds, samples.back(), samples.back() + present_speed(samples, between) * rest};

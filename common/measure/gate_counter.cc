@@ -39,7 +39,11 @@ void GateCounter<Dim>::update(const World<Dim>& world, double time, double dt) {
   const BodyStates<Dim>& states = world.states();
   for (auto body = static_cast<BodyIndex>(last_place_.size()); body < states.size(); ++body)
     last_place_.push_back(states.pose[body].position - dt * states.velocity[body]);
-  for (const BodyIndex body : world.awake()) follow(body, states.pose[body].position, time, dt);
+  for (const BodyIndex body : world.awake()) {
+    const Vec<Dim> at = world.pose_near(body, centre_).position;
+    last_place_[body] = world.periodic().near(last_place_[body], at);
+    follow(body, at, time, dt);
+  }
   if (first_ && world.gravity_size() > 0.0) watch_for_jam(world, time);
 }
 
@@ -115,7 +119,7 @@ bool GateCounter<Dim>::any_before(const World<Dim>& world) const {
   world.query_box({centre_ - around, centre_ + around}, near);
   const double upstream = net() >= 0 ? -1.0 : 1.0;
   return std::ranges::any_of(near, [&](BodyIndex body) {
-    const Vec<Dim>& at = world.states().pose[body].position;
+    const Vec<Dim> at = world.pose_near(body, centre_).position;
     const double before = upstream * forward_axis_.dot(at - centre_);
     return before > 0.0 && before <= depth && covers(at - upstream * before * forward_axis_);
   });

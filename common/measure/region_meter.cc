@@ -18,11 +18,14 @@ constexpr int obstacle_lines = Dim == 2 ? 512 : 64;
 template <int Dim>
 RegionReading RegionMeter<Dim>::read(const World<Dim>& world, double ground) {
   const BodyStates<Dim>& states = world.states();
+  images_ = world.periodic().shifts(-1);
   RegionReading reading;
   for (BodyIndex body = 0; body < states.size(); ++body) {
     if (states.removed[body] != 0) continue;
-    reading.solid_volume += solid_volume(world, body);
-    if (!form_.holds(states.pose[body].position)) continue;
+    for (const Vec<Dim>& shift : images_)
+      reading.solid_volume += solid_volume(world.shape_of(body), states.shape[body],
+                                           {states.pose[body].position + shift, states.pose[body].rotation});
+    if (!form_.holds(world.periodic().inside(states.pose[body].position))) continue;
     ++reading.bodies;
     reading.mean_speed += states.velocity[body].norm();
     reading.kinetic_energy += kinetic_energy(world, body);
@@ -37,22 +40,21 @@ RegionReading RegionMeter<Dim>::read(const World<Dim>& world, double ground) {
   return reading;
 }
 
-/// Of the part inside. Pieces that stand in for a mesh have another volume than the body.
+/// Of the part inside of a body of this shape and number of the shape. Pieces that stand in for a mesh have another
+/// volume than the body.
 template <int Dim>
-double RegionMeter<Dim>::solid_volume(const World<Dim>& world, BodyIndex body) {
-  const Shape<Dim>& shape = world.shape_of(body);
-  const Vec<Dim>& at = world.states().pose[body].position;
+double RegionMeter<Dim>::solid_volume(const Shape<Dim>& shape, int number, const Pose<Dim>& pose) {
+  const Vec<Dim>& at = pose.position;
   const Box<Dim> all = form_.bounds();
   const Vec<Dim> around = Vec<Dim>::Constant(shape.extent);  // of any rotation: the centre is within the bounds
   if (!all.intersects(Box<Dim>(at - around, at + around))) return 0.0;
-  const Box<Dim> bounds = world.bounds_of(body);
+  const Box<Dim> bounds = bounds_at(shape, pose);
   if (form_.holds(bounds) || form_.holds(at, bounding_radius(shape))) return shape.volume;
   if (!all.intersects(bounds)) return 0.0;
-  const auto number = static_cast<std::size_t>(world.states().shape[body]);
-  pieces_.resize(world.shapes().size());
+  if (std::ssize(pieces_) <= number) pieces_.resize(number + 1);
   if (pieces_[number].empty()) pieces_[number] = convex_pieces(shape);
   placed_.clear();
-  for (const ConvexPiece<Dim>& piece : pieces_[number]) placed_.push_back(moved(piece, world.states().pose[body]));
+  for (const ConvexPiece<Dim>& piece : pieces_[number]) placed_.push_back(moved(piece, pose));
   return volume_within<Dim>(form_, placed_, body_lines<Dim>) / shape.filling;
 }
 

@@ -29,10 +29,11 @@ class RegionMeter {
   RegionReading read(const World<Dim>& world, double ground);
 
  private:
-  double solid_volume(const World<Dim>& world, BodyIndex body);
+  double solid_volume(const Shape<Dim>& shape, int number, const Pose<Dim>& pose);
   double free_volume(const World<Dim>& world, double ground);
 
   RegionForm<Dim> form_;
+  std::vector<Vec<Dim>> images_;                       // from a body to where the world repeats it, and to itself
   std::vector<std::vector<ConvexPiece<Dim>>> pieces_;  // by shape, as far as they were needed
   std::vector<ConvexPiece<Dim>> placed_;               // scratch
   std::vector<int> obstacles_;                         // in the region's bounds

@@ -12,6 +12,7 @@ namespace {
 template <int Dim>
 struct Solid {
   BodyIndex index = 0;
+  int sides = 0;  // see Image
   std::vector<ConvexPiece<Dim>> pieces;
   std::vector<Box<Dim>> piece_bounds;
   Box<Dim> bounds;
@@ -48,6 +49,20 @@ double solid_distance(const Solid<Dim>& a, const Solid<Dim>& b, double reach) {
   return nearest;
 }
 
+/// Of bodies behind the upper sides, of obstacles behind all.
+template <int Dim>
+void append_images(const Periodic<Dim>& sides, std::vector<Solid<Dim>>& all) {
+  const std::size_t known = all.size();
+  for (std::size_t i = 0; sides.any() && i < known; ++i) {
+    const std::vector<Vec<Dim>> shifts = sides.shifts(all[i].index < 0 ? -1 : 0);
+    for (std::size_t image = 1; image < shifts.size(); ++image) {
+      const Pose<Dim> shift{shifts[image], Rotation<Dim>::Identity()};
+      all.push_back(make_solid(all[i].index, all[i].pieces, shift));
+      all.back().sides = static_cast<int>(image);
+    }
+  }
+}
+
 template <int Dim>
 std::vector<Solid<Dim>> solids(const WorldDescription<Dim>& description, const BodyStates<Dim>& states) {
   std::vector<Solid<Dim>> all;
@@ -62,7 +77,15 @@ std::vector<Solid<Dim>> solids(const WorldDescription<Dim>& description, const B
     if (states.removed[i]) continue;
     all.push_back(make_solid(i, shapes[states.shape[i]], states.pose[i]));
   }
+  append_images(description.periodic(), all);
   return all;
+}
+
+/// See Image: those that touch only as other images do not meet.
+template <int Dim>
+bool meet(const Solid<Dim>& a, const Solid<Dim>& b) {
+  if (a.index < 0) return b.index >= 0 && b.sides == 0;
+  return b.index < 0 ? a.sides == 0 : (a.sides & b.sides) == 0;
 }
 
 }  // namespace
@@ -75,7 +98,7 @@ std::vector<Touch> touching_pairs(const WorldDescription<Dim>& description, cons
   if (description.ground.present) {
     for (const Solid<Dim>& solid : all) {
       const double above = height<Dim>(solid.bounds.min()) - description.ground.height;
-      if (solid.index >= 0 && above < reach) touches.push_back({solid.index, ground_index, above});
+      if (solid.index >= 0 && solid.sides == 0 && above < reach) touches.push_back({solid.index, ground_index, above});
     }
   }
   // Sweep along x: only solids whose intervals overlap are compared.
@@ -83,7 +106,7 @@ std::vector<Touch> touching_pairs(const WorldDescription<Dim>& description, cons
                    [](const auto& a, const auto& b) { return a.bounds.min().x() < b.bounds.min().x(); });
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = i + 1; j < all.size() && all[j].bounds.min().x() < all[i].bounds.max().x() + reach; ++j) {
-      if (all[i].index < 0 && all[j].index < 0) continue;
+      if (!meet(all[i], all[j])) continue;
       if (farther(all[i].bounds, all[j].bounds, reach)) continue;
       const double distance = solid_distance(all[i], all[j], reach);
       if (distance >= reach) continue;

@@ -35,11 +35,12 @@ std::vector<BodyIndex> supports_of(const World<Dim>& world, const FixedSupports&
   const Box<Dim> bounds = world.bounds_of(body);
   const Box<Dim> place(bounds.min() - margin, bounds.max() + margin);
   const std::vector<ConvexPiece<Dim>> own = convex_pieces_at(world.shape_of(body), states.pose[body]);
+  const Vec<Dim>& at = states.pose[body].position;
   std::vector<BodyIndex> near;
   world.query_box(place, near);
   std::vector<BodyIndex> supports;
   for (const BodyIndex other : near)
-    if (other != body && rests_on(own, convex_pieces_at(world.shape_of(other), states.pose[other]), extent))
+    if (other != body && rests_on(own, convex_pieces_at(world.shape_of(other), world.pose_near(other, at)), extent))
       supports.push_back(other);
   for (int k = 0; k < fixed.obstacles; ++k)
     if (world.has_obstacle(k) && bounds_at(world.obstacle_shape(k), world.obstacle_pose(k)).intersects(place) &&

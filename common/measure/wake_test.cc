@@ -37,7 +37,8 @@ class Observation {
     int far = 0;
     for (std::size_t i = 0; i < start_.shape.size(); ++i) {
       if (start_.removed[i]) continue;
-      const double displacement = (states.pose[i].position - start_.pose[i].position).norm();
+      const Vec<Dim>& from = start_.pose[i].position;
+      const double displacement = (description_.periodic().near(states.pose[i].position, from) - from).norm();
       result_.displacements.push_back(displacement);
       far += displacement > params.far * shape(i).extent;
       mass += shape(i).mass;

@@ -57,9 +57,7 @@ void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
   } else {
     table.read_fields(world, fields);
   }
-  const double fewest_steps = fewest_steps_per_second * fitting_units(world).times();
-  if (named.of_accuracy.steps && world.dt * fewest_steps > 1.0 + 1e-9)
-    table.error("steps_per_second", fmt::format("must be at least {:g} for bodies of this size", fewest_steps));
+  if (named.of_accuracy.steps) table.check([&] { check_step(world, fitting_units(world)); });
   if (table.has("gravity_motion"))
     table.table("gravity_motion", [&](TableReader& own) {
       scene.gravity_motion = read_gravity_motion<Dim>(own, world.gravity_vector());
@@ -70,6 +68,7 @@ void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
     named.restitution_threshold = solver.has("restitution_threshold");
     solver.read_fields(world.solver, solver_fields);
   });
+  table.check([&] { check_sides(world); });
 }
 
 void read_ground(TableReader& table, Ground& ground) {

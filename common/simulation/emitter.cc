@@ -137,7 +137,8 @@ bool Emitter<Dim>::has_room(const World<Dim>& world, const BodyDef<Dim>& body, d
   place.max().array() -= overlap_allowed;
   near_.clear();
   world.query_box(place, near_);
-  return std::ranges::none_of(near_, [&](BodyIndex other) { return place.intersects(world.bounds_of(other)); });
+  return std::ranges::none_of(
+      near_, [&](BodyIndex other) { return place.intersects(world.bounds_near(other, body.pose.position)); });
 }
 
 /// Lifts the spout so that it stays `ride_above` over whatever has settled in the column beneath it. Bodies appear in
@@ -172,8 +173,9 @@ bool Emitter<Dim>::lies_on_something(const World<Dim>& world, BodyIndex body, co
     return true;
   beneath_.clear();
   world.query_box(beneath, beneath_);
-  return std::ranges::any_of(
-      beneath_, [&](BodyIndex other) { return other != body && beneath.intersects(world.bounds_of(other)); });
+  return std::ranges::any_of(beneath_, [&](BodyIndex other) {
+    return other != body && beneath.intersects(world.bounds_near(other, beneath.center()));
+  });
 }
 
 template class Emitter<2>;

@@ -53,7 +53,8 @@ void EnergyLedger<Dim>::add(const World<Dim>& world, const Before& before) {
   const Vec<Dim>& acceleration = before.acceleration;
   const double kinetic = kinetic_energy(world, before.body);
   const double gained = kinetic - before.kinetic;
-  change_ += gained - shape.mass * acceleration.dot(world.states().pose[before.body].position - before.position);
+  change_ +=
+      gained - shape.mass * acceleration.dot(world.pose_near(before.body, before.position).position - before.position);
   gain_ += gained - shape.mass * dt_ * acceleration.dot(before.velocity + 0.5 * dt_ * acceleration);
   kinetic_ += kinetic;
   const double slow = rest_speed / world.units().speeds();

@@ -78,7 +78,8 @@ auto PassingWatch<Dim>::mover(const World<Dim>& world, BodyIndex index) const ->
   }
   const BodyStates<Dim>& states = world.states();
   const Pose<Dim>& to = states.pose[index];
-  return {index, &solids_[states.shape[index]], states.asleep[index] != 0 ? to : from_[index], to};
+  const Pose<Dim> from = states.asleep[index] != 0 ? to : world.periodic().near(from_[index], to.position);
+  return {index, &solids_[states.shape[index]], from, to};
 }
 
 /// How far any point of it goes by its rotation, at most.
@@ -128,10 +129,18 @@ void PassingWatch<Dim>::test_neighbours(const World<Dim>& world, const Mover& fa
   near_.clear();
   world.query_box({box.min().array() - margin, box.max().array() + margin}, near_);
   for (const BodyIndex other : near_)
-    if (other != fast.index) test(fast, mover(world, other));
+    if (other != fast.index) test(fast, image_near(world.periodic(), mover(world, other), fast.to.position));
   if (fast.index < 0) return;
   for (int k = 0; k < std::ssize(obstacles_); ++k)
     if (world.has_obstacle(k)) test(fast, mover(world, first_obstacle - k));
+}
+
+template <int Dim>
+auto PassingWatch<Dim>::image_near(const Periodic<Dim>& sides, Mover mover, const Vec<Dim>& place) -> Mover {
+  const Vec<Dim> to = sides.near(mover.to.position, place);
+  mover.from.position += to - mover.to.position;
+  mover.to.position = to;
+  return mover;
 }
 
 template <int Dim>

@@ -56,6 +56,7 @@ class PassingWatch {
   static bool passes(const Mover& a, const Mover& b);
   static bool enters(const Vec<Dim>& from, const Vec<Dim>& to, const Solid& solid);
   Mover mover(const World<Dim>& world, BodyIndex index) const;
+  static Mover image_near(const Periodic<Dim>& sides, Mover mover, const Vec<Dim>& place);
   void test_neighbours(const World<Dim>& world, const Mover& fast, double margin);
   void test(const Mover& fast, const Mover& other);
 

@@ -2,6 +2,7 @@
 // Bodies as dense indices with their state in arrays by field.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/math/vector.h"
@@ -15,6 +16,14 @@ using BodyIndex = std::int32_t;
 inline constexpr BodyIndex ground_index = -1;
 inline constexpr BodyIndex first_obstacle = -2;
 
+/// In a world inside one with periodic sides: which body it is another place of. A body and its images move as one.
+/// Where two bodies touch follows from `sides`: those that have one in common do not meet, and images meet bodies
+/// alone.
+struct Image {
+  BodyIndex of = 0;
+  int sides = 0;  // a bit for each periodic axis along which it is a period away; 0: the body itself
+};
+
 /// What is needed to create a body.
 template <int Dim>
 struct BodyDef {
@@ -22,6 +31,7 @@ struct BodyDef {
   Pose<Dim> pose;
   Vec<Dim> velocity = Vec<Dim>::Zero();  // of the centre of mass [m/s]
   Spin<Dim> spin = Spin<Dim>::Zero();    // [rad/s]
+  std::optional<Image> image = {};       // without: a body of its own
 };
 
 /// State of every body that was ever added; entry i belongs to body i. A sleeping body's velocity is zero.

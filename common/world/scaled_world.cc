@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/world/periodic_world.h"
+
 namespace talus {
 namespace {
 
@@ -143,6 +145,8 @@ WorldDescription<Dim> in_engine_units(const WorldDescription<Dim>& description) 
   inner.dt *= units.times();
   inner.solver.restitution_threshold *= units.speeds();
   inner.ground.height *= units.lengths();
+  if (inner.periodic_x) *inner.periodic_x *= units.lengths();
+  if (inner.periodic_y) *inner.periodic_y *= units.lengths();
   for (Obstacle<Dim>& obstacle : inner.obstacles) {
     enlarge(obstacle.shape, units.lengths());
     obstacle.pose.position *= units.lengths();
@@ -154,9 +158,9 @@ WorldDescription<Dim> in_engine_units(const WorldDescription<Dim>& description) 
 template <int Dim>
 std::unique_ptr<World<Dim>> make_in_engine_units(const WorldDescription<Dim>& description,
                                                  const WorldMaker<Dim>& make) {
-  if (description.units.power == 0) return make(description);
+  if (description.units.power == 0) return make_with_sides(description, make);
   check(description);  // in its own units, before the engine's would be in the message
-  return std::make_unique<ScaledWorld<Dim>>(description, make(in_engine_units(description)));
+  return std::make_unique<ScaledWorld<Dim>>(description, make_with_sides(in_engine_units(description), make));
 }
 
 template UnitScale fitting_units(const WorldDescription<2>&);

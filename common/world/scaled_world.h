@@ -1,7 +1,6 @@
 #pragma once
 // A world of small or large bodies, simulated in units that suit the engine.
 
-#include <functional>
 #include <memory>
 
 #include "common/world/world.h"
@@ -16,10 +15,6 @@ UnitScale fitting_units(const WorldDescription<Dim>& description);
 /// The same world in the units of its engine, WorldDescription::units being 1 there.
 template <int Dim>
 WorldDescription<Dim> in_engine_units(const WorldDescription<Dim>& description);
-
-/// Makes an empty world of some engine.
-template <int Dim>
-using WorldMaker = std::function<std::unique_ptr<World<Dim>>(const WorldDescription<Dim>&)>;
 
 /// What `make` makes of the description: as it is, or in the units of the engine behind a world in those of the
 /// description.

@@ -24,6 +24,7 @@ BodyIndex World<Dim>::add(const BodyDef<Dim>& body) {
   states_.spin.push_back(body.spin);
   states_.asleep.push_back(0);
   states_.removed.push_back(0);
+  images_.push_back(body.image.value_or(Image{index, 0}));
   awake_.push_back(index);
   return index;
 }
@@ -184,6 +185,21 @@ template <int Dim>
 void World<Dim>::gather_contacts() const {
   if (contacts_wait_) engine_contacts(contacts_);
   contacts_wait_ = false;
+}
+
+template <int Dim>
+void World<Dim>::place(BodyIndex body, const Pose<Dim>& pose) {
+  require_present(body);
+  require(states_.asleep[body] == 0, "body", body, "must be awake to be put elsewhere");
+  check(BodyDef<Dim>{states_.shape[body], pose}, description_);
+  gather_contacts();
+  states_.pose[body] = engine_place(body, pose);
+}
+
+template <int Dim>
+Pose<Dim> World<Dim>::engine_place(BodyIndex body, const Pose<Dim>& /*pose*/) {
+  require(false, "body", body, "must stay where it is: this engine puts no bodies elsewhere");
+  return {};
 }
 
 template <int Dim>

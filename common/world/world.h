@@ -2,7 +2,9 @@
 // The seam to a physics engine.
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -68,6 +70,9 @@ class World {
   /// Advances by dt. Throws NonFiniteState if the state of a body is not finite afterwards; the states then stay as
   /// they were before the step, and each later call throws the same.
   void step();
+
+  /// Puts an awake body elsewhere, with the velocity that it has.
+  void place(BodyIndex body, const Pose<Dim>& pose);
 
   /// Sets the velocity of an awake body.
   void set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin);
@@ -167,6 +172,15 @@ class World {
   /// Smallest box, parallel to the axes, around a body.
   Box<Dim> bounds_of(BodyIndex body) const { return bounds_at(shape_of(body), states_.pose[body]); }
 
+  /// Sides beyond which the world repeats itself. Bodies are between them, but for a thousandth of their distance.
+  const Periodic<Dim>& periodic() const { return periodic_; }
+
+  /// Of the images of a body the one that is nearest to a place: its pose, and the box around it.
+  Pose<Dim> pose_near(BodyIndex body, const Vec<Dim>& place) const { return periodic_.near(states_.pose[body], place); }
+  Box<Dim> bounds_near(BodyIndex body, const Vec<Dim>& place) const {
+    return bounds_at(shape_of(body), pose_near(body, place));
+  }
+
   EngineTimes times() const { return times_; }
   SpeedLimits speed_limits() const { return limits_; }
   const UnitScale& units() const { return description_.units; }
@@ -183,6 +197,8 @@ class World {
   /// By number of the obstacle, see set_surface_velocity(); empty: none ever had one.
   std::span<const Vec<Dim>> belts() const { return belts_; }
   bool records_contacts() const { return record_contacts_; }
+  /// By body: what it was added as.
+  std::span<const Image> images() const { return images_; }
 
   /// For an engine that moves bodies outside of step().
   BodyStates<Dim>& writable_states() { return states_; }
@@ -212,6 +228,8 @@ class World {
   /// not finite, copies nothing and returns that body.
   virtual std::optional<BodyIndex> engine_read(BodyStates<Dim>& states) = 0;
 
+  /// Returns the pose as the engine stores it. An engine that has no such function throws.
+  virtual Pose<Dim> engine_place(BodyIndex body, const Pose<Dim>& pose);
   virtual void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
 
   /// Before a step: gives an obstacle that may move the velocity of its centre and the spin that take it to its next
@@ -259,8 +277,10 @@ class World {
   void follow_engine_sleep();
 
   WorldDescription<Dim> description_;
+  Periodic<Dim> periodic_ = description_.periodic();
   SpeedLimits limits_;
   BodyStates<Dim> states_;
+  std::vector<Image> images_;
   std::vector<BodyIndex> awake_;
   mutable std::vector<Contact<Dim>> contacts_;
   mutable bool contacts_wait_ = false;            // those of the last step are still to be gathered
@@ -277,5 +297,9 @@ class World {
   bool record_contacts_ = false;
   bool has_ring_ = false;
 };
+
+/// Makes an empty world of some engine.
+template <int Dim>
+using WorldMaker = std::function<std::unique_ptr<World<Dim>>(const WorldDescription<Dim>&)>;
 
 }  // namespace talus

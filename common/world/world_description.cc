@@ -80,11 +80,35 @@ void check(const Obstacle<Dim>& obstacle, const UnitScale& units, const std::str
 }
 
 template <int Dim>
-void check(const WorldDescription<Dim>& description) {
-  check_fields(description, world_fields<Dim>, "world");
-  const double fewest_steps = fewest_steps_per_second * description.units.times();
+void check_step(const WorldDescription<Dim>& description, const UnitScale& units) {
+  const double fewest_steps = fewest_steps_per_second * units.times();
   require(description.dt <= (1.0 + 1e-9) / fewest_steps, "world.steps_per_second", 1.0 / description.dt,
           fmt::format("must be at least {:g} for bodies of this size", fewest_steps));
+}
+
+/// That images of one body never come near each other, nor two images of one body near another one.
+template <int Dim>
+void check_sides(const WorldDescription<Dim>& description) {
+  constexpr double least = 4.0;  // in extents of the largest body
+  double extent = 0.0;
+  for (const Shape<Dim>& shape : description.shapes) extent = std::max(extent, shape.extent);
+  const Periodic<Dim> sides = description.periodic();
+  require(Dim == 3 || !description.periodic_y, "world.periodic_y", 2, "must not be given in 2D");
+  for (int axis = 0; axis < Dim - 1; ++axis) {
+    if (!(axis == 0 ? description.periodic_x : description.periodic_y)) continue;
+    const std::string field = axis == 0 ? "world.periodic_x" : "world.periodic_y";
+    require(sides.period[axis] > 0.0 && sides.period[axis] >= least * extent, field, sides.period[axis],
+            fmt::format("must be sides that are at least {:.6g} m apart, {:g} extents of the largest body",
+                        least * extent, least));
+    require(description.solver.small_steps(), field, fmt::format("\"{}\"", description.solver.kind),
+            R"(must not be given with a solver other than "small_steps")");
+  }
+}
+
+template <int Dim>
+void check(const WorldDescription<Dim>& description) {
+  check_fields(description, world_fields<Dim>, "world");
+  check_step(description, description.units);
   check_fields(description.solver, solver_fields, "world.solver");
   require(!description.engine_sleep || !description.solver.small_steps(), "world.solver.kind",
           fmt::format("\"{}\"", description.solver.kind),
@@ -108,6 +132,7 @@ void check(const WorldDescription<Dim>& description) {
             R"(must be 0 with world.solver.kind = "engine": the engines' own solvers resist no rolling)");
   }
   check_masses(description.shapes);
+  check_sides(description);
 }
 
 template <int Dim>
@@ -135,6 +160,10 @@ template void check(const Obstacle<2>&, const UnitScale&, const std::string&);
 template void check(const Obstacle<3>&, const UnitScale&, const std::string&);
 template void check(const WorldDescription<2>&);
 template void check(const WorldDescription<3>&);
+template void check_step(const WorldDescription<2>&, const UnitScale&);
+template void check_step(const WorldDescription<3>&, const UnitScale&);
+template void check_sides(const WorldDescription<2>&);
+template void check_sides(const WorldDescription<3>&);
 template void check(const BodyDef<2>&, const WorldDescription<2>&);
 template void check(const BodyDef<3>&, const WorldDescription<3>&);
 

@@ -8,11 +8,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/shape/shape.h"
 #include "common/world/body.h"
 #include "common/world/debug_options.h"
+#include "common/world/periodic.h"
 #include "common/world/unit_scale.h"
 
 namespace talus {
@@ -74,11 +76,22 @@ struct WorldDescription {
   bool engine_sleep = false;  // the engine's own sleeping, whole islands at a time
   Ground ground;
   std::vector<Obstacle<Dim>> obstacles;
-  std::vector<Shape<Dim>> shapes;  // BodyDef::shape indexes these
-  UnitScale units;                 // of the engine, see fitting_units()
+  std::vector<Shape<Dim>> shapes;    // BodyDef::shape indexes these
+  std::optional<Vec<2>> periodic_x;  // the sides beyond which the world repeats itself [m]
+  std::optional<Vec<2>> periodic_y;  // in 3D
+  UnitScale units;                   // of the engine, see fitting_units()
 
   /// [m/s^2]
   Vec<Dim> gravity_vector() const { return gravity * down; }
+  Periodic<Dim> periodic() const {
+    Periodic<Dim> sides;
+    for (const auto& [axis, of_axis] : {std::pair(0, periodic_x), std::pair(1, periodic_y)}) {
+      if (!of_axis || axis >= Dim - 1) continue;
+      sides.low[axis] = of_axis->x();
+      sides.period[axis] = of_axis->y() - of_axis->x();
+    }
+    return sides;
+  }
 };
 
 /// Whether what rests in gravity `a` [m/s^2] rests in `b` too: they differ by at most a hundredth, a tilt of 0.6
@@ -103,6 +116,11 @@ template <int Dim>
 void check(const WorldDescription<Dim>& description);
 template <int Dim>
 void check(const BodyDef<Dim>& body, const WorldDescription<Dim>& description);
+/// Parts of that: the time step, in units of the engine; the periodic sides.
+template <int Dim>
+void check_step(const WorldDescription<Dim>& description, const UnitScale& units);
+template <int Dim>
+void check_sides(const WorldDescription<Dim>& description);
 /// But for the widths of its parts, which depend on the bodies of the world.
 template <int Dim>
 void check(const Obstacle<Dim>& obstacle, const UnitScale& units, const std::string& field);

@@ -72,6 +72,26 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
       .meaning =
           "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m, below by a third of a "
           "metre; cost grows in proportion"}},
+    {place_of<&WorldDescription<Dim>::periodic_x>,
+     {.name = "periodic_x",
+      .type = "two numbers",
+      .unit = "m",
+      .range = coordinate_range,
+      .further_rule = "the second above the first, by 4 extents of the largest body or more; only with the solver "
+                      "`small_steps`",
+      .default_text = "none",
+      .meaning = "periodic sides: what leaves through one comes in through the other, and bodies touch through them. "
+                 "Obstacles repeat too. Costs about a third more a body"}},
+    {place_of<&WorldDescription<Dim>::periodic_y>,
+     {.name = "periodic_y",
+      .dimension = 3,
+      .elsewhere = "x is the only horizontal axis",
+      .type = "two numbers",
+      .unit = "m",
+      .range = coordinate_range,
+      .further_rule = "as `periodic_x`",
+      .default_text = "none",
+      .meaning = "the same along y"}},
     {{},
      {.name = "gravity_motion",
       .type = "table",

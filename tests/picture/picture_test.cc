@@ -49,7 +49,7 @@ std::pair<Colour, Colour> colours_of_asleep_and_awake(double distance) {
   sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7, true);
   sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7 + Vec<Dim>::Unit(0) * distance, false);
   draw_pile<Dim>(folder / "a.svg", folder / "a.png", sample.input(), small);
-  const Image image(folder / "a.png");
+  const PngImage image(folder / "a.png");
   const Projection<Dim> projection = layout_of<Dim>(sample.input(), small).projection;
   // A point of the lying arm: in 2D its middle, in 3D just under its upper face.
   Vec<Dim> arm = sample.shapes[0].reference;
@@ -104,7 +104,7 @@ template <int Dim>
 void expect_drawn(const Sample<Dim>& sample) {
   const TemporaryFolder folder;
   draw_pile<Dim>(folder / "a.svg", folder / "a.png", sample.input(), small);
-  const Image image(folder / "a.png");
+  const PngImage image(folder / "a.png");
   EXPECT_EQ(image.width(), small.width);
   EXPECT_LE(image.height(), small.height);
   const std::string svg = bytes_of(folder / "a.svg");

@@ -53,9 +53,9 @@ struct Sample {
 };
 
 /// A picture read back from its file.
-class Image {
+class PngImage {
  public:
-  explicit Image(const std::filesystem::path& png)
+  explicit PngImage(const std::filesystem::path& png)
       : surface_(cairo_image_surface_create_from_png(png.c_str()), cairo_surface_destroy) {
     if (cairo_surface_status(surface_.get()) != CAIRO_STATUS_SUCCESS)
       throw std::runtime_error("no PNG: " + png.string());

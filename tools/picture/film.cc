@@ -51,7 +51,7 @@ template <int Dim>
 FilmFrames<Dim>::~FilmFrames() = default;
 
 template <int Dim>
-Image FilmFrames<Dim>::draw(const PictureInput<Dim>& input) const {
+FilmImage FilmFrames<Dim>::draw(const PictureInput<Dim>& input) const {
   const PictureParams& params = setting_->params;
   const int height = setting_->layout.height;
   Framing<Dim> framing = setting_->framing;
@@ -67,7 +67,7 @@ Image FilmFrames<Dim>::draw(const PictureInput<Dim>& input) const {
     cairo_restore(canvas);
     page.draw(canvas, height, setting_->layout.projection.pixels_per_metre());
   };
-  Image image{params.width, height, pixels_of(params.width, height, paint)};
+  FilmImage image{params.width, height, pixels_of(params.width, height, paint)};
   for (std::uint32_t& pixel : image.pixels) pixel |= 0xFF000000U;
   return image;
 }

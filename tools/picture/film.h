@@ -10,7 +10,7 @@
 namespace talus {
 
 /// Pixels row by row, 0xffRRGGBB each.
-struct Image {
+struct FilmImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint32_t> pixels;
@@ -28,7 +28,7 @@ class FilmFrames {
   FilmFrames& operator=(const FilmFrames&) = delete;
 
   /// The state with its own counts and caption. Bodies outside the framing are cut off at its edge.
-  Image draw(const PictureInput<Dim>& input) const;
+  FilmImage draw(const PictureInput<Dim>& input) const;
 
  private:
   struct Setting;

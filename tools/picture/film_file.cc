@@ -89,7 +89,7 @@ FilmFile::FilmFile(const FilmFormat& format) {
 
 FilmFile::~FilmFile() { end(); }
 
-void FilmFile::add(const Image& image) {
+void FilmFile::add(const FilmImage& image) {
   const char* bytes = reinterpret_cast<const char*>(image.pixels.data());
   for (std::size_t left = 4 * image.pixels.size(); left > 0;) {
     const ssize_t written = ::write(pipe_, bytes, left);

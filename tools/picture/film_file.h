@@ -32,7 +32,7 @@ class FilmFile {
   FilmFile& operator=(const FilmFile&) = delete;
 
   /// Adds a frame of the format's size. Throws std::runtime_error where ffmpeg fails, which prints the reason.
-  void add(const Image& image);
+  void add(const FilmImage& image);
   /// Completes the file; no frame may be added afterwards. Throws as add() does.
   void finish();
 

@@ -148,7 +148,7 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   const bool progress = isatty(STDERR_FILENO) != 0;
   std::optional<FilmFile> file;
   int taken = 0;
-  in_order(cut.frames(), draw, [&](const Image& image) {
+  in_order(cut.frames(), draw, [&](const FilmImage& image) {
     if (!file) {
       file.emplace(FilmFormat{.file = options.out,
                               .width = image.width,

@@ -32,8 +32,9 @@ bool is_free(const World<Dim>& world, const FixedSupports& fixed, const Shape<Di
     if (world.has_obstacle(k) && !apart(own, world.obstacle_shape(k), world.obstacle_pose(k), gap)) return false;
   std::vector<BodyIndex> near;
   world.query_box(wide, near);
-  return std::ranges::all_of(
-      near, [&](BodyIndex other) { return apart(own, world.shape_of(other), world.states().pose[other], gap); });
+  return std::ranges::all_of(near, [&](BodyIndex other) {
+    return apart(own, world.shape_of(other), world.pose_near(other, pose.position), gap);
+  });
 }
 
 }  // namespace

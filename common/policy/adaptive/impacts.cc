@@ -23,7 +23,7 @@ template <int Dim>
 void change_velocity(const RuleInput<Dim>& in, BodyIndex body, const Vec<Dim>& point, const Vec<Dim>& impulse,
                      RuleOutput<Dim>& out) {
   VelocityChange<Dim>& change = out.velocity_of(body, in.states());
-  apply_impulse<Dim>(in.shape_of(body), in.pose_of(body), point, impulse, change.velocity, change.spin);
+  apply_impulse<Dim>(in.shape_of(body), in.world.pose_near(body, point), point, impulse, change.velocity, change.spin);
 }
 
 }  // namespace
@@ -79,7 +79,8 @@ typename Impacts<Dim>::Impact Impacts<Dim>::evaluate(const RuleInput<Dim>& in, c
   if (!(size > 0.0)) return {};
   const Vec<Dim> direction = contact.impulse / size;
   const auto inverse_mass = [&](BodyIndex body) {
-    return inverse_effective_mass<Dim>(in.shape_of(body), in.pose_of(body), contact.point, direction);
+    return inverse_effective_mass<Dim>(in.shape_of(body), in.world.pose_near(body, contact.point), contact.point,
+                                       direction);
   };
   const double awake = inverse_mass(contact.awake);
   const double sleeper = inverse_mass(contact.sleeper);

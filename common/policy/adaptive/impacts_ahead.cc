@@ -19,7 +19,8 @@ Vec<Dim> across_gravity(const RuleInput<Dim>& in, const Vec<Dim>& vector) {
 /// supports that take up the impact, and for what lies straight above.
 template <int Dim>
 std::optional<Vec<Dim>> direction_aside(const RuleInput<Dim>& in, BodyIndex body, BodyIndex other) {
-  const Vec<Dim> to = in.pose_of(other).position - in.pose_of(body).position;
+  const Vec<Dim>& from = in.pose_of(body).position;
+  const Vec<Dim> to = in.world.pose_near(other, from).position - from;
   const Vec<Dim> across = across_gravity<Dim>(in, to);
   const double aside = across.norm();
   if (in.rise(to) <= -aside || aside <= 0.0) return std::nullopt;

@@ -48,7 +48,7 @@ int awake_in_contact(const World<Dim>& world) {
 /// How far a point of a body has moved from where it was at a pose [m], or more.
 template <int Dim>
 double displacement(const World<Dim>& world, BodyIndex body, const Pose<Dim>& from) {
-  return max_displacement<Dim>(from, world.states().pose[body], 0.5 * world.shape_of(body).extent);
+  return max_displacement<Dim>(from, world.pose_near(body, from.position), 0.5 * world.shape_of(body).extent);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
   forget_ended(in);
   remember_new(in);
   for (const SupportContact& contact : contacts_) {
-    const Vec<Dim> now = in.pose_of(contact.supporter) * contact.local;
+    const Vec<Dim> now = in.world.pose_near(contact.supporter, contact.point) * contact.local;
     if ((now - contact.point).norm() > slack_) out.wakes.add(contact.supported, {.cause = SleepCause::lost_support});
   }
 }
@@ -58,7 +58,7 @@ void SupportLoss<Dim>::remember_new(const RuleInput<Dim>& in) {
     const SupportContact support{.supporter = contact.a, .supported = contact.b};
     if (!new_contacts_.empty() && !supports_before(new_contacts_.back(), support)) continue;  // same pair, next point
     if (std::binary_search(contacts_.begin(), contacts_.end(), support, supports_before<SupportContact>)) continue;
-    const Pose<Dim>& pose = in.pose_of(contact.a);
+    const Pose<Dim> pose = in.world.pose_near(contact.a, contact.point);
     const Vec<Dim> local = pose.rotation.inverse() * (contact.point - pose.position);
     new_contacts_.push_back({contact.a, contact.b, contact.point, local});
   }
