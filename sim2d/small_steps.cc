@@ -154,11 +154,11 @@ void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span
   ahead_.clear();
   fast_bodies_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const BodyIndex body = input.awake[i];
-    const Image& image = input.images[body];  // comes after what it is an image of
-    slots_[body] = image.sides == 0 ? static_cast<int>(i) + 1 : slots_[image.of];
-    expected_.push_back(motion_by_velocity(*bodies[i]));
-    if (is_fast(expected_[i])) fast_bodies_.push_back(bodies[i]);
+    const Image& image = input.images[input.awake[i]];
+    if (image.sides == 0) expected_.push_back(motion_by_velocity(*bodies[i]));
+    // An image comes after what it is an image of.
+    slots_[input.awake[i]] = image.sides == 0 ? static_cast<int>(expected_.size()) : slots_[image.of];
+    if (is_fast(expected_of(input.awake[i]))) fast_bodies_.push_back(bodies[i]);
   }
   find_ahead(world, true);
 }
@@ -171,12 +171,16 @@ SmallSteps::Motion SmallSteps::motion_by_velocity(const b2Body& body) const {
 /// of it.
 bool SmallSteps::passes_unseen(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
   fast_bodies_.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const SolverBody<2>& body = solver_.body(slots_[input.awake[i]]);
-    const Motion motion{to_box2d(body.way), reach_ * std::abs(body.turn[0])};
-    if (is_fast(expected_[i]) || !is_fast(motion)) continue;
-    expected_[i] = motion;
-    fast_bodies_.push_back(bodies[i]);
+  const auto motion_of_slot = [&](int slot) {
+    const SolverBody<2>& body = solver_.body(slot);
+    return Motion{to_box2d(body.way), reach_ * std::abs(body.turn[0])};
+  };
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!is_fast(expected_of(input.awake[i])) && is_fast(motion_of_slot(slots_[input.awake[i]])))
+      fast_bodies_.push_back(bodies[i]);
+  for (b2Body* body : fast_bodies_) {
+    const int slot = slots_[owner_of(*body->GetFixtureList())];
+    expected_[slot - 1] = motion_of_slot(slot);
   }
   const auto known = static_cast<std::ptrdiff_t>(ahead_.size());
   find_ahead(world, false);
@@ -281,8 +285,9 @@ void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bod
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
   sleepers_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const b2MassData& mass = input.templates[input.states.shape[input.awake[i]]].mass;
-    solver_.add(solver_body(*bodies[i], mass));
+    const BodyIndex body = input.awake[i];
+    if (input.images[body].sides == 0)
+      solver_.add(solver_body(*bodies[i], input.templates[input.states.shape[body]].mass));
   }
   for (const Push<2>& push : input.pushes) {
     const b2MassData& mass = input.templates[input.states.shape[push.body]].mass;
@@ -404,7 +409,7 @@ void SmallSteps::add_rolling(const Fixtures& pair, const StepInput& input, Conta
 SmallSteps::Motion SmallSteps::motion_of(b2Fixture& fixture) const {
   const BodyIndex owner = owner_of(fixture);
   if (owner < 0) return motion_by_velocity(*fixture.GetBody());
-  return is_dynamic(*fixture.GetBody()) ? expected_[slots_[owner] - 1] : Motion{};
+  return is_dynamic(*fixture.GetBody()) ? expected_of(owner) : Motion{};
 }
 
 bool SmallSteps::is_fast(const Motion& motion) const { return motion.longest() > fast_; }

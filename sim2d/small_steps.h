@@ -120,6 +120,7 @@ class SmallSteps {
   bool is_known(const b2Fixture& one, const b2Fixture& other) const;
   Motion motion_by_velocity(const b2Body& body) const;
   Motion motion_of(b2Fixture& fixture) const;
+  const Motion& expected_of(BodyIndex awake) const { return expected_[slots_[awake] - 1]; }
   bool is_fast(const Motion& motion) const;
   VecF<2> shift_of(BodyIndex side, const VecF<2>& arm) const;
   void write_impulses();
@@ -134,7 +135,7 @@ class SmallSteps {
   std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
   ContactSolver<2> solver_;
   std::optional<Ring<2>> ring_;
-  std::vector<Motion> expected_;      // by number among the awake
+  std::vector<Motion> expected_;      // by slot of an awake body, from 1 on
   std::vector<b2Body*> fast_bodies_;  // of which contacts ahead are to be found
   std::vector<Ahead> ahead_;
   std::vector<Source> sources_;             // by point
