@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tools/picture/force_chains.h"
 #include "tools/picture/page.h"
 #include "tools/picture/scene_painter.h"
 
@@ -17,6 +18,7 @@ PageContent page_content(const PictureInput<Dim>& input, const PictureParams& pa
   content.awake_colours = awake_colours(params, input.shapes);
   content.shapes = legend_of_shapes(input.shapes);
   content.layers = !input.piles.empty();
+  content.force_scale = force_scale(input);
   content.parallel = Dim == 2;
   return content;
 }
@@ -56,7 +58,14 @@ Image FilmFrames<Dim>::draw(const PictureInput<Dim>& input) const {
   const int height = setting_->layout.height;
   Framing<Dim> framing = setting_->framing;
   framing.drawn = present_in(input.states);
-  const Page page(page_content(input, params), params);
+  PageContent content = page_content(input, params);
+  for (const BodyIndex body : framing.drawn) {
+    const double away = framing.box.exteriorDistance(input.states.pose[body].position);
+    if (away <= 0.0) continue;
+    ++content.outside;
+    content.farthest = std::max(content.farthest, away);
+  }
+  const Page page(content, params);
   const Painter scene = scene_painter(input, framing, setting_->layout.projection, params, params.width, height);
   const Painter paint = [&](cairo_t* canvas) {
     page.draw_background(canvas);

@@ -84,7 +84,10 @@ void Page::draw_legend(cairo_t* canvas) const {
   for (const LegendEntry& entry : content_.shapes)
     left = draw_entry(canvas, left, {entry.fill}, params_.awake_outline, entry.text);
   if (content_.layers)
-    draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
+    left = draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
+  if (content_.force_scale > 0.0)
+    draw_entry(canvas, left, {params_.weak_force, params_.strong_force}, params_.strong_force,
+               fmt::format("contact forces, the strong ones {:g} N and more", content_.force_scale));
 }
 
 double Page::draw_entry(cairo_t* canvas, double left, const std::vector<Colour>& fills, const Colour& outline,

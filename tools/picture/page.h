@@ -24,6 +24,7 @@ struct PageContent {
   std::vector<Colour> awake_colours{};  // of awake bodies
   std::vector<LegendEntry> shapes{};    // with colours of their own
   bool layers = false;                  // whether piles are drawn
+  double force_scale = 0.0;             // of force chains [N]; 0: none are drawn
   bool parallel = true;                 // whether the scale bar holds all over the picture (2D), or in the middle only
 };
 

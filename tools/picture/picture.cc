@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/picture/canvas.h"
+#include "tools/picture/force_chains.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/page.h"
 #include "tools/picture/scene_painter.h"
@@ -23,6 +24,7 @@ PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& frami
   content.awake_colours = awake_colours(params, input.shapes);
   content.shapes = legend_of_shapes(input.shapes);
   content.layers = !input.piles.empty();
+  content.force_scale = force_scale(input);
   content.parallel = Dim == 2;
   return content;
 }
