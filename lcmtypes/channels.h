@@ -14,11 +14,23 @@
 namespace talus {
 
 /// One kind of message each.
-enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events, obstacles, scene, instruments, contacts };
+enum class Channel : std::uint8_t {
+  run,
+  piles,
+  sleep,
+  stats,
+  bodies,
+  shapes,
+  events,
+  obstacles,
+  scene,
+  instruments,
+  contacts
+};
 
 inline constexpr std::array<const char*, 11> channel_names = {
-    "TALUS_RUN",    "TALUS_PILES",  "TALUS_SLEEP",     "TALUS_STATS", "TALUS_BODIES",
-    "TALUS_SHAPES", "TALUS_EVENTS", "TALUS_OBSTACLES", "TALUS_SCENE", "TALUS_INSTRUMENTS", "TALUS_CONTACTS"};
+    "TALUS_RUN",    "TALUS_PILES",     "TALUS_SLEEP", "TALUS_STATS",       "TALUS_BODIES",  "TALUS_SHAPES",
+    "TALUS_EVENTS", "TALUS_OBSTACLES", "TALUS_SCENE", "TALUS_INSTRUMENTS", "TALUS_CONTACTS"};
 
 /// Of each name.
 inline constexpr std::string_view channel_prefix = "TALUS_";

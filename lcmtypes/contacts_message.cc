@@ -32,7 +32,8 @@ std::vector<talus_contacts> to_contacts(std::span<const ContactForce<Dim>> conta
   std::vector<talus_contacts> messages;
   do {
     talus_contacts& message = messages.emplace_back();
-    for (const ContactForce<Dim>& contact : contacts.first(std::min(contacts.size(), at_most))) append(contact, message);
+    for (const ContactForce<Dim>& contact : contacts.first(std::min(contacts.size(), at_most)))
+      append(contact, message);
     message.contact_count = static_cast<std::int32_t>(message.a.size());
     message.value_count = static_cast<std::int32_t>(message.values.size());
     contacts = contacts.subspan(message.a.size());
@@ -58,7 +59,8 @@ void append_contacts(const talus_contacts& message, std::vector<ContactForce<3>>
 
 std::string_view range_fault(const talus_contacts& m) {
   if (!header_holds(m) || !parts_hold(m)) return "header out of range";
-  if (m.value_count != static_cast<std::int32_t>(contact_values) * m.contact_count) return "values do not match contacts";
+  if (m.value_count != static_cast<std::int32_t>(contact_values) * m.contact_count)
+    return "values do not match contacts";
   if (std::ranges::any_of(m.a, is_negative)) return "negative body";
   return {};
 }

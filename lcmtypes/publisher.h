@@ -25,8 +25,8 @@ struct PublisherParams {
                                         // events is dropped in part
 };
 
-/// Poses and contacts take at most so many bytes a second of wall time: what a receiver at default settings of the kernel hears
-/// without loss.
+/// Poses and contacts take at most so many bytes a second of wall time: what a receiver at default settings of the
+/// kernel hears without loss.
 inline constexpr double bodies_bytes_per_second = 12e6;
 
 /// Comes due `rate` times a second of wall time, or as often as due() is called.

@@ -77,8 +77,8 @@ std::vector<ContactForce<Dim>> contacts_of(const Moment& moment) {
   };
   std::vector<ContactForce<Dim>> contacts;
   for (const ContactForce<3>& each : moment.contacts)
-    contacts.push_back({each.a, each.b, in_plane(each.point), in_plane(each.normal_force),
-                        in_plane(each.friction_force), each.kept});
+    contacts.push_back(
+        {each.a, each.b, in_plane(each.point), in_plane(each.normal_force), in_plane(each.friction_force), each.kept});
   return contacts;
 }
 

@@ -158,15 +158,15 @@ TEST(MonitorPages, ShowWhatTheSceneMeasures) {
   instruments.loads[0].force[2] = -12345.0;
   instruments.loads[1].name = "wall";
   run.send(instruments);
-  for (const char* part : {"gates, regions, loads", "gate   slot       70 passed, 2 back, jammed",
-                           "region bulk       24 bodies, 61.3 %, 0.025 m/s", "load   floor      (0, -1.23e+04) N",
-                           "load   wall       not known"})
+  for (const char* part :
+       {"gates, regions, loads", "slot       70 passed, 2 back, jammed", "bulk       24 bodies, 61.3 %, 0.025 m/s",
+        "floor      (0, -1.23e+04) N", "wall       not known"})
     EXPECT_TRUE(shows(screen.text(), part));
   run.pile(3);
   EXPECT_TRUE(shows(screen.text(), "pile 0: 3 layers"));
   EXPECT_TRUE(shows(screen.text(), "i: all")) << "beside a pile there is less room";
   screen.press('i');
-  EXPECT_TRUE(shows(screen.text(), "load   wall       not known"));
+  EXPECT_TRUE(shows(screen.text(), "wall       not known"));
 }
 
 TEST(MonitorPages, FilterEventsByKey) {

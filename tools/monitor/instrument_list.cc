@@ -20,27 +20,25 @@ struct Line {
   Style style = Style::plain;
 };
 
-std::string named(const char* kind, const std::string& name) {
-  return fmt::format("{:<6} {:<10} ", kind, printable(name));
-}
+std::string named(const std::string& name) { return fmt::format("{:<10} ", printable(name)); }
 
 Line line_of(const talus_gate& gate) {
-  std::string text = named("gate", gate.name) + fmt::format("{} passed", gate.forward);
+  std::string text = named(gate.name) + fmt::format("{} passed", gate.forward);
   if (gate.backward > 0) text += fmt::format(", {} back", gate.backward);
   if (gate.jammed != 0) return {text + ", jammed", Style::alert};
   return {text};
 }
 
 Line line_of(const talus_region& region) {
-  std::string text = named("region", region.name) + fmt::format("{} bodies", region.bodies);
+  std::string text = named(region.name) + fmt::format("{} bodies", region.bodies);
   if (region.packing >= 0.0) text += fmt::format(", {:.1f} %", 100.0 * region.packing);
   return {text + fmt::format(", {:.2g} m/s", region.mean_speed)};
 }
 
 Line line_of(const talus_load& load, bool plane) {
   const auto& [x, y, z] = load.force;
-  if (load.known == 0) return {named("load", load.name) + "not known", Style::quiet};
-  return {named("load", load.name) +
+  if (load.known == 0) return {named(load.name) + "not known", Style::quiet};
+  return {named(load.name) +
           (plane ? fmt::format("({:.3g}, {:.3g}) N", x, z) : fmt::format("({:.3g}, {:.3g}, {:.3g}) N", x, y, z))};
 }
 

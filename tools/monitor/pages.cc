@@ -159,8 +159,8 @@ void draw_help(const Area& area) {
   draw_list(
       {"q, Ctrl-C   quit", "tab, n      next run; 1 to 9: run of that number", "r           all runs side by side",
        "p           next pile of the run", "l           layers of the pile, one a row where they fit",
-       "e           sleep events, and how many of each cause",
-       "i           gates, regions and loads of the scene", "f           filter of events: all, woke, slept, then each cause", "a           all alerts",
+       "e           sleep events, and how many of each cause", "i           gates, regions and loads of the scene",
+       "f           filter of events: all, woke, slept, then each cause", "a           all alerts",
        "up, down    scroll a list", "space       hold the screen; the monitor goes on listening",
        "escape      back to the overview", "",
        "A bar of a layer is its density: bodies over capacity, | marks 1. It has the",
