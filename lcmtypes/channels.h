@@ -14,11 +14,26 @@
 namespace talus {
 
 /// One kind of message each.
-enum class Channel : std::uint8_t { run, piles, sleep, stats, bodies, shapes, events, obstacles, scene, instruments };
+enum class Channel : std::uint8_t {
+  run,
+  piles,
+  sleep,
+  stats,
+  bodies,
+  shapes,
+  events,
+  obstacles,
+  scene,
+  instruments,
+  contacts
+};
 
-inline constexpr std::array<const char*, 10> channel_names = {
-    "TALUS_RUN",    "TALUS_PILES",  "TALUS_SLEEP",     "TALUS_STATS", "TALUS_BODIES",
-    "TALUS_SHAPES", "TALUS_EVENTS", "TALUS_OBSTACLES", "TALUS_SCENE", "TALUS_INSTRUMENTS"};
+inline constexpr std::array<const char*, 11> channel_names = {
+    "TALUS_RUN",    "TALUS_PILES",     "TALUS_SLEEP", "TALUS_STATS",       "TALUS_BODIES",  "TALUS_SHAPES",
+    "TALUS_EVENTS", "TALUS_OBSTACLES", "TALUS_SCENE", "TALUS_INSTRUMENTS", "TALUS_CONTACTS"};
+
+/// Of each name.
+inline constexpr std::string_view channel_prefix = "TALUS_";
 
 inline constexpr const char* name_of(Channel channel) { return channel_names[static_cast<std::size_t>(channel)]; }
 
@@ -52,9 +67,10 @@ template <>
 inline constexpr Channel channel_of<talus_lcm::talus_obstacles> = Channel::obstacles;
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_scene> = Channel::scene;
-
 template <>
 inline constexpr Channel channel_of<talus_lcm::talus_instruments> = Channel::instruments;
+template <>
+inline constexpr Channel channel_of<talus_lcm::talus_contacts> = Channel::contacts;
 
 /// Calls `use` with a default message of the type that the channel carries.
 template <class Use>
@@ -80,19 +96,14 @@ void with_message_of(Channel channel, const Use& use) {
       return use(talus_lcm::talus_scene{});
     case Channel::instruments:
       return use(talus_lcm::talus_instruments{});
+    case Channel::contacts:
+      return use(talus_lcm::talus_contacts{});
   }
 }
 
-/// The channels that a run sends and records on: the last three only where its scene has events, obstacles that move,
-/// or instruments.
-inline std::vector<Channel> channels_of_run(bool events, bool moving_obstacles, bool instruments) {
-  std::vector channels = {Channel::run,   Channel::piles,  Channel::sleep,
-                          Channel::stats, Channel::bodies, Channel::shapes};
-  if (events) channels.push_back(Channel::events);
-  if (moving_obstacles) channels.push_back(Channel::obstacles);
-  if (instruments) channels.push_back(Channel::instruments);
-  return channels;
-}
+/// The channels that each run sends and records on.
+inline constexpr std::array usual_channels = {Channel::run,   Channel::piles,  Channel::sleep,
+                                              Channel::stats, Channel::bodies, Channel::shapes};
 
 /// Largest encoded message [bytes]: what fits one datagram, since LCM 1.3.1 loses every message of several fragments
 /// when one of them is lost or late.

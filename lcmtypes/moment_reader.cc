@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "lcmtypes/contacts_message.h"
 #include "lcmtypes/piles_message.h"
 #include "lcmtypes/run_message.h"
 #include "lcmtypes/sleep_message.h"
@@ -15,6 +16,7 @@
 namespace talus {
 
 using talus_lcm::talus_bodies;
+using talus_lcm::talus_contacts;
 using talus_lcm::talus_event;
 using talus_lcm::talus_instruments;
 using talus_lcm::talus_obstacles;
@@ -157,6 +159,7 @@ bool MomentReader::take(const talus_bodies& message) {
   later_events_.clear();
   moment_.step = message.step;
   moment_.time = message.sim_time;
+  place_contacts();
   for (const SleepEvent& event : moment_.events)
     if (event.body < moment_.bodies.size()) moment_.bodies.cause[event.body] = static_cast<std::int8_t>(event.cause);
   return true;
@@ -213,7 +216,28 @@ bool MomentReader::take(const talus_obstacles& message) {
 }
 
 bool MomentReader::take(const talus_scene& message) { return counted_only(message); }
-bool MomentReader::take(const talus_instruments& message) { return counted_only(message); }
+
+bool MomentReader::take(const talus_instruments& message) {
+  if (count(message) == Age::newest && instrument_parts_.take(message)) instruments_ = instrument_parts_.all();
+  return false;
+}
+
+bool MomentReader::take(const talus_contacts& message) {
+  if (!limits_.poses) return counted_only(message);
+  if (count(message) == Age::newest && contact_parts_.take(message)) contacts_ = contact_parts_.all();
+  return false;
+}
+
+/// Those of the moment's step, of bodies that it has.
+void MomentReader::place_contacts() {
+  std::vector<ContactForce<3>>& contacts = moment_.contacts;
+  contacts.clear();
+  if (contacts_.empty() || contacts_.front().step != moment_.step) return;
+  for (const talus_contacts& part : contacts_) append_contacts(part, contacts);
+  std::erase_if(contacts, [&](const ContactForce<3>& contact) {
+    return std::max(contact.a, contact.b) >= moment_.bodies.size();
+  });
+}
 
 void MomentReader::place_obstacle(int obstacle, std::span<const float> values) {
   std::vector<int>& moved = moment_.moved_obstacle;

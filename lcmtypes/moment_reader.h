@@ -63,6 +63,7 @@ class MomentReader {
   bool take(const talus_lcm::talus_obstacles& message);
   bool take(const talus_lcm::talus_scene& message);
   bool take(const talus_lcm::talus_instruments& message);
+  bool take(const talus_lcm::talus_contacts& message);
 
   /// Valid until the next call of take(). A step that is told again, as at the end of a run, keeps its events.
   const Moment& moment() const { return moment_; }
@@ -72,6 +73,8 @@ class MomentReader {
   /// The newest message about the run and its numbers.
   const std::optional<talus_lcm::talus_run>& run() const { return run_; }
   const std::optional<talus_lcm::talus_stats>& stats() const { return stats_; }
+  /// The newest readings of instruments, in as many messages as they came.
+  const std::vector<talus_lcm::talus_instruments>& instruments() const { return instruments_; }
   /// By index; an obstacle's as it was first told.
   const std::map<int, talus_lcm::talus_shapes>& shapes() const { return shapes_; }
   const std::map<int, talus_lcm::talus_shapes>& obstacles() const { return obstacles_; }
@@ -107,6 +110,7 @@ class MomentReader {
   void require_dimension(int dimension) const;
   void place_pile(std::size_t number, const talus_lcm::talus_pile& message);
   void place_obstacle(int obstacle, std::span<const float> values);
+  void place_contacts();
 
   MomentLimits limits_;
   Moment moment_;
@@ -117,6 +121,10 @@ class MomentReader {
   std::vector<SleepEvent> later_events_;
   std::optional<talus_lcm::talus_run> run_;
   std::optional<talus_lcm::talus_stats> stats_;
+  Parts<talus_lcm::talus_instruments> instrument_parts_;
+  std::vector<talus_lcm::talus_instruments> instruments_;
+  Parts<talus_lcm::talus_contacts> contact_parts_;
+  std::vector<talus_lcm::talus_contacts> contacts_;  // of a whole step
   std::map<int, talus_lcm::talus_shapes> shapes_;
   std::map<int, talus_lcm::talus_shapes> obstacles_;
   std::map<int, talus_lcm::talus_event> events_;

@@ -7,6 +7,7 @@
 #include "common/moment/moment.h"
 #include "common/world/motion.h"
 #include "lcmtypes/bodies_message.h"
+#include "lcmtypes/contacts_message.h"
 #include "lcmtypes/event_message.h"
 #include "lcmtypes/instruments_message.h"
 #include "lcmtypes/obstacles_message.h"
@@ -24,7 +25,11 @@ void MomentWriter<Dim>::set_scene(const Scene<Dim>& scene) {
 
 template <int Dim>
 void MomentWriter<Dim>::run(std::int8_t phase, std::string_view reason, std::int64_t step, double time) {
-  auto channels = channels_of_run(!events_.empty(), !moving_.empty(), scene_ && !scene_->instruments.empty());
+  std::vector<Channel> channels(usual_channels.begin(), usual_channels.end());
+  if (!events_.empty()) channels.push_back(Channel::events);
+  if (!moving_.empty()) channels.push_back(Channel::obstacles);
+  if (scene_ && !scene_->instruments.empty()) channels.push_back(Channel::instruments);
+  if (scene_ && scene_->run.contacts) channels.push_back(Channel::contacts);
   if (!files_.empty()) channels.push_back(Channel::scene);
   send(to_run(info_, phase, reason, channels, encoder_), step, time);
 }
@@ -127,6 +132,15 @@ template <int Dim>
 void MomentWriter<Dim>::instruments(const Frame<Dim>& frame) {
   if (meters_ == nullptr || meters_->instruments().empty()) return;
   send_all(to_instruments(*meters_, scene_->obstacle_names), frame.step, frame.time);
+}
+
+template <int Dim>
+std::size_t MomentWriter<Dim>::contacts(const Frame<Dim>& frame) {
+  if (contacts_ == nullptr || !contacts_->needs_contacts()) return 0;
+  auto messages = to_contacts<Dim>(contacts_->of(frame.world));
+  const std::size_t sent = messages.size();
+  send_all(std::move(messages), frame.step, frame.time);
+  return sent;
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/measure/contact_forces.h"
 #include "common/measure/instrument_meters.h"
 #include "common/measure/pile_form.h"
 #include "common/policy/frame.h"
@@ -46,6 +47,8 @@ class MomentWriter {
   void set_files(const Scene<Dim>& scene) { files_ = to_scene_files(scene); }
   /// What the scene measures, if it measures anything; must live longer than this object.
   void set_instruments(const InstrumentMeters<Dim>& meters) { meters_ = &meters; }
+  /// The contacts to tell of, while they are wanted; must live longer than this object.
+  void set_contacts(const ContactForces<Dim>& contacts) { contacts_ = &contacts; }
   bool has_shapes() const { return !shapes_.empty(); }
 
   /// `phase` as in talus_run.
@@ -73,6 +76,8 @@ class MomentWriter {
   void measure_slope(const Frame<Dim>& frame);
   /// The readings of the scene's instruments, where it has any.
   void instruments(const Frame<Dim>& frame);
+  /// The contacts, while they are wanted, in how many messages.
+  std::size_t contacts(const Frame<Dim>& frame);
   /// Of obstacles that have moved since the last time; of all that may move the first time and where `all` is set.
   void obstacles(const Frame<Dim>& frame, bool all = false);
   /// Poses of the bodies awake, of those that fell asleep since the last time, and of `more`; how many these are and in
@@ -109,6 +114,7 @@ class MomentWriter {
   std::size_t event_turn_ = 0;                   // the one from which on they are sent again
   std::optional<Scene<Dim>> scene_;
   const InstrumentMeters<Dim>* meters_ = nullptr;
+  const ContactForces<Dim>* contacts_ = nullptr;
   Applicable<AngleOfRepose> slope_;
   double slope_time_ = -1.0;            // when it was measured last [s]; below 0: never
   std::vector<BodyIndex> fell_asleep_;  // since poses were sent last

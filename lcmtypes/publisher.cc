@@ -86,8 +86,8 @@ void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
   if (bodies_pulse_.due(now)) send_bodies(frame, now);
 }
 
-/// Poses of the bodies that move or have just fallen asleep, and of some of the others in turn. Obstacles are shown
-/// with the bodies of the same step, and so come before them.
+/// Poses of the bodies that move or have just fallen asleep, and of some of the others in turn. Obstacles and contacts
+/// are shown with the bodies of the same step, and so come before them.
 template <int Dim>
 void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now) {
   const BodyIndex bodies = frame.world.states().size();
@@ -98,7 +98,8 @@ void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now)
     in_turn.push_back(turn_++);
   }
   writer_.obstacles(frame);
-  const auto bytes = static_cast<double>(max_message_bytes * writer_.bodies(frame, in_turn).messages);
+  const std::size_t contacts = writer_.contacts(frame);
+  const auto bytes = static_cast<double>(max_message_bytes * (contacts + writer_.bodies(frame, in_turn).messages));
   bodies_pulse_.wait_until(now + std::chrono::duration_cast<Clock::duration>(
                                      std::chrono::duration<double>(bytes / bodies_bytes_per_second)));
 }
@@ -112,6 +113,7 @@ void Publisher<Dim>::on_end(const Frame<Dim>& last, std::string_view reason) {
   if (writer_.has_shapes()) {
     writer_.shapes(last);
     writer_.obstacles(last);
+    writer_.contacts(last);
     if (last.world.states().size() <= most_in_key_frame) writer_.all_bodies(last);
   }
   writer_.run(talus_run::END, reason, last.step, last.time);

@@ -25,8 +25,8 @@ struct PublisherParams {
                                         // events is dropped in part
 };
 
-/// Poses take at most so many bytes a second of wall time: what a receiver at default settings of the kernel hears
-/// without loss.
+/// Poses and contacts take at most so many bytes a second of wall time: what a receiver at default settings of the
+/// kernel hears without loss.
 inline constexpr double bodies_bytes_per_second = 12e6;
 
 /// Comes due `rate` times a second of wall time, or as often as due() is called.
@@ -72,6 +72,8 @@ class Publisher final : public Observer<Dim>, private MessageSink {
   /// After set_scene(), before the first frame: the readings of the scene's instruments are told too. `meters` must be
   /// an observer of the run before this one, and live longer.
   void set_instruments(const InstrumentMeters<Dim>& meters) { writer_.set_instruments(meters); }
+  /// The same for the contacts, while they are wanted.
+  void set_contacts(const ContactForces<Dim>& contacts) { writer_.set_contacts(contacts); }
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;

@@ -83,6 +83,7 @@ void RunRecorder<Dim>::write_output(const Frame<Dim>& frame, bool key_frame) {
   writer_.piles(frame);
   writer_.stats(frame);
   writer_.instruments(frame);
+  writer_.contacts(frame);
   writer_.obstacles(frame, key_frame);
   if (!key_frame) {
     poses_since_key_frame_ += static_cast<std::int64_t>(writer_.bodies(frame).bodies);

@@ -35,6 +35,8 @@ class RunRecorder final : public Observer<Dim>, private MessageSink {
   /// Before the first frame: the readings of the scene's instruments are told too. `meters` must be an
   /// observer of the run before this one, and live longer.
   void set_instruments(const InstrumentMeters<Dim>& meters) { writer_.set_instruments(meters); }
+  /// The same for the contacts, while they are wanted.
+  void set_contacts(const ContactForces<Dim>& contacts) { writer_.set_contacts(contacts); }
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;

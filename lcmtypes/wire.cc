@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "lcmtypes/bodies_message.h"
+#include "lcmtypes/contacts_message.h"
 #include "lcmtypes/event_message.h"
 #include "lcmtypes/instruments_message.h"
 #include "lcmtypes/obstacles_message.h"

@@ -67,12 +67,29 @@ std::vector<ObstaclePose<Dim>> obstacles_of(const Moment& moment) {
   return obstacles;
 }
 
+template <int Dim>
+std::vector<ContactForce<Dim>> contacts_of(const Moment& moment) {
+  const auto in_plane = [](const Vec3& vector) -> Vec<Dim> {
+    if constexpr (Dim == 3)
+      return vector;
+    else
+      return {vector.x(), vector.z()};
+  };
+  std::vector<ContactForce<Dim>> contacts;
+  for (const ContactForce<3>& each : moment.contacts)
+    contacts.push_back(
+        {each.a, each.b, in_plane(each.point), in_plane(each.normal_force), in_plane(each.friction_force), each.kept});
+  return contacts;
+}
+
 template void PoseList::set<2>(std::size_t, const Pose<2>&);
 template void PoseList::set<3>(std::size_t, const Pose<3>&);
 template BodyStates<2> states_of<2>(const Moment&);
 template BodyStates<3> states_of<3>(const Moment&);
 template std::vector<Pile<2>> piles_of<2>(const Moment&);
 template std::vector<Pile<3>> piles_of<3>(const Moment&);
+template std::vector<ContactForce<2>> contacts_of<2>(const Moment&);
+template std::vector<ContactForce<3>> contacts_of<3>(const Moment&);
 template std::vector<ObstaclePose<2>> obstacles_of<2>(const Moment&);
 template std::vector<ObstaclePose<3>> obstacles_of<3>(const Moment&);
 

@@ -74,14 +74,15 @@ struct Moment {
   std::int64_t step = 0;
   double time = 0.0;  // [s] simulated
   MomentBodies bodies;
-  std::vector<SleepEvent> events;   // since the moment before, in order
-  std::vector<Pile<3>> piles;       // with the policy's thresholds; bases of a plane scene lie in y = 0
-  std::vector<Warning> warnings;    // all so far, one of each kind
-  double kinetic_energy = 0.0;      // [J]
-  std::optional<double> drift;      // mean distance that the sleeping bodies are expected to move once woken [D]
-  std::vector<DoneEvent> done;      // events of the scene, all so far
-  std::vector<int> moved_obstacle;  // those that may have moved, ascending
-  PoseList obstacle_pose;           // theirs
+  std::vector<SleepEvent> events;         // since the moment before, in order
+  std::vector<Pile<3>> piles;             // with the policy's thresholds; bases of a plane scene lie in y = 0
+  std::vector<Warning> warnings;          // all so far, one of each kind
+  double kinetic_energy = 0.0;            // [J]
+  std::optional<double> drift;            // mean distance that the sleeping bodies are expected to move once woken [D]
+  std::vector<DoneEvent> done;            // events of the scene, all so far
+  std::vector<int> moved_obstacle;        // those that may have moved, ascending
+  PoseList obstacle_pose;                 // theirs
+  std::vector<ContactForce<3>> contacts;  // where the run tells them; those of a plane scene lie in y = 0
 };
 
 /// The moment of a finished step: of the causes those of the step's own events, of the obstacles all that move by plan.
@@ -99,6 +100,10 @@ BodyStates<Dim> states_of(const Moment& moment);
 /// Its piles.
 template <int Dim>
 std::vector<Pile<Dim>> piles_of(const Moment& moment);
+
+/// Its contacts.
+template <int Dim>
+std::vector<ContactForce<Dim>> contacts_of(const Moment& moment);
 
 /// Its obstacles that have moved.
 template <int Dim>

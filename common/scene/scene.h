@@ -97,6 +97,7 @@ struct RunParams {
   double frame_rate = 30.0;
   std::string until = std::string(until_frames);
   double pace = 0.0;
+  bool contacts = false;
 };
 
 /// Steps of a run: at 60 a second half a year, at a quarter of a microsecond for a world at rest four minutes.

@@ -70,7 +70,8 @@ void Ring<Dim>::append_contacts(BodyIndex side, const BodyStates<Dim>& states, d
                                 std::vector<Contact<Dim>>& out) const {
   const auto append = [&](std::span<const int> numbers) {
     for (const int number : numbers)
-      if (const SleepingPoint<Dim>& point = contacts_[number]; point.a == side || point.b == side)
+      if (const SleepingPoint<Dim>& point = contacts_[number];
+          (point.a == side && point.b >= 0) || (point.b == side && point.a >= 0))
         out.push_back(contact_of(point, side, states, impulse_unit));
   };
   if (side != ground_index) {

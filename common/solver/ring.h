@@ -35,7 +35,7 @@ class Ring {
   void forget(BodyIndex side);
   /// Whether a body sleeps here.
   bool has(BodyIndex body) const { return body < std::ssize(sleepers_) && sleepers_[body].asleep; }
-  /// Appends the contacts of the bodies that sleep here with the ground or an obstacle, see World::sleeping_contacts().
+  /// Appends the contacts of the bodies that sleep here with `side`, see World::sleeping_contacts().
   /// `impulse_unit`: of the points' impulses [N s].
   void append_contacts(BodyIndex side, const BodyStates<Dim>& states, double impulse_unit,
                        std::vector<Contact<Dim>>& out) const;

@@ -60,4 +60,15 @@ struct Contact {
   double depth = 0.0;                            // [m], positive where they overlap
 };
 
+/// A point of contact of two bodies, awake or asleep, or of one with the ground or an obstacle.
+template <int Dim>
+struct ContactForce {
+  BodyIndex a = 0;
+  BodyIndex b = ground_index;                  // as in Contact
+  Vec<Dim> point = Vec<Dim>::Zero();           // [m]
+  Vec<Dim> normal_force = Vec<Dim>::Zero();    // on a [N], mean over the step
+  Vec<Dim> friction_force = Vec<Dim>::Zero();  // on a [N], mean over the step
+  bool kept = false;                           // neither side is awake
+};
+
 }  // namespace talus

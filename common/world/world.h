@@ -100,9 +100,9 @@ class World {
   /// Whether a sleeping body takes part in solves and touches `side`, a body or an obstacle as contacts number them:
   /// then nothing need wake it when that one moves or goes.
   bool feels(BodyIndex body, BodyIndex side) const { return engine_feels(body, side); }
-  /// Appends the contact points of sleeping bodies with the ground or an obstacle as contacts number them, each with
-  /// the impulses over a step that hold it. Nothing without a ring, and no point of a body that fell asleep before its
-  /// first step.
+  /// Appends the contact points of sleeping bodies with another one, the ground or an obstacle as contacts number them,
+  /// each with the impulses over a step that hold it. Nothing without a ring, and no point of a body that fell asleep
+  /// before its first step.
   void sleeping_contacts(BodyIndex side, std::vector<Contact<Dim>>& found) const {
     engine_sleeping_contacts(side, found);
   }

@@ -2,40 +2,58 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
-import { colours, endless, openPage, pause, serve, talus, temporaryFolder, until } from "./browser.mjs";
+import { colours, endless, openPage, serve, talus, temporaryFolder, until } from "./browser.mjs";
+
+/// As points, as force chains, and not.
+async function drawEachWay(page) {
+  await page.uncheck("#layers");
+  assert.equal((await colours(page)).contact, 0);
+  for (const [way, scale] of [["points", "a bar of"], ["chains", "a line"]]) {
+    await page.selectOption("#contacts", way);
+    await page.waitForFunction((text) => new RegExp(`^\\d{2,} points .* ${text} .*N$`).test(document.getElementById("contact-note").textContent), scale);
+    const { contact } = await colours(page);
+    assert.ok(contact > 2e-4, `${way}, share of pixels: ${contact}`);
+  }
+  await page.selectOption("#contacts", "none");
+  assert.equal((await colours(page)).contact, 0);
+}
 
 for (const [scene, ...options] of [["drop_in_a_pile_2d"], ["drop_in_a_pile_2d", "--backend", "bullet-planar"], ["drop_in_a_pile_3d"]]) {
-  test(`${[scene, ...options].join(" ")}: contacts are drawn as points and as force chains, and taken away`, async () => {
+  test(`${[scene, ...options].join(" ")}: contacts are drawn while they are wanted`, async () => {
     const { url, child } = await serve(scene, ...options, "--pace", "1", ...endless);
     const page = await openPage(url);
-    await page.uncheck("#layers");
     await until(page, ({ bodies }) => bodies > 20, 60); // at this pace bodies still fall when a slow page is here
-    assert.equal((await colours(page)).contact, 0);
     assert.match(await page.textContent("#contact-note"), /not computed/);
-    await page.selectOption("#contacts", "points");
-    await until(page, ({ awake }) => awake > 0); // while contacts are on: of bodies that slept before there are none
-    await pause(page); // contacts come with the newest frame, so that a slow page has none of a run that goes on
-    await page.waitForFunction(() => /^[1-9]\d* points .* a bar of .*N$/.test(document.getElementById("contact-note").textContent));
-    const { contact } = await colours(page);
-    assert.ok(contact > 2e-4, `share of pixels: ${contact}`);
-    await page.selectOption("#contacts", "chains");
-    await page.waitForFunction(() => /a line [\d.]+ m wide: .*N$/.test(document.getElementById("contact-note").textContent));
-    assert.ok((await colours(page)).contact > 2e-4, "force chains are drawn");
-    await page.selectOption("#contacts", "none");
-    assert.equal((await colours(page)).contact, 0);
+    await drawEachWay(page);
     assert.deepEqual(page.faults, []);
     await page.close();
     child.kill();
   });
 }
 
-test("of a record the page says that it has none", async () => {
-  const folder = join(temporaryFolder(), "run");
-  talus("run", "drop_in_a_pile_2d", "--no-telemetry", "--out", folder, "--set", "run.frames=60");
-  const { url, child } = await serve(folder);
+const folder = temporaryFolder();
+
+async function openRecord(...options) {
+  const run = join(folder, String(options.length));
+  talus("run", "drop_in_a_pile_3d", "--no-telemetry", "--out", run, "--set", "run.frames=120", ...options);
+  const { url } = await serve(run);
   const page = await openPage(url);
-  assert.ok(await page.isDisabled("#contacts"));
-  assert.match(await page.textContent("#contact-note"), /^Records .* have none/);
+  await page.evaluate(() => (window.talus.pause(), window.talus.seek(119)));
+  return page;
+}
+
+test("of a record whose run told them, contacts are drawn, and give bodies their colours", async () => {
+  const page = await openRecord("--set", "run.contacts=true");
+  await drawEachWay(page);
+  await page.selectOption("#paint", "force");
+  await page.waitForFunction(() => /[1-9]\d* *contact force/.test(document.getElementById("counts").textContent));
+  assert.deepEqual(page.faults, []);
   await page.close();
-  child.kill();
+});
+
+test("of a record without contacts the page says so", async () => {
+  const page = await openRecord();
+  assert.ok(await page.isDisabled("#contacts"));
+  assert.match(await page.textContent("#contact-note"), /^This run tells none/);
+  await page.close();
 });

@@ -22,13 +22,15 @@ async function highest(page) {
   return { number: body.i, x: x + body.x, y: y + body.y };
 }
 
+const count = 20; // bodies
+
 const onScreen = (page, body) => page.evaluate((i) => window.talus.stage.placeOf(i), body);
 
 for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   test(`${scene}: a body is pulled along by the pointer, and stays awake`, async () => {
-    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", ...endless);
+    const { url, child } = await serve(scene, "--pace", "8", "--set", `source[0].count=${count}`, ...endless);
     const page = await openPage(url);
-    await until(page, ({ asleep }) => asleep > 3, 60);
+    await until(page, ({ asleep }) => asleep === count, 60); // before, an impact may wake all again
     const body = await highest(page);
     const before = await onScreen(page, body.number);
     await page.click("[data-tool=pull]");
@@ -54,9 +56,9 @@ for (const scene of ["drop_in_a_pile_2d", "drop_in_a_pile_3d"]) {
   });
 
   test(`${scene}: a click adds a body of the shape chosen`, async () => {
-    const { url, child } = await serve(scene, "--pace", "8", "--set", "source[0].count=20", ...endless);
+    const { url, child } = await serve(scene, "--pace", "8", "--set", `source[0].count=${count}`, ...endless);
     const page = await openPage(url);
-    await until(page, ({ asleep }) => asleep > 3, 60);
+    await until(page, ({ asleep }) => asleep === count, 60); // before, an impact may wake all again
     const body = await highest(page);
     assert.ok(await page.isHidden("#shape"));
     await page.click("[data-tool=add]");

@@ -95,7 +95,7 @@ test("a body is thrown by shift and drag, and removed by Delete", async () => {
   // Few bodies, so that none falls onto the one thrown.
   const { url, child } = await serve("drop_in_a_pile_2d", "--pace", "8", "--set", "source[0].count=12", ...endless);
   const page = await openPage(url);
-  await until(page, ({ bodies, asleep }) => bodies === 12 && asleep > 8, 60);
+  await until(page, ({ bodies, asleep }) => bodies === 12 && asleep === 12, 60);
   await pause(page);
   const before = await shown(page);
   // The highest one that sleeps: nothing lies on it.

@@ -175,6 +175,23 @@ TEST(Decoder, RefusesObstaclesThatNoRunGives) {
   EXPECT_NE(fault(2, {-1, 5}, 6), "");
 }
 
+TEST(Decoder, RefusesContactsThatNoRunGives) {
+  MessageEncoder encoder(1);
+  const auto fault = [&](std::int32_t body, std::size_t values) {
+    talus_lcm::talus_contacts message{};
+    message.parts = message.contact_count = 1;
+    message.a = {body};
+    message.b = {-3};
+    message.kept = {1};
+    message.value_count = static_cast<std::int32_t>(values);
+    message.values.assign(values, 0.5F);
+    return fault_of<talus_lcm::talus_contacts>(encoder.encode(message, {0, 1, 0.5}).bytes);
+  };
+  EXPECT_EQ(fault(4, 9), "");
+  EXPECT_NE(fault(-1, 9), "");
+  EXPECT_NE(fault(4, 8), "");
+}
+
 TEST(Decoder, RefusesInstrumentsThatNoRunGives) {
   MessageEncoder encoder(1);
   const auto fault = [&](std::int64_t passed, std::int8_t kind, std::int32_t obstacle, std::size_t values) {

@@ -9,6 +9,7 @@ namespace talus::fingerprint_test {
 namespace {
 
 using talus_lcm::talus_bodies;
+using talus_lcm::talus_contacts;
 using talus_lcm::talus_event;
 using talus_lcm::talus_instruments;
 using talus_lcm::talus_obstacles;
@@ -31,6 +32,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_event::getHash()), 0x6F5F4E167CF5A516U);
   EXPECT_EQ(fingerprint(talus_obstacles::getHash()), 0x00D92F75D07931CFU);
   EXPECT_EQ(fingerprint(talus_instruments::getHash()), 0x79EEC3AFA1437207U);
+  EXPECT_EQ(fingerprint(talus_contacts::getHash()), 0x906F0411ACA0F398U);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "common/policy/paper_policy.h"
 #include "lcmtypes/bodies_message.h"
+#include "lcmtypes/contacts_message.h"
 #include "lcmtypes/event_message.h"
 #include "lcmtypes/instruments_message.h"
 #include "lcmtypes/piles_message.h"
@@ -408,6 +409,32 @@ TEST(SceneFiles, ComeInPartsThatMakeTheWhole) {
   }
   EXPECT_EQ(text, scene.toml);
   expect_sendable(messages);
+}
+
+TEST(ContactsMessage, CarriesPointsAndForcesThereAndBackInSpace) {
+  std::vector<ContactForce<2>> contacts(5000);
+  for (BodyIndex i = 0; i < 5000; ++i)
+    contacts[i] = {i, first_obstacle - i, {i, 2.0}, {3.0, 0.25 * i}, {-5.0, 6.0}, i % 3 == 0};
+  auto messages = to_contacts<2>(contacts);
+  EXPECT_GT(messages.size(), 1U);
+  expect_sendable(messages);
+  std::vector<ContactForce<3>> read;
+  for (const auto& message : messages) append_contacts(message, read);
+  ASSERT_EQ(read.size(), contacts.size());
+  for (BodyIndex i = 0; i < 5000; ++i) {
+    EXPECT_EQ(read[i].a, i);
+    EXPECT_EQ(read[i].b, first_obstacle - i);
+    EXPECT_EQ(read[i].point, Vec3(i, 0.0, 2.0));
+    EXPECT_EQ(read[i].normal_force, Vec3(3.0, 0.0, 0.25 * i));
+    EXPECT_EQ(read[i].friction_force, Vec3(-5.0, 0.0, 6.0));
+    EXPECT_EQ(read[i].kept, i % 3 == 0);
+  }
+}
+
+TEST(ContactsMessage, SaysThatThereAreNone) {
+  const auto messages = to_contacts<3>({});
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_EQ(messages[0].contact_count, 0);
 }
 
 TEST(InstrumentsMessage, HasTheFormAndTheReadingsOfEachInstrument) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lcmtypes/contacts_message.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/log_reader.h"
 #include "lcmtypes/obstacles_message.h"
@@ -141,6 +142,33 @@ void expect_moments_of_the_loop() {
 TEST(MomentReader, GivesTheMomentsOfTheLoopToTheLastBit) {
   expect_moments_of_the_loop<2>();
   expect_moments_of_the_loop<3>();
+}
+
+/// The contacts of a step, told before its poses.
+void tell_contacts(std::int64_t step, std::vector<ContactForce<3>> contacts, MomentReader& reader) {
+  for (auto& message : to_contacts<3>(contacts)) {
+    message.step = step;
+    message.seq = step;
+    reader.take(message);
+  }
+}
+
+TEST(MomentReader, HasTheContactsOfTheMomentsStepAndOfBodiesThatAreThere) {
+  const std::vector<LogEvent> events = recorded<3>(4);
+  MomentReader reader(3, limits);
+  for (const LogEvent& event : events) {
+    if (event.channel == name_of(Channel::bodies) && reader.moment().step == 0)
+      tell_contacts(2, {{.a = 0, .b = body_count}, {.a = 3, .b = 2}, {.a = 4, .b = ground_index}}, reader);
+    if (!take(event, reader)) continue;
+    const std::vector<ContactForce<3>> contacts = contacts_of<3>(reader.moment());
+    if (reader.moment().step > 2) {
+      EXPECT_TRUE(contacts.empty()) << "those of an older step";
+      continue;
+    }
+    ASSERT_EQ(contacts.size(), 2U);
+    EXPECT_EQ(contacts[0].a, 3);
+    EXPECT_EQ(contacts[1].b, ground_index);
+  }
 }
 
 TEST(MomentReader, GivesStatesOfTheRunsOwnDimension) {

@@ -5,6 +5,7 @@
 
 #include "common/moment/moment.h"
 #include "lcmtypes/bodies_message.h"
+#include "lcmtypes/contacts_message.h"
 #include "lcmtypes/obstacles_message.h"
 #include "lcmtypes/piles_message.h"
 #include "lcmtypes/run_message.h"
@@ -56,6 +57,8 @@ std::vector<Packet> sample_packets(int bodies) {
   encode(std::vector{file});
   const std::vector<ObstaclePose<Dim>> moved = {{0, scene.world.obstacles[0].pose}};
   encode(to_obstacles<Dim>(moved));
+  const std::vector<ContactForce<Dim>> contacts(2 * states.shape.size(), {.b = first_obstacle, .kept = true});
+  encode(to_contacts<Dim>(contacts));
   return packets;
 }
 

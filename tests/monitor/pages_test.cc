@@ -112,7 +112,7 @@ TEST(MonitorPages, ShowARunOnEightyColumns) {
                            "8.50 x real time", "100 of 100 bodies", "estimated drift 0.013 D, 50 % checked", "lost 0",
                            "awake 30, at most 100", "asleep 70, at most 70", "pile 0: 3 layers",
                            "    2 0.90    9/10       7", "      2     17 slept rest         0.75", "ms per step: 1.25",
-                           "solve      1.250", "TALUS_SLEEP    0.5", "q quit"})
+                           "solve      1.250", "SLEEP          0.5", "q quit"})
     EXPECT_TRUE(shows(text, part));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 24);
 }
@@ -134,6 +134,39 @@ TEST(MonitorPages, ShowTheThresholdsOfThePolicyForEachLayer) {
   EXPECT_TRUE(shows(screen.text(), "    2 0.90    9/10       7  0.80"));
   screen.press('l');
   EXPECT_TRUE(shows(screen.text(60), "    2 0.90    9/10       7  0.80   0.50"));
+}
+
+TEST(MonitorPages, ShowWhatTheSceneMeasures) {
+  Screen screen;
+  Sender run(screen, 42, "silo");
+  talus_lcm::talus_instruments instruments{};
+  instruments.parts = instruments.gate_count = instruments.region_count = 1;
+  instruments.gates.resize(1);
+  instruments.gates[0].name = "slot";
+  instruments.gates[0].forward = 70;
+  instruments.gates[0].backward = 2;
+  instruments.gates[0].jammed = 1;
+  instruments.regions.resize(1);
+  instruments.regions[0].name = "bulk";
+  instruments.regions[0].bodies = 24;
+  instruments.regions[0].packing = 0.613;
+  instruments.regions[0].mean_speed = 0.025;
+  instruments.load_count = 2;
+  instruments.loads.resize(2);
+  instruments.loads[0].name = "floor";
+  instruments.loads[0].known = 1;
+  instruments.loads[0].force[2] = -12345.0;
+  instruments.loads[1].name = "wall";
+  run.send(instruments);
+  for (const char* part :
+       {"gates, regions, loads", "slot       70 passed, 2 back, jammed", "bulk       24 bodies, 61.3 %, 0.025 m/s",
+        "floor      (0, -1.23e+04) N", "wall       not known"})
+    EXPECT_TRUE(shows(screen.text(), part));
+  run.pile(3);
+  EXPECT_TRUE(shows(screen.text(), "pile 0: 3 layers"));
+  EXPECT_TRUE(shows(screen.text(), "i: all")) << "beside a pile there is less room";
+  screen.press('i');
+  EXPECT_TRUE(shows(screen.text(), "wall       not known"));
 }
 
 TEST(MonitorPages, FilterEventsByKey) {

@@ -9,6 +9,7 @@
 
 #include "tests/common/temporary_folder.h"
 #include "tests/picture/sample.h"
+#include "tools/picture/force_chains.h"
 #include "tools/picture/page.h"
 
 namespace talus::picture_test {
@@ -65,6 +66,58 @@ TEST(Picture, ShowsSleepersDarkAndAwakeBodiesWarm) {
     EXPECT_GT(awake.red + awake.green, 1.0);
     EXPECT_GT(awake.red, awake.blue + 0.25);
   }
+}
+
+/// Two bodies with a contact of 2 N and one of 2 N, and what the picture has halfway between their middles.
+template <int Dim>
+Colour colour_between(bool contacts) {
+  const TemporaryFolder folder;
+  Sample<Dim> sample;
+  sample.add_rows(2);
+  PictureInput<Dim> input = sample.input();
+  const Vec<Dim> middle = 0.5 * (sample.states.pose[1].position + sample.states.pose[2].position);
+  if (contacts) input.contacts.assign(2, {.a = 1, .b = 2, .point = middle, .normal_force = 2.0 * Vec<Dim>::Unit(0)});
+  draw_pile<Dim>(folder / "a.svg", folder / "a.png", input, small);
+  return Image(folder / "a.png").at(layout_of<Dim>(sample.input(), small).projection.on_page(middle));
+}
+
+TEST(Picture, DrawsAForceChainBetweenTheMiddlesOfBodiesThatTouch) {
+  const auto strong = [](const Colour& colour) {
+    const Colour& as = PictureParams().strong_force;
+    return std::abs(colour.red - as.red) + std::abs(colour.green - as.green) + std::abs(colour.blue - as.blue) < 0.1;
+  };
+  EXPECT_TRUE(strong(colour_between<2>(true)));
+  EXPECT_TRUE(strong(colour_between<3>(true)));
+  EXPECT_FALSE(strong(colour_between<2>(false)));
+  EXPECT_FALSE(strong(colour_between<3>(false)));
+}
+
+TEST(Picture, WritesTheForceOfAStrongLineInTheLegend) {
+  Sample<2> sample;
+  sample.add_rows(2);
+  PictureInput<2> input = sample.input();
+  EXPECT_EQ(force_scale(input), 0.0);
+  for (int i = 0; i < 5; ++i)
+    input.contacts.push_back({.a = 0, .b = ground_index, .normal_force = Vec2(0.0, 100.0 * i + 1.0)});
+  EXPECT_EQ(force_scale(input), 400.0) << "the one of five above 301 N, with two digits";
+  input.contacts.push_back(input.contacts.back());
+  input.contacts.back().b = 1;
+  input.force_scale = 7.0;
+  EXPECT_EQ(force_scale(input), 7.0);
+}
+
+TEST(Picture, SaysHowManyBodiesLieBeyondItsFraming) {
+  Sample<2> sample;
+  sample.add({0.0, 1.0}, true);
+  sample.add({3.0, 1.0}, false);
+  sample.add({9.0, 1.0}, false);
+  sample.add({0.0, 5.0}, false);
+  sample.states.removed[3] = 1;
+  const PageContent content = page_content<2>(sample.input(), {Vec2(-1.0, 0.0), Vec2(4.0, 2.0)}, small);
+  EXPECT_EQ(content.asleep, 1);
+  EXPECT_EQ(content.awake, 2);
+  EXPECT_EQ(content.outside, 1);
+  EXPECT_EQ(content.farthest, 5.0);
 }
 
 TEST(Picture, HoldsEachBodyOnceAsVectorsIn2D) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <vector>
 
 #include "tests/process/process.h"
 
@@ -59,6 +60,25 @@ TEST(FilmCommand, MakesMp4AndGifThatFfprobeReads) {
     // Twenty frames; an MP4 has the last one for a second and a half, and an even width.
     EXPECT_EQ(read, ending == "mp4" ? "h264,322,35\n" : "gif,321,20\n");
   }
+}
+
+TEST(FilmCommand, DrawsForceChainsOfARunThatTellsContactsWhichIsTheSameRun) {
+  const TemporaryFolder folder;
+  std::vector<std::string> films;
+  std::vector<std::string> hashes;
+  for (const std::string contacts : {"false", "true"}) {
+    const std::string run = folder / contacts;
+    const Outcome outcome = talus_command("run drop_in_a_pile_2d --no-telemetry --hash --set run.frames=60 --out " +
+                                          run + " --set run.contacts=" + contacts);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    hashes.push_back(outcome.out);
+    EXPECT_EQ(talus_command("info " + run).out.find("TALUS_CONTACTS") != std::string::npos, contacts == "true");
+    const Outcome film = talus_command("film " + run + " --width 320 --from 1.5 --out " + run + ".webp");
+    ASSERT_EQ(film.exit_code, 0) << film.err;
+    films.push_back(contents(run + ".webp"));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_NE(films[0], films[1]);
 }
 
 TEST(FilmCommand, NamesTheProgramThatIsMissing) {

@@ -40,6 +40,10 @@ std::vector<std::string> moments(int count, int bodies) {
   writer.set_world(scene.world);
   Events events(writer);
   const auto run = still_run<Dim>(scene, bodies);
+  ContactForces<Dim> contacts;
+  contacts.want(true, run->world());
+  writer.set_contacts(contacts);
+  run->add_observer(contacts);
   run->add_observer(events);
   writer.run(talus_lcm::talus_run::BEGIN, {}, 0, 0.0);
   writer.shapes();
@@ -50,6 +54,7 @@ std::vector<std::string> moments(int count, int bodies) {
     if (removes) run->remove(1);
     writer.piles(run->frame());
     writer.stats(run->frame());
+    writer.contacts(run->frame());
     if (moment == 0 || removes)
       writer.all_bodies(run->frame());
     else
@@ -64,6 +69,7 @@ struct Outcome {
   Moment last;
   int moments = 0;
   std::int64_t events = 0;
+  std::int64_t contacts = 0;  // messages
 };
 
 template <int Dim>
@@ -76,6 +82,7 @@ Outcome read(const std::string& log) {
   EXPECT_EQ(reader.damage().bytes, 0U);
   EXPECT_EQ(moments.undecodable(), 0);
   outcome.last = moments.moment();
+  outcome.contacts = moments.received(Channel::contacts);
   outcome.events = moments.slept() + moments.woken();
   return outcome;
 }
@@ -93,6 +100,7 @@ void expect_same_state(int bodies) {
   for (std::size_t i = 2; i < all.size(); ++i) merged = merge_messages(merged, all[i]);
   const Outcome outcome = read<Dim>(all[0] + merged);
   EXPECT_EQ(outcome.moments, 2);
+  EXPECT_EQ(outcome.contacts, 2) << "the newest of what was merged";
   EXPECT_EQ(outcome.events, expected.events) << "what happened in any of them";
   EXPECT_EQ(outcome.last.step, expected.last.step);
   EXPECT_EQ(outcome.last.bodies.shape, expected.last.bodies.shape);

@@ -92,7 +92,7 @@ std::string first_of_both(std::string_view a, std::string_view /*b*/) { return s
 
 void publish(PageHub& hub, const std::string& frames) {
   static std::int64_t step = 0;
-  for (const char frame : frames) hub.publish({.step = ++step, .block = std::string(1, frame), .contacts = {}});
+  for (const char frame : frames) hub.publish({.step = ++step, .block = std::string(1, frame)});
 }
 
 TEST(PageHub, SendsALatePageAllFramesOfTheRun) {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/policy/frame.h"
 #include "lcmtypes/stats_message.h"
 #include "tools/monitor/panels.h"
@@ -24,8 +26,11 @@ void draw_phases(const RunView& view, const Area& area) {
 }
 
 std::vector<Channel> channels_of(const RunView& view) {
-  return channels_of_run(view.reader().received(Channel::events) > 0, view.reader().received(Channel::obstacles) > 0,
-                         view.reader().received(Channel::instruments) > 0);
+  std::vector<Channel> channels(usual_channels.begin(), usual_channels.end());
+  for (const Channel channel : all_channels)
+    if (std::ranges::count(usual_channels, channel) == 0 && view.reader().received(channel) > 0)
+      channels.push_back(channel);
+  return channels;
 }
 
 void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {
@@ -35,7 +40,8 @@ void draw_channels(const Heard& heard, const HeardRun& run, const Area& area) {
     const RateMeter::Rate rate = run.entry->rates[static_cast<std::size_t>(channel)].rate(heard.now);
     const std::int64_t lost = run.view().reader().lost(channel);
     const std::int64_t bad = heard.listener.undecodable(channel);
-    area.put(row, 0, fmt::format("{:<12} {:>5.1f} {:>6.1f}", talus::name_of(channel), rate.messages, rate.bytes / 1e3));
+    const std::string_view name = std::string_view(talus::name_of(channel)).substr(channel_prefix.size());
+    area.put(row, 0, fmt::format("{:<12} {:>5.1f} {:>6.1f}", name, rate.messages, rate.bytes / 1e3));
     area.put(row, 25, fmt::format("{:>6}", count_text(static_cast<double>(lost))),
              lost > 0 ? Style::alert : Style::good);
     area.put(row, 32, fmt::format("{:>5}", count_text(static_cast<double>(bad), 5)),

@@ -101,15 +101,26 @@ Halves halves_of(const Area& area) {
   return {area.part(0, 0, area.rows(), half - 1), area.part(0, half, area.rows(), area.columns() - half)};
 }
 
+/// Beside the events, or where the layers of a pile would be.
+void draw_lists(const RunView& view, const Choice& choice, const Area& area) {
+  const auto [left, right] = halves_of(area);
+  const int rows = std::min(instrument_rows(view), area.rows() / 2);
+  const bool on_the_left = rows > 0 && view.piles().empty();
+  if (on_the_left)
+    draw_instruments(view, 0, left);
+  else
+    draw_layers(view, choice.pile, left);
+  if (rows > 0 && !on_the_left) draw_instruments(view, 0, right.upper(rows));
+  draw_events(view, choice.filter, choice.first_row, on_the_left ? right : right.lower(rows));
+}
+
 void draw_overview(const Heard& heard, const HeardRun& run, const Choice& choice, const Area& area) {
   const int low = 1 + static_cast<int>(channels_of(run.view()).size());  // rows of phases and channels
   const int graph = std::clamp(area.rows() / 5, 2, 8);
   const bool has_low = area.rows() >= graph + 5 + low;
   draw_counts(run.view(), area.upper(graph));
   const int middle = area.rows() - graph - (has_low ? low : 0);
-  const Halves upper = halves_of(area.part(graph, 0, middle, area.columns()));
-  draw_layers(run.view(), choice.pile, upper.left);
-  draw_events(run.view(), choice.filter, choice.first_row, upper.right);
+  draw_lists(run.view(), choice, area.part(graph, 0, middle, area.columns()));
   if (!has_low) return;
   const Halves lower = halves_of(area.lower(graph + middle));
   draw_phases(run.view(), lower.left);
@@ -148,7 +159,7 @@ void draw_help(const Area& area) {
   draw_list(
       {"q, Ctrl-C   quit", "tab, n      next run; 1 to 9: run of that number", "r           all runs side by side",
        "p           next pile of the run", "l           layers of the pile, one a row where they fit",
-       "e           sleep events, and how many of each cause",
+       "e           sleep events, and how many of each cause", "i           gates, regions and loads of the scene",
        "f           filter of events: all, woke, slept, then each cause", "a           all alerts",
        "up, down    scroll a list", "space       hold the screen; the monitor goes on listening",
        "escape      back to the overview", "",
@@ -170,6 +181,8 @@ void draw_page(const Heard& heard, const std::vector<HeardRun>& runs, const Choi
       draw_events(run.view(), choice.filter, choice.first_row, halves.left);
       return draw_causes(run.view(), halves.right);
     }
+    case Page::instruments:
+      return draw_instruments(run.view(), choice.first_row, area);
     case Page::runs:
       return draw_runs(heard, runs, run, choice.first_row, area);
     case Page::alerts:
@@ -211,8 +224,12 @@ void obey_choice(int key, const std::vector<HeardRun>& runs, Choice& choice) {
 }  // namespace
 
 Effect obey(int key, const Heard& heard, Choice& choice) {
-  constexpr std::array<std::pair<int, Page>, 5> pages = {
-      {{'l', Page::layers}, {'e', Page::events}, {'r', Page::runs}, {'a', Page::alerts}, {'?', Page::help}}};
+  constexpr std::array<std::pair<int, Page>, 6> pages = {{{'l', Page::layers},
+                                                          {'e', Page::events},
+                                                          {'i', Page::instruments},
+                                                          {'r', Page::runs},
+                                                          {'a', Page::alerts},
+                                                          {'?', Page::help}}};
   if (key == 'q') return Effect::quit;
   if (key == ' ') choice.held = !choice.held;
   if (key == keys::escape) toggle(Page::overview, choice);

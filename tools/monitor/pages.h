@@ -8,7 +8,7 @@
 
 namespace talus {
 
-enum class Page : std::uint8_t { overview, layers, events, runs, alerts, help };
+enum class Page : std::uint8_t { overview, layers, events, instruments, runs, alerts, help };
 
 /// What the user chose to see.
 struct Choice {

@@ -24,6 +24,12 @@ void draw_events(const RunView& view, int filter, int first, const Area& area);
 /// Number of events of each cause.
 void draw_causes(const RunView& view, const Area& area);
 
+/// Rows that draw_instruments() takes; 0: the run measures nothing.
+int instrument_rows(const RunView& view);
+/// The newest reading of each gate, region and load, from number `first` on. What a gate counts is in bodies, a packing
+/// in per cent, a load the force along each axis.
+void draw_instruments(const RunView& view, int first, const Area& area);
+
 /// Milliseconds per step of each phase.
 void draw_phases(const RunView& view, const Area& area);
 /// The channels of draw_channels().

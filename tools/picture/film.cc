@@ -1,25 +1,10 @@
 #include "tools/picture/film.h"
 
-#include <algorithm>
-
 #include "tools/picture/page.h"
 #include "tools/picture/scene_painter.h"
 
 namespace talus {
 namespace {
-
-/// Counts of the bodies present, for the legend.
-template <int Dim>
-PageContent page_content(const PictureInput<Dim>& input, const PictureParams& params) {
-  PageContent content = {.title = input.title, .caption = input.caption};
-  for (std::size_t i = 0; i < input.states.removed.size(); ++i)
-    if (input.states.removed[i] == 0) ++(input.states.asleep[i] != 0 ? content.asleep : content.awake);
-  content.awake_colours = awake_colours(params, input.shapes);
-  content.shapes = legend_of_shapes(input.shapes);
-  content.layers = !input.piles.empty();
-  content.parallel = Dim == 2;
-  return content;
-}
 
 /// All bodies present, since none is left out for being far from the others.
 template <int Dim>
@@ -44,7 +29,7 @@ FilmFrames<Dim>::FilmFrames(const PictureInput<Dim>& framed, const PictureParams
   check(params);
   const Framing<Dim> framing = framing_of(framed);
   setting_ = std::make_unique<Setting>(
-      Setting{params, framing, lay_out(framing, Page(page_content(framed, params), params), params)});
+      Setting{params, framing, lay_out(framing, Page(page_content(framed, framing.box, params), params), params)});
 }
 
 template <int Dim>
@@ -56,7 +41,7 @@ FilmImage FilmFrames<Dim>::draw(const PictureInput<Dim>& input) const {
   const int height = setting_->layout.height;
   Framing<Dim> framing = setting_->framing;
   framing.drawn = present_in(input.states);
-  const Page page(page_content(input, params), params);
+  const Page page(page_content(input, framing.box, params), params);
   const Painter scene = scene_painter(input, framing, setting_->layout.projection, params, params.width, height);
   const Painter paint = [&](cairo_t* canvas) {
     page.draw_background(canvas);

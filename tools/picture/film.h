@@ -20,14 +20,15 @@ struct FilmImage {
 template <int Dim>
 class FilmFrames {
  public:
-  /// `framed`: the state that sets framing and page height, usually the last one of the run. All that it refers to must
+  /// `framed`: sets framing and page height, as with the bodies of all states at once. All that it refers to must
   /// outlive the object. Throws std::invalid_argument on bad parameters.
   FilmFrames(const PictureInput<Dim>& framed, const PictureParams& params);
   ~FilmFrames();
   FilmFrames(const FilmFrames&) = delete;
   FilmFrames& operator=(const FilmFrames&) = delete;
 
-  /// The state with its own counts and caption. Bodies outside the framing are cut off at its edge.
+  /// The state with its own counts and caption. Bodies outside the framing are cut off at its edge, and counted in a
+  /// note.
   FilmImage draw(const PictureInput<Dim>& input) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/shape/surface.h"
+#include "tools/picture/force_chains.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/scene_painter.h"
 
@@ -39,6 +40,7 @@ struct FlatScene {
       paint_bodies(canvas);
     paint_layers(canvas, 0.35);
     paint_layer_lines(canvas);
+    paint_chains(canvas, input, projection, params);
     if (input.ground.present) paint_ground_line(canvas);
     paint_densities(canvas);
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tools/picture/canvas.h"
+#include "tools/picture/force_chains.h"
 
 namespace talus {
 namespace {
@@ -26,6 +27,27 @@ TextStyle caption_style(const PictureParams& params) {
 std::string counted(int count, const char* what) { return fmt::format("{} {}", count, what); }
 
 }  // namespace
+
+template <int Dim>
+PageContent page_content(const PictureInput<Dim>& input, const Box<Dim>& box, const PictureParams& params) {
+  PageContent content = {.title = input.title, .caption = input.caption};
+  for (BodyIndex body = 0; body < input.states.size(); ++body) {
+    if (input.states.removed[body] != 0) continue;
+    ++(input.states.asleep[body] != 0 ? content.asleep : content.awake);
+    const double away = box.exteriorDistance(input.states.pose[body].position);
+    content.outside += away > 0.0 ? 1 : 0;
+    content.farthest = std::max(content.farthest, away);
+  }
+  content.awake_colours = awake_colours(params, input.shapes);
+  content.shapes = legend_of_shapes(input.shapes);
+  content.obstacles = !input.obstacles.empty();
+  content.layers = !input.piles.empty();
+  content.force_scale = force_scale(input);
+  content.parallel = Dim == 2;
+  return content;
+}
+template PageContent page_content(const PictureInput<2>&, const Box<2>&, const PictureParams&);
+template PageContent page_content(const PictureInput<3>&, const Box<3>&, const PictureParams&);
 
 Page::Page(PageContent content, const PictureParams& params) : content_(std::move(content)), params_(params) {
   const double font = params.font_size;
@@ -83,8 +105,12 @@ void Page::draw_legend(cairo_t* canvas) const {
   left = draw_entry(canvas, left, content_.awake_colours, params_.awake_outline, counted(content_.awake, "awake"));
   for (const LegendEntry& entry : content_.shapes)
     left = draw_entry(canvas, left, {entry.fill}, params_.awake_outline, entry.text);
+  if (content_.obstacles) left = draw_entry(canvas, left, {params_.obstacle}, params_.obstacle_outline, "obstacles");
   if (content_.layers)
-    draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
+    left = draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
+  if (content_.force_scale > 0.0)
+    draw_entry(canvas, left, {params_.weak_force, params_.strong_force}, params_.strong_force,
+               fmt::format("contact forces, the strong ones {:g} N and more", content_.force_scale));
 }
 
 double Page::draw_entry(cairo_t* canvas, double left, const std::vector<Colour>& fills, const Colour& outline,

@@ -23,9 +23,15 @@ struct PageContent {
   double farthest = 0.0;                // of them, from what is drawn [m]
   std::vector<Colour> awake_colours{};  // of awake bodies
   std::vector<LegendEntry> shapes{};    // with colours of their own
+  bool obstacles = false;               // whether any is drawn
   bool layers = false;                  // whether piles are drawn
+  double force_scale = 0.0;             // of force chains [N]; 0: none are drawn
   bool parallel = true;                 // whether the scale bar holds all over the picture (2D), or in the middle only
 };
+
+/// Of a picture that shows `box` [m]: bodies whose middle lies beyond it are outside.
+template <int Dim>
+PageContent page_content(const PictureInput<Dim>& input, const Box<Dim>& box, const PictureParams& params);
 
 /// A page of fixed width whose header and footer leave room for a scene between them.
 class Page {

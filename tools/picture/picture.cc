@@ -1,7 +1,5 @@
 #include "tools/picture/picture.h"
 
-#include <algorithm>
-
 #include "tools/picture/canvas.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/page.h"
@@ -11,21 +9,6 @@ namespace talus {
 namespace {
 
 constexpr int most_layers = 32;  // of a pile
-
-template <int Dim>
-PageContent content_of(const PictureInput<Dim>& input, const Framing<Dim>& framing, const PictureParams& params) {
-  PageContent content = {.title = input.title, .caption = input.caption};
-  for (const auto* bodies : {&framing.drawn, &framing.outside})
-    for (const BodyIndex body : *bodies) (input.states.asleep[body] != 0 ? content.asleep : content.awake) += 1;
-  content.outside = static_cast<int>(framing.outside.size());
-  for (const BodyIndex body : framing.outside)
-    content.farthest = std::max(content.farthest, framing.box.exteriorDistance(input.states.pose[body].position));
-  content.awake_colours = awake_colours(params, input.shapes);
-  content.shapes = legend_of_shapes(input.shapes);
-  content.layers = !input.piles.empty();
-  content.parallel = Dim == 2;
-  return content;
-}
 
 }  // namespace
 
@@ -38,7 +21,7 @@ double draw_pile(const std::filesystem::path& svg, const std::filesystem::path& 
   PictureInput<Dim> drawn = input;
   drawn.piles = piles;
   const Framing<Dim> framing = framing_of(drawn);
-  const Page page(content_of(drawn, framing, params), params);
+  const Page page(page_content(drawn, framing.box, params), params);
   const Layout<Dim> layout = lay_out(framing, page, params);
   const Painter scene = scene_painter(drawn, framing, layout.projection, params, params.width, layout.height);
   const Painter paint = [&](cairo_t* canvas) {

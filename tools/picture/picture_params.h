@@ -32,6 +32,8 @@ struct PictureParams {
   std::vector<Colour> awake = {{0.96, 0.68, 0.26}, {0.91, 0.47, 0.31}, {0.96, 0.83, 0.50}, {0.85, 0.56, 0.50}};
   Colour awake_outline = {0.42, 0.23, 0.06};  // `awake` by shape, in turn; not empty
   Colour layer = {0.16, 0.44, 0.82};          // opacity follows the layer's density
+  Colour weak_force = {0.10, 0.75, 0.70};     // of contacts
+  Colour strong_force = {0.85, 0.05, 0.50};
   Colour obstacle = {0.70, 0.72, 0.74};
   Colour obstacle_outline = {0.36, 0.38, 0.40};
   Colour ground = {0.36, 0.38, 0.40};

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "tools/picture/force_chains.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/page.h"
 #include "tools/picture/scene_painter.h"
@@ -27,6 +28,7 @@ struct SolidScene {
         for (const double z : {layer.bottom, layer.top})
           paint_line(canvas, closed(layer_rim(pile, layer, z)), params.layer, 1.4);
     }
+    paint_chains(canvas, input, projection, params);
     paint_densities(canvas);
   }
 

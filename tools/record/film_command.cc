@@ -15,6 +15,8 @@
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/picture/film_file.h"
+#include "tools/picture/force_chains.h"
+#include "tools/picture/framing.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {
@@ -108,7 +110,8 @@ std::string event_note(const RecordedRun<Dim>& run, double time) {
 }
 
 template <int Dim>
-PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame) {
+PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& states, int frame,
+                           double force_scale = 0.0) {
   const double time = static_cast<double>(run.frames.step(frame)) * run.frames.step_time();
   return {
       run.scene.world.shapes,
@@ -118,7 +121,31 @@ PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& s
       run.scene.world.ground,
       printable(run.scene.title),
       printable(fmt::format("{}, policy {}, seed {}, {:.1f} s{}", solved_by(run.backend, run.scene.world.solver.kind),
-                            run.policy, run.scene.seed, time, event_note(run, time)))};
+                            run.policy, run.scene.seed, time, event_note(run, time))),
+      run.contacts[frame],
+      force_scale};
+}
+
+/// The bodies of many frames of a film as if all were there at once, so that the framing holds those that fall or have
+/// gone by the end. Without those that lie far from all others at the end.
+template <int Dim>
+BodyStates<Dim> exposed(const RecordedRun<Dim>& run, const Cut& cut) {
+  constexpr int most_frames = 64;
+  const BodyStates<Dim> end = states_at(run.frames, cut.last);
+  const std::vector<BodyIndex> far = framing_of(input_at(run, end, cut.last)).outside;
+  BodyStates<Dim> all = end;
+  const int every = std::max(1, cut.frames() / most_frames);
+  for (int shown = 0; shown < cut.frames(); shown += every) {
+    const BodyStates<Dim> states = states_at(run.frames, cut.frame(shown));
+    for (BodyIndex body = 0; body < states.size(); ++body) {
+      if (states.removed[body] != 0 || std::ranges::binary_search(far, body)) continue;
+      all.shape.push_back(states.shape[body]);
+      all.pose.push_back(states.pose[body]);
+      all.asleep.push_back(states.asleep[body]);
+      all.removed.push_back(0);
+    }
+  }
+  return all;
 }
 
 /// Calls make(i) for i from 0 to below `count`, on all cores, and take() here with the results in order.
@@ -138,12 +165,14 @@ template <int Dim>
 void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   const Cut cut = cut_of(options, run.frames);
   const BodyStates<Dim> end = states_at(run.frames, cut.last);
-  const FilmFrames<Dim> page(input_at(run, end, cut.last), params_of(options));
+  const double scale = force_scale(input_at(run, end, cut.last));
+  const BodyStates<Dim> framed = exposed(run, cut);
+  const FilmFrames<Dim> page(input_at(run, framed, cut.last, scale), params_of(options));
   const auto draw = [&](int shown) {
     int frame = cut.frame(shown);
     while (frame > 0 && run.frames.lost(frame)) --frame;  // the record is damaged
     const BodyStates<Dim> states = states_at(run.frames, frame);
-    return page.draw(input_at(run, states, frame));
+    return page.draw(input_at(run, states, frame, scale));
   };
   const bool progress = isatty(STDERR_FILENO) != 0;
   std::optional<FilmFile> file;

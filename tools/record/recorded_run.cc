@@ -33,8 +33,10 @@ void add_frame(const Moment& moment, const fs::path& file, RecordedRun<Dim>& run
     }
     run.damage.lost_steps.push_back(next);
     run.frames.append_lost(next);
+    run.contacts.emplace_back();
   }
   run.frames.append(states_of<Dim>(moment), moment.step, moment.bodies.unknown);
+  run.contacts.push_back(contacts_of<Dim>(moment));
 }
 
 std::string plural(std::size_t number, const char* noun) {

@@ -42,7 +42,8 @@ struct RecordedRun {
   std::string reason;      // why it ended; empty: it was killed
   Scene<Dim> scene;        // as it was run
   Trajectory<Dim> frames;  // poses at each frame of output; lost where the record is damaged
-  BodyStates<Dim> last;    // the last recorded state; velocities are zero, since a record has none
+  std::vector<std::vector<ContactForce<Dim>>> contacts;  // of each of these; empty where the run told none
+  BodyStates<Dim> last;  // the last recorded state; velocities are zero, since a record has none
   std::int64_t last_step = 0;
   std::vector<SleepEvent> events;  // in order
   std::vector<DoneEvent> done;     // events of the scene, in order

@@ -54,16 +54,19 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
 template <int Dim>
 class EventWatch final : public Observer<Dim> {
  public:
-  EventWatch(const Scene<Dim>& scene, std::string backend, std::filesystem::path folder, bool prints)
-      : scene_(scene), backend_(std::move(backend)), folder_(std::move(folder)), prints_(prints) {}
+  EventWatch(const Scene<Dim>& scene, std::string backend, std::filesystem::path folder,
+             const ContactForces<Dim>& contacts, bool prints)
+      : scene_(scene), backend_(std::move(backend)), folder_(std::move(folder)), contacts_(contacts), prints_(prints) {}
 
   void on_frame(const Frame<Dim>& frame) override {
     for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
       const EventAction action = scene_.events[event.number].action;
       if (prints_) print_message("event {} at {:.4g} s: {}", event.number, event.time, to_string(action));
+      if (action != EventAction::picture) continue;
       const std::string name = fmt::format("event_{}", event.number);
-      if (action == EventAction::picture)
-        draw_pile(folder_ / (name + ".svg"), folder_ / (name + ".png"), picture_of(backend_, scene_, frame));
+      PictureInput<Dim> picture = picture_of(backend_, scene_, frame);
+      picture.contacts = contacts_.of(frame.world);
+      draw_pile(folder_ / (name + ".svg"), folder_ / (name + ".png"), picture);
     }
   }
 
@@ -71,6 +74,7 @@ class EventWatch final : public Observer<Dim> {
   const Scene<Dim>& scene_;
   std::string backend_;
   std::filesystem::path folder_;
+  const ContactForces<Dim>& contacts_;
   bool prints_;
 };
 
@@ -92,12 +96,15 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
   if (!scene.instruments.empty()) simulation.add_observer(instruments_);
+  contacts_.want(scene.run.contacts, simulation.world());
+  if (scene.run.contacts) simulation.add_observer(contacts_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
 #ifdef TALUS_LCM
   RunInfo info = run_info(scene, scene_name, backend);
   info.version = version_text();
   auto recorder = std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene);
   recorder->set_instruments(instruments_.meters());
+  recorder->set_contacts(contacts_);
   add(std::move(recorder), simulation);
   if (options.telemetry) {
     const PublisherParams params{
@@ -106,11 +113,12 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
     publisher->set_world(scene.world);
     publisher->set_scene(scene);
     publisher->set_instruments(instruments_.meters());
+    publisher->set_contacts(contacts_);
     add(std::move(publisher), simulation);
   }
 #endif
   if (!scene.events.empty())
-    add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, !options.hash_only), simulation);
+    add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, contacts_, !options.hash_only), simulation);
   if (!options.quiet) add(std::make_unique<WarningPrinter<Dim>>(), simulation);
   if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
 }
@@ -124,8 +132,9 @@ void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Di
 template <int Dim>
 void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
   SummaryInput with_picture = summary;
-  with_picture.pixels_per_metre =
-      draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture_input(summary, scene, simulation));
+  PictureInput<Dim> picture = picture_input(summary, scene, simulation);
+  picture.contacts = contacts_.of(simulation.world());
+  with_picture.pixels_per_metre = draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture);
   write_summary(folder_ / "summary.json", with_picture, scene, simulation, statistics_, instruments_);
   if (!avalanches_.records().empty()) write_avalanches(folder_ / "avalanches.csv", avalanches_.records());
 }

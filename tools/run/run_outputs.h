@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/measure/avalanches.h"
+#include "common/measure/contact_forces.h"
 #include "common/simulation/simulation.h"
 #include "tools/picture/picture.h"
 #include "tools/run/instrument_watch.h"
@@ -37,6 +38,7 @@ class RunOutputs {
   RunStatistics<Dim> statistics_;
   AvalancheWatch<Dim> avalanches_;
   InstrumentWatch<Dim> instruments_;
+  ContactForces<Dim> contacts_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;
 };
 

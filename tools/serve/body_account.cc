@@ -19,9 +19,9 @@ std::string name_of(const Scene<Dim>& scene, BodyIndex support) {
 
 /// Upward force of one on the other [N]; 0 where they do not touch.
 template <int Dim>
-double lift(std::span<const ShownContact<Dim>> contacts, BodyIndex body, BodyIndex support) {
+double lift(std::span<const ContactForce<Dim>> contacts, BodyIndex body, BodyIndex support) {
   double sum = 0.0;
-  for (const ShownContact<Dim>& contact : contacts) {
+  for (const ContactForce<Dim>& contact : contacts) {
     const double up = contact.normal_force[Dim - 1] + contact.friction_force[Dim - 1];
     if (contact.a == body && contact.b == support) sum += up;
     if (contact.b == body && contact.a == support) sum -= up;
@@ -39,7 +39,7 @@ Json json_of(const Reading& reading) {
 
 template <int Dim>
 Json body_account(const Simulation<Dim>& simulation, const Scene<Dim>& scene,
-                  std::span<const ShownContact<Dim>> contacts, std::int64_t body) {
+                  std::span<const ContactForce<Dim>> contacts, std::int64_t body) {
   const Frame<Dim> frame = simulation.frame();
   const BodyStates<Dim>& states = frame.world.states();
   Json account = {{"kind", "body"}, {"body", body}, {"step", frame.step}};
@@ -56,7 +56,7 @@ Json body_account(const Simulation<Dim>& simulation, const Scene<Dim>& scene,
   return account;
 }
 
-template Json body_account(const Simulation<2>&, const Scene<2>&, std::span<const ShownContact<2>>, std::int64_t);
-template Json body_account(const Simulation<3>&, const Scene<3>&, std::span<const ShownContact<3>>, std::int64_t);
+template Json body_account(const Simulation<2>&, const Scene<2>&, std::span<const ContactForce<2>>, std::int64_t);
+template Json body_account(const Simulation<3>&, const Scene<3>&, std::span<const ContactForce<3>>, std::int64_t);
 
 }  // namespace talus

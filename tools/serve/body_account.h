@@ -5,7 +5,6 @@
 
 #include "common/scene/scene.h"
 #include "common/simulation/simulation.h"
-#include "tools/serve/contact_memory.h"
 
 namespace talus {
 
@@ -15,6 +14,6 @@ namespace talus {
 /// number.
 template <int Dim>
 nlohmann::ordered_json body_account(const Simulation<Dim>& simulation, const Scene<Dim>& scene,
-                                    std::span<const ShownContact<Dim>> contacts, std::int64_t body);
+                                    std::span<const ContactForce<Dim>> contacts, std::int64_t body);
 
 }  // namespace talus

@@ -105,7 +105,7 @@ std::string merge_messages(std::string_view first, std::string_view second) {
   for (const LogEvent& event : a.others) {
     const Channel channel = *channel_named(event.channel);
     const bool is_state = channel == Channel::piles || channel == Channel::stats || channel == Channel::obstacles ||
-                          channel == Channel::instruments;
+                          channel == Channel::instruments || channel == Channel::contacts;
     if (!is_state || !b.has(event.channel)) append(event, log);
   }
   for (const LogEvent& event : b.others) append(event, log);

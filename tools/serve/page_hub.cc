@@ -27,7 +27,6 @@ void PageHub::begin(const std::string& text) {
   ++run_;
   beginning_ = text;
   history_ = FrameHistory(most_history_bytes_, merge_);
-  contacts_.clear();
   changed_.notify_all();
 }
 
@@ -37,7 +36,6 @@ void PageHub::publish(ShownFrame frame) {
   for (const Page& page : pages_)
     if (page.run == run_) held.push_back(page.frame);
   history_.add(frame.step, std::move(frame.block), held);
-  contacts_ = std::move(frame.contacts);
   changed_.notify_all();
 }
 
@@ -164,7 +162,6 @@ PageHub::Parcel PageHub::take(Page& page) {
   page.frame = run.last;
   page.ready = false;
   parcel.frames = std::move(run.bytes);
-  if (page.contacts && run.last == history_.newest() && !contacts_.empty()) parcel.texts.push_back(contacts_);
   return parcel;
 }
 

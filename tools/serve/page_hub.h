@@ -27,8 +27,7 @@ class PageSocket {
 /// One state of a run, as pages are sent it.
 struct ShownFrame {
   std::int64_t step = 0;
-  std::string block;          // the log events (event_log.h) of what is new since the frame before
-  std::string contacts = {};  // a text for pages that want contacts; empty: none
+  std::string block;  // the log events (event_log.h) of what is new since the frame before
 };
 
 /// Keeps the frames of a run and sends each page all of them, so that a page that comes late or again has the whole
@@ -62,9 +61,9 @@ class PageHub {
   void remove(int number);
   /// The page has shown the last frame that it was sent.
   void acknowledge(int number);
-  /// Whether this page is sent contacts.
+  /// Whether this page wants frames to have contacts.
   void want_contacts(int number, bool wanted);
-  /// Whether any page is.
+  /// Whether any page does.
   bool contacts_wanted() const;
   /// The body of which a page is sent an account, below 0: none.
   void choose_body(int number, std::int64_t body);
@@ -82,7 +81,7 @@ class PageHub {
     PageSocket* socket = nullptr;
     bool ready = true;  // for the next frame
     bool closing = false;
-    bool contacts = false;   // are sent to it
+    bool contacts = false;   // are wanted
     std::int64_t body = -1;  // of which it is sent an account
     std::string account;     // of it; empty: sent
     std::vector<std::string> replies;
@@ -95,7 +94,7 @@ class PageHub {
   /// What a sender takes under the lock and sends without it.
   struct Parcel {
     std::vector<std::string> texts;
-    std::string frames;  // their blocks, after contacts of the last one; empty: none is due
+    std::string frames;  // their blocks; empty: none is due
   };
 
   void send(Page& page);
@@ -112,7 +111,6 @@ class PageHub {
   std::int64_t run_ = 0;   // number of the run; 0: there was none yet
   std::string beginning_;  // of it
   FrameHistory history_{0, {}};
-  std::string contacts_;  // of the newest frame
   std::string status_;
 };
 

@@ -52,8 +52,8 @@ class RunLoop {
   /// A command of a page, as JSON: {"do": "run" (from the start where the run has ended) | "pause" | "step" |
   /// "restart"}, {"do": "pace", "value": number},
   /// {"do": "policy", "value": name}, {"do": "scene", "text": TOML}, {"do": "save"}, {"do": "contacts", "value":
-  /// whether this page is sent them}, {"do": "choose", "body": number to be told of with each frame, below 0: none}, or
-  /// one of hand_command.h. What is wrong is replied to the page; then nothing changes.
+  /// whether frames are to have them}, {"do": "choose", "body": number to be told of with each frame, below 0: none},
+  /// or one of hand_command.h. What is wrong is replied to the page; then nothing changes.
   void command(int page, const std::string& text);
 
  private:

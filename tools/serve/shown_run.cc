@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/measure/contact_forces.h"
 #include "common/simulation/simulation.h"
 #include "common/text/printable.h"
 #include "lcmtypes/event_log.h"
@@ -19,7 +20,6 @@
 #include "tools/run/measured_drift.h"
 #include "tools/run/version.h"
 #include "tools/serve/body_account.h"
-#include "tools/serve/contact_memory.h"
 #include "tools/serve/free_place.h"
 #include "tools/serve/saved_scene.h"
 
@@ -84,19 +84,6 @@ Box<Dim> box_of(const Scene<Dim>& scene) {
   return box;
 }
 
-/// {"kind": "contacts", "step", "contacts": [[a, b as in Contact, 1 where it is kept, point [m], normal force on a [N],
-/// friction force on a [N]]]}, each of the last three a number for each axis.
-template <int Dim>
-std::string contacts_text(std::span<const ShownContact<Dim>> contacts, std::int64_t step) {
-  Json list = Json::array();
-  for (const ShownContact<Dim>& contact : contacts) {
-    Json& row = list.emplace_back(Json::array({contact.a, contact.b, contact.kept ? 1 : 0}));
-    for (const Vec<Dim>& vector : {contact.point, contact.normal_force, contact.friction_force})
-      for (const double part : vector) row.push_back(static_cast<float>(part));
-  }
-  return json_text({{"kind", "contacts"}, {"step", step}, {"contacts", list}});
-}
-
 template <int Dim>
 class SimulatedScene final : public ShownRun {
  public:
@@ -105,16 +92,17 @@ class SimulatedScene final : public ShownRun {
         backend_(backend),
         writer_(info_of(scene, name, backend), 0, messages_),
         steps_(writer_),
-        contacts_(scene.world.dt),
         meters_(scene),
         simulation_(make_simulation(scene, backend)) {
     writer_.set_world(scene.world);
     writer_.set_scene(scene);
     writer_.set_instruments(meters_);
+    writer_.set_contacts(contacts_);
     writer_.run(talus_lcm::talus_run::BEGIN, {}, 0, 0.0);
     writer_.shapes();
     if (!scene.instruments.empty()) simulation_.add_observer(meters_);
     simulation_.add_observer(steps_);
+    contacts_.want(scene.run.contacts, simulation_.world());
     simulation_.add_observer(contacts_);
   }
 
@@ -145,17 +133,15 @@ class SimulatedScene final : public ShownRun {
     writer_.stats(steps_.stats(frame), frame);
     writer_.instruments(frame);
     writer_.obstacles(frame, all);
+    writer_.contacts(frame);
     all ? writer_.all_bodies(frame) : void(writer_.bodies(frame));
-    ShownFrame shown = {.step = frame.step, .block = messages_.take()};
-    if (contacts_.needs_contacts()) shown.contacts = contacts_text<Dim>(contacts_.contacts(frame.world), frame.step);
-    return shown;
+    return {.step = frame.step, .block = messages_.take()};
   }
 
-  void show_contacts(bool show) override { contacts_.want(show, simulation_.world()); }
+  void show_contacts(bool show) override { contacts_.want(show || scene_.run.contacts, simulation_.world()); }
 
   std::string account(std::int64_t body) const override {
-    const std::vector<ShownContact<Dim>> contacts = contacts_.contacts(simulation_.world());
-    return json_text(body_account<Dim>(simulation_, scene_, contacts, body));
+    return json_text(body_account<Dim>(simulation_, scene_, contacts_.of(simulation_.world()), body));
   }
 
   std::string kick(std::int64_t body, std::span<const double> velocity) override {
@@ -252,7 +238,7 @@ class SimulatedScene final : public ShownRun {
   MomentWriter<Dim> writer_;
   StepWriter<Dim> steps_;
   bool all_due_ = true;  // the next frame must name all bodies
-  ContactMemory<Dim> contacts_;
+  ContactForces<Dim> contacts_;
   InstrumentMeters<Dim> meters_;
   Simulation<Dim> simulation_;
 };

@@ -67,7 +67,7 @@ export class Colouring {
       case "layer":
         return this.byNumber((body) => layerOf(state, head.dimension, body)?.number ?? null, (value) => `layer ${value}`, ramp, Math.max(1, ...state.piles.map(({ layers }) => layers.length - 1)));
       case "force": {
-        const forces = this.contacts.forces(state.step);
+        const forces = this.contacts.forces(state);
         return this.byNumber((body) => forces?.get(body) ?? null, (value) => withUnit(value, "N"), force);
       }
     }

@@ -1,43 +1,39 @@
 // The choice of how contacts are drawn, and what is said of those shown.
 
 import { type ContactWay, lineWidth } from "./contact_marks";
-import { type Contact, Contacts, type ContactsText, magnitude } from "./contacts";
-import type { Head } from "./head";
+import { type Contact, magnitude } from "./contacts";
 import { element } from "./element";
+import type { State } from "./moments";
 import { withUnit } from "./scale";
 import type { Stage } from "./stage";
 
 export class ContactPanel {
-  private contacts: Contacts;
-  private simulates = false;
   /// Whether the colours of bodies are those of their forces.
   private coloured = false;
-  private ask: (wanted: boolean) => void = () => undefined;
+  /// Asks a simulation for contacts, or for none any more; null: it takes no commands.
+  private ask: ((wanted: boolean) => void) | null = null;
 
-  constructor(head: Head) {
-    this.contacts = new Contacts(head.dimension);
-  }
-
-  /// Of a simulation that takes commands; `ask`: for contacts, or for none any more; `changed`: to draw what is wanted.
-  listen(ask: (wanted: boolean) => void, changed: () => void): void {
-    this.simulates = true;
-    this.ask = ask;
-    element<HTMLSelectElement>("contacts").disabled = false;
+  constructor(changed: () => void) {
     element("contacts").addEventListener("change", () => {
-      ask(this.wanted());
+      this.ask?.(this.wanted());
       changed();
     });
+  }
+
+  /// Of a simulation that takes commands.
+  steer(ask: (wanted: boolean) => void): void {
+    this.ask = ask;
+    this.offer();
     this.note(null, 0, 0);
   }
 
-  /// Whether there can be any.
-  get known(): boolean {
-    return this.simulates;
+  /// There are contacts, or can be.
+  offer(): void {
+    element<HTMLSelectElement>("contacts").disabled = false;
   }
 
-  /// Another run.
-  replace(head: Head): void {
-    this.contacts = new Contacts(head.dimension);
+  get offered(): boolean {
+    return !element<HTMLSelectElement>("contacts").disabled;
   }
 
   private get way(): ContactWay {
@@ -51,17 +47,12 @@ export class ContactPanel {
   colourBodies(coloured: boolean): void {
     if (this.coloured === coloured) return;
     this.coloured = coloured;
-    this.ask(this.wanted());
+    this.ask?.(this.wanted());
   }
 
-  /// Contacts of a frame that is to come.
-  add(text: ContactsText): void {
-    this.contacts.add(text);
-  }
-
-  /// Sum of the normal forces on each body in the frame of a step [N]; null: not known.
-  forces(step: number): Map<number, number> | null {
-    const contacts = this.contacts.of(step);
+  /// Sum of the normal forces on each body [N]; null: not known.
+  forces(state: State): Map<number, number> | null {
+    const contacts = state.contacts();
     if (!contacts) return null;
     const forces = new Map<number, number>();
     for (const { a, b, normalForce } of contacts)
@@ -69,22 +60,22 @@ export class ContactPanel {
     return forces;
   }
 
-  /// Those of the frame of a step, where they are wanted.
-  show(step: number, stage: Stage): void {
-    if (!this.simulates) return;
-    const contacts = this.wanted() ? this.contacts.of(step) : null;
+  /// Those of the frame shown, where they are wanted.
+  show(state: State, stage: Stage): void {
+    if (!this.offered) return;
+    const contacts = this.wanted() ? state.contacts() : null;
     const { force, length } = stage.showContacts(this.way === "none" ? [] : (contacts ?? []), this.way);
     this.note(contacts, force, length);
   }
 
   private note(contacts: Contact[] | null, force: number, length: number): void {
     const text = element("contact-note");
-    if (!this.wanted()) text.textContent = "Off, they are not computed for the page.";
-    else if (!contacts) text.textContent = "This frame came without contacts: the next step has them.";
+    if (!this.wanted()) text.textContent = this.ask ? "Off, they are not computed for the page." : "";
+    else if (!contacts) text.textContent = this.ask ? "This frame came without contacts: the next step has them." : "This frame has none.";
     else {
       const kept = contacts.filter((contact) => contact.kept).length;
       const scale = this.way === "chains" ? `; a line ${(lineWidth * length).toPrecision(2)} m wide: ${withUnit(force, "N")}` : `; a bar of ${length.toPrecision(3)} m: ${withUnit(force, "N")}`;
-      text.textContent = `${contacts.length} points with a force, ${kept} between sleeping bodies, as it was before they slept${contacts.length > 0 && this.way !== "none" ? scale : ""}`;
+      text.textContent = `${contacts.length} points with a force, ${kept} between sleeping bodies, kept since they fell asleep${contacts.length > 0 && this.way !== "none" ? scale : ""}`;
     }
   }
 }

@@ -1,25 +1,34 @@
-// Contacts of the frames of a simulation, as the server sends them (tools/serve/shown_run.cc).
+// Contact points with their forces (lcmtypes/talus_contacts.lcm).
 
 import type { Point } from "./head";
-
-/// Frames whose contacts are kept, the newest.
-const mostFrames = 1000;
+import { decode, type Layouts, type Message } from "./messages";
 
 export interface Contact {
   a: number;
   /// A body, or -1 for the ground, below for obstacles.
   b: number;
-  /// Both sides sleep: the forces are those of the last step before.
+  /// No side is awake: the force is that which holds them, or held them as they fell asleep.
   kept: boolean;
   point: Point;
   /// On `a` [N].
   normalForce: Point;
 }
 
-/// Of each contact a, b, 1 where it is kept, then a number for each axis of point, normal force and friction force.
-export interface ContactsText {
-  step: number;
-  contacts: number[][];
+interface ContactsMessage {
+  a: Int32Array;
+  b: Int32Array;
+  kept: Uint8Array;
+  values: Float32Array;
+}
+
+/// Of the messages of a frame.
+export function contactsOf(messages: Message[], layouts: Layouts, dimension: 2 | 3): Contact[] {
+  const axes = dimension === 2 ? [0, 2] : [0, 1, 2];
+  return messages.flatMap((message) => {
+    const { a, b, kept, values } = decode<ContactsMessage>(message, layouts);
+    const vector = (at: number): Point => axes.map((axis) => values[at + axis]);
+    return Array.from(a, (body, i) => ({ a: body, b: b[i], kept: kept[i] === 1, point: vector(9 * i), normalForce: vector(9 * i + 3) }));
+  });
 }
 
 /// What two sides exert on each other, all their contacts together.
@@ -45,21 +54,3 @@ export function chainsOf(contacts: Contact[]): Chain[] {
 }
 
 export const magnitude = (force: Point): number => Math.hypot(...force);
-
-export class Contacts {
-  /// By step, in the order in which they came.
-  private readonly frames = new Map<number, number[][]>();
-
-  constructor(private readonly dimension: 2 | 3) {}
-
-  add({ step, contacts }: ContactsText): void {
-    this.frames.set(step, contacts);
-    if (this.frames.size > mostFrames) this.frames.delete(this.frames.keys().next().value!);
-  }
-
-  /// Of the frame of a step; null where none were sent with it, or no longer are kept.
-  of(step: number): Contact[] | null {
-    const axes = this.dimension;
-    return this.frames.get(step)?.map(([a, b, kept, ...values]) => ({ a, b, kept: kept === 1, point: values.slice(0, axes), normalForce: values.slice(axes, 2 * axes) })) ?? null;
-  }
-}

@@ -8,7 +8,6 @@ import { LogReader } from "./messages";
 import { type Moment, MomentReader } from "./moments";
 import { numbersOf, rangeOf, withNumber, type SceneNumber } from "./numbers";
 import { Player, type Simulation } from "./player";
-import type { ContactsText } from "./contacts";
 import { Timeline } from "./timeline";
 
 interface Status {
@@ -49,7 +48,7 @@ interface Thinned {
   mebibytes: number;
 }
 
-type Message = Status | Begin | (ContactsText & { kind: "contacts" }) | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | Thinned | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
+type Message = Status | Begin | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | Thinned | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
 
 declare global {
   interface Window {
@@ -162,9 +161,6 @@ class Live implements Simulation {
         this.begun = false;
         this.thinned = null;
         break;
-      case "contacts":
-        if (this.begun) this.player?.contacts.add(message);
-        break;
       case "scene":
         this.editor.text = message.text;
         break;
@@ -200,6 +196,7 @@ class Live implements Simulation {
       this.ready(this.player);
     }
     if (this.thinned) this.player.thin(this.thinned.steps, this.thinned.mebibytes);
+    if (this.status) this.showStatus(this.status); // times in it are in steps of this run
   }
 
   private add(moment: Moment): void {

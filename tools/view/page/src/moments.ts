@@ -1,5 +1,6 @@
 // Moments of a run, put together from its messages, and the state that they add up to.
 
+import { type Contact, contactsOf } from "./contacts";
 import { decode, type Layouts, type Message } from "./messages";
 
 // Of the message types, the fields that the page uses (lcmtypes/*.lcm).
@@ -62,9 +63,7 @@ interface StatsMessage extends Header {
   ms_apply: number;
 }
 
-interface PilesMessage extends Header {
-  part: number;
-  parts: number;
+interface PilesMessage extends PartMessage {
   piles: Pile[];
 }
 
@@ -82,10 +81,13 @@ interface ObstaclesMessage extends Header {
   poses: Float32Array;
 }
 
-interface BodiesMessage extends Header {
-  key_frame: number;
+interface PartMessage extends Header {
   part: number;
   parts: number;
+}
+
+interface BodiesMessage extends PartMessage {
+  key_frame: number;
   body_count: number;
   body: Int32Array;
   shape: Int16Array;
@@ -170,16 +172,15 @@ export interface Instruments {
   loads: Load[];
 }
 
-interface InstrumentsMessage extends Header, Instruments {
-  part: number;
-  parts: number;
-}
+interface InstrumentsMessage extends PartMessage, Instruments {}
 
 /// What is new at a moment.
 export interface Moment {
   step: number;
   /// All parts of TALUS_BODIES, decoded when they are shown: they are most of a run.
   bodies: Message[];
+  /// The same of TALUS_CONTACTS; empty: none were told.
+  contacts: Message[];
   piles: Pile[];
   stats: StatsMessage | null;
   /// The newest readings; null: the scene measures nothing.
@@ -187,6 +188,26 @@ export interface Moment {
   obstacles: ObstaclesMessage[];
   events: SleepEvent[];
   sceneEvents: SceneEvent[];
+}
+
+/// Gathers the messages of a step, not decoded.
+class Parts {
+  private messages: Message[] = [];
+  private step = -1;
+  private parts = 0;
+
+  /// All of the step where this one is the last, else null. Those of which one is missing are left out.
+  take(message: Message, { step, part, parts }: PartMessage): Message[] | null {
+    if (part === 0) [this.messages, this.step, this.parts] = [[], step, parts];
+    if (part !== this.messages.length || step !== this.step || parts !== this.parts) this.step = -1;
+    else this.messages.push(message);
+    return part + 1 === parts && this.of(step).length > 0 ? this.messages : null;
+  }
+
+  /// Empty where not all of the step have come.
+  of(step: number): Message[] {
+    return step === this.step && this.messages.length === this.parts ? this.messages : [];
+  }
 }
 
 /// Puts the moments of a run together. Those of lost messages are left out.
@@ -206,8 +227,8 @@ export class MomentReader {
   private instruments: Instruments | null = null;
   private nextInstruments: Instruments = { gates: [], regions: [], loads: [] };
   private news: Pick<Moment, "obstacles" | "events" | "sceneEvents"> = { obstacles: [], events: [], sceneEvents: [] };
-  private bodies: Message[] = [];
-  private bodiesOf = { step: -1, parts: 0 };
+  private readonly bodies = new Parts();
+  private readonly contacts = new Parts();
 
   constructor(readonly layouts: Layouts) {}
 
@@ -240,8 +261,11 @@ export class MomentReader {
       case "TALUS_OBSTACLES":
         this.news.obstacles.push(read<ObstaclesMessage>());
         break;
+      case "TALUS_CONTACTS":
+        this.contacts.take(message, decode<PartMessage>(message, this.layouts, false));
+        break;
       case "TALUS_BODIES":
-        return this.takeBodies(message, decode<BodiesMessage>(message, this.layouts, false));
+        return this.takeBodies(message, decode<PartMessage>(message, this.layouts, false));
     }
     return null;
   }
@@ -286,19 +310,10 @@ export class MomentReader {
     body.forEach((each, i) => this.news.events.push({ step, body: each, pile: pile[i], layer: layer[i], woke: woke[i] === 1, cause: cause[i], score: score[i] }));
   }
 
-  private takeBodies(message: Message, { step, part, parts }: BodiesMessage): Moment | null {
-    if (part === 0) {
-      this.bodies = [];
-      this.bodiesOf = { step, parts };
-    }
-    if (part !== this.bodies.length || step !== this.bodiesOf.step || parts !== this.bodiesOf.parts) {
-      this.bodies = [];
-      return null;
-    }
-    this.bodies.push(message);
-    if (part + 1 < parts) return null;
-    const moment = { step, bodies: this.bodies, piles: this.piles, stats: this.stats, instruments: this.instruments, ...this.news };
-    this.bodies = [];
+  private takeBodies(message: Message, header: PartMessage): Moment | null {
+    const bodies = this.bodies.take(message, header);
+    if (!bodies) return null;
+    const moment = { step: header.step, bodies, contacts: this.contacts.of(header.step), piles: this.piles, stats: this.stats, instruments: this.instruments, ...this.news };
     this.news = { obstacles: [], events: [], sceneEvents: [] };
     return moment;
   }
@@ -313,6 +328,7 @@ export class State {
   piles: Pile[] = [];
   instruments: Instruments | null = null;
   stats: StatsMessage | null = null;
+  private contactMessages: Message[] = [];
   shape = new Uint16Array(64);
   asleep = new Uint8Array(64);
   /// Also those that no message has named yet.
@@ -333,14 +349,19 @@ export class State {
 
   copy(): State {
     const copy = new State(this.dimension, this.layouts);
-    const { step, bodies, awake, asleepCount, piles, stats, instruments } = this;
-    Object.assign(copy, { step, bodies, awake, asleepCount, piles, stats, instruments });
+    const { step, bodies, awake, asleepCount, piles, stats, instruments, contactMessages } = this;
+    Object.assign(copy, { step, bodies, awake, asleepCount, piles, stats, instruments, contactMessages });
     copy.shape = this.shape.slice(0, bodies);
     copy.asleep = this.asleep.slice(0, bodies);
     copy.removed = this.removed.slice(0, bodies);
     copy.pose = this.pose.slice(0, bodies * this.components);
     for (const [obstacle, pose] of this.obstacles) copy.obstacles.set(obstacle, [...pose]);
     return copy;
+  }
+
+  /// Contact points with a force; null: not told.
+  contacts(): Contact[] | null {
+    return this.contactMessages.length > 0 ? contactsOf(this.contactMessages, this.layouts, this.dimension) : null;
   }
 
   /// Of the sleeping bodies [D], below 0: not known.
@@ -369,6 +390,7 @@ export class State {
     this.piles = moment.piles;
     this.instruments = moment.instruments;
     this.stats = moment.stats;
+    this.contactMessages = moment.contacts;
     for (const { obstacle, poses } of moment.obstacles)
       obstacle.forEach((number, i) => this.obstacles.set(number, Array.from(poses.subarray(i * this.components, (i + 1) * this.components))));
     const changed: number[] = [];

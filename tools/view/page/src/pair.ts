@@ -230,7 +230,6 @@ class Pair {
     this.compared = now;
     if (this.following) showPace(rate, this.players[0].pace());
     this.showDifference();
-    ["a", "b"].forEach((side, i) => element(`legend-${side}`).replaceChildren(...listed(this.players[i].scenery().entries)));
   }
 
   private show(): void {
@@ -266,6 +265,7 @@ class Pair {
       ["largest", length(largest)],
       ["a step of the right run takes", speedUp > 0 ? `${speedUp.toFixed(2)} times as long` : "(not known)"],
     ];
+    ["a", "b"].forEach((side, i) => element(`legend-${side}`).replaceChildren(...listed(this.players[i].scenery().entries)));
     element("difference").replaceChildren(...cells.map((cell) => make("tr", {}, ...cell.map((textContent) => make("td", { textContent })))));
   }
 

@@ -72,8 +72,7 @@ export class Player {
   private wantedTime: number | null = null;
 
   constructor(public timeline: Timeline) {
-    const { head } = timeline;
-    this.contacts = new ContactPanel(head);
+    this.contacts = new ContactPanel(() => this.repaint());
     this.colouring = new Colouring(() => this.timeline, this.contacts);
     this.coloured = this.colouring.now();
     this.tools = new PointerTools({
@@ -104,7 +103,6 @@ export class Player {
   replace(timeline: Timeline): void {
     const { dimension } = this.head;
     this.timeline = timeline;
-    this.contacts.replace(timeline.head);
     this.colouring.forget();
     this.pause();
     this.following = this.simulation !== null;
@@ -149,6 +147,7 @@ export class Player {
     this.tools.setShapes(head.shapes.map(({ name }) => name));
     this.showBody();
     this.showWarnings();
+    this.offerContacts();
     this.plot();
   }
 
@@ -184,7 +183,7 @@ export class Player {
     element("follow").addEventListener("change", () => this.accompany());
     element("scrub").addEventListener("input", () => this.seek(Number(element<HTMLInputElement>("scrub").value)));
     const paint = element<HTMLSelectElement>("paint");
-    paint.append(...Object.entries(ways).map(([way, text]) => Object.assign(new Option(text, way), { disabled: way === "force" })));
+    paint.append(...Object.entries(ways).map(([way, text]) => new Option(text, way)));
     paint.addEventListener("change", () => this.colourBy(paint.value as Way));
     element("layers").addEventListener("change", () => {
       this.stage.showLayers = element<HTMLInputElement>("layers").checked;
@@ -272,6 +271,7 @@ export class Player {
   grown(): void {
     element<HTMLInputElement>("scrub").max = String(Math.max(0, this.timeline.frames - 1));
     this.showWarnings();
+    this.offerContacts();
     const { timeline, wantedTime } = this;
     if (wantedTime !== null && timeline.time(timeline.frames - 1) + this.head.dt / 2 >= wantedTime) this.seekTime(wantedTime);
     else if (this.following && !this.led) this.goTo(timeline.frames - 1);
@@ -385,7 +385,7 @@ export class Player {
 
   colourBy(way: Way): void {
     this.colouring.way = element<HTMLSelectElement>("paint").value = way;
-    if (this.contacts.known) this.contacts.colourBodies(way === "force");
+    if (this.contacts.offered) this.contacts.colourBodies(way === "force");
     this.repaint();
   }
 
@@ -497,11 +497,11 @@ export class Player {
       this.plot();
     }
     if (layers === "off") element("layers").click();
-    if (contacts && this.contacts.known) {
+    if (contacts && this.contacts.offered) {
       element<HTMLSelectElement>("contacts").value = contacts;
       element("contacts").dispatchEvent(new Event("change"));
     }
-    if (colours && colours in ways && (colours !== "force" || this.contacts.known)) this.colourBy(colours as Way);
+    if (colours && colours in ways && (colours !== "force" || this.contacts.offered)) this.colourBy(colours as Way);
     if (t !== undefined && Number.isFinite(Number(t))) this.wantedTime = Number(t);
     if (this.wantedTime !== null && !this.simulation) this.seekTime(this.wantedTime);
     if (body !== undefined && Number.isInteger(Number(body))) this.select(Number(body));
@@ -568,17 +568,19 @@ export class Player {
   }
 
   private showContacts(): void {
-    this.contacts.show(this.timeline.state.step, this.stage);
+    this.contacts.show(this.timeline.state, this.stage);
   }
 
   /// The run takes commands.
   steer(): void {
     offerPaces(element<HTMLSelectElement>("rate"), [...paces, 64, 0]);
-    for (const option of element<HTMLSelectElement>("paint").options) option.disabled = false;
-    this.contacts.listen(
-      (wanted) => this.command({ do: "contacts", value: wanted }),
-      () => this.repaint(),
-    );
+    this.contacts.steer((wanted) => this.command({ do: "contacts", value: wanted }));
+    this.offerContacts();
+  }
+
+  private offerContacts(): void {
+    if (this.timeline.hasContacts) this.contacts.offer();
+    for (const option of element<HTMLSelectElement>("paint").options) option.disabled = option.value === "force" && !this.contacts.offered;
   }
 
   shown(): Shown {

@@ -12,6 +12,8 @@ import { uPlot } from "./vendor";
 
 const mostColumns = 800; // drawn of a density map
 const axisHeight = 20; // [CSS pixels] of the time axis, which the lowest row has
+const namesHeight = 14; // [CSS pixels] of the names above the lines
+const roomForThree = 36; // [CSS pixels] height in which an axis has room for three numbers
 const gutter = 44; // [CSS pixels] left of all rows, so that they have one time axis
 
 type Column = (number | null)[];
@@ -205,9 +207,9 @@ export class Plots {
         scales: { x: { time: false }, y: { range: (_, __, high) => [0, 1.05 * Math.max(row === counts ? 1 : 1e-3, high)] } },
         axes: [
           { ...axis, show: last, size: axisHeight, gap: 2, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))} s`) },
-          { ...axis, size: gutter, gap: 4, splits: (_, __, ___, high) => [0, niceLength(high) / 2, niceLength(high)], values: (_, ticks) => ticks.map(brief) },
+          { ...axis, size: gutter, gap: 4, splits: ({ bbox }, _, __, high) => (bbox.height < roomForThree * devicePixelRatio ? [0, niceLength(high)] : [0, niceLength(high) / 2, niceLength(high)]), values: (_, ticks) => ticks.map(brief) },
         ],
-        padding: [4, 16, last ? 0 : 4, 0],
+        padding: [namesHeight, 16, last ? 0 : 4, 0],
         legend: { show: false },
         cursor: { sync: { key: "talus" }, points: { show: false }, drag: { x: true, y: false }, y: false },
         hooks: {

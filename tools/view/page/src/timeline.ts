@@ -34,6 +34,8 @@ export class Timeline {
   readonly instruments: (Instruments | null)[] = [];
   /// Mean wall time of a step since the frame before [ms]; null: not known.
   readonly msPerStep: (number | null)[] = [];
+  /// Whether any frame has contacts.
+  hasContacts = false;
   /// The scene's events so far.
   readonly happened: SceneEvent[] = [];
   /// The last text of each kind, by kind.
@@ -84,6 +86,7 @@ export class Timeline {
     else this.moments.push([moment]);
     if (frame % keepEvery === 0) this.kept[frame / keepEvery] = this.newest.copy();
     if (again && this.shown === frame) this.stale = true;
+    this.hasContacts ||= moment.contacts.length > 0;
     this.happened.push(...moment.sceneEvents);
     for (let body = this.born.length; body < this.newest.bodies; ++body) this.born.push(moment.step);
     for (const event of moment.events) (this.events[event.body] ??= []).push(event);
