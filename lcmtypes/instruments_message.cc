@@ -78,6 +78,7 @@ talus_region to_region(const RegionParams<Dim>& params, const RegionReading& rea
   message.packing = reading.packing.value_or(-1.0);
   message.mean_speed = reading.mean_speed;
   message.kinetic_energy = reading.kinetic_energy;
+  message.slope = reading.surface.value ? reading.surface.value->angle : -1.0;
   return message;
 }
 

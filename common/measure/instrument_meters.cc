@@ -1,5 +1,6 @@
 #include "common/measure/instrument_meters.h"
 
+#include <cmath>
 #include <limits>
 
 #include "common/scene/typical_body.h"
@@ -15,7 +16,7 @@ InstrumentMeters<Dim>::InstrumentMeters(const Scene<Dim>& scene)
       readings_(instruments_.regions.size()) {
   const double extent = typical_body(scene).extent;
   for (const GateParams<Dim>& gate : instruments_.gates) gates_.emplace_back(gate, extent);
-  for (const RegionParams<Dim>& region : instruments_.regions) regions_.emplace_back(region);
+  for (const RegionParams<Dim>& region : instruments_.regions) regions_.emplace_back(region, extent);
   for (const LoadParams<Dim>& load : instruments_.loads) loads_.emplace_back(scene, load);
   if (!loads_.empty()) everything_.emplace(scene);
 }
@@ -25,6 +26,7 @@ void InstrumentMeters<Dim>::on_motion(const World<Dim>& world, double time) {
   for (GateCounter<Dim>& gate : gates_) gate.update(world, time, dt_);
   for (LoadMeter<Dim>& load : loads_) load.update(world);
   if (everything_) everything_->update(world);
+  if (std::llround(time / dt_) % steps_per_frame_ == 0) note_contacts(world);
 }
 
 template <int Dim>
@@ -34,7 +36,14 @@ void InstrumentMeters<Dim>::on_frame(const Frame<Dim>& frame) {
 
 template <int Dim>
 void InstrumentMeters<Dim>::on_end(const Frame<Dim>& last, std::string_view /*reason*/) {
-  if (last.step > read_step_) read(last);
+  if (last.step <= read_step_) return;
+  note_contacts(last.world);
+  read(last);
+}
+
+template <int Dim>
+void InstrumentMeters<Dim>::note_contacts(const World<Dim>& world) {
+  for (RegionMeter<Dim>& region : regions_) region.note_contacts(world);
 }
 
 template <int Dim>

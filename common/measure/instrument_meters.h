@@ -20,7 +20,7 @@ class InstrumentMeters final : public Observer<Dim> {
  public:
   explicit InstrumentMeters(const Scene<Dim>& scene);
 
-  bool needs_contacts() const override { return !loads_.empty(); }
+  bool needs_contacts() const override { return !loads_.empty() || !regions_.empty(); }
   void on_motion(const World<Dim>& world, double time) override;
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;
@@ -36,6 +36,7 @@ class InstrumentMeters final : public Observer<Dim> {
   std::int64_t read_step() const { return read_step_; }
 
  private:
+  void note_contacts(const World<Dim>& world);
   void read(const Frame<Dim>& frame);
   void weigh(const World<Dim>& world);
 

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double largest_held_share = 0.05;
 constexpr double leaning_gap = 0.05;   // [D]; engines keep bodies so far apart at most
-constexpr double most_tilt = 0.01;     // [rad]
 constexpr double even_spread = 0.577;  // 1 / sqrt(3)
 constexpr double spread_margin = 0.05;
 constexpr double lowest_pile = 2.0;  // [D]; in a lower bed gaps between bodies count as the outside
@@ -47,9 +46,12 @@ Pieces<Dim> pieces_of(const WorldDescription<Dim>& world) {
 /// Bodies beside an obstacle that reaches above their centre. What lies on a level slab does not count.
 template <int Dim>
 std::size_t held_bodies(std::span<const PlacedBody<Dim>> bodies, const Pieces<Dim>& obstacles, double extent) {
-  return std::ranges::count_if(bodies, [&](const PlacedBody<Dim>& body) {
-    return std::ranges::any_of(obstacles, [&](const auto& obstacle) { return holds<Dim>(obstacle, body, extent); });
-  });
+  return std::ranges::count_if(
+      bodies,
+      [&](const PlacedBody<Dim>& body) {
+        return std::ranges::any_of(
+            obstacles, [&](const auto& obstacle) { return holds<Dim>(obstacle, body, extent); });
+      });
 }
 
 /// Mean heights of the surface in the four quarters of `radius`, from the middle outwards [m].
@@ -89,11 +91,14 @@ std::string why_no_heap(const ShapeStatistics<Dim>& shape, std::size_t held, dou
 /// Whether a point lies in a piece, or within its radius of a face.
 template <int Dim>
 bool inside(const ConvexPiece<Dim>& piece, const Vec<Dim>& point) {
-  return piece.bounds().contains(point) && std::ranges::all_of(piece.normals, [&](const Vec<Dim>& normal) {
-           const auto along = [&](const Vec<Dim>& corner) { return normal.dot(corner); };
-           const auto [low, high] = std::ranges::minmax(piece.corners, {}, along);
-           return along(point) >= along(low) - piece.radius && along(point) <= along(high) + piece.radius;
-         });
+  return piece.bounds().contains(point) &&
+         std::ranges::all_of(
+             piece.normals,
+             [&](const Vec<Dim>& normal) {
+               const auto along = [&](const Vec<Dim>& corner) { return normal.dot(corner); };
+               const auto [low, high] = std::ranges::minmax(piece.corners, {}, along);
+               return along(point) >= along(low) - piece.radius && along(point) <= along(high) + piece.radius;
+             });
 }
 
 /// The part of the plane that bodies cover, seen from above, less what obstacles take of it at one height.
@@ -120,9 +125,11 @@ class Section {
   }
 
   void cut(const ConvexPiece<Dim>& piece, double at) {
-    each_cell(piece.bounds(), [&](int x, int y) {
-      if (inside(piece, middle(x, y, at))) covered_[index(x, y)] = 0;
-    });
+    each_cell(
+        piece.bounds(),
+        [&](int x, int y) {
+          if (inside(piece, middle(x, y, at))) covered_[index(x, y)] = 0;
+        });
   }
 
   /// [m^2], in 2D [m].
@@ -235,7 +242,7 @@ PileForm pile_form(std::span<const PlacedBody<Dim>> bodies, const ShapeStatistic
                    const ProfileGrid<Dim>& grid, const WorldDescription<Dim>& world, double extent) {
   const auto neither = [](const std::string& why) { return PileForm{{.why_not = why}, {.why_not = why}}; };
   if (bodies.size() < min_bodies_for_slope) return neither(few(bodies.size()));
-  if ((world.down - straight_down<Dim>()).norm() > most_tilt) return neither("gravity is not vertical");
+  if (!is_straight_down(world.down)) return neither("gravity is not vertical");
   const Pieces<Dim> obstacles = pieces_of(world);
   const std::size_t held = held_bodies<Dim>(bodies, obstacles, extent);
   const std::string why_no = why_no_heap(shape, held, extent);

@@ -1,7 +1,11 @@
 #include "common/measure/region_meter.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "common/measure/shape_statistics.h"
+#include "common/pile/angle_of_repose.h"
 #include "common/world/energy.h"
 
 namespace talus {
@@ -13,7 +17,19 @@ constexpr int body_lines = Dim == 2 ? 64 : 16;
 template <int Dim>
 constexpr int obstacle_lines = Dim == 2 ? 512 : 64;
 
+constexpr double most_roughness = 1.0;  // [D]; a heap of two flanks departs from a plane by 0.3 of its height
+
 }  // namespace
+
+template <int Dim>
+void RegionMeter<Dim>::note_contacts(const World<Dim>& world) {
+  touches_ = world.states().asleep;
+  for (const Contact<Dim>& contact : world.contacts()) {
+    if (contact.normal_impulse <= 0.0) continue;
+    touches_[contact.a] = 1;
+    if (contact.b >= 0) touches_[contact.b] = 1;
+  }
+}
 
 template <int Dim>
 RegionReading RegionMeter<Dim>::read(const World<Dim>& world, double ground) {
@@ -37,7 +53,35 @@ RegionReading RegionMeter<Dim>::read(const World<Dim>& world, double ground) {
     reading.packing = reading.solid_volume / free;
   else
     reading.packing_reason = "obstacles or the ground fill the region";
+  reading.surface = surface(world);
   return reading;
+}
+
+template <int Dim>
+Applicable<SurfacePlane> RegionMeter<Dim>::surface(const World<Dim>& world) const {
+  if (!is_straight_down(world.down())) return {.why_not = "gravity is not vertical"};
+  std::vector<PlacedBody<Dim>> inside;
+  std::vector<PlacedBody<Dim>> bodies;
+  std::vector<std::uint8_t> counted;
+  const BodyStates<Dim>& states = world.states();
+  for (BodyIndex body = 0; body < std::ssize(touches_); ++body) {
+    if (states.removed[body] != 0 || touches_[body] == 0) continue;
+    bodies.push_back({.centre = states.pose[body].position, .bounds = world.bounds_of(body)});
+    counted.push_back(static_cast<std::uint8_t>(form_.holds(bodies.back().centre)));
+    if (counted.back() != 0) inside.push_back(bodies.back());
+  }
+  if (inside.size() < min_bodies_for_slope)
+    return {.why_not = fmt::format("of the bodies inside {} touch something, fewer than {}", inside.size(),
+                                   min_bodies_for_slope)};
+  Box<Dim> all;
+  for (const PlacedBody<Dim>& body : inside) all.extend(body.bounds);
+  const SurfacePlane plane =
+      surface_plane<Dim>(bodies, counted, grid_around<Dim>(inside, height<Dim>(all.min()), extent_));
+  if (plane.cells == 0) return {.why_not = "other bodies lie above those inside"};
+  if (!plane.wide) return {.why_not = "the surface is narrower than three strips of D/2"};
+  if (plane.roughness > most_roughness * extent_)
+    return {.why_not = fmt::format("the surface departs from a plane by {:.2g} D", plane.roughness / extent_)};
+  return {.value = plane};
 }
 
 /// Of the part inside of a body of this shape and number of the shape. Pieces that stand in for a mesh have another

@@ -1,6 +1,7 @@
 #pragma once
-// A pile's surface as a curve: height over the radius (3D) or over x (2D).
+// A pile's surface: as a curve, height over the radius (3D) or over x (2D), and as a plane (2D: a line).
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,5 +47,20 @@ struct AngleOfRepose {
 /// Least squares over the bins between 10 and 90 % of `radius` [m] (both flanks in 2D), each weighted by its columns.
 /// `radius` is the pile's: r95 of its bodies leaves out what rolled away.
 AngleOfRepose angle_of_repose(std::span<const ProfileBin> profile, double radius);
+
+/// Plane (2D: line) through a part of the surface.
+struct SurfacePlane {
+  double angle = 0.0;           // to the horizontal, >= 0 [rad]
+  double standard_error = 0.0;  // [rad], of the fit alone
+  double roughness = 0.0;       // root of the mean squared distance in height from the plane [m]
+  int cells = 0;                // that the fit used
+  bool wide = false;            // whether these reach over three bins along each axis; else all else is 0
+};
+
+/// Least squares over cells one bin wide. The surface is that of height_profile() for all `bodies`, where its highest
+/// body is `counted`, which has a value for each of them.
+template <int Dim>
+SurfacePlane surface_plane(std::span<const PlacedBody<Dim>> bodies, std::span<const std::uint8_t> counted,
+                           const ProfileGrid<Dim>& grid);
 
 }  // namespace talus

@@ -65,6 +65,12 @@ Vec<Dim> straight_down() {
   return down;
 }
 
+/// Whether a unit vector is so to 0.01 rad.
+template <int Dim>
+bool is_straight_down(const Vec<Dim>& down) {
+  return (down - straight_down<Dim>()).norm() <= 0.01;
+}
+
 /// All that an engine is made from. world_fields has the unit, range and effect of gravity and time step.
 template <int Dim>
 struct WorldDescription {

@@ -48,10 +48,11 @@ class InstrumentTest : public BackendTest<Backend> {
     return scene;
   }
 
-  /// A world with a plate, 4 m wide, that slopes by 0.2 rad; the middle of its upper side is 2 m above x = 10.
-  static WorldDescription<dimension> with_plate() {
+  /// A world with a plate that slopes by 0.2 rad; the middle of its upper side is 2 m above x = 10.
+  static WorldDescription<dimension> with_plate(double width = 4.0) {
     WorldDescription<dimension> world = BackendTest<Backend>::description();
     Vec<dimension> size = Vec<dimension>::Constant(4.0);
+    size[0] = width;
     size[dimension - 1] = 0.5;
     world.obstacles.push_back({make_shape<dimension>("plate", box_pieces<dimension>(size), {}), {}});
     world.obstacles.back().pose.rotation = tilted<dimension>(slope);
@@ -220,13 +221,39 @@ TYPED_TEST(InstrumentTest, ARegionHasTheEnergyAndSpeedOfTheBodyInIt) {
   world->add(TestFixture::at(TestFixture::point(0.0, 5.0), 0, 3.0 * Vec<dim>::Unit(0)));
   world->add(TestFixture::at(TestFixture::point(0.0, 15.0), 0, 2.0 * Vec<dim>::Unit(0)));
   world->step();
-  RegionMeter<dim> layer(RegionParams<dim>{.name = "layer", .layer = {4.0, 6.0}});
+  RegionMeter<dim> layer(RegionParams<dim>{.name = "layer", .layer = {4.0, 6.0}}, 1.0);
   const RegionReading reading = layer.read(*world, 0.0);
   EXPECT_EQ(reading.bodies, 1);
   EXPECT_NEAR(reading.kinetic_energy, 4.5 * world->shape_of(0).mass, 1e-3) << "single precision";
   EXPECT_NEAR(reading.mean_speed, 3.0, 1e-6);
   EXPECT_DOUBLE_EQ(reading.solid_volume, 1.0);
   EXPECT_FALSE(reading.packing);
+}
+
+TYPED_TEST(InstrumentTest, ARegionHasTheSlopeOfThePlateThatItsBodiesLieOnAwakeOrAsleep) {
+  constexpr int dim = TypeParam::dim;
+  auto world = TypeParam::make(TestFixture::with_plate(18.0));
+  world->record_contacts(true);
+  std::vector<BodyIndex> cubes;
+  for (int i = 0; i < 16; ++i) {
+    for (int row = 0; row < (dim == 2 ? 1 : 3); ++row) {
+      BodyDef<dim> cube = TestFixture::on_plate(1.1 * i - 8.25);
+      if constexpr (dim == 3) cube.pose.position[1] = 1.1 * (row - 1);
+      cubes.push_back(world->add(cube));
+    }
+  }
+  world->add(TestFixture::at(TestFixture::point(10.0, 40.0)));  // falls
+  RegionMeter<dim> meter(RegionParams<dim>{.name = "all", .layer = {0.0, 50.0}}, std::sqrt(dim));
+  for (const bool asleep : {false, true}) {
+    if (asleep) world->freeze(cubes);
+    for (int i = 0; i < 30; ++i) world->step();
+    meter.note_contacts(*world);
+    const Applicable<SurfacePlane> surface = meter.read(*world, 0.0).surface;
+    ASSERT_TRUE(surface.value) << surface.why_not;
+    // Bounding boxes reach over the cubes by some 0.1 m on each side, so the gaps between them are not even.
+    EXPECT_NEAR(surface.value->angle, slope, 0.01);
+    EXPECT_LT(surface.value->standard_error, 0.01);
+  }
 }
 
 /// With sleeping bodies that keep their forces.

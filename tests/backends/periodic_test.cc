@@ -161,7 +161,7 @@ TYPED_TEST(Sides, ShareTheVolumeOfABodyBetweenRegions) {
     Vec<dim> high = Vec<dim>::Constant(2.0);
     low[0] = from;
     high[0] = to;
-    return RegionMeter<dim>({.name = "region", .box = {low, high}}).read(simulation.world(), 0.0).solid_volume;
+    return RegionMeter<dim>({.name = "region", .box = {low, high}}, 1.0).read(simulation.world(), 0.0).solid_volume;
   };
   const double whole = simulation.world().shape_of(0).volume;
   EXPECT_NEAR(volume(-5.0, -4.0), 0.6 * whole, 0.02 * whole);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <string>
 #include <vector>
 
 #include "common/measure/gate_counter.h"
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double no_ground = -std::numeric_limits<double>::infinity();
 constexpr double dt = 0.01;
+constexpr double extent = 1.0;  // D [m]
 
 template <int Dim>
 WorldDescription<Dim> description() {
@@ -135,11 +138,11 @@ void expect_grid_of_cubes_has_its_packing() {
       body.pose.position[axis] = spacing * (rest % side + 0.5);
     world.add(body);
   }
-  const RegionReading whole = RegionMeter<Dim>(box<Dim>(0.0, side * spacing)).read(world, no_ground);
+  const RegionReading whole = RegionMeter<Dim>(box<Dim>(0.0, side * spacing), extent).read(world, no_ground);
   EXPECT_EQ(whole.bodies, bodies);
   EXPECT_NEAR(whole.packing.value(), std::pow(1.0 / spacing, Dim), 1e-12);
   // From the middle of the first cubes to that of the last: halves, quarters and eighths of the outer ones.
-  const RegionReading cut = RegionMeter<Dim>(box<Dim>(0.5 * spacing, 3.5 * spacing)).read(world, no_ground);
+  const RegionReading cut = RegionMeter<Dim>(box<Dim>(0.5 * spacing, 3.5 * spacing), extent).read(world, no_ground);
   EXPECT_NEAR(cut.solid_volume, std::pow(3.0, Dim), 1e-12);
   EXPECT_NEAR(cut.packing.value(), std::pow(3.0 / (3.0 * spacing), Dim), 1e-12);
 }
@@ -158,7 +161,7 @@ RegionReading reading_between(const std::vector<Vec3>& walls, double ground) {
   BodyDef<3> cube;
   cube.pose.position = {0.0, 0.0, 1.0};
   world.add(cube);
-  return RegionMeter<3>(box<3>(-2.0, 2.0)).read(world, ground);
+  return RegionMeter<3>(box<3>(-2.0, 2.0), extent).read(world, ground);
 }
 
 TEST(Region, CountsOnlyWhatObstaclesAndTheGroundLeaveFree) {
@@ -177,7 +180,7 @@ TEST(Region, HasThePartsOfBodiesThatItsBorderCuts) {
   body.shape = 1;
   world.add(body);
   const auto solid = [&](const RegionParams<3>& region) {
-    return RegionMeter<3>(region).read(world, no_ground).solid_volume;
+    return RegionMeter<3>(region, extent).read(world, no_ground).solid_volume;
   };
   EXPECT_DOUBLE_EQ(solid(box<3>(-1.0, 1.0)), ball);
   EXPECT_DOUBLE_EQ(solid({.name = "", .centre = Vec3::Zero(), .radius = 0.6}), ball);
@@ -201,12 +204,110 @@ TEST(Region, HasThePartsOfTurnedBodies) {
   world.add(capsule);
   const double whole = world.shapes()[2].volume;
   const auto solid = [&](Vec2 low, Vec2 high) {
-    return RegionMeter<2>({.name = "", .box = {low, high}}).read(world, no_ground).solid_volume;
+    return RegionMeter<2>({.name = "", .box = {low, high}}, extent).read(world, no_ground).solid_volume;
   };
   EXPECT_NEAR(solid({-2.0, 0.0}, {2.0, 2.0}), 0.5, 1e-3);
   EXPECT_NEAR(solid({0.0, -2.0}, {2.0, 2.0}), 0.5, 1e-3);
   EXPECT_NEAR(solid({5.0, -5.0}, {10.0, 5.0}), 0.5 * whole, 2e-3 * whole);
   EXPECT_NEAR(solid({5.0, -5.0}, {15.0, 0.0}), 0.5 * whole, 2e-3 * whole);
+}
+
+/// 16 cubes, in 3D 16 rows of 16, side by side on x, y > 0. The one at the origin stands on the ground, and each next
+/// one along x is higher by `step`, along y by half of that.
+template <int Dim>
+class Stairs {
+ public:
+  explicit Stairs(double step) {
+    world_.record_contacts(true);
+    constexpr int side = 16;
+    for (int y = 0; y < (Dim == 2 ? 1 : side); ++y)
+      for (int x = 0; x < side; ++x) add(x + 0.5, y + 0.5, step * x + 0.5 * step * y + 0.5);
+    world_.step();
+  }
+
+  /// A cube that touches the ground, or else nothing.
+  void add(double x, double y, double height, bool touches = true) {
+    BodyDef<Dim> body;
+    if constexpr (Dim == 2)
+      body.pose.position = {x, height};
+    else
+      body.pose.position = {x, y, height};
+    const BodyIndex number = world_.add(body);
+    if (touches) world_.touching.push_back({.a = number, .normal_impulse = 1.0});
+  }
+  Applicable<SurfacePlane> surface(const RegionParams<Dim>& region) {
+    world_.step();
+    RegionMeter<Dim> meter(region, extent);
+    meter.note_contacts(world_);
+    return meter.read(world_, no_ground).surface;
+  }
+
+  StillWorld<Dim>& world() { return world_; }
+
+ private:
+  StillWorld<Dim> world_{description<Dim>()};
+};
+
+/// Of the least squares through 16 stairs with two cells on each, over the slope from stair to stair: the variance of
+/// the middles of the stairs, over that of the cells.
+constexpr double share_of_stairs = ((16.0 * 16.0 - 1.0) / 12.0) / ((32.0 * 32.0 - 1.0) / 48.0);
+
+template <int Dim>
+void expect_slope_of_stairs() {
+  Stairs<Dim> stairs(0.25);
+  const double slope = share_of_stairs * (Dim == 2 ? 0.25 : 0.25 * std::sqrt(1.25));
+  const Applicable<SurfacePlane> all = stairs.surface({.name = "", .layer = {0.0, 100.0}});
+  ASSERT_TRUE(all.value) << all.why_not;
+  EXPECT_NEAR(all.value->angle, std::atan(slope), 1e-9);
+  EXPECT_GT(all.value->standard_error, 0.0);
+  stairs.add(8.0, 8.0, 50.0, false);
+  EXPECT_NEAR(stairs.surface({.name = "", .layer = {0.0, 100.0}}).value->angle, std::atan(slope), 1e-9)
+      << "what flies is no part of it";
+  stairs.world().touching.clear();
+  std::vector<BodyIndex> all_but_the_last(stairs.world().states().size() - 1);
+  std::iota(all_but_the_last.begin(), all_but_the_last.end(), 0);
+  stairs.world().freeze(all_but_the_last);
+  EXPECT_NEAR(stairs.surface({.name = "", .layer = {0.0, 100.0}}).value->angle, std::atan(slope), 1e-9)
+      << "what sleeps rests on something";
+}
+
+TEST(RegionSlope, OfStairsIsThatOfLeastSquaresAwakeOrAsleep) {
+  expect_slope_of_stairs<2>();
+  expect_slope_of_stairs<3>();
+}
+
+TEST(RegionSlope, IsOnlyThatOfItsOwnPartOfTheSurface) {
+  Stairs<2> stairs(0.0);
+  for (int x = 16; x < 40; ++x) stairs.add(x + 0.5, 0.0, 0.5 + 0.5 * (x - 15));
+  const auto angle = [&](double from, double to) {
+    return stairs.surface({.name = "", .box = {{from, 0.0}, {to, 100.0}}}).value->angle;
+  };
+  EXPECT_NEAR(angle(0.0, 16.0), 0.0, 1e-9);
+  EXPECT_NEAR(angle(20.0, 40.0), std::atan(0.5), 0.01);
+}
+
+std::string reason(Stairs<2>& stairs, const RegionParams<2>& region) {
+  const Applicable<SurfacePlane> surface = stairs.surface(region);
+  EXPECT_FALSE(surface.value);
+  return surface.why_not;
+}
+
+TEST(RegionSlope, IsNotKnownWhereThereIsNoSurfaceAndTheReasonSaysWhy) {
+  const RegionParams<2> all = {.name = "", .layer = {-10.0, 100.0}};
+  Stairs<2> flat(0.0);
+  EXPECT_EQ(reason(flat, {.name = "", .box = {{0.0, 0.0}, {15.0, 2.0}}}),
+            "of the bodies inside 15 touch something, fewer than 16");
+  for (int x = 0; x < 16; ++x) flat.add(x + 0.5, 0.0, 1.5);
+  EXPECT_EQ(reason(flat, {.name = "", .layer = {0.0, 1.0}}), "other bodies lie above those inside");
+  Stairs<2> ridge(0.5);
+  for (int x = 16; x < 32; ++x) ridge.add(x + 0.5, 0.0, 0.5 * (32 - x));
+  EXPECT_NE(reason(ridge, all).find("departs from a plane by 2."), std::string::npos) << "0.29 of 8 m";
+  Stairs<2> tower(20.0);
+  for (int height = 0; height < 20; ++height) tower.add(-3.0, 0.0, 0.5 + height);
+  EXPECT_EQ(reason(tower, {.name = "", .box = {{-4.0, 0.0}, {-2.0, 30.0}}}),
+            "the surface is narrower than three strips of D/2");
+  ridge.world().set_gravity(Vec2(0.1, -1.0));
+  EXPECT_EQ(reason(ridge, all), "gravity is not vertical");
 }
 
 }  // namespace

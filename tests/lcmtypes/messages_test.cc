@@ -461,6 +461,7 @@ TEST(InstrumentsMessage, HasTheFormAndTheReadingsOfEachInstrument) {
   EXPECT_EQ(message.regions[0].low[2], 5.0);
   EXPECT_EQ(message.regions[0].high[0], 4.0);
   EXPECT_EQ(message.regions[0].packing, -1.0) << "not known before the first frame";
+  EXPECT_EQ(message.regions[0].slope, -1.0) << "nor is this";
   EXPECT_EQ(message.regions[1].kind, talus_lcm::talus_region::LAYER);
   ASSERT_EQ(message.load_count, 1);
   EXPECT_EQ(message.loads[0].obstacle, (std::vector<std::int32_t>{-1, 0}));

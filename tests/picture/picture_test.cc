@@ -78,7 +78,7 @@ Colour colour_between(bool contacts) {
   const Vec<Dim> middle = 0.5 * (sample.states.pose[1].position + sample.states.pose[2].position);
   if (contacts) input.contacts.assign(2, {.a = 1, .b = 2, .point = middle, .normal_force = 2.0 * Vec<Dim>::Unit(0)});
   draw_pile<Dim>(folder / "a.svg", folder / "a.png", input, small);
-  return Image(folder / "a.png").at(layout_of<Dim>(sample.input(), small).projection.on_page(middle));
+  return PngImage(folder / "a.png").at(layout_of<Dim>(sample.input(), small).projection.on_page(middle));
 }
 
 TEST(Picture, DrawsAForceChainBetweenTheMiddlesOfBodiesThatTouch) {

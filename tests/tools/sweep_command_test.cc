@@ -51,6 +51,23 @@ TEST_F(SweepCommand, RunsTheProductAndLeavesATableAndAPlot) {
   EXPECT_NE(file("sweep.svg").find("bars: standard error of the mean of 2 seeds"), std::string::npos);
 }
 
+TEST_F(SweepCommand, PrintsAnyNumberOfTheSummaryWithItsErrorOverTheSeeds) {
+  const Outcome outcome = sweep(" --plot /bodies");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("policy.kind = full, shape.disc.friction = 0.2: /bodies 10 +- 0, 2 runs\n"),
+            std::string::npos)
+      << outcome.out;
+  const std::string table = file("sweep.csv");
+  EXPECT_TRUE(table.substr(0, table.find('\n')).ends_with(",/bodies")) << table;
+  EXPECT_NE(file("sweep.svg").find("/bodies"), std::string::npos);
+  const Outcome missing = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot /bodies/0");
+  EXPECT_NE(missing.err.find("no summary.json has a number /bodies/0"), std::string::npos) << missing.err;
+  const Outcome unknown = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot body");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("must be a key of summary.json, as /gates/0/net, or one of bodies,"), std::string::npos)
+      << unknown.err;
+}
+
 TEST_F(SweepCommand, GivesTheBitsOfSingleRuns) {
   ASSERT_EQ(sweep().exit_code, 0);
   const Outcome single = talus_command("run " + (folder_ / "scene.toml") +

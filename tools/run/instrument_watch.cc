@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/math/angle.h"
 #include "common/text/printable.h"
 #include "tools/run/json_null.h"
 
@@ -44,6 +45,11 @@ Json gate_json(const std::string& name, const GateCounter<Dim>& gate) {
           {"jams", jams}};
 }
 
+std::optional<double> degrees(const Applicable<SurfacePlane>& surface, double SurfacePlane::*angle) {
+  if (!surface.value) return std::nullopt;
+  return in_degrees((*surface.value).*angle);
+}
+
 Json region_json(const std::string& name, const RegionReading& reading) {
   return {{"name", name},
           {"bodies", reading.bodies},
@@ -51,7 +57,10 @@ Json region_json(const std::string& name, const RegionReading& reading) {
           {"packing_reason", or_null(reading.packing_reason)},
           {"solid_volume", reading.solid_volume},
           {"mean_speed_m_per_s", reading.mean_speed},
-          {"kinetic_energy_J", reading.kinetic_energy}};
+          {"kinetic_energy_J", reading.kinetic_energy},
+          {"slope_deg", or_null(degrees(reading.surface, &SurfacePlane::angle))},
+          {"slope_standard_error_deg", or_null(degrees(reading.surface, &SurfacePlane::standard_error))},
+          {"slope_reason", or_null(reading.surface.why_not)}};
 }
 
 template <int Dim>
@@ -89,8 +98,11 @@ template <int Dim>
 std::string region_line(const std::string& name, const RegionReading& reading) {
   const std::string packing =
       reading.packing ? fmt::format("packing {:.4g}", *reading.packing) : "no packing: " + reading.packing_reason;
-  return fmt::format("region {}: {} bodies, {}, mean speed {:.3g} m/s, kinetic energy {:.3g} J", printable(name),
-                     reading.bodies, packing, reading.mean_speed, reading.kinetic_energy);
+  const std::optional<double> angle = degrees(reading.surface, &SurfacePlane::angle);
+  const std::string slope =
+      angle ? fmt::format("slope {:.3g} degrees", *angle) : "no slope: " + reading.surface.why_not;
+  return fmt::format("region {}: {} bodies, {}, {}, mean speed {:.3g} m/s, kinetic energy {:.3g} J", printable(name),
+                     reading.bodies, packing, slope, reading.mean_speed, reading.kinetic_energy);
 }
 
 template <int Dim>
@@ -132,7 +144,7 @@ InstrumentWatch<Dim>::InstrumentWatch(const Scene<Dim>& scene, const std::filesy
     gates_csv_ = GrowingCsv(folder / "gates.csv", {"step", "time_s", "gate", "forward", "backward", "jammed"});
   if (!instruments.regions.empty())
     regions_csv_ = GrowingCsv(folder / "regions.csv", {"step", "time_s", "region", "bodies", "packing", "solid_volume",
-                                                       "mean_speed_m_per_s", "kinetic_energy_J"});
+                                                       "mean_speed_m_per_s", "kinetic_energy_J", "slope_deg"});
   if (std::ranges::any_of(instruments.loads, [](const LoadParams<Dim>& load) { return !load.heights.empty(); }))
     profiles_csv_ = GrowingCsv(folder / "profiles.csv", profile_columns<Dim>());
   if (!instruments.loads.empty()) loads_csv_ = GrowingCsv(folder / "loads.csv", load_columns<Dim>());
@@ -159,7 +171,9 @@ void InstrumentWatch<Dim>::write_rows() {
     return std::vector<std::string>{fmt::format("{}", written_step_),
                                     fmt::format("{:.6f}", static_cast<double>(written_step_) * dt_), name};
   };
-  const auto add = [](std::vector<std::string>& cells, double value) { cells.push_back(fmt::format("{:.6g}", value)); };
+  const auto add = [](std::vector<std::string>& cells, std::optional<double> value) {
+    cells.push_back(value ? fmt::format("{:.6g}", *value) : "");
+  };
   for (std::size_t i = 0; i < instruments.gates.size(); ++i) {
     const GateCounter<Dim>& gate = meters_.gates()[i];
     std::vector<std::string> cells = row(instruments.gates[i].name);
@@ -171,8 +185,9 @@ void InstrumentWatch<Dim>::write_rows() {
     const RegionReading& reading = meters_.regions()[i];
     std::vector<std::string> cells = row(instruments.regions[i].name);
     cells.push_back(fmt::format("{}", reading.bodies));
-    cells.push_back(reading.packing ? fmt::format("{:.6g}", *reading.packing) : "");
+    add(cells, reading.packing);
     for (const double value : {reading.solid_volume, reading.mean_speed, reading.kinetic_energy}) add(cells, value);
+    add(cells, degrees(reading.surface, &SurfacePlane::angle));
     regions_csv_.add(cells);
   }
   for (std::size_t i = 0; i < instruments.loads.size(); ++i) {

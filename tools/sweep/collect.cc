@@ -50,17 +50,23 @@ SweepCount walk(const Sweep& sweep, bool at_work, const std::function<void(int, 
 }  // namespace
 
 SweepCount count_runs(const Sweep& sweep) {
-  return walk(sweep, true, [](int, const nlohmann::json&) {});
+  return walk(
+      sweep, true, [](int, const nlohmann::json&) {});
 }
 
 SweepCount collect(const Sweep& sweep) {
   SweepTable table(sweep.folder / "sweep.csv", sweep.axes, sweep.plot);
   std::string title;
+  bool measured = false;
   const SweepCount count = walk(sweep, false, [&](int number, const nlohmann::json& summary) {
     title = summary.value("title", "");
-    table.add(sweep_row(number, sweep_run(sweep.axes, number), summary));
+    const SweepRow row = sweep_row(number, sweep_run(sweep.axes, number), summary, sweep.plot);
+    measured = measured || row.numbers.back().has_value();
+    table.add(row);
   });
   table.finish();
+  if (!measured && sweep.plot.starts_with('/')) print_message("no summary.json has a number {}", printable(sweep.plot));
+  for (const std::string& line : table.lines()) print_result("{}\n", line);
   const bool plotted = table.write_plot(sweep.folder / "sweep.svg", printable(title));
   print_result("{} runs, {} finished, {} failed{}: {}/sweep.csv{}\n", count.runs, count.finished, count.failed,
                count.with_warnings > 0 ? fmt::format(", {} with warnings", count.with_warnings) : "",

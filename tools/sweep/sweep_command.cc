@@ -1,6 +1,7 @@
 #include "tools/sweep/sweep_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -192,10 +193,17 @@ int sweep(const SweepOptions& options) {
   return options.resume.empty() ? begin_new(options) : begin(options, known_sweep(options, options.resume));
 }
 
-std::vector<std::string> names_of_measures() {
+/// A column of the table, or a number of summary.json.
+CLI::Validator is_measure() {
   std::vector<std::string> names;
-  for (const SweepMeasure& measure : sweep_measures()) names.emplace_back(measure.name);
-  return names;
+  for (const SweepMeasure& measure : sweep_measures("")) names.emplace_back(measure.name);
+  return CLI::Validator(
+      [names](const std::string& text) {
+        const bool pointer = text.starts_with('/') && text.find('~') == std::string::npos;
+        if (pointer || std::ranges::find(names, text) != names.end()) return std::string();
+        return fmt::format("must be a key of summary.json, as /gates/0/net, or one of {}", fmt::join(names, ", "));
+      },
+      "");
 }
 
 /// What a new sweep is made of, the scene first.
@@ -265,8 +273,11 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   add_folders(*command, *options);
   add_schedule(*command, *options);
   command->add_flag("--strict", options->strict, "Exit with 1 when a scene or run gave a warning");
-  command->add_option("--plot", options->plot, "Column of the table that sweep.svg shows; centre_height_m without it")
-      ->check(CLI::IsMember(names_of_measures()));
+  command
+      ->add_option("--plot", options->plot,
+                   "What sweep.svg shows: a column of the table, or a number of summary.json, which becomes one, as "
+                   "/gates/0/net; centre_height_m without it")
+      ->check(is_measure());
   command->callback([options, plan, &exit_code] {
     check_options(*options, plan);
     exit_code = sweep(*options);

@@ -22,11 +22,11 @@ std::optional<double> number_in(const std::string& text) {
 }
 
 /// Names of all columns.
-std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes) {
+std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes, const std::vector<SweepMeasure>& measures) {
   std::vector<std::string> columns = {"run"};
   for (const SweepAxis& axis : axes) columns.push_back(axis.path);
   columns.insert(columns.end(), {"reason", "end_hash"});
-  for (const SweepMeasure& measure : sweep_measures()) columns.emplace_back(measure.name);
+  for (const SweepMeasure& measure : measures) columns.emplace_back(measure.name);
   return columns;
 }
 
@@ -41,7 +41,7 @@ std::optional<std::size_t> plotted_axis(const std::vector<SweepAxis>& axes) {
 }
 
 /// The name of the curve that a run belongs to: its values of the other axes that vary.
-std::string curve_of(const std::vector<SweepAxis>& axes, const SweepRow& row, std::size_t plotted) {
+std::string curve_of(const std::vector<SweepAxis>& axes, const SweepRow& row, std::optional<std::size_t> plotted) {
   std::string name;
   for (std::size_t i = 0; i < axes.size(); ++i)
     if (i != plotted && axes[i].path != "seed" && axes[i].values.size() > 1)
@@ -51,32 +51,35 @@ std::string curve_of(const std::vector<SweepAxis>& axes, const SweepRow& row, st
 
 }  // namespace
 
-std::vector<SweepMeasure> sweep_measures() {
-  return {{"bodies", "/bodies", "bodies"},
-          {"bodies_lost", "/bodies_lost", "bodies lost"},
-          {"steps", "/steps", "steps"},
-          {"mean_awake", "/mean_awake", "bodies awake in the mean"},
-          {"asleep_at_end", "/asleep_at_end", "bodies asleep at the end"},
-          {"work_skipped", "/work_skipped", "share of body-steps skipped"},
-          {"ms_per_step", "/ms_per_step", "time of a step [ms]"},
-          {"wall_s", "/wall_s", "time of the run [s]"},
-          {"height_m", "/shape/height_m", "height of the pile [m]"},
-          {"centre_height_m", "/shape/centre_height_m", "height of the centre of mass [m]"},
-          {"r50_m", "/shape/r50_m", "radius that holds half the bodies [m]"},
-          {"r95_m", "/shape/r95_m", "radius that holds 95 % of the bodies [m]"},
-          {"angle_of_repose_deg", "/shape/angle_of_repose_deg", "angle of repose [degrees]"},
-          {"packing", "/shape/packing", "packing density"},
-          {"drift_D", "/estimate/drift_D", "estimated drift [D]"},
-          {"measured_drift_D", "/measured/drift_mean_D", "measured drift [D]"}};
+std::vector<SweepMeasure> sweep_measures(std::string_view plotted) {
+  std::vector<SweepMeasure> measures = {
+      {"bodies", "/bodies", "bodies"},
+      {"bodies_lost", "/bodies_lost", "bodies lost"},
+      {"steps", "/steps", "steps"},
+      {"mean_awake", "/mean_awake", "bodies awake in the mean"},
+      {"asleep_at_end", "/asleep_at_end", "bodies asleep at the end"},
+      {"work_skipped", "/work_skipped", "share of body-steps skipped"},
+      {"ms_per_step", "/ms_per_step", "time of a step [ms]"},
+      {"wall_s", "/wall_s", "time of the run [s]"},
+      {"height_m", "/shape/height_m", "height of the pile [m]"},
+      {"centre_height_m", "/shape/centre_height_m", "height of the centre of mass [m]"},
+      {"r50_m", "/shape/r50_m", "radius that holds half the bodies [m]"},
+      {"r95_m", "/shape/r95_m", "radius that holds 95 % of the bodies [m]"},
+      {"angle_of_repose_deg", "/shape/angle_of_repose_deg", "angle of repose [degrees]"},
+      {"packing", "/shape/packing", "packing density"},
+      {"drift_D", "/estimate/drift_D", "estimated drift [D]"},
+      {"measured_drift_D", "/measured/drift_mean_D", "measured drift [D]"}};
+  if (plotted.starts_with('/')) measures.push_back({plotted, plotted, plotted});
+  return measures;
 }
 
-SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summary) {
+SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summary, std::string_view plotted) {
   SweepRow row{.run = number,
                .values = run.values,
                .numbers = {},
                .reason = summary.value("reason", ""),
                .end_hash = summary.value("end_hash", "")};
-  for (const SweepMeasure& measure : sweep_measures()) {
+  for (const SweepMeasure& measure : sweep_measures(plotted)) {
     const nlohmann::json::json_pointer key{std::string(measure.key)};
     const bool given = summary.contains(key) && summary.at(key).is_number();
     row.numbers.push_back(given ? std::optional(summary.at(key).get<double>()) : std::nullopt);
@@ -93,10 +96,10 @@ SweepTable::SweepTable(const std::filesystem::path& file, std::vector<SweepAxis>
     : file_(file),
       part_(fmt::format("{}.{}", file.string(), getpid())),
       axes_(std::move(axes)),
+      measures_(sweep_measures(plotted_measure)),
       along_(plotted_axis(axes_)),
-      csv_(part_, columns_of(axes_)) {
-  const std::vector<SweepMeasure> measures = sweep_measures();
-  measure_ = std::ranges::find(measures, plotted_measure, &SweepMeasure::name) - measures.begin();
+      csv_(part_, columns_of(axes_, measures_)) {
+  measure_ = std::ranges::find(measures_, plotted_measure, &SweepMeasure::name) - measures_.begin();
 }
 
 void SweepTable::add(const SweepRow& row) {
@@ -105,11 +108,11 @@ void SweepTable::add(const SweepRow& row) {
   cells.insert(cells.end(), {row.reason, row.end_hash});
   for (const std::optional<double>& number : row.numbers) cells.push_back(number ? fmt::format("{:.9g}", *number) : "");
   csv_.add(cells);
-  if (!along_ || curves_.size() > most_curves || measure_ >= row.numbers.size() || !row.numbers[measure_] ||
+  if (curves_.size() > most_curves || measure_ >= row.numbers.size() || !row.numbers[measure_] ||
       row.reason != "finished")
     return;
   const double y = *row.numbers[measure_];
-  Sample& sample = curves_[curve_of(axes_, row, *along_)][*number_in(row.values[*along_])];
+  Sample& sample = curves_[curve_of(axes_, row, along_)][along_ ? *number_in(row.values[*along_]) : 0.0];
   sample.sum += y;
   sample.squares += y * y;
   ++sample.count;
@@ -135,7 +138,7 @@ Series SweepTable::series_of(const std::string& name, const Points& points) {
 }
 
 bool SweepTable::write_plot(const std::filesystem::path& file, const std::string& title) const {
-  if (curves_.empty() || curves_.size() > most_curves) return false;
+  if (!along_ || curves_.empty() || curves_.size() > most_curves) return false;
   int most_seeds = 0;
   for (const auto& [name, points] : curves_)
     for (const auto& [x, sample] : points) most_seeds = std::max(most_seeds, sample.count);
@@ -143,11 +146,25 @@ bool SweepTable::write_plot(const std::filesystem::path& file, const std::string
       most_seeds > 1 ? fmt::format(" (bars: standard error of the mean of {} seeds)", most_seeds) : "";
   Plot plot{.title = title,
             .x_label = axes_[*along_].path + bars,
-            .y_label = std::string(sweep_measures()[measure_].label),
+            .y_label = std::string(measures_[measure_].label),
             .series = {}};
   for (const auto& [name, points] : curves_) plot.series.push_back(series_of(name, points));
   write_file(file, svg_of(plot));
   return true;
+}
+
+std::vector<std::string> SweepTable::lines() const {
+  std::vector<std::string> lines;
+  if (curves_.size() > most_curves) return lines;
+  for (const auto& [name, points] : curves_) {
+    for (const auto& [x, sample] : points) {
+      if (sample.count < 2) continue;
+      lines.push_back(fmt::format("{}{}: {} {:.4g} +- {:.2g}, {} runs", name,
+                                  along_ ? fmt::format(", {} = {:g}", axes_[*along_].path, x) : "",
+                                  measures_[measure_].label, sample.mean(), sample.standard_error(), sample.count));
+    }
+  }
+  return lines;
 }
 
 }  // namespace talus

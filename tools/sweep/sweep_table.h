@@ -22,8 +22,8 @@ struct SweepMeasure {
   std::string_view label;  // of the axis of a plot, with unit
 };
 
-/// All such columns, in their order.
-std::vector<SweepMeasure> sweep_measures();
+/// All such columns, in their order. The last one is `plotted`, where that is a JSON pointer, which must outlive them.
+std::vector<SweepMeasure> sweep_measures(std::string_view plotted);
 
 /// A run that has ended. Where the summary has no number, the measure is empty.
 struct SweepRow {
@@ -35,7 +35,7 @@ struct SweepRow {
 };
 
 /// The row of a run, from its summary.json.
-SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summary);
+SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summary, std::string_view plotted);
 
 /// Takes the rows one by one into sweep.csv and into the sums that sweep.svg shows: memory does not grow with the rows.
 class SweepTable {
@@ -50,6 +50,9 @@ class SweepTable {
   /// other axes but `seed`, over whose values the mean is taken with its standard error. Returns false, and
   /// writes nothing, where there is no such axis, or more than seven curves.
   bool write_plot(const std::filesystem::path& file, const std::string& title) const;
+
+  /// Of each point with several seeds: the mean of the measure with its standard error.
+  std::vector<std::string> lines() const;
 
  private:
   /// The values of one point of a curve.
@@ -67,6 +70,7 @@ class SweepTable {
   std::filesystem::path file_;
   std::filesystem::path part_;  // the table until it is whole
   std::vector<SweepAxis> axes_;
+  std::vector<SweepMeasure> measures_;
   std::size_t measure_ = 0;
   std::optional<std::size_t> along_;  // the axis along which to plot
   GrowingCsv csv_;

@@ -17,6 +17,8 @@ export const tone = (number: number): Rgb => tones[number % tones.length];
 /// [N]
 export const forceOf = (force: ArrayLike<number>): number => Math.hypot(...Array.from(force));
 
+export const inDegrees = (angle: number): number => (angle * 180) / Math.PI;
+
 type Place = [number, number, number];
 
 export class InstrumentView {
@@ -66,8 +68,9 @@ export class InstrumentView {
     instruments.regions.forEach((region, i) => {
       const [x, y, z] = region.low;
       const packing = region.packing >= 0 ? `, packing ${region.packing.toFixed(3)}` : "";
+      const slope = region.slope >= 0 ? `, slope ${inDegrees(region.slope).toFixed(1)}\u00b0` : "";
       const at: Place = region.kind === ball ? [x - region.high[0], y, z] : region.kind === layer ? [this.head.box[0][0], 0, region.high[2]] : [x, y, region.high[2]];
-      write(at, `${region.name}: ${region.bodies} bodies${packing}`, instruments.gates.length + i);
+      write(at, `${region.name}: ${region.bodies} bodies${packing}${slope}`, instruments.gates.length + i);
     });
   }
 

@@ -156,7 +156,7 @@ export interface Region {
   high: Float64Array;
   bodies: number;
   packing: number;
-  mean_speed: number;
+  slope: number;
 }
 
 interface Load {

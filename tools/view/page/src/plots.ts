@@ -3,8 +3,8 @@
 import { css, overfull } from "./colours";
 import { element, make } from "./element";
 import type { Rgb } from "./head";
-import { forceOf, tone } from "./instrument_view";
-import type { Instruments } from "./moments";
+import { forceOf, inDegrees, tone } from "./instrument_view";
+import type { Instruments, Region } from "./moments";
 import { fullest, largest } from "./pile_layers";
 import { niceLength } from "./scale";
 import type { Timeline } from "./timeline";
@@ -60,19 +60,17 @@ const passed: Row = {
   usual: true,
   lines: (timeline) => instrumentLines(timeline, ({ gates }) => gates.map(({ name, forward, backward }) => ({ name, value: forward - backward })), () => 0),
 };
-const packing: Row = {
-  name: "packing",
-  unit: "packing",
-  usual: true,
-  lines: (timeline) => instrumentLines(timeline, ({ regions }) => regions.map(({ name, packing: value }) => ({ name, value: value >= 0 ? value : null })), ({ gates }) => gates.length),
-};
+const regionLines = (timeline: Timeline, of: (region: Region) => number): Line[] =>
+  instrumentLines(timeline, ({ regions }) => regions.map((region) => ({ name: region.name, value: of(region) >= 0 ? of(region) : null })), ({ gates }) => gates.length);
+const packing: Row = { name: "packing", unit: "packing", usual: true, lines: (timeline) => regionLines(timeline, (region) => region.packing) };
+const slope: Row = { name: "slope", unit: "degrees", usual: true, lines: (timeline) => regionLines(timeline, (region) => inDegrees(region.slope)) };
 const loads: Row = {
   name: "loads",
   unit: "N",
   usual: true,
   lines: (timeline) => instrumentLines(timeline, ({ loads: all }) => all.map(({ name, known, force }) => ({ name, value: known ? forceOf(force) : null })), ({ gates, regions }) => gates.length + regions.length),
 };
-const rows = [counts, layers, passed, packing, loads, stepTime];
+const rows = [counts, layers, passed, packing, slope, loads, stepTime];
 
 export interface PlottedRun {
   timeline: Timeline;
