@@ -1,4 +1,5 @@
-/* A sleeper in C, with an engine of a few lines: balls that fall on a floor and stay there. */
+/* A sleeper in C, with an engine of a few lines: balls that fall on a floor and stay there.
+   c_pile [RECORD]: `talus view RECORD` shows the balls, or meanwhile `talus monitor`. */
 #include <stdio.h>
 #include <talus/talus.h>
 
@@ -6,10 +7,29 @@ enum { balls = 20, steps = 240 };
 
 static const double dt = 1.0 / 60.0;
 
-int main(void) {
+static void print_warning(const struct talus_warning* warning, void* context) {
+  fprintf((FILE*)context, "%s\n", warning->text);
+}
+
+/* A record, the live view and a watch for faults. Observers see the floor, too. */
+static int observe(talus_sleeper* sleeper, const char* record) {
+  const double corners[][3] = {{-1, -1, -1}, {39, -1, -1}, {39, 1, -1}, {-1, 1, -1},
+                               {-1, -1, 0},  {39, -1, 0},  {39, 1, 0},  {-1, 1, 0}};
+  const struct talus_piece floor = {.corners = corners[0], .count = 8};
+  const struct talus_label label = {.size = sizeof label, .name = "balls", .dt = dt};
+  int result = talus_show(sleeper, 0, &floor, 1);
+  if (result == TALUS_OK) result = talus_record(sleeper, record, &label);
+  if (result == TALUS_OK) result = talus_publish(sleeper, &label);
+  if (result == TALUS_OK) result = talus_watch(sleeper, print_warning, stdout);
+  return result;
+}
+
+int main(int count_of_arguments, char** arguments) {
   talus_sleeper* sleeper = NULL;
   const struct talus_options options = talus_default_options(3);
   if (talus_create(&options, &sleeper) != TALUS_OK) return fprintf(stderr, "%s\n", talus_message());
+  if (count_of_arguments > 1 && observe(sleeper, arguments[1]) != TALUS_OK)
+    return fprintf(stderr, "%s\n", talus_message());
 
   talus_handle handles[balls];
   struct talus_state states[balls] = {0};
@@ -61,6 +81,7 @@ int main(void) {
   }
   int asleep = 0;
   for (int i = 0; i < balls; ++i) asleep += frozen[i];
+  if (talus_end_observers(sleeper) != TALUS_OK) return fprintf(stderr, "%s\n", talus_message());
   printf("%d balls, %d asleep\n", balls, asleep);
   talus_destroy(sleeper);
   return 0;

@@ -33,7 +33,7 @@ typedef uint64_t talus_handle;
 enum talus_result {
   TALUS_OK = 0,         ///< done
   TALUS_BAD_VALUE = 1,  ///< an argument is outside of its range
-  TALUS_FAILED = 2      ///< memory is short, or talus has a bug
+  TALUS_FAILED = 2      ///< memory is short, a file cannot be written, or talus has a bug
 };
 
 /// What a body may do.
@@ -65,7 +65,14 @@ struct talus_options {
   double tolerance;   ///< of stability checks, in extents; 0: none
 };
 
-/// A body and where it is. talus_box(), talus_ball() and talus_convex() set mass, inertia, low and high.
+/// A convex piece of what observers see: the hull of its corners; a ball without corners, a capsule around two of them.
+struct talus_piece {
+  const double* corners;  ///< points of 3 numbers, in 2D of 2 [m]
+  size_t count;           ///< of the points
+  double radius;          ///< of a ball or a capsule [m]
+};
+
+/// A body and where it is. talus_box(), talus_ball() and talus_convex() set mass, inertia, low, high, piece and centre.
 struct talus_body {
   size_t size;         ///< sizeof(struct talus_body)
   int role;            ///< enum talus_role
@@ -76,6 +83,9 @@ struct talus_body {
   double friction;     ///< against a body like it
   double position[3];  ///< of the centre of mass [m]
   double rotation[4];  ///< unit quaternion x, y, z, w
+
+  struct talus_piece piece;  ///< what observers see, read by talus_add(); all zero: the box
+  double centre[3];          ///< of mass, in the axes of the piece's corners [m]
 };
 
 /// Where a body is and how it moves, after a step.
@@ -138,6 +148,26 @@ struct talus_changes {
   const struct talus_change* freeze;        ///< bodies that fall asleep where they are
 };
 
+/// What the program's world is called where observers show it. All zero but `size`: the defaults.
+struct talus_label {
+  size_t size;         ///< sizeof(struct talus_label)
+  const char* name;    ///< short: lists of runs show it
+  const char* title;   ///< one line; null: the name
+  const char* engine;  ///< that simulates it
+  double dt;           ///< of its usual step [s], in which a record counts its time; 0: 1/60
+  double frame_rate;   ///< frames of a record in a second of simulated time; 0: 30
+};
+
+/// A fault that no correct engine shows.
+struct talus_warning {
+  const char* kind;   ///< "passed", "overlap" or "outside_world"
+  talus_handle body;  ///< the first that shows it
+  double value;       ///< way in the step [m], depth in extents, coordinate [m]
+  const char* text;   ///< one line
+};
+/// Called with the `context` given to talus_watch(). The warning lives until it returns.
+typedef void (*talus_report)(const struct talus_warning* warning, void* context);
+
 /// The reason of the last refused call in this thread. It lives until the next one.
 TALUS_API const char* talus_message(void);
 /// Name of the cause of a talus_change.
@@ -154,10 +184,10 @@ TALUS_API void talus_destroy(talus_sleeper* sleeper);
 TALUS_API int talus_box(const talus_sleeper* sleeper, double mass, const double size[3], struct talus_body* body);
 /// A uniform ball; in 2D a disc.
 TALUS_API int talus_ball(const talus_sleeper* sleeper, double mass, double radius, struct talus_body* body);
-/// The uniform convex hull of `corners` [m], `count` points of 3 numbers, in 2D of 2. Writes its centre of mass to
-/// `centre`; the body's axes begin there.
+/// The uniform convex hull of `corners` [m], `count` points of 3 numbers, in 2D of 2. The body's axes begin at its
+/// centre of mass, body->centre. The corners must be there until talus_add() has read them.
 TALUS_API int talus_convex(const talus_sleeper* sleeper, double mass, const double* corners, size_t count,
-                           struct talus_body* body, double centre[3]);
+                           struct talus_body* body);
 
 /// Adds a body, awake, and writes its handle to `added`.
 TALUS_API int talus_add(talus_sleeper* sleeper, const struct talus_body* body, talus_handle* added);
@@ -186,6 +216,19 @@ TALUS_API int talus_snapshot(talus_sleeper* sleeper, const struct talus_saved** 
 /// has that of saved[i]; its velocity means nothing. A program that has added its bodies again replaces their handles.
 TALUS_API int talus_restore(talus_sleeper* sleeper, const struct talus_saved* saved, const struct talus_state* states,
                             size_t count, struct talus_changes* changes);
+/// Records each step from now on in a new file, for `talus view`, `film`, `export` and `compare`. `label` may be null.
+TALUS_API int talus_record(talus_sleeper* sleeper, const char* path, const struct talus_label* label);
+/// Shows each step from now on to `talus monitor` and `talus view --live`. `label` may be null.
+TALUS_API int talus_publish(talus_sleeper* sleeper, const struct talus_label* label);
+/// Calls `report` within the step in which a kind of fault is seen for the first time: bodies that pass through each
+/// other, overlap deeply or leave the range of positions.
+TALUS_API int talus_watch(talus_sleeper* sleeper, talus_report report, void* context);
+/// What observers see of a body, in its axes; of body 0: one more thing that never moves, in the world's axes.
+/// Decisions take the body's box alone.
+TALUS_API int talus_show(talus_sleeper* sleeper, talus_handle body, const struct talus_piece* pieces, size_t count);
+/// Ends record, live view and watch; else talus_destroy() does, without a word on what fails.
+TALUS_API int talus_end_observers(talus_sleeper* sleeper);
+
 /// Writes 1 to `asleep` if a body sleeps, else 0.
 TALUS_API int talus_asleep(const talus_sleeper* sleeper, talus_handle body, int* asleep);
 

@@ -121,13 +121,56 @@ TEST_P(CInterface, FindsTheInertiaOfAConvexBody) {
       corners.insert(corners.end(), {5.0 + x, 5.0 + 2.0 * y});
       if (GetParam() == 3) corners.push_back(5.0 + 3.0 * z);
     }
-  double centre[3] = {};
-  ASSERT_EQ(talus_convex(sleeper, 2.0, corners.data(), corners.size() / GetParam(), &hull, centre), TALUS_OK)
+  ASSERT_EQ(talus_convex(sleeper, 2.0, corners.data(), corners.size() / GetParam(), &hull), TALUS_OK)
       << talus_message();
-  EXPECT_NEAR(centre[0], 5.5, 1e-12);
-  EXPECT_NEAR(centre[1], 6.0, 1e-12);
+  EXPECT_NEAR(hull.centre[0], 5.5, 1e-12);
+  EXPECT_NEAR(hull.centre[1], 6.0, 1e-12);
   for (int i = 0; i < 9; ++i) EXPECT_NEAR(hull.inertia[i], box.inertia[i], 1e-12);
   for (int i = 0; i < GetParam(); ++i) EXPECT_NEAR(hull.low[i], box.low[i], 1e-12);
+}
+
+/// A box of 1 m in a flight of 4 m within a step, through another one that stays where it is.
+TEST_P(CInterface, ReportsABodyThatGetsThroughAnother) {
+  struct Seen {
+    int warnings = 0;
+    std::string kind;
+    talus_handle body = 0;
+    double value = 0.0;
+  } seen;
+  const talus_report report = [](const talus_warning* warning, void* context) {
+    auto& to = *static_cast<Seen*>(context);
+    to = {to.warnings + 1, warning->kind, warning->body, warning->value};
+    EXPECT_NE(std::string(warning->text).find("step 2"), std::string::npos) << warning->text;
+  };
+  ASSERT_EQ(talus_watch(sleeper, report, &seen), TALUS_OK) << talus_message();
+  const talus_handle bodies[] = {add_box(), add_box()};
+  talus_state states[2] = {};
+  for (talus_state& state : states) state.rotation[3] = GetParam() == 3 ? 1.0 : 0.0;
+  for (const double x : {-2.0, 2.0}) {
+    states[1].position[0] = x;
+    const talus_step step = {sizeof step, 0.1, 2, bodies, states, 0, nullptr};
+    if (x == -2.0)
+      ASSERT_EQ(talus_moved(sleeper, bodies[1], states[1].position, states[1].rotation, &changes), TALUS_OK);
+    ASSERT_EQ(talus_after_step(sleeper, &step, &changes), TALUS_OK) << talus_message();
+  }
+  EXPECT_EQ(seen.warnings, 1);
+  EXPECT_EQ(seen.kind, "passed");
+  EXPECT_EQ(seen.body, bodies[1]);
+  EXPECT_NEAR(seen.value, 4.0, 1e-12);
+}
+
+TEST_P(CInterface, RefusesObserversThatCannotWork) {
+  EXPECT_EQ(talus_watch(sleeper, nullptr, nullptr), TALUS_BAD_VALUE);
+  EXPECT_EQ(talus_record(sleeper, nullptr, nullptr), TALUS_BAD_VALUE);
+  EXPECT_EQ(talus_record(sleeper, "/no/such/folder/a.lcm", nullptr), TALUS_FAILED);
+  talus_label label{};
+  label.size = sizeof label;
+  label.dt = -1.0;
+  EXPECT_EQ(talus_record(sleeper, "a.lcm", &label), TALUS_BAD_VALUE);
+  EXPECT_NE(std::string(talus_message()).find("dt"), std::string::npos);
+  const talus_piece nothing{};
+  EXPECT_EQ(talus_show(sleeper, 0, &nothing, 1), TALUS_BAD_VALUE);
+  EXPECT_EQ(talus_end_observers(sleeper), TALUS_OK);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, CInterface, ::testing::Values(2, 3));

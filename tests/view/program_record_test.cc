@@ -4,6 +4,7 @@
 #include "common/sleeper/pile_sleeper.h"
 #include "common/sleeper/step_buffer.h"
 #include "lcmtypes/world_feed.h"
+#include "talus/talus.h"
 #include "tests/lcmtypes/scratch_file.h"
 #include "tools/record/recorded_run.h"
 
@@ -110,6 +111,46 @@ TEST(TheRecordOfAProgramsWorld, LeavesOutBodiesThatWereTakenOut) {
     for (int i = 0; i < 10; ++i) program.step();
   }
   EXPECT_EQ(read(file.path()).last.removed, (std::vector<std::uint8_t>{1, 0, 0}));
+}
+
+/// A ball, a triangle and a floor.
+TEST(TheRecordOfAProgramsWorld, HasTheShapesThatACProgramGives) {
+  const ScratchFile file;
+  talus_sleeper* sleeper = nullptr;
+  const talus_options options = talus_default_options(2);
+  ASSERT_EQ(talus_create(&options, &sleeper), TALUS_OK);
+  talus_body body{};
+  body.size = sizeof body;
+  talus_handle bodies[2] = {};
+  ASSERT_EQ(talus_ball(sleeper, 3.0, 0.5, &body), TALUS_OK);
+  ASSERT_EQ(talus_add(sleeper, &body, &bodies[0]), TALUS_OK);
+  const double triangle[] = {3.0, 3.0, 6.0, 3.0, 3.0, 6.0};
+  ASSERT_EQ(talus_convex(sleeper, 3.0, triangle, 3, &body), TALUS_OK);
+  body.position[0] = 5.0;
+  ASSERT_EQ(talus_add(sleeper, &body, &bodies[1]), TALUS_OK) << talus_message();
+  const double floor[] = {-9.0, -2.0, 9.0, -2.0, 9.0, -1.0, -9.0, -1.0};
+  const talus_piece piece = {floor, 4, 0.0};
+  ASSERT_EQ(talus_show(sleeper, 0, &piece, 1), TALUS_OK) << talus_message();
+  talus_label label{};
+  label.size = sizeof label;
+  label.engine = "arithmetic";
+  ASSERT_EQ(talus_record(sleeper, file.path().c_str(), &label), TALUS_OK) << talus_message();
+  talus_state states[2] = {};
+  states[1].position[0] = 5.0;
+  const talus_step step = {sizeof step, 1.0 / 60.0, 2, bodies, states, 0, nullptr};
+  talus_changes changes{};
+  changes.size = sizeof changes;
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(talus_after_step(sleeper, &step, &changes), TALUS_OK) << talus_message();
+  talus_destroy(sleeper);
+
+  const RecordedRun<2> run = read(file.path());
+  ASSERT_EQ(run.scene.world.shapes.size(), 2U);
+  const auto hull = [&](int shape) { return std::get<HullPiece<2>>(run.scene.world.shapes[shape].pieces.at(0)); };
+  EXPECT_NEAR(hull(0).radius, 0.5, 1e-6);
+  ASSERT_EQ(hull(1).corners.size(), 3U);
+  EXPECT_NEAR((hull(1).corners[0] - Vec2(-1.0, -1.0)).norm(), 0.0, 1e-6);  // (3, 3) from the mean of the corners
+  ASSERT_EQ(run.scene.world.obstacles.size(), 1U);
+  EXPECT_NEAR(run.last.pose[1].position.x(), 5.0, 1e-6);
 }
 
 TEST(TheRecordOfAProgramsWorld, RefusesABadLabelAndAFolderThatIsNotThereAtOnce) {

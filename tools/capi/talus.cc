@@ -10,8 +10,12 @@
 
 #include "common/math/require.h"
 #include "common/shape/catalogue.h"
+#include "common/simulation/sleeper_watch.h"
 #include "common/sleeper/pile_sleeper.h"
 #include "common/sleeper/step_buffer.h"
+#ifdef TALUS_LCM
+#include "lcmtypes/world_feed.h"
+#endif
 
 /// A sleeper of either dimension.
 struct talus_sleeper {
@@ -22,8 +26,7 @@ struct talus_sleeper {
 
   virtual void box(double mass, const double* size, talus_body& body) const = 0;
   virtual void ball(double mass, double radius, talus_body& body) const = 0;
-  virtual void convex(double mass, const double* corners, std::size_t count, talus_body& body,
-                      double* centre) const = 0;
+  virtual void convex(double mass, const double* corners, std::size_t count, talus_body& body) const = 0;
   virtual talus_handle add(const talus_body& body) = 0;
   virtual const std::vector<talus_handle>& followed() = 0;
   virtual const talus_changes& after_step(const talus_step& step) = 0;
@@ -36,6 +39,11 @@ struct talus_sleeper {
   virtual const std::vector<talus_saved>& snapshot() = 0;
   virtual const talus_changes& restore(std::span<const talus_saved> saved, const talus_state* states) = 0;
   virtual bool asleep(talus_handle body) const = 0;
+  virtual void record(const char* path, const talus_label* label) = 0;
+  virtual void publish(const talus_label* label) = 0;
+  virtual void watch(talus_report report, void* context) = 0;
+  virtual void show(talus_handle body, std::span<const talus_piece> pieces) = 0;
+  virtual void end_observers() = 0;
 };
 
 namespace talus::capi {
@@ -90,6 +98,36 @@ void require_there(const void* address, const char* name) {
   require(address != nullptr, name, "null", "must be an address");
 }
 
+/// `centre` is the origin of the pieces made, in the axes of `given`.
+template <int Dim>
+std::vector<Piece<Dim>> pieces_of(const talus_piece& given, const Vec<Dim>& centre) {
+  require(given.count == 0 || given.corners != nullptr, "piece.corners", "null", "must be an address");
+  std::vector<Vec<Dim>> corners;
+  for (std::size_t i = 0; i < given.count; ++i) corners.push_back(vector_of<Dim>(given.corners + Dim * i) - centre);
+  if (corners.empty()) corners = {Vec<Dim>::Zero()};
+  if (given.radius == 0.0) return hull_pieces<Dim>(corners);
+  return {HullPiece<Dim>{.corners = corners, .radius = given.radius}};
+}
+
+#ifdef TALUS_LCM
+WorldLabel label_of(const talus_label* given) {
+  WorldLabel label;
+  if (given == nullptr) return label;
+  require_size(given, "label");
+  if (given->name != nullptr) label.name = given->name;
+  if (given->title != nullptr) label.title = given->title;
+  if (given->engine != nullptr) label.engine = given->engine;
+  if (given->dt != 0.0) label.dt = given->dt;
+  if (given->frame_rate != 0.0) label.frame_rate = given->frame_rate;
+  return label;
+}
+#else
+template <int Dim>
+std::unique_ptr<Observer<Dim>> no_feed() {
+  throw std::runtime_error("this build of talus has neither record nor live view: it was configured without LCM");
+}
+#endif
+
 template <int Dim>
 class Sleeper final : public talus_sleeper {
  public:
@@ -100,22 +138,25 @@ class Sleeper final : public talus_sleeper {
   }
   void ball(double mass, double radius, talus_body& body) const override {
     write_traits(ball_traits<Dim>(mass, radius), body);
+    body.piece.radius = radius;
   }
-  void convex(double mass, const double* corners, std::size_t count, talus_body& body, double* centre) const override {
-    std::vector<Vec<Dim>> points;
-    for (std::size_t i = 0; i < count; ++i) points.push_back(vector_of<Dim>(corners + Dim * i));
-    const Shape<Dim> shape = make_shape<Dim>("convex", hull_pieces<Dim>(points), {});
+  void convex(double mass, const double* corners, std::size_t count, talus_body& body) const override {
+    const talus_piece piece = {corners, count, 0.0};
+    const Shape<Dim> shape = make_shape<Dim>("convex", pieces_of<Dim>(piece, Vec<Dim>::Zero()), {});
     BodyTraits<Dim> traits = traits_of(shape);
     traits.inertia *= mass / shape.mass;
     traits.mass = mass;
     write_traits(traits, body);
-    write<Dim>(-shape.reference, centre);
+    body.piece = piece;
+    write<Dim>(-shape.reference, body.centre);
   }
   talus_handle add(const talus_body& body) override {
     require(body.role >= TALUS_SLEEPS && body.role <= TALUS_KINEMATIC, "role", body.role, "must be a talus_role");
     BodyTraits<Dim> traits{.mass = body.mass, .friction = body.friction};
     traits.bounds = Box<Dim>(vector_of<Dim>(body.low), vector_of<Dim>(body.high));
     for (Eigen::Index i = 0; i < traits.inertia.size(); ++i) traits.inertia(i) = body.inertia[i];
+    if (body.piece.count > 0 || body.piece.radius != 0.0)
+      traits.pieces = pieces_of<Dim>(body.piece, vector_of<Dim>(body.centre));
     return to_c(core_.add(traits, pose_of<Dim>(body.position, body.rotation), static_cast<BodyRole>(body.role)));
   }
   const std::vector<talus_handle>& followed() override {
@@ -172,8 +213,37 @@ class Sleeper final : public talus_sleeper {
   }
   bool asleep(talus_handle body) const override { return core_.asleep(from_c(body)); }
 
+#ifdef TALUS_LCM
+  void record(const char* path, const talus_label* label) override {
+    core_.observe(record_world<Dim>(path, label_of(label)));
+  }
+  void publish(const talus_label* label) override { core_.observe(publish_world<Dim>(label_of(label))); }
+#else
+  void record(const char*, const talus_label*) override { core_.observe(no_feed<Dim>()); }
+  void publish(const talus_label*) override { core_.observe(no_feed<Dim>()); }
+#endif
+  void watch(talus_report report, void* context) override {
+    core_.observe(std::make_unique<SleeperWatch<Dim>>([this, report, context](const Warning& warning) {
+      const std::string text = advice(warning);
+      const talus_warning told = {to_string(warning.kind).data(), to_c(core_.handle_of(warning.body)), warning.value,
+                                  text.c_str()};
+      report(&told, context);
+    }));
+  }
+  void show(talus_handle body, std::span<const talus_piece> pieces) override {
+    std::vector<Piece<Dim>> made;
+    for (const talus_piece& piece : pieces)
+      for (const Piece<Dim>& one : pieces_of<Dim>(piece, Vec<Dim>::Zero())) made.push_back(one);
+    if (body == 0)
+      core_.add_static(made, {});
+    else
+      core_.set_pieces(from_c(body), made);
+  }
+  void end_observers() override { core_.end_observers(); }
+
  private:
   static void write_traits(const BodyTraits<Dim>& traits, talus_body& body) {
+    body.piece = {};
     body.mass = traits.mass;
     for (Eigen::Index i = 0; i < traits.inertia.size(); ++i) body.inertia[i] = traits.inertia(i);
     write<Dim>(traits.bounds.min(), body.low);
@@ -296,14 +366,13 @@ int talus_ball(const talus_sleeper* sleeper, double mass, double radius, talus_b
     sleeper->ball(mass, radius, *body);
   });
 }
-int talus_convex(const talus_sleeper* sleeper, double mass, const double* corners, std::size_t count, talus_body* body,
-                 double centre[3]) {
+int talus_convex(const talus_sleeper* sleeper, double mass, const double* corners, std::size_t count,
+                 talus_body* body) {
   return guarded([&] {
     require_there(sleeper, "sleeper");
     require_size(body, "body");
     require_there(corners, "corners");
-    require_there(centre, "centre");
-    sleeper->convex(mass, corners, count, *body, centre);
+    sleeper->convex(mass, corners, count, *body);
   });
 }
 
@@ -388,5 +457,39 @@ int talus_asleep(const talus_sleeper* sleeper, talus_handle body, int* asleep) {
     require_there(sleeper, "sleeper");
     require_there(asleep, "asleep");
     *asleep = sleeper->asleep(body) ? 1 : 0;
+  });
+}
+
+int talus_record(talus_sleeper* sleeper, const char* path, const talus_label* label) {
+  return guarded([&] {
+    require_there(sleeper, "sleeper");
+    require_there(path, "path");
+    sleeper->record(path, label);
+  });
+}
+int talus_publish(talus_sleeper* sleeper, const talus_label* label) {
+  return guarded([&] {
+    require_there(sleeper, "sleeper");
+    sleeper->publish(label);
+  });
+}
+int talus_watch(talus_sleeper* sleeper, talus_report report, void* context) {
+  return guarded([&] {
+    require_there(sleeper, "sleeper");
+    talus::require(report != nullptr, "report", "null", "must be a function");
+    sleeper->watch(report, context);
+  });
+}
+int talus_show(talus_sleeper* sleeper, talus_handle body, const talus_piece* pieces, std::size_t count) {
+  return guarded([&] {
+    require_there(sleeper, "sleeper");
+    require_there(pieces, "pieces");
+    sleeper->show(body, {pieces, count});
+  });
+}
+int talus_end_observers(talus_sleeper* sleeper) {
+  return guarded([&] {
+    require_there(sleeper, "sleeper");
+    sleeper->end_observers();
   });
 }
