@@ -176,6 +176,7 @@ class Box2dSleeper {
     listen();
     carry_out(core_.set_gravity(from_box2d(world_.GetGravity())));
     all_contacts_ = core_.needs_all_contacts();
+    listener_.start_step(all_contacts_);
     if (!all_contacts_) return;  // the speeds are those at which bodies meet sleeping ones
     for (const Handle handle : core_.followed()) {
       Entry& entry = entries_[handle.slot];
@@ -272,12 +273,38 @@ class Box2dSleeper {
       if (next != nullptr) next->PreSolve(contact, before);
     }
     void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+      if (recording_ && is_searched(*contact)) add(*contact, *impulse);
       if (next != nullptr) next->PostSolve(contact, impulse);
+    }
+    void start_step(bool records) {
+      recording_ = records;
+      given_.clear();
+    }
+    /// Of point `i` of a contact in this step: normal and tangent.
+    b2Vec2 impulse(b2Contact& contact, int i) const {
+      if (const auto found = given_.find(&contact); found != given_.end()) return found->second[i];
+      const b2ManifoldPoint& point = contact.GetManifold()->points[i];
+      return {point.normalImpulse, point.tangentImpulse};
     }
     b2ContactListener* next = nullptr;
 
    private:
+    using Impulses = std::array<b2Vec2, b2_maxManifoldPoints>;
+
+    /// Whether Box2D searches for the time of impact of the two. The impulses of that impact are in no manifold.
+    static bool is_searched(b2Contact& contact) {
+      const b2Body& a = *contact.GetFixtureA()->GetBody();
+      const b2Body& b = *contact.GetFixtureB()->GetBody();
+      return a.GetType() != b2_dynamicBody || b.GetType() != b2_dynamicBody || a.IsBullet() || b.IsBullet();
+    }
+    void add(b2Contact& contact, const b2ContactImpulse& impulse) {
+      Impulses& sum = given_.try_emplace(&contact, Impulses{b2Vec2_zero, b2Vec2_zero}).first->second;
+      for (int i = 0; i < impulse.count; ++i) sum[i] += {impulse.normalImpulses[i], impulse.tangentImpulses[i]};
+    }
+
     Box2dImpulses& impulses_;
+    bool recording_ = false;
+    std::unordered_map<const b2Contact*, Impulses> given_;  // in this step
   };
 
   static Vec2 from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
@@ -422,8 +449,8 @@ class Box2dSleeper {
     b2WorldManifold world;
     contact.GetWorldManifold(&world);
     const b2Vec2 tangent = b2Cross(world.normal, 1.0F);
-    const b2Manifold& manifold = *contact.GetManifold();
-    for (int i = 0; i < manifold.pointCount; ++i) {
+    for (int i = 0; i < contact.GetManifold()->pointCount; ++i) {
+      const b2Vec2 impulse = listener_.impulse(contact, i);
       const b2Vec2& where = world.points[i];
       const b2Vec2 approach =
           all_contacts_ ? velocity_before(a, first, where) - velocity_before(b, second, where) : b2Vec2_zero;
@@ -431,8 +458,8 @@ class Box2dSleeper {
                                   .b = swap ? first : second,
                                   .point = from_box2d(where),
                                   .normal = sign * from_box2d(world.normal),
-                                  .normal_impulse = manifold.points[i].normalImpulse,
-                                  .friction_impulse = sign * manifold.points[i].tangentImpulse * from_box2d(tangent),
+                                  .normal_impulse = impulse.x,
+                                  .friction_impulse = sign * impulse.y * from_box2d(tangent),
                                   .approach_speed = std::max(0.0F, b2Dot(approach, world.normal)),
                                   .depth = -world.separations[i]});
     }

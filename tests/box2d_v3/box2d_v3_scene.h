@@ -14,10 +14,9 @@ class Box2dV3Scene {
  public:
   static constexpr int substeps = 4;
 
-  explicit Box2dV3Scene(bool own_sleeping = false) {
+  Box2dV3Scene() {
     b2WorldDef def = b2DefaultWorldDef();
     def.gravity = {0.0F, -9.81F};
-    def.enableSleep = own_sleeping;
     world = b2CreateWorld(&def);
     ground = add_box({200, 2}, {0, -1}, b2_staticBody);
   }
@@ -106,6 +105,7 @@ class SleepingBox2dV3Scene : public Box2dV3Scene {
     sleeper->add(id);
     return bodies.back();
   }
+  void keep_awake(Body& body) { b2Body_EnableSleep(body.id, false); }
   SleepChanges<2> step(double dt = drop_dt) {
     sleeper->before_step();
     Box2dV3Scene::step(dt);

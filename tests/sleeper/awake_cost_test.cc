@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/measure/ensemble.h"
 #include "tests/sleeper/box2d_scene.h"
 #include "tests/sleeper/bullet_scene.h"
 
@@ -157,24 +158,21 @@ void expect_small_cost(int boxes) {
   constexpr int rounds = 10;
   Drum plain(boxes, false);
   Drum attached(boxes, true);
-  double sum = 0.0;
-  double squares = 0.0;
+  std::vector<double> shares;
   double total = 0.0;
   for (int round = -1; round < rounds; ++round) {  // the first one warms up
     const double engine = time_of_steps(plain, 60);
     const double share = time_of_steps(attached, 60) / engine - 1.0;
     if (round < 0) continue;
-    sum += share;
-    squares += share * share;
+    shares.push_back(share);
     total += engine;
   }
-  const double mean = sum / rounds;
-  const double error = std::sqrt((squares / rounds - mean * mean) / (rounds - 1));
+  const MeanWithError share = mean_with_error(shares);
   fmt::print("{}, {} boxes that all move: a sleeper adds {:.3f} +- {:.3f} to {:.3f} ms a step\n", Drum::name(), boxes,
-             mean, error, 1e3 * total / (60 * rounds));
+             share.mean, share.error, 1e3 * total / (60 * rounds));
   EXPECT_EQ(attached.asleep(), 0);
   EXPECT_EQ(plain.state(), attached.state());
-  EXPECT_LT(mean - 3.0 * error, 0.05);
+  EXPECT_LT(share.mean - 3.0 * share.error, 0.05);
 }
 
 class LongAwakeCost : public ::testing::TestWithParam<int> {};

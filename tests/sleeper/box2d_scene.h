@@ -88,6 +88,7 @@ class SleepingBox2dScene : public Box2dScene {
     sleeper->add(body);
     return body;
   }
+  void keep_awake(Body& body) { body.SetSleepingAllowed(false); }
   SleepChanges<2> step(double dt = drop_dt) {
     sleeper->before_step();
     Box2dScene::step(dt);

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 
-#include "common/shape/catalogue.h"
-#include "common/simulation/make_policy.h"
-#include "common/simulation/simulation.h"
-#include "sim2d/make_world.h"
 #include "tests/sleeper/box2d_scene.h"
 
 namespace talus::test {
@@ -158,40 +154,6 @@ TEST(Box2dSleeper, ChangesNoBitWhenItIsOff) {
     EXPECT_EQ(a[i]->GetAngle(), b[i]->GetAngle());
     EXPECT_EQ(a[i]->GetLinearVelocity(), b[i]->GetLinearVelocity());
   }
-}
-
-/// Heights of the centre and mean awake over three seeds, as in talus's own world on Box2D: within 7 % and a third.
-TEST(Box2dSleeper, PilesBoxesAsTalusDoesInItsOwnWorld) {
-  constexpr int boxes = 300;
-  constexpr int steps = boxes * steps_between_drops + 300;
-  Poured attached;
-  Poured own;
-  for (const unsigned seed : {1U, 2U, 3U}) {
-    SleepingBox2dScene mine;
-    Scene<2> scene;
-    scene.policy.kind = "adaptive";
-    scene.policy.adaptive = SleeperOptions{}.adaptive;
-    scene.world.shapes = {make_shape<2>("box", box_pieces<2>(box_size<2>()), {})};
-    scene.piles = {{}};
-    Simulation<2> theirs(scene, make_box2d_world(scene.world), make_policy(scene));
-    const std::vector<Pose<2>> starts = drops<2>(boxes, seed);
-    for (int step = 0; step < steps; ++step) {
-      if (step % steps_between_drops == 0 && step / steps_between_drops < boxes) {
-        mine.drop(starts[step / steps_between_drops]);
-        theirs.add({.pose = starts[step / steps_between_drops]});
-      }
-      mine.step();
-      theirs.step();
-      attached.mean_awake += mine.sleeper->awake() / (3.0 * steps);
-      own.mean_awake += static_cast<double>(theirs.world().awake().size()) / (3.0 * steps);
-    }
-    for (const b2Body* body : mine.dynamic_bodies()) attached.centre_height += body->GetPosition().y / (3.0 * boxes);
-    for (const Pose<2>& pose : theirs.world().states().pose) own.centre_height += pose.position[1] / (3.0 * boxes);
-  }
-  RecordProperty("attached", std::to_string(attached.centre_height) + " " + std::to_string(attached.mean_awake));
-  RecordProperty("own", std::to_string(own.centre_height) + " " + std::to_string(own.mean_awake));
-  EXPECT_NEAR(attached.centre_height, own.centre_height, 0.07 * own.centre_height);
-  EXPECT_NEAR(attached.mean_awake, own.mean_awake, own.mean_awake / 3.0);
 }
 
 }  // namespace

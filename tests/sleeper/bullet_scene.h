@@ -122,6 +122,7 @@ class SleepingBulletScene : public BulletScene {
     sleeper->add(body);
     return body;
   }
+  void keep_awake(Body& body) { body.setActivationState(DISABLE_DEACTIVATION); }
   SleepChanges<3> step(double dt = drop_dt) {
     sleeper->before_step();
     BulletScene::step(dt);

@@ -47,10 +47,4 @@ std::vector<Pose<Dim>> drops(int count, unsigned seed) {
   return poses;
 }
 
-/// How a pour went.
-struct Poured {
-  double centre_height = 0.0;  // of all bodies at the end [m]
-  double mean_awake = 0.0;     // over all steps
-};
-
 }  // namespace talus::test
