@@ -9,6 +9,7 @@
 #include "common/scene/diagnostics.h"
 #include "tests/common/temporary_folder.h"
 #include "tests/process/process.h"
+#include "tools/bench/janssen.h"
 #include "tools/bench/published_run.h"
 #include "tools/bench/published_table.h"
 #include "tools/run/backends.h"
@@ -63,6 +64,19 @@ TEST(PublishedExperiments, AnArchStandsAboveAndFallsBelowTheLeastThicknessOnEach
   }
 }
 
+TEST(PublishedExperiments, RowsThatSetTheSameAreOneRunAndTheLoadsInAColumnFollowJanssensLaw) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      talus_command("bench published floor_load_2d --backend box2d --policy full --seeds 1 --out " + (folder / "out"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("[5/5] "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("9 runs, 0 failed"), std::string::npos) << outcome.out;
+  const std::string page = contents(folder.path() / "out" / "published.md");
+  const std::string row = "| saturation over the formula | box2d | 1 | ";
+  ASSERT_NE(page.find(row), page.npos) << page;
+  EXPECT_NEAR(std::stod(page.substr(page.find(row) + row.size())), 1.0, 0.3) << "seeds scatter by 0.15";
+}
+
 TEST(PublishedExperiments, AnUnknownNameAndAnOptionThatDoesNotApplyAreRefused) {
   const Outcome unknown = talus_command("bench published arc");
   EXPECT_EQ(unknown.exit_code, 2);
@@ -75,8 +89,10 @@ TEST(PublishedExperiments, AnUnknownNameAndAnOptionThatDoesNotApplyAreRefused) {
 TEST(PublishedExperiments, AllErrorsOfAFileComeAtOnceWithTheirPlaces) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "experiments.toml";
-  std::ofstream(file) << "[[experiment]]\ntitle = \"t\"\nsource = \"s\"\nscene = \"none\"\nvalue = \"net\"\n"
-                         "fit = [{name = \"p\", kind = \"line\"}]\nrow = [{name = \"r\", published = [1, 2, 3]}]\n";
+  std::ofstream(file)
+      << "[[experiment]]\ntitle = \"t\"\nsource = \"s\"\nscene = \"none\"\nvalue = \"net\"\n"
+         "fit = [{name = \"p\", kind = \"line\"}]\nrow = [{name = \"r\", published = [1, 2, 3], value = "
+         "\"net\"}]\n";
   try {
     read_experiments(file);
     FAIL();
@@ -84,7 +100,8 @@ TEST(PublishedExperiments, AllErrorsOfAFileComeAtOnceWithTheirPlaces) {
     const std::string text = errors.what();
     for (const char* part : {":4:9: experiment[0].scene = \"none\": must be the name of a scene beside this file",
                              ":6:28: experiment[0].fit[0].kind = \"line\": must be one of exponent, factor",
-                             "experiment[0].row[0].published", "must be one number or two"})
+                             "experiment[0].row[0].published", "must be one number or two",
+                             "experiment[0].row[0].value = \"net\": must be a JSON pointer"})
       EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
 }
@@ -100,6 +117,22 @@ TEST(Fits, FindTheLawThatTheValuesFollow) {
 TEST(Fits, HaveNoNumberWhereAValueIsMissing) {
   EXPECT_TRUE(std::isnan(fitted({.kind = "exponent"}, {1.0, 2.0}, {1.0, BenchNumbers::none})));
   EXPECT_TRUE(std::isnan(fitted({.kind = "exponent"}, {1.0, 2.0}, {1.0, 0.0})));
+}
+
+TEST(JanssensLaw, IsFoundInTheLoadsOfAColumnThatFollowsIt) {
+  constexpr double saturation = 80.0, decay_length = 5.0, weight_per_metre = saturation / decay_length;
+  std::vector<ColumnSlice> slices;
+  for (double depth = 1.0; depth < 20.0; depth += 2.0) {
+    const double load = saturation * (1.0 - std::exp(-depth / decay_length));
+    slices.push_back({.depth = depth, .thickness = 2.0, .load = load, .carried = 2.0 * load / decay_length});
+  }
+  const JanssenLaw fit = fitted_law(slices);  // tries lengths that are 0.6 % apart
+  EXPECT_NEAR(fit.saturation, saturation, 0.006 * saturation);
+  EXPECT_NEAR(fit.decay_length, decay_length, 0.006 * decay_length);
+  const JanssenLaw formula = law_by_formula(slices, weight_per_metre);
+  EXPECT_NEAR(formula.saturation, saturation, 1e-9);
+  EXPECT_NEAR(formula.decay_length, decay_length, 1e-9);
+  EXPECT_TRUE(std::isnan(fitted_law(std::span(slices).first(2)).saturation));
 }
 
 TEST(Differences, CountFromTheEndOfAPublishedIntervalAndAgreeWithinTwoErrors) {

@@ -22,6 +22,8 @@ struct BenchCase {
   std::vector<std::string> settings;  // PATH=VALUE, beside policy and seed
   int seed = 1;
 
+  bool operator==(const BenchCase&) const = default;
+
   std::string scene_name() const { return scene.stem().string(); }
   /// Whether sleep decides nothing, so that settings of a policy change nothing.
   bool is_baseline() const { return policy == "full" || policy == "engine" || policy == reference_policy; }

@@ -21,6 +21,7 @@ constexpr auto published_fields = std::to_array<Field<Published>>({
 constexpr auto row_fields = std::to_array<Field<ExperimentRow>>({
     {place_of<&ExperimentRow::name>, {.name = "name", .required = true}},
     {place_of<&ExperimentRow::x>, {.name = "x", .range = above(0.0, 1e9)}},
+    {place_of<&ExperimentRow::value>, {.name = "value"}},
 });
 
 constexpr auto fit_fields = std::to_array<Field<ExperimentFit>>({
@@ -39,6 +40,8 @@ constexpr auto experiment_fields = std::to_array<Field<Experiment>>({
     {place_of<&Experiment::over>, {.name = "over"}},
     {place_of<&Experiment::at_least>, {.name = "at_least"}},
 });
+
+constexpr const char* pointer_rule = "must be a JSON pointer, as /gates/0/net";
 
 Published read_published(TableReader& table) {
   Published published;
@@ -61,6 +64,7 @@ ExperimentRow read_row(TableReader& table, const toml::node_view<const toml::nod
   table.read_fields(row, row_fields);
   row.published = read_published(table);
   if (table.has("set") && !written["set"].is_table()) table.error("set", "must be a table of paths and values");
+  if (!row.value.empty() && !row.value.starts_with('/')) table.error("value", pointer_rule);
   row.settings = settings_in(written["set"].node());
   return row;
 }
@@ -79,13 +83,14 @@ Experiment read_experiment(TableReader& table, const toml::node_view<const toml:
   experiment.scene = folder / (experiment.name + ".toml");
   if (table.ok() && !std::filesystem::is_regular_file(experiment.scene))
     table.error("scene", "must be the name of a scene beside this file");
-  if (table.ok() && !experiment.value.starts_with('/')) table.error("value", "must be a JSON pointer, as /gates/0/net");
+  if (table.ok() && !experiment.value.starts_with('/')) table.error("value", pointer_rule);
   if (table.ok() && experiment.over == 0.0) table.error("over", "must not be 0");
   table.tables("row", [&, i = std::size_t{0}](TableReader& row) mutable {
     experiment.rows.push_back(read_row(row, written["row"][i++]));
   });
   if (experiment.rows.empty()) table.error("row", "must be given once or more");
-  table.tables("fit", [&](TableReader& fit) { experiment.fits.push_back(read_fit(fit)); });
+  table.tables(
+      "fit", [&](TableReader& fit) { experiment.fits.push_back(read_fit(fit)); });
   const bool all_x = std::ranges::all_of(experiment.rows, [](const ExperimentRow& row) { return row.x.has_value(); });
   if (!experiment.fits.empty() && !all_x) table.error("fit", "must have an x in each row");
   return experiment;

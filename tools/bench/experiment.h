@@ -21,6 +21,7 @@ struct ExperimentRow {
   std::string name = {};
   std::vector<std::string> settings = {};  // PATH=VALUE
   std::optional<double> x = {};            // what fits take the value to depend on
+  std::string value = {};                  // what is measured; empty: that of the experiment
   Published published = {};
 };
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/text/file.h"
@@ -60,12 +60,15 @@ std::vector<PublishedRun> runs_of(const std::vector<Experiment>& experiments, co
     }
   }
   if (runs.empty()) throw std::invalid_argument("--backend: no experiment runs on this engine");
+  for (PublishedRun& run : runs) run.same_as = std::ranges::find(runs, run.run, &PublishedRun::run) - runs.begin();
   return runs;
 }
 
-/// The value of the experiment in the summary of a run; NaN where it has none.
-double value_in(const nlohmann::json& summary, const Experiment& experiment) {
-  const nlohmann::json::json_pointer key(experiment.value);
+/// The value of a row in the summary of a run; NaN where it has none.
+double value_in(const nlohmann::json& summary, const PublishedRun& run) {
+  const Experiment& experiment = *run.experiment;
+  const std::string& own = experiment.rows[run.row].value;
+  const nlohmann::json::json_pointer key(own.empty() ? experiment.value : own);
   const bool known = summary.contains(key) && (summary.at(key).is_number() || summary.at(key).is_boolean());
   if (!known) return BenchNumbers::none;
   const double value = summary.at(key).is_boolean() ? summary.at(key).get<bool>() : summary.at(key).get<double>();
@@ -86,24 +89,45 @@ void write_results(const std::vector<PublishedRun>& runs, const BenchOptions& op
   write_file(options.out / "published.md", published_page(runs, options.policies));
 }
 
-/// After each run the files have what is measured so far.
+/// What one simulation gives: the value of each run that it stands for, and the wall time of its steps.
+std::string outcome_of(const std::vector<PublishedRun>& runs, std::size_t simulated, const fs::path& folder) {
+  const nlohmann::json summary = published_run(runs[simulated].run, folder);
+  std::string text = fmt::format("{:.3f}", summary.at("wall_s").get<double>());
+  for (const PublishedRun& run : runs)
+    if (run.same_as == simulated) text += fmt::format(" {:.17g}", value_in(summary, run));
+  return text;
+}
+
+void take_outcome(std::vector<PublishedRun>& runs, std::size_t simulated, const TaskOutcome& outcome) {
+  std::istringstream text(outcome.failed ? "" : outcome.text);
+  std::string seconds, value;
+  text >> seconds;
+  for (PublishedRun& run : runs) {
+    if (run.same_as != simulated) continue;
+    if (outcome.failed) {
+      run.failure = outcome.text;
+      continue;
+    }
+    text >> value;
+    run.seconds = std::stod(seconds);
+    run.value = std::stod(value);
+  }
+}
+
+/// After each simulation the files have what is measured so far.
 void do_published(std::vector<PublishedRun>& runs, const BenchOptions& options) {
+  std::vector<std::size_t> simulated;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].same_as == i) simulated.push_back(i);
   std::size_t done = 0;
   in_processes(
-      static_cast<int>(runs.size()), options.jobs,
-      [&](int i) {
-        const nlohmann::json summary = published_run(runs[i].run, options.out / fmt::format("run_{:04}", i));
-        return fmt::format("{:.17g} {:.3f}", value_in(summary, *runs[i].experiment),
-                           summary.at("wall_s").get<double>());
-      },
+      static_cast<int>(simulated.size()), options.jobs,
+      [&](int i) { return outcome_of(runs, simulated[i], options.out / fmt::format("run_{:04}", simulated[i])); },
       [&](int i, const TaskOutcome& outcome) {
-        PublishedRun& run = runs[i];
-        if (outcome.failed)
-          run.failure = outcome.text;
-        else
-          std::sscanf(outcome.text.c_str(), "%lf %lf", &run.value, &run.seconds);
+        take_outcome(runs, simulated[i], outcome);
         write_results(runs, options);
-        print_message("[{}/{}] {}, {}, {}, {}, seed {}: {}", ++done, runs.size(), run.experiment->name,
+        const PublishedRun& run = runs[simulated[i]];
+        print_message("[{}/{}] {}, {}, {}, {}, seed {}: {}", ++done, simulated.size(), run.experiment->name,
                       run.experiment->rows[run.row].name, run.run.backend, run.run.policy, run.run.seed,
                       outcome.failed ? "failed: " + outcome.text : fmt::format("{:.4g}", run.value));
       });

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "common/math/angle.h"
+#include "common/measure/ensemble.h"
 #include "common/scene/typical_body.h"
 #include "common/simulation/stopwatch.h"
 #include "common/text/file.h"
+#include "tools/bench/janssen.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/run_folder.h"
 
 namespace talus {
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// Tangent of the slope of the highest centres of one flank; `columns`: by the distance from the middle.
 double fall_of(const std::map<int, double>& columns) {
@@ -47,27 +47,25 @@ double slope_of(const BodyStates<Dim>& states, double width) {
     double& top = flanks[at[0] > 0.0 ? 1 : 0].try_emplace(static_cast<int>(out / width), height<Dim>(at)).first->second;
     top = std::max(top, height<Dim>(at));
   }
-  return 0.5 * degrees * (std::atan(fall_of(flanks[0]) / width) + std::atan(fall_of(flanks[1]) / width));
+  return in_degrees(0.5 * (std::atan(fall_of(flanks[0]) / width) + std::atan(fall_of(flanks[1]) / width)));
 }
 
-/// Mean of the bodies that are in the world.
-template <int Dim>
-Vec<Dim> centre_of(const BodyStates<Dim>& states) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
-  int bodies = 0;
-  for (BodyIndex i = 0; i < states.size(); ++i) {
-    if (states.removed[i] != 0) continue;
-    sum += states.pose[i].position;
-    ++bodies;
-  }
-  return sum / std::max(1, bodies);
+/// NaN where no frame has one.
+double mean_of_second_half(const std::vector<std::optional<double>>& all) {
+  std::vector<double> known;
+  for (std::size_t i = all.size() / 2; i < all.size(); ++i)
+    if (all[i]) known.push_back(*all[i]);
+  return mean_with_error(known).mean;
 }
 
 template <int Dim>
-double mean_tilt(const std::vector<Vec<Dim>>& centres) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
-  for (std::size_t i = centres.size() / 2; i < centres.size(); ++i) sum += centres[i];
-  return std::atan2(sum[0], -sum[Dim - 1]) * degrees;
+nlohmann::json janssen_json(const World<Dim>& world, const InstrumentMeters<Dim>& meters) {
+  const std::optional<ColumnNumbers> numbers = column_numbers(world, meters);
+  if (!numbers) return nullptr;
+  return {{"saturation", numbers->saturation},
+          {"decay_length", numbers->decay_length},
+          {"pressure_ratio", numbers->pressure_ratio},
+          {"friction", numbers->friction}};
 }
 
 template <int Dim>
@@ -85,11 +83,14 @@ nlohmann::json run(const BenchCase& bench_case, const Scene<Dim>& scene, const s
   InstrumentWatch<Dim> instruments(scene, folder);
   simulation.add_observer(statistics);
   simulation.add_observer(instruments);
-  std::vector<Vec<Dim>> centres;
+  std::vector<std::optional<double>> slopes;
   Stopwatch watch;
   while (!simulation.finished()) {
     simulation.step();
-    centres.push_back(centre_of(simulation.world().states()));
+    const InstrumentMeters<Dim>& meters = instruments.meters();
+    if (meters.regions().empty() || meters.read_step() != simulation.frame().step) continue;
+    const Applicable<SurfacePlane>& surface = meters.regions()[0].surface;
+    slopes.push_back(surface.value ? std::optional(in_degrees(surface.value->angle)) : std::nullopt);
   }
   SummaryInput input{.scene_name = bench_case.scene_name(), .backend = bench_case.backend, .reason = "finished"};
   input.wall_seconds = watch.lap();
@@ -100,7 +101,8 @@ nlohmann::json run(const BenchCase& bench_case, const Scene<Dim>& scene, const s
   const BodyStates<Dim>& states = simulation.world().states();
   const double width = typical_body(scene).extent / std::sqrt(Dim);  // of a ball
   summary["end"] = {{"slope_deg", slope_of(states, width)},
-                    {"tilt_deg", mean_tilt<Dim>(centres)},
+                    {"surface_deg", mean_of_second_half(slopes)},
+                    {"janssen", janssen_json(simulation.world(), instruments.meters())},
                     {"rank_of_first", rank_of_first(states)}};
   return summary;
 }

@@ -12,9 +12,9 @@ namespace talus {
 /// object `end` more:
 /// - `slope_deg`: slope of a heap on a table around x = 0, mean of both flanks. A line through the highest centres in
 ///   columns a body wide, from 15 to 85 % of the way to its edge (as Zhou et al. 2002).
-/// - `tilt_deg`: angle between straight down and the line from the origin to the centre of mass, positive to the side
-/// of
-///   x, mean over the second half of the run.
+/// - `surface_deg`: slope of the surface in the first region, mean over the frames of the second half of the run; null
+///   without a region.
+/// - `janssen`: column_numbers() by their names; null where there are none.
 /// - `rank_of_first`: share of the other bodies whose centre is lower than that of body 0.
 nlohmann::json published_run(const BenchCase& bench_case, const std::filesystem::path& folder);
 

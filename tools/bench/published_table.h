@@ -15,6 +15,7 @@ struct PublishedRun {
   const Experiment* experiment = nullptr;
   std::size_t row = 0;
   BenchCase run = {};
+  std::size_t same_as = 0;            // number of the first run with this case, which is simulated for all of them
   double value = BenchNumbers::none;  // as published, divided and counted; NaN: not measured
   double seconds = 0.0;               // wall time of the steps
   std::string failure = {};
