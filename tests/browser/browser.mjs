@@ -102,7 +102,7 @@ export function statusOf(url, headers = {}) {
 export const upgrade = { Connection: "Upgrade", Upgrade: "websocket", "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==" };
 
 /// Of a run that is paused: it lasts longer than the test, however slow the machine is.
-export const endless = ["--set", "run.frames=1000000", "--set", "run.until=frames"];
+export const endless = ["--set", "run.frames=20000", "--set", "run.until=frames"];
 
 /// Pauses a run; resolves once the page shows where it stands.
 export async function pause(page) {
