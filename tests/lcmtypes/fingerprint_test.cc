@@ -31,7 +31,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_shapes::getHash()), 0xAB1C584AF8545F4CU);
   EXPECT_EQ(fingerprint(talus_event::getHash()), 0x6F5F4E167CF5A516U);
   EXPECT_EQ(fingerprint(talus_obstacles::getHash()), 0x00D92F75D07931CFU);
-  EXPECT_EQ(fingerprint(talus_instruments::getHash()), 0x79EEC3AFA1437207U);
+  EXPECT_EQ(fingerprint(talus_instruments::getHash()), 0x29B2D368B10D1C0FU);
   EXPECT_EQ(fingerprint(talus_contacts::getHash()), 0x906F0411ACA0F398U);
 }
 

@@ -26,7 +26,7 @@ live) # a run, watched by a monitor and recorded by lcm-logger: nothing is lost,
   expect '"phase":"end","reason":"finished"' last.json
   expect '"step":180' last.json
   expect '"slept":[1-9]' last.json
-  expect '"lost":{"TALUS_RUN":0,"TALUS_PILES":0,"TALUS_SLEEP":0,"TALUS_STATS":0,"TALUS_BODIES":0,"TALUS_SHAPES":0,"TALUS_EVENTS":0,"TALUS_OBSTACLES":0,"TALUS_SCENE":0,"TALUS_INSTRUMENTS":0},"undecodable":0' last.json
+  expect '"lost":{"TALUS_RUN":0,"TALUS_PILES":0,"TALUS_SLEEP":0,"TALUS_STATS":0,"TALUS_BODIES":0,"TALUS_SHAPES":0,"TALUS_EVENTS":0,"TALUS_OBSTACLES":0,"TALUS_SCENE":0,"TALUS_INSTRUMENTS":0,"TALUS_CONTACTS":0},"undecodable":0' last.json
   [[ $(events heard.lcm TALUS_PILES) == 181 ]] || fail "lcm-logger: $("$program" count heard.lcm)"
   [[ $(events heard.lcm damaged) == 0 ]] || fail "lcm-logger: $("$program" count heard.lcm)"
   ;;
