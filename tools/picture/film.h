@@ -16,7 +16,7 @@ struct FilmImage {
   std::vector<std::uint32_t> pixels;
 };
 
-/// Draws states of one run in the framing of one of them.
+/// Draws states of one run in one framing.
 template <int Dim>
 class FilmFrames {
  public:
