@@ -34,10 +34,12 @@ Pour pour_in_own_world(int boxes, unsigned seed) {
   Simulation<Dim> simulation(scene, make_world(scene.world), make_policy(scene));
   const std::vector<Pose<Dim>> starts = drops<Dim>(boxes, seed);
   Pour result;
-  const int steps = pour_steps(boxes, [&](int number) { simulation.add({.pose = starts[number]}); }, [&] {
-    simulation.step();
-    result.awake += static_cast<double>(simulation.world().awake().size());
-  });
+  const int steps = pour_steps(
+      boxes, [&](int number) { simulation.add({.pose = starts[number]}); },
+      [&] {
+        simulation.step();
+        result.awake += static_cast<double>(simulation.world().awake().size());
+      });
   result.awake /= steps;
   for (const Pose<Dim>& pose : simulation.world().states().pose) result.height += pose.position[Dim - 1] / boxes;
   return result;
