@@ -104,9 +104,9 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
 /// From the velocities; finds the contacts ahead of what is fast.
 void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
   fast_.expect(solver_, static_cast<int>(bodies.size()), dt_);
-  for (const int slot : fast_.found()) find_ahead(world, input, *bodies[slot - 1], true);
   for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
     if (is_buried(*contact)) add_ground_ahead(input, *contact->GetFixtureB()->GetBody());
+  for (const int slot : fast_.found()) find_ahead(world, input, *bodies[slot - 1], true);
 }
 
 /// The ground is a line: Box2D pushes a body whose middle is below it further down.
@@ -404,7 +404,7 @@ void SmallSteps::add_ground_ahead(const StepInput& input, b2Body& body) {
   const Tag tag = make_tag(owner, 0);
   if (std::ranges::any_of(ahead_, [&](const Ahead& each) { return each.a == ground && each.b == tag; })) return;
   points_.clear();
-  fast_.meet_ground(slots_[owner], input.states.shape[owner], input.states.pose[owner], points_);
+  fast_.meet_ground(slots_[owner], input.states.shape[owner], input.states.pose[owner], true, points_);
   for (const ContactPoint<2>& point : points_) add_ahead(ground, tag, point, body);
 }
 

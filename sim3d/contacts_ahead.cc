@@ -23,11 +23,20 @@ struct Piece {
   btTransform after(float share) const { return of->after(share) * place; }
 };
 
-/// Around the piece at the start of the step.
-SweptBox box_of(const Piece& piece) {
-  SweptBox box;
-  piece.shape->getAabb(piece.of->object->getWorldTransform() * piece.place, box.low, box.high);
-  return box;
+/// How far a piece reaches along a direction at the start of the step [m].
+btScalar reach(const Piece& piece, const btVector3& direction) {
+  const btTransform place = piece.after(0.0F);
+  return direction.dot(place * piece.shape->localGetSupportingVertex(direction * place.getBasis()));
+}
+
+/// Whether two pieces stay apart along the line between their middles: a test of one direction that spares most pairs
+/// the search.
+bool stay_apart(const Piece& a, const Piece& b, float turns) {
+  const btVector3 between = b.after(0.0F).getOrigin() - a.after(0.0F).getOrigin();
+  if (between.fuzzyZero()) return false;
+  const btVector3 line = between.normalized();
+  const btScalar gap = -reach(b, -line) - reach(a, line);
+  return gap > line.dot(to_engine(a.of->motion.way - b.of->motion.way)) + turns;
 }
 
 /// Of a box on its way.
@@ -104,7 +113,7 @@ Points points_at(const Piece& a, const Piece& b, float share, float reach) {
 
 void meet(const Piece& a, const Piece& b, float near, std::vector<ContactPoint<3>>& found) {
   const float turns = a.of->turn + b.of->turn;
-  if (!overlap(swept(box_of(b), b.of->motion.way - a.of->motion.way, turns), box_of(a))) return;
+  if (stay_apart(a, b, turns)) return;
   const std::optional<float> share =
       first_touch<3>(a.of->motion, b.of->motion, turns, near, [&](float at) -> PieceGap<3> {
         const btPointCollector found_nearest = nearest(a, b, at);
@@ -128,6 +137,7 @@ void meet(const Piece& a, const Piece& b, float near, std::vector<ContactPoint<3
 }  // namespace
 
 btTransform Mover::after(float share) const {
+  if (share == 0.0F) return object->getWorldTransform();
   btTransform moved;
   btTransformUtil::integrateTransform(object->getWorldTransform(), to_engine(motion.way), to_engine(motion.turn), share,
                                       moved);

@@ -208,13 +208,13 @@ Mover SmallSteps<Dim>::mover_of(const btCollisionObject& object) const {
 template <int Dim>
 void SmallSteps<Dim>::find_ahead(Engine& engine, btRigidBody& fast, const BodyStates<Dim>& states, bool first) {
   const Mover mover = mover_of(fast);
-  find_near(engine, mover);
+  find_near(engine, mover, first);
   for (const btCollisionObject* other : near_) {
     if (first ? is_fast(*other) && other->getUserIndex() < fast.getUserIndex() : is_found(fast, *other)) continue;
     if (other->getUserIndex() == ground_index) {
       met_ground_.clear();
       const BodyIndex body = fast.getUserIndex();
-      fast_.meet_ground(fast.getCompanionId(), states.shape[body], states.pose[body], met_ground_);
+      fast_.meet_ground(fast.getCompanionId(), states.shape[body], states.pose[body], false, met_ground_);
       for (const ContactPoint<Dim>& point : met_ground_) add_new(engine, *other, fast, point);
     } else {
       const Mover second = mover_of(*other);
@@ -226,15 +226,21 @@ void SmallSteps<Dim>::find_ahead(Engine& engine, btRigidBody& fast, const BodySt
   }
 }
 
-/// The objects that the mover may meet in the step, sorted by their numbers.
+/// The objects that the mover may meet in the step, sorted by their numbers. As long as it moves as expected and turns
+/// little, and no obstacle moves, those are the partners that Bullet has found for its way.
 template <int Dim>
-void SmallSteps<Dim>::find_near(Engine& engine, const Mover& mover) {
-  const SweptBox box = swept(mover);
-  const btVector3 around(fast_.longest(), fast_.longest(), fast_.longest());
+void SmallSteps<Dim>::find_near(Engine& engine, const Mover& mover, bool first) {
   near_.clear();
-  ObjectFinder finder(near_);
-  engine.broadphase.aabbTest(box.low - around, box.high + around, finder);
-  std::erase(near_, mover.object);
+  if (first && mover.turn <= fast_.limit() && obstacles_stand_) {
+    for (const btBroadphaseProxy* partner : engine.pairs.partners(mover.object->getBroadphaseHandle()))
+      near_.push_back(static_cast<const btCollisionObject*>(partner->m_clientObject));
+  } else {
+    const SweptBox box = swept(mover);
+    const btVector3 around(fast_.longest(), fast_.longest(), fast_.longest());
+    ObjectFinder finder(near_);
+    engine.broadphase.aabbTest(box.low - around, box.high + around, finder);
+    std::erase(near_, mover.object);
+  }
   std::ranges::sort(near_, {}, &btCollisionObject::getUserIndex);
 }
 
@@ -329,6 +335,7 @@ void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, const Act
   for (btRigidBody* body : bodies) body->setCompanionId(solver_.add(awake_body<Dim>(*body, dt_)));
   for (const auto& [body, acceleration] : actions.pushes)
     solver_.push(body->getCompanionId(), acceleration.template cast<float>());
+  obstacles_stand_ = actions.moving.empty();
   std::ranges::fill(obstacle_slots_, 0);
   for (const btRigidBody* obstacle : actions.moving)
     obstacle_slots_[first_obstacle - obstacle->getUserIndex()] = slot_of(*obstacle);

@@ -78,7 +78,7 @@ class SmallSteps {
   bool passes_unseen(Engine& engine, std::span<btRigidBody* const> bodies, const BodyStates<Dim>& states);
   Mover mover_of(const btCollisionObject& object) const;
   void find_ahead(Engine& engine, btRigidBody& fast, const BodyStates<Dim>& states, bool first);
-  void find_near(Engine& engine, const Mover& mover);
+  void find_near(Engine& engine, const Mover& mover, bool first);
   bool is_fast(const btCollisionObject& object) const;
   bool is_found(const btCollisionObject& a, const btCollisionObject& b) const;
   void add_ahead(Engine& engine, const btCollisionObject& a, const btCollisionObject& b, const ContactPoint<3>& found);
@@ -122,6 +122,7 @@ class SmallSteps {
   std::vector<int> parts_;                    // by contact: its points of Bullet's
   std::vector<btCollisionObject*> others_;    // sleepers and moving obstacles that have a slot
   std::vector<int> obstacle_slots_;           // by number; 0: does not move
+  bool obstacles_stand_ = true;               // in this step
   std::vector<SleepingPoint<Dim>> released_;  // scratch
   std::vector<SpinF<Dim>>
       rolling_;  // by contact of the last step: share of each of its points of Bullet's [N m s times the mass scale]

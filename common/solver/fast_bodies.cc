@@ -89,7 +89,7 @@ bool FastBodies<Dim>::passes(const ContactSolver<Dim>& solver, const ContactPoin
 }
 
 template <int Dim>
-void FastBodies<Dim>::meet_ground(int slot, int shape, const Pose<Dim>& pose,
+void FastBodies<Dim>::meet_ground(int slot, int shape, const Pose<Dim>& pose, bool buried,
                                   std::vector<ContactPoint<Dim>>& found) const {
   if (!ground_.present) return;
   ContactPoint<Dim> point;
@@ -103,7 +103,8 @@ void FastBodies<Dim>::meet_ground(int slot, int shape, const Pose<Dim>& pose,
     point.gap = static_cast<float>(place[Dim - 1] - ground_.height);
     point.arm_a = place.template cast<float>();  // the ground never turns
     point.arm_b = arm.template cast<float>();
-    if (point.gap + motion(slot).of(point.arm_b)[Dim - 1] < 0.0F) found.push_back(point);
+    const float after = point.gap + motion(slot).of(point.arm_b)[Dim - 1];
+    if (after < 0.0F && (buried || point.gap > 0.0F)) found.push_back(point);
   }
 }
 

@@ -71,9 +71,10 @@ class FastBodies {
   float near() const { return 0.5F * limit_; }
   /// Whether the solved step presses the bodies of this point further into each other than contacts may begin.
   bool passes(const ContactSolver<Dim>& solver, const ContactPoint<Dim>& point) const;
-  /// Appends a point of the ground (slot 0) and the body (`slot`) for each corner that the step takes below the ground
-  /// or leaves there.
-  void meet_ground(int slot, int shape, const Pose<Dim>& pose, std::vector<ContactPoint<Dim>>& found) const;
+  /// Appends a point of the ground (slot 0) and the body (`slot`) for each corner that the step takes below the ground.
+  /// `buried`: also for those that are there already.
+  void meet_ground(int slot, int shape, const Pose<Dim>& pose, bool buried,
+                   std::vector<ContactPoint<Dim>>& found) const;
 
  private:
   /// A corner of a piece, from the centre of mass, with the piece's radius around it [m].
