@@ -42,7 +42,7 @@ constexpr Question questions[] = {
     {"added_gate_2d", "/gates/0/net", 20, 32},
     {"coins_3d", "/regions/0/packing", 0.4, 0.7},
     {"heavy_3d", "/regions/0/bodies", 1, 1},
-    {"flow_2d", "/regions/0/mean_speed_m_per_s", 2.0, 12.0},
+    {"flow_2d", "/regions/0/mean_speed_m_per_s", 1.0, 15.0},
     {"sizes_3d", "/regions/0/mean_speed_m_per_s", 9.80, 9.82},
 };
 
