@@ -46,12 +46,9 @@ Pieces<Dim> pieces_of(const WorldDescription<Dim>& world) {
 /// Bodies beside an obstacle that reaches above their centre. What lies on a level slab does not count.
 template <int Dim>
 std::size_t held_bodies(std::span<const PlacedBody<Dim>> bodies, const Pieces<Dim>& obstacles, double extent) {
-  return std::ranges::count_if(
-      bodies,
-      [&](const PlacedBody<Dim>& body) {
-        return std::ranges::any_of(
-            obstacles, [&](const auto& obstacle) { return holds<Dim>(obstacle, body, extent); });
-      });
+  return std::ranges::count_if(bodies, [&](const PlacedBody<Dim>& body) {
+    return std::ranges::any_of(obstacles, [&](const auto& obstacle) { return holds<Dim>(obstacle, body, extent); });
+  });
 }
 
 /// Mean heights of the surface in the four quarters of `radius`, from the middle outwards [m].
@@ -91,14 +88,11 @@ std::string why_no_heap(const ShapeStatistics<Dim>& shape, std::size_t held, dou
 /// Whether a point lies in a piece, or within its radius of a face.
 template <int Dim>
 bool inside(const ConvexPiece<Dim>& piece, const Vec<Dim>& point) {
-  return piece.bounds().contains(point) &&
-         std::ranges::all_of(
-             piece.normals,
-             [&](const Vec<Dim>& normal) {
-               const auto along = [&](const Vec<Dim>& corner) { return normal.dot(corner); };
-               const auto [low, high] = std::ranges::minmax(piece.corners, {}, along);
-               return along(point) >= along(low) - piece.radius && along(point) <= along(high) + piece.radius;
-             });
+  return piece.bounds().contains(point) && std::ranges::all_of(piece.normals, [&](const Vec<Dim>& normal) {
+           const auto along = [&](const Vec<Dim>& corner) { return normal.dot(corner); };
+           const auto [low, high] = std::ranges::minmax(piece.corners, {}, along);
+           return along(point) >= along(low) - piece.radius && along(point) <= along(high) + piece.radius;
+         });
 }
 
 /// The part of the plane that bodies cover, seen from above, less what obstacles take of it at one height.
@@ -125,11 +119,9 @@ class Section {
   }
 
   void cut(const ConvexPiece<Dim>& piece, double at) {
-    each_cell(
-        piece.bounds(),
-        [&](int x, int y) {
-          if (inside(piece, middle(x, y, at))) covered_[index(x, y)] = 0;
-        });
+    each_cell(piece.bounds(), [&](int x, int y) {
+      if (inside(piece, middle(x, y, at))) covered_[index(x, y)] = 0;
+    });
   }
 
   /// [m^2], in 2D [m].
