@@ -49,8 +49,7 @@ std::vector<std::string> policies_of(std::string_view preset) {
 }
 
 bool sets(const std::vector<SweepAxis>& axes, std::string_view path) {
-  return std::ranges::any_of(
-      axes, [&](const SweepAxis& axis) { return axis.path == path; });
+  return std::ranges::any_of(axes, [&](const SweepAxis& axis) { return axis.path == path; });
 }
 
 std::vector<SweepAxis> axes_of(const BenchOptions& options) {
@@ -89,11 +88,9 @@ std::vector<std::string> engines_of(const BenchOptions& options, const std::file
   if (options.backends.empty()) {
     engines.resize(std::min<std::size_t>(1, engines.size()));
   } else {
-    std::erase_if(
-        engines,
-        [&](const std::string& engine) {
-          return std::ranges::find(options.backends, engine) == options.backends.end();
-        });
+    std::erase_if(engines, [&](const std::string& engine) {
+      return std::ranges::find(options.backends, engine) == options.backends.end();
+    });
   }
   return engines;
 }

@@ -94,8 +94,7 @@ Cells summary_cells(const BenchGroup& group, std::string_view preset) {
 
 /// Letters on the screen.
 std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::string in_columns(std::vector<Cells> lines) {

@@ -89,8 +89,7 @@ Experiment read_experiment(TableReader& table, const toml::node_view<const toml:
     experiment.rows.push_back(read_row(row, written["row"][i++]));
   });
   if (experiment.rows.empty()) table.error("row", "must be given once or more");
-  table.tables(
-      "fit", [&](TableReader& fit) { experiment.fits.push_back(read_fit(fit)); });
+  table.tables("fit", [&](TableReader& fit) { experiment.fits.push_back(read_fit(fit)); });
   const bool all_x = std::ranges::all_of(experiment.rows, [](const ExperimentRow& row) { return row.x.has_value(); });
   if (!experiment.fits.empty() && !all_x) table.error("fit", "must have an x in each row");
   return experiment;
