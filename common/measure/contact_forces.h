@@ -15,8 +15,8 @@ namespace talus {
 template <int Dim>
 class ContactForces final : public Observer<Dim> {
  public:
-  /// While false, steps do not record contacts for this, and nothing is kept. `world`: after its last step, whose
-  /// contacts count if it recorded any.
+  /// While false, steps do not record contacts for this, and nothing is kept. `world`: after its last step; the
+  /// contacts of that step count if it recorded any.
   void want(bool wanted, const World<Dim>& world);
 
   bool needs_contacts() const override { return wanted_; }

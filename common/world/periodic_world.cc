@@ -137,8 +137,8 @@ class PeriodicWorld final : public World<Dim> {
   }
   void engine_sleeping_contacts(BodyIndex side, std::vector<Contact<Dim>>& found) const override {
     const std::size_t before = found.size();
-    if (side == ground_index)
-      inner_->sleeping_contacts(side, found);
+    if (side > first_obstacle)
+      inner_->sleeping_contacts(side < 0 ? side : inner(side), found);
     else
       for_each_image(first_obstacle - side,
                      [&](int number, const Vec<Dim>&) { inner_->sleeping_contacts(first_obstacle - number, found); });

@@ -253,6 +253,10 @@ TYPED_TEST(Sides, PassOnTheWeightOfWhatSleeps) {
     for (const Contact<dim>& contact : contacts) impulse += contact.normal_impulse;
     const double weight = bodies * simulation.world().shape_of(0).mass * gravity;
     EXPECT_NEAR(impulse / simulation.world().dt(), weight, 0.01 * weight);
+    contacts.clear();
+    simulation.world().sleeping_contacts(2, contacts);  // what lies on the two others, and carries the fourth
+    for (const Contact<dim>& contact : contacts) EXPECT_EQ(contact.b, 2);
+    EXPECT_FALSE(contacts.empty());
   }
 }
 
