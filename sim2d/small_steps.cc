@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "common/solver/solved_contact.h"
 #include "sim2d/conversions.h"
 
 namespace talus::box2d {
@@ -19,12 +20,6 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 VecF<2> vector(const b2Vec2& v) { return {v.x, v.y}; }
 b2Vec2 to_box2d(const VecF<2>& v) { return {v.x(), v.y()}; }
-
-/// Of a polygon or line: contacts are known so long before the bodies touch, and none is lost while a corner lifts by
-/// less [m].
-float skin_of(const b2Fixture& fixture) {
-  return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
-}
 
 /// Ascending as (first, second) are.
 std::uint64_t ascending_pair(std::int32_t first, std::int32_t second) {
@@ -58,65 +53,22 @@ class FixtureFinder final : public b2QueryCallback {
   std::vector<b2Fixture*>* found_;
 };
 
-/// A copy of a fixture's shape whose skin is `more` thicker.
-EnginePiece thickened(const b2Fixture& fixture, float more) {
-  if (fixture.GetType() == b2Shape::e_circle) {
-    b2CircleShape circle = static_cast<const b2CircleShape&>(*fixture.GetShape());
-    circle.m_radius += more;
-    return circle;
-  }
-  b2PolygonShape polygon = static_cast<const b2PolygonShape&>(*fixture.GetShape());
-  polygon.m_radius += more;
-  return polygon;
-}
-
-/// Contact of two shapes, of which the second is a disc or a polygon and the first may be a line too. Returns whether
-/// they were swapped, as Box2D has it.
-bool collide(b2Manifold& manifold, const b2Shape& a, const b2Transform& at_a, const b2Shape& b,
-             const b2Transform& at_b) {
-  const auto disc = [](const b2Shape& shape) { return static_cast<const b2CircleShape*>(&shape); };
-  const auto polygon = [](const b2Shape& shape) { return static_cast<const b2PolygonShape*>(&shape); };
-  const bool b_is_disc = b.GetType() == b2Shape::e_circle;
-  switch (a.GetType()) {
-    case b2Shape::e_edge:
-      if (b_is_disc)
-        b2CollideEdgeAndCircle(&manifold, static_cast<const b2EdgeShape*>(&a), at_a, disc(b), at_b);
-      else
-        b2CollideEdgeAndPolygon(&manifold, static_cast<const b2EdgeShape*>(&a), at_a, polygon(b), at_b);
-      return false;
-    case b2Shape::e_circle:
-      if (b_is_disc) {
-        b2CollideCircles(&manifold, disc(a), at_a, disc(b), at_b);
-        return false;
-      }
-      b2CollidePolygonAndCircle(&manifold, polygon(b), at_b, disc(a), at_a);
-      return true;
-    default:
-      if (b_is_disc)
-        b2CollidePolygonAndCircle(&manifold, polygon(a), at_a, disc(b), at_b);
-      else
-        b2CollidePolygons(&manifold, polygon(a), at_a, polygon(b), at_b);
-      return false;
-  }
-}
-
 }  // namespace
 
 SmallSteps::SmallSteps(const WorldDescription<2>& description)
     : params_{.sub_steps = description.solver.sub_steps,
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
-      dt_(static_cast<float>(description.dt)) {
-  double thinnest = std::numeric_limits<double>::infinity();
+      dt_(static_cast<float>(description.dt)),
+      fast_(description) {
   bool rolls = false;
   for (const Shape<2>& shape : description.shapes) {
-    reach_ = std::max(reach_, static_cast<float>(shape.extent));
     reaches_.push_back(static_cast<float>(bounding_radius(shape)));
-    thinnest = std::min(thinnest, least_width(shape));
     arms_.push_back(rolling_arm(shape));
     rolls = rolls || arms_.back() > 0.0;
   }
   if (!rolls) arms_.clear();
-  fast_ = static_cast<float>(thinnest / 4.0);
+  for (const Obstacle<2>& obstacle : description.obstacles)
+    obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
 }
 
 EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
@@ -124,12 +76,14 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   // Box2D gives access to its contact manager for reading only.
   const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
   detected_ = input.states.size();
-  expect_motion(world, input, bodies);
+  slots_.resize(input.states.shape.size(), 0);
+  ahead_.clear();
   if (ring_) ring_->start();
   double solving = 0.0;
   for (int round = 0; round < rounds; ++round) {
     add_bodies(input, bodies);
-    for (const Ahead& each : ahead_) add_points(each.pair, each.manifold, each.place, input);
+    if (round == 0) expect_motion(world, input, bodies);
+    add_points_ahead(input);
     add_contacts(world, input);
     if (ring_) ring_->extend(solver_, obstacle_slots_);
     const double added = now();
@@ -147,61 +101,40 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   return {.collide = now() - start - solving, .solve = solving};
 }
 
-/// From the velocities; finds the contacts ahead of what is fast.
-void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
-  slots_.resize(input.states.shape.size(), 0);
-  expected_.clear();
-  ahead_.clear();
-  fast_bodies_.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Image& image = input.images[input.awake[i]];
-    if (image.sides == 0) expected_.push_back(motion_by_velocity(*bodies[i]));
-    // An image comes after what it is an image of.
-    slots_[input.awake[i]] = image.sides == 0 ? static_cast<int>(expected_.size()) : slots_[image.of];
-    if (is_fast(expected_of(input.awake[i]))) fast_bodies_.push_back(bodies[i]);
-  }
-  find_ahead(world, true);
+/// An awake body and its images.
+std::span<b2Body* const> SmallSteps::at_slot(int slot, std::span<b2Body* const> bodies) const {
+  const std::size_t first = first_of_[slot - 1];
+  const std::size_t next = slot < std::ssize(first_of_) ? first_of_[slot] : bodies.size();
+  return bodies.subspan(first, next - first);
 }
 
-SmallSteps::Motion SmallSteps::motion_by_velocity(const b2Body& body) const {
-  return {dt_ * body.GetLinearVelocity(), dt_ * reach_ * std::abs(body.GetAngularVelocity())};
+/// From the velocities; finds the contacts ahead of what is fast.
+void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
+  fast_.expect(solver_, static_cast<int>(first_of_.size()), dt_);
+  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
+    if (is_buried(*contact)) add_ground_ahead(input, *contact->GetFixtureB()->GetBody());
+  for (const int slot : fast_.found())
+    for (b2Body* body : at_slot(slot, bodies)) find_ahead(world, input, *body, true);
+}
+
+/// The ground is a line: Box2D pushes a body whose middle is below it further down.
+bool SmallSteps::is_buried(b2Contact& contact) {
+  if (!contact.IsTouching() || owner_of(*contact.GetFixtureA()) != ground_index) return false;
+  if (!is_dynamic(*contact.GetFixtureB()->GetBody())) return false;
+  b2WorldManifold place;
+  contact.GetWorldManifold(&place);
+  return place.normal.y < 0.0F;
 }
 
 /// After a step is solved: whether a body that was struck, and so moves fast, gets past something. Finds what is ahead
 /// of it.
 bool SmallSteps::passes_unseen(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
-  fast_bodies_.clear();
-  const auto motion_of_slot = [&](int slot) {
-    const SolverBody<2>& body = solver_.body(slot);
-    return Motion{to_box2d(body.way), reach_ * std::abs(body.turn[0])};
-  };
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!is_fast(expected_of(input.awake[i])) && is_fast(motion_of_slot(slots_[input.awake[i]])))
-      fast_bodies_.push_back(bodies[i]);
-  for (b2Body* body : fast_bodies_) {
-    const int slot = slots_[owner_of(*body->GetFixtureList())];
-    expected_[slot - 1] = motion_of_slot(slot);
-  }
   const auto known = static_cast<std::ptrdiff_t>(ahead_.size());
-  find_ahead(world, false);
-  return std::any_of(ahead_.begin() + known, ahead_.end(), [&](const Ahead& each) { return is_passed(each); });
-}
-
-/// Whether the motion of the step presses the two into each other by more than `fast_`.
-bool SmallSteps::is_passed(const Ahead& ahead) const {
-  const auto way = [&](b2Fixture& fixture, const b2Vec2& at) {
-    const BodyIndex owner = owner_of(fixture);
-    if (owner < 0 || slots_[owner] == 0) return dt_ * fixture.GetBody()->GetLinearVelocityFromWorldPoint(at);
-    const SolverBody<2>& body = solver_.body(slots_[owner]);
-    return to_box2d(body.way) + b2Cross(body.turn[0], at - fixture.GetBody()->GetWorldCenter());
-  };
-  const float skins = skin_of(*ahead.pair.a) + skin_of(*ahead.pair.b);
-  for (int i = 0; i < ahead.manifold.pointCount; ++i) {
-    const b2Vec2& at = ahead.place.points[i];
-    const b2Vec2 apart = way(*ahead.pair.b, at) - way(*ahead.pair.a, at);
-    if (ahead.place.separations[i] + skins + b2Dot(apart, ahead.place.normal) < -fast_) return true;
-  }
-  return false;
+  fast_.follow(solver_);
+  for (const int slot : fast_.found())
+    for (b2Body* body : at_slot(slot, bodies)) find_ahead(world, input, *body, false);
+  return std::any_of(ahead_.begin() + known, ahead_.end(),
+                     [&](const Ahead& each) { return fast_.passes(solver_, each.point); });
 }
 
 void SmallSteps::set_ring(const std::optional<SleepRing>& ring) {
@@ -235,8 +168,7 @@ void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const 
 void SmallSteps::keep(b2Contact& contact, const StepInput& input) {
   b2WorldManifold place;
   contact.GetWorldManifold(&place);
-  const Fixtures pair{contact.GetFixtureA(), contact.GetFixtureB(), contact.GetFriction(), contact.GetRestitution(),
-                      &contact};
+  const Fixtures pair = fixtures_of(contact);
   int number = 0;
   for (const ContactPoint<2>& point : points_of(pair, *contact.GetManifold(), place, input)) {
     SleepingPoint<2> kept{
@@ -284,10 +216,16 @@ void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bod
   sources_.clear();
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
   sleepers_.clear();
+  first_of_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const BodyIndex body = input.awake[i];
-    if (input.images[body].sides == 0)
-      solver_.add(solver_body(*bodies[i], input.templates[input.states.shape[body]].mass));
+    const Image& image = input.images[body];  // comes after what it is an image of
+    if (image.sides != 0) {
+      slots_[body] = slots_[image.of];
+      continue;
+    }
+    first_of_.push_back(i);
+    slots_[body] = solver_.add(solver_body(*bodies[i], input.templates[input.states.shape[body]].mass));
   }
   for (const Push<2>& push : input.pushes) {
     const b2MassData& mass = input.templates[input.states.shape[push.body]].mass;
@@ -305,12 +243,11 @@ void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bod
 }
 
 /// For a contact with this normal.
-int SmallSteps::slot_of(b2Fixture& fixture, const b2Vec2& normal, const StepInput& input) {
-  const BodyIndex owner = owner_of(fixture);
+int SmallSteps::slot_of(BodyIndex owner, const VecF<2>& normal, const StepInput& input) {
   if (owner <= first_obstacle) {
     const int number = first_obstacle - owner;
     if (input.belts.empty() || input.belts[number].isZero(0.0)) return obstacle_slots_[number];
-    return solver_.add_belt(input.belts[number].cast<float>(), vector(normal));
+    return solver_.add_belt(input.belts[number].cast<float>(), normal);
   }
   if (owner < 0) return 0;
   if (ring_ && ring_->has(input.original(owner))) return ring_->join(input.original(owner), solver_);
@@ -332,28 +269,35 @@ b2Vec2 SmallSteps::centre_of(b2Fixture& fixture, const BodyStates<2>& states) {
                                                        : fixture.GetBody()->GetWorldCenter();
 }
 
-void SmallSteps::add_contacts(b2World& world, const StepInput& input) {
-  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext()) {
-    if (!contact->IsTouching()) continue;
-    b2WorldManifold place;
-    contact->GetWorldManifold(&place);
-    add_points(
-        {contact->GetFixtureA(), contact->GetFixtureB(), contact->GetFriction(), contact->GetRestitution(), contact},
-        *contact->GetManifold(), place, input);
+void SmallSteps::add_points_ahead(const StepInput& input) {
+  for (Ahead& each : ahead_) {
+    each.point.a = slot_of(owner_of(each.a), each.point.normal, input);
+    each.point.b = slot_of(owner_of(each.b), each.point.normal, input);
+    solver_.add(each.point);
+    sources_.push_back({each.a, each.b, nullptr, each.number});
   }
 }
 
-void SmallSteps::add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
-                            const StepInput& input) {
-  const int a = slot_of(*pair.a, place.normal, input);
-  const int b = slot_of(*pair.b, place.normal, input);
-  int number = 0;
-  for (ContactPoint<2> point : points_of(pair, manifold, place, input)) {
-    point.a = a;
-    point.b = b;
-    solver_.add(point);
-    sources_.push_back({tag_of(*pair.a), tag_of(*pair.b), pair.contact, number++});
+void SmallSteps::add_contacts(b2World& world, const StepInput& input) {
+  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext()) {
+    if (!contact->IsTouching() || is_buried(*contact)) continue;
+    const Fixtures pair = fixtures_of(*contact);
+    b2WorldManifold place;
+    contact->GetWorldManifold(&place);
+    const int a = slot_of(owner_of(*pair.a), vector(place.normal), input);
+    const int b = slot_of(owner_of(*pair.b), vector(place.normal), input);
+    int number = 0;
+    for (ContactPoint<2> point : points_of(pair, *contact->GetManifold(), place, input)) {
+      point.a = a;
+      point.b = b;
+      solver_.add(point);
+      sources_.push_back({tag_of(*pair.a), tag_of(*pair.b), contact, number++});
+    }
   }
+}
+
+SmallSteps::Fixtures SmallSteps::fixtures_of(b2Contact& contact) {
+  return {contact.GetFixtureA(), contact.GetFixtureB(), contact.GetFriction(), contact.GetRestitution(), &contact};
 }
 
 /// Without their slots; valid until the next call.
@@ -405,75 +349,104 @@ void SmallSteps::add_rolling(const Fixtures& pair, const StepInput& input, Conta
     point.rolling_impulse[0] = b == found->high ? found->impulse : -found->impulse;
 }
 
-/// Of an awake body as expected.
-SmallSteps::Motion SmallSteps::motion_of(b2Fixture& fixture) const {
+/// 0: does not move in this step.
+int SmallSteps::moving_slot(BodyIndex owner) const {
+  if (owner <= first_obstacle) return obstacle_slots_[first_obstacle - owner];
+  return owner >= 0 && solver_.body(slots_[owner]).moves ? slots_[owner] : 0;
+}
+
+Mover SmallSteps::mover_of(b2Fixture& fixture) const {
   const BodyIndex owner = owner_of(fixture);
-  if (owner < 0) return motion_by_velocity(*fixture.GetBody());
-  return is_dynamic(*fixture.GetBody()) ? expected_of(owner) : Motion{};
+  const int slot = moving_slot(owner);
+  if (slot == 0) return {&fixture, {}, 0.0F};
+  if (owner >= 0) return {.fixture = &fixture, .motion = fast_.motion(slot), .turn = fast_.turn(fast_.motion(slot))};
+  const StepMotion<2> motion{dt_ * solver_.body(slot).velocity, dt_ * solver_.body(slot).spin};
+  return {.fixture = &fixture,
+          .motion = motion,
+          .turn = obstacle_reaches_[first_obstacle - owner] * std::abs(motion.turn[0])};
 }
 
-bool SmallSteps::is_fast(const Motion& motion) const { return motion.longest() > fast_; }
-
-/// Contacts of `fast_bodies_` that begin within the step: found once they overlap, they might be beyond each other.
-/// `first`: the first time in the step.
-void SmallSteps::find_ahead(b2World& world, bool first) {
-  if (fast_bodies_.empty()) return;
-  float longest = 0.0F;
-  for (const Motion& motion : expected_) longest = std::max(longest, motion.longest());
-  for (b2Body* body : fast_bodies_)
-    for (b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
-      find_ahead(world, *fixture, longest, first);
+/// Contacts of a fast body that begin within the step. `first`: the first time in the step.
+void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Body& body, bool first) {
+  for (b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
+    const Mover fast = mover_of(*fixture);
+    find_near(world, fast);
+    for (b2Fixture* other : found_) {
+      const BodyIndex owner = owner_of(*other);
+      const bool both = owner >= 0 && moving_slot(owner) != 0 && fast_.is_fast(moving_slot(owner));
+      if (first ? both && tag_of(*other) < tag_of(*fixture) : is_known(*fixture, *other)) continue;
+      const Mover second = mover_of(*other);
+      if ((second.motion.way - fast.motion.way).norm() + second.turn + fast.turn <= fast_.limit()) continue;
+      if (const std::optional<Meeting> met = meet(second, fast, fast_.near())) add_ahead(*met, input);
+    }
+  }
+  add_ground_ahead(input, body);
 }
 
-bool SmallSteps::is_known(const b2Fixture& one, const b2Fixture& other) const {
-  return std::ranges::any_of(ahead_, [&](const Ahead& each) {
-    return (each.pair.a == &one && each.pair.b == &other) || (each.pair.a == &other && each.pair.b == &one);
-  });
-}
-
-/// `others`: the longest way of any body in the step [m].
-void SmallSteps::find_ahead(b2World& world, b2Fixture& fixture, float others, bool first) {
-  const b2Body& body = *fixture.GetBody();
-  const auto [way, turn] = motion_of(fixture);
-  b2AABB box = fixture.GetAABB(0);
-  b2AABB end = {box.lowerBound + way, box.upperBound + way};
-  box.Combine(end);
-  const b2Vec2 around(turn + others, turn + others);
+/// The fixtures that the mover may meet in the step, but for the ground.
+void SmallSteps::find_near(b2World& world, const Mover& mover) {
+  b2AABB box = swept(mover);
+  const b2Vec2 around(fast_.longest(), fast_.longest());
   box.lowerBound -= around;
   box.upperBound += around;
   found_.clear();
   FixtureFinder finder(found_);
   world.QueryAABB(&finder, box);
   std::erase_if(found_, [&](b2Fixture* other) {
-    if (other->GetBody() == &body || !b2ContactFilter().ShouldCollide(&fixture, other)) return true;
-    if (!is_dynamic(*other->GetBody()) || !is_fast(motion_of(*other))) return false;
-    return first ? tag_of(*other) < tag_of(fixture) : is_known(fixture, *other);  // found from there
+    return other->GetBody() == mover.fixture->GetBody() || owner_of(*other) == ground_index ||
+           !b2ContactFilter().ShouldCollide(mover.fixture, other);
   });
-  for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next)
-    if (edge->contact->IsTouching() &&
-        (edge->contact->GetFixtureA() == &fixture || edge->contact->GetFixtureB() == &fixture))
-      std::erase(found_, edge->contact->GetFixtureA() == &fixture ? edge->contact->GetFixtureB()
-                                                                  : edge->contact->GetFixtureA());
   std::ranges::sort(found_, {}, [](b2Fixture* other) { return tag_of(*other); });
-  for (b2Fixture* other : found_) {
-    const b2Body& of_other = *other->GetBody();
-    const Motion of = motion_of(*other);
-    const float ahead = (of.way - way).Length() + turn + of.turn;
-    const EnginePiece thick = thickened(fixture, ahead);
-    Ahead found;
-    found.manifold.pointCount = 0;
-    const bool swapped =
-        collide(found.manifold, *other->GetShape(), of_other.GetTransform(), base(thick), body.GetTransform());
-    if (found.manifold.pointCount == 0) continue;
-    found.pair = {other, &fixture, b2MixFriction(other->GetFriction(), fixture.GetFriction()),
-                  std::sqrt(other->GetRestitution() * fixture.GetRestitution()), nullptr};
-    if (swapped) std::swap(found.pair.a, found.pair.b);
-    const b2Fixture& a = *found.pair.a;
-    const b2Fixture& b = *found.pair.b;
-    found.place.Initialize(&found.manifold, a.GetBody()->GetTransform(), a.GetShape()->m_radius,
-                           b.GetBody()->GetTransform(), b.GetShape()->m_radius);
-    ahead_.push_back(found);
+}
+
+bool SmallSteps::is_known(b2Fixture& one, b2Fixture& other) const {
+  return std::ranges::any_of(ahead_, [&](const Ahead& each) {
+    return (each.a == tag_of(one) && each.b == tag_of(other)) || (each.a == tag_of(other) && each.b == tag_of(one));
+  });
+}
+
+void SmallSteps::add_ahead(const Meeting& met, const StepInput& input) {
+  b2Fixture& a = *met.a.fixture;
+  b2Fixture& b = *met.b.fixture;
+  const Fixtures pair{&a, &b, b2MixFriction(a.GetFriction(), b.GetFriction()),
+                      std::sqrt(a.GetRestitution() * b.GetRestitution()), nullptr};
+  for (ContactPoint<2> point : points_of(pair, met.manifold, met.place, input)) {
+    point.arm_a -= met.share * met.a.motion.way;  // the centres are where they are then
+    point.arm_b -= met.share * met.b.motion.way;
+    set_back(point, met.a.motion, met.b.motion, met.share);
+    add_ahead(tag_of(a), tag_of(b), point, *b.GetBody());
   }
+}
+
+void SmallSteps::add_ground_ahead(const StepInput& input, b2Body& body) {
+  const BodyIndex owner = owner_of(*body.GetFixtureList());
+  if (input.images[owner].sides != 0) return;
+  const Tag ground = make_tag(ground_index, 0);
+  const Tag tag = make_tag(owner, 0);
+  if (std::ranges::any_of(ahead_, [&](const Ahead& each) { return each.a == ground && each.b == tag; })) return;
+  points_.clear();
+  fast_.meet_ground(slots_[owner], input.states.shape[owner], input.states.pose[owner], true, points_);
+  for (const ContactPoint<2>& point : points_) add_ahead(ground, tag, point, body);
+}
+
+/// Unless Box2D knows the point, which is one of `body_b` with what `a` is of.
+void SmallSteps::add_ahead(Tag a, Tag b, ContactPoint<2> point, const b2Body& body_b) {
+  const b2Vec2 place = body_b.GetPosition() + to_box2d(point.arm_b);
+  for (const b2ContactEdge* edge = body_b.GetContactList(); edge != nullptr; edge = edge->next) {
+    if (!edge->contact->IsTouching() || is_buried(*edge->contact)) continue;
+    const BodyIndex other =
+        owner_of(edge->contact->GetFixtureA()->GetBody() == &body_b ? *edge->contact->GetFixtureB()
+                                                                    : *edge->contact->GetFixtureA());
+    if (other != owner_of(a)) continue;
+    b2WorldManifold known;
+    edge->contact->GetWorldManifold(&known);
+    for (int i = 0; i < edge->contact->GetManifold()->pointCount; ++i)
+      if (b2Distance(known.points[i], place) < fast_.limit()) return;
+  }
+  point.a = moving_slot(owner_of(a));
+  point.b = moving_slot(owner_of(b));
+  const bool same_pair = !ahead_.empty() && ahead_.back().a == a && ahead_.back().b == b;
+  ahead_.push_back({.a = a, .b = b, .number = same_pair ? ahead_.back().number + 1 : 0, .point = point});
 }
 
 void SmallSteps::write_impulses() {
@@ -513,13 +486,10 @@ void SmallSteps::move_bodies(const StepInput& input, std::span<b2Body* const> bo
 }
 
 void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& out) const {
-  const auto awake = [&](BodyIndex body) { return body >= 0 && states.asleep[body] == 0; };
   ordered_.clear();
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
-    const BodyIndex a = owner_of(source.a);
-    const BodyIndex b = owner_of(source.b);
-    const bool swap = !awake(a) || (awake(b) && b < a);
+    const bool swap = listed_under_second(owner_of(source.a), owner_of(source.b), states);
     const Tag first = swap ? source.b : source.a;
     const Tag second = swap ? source.a : source.b;
     ordered_.push_back({ascending_pair(owner_of(first), owner_of(second)),
@@ -530,23 +500,7 @@ void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& ou
     const Source& source = sources_[listed.source];
     const ContactPoint<2>& point = solver_.points()[listed.source];
     if (source.contact == nullptr && point.normal_sum == 0.0F) continue;  // did not touch
-    const SolverBody<2>& a = solver_.body(point.a);
-    const SolverBody<2>& b = solver_.body(point.b);
-    const auto moved = [](const SolverBody<2>& body, const VecF<2>& arm) -> VecF<2> {
-      return body.way + body.turn[0] * VecF<2>(-arm.y(), arm.x());
-    };
-    const float gap = point.gap + point.normal.dot(moved(b, point.arm_b) - moved(a, point.arm_a));
-    const double sign = listed.swapped ? 1.0 : -1.0;  // the result's normal points to its first body
-    Contact<2>& contact = out.emplace_back();
-    contact.a = owner_of(listed.swapped ? source.b : source.a);
-    contact.b = owner_of(listed.swapped ? source.a : source.b);
-    const VecF<2>& arm = listed.swapped ? point.arm_b : point.arm_a;
-    contact.point = states.pose[contact.a].position + arm.cast<double>();
-    contact.normal = sign * point.normal.cast<double>();
-    contact.normal_impulse = point.normal_sum;
-    contact.friction_impulse = sign * point.friction_sum.cast<double>();
-    contact.approach_speed = std::max(0.0F, point.approach_speed);
-    contact.depth = -gap;
+    out.push_back(solved_contact(solver_, point, owner_of(source.a), owner_of(source.b), listed.swapped, states));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "common/solver/ring.h"
 #include "common/world/world.h"
 #include "sim2d/body_template.h"
+#include "sim2d/contacts_ahead.h"
 #include "sim2d/tag.h"
 #include "sim2d/warm_start.h"
 
@@ -88,40 +89,36 @@ class SmallSteps {
     b2Contact* contact = nullptr;
   };
 
-  /// Of a body in the step.
-  struct Motion {
-    b2Vec2 way{0.0F, 0.0F};  // of its centre [m]
-    float turn = 0.0F;       // way of its farthest point around the centre at most [m]
-    float longest() const { return way.Length() + turn; }
-  };
-
-  /// A contact that may begin within the step.
+  /// A contact point that may begin within the step; its slots are those of what moves.
   struct Ahead {
-    Fixtures pair;
-    b2Manifold manifold;
-    b2WorldManifold place;
+    Tag a{};
+    Tag b{};
+    int number = 0;  // among the points of its pair
+    ContactPoint<2> point;
   };
 
   void expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
   bool passes_unseen(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
-  bool is_passed(const Ahead& ahead) const;
+  static bool is_buried(b2Contact& contact);
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
+  std::span<b2Body* const> at_slot(int slot, std::span<b2Body* const> bodies) const;
   void keep(b2Contact& contact, const StepInput& input);
-  int slot_of(b2Fixture& fixture, const b2Vec2& normal, const StepInput& input);
+  int slot_of(BodyIndex owner, const VecF<2>& normal, const StepInput& input);
   static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);
+  void add_points_ahead(const StepInput& input);
   void add_contacts(b2World& world, const StepInput& input);
-  void add_points(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
-                  const StepInput& input);
+  static Fixtures fixtures_of(b2Contact& contact);
   std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
                                              const b2WorldManifold& place, const StepInput& input);
   void add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const;
-  void find_ahead(b2World& world, bool first);
-  void find_ahead(b2World& world, b2Fixture& fixture, float others, bool first);
-  bool is_known(const b2Fixture& one, const b2Fixture& other) const;
-  Motion motion_by_velocity(const b2Body& body) const;
-  Motion motion_of(b2Fixture& fixture) const;
-  const Motion& expected_of(BodyIndex awake) const { return expected_[slots_[awake] - 1]; }
-  bool is_fast(const Motion& motion) const;
+  int moving_slot(BodyIndex owner) const;
+  Mover mover_of(b2Fixture& fixture) const;
+  void find_ahead(b2World& world, const StepInput& input, b2Body& body, bool first);
+  void find_near(b2World& world, const Mover& mover);
+  bool is_known(b2Fixture& one, b2Fixture& other) const;
+  void add_ahead(const Meeting& met, const StepInput& input);
+  void add_ground_ahead(const StepInput& input, b2Body& body);
+  void add_ahead(Tag a, Tag b, ContactPoint<2> point, const b2Body& body_b);
   VecF<2> shift_of(BodyIndex side, const VecF<2>& arm) const;
   void write_impulses();
   void sort_rolling();
@@ -129,15 +126,14 @@ class SmallSteps {
 
   ContactSolverParams params_;
   float dt_;
-  float fast_ = 0.0F;           // way in a step of any point of a body beyond which its contacts are sought ahead [m]
-  float reach_ = 0.0F;          // from a body's centre to any point of it at most, over all shapes [m]
+  FastBodies<2> fast_;
   std::vector<double> arms_;    // by shape [m]; empty: no rolling friction
   std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
   ContactSolver<2> solver_;
   std::optional<Ring<2>> ring_;
-  std::vector<Motion> expected_;      // by slot of an awake body, from 1 on
-  std::vector<b2Body*> fast_bodies_;  // of which contacts ahead are to be found
   std::vector<Ahead> ahead_;
+  std::vector<std::size_t> first_of_;       // by slot of an awake body, from 1 on: its number among the awake
+  std::vector<float> obstacle_reaches_;     // by number: as reaches_ [m]
   std::vector<Source> sources_;             // by point
   std::vector<int> slots_;                  // by body; 0: not in this step yet
   std::vector<BodyIndex> sleepers_;         // in this step

@@ -53,15 +53,18 @@ std::unique_ptr<btCollisionObject> make_static_object(btCollisionShape& shape, c
   return object;
 }
 
+bool images_meet(const btCollisionObject& a, const btCollisionObject& b) {
+  if (a.getUserIndex() < 0) return image_of(b).sides == 0;
+  if (b.getUserIndex() < 0) return image_of(a).sides == 0;
+  return (image_of(a).sides & image_of(b).sides) == 0;
+}
+
 bool MeetingOfImages::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
   if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
       (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0)
     return false;
-  const auto& first = *static_cast<const btCollisionObject*>(a->m_clientObject);
-  const auto& second = *static_cast<const btCollisionObject*>(b->m_clientObject);
-  if (first.getUserIndex() < 0) return image_of(second).sides == 0;
-  if (second.getUserIndex() < 0) return image_of(first).sides == 0;
-  return (image_of(first).sides & image_of(second).sides) == 0;
+  return images_meet(*static_cast<const btCollisionObject*>(a->m_clientObject),
+                     *static_cast<const btCollisionObject*>(b->m_clientObject));
 }
 
 std::unique_ptr<btCollisionObject> make_moving_obstacle(const BodyTemplate& shape, const btTransform& place,

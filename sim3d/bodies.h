@@ -47,6 +47,9 @@ inline Image image_of(const btCollisionObject& object) {
                                     : Image{object.getUserIndex(), 0};
 }
 
+/// Whether two objects may touch, see Image.
+bool images_meet(const btCollisionObject& a, const btCollisionObject& b);
+
 /// Which pairs collide in a world with images: Bullet's own rule and that of Image.
 struct MeetingOfImages final : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;

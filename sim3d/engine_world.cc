@@ -64,6 +64,7 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
     if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;
+    if (small_steps_) templates_.back().sweep_from = 0;  // never: it knows the contacts ahead
   }
   if (description.ground.present) add_ground();
   add_obstacles();
@@ -75,14 +76,17 @@ template <int Dim>
 void EngineWorld<Dim>::use_small_steps() {
   engine_.keep_points_of_spheres();
   if constexpr (Dim == 3) engine_.find_points_on_ground();
-  engine_.world.set_contact_step({.solve = [this] { small_steps_->solve(engine_.dispatcher, rigid_, actions()); },
+  engine_.world.set_contact_step({.solve = [this] { small_steps_->solve(engine_, rigid_, actions()); },
                                   .finish = [this] { small_steps_->finish(rigid_); }});
 }
 
 template <int Dim>
 typename SmallSteps<Dim>::Actions EngineWorld<Dim>::actions() {
-  typename SmallSteps<Dim>::Actions actions{
-      .moving = moving_obstacles_, .belts = this->belts(), .pushes = {}, .gravity = engine_.world.getGravity()};
+  typename SmallSteps<Dim>::Actions actions{.moving = moving_obstacles_,
+                                            .belts = this->belts(),
+                                            .pushes = {},
+                                            .gravity = engine_.world.getGravity(),
+                                            .states = this->states()};
   for (const Push<Dim>& push : this->pushes())
     actions.pushes.emplace_back(rigid_body(push.body), push.force / this->shape_of(push.body).mass);
   return actions;
@@ -155,6 +159,12 @@ Pose<Dim> EngineWorld<Dim>::engine_place(BodyIndex body, const Pose<Dim>& pose) 
   placed.setInterpolationWorldTransform(placed.getWorldTransform());
   strayed_known_ = false;
   return from_bullet<Dim>(placed.getWorldTransform(), template_of_body(body).frame_inverse);
+}
+
+template <int Dim>
+void EngineWorld<Dim>::engine_contacts(std::vector<Contact<Dim>>& contacts) const {
+  contacts_.gather(engine_, contacts);
+  if (small_steps_) small_steps_->gather_ahead(this->states(), 1.0 / mass_scale_, contacts);
 }
 
 template <int Dim>

@@ -40,7 +40,7 @@ class EngineWorld final : public World<Dim> {
   void engine_remove_obstacle(int number) override;
   void engine_restore_obstacle(int number) override;
   void engine_set_gravity(const Vec<Dim>& gravity) override;
-  void engine_contacts(std::vector<Contact<Dim>>& contacts) const override { contacts_.gather(engine_, contacts); }
+  void engine_contacts(std::vector<Contact<Dim>>& contacts) const override;
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
   void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
   std::span<const BodyIndex> engine_stirred() const override;

@@ -4,8 +4,10 @@
 #include <limits>
 #include <optional>
 
+#include "common/solver/solved_contact.h"
 #include "sim3d/body_template.h"
 #include "sim3d/bullet/fetch.h"
+#include "sim3d/bullet/idle_pairs.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
@@ -83,12 +85,35 @@ SolverBody<Dim> moving_obstacle(const btRigidBody& obstacle) {
   return body;
 }
 
+// A step is solved again when a body that was struck in it gets past something out of its expected reach: a
+// chain of so many may be struck in a step.
+constexpr int rounds = 8;
+
 // Two points of a planar pair that are nearer are one, at the front and the back of the bodies [extents of the
 // smallest].
 constexpr double one_point = 0.005;
 // In the plane, a normal that points out of it by more (60 degrees) is of the bodies' flat faces, which must not
 // matter.
 constexpr float least_in_plane = 0.5F;
+
+/// Collects what the broad phase finds.
+struct ObjectFinder final : btBroadphaseAabbCallback {
+  explicit ObjectFinder(std::vector<const btCollisionObject*>& into) : found(into) {}
+  bool process(const btBroadphaseProxy* proxy) override {
+    found.push_back(static_cast<const btCollisionObject*>(proxy->m_clientObject));
+    return true;
+  }
+  std::vector<const btCollisionObject*>& found;
+};
+
+/// Those of a pair that may have points.
+void append_manifolds(const btBroadphasePair& pair, btManifoldArray& manifolds) {
+  if (pair.m_algorithm == nullptr || IdleMark::is_set(pair)) return;
+  if (IdleMark::is_compound(pair))
+    static_cast<const CompoundPair*>(pair.m_algorithm)->append_touching(manifolds);
+  else
+    pair.m_algorithm->getAllContactManifolds(manifolds);
+}
 
 /// The arm of an object; none of what is no body.
 std::optional<double> arm_of(const btCollisionObject& object) {
@@ -103,7 +128,8 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
     : params_{.sub_steps = description.solver.sub_steps,
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
       dt_(static_cast<float>(description.dt)),
-      fastest_spin_(static_cast<float>(fastest_spin)) {
+      fastest_spin_(static_cast<float>(fastest_spin)),
+      fast_(description) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Shape<Dim>& shape : description.shapes) {
     smallest = std::min(smallest, shape.extent);
@@ -115,36 +141,221 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
 }
 
 template <int Dim>
-void SmallSteps<Dim>::solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const Actions& actions) {
+void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies, const Actions& actions) {
   ++step_;
-  solver_.start();
-  sources_.clear();
-  parts_.clear();
+  ahead_.clear();
   if (ring_) ring_->start();
-  add_bodies(bodies, actions);
-  add_points(dispatcher, actions.belts);
-  if (ring_) ring_->extend(solver_, obstacle_slots_);
-  solver_.solve(params_, to_solver<Dim>(actions.gravity), dt_);
+  for (int round = 0; round < rounds; ++round) {
+    solver_.start();
+    sources_.clear();
+    parts_.clear();
+    add_bodies(bodies, actions);
+    if (round == 0) expect_motion(engine, bodies, actions.states);
+    add_points_ahead(actions.belts);
+    add_points(engine.dispatcher, actions.belts);
+    if (ring_) ring_->extend(solver_, obstacle_slots_);
+    solver_.solve(params_, to_solver<Dim>(actions.gravity), dt_);
+    const bool again = passes_unseen(engine, bodies, actions.states);
+    for (btCollisionObject* other : others_) other->setCompanionId(-1);
+    others_.clear();
+    if (!again) break;
+    if (ring_) ring_->start_again();
+  }
   if (ring_) ring_->read(solver_, actions.gravity.length());
   write_points();
   set_mean_velocities(bodies);
-  for (btCollisionObject* other : others_) other->setCompanionId(-1);
-  others_.clear();
 }
 
-/// An image has the slot of what it is an image of, which comes before it.
+/// An awake body and its images.
+template <int Dim>
+std::span<btRigidBody* const> SmallSteps<Dim>::at_slot(int slot, std::span<btRigidBody* const> bodies) const {
+  const std::size_t first = first_of_[slot - 1];
+  const std::size_t next = slot < std::ssize(first_of_) ? first_of_[slot] : bodies.size();
+  return bodies.subspan(first, next - first);
+}
+
+/// From the velocities; finds the contacts ahead of what is fast.
+template <int Dim>
+void SmallSteps<Dim>::expect_motion(Engine& engine, std::span<btRigidBody* const> bodies,
+                                    const BodyStates<Dim>& states) {
+  fast_.expect(solver_, static_cast<int>(first_of_.size()), dt_);
+  for (const int slot : fast_.found())
+    for (btRigidBody* body : at_slot(slot, bodies)) find_ahead(engine, *body, states, true);
+}
+
+/// After a step is solved: whether a body that was struck, and so moves fast, gets past something. Finds what is ahead
+/// of it.
+template <int Dim>
+bool SmallSteps<Dim>::passes_unseen(Engine& engine, std::span<btRigidBody* const> bodies,
+                                    const BodyStates<Dim>& states) {
+  const auto known = static_cast<std::ptrdiff_t>(ahead_.size());
+  fast_.follow(solver_);
+  for (const int slot : fast_.found())
+    for (btRigidBody* body : at_slot(slot, bodies)) find_ahead(engine, *body, states, false);
+  return std::any_of(ahead_.begin() + known, ahead_.end(),
+                     [&](const Ahead& each) { return fast_.passes(solver_, each.point); });
+}
+
+/// Sleepers and what has no slot stay.
+template <int Dim>
+Mover SmallSteps<Dim>::mover_of(const btCollisionObject& object) const {
+  const int slot = object.getCompanionId();
+  if (btRigidBody::upcast(&object) == nullptr || slot <= 0) return {&object, {}, 0.0F};
+  const auto in_space = [](const StepMotion<Dim>& motion) {
+    const btVector3 way = from_solver<Dim>(motion.way);
+    const btVector3 turn = spin_from_solver<Dim>(motion.turn);
+    return StepMotion<3>{{way.x(), way.y(), way.z()}, {turn.x(), turn.y(), turn.z()}};
+  };
+  if (object.getUserIndex() >= 0) return {&object, in_space(fast_.motion(slot)), fast_.turn(fast_.motion(slot))};
+  const StepMotion<Dim> motion{dt_ * solver_.body(slot).velocity, dt_ * solver_.body(slot).spin};
+  btVector3 middle;
+  btScalar radius = 0;
+  object.getCollisionShape()->getBoundingSphere(middle, radius);
+  return {&object, in_space(motion), (middle.length() + radius) * motion.turn.norm()};
+}
+
+/// Contacts of a fast body that begin within the step. `first`: the first time in the step.
+template <int Dim>
+void SmallSteps<Dim>::find_ahead(Engine& engine, btRigidBody& fast, const BodyStates<Dim>& states, bool first) {
+  const Mover mover = mover_of(fast);
+  find_near(engine, mover, first);
+  for (const btCollisionObject* other : near_) {
+    if (first ? is_fast(*other) && other->getUserIndex() < fast.getUserIndex() : is_found(fast, *other)) continue;
+    if (other->getUserIndex() == ground_index) {
+      met_ground_.clear();
+      const BodyIndex body = fast.getUserIndex();
+      fast_.meet_ground(fast.getCompanionId(), states.shape[body], states.pose[body], false, met_ground_);
+      for (const ContactPoint<Dim>& point : met_ground_) add_new(engine, *other, fast, point);
+    } else {
+      const Mover second = mover_of(*other);
+      if ((second.motion.way - mover.motion.way).norm() + second.turn + mover.turn <= fast_.limit()) continue;
+      met_.clear();
+      meet(second, mover, fast_.near(), met_);
+      for (const ContactPoint<3>& point : met_) add_ahead(engine, *other, fast, point);
+    }
+  }
+}
+
+/// The objects that the mover may meet in the step, sorted by their numbers. As long as it moves as expected and turns
+/// little, and no obstacle moves, those are the partners that Bullet has found for its way.
+template <int Dim>
+void SmallSteps<Dim>::find_near(Engine& engine, const Mover& mover, bool first) {
+  near_.clear();
+  if (first && mover.turn <= fast_.limit() && obstacles_stand_) {
+    for (const btBroadphaseProxy* partner : engine.pairs.partners(mover.object->getBroadphaseHandle()))
+      near_.push_back(static_cast<const btCollisionObject*>(partner->m_clientObject));
+  } else {
+    const SweptBox box = swept(mover);
+    const btVector3 around(fast_.longest(), fast_.longest(), fast_.longest());
+    ObjectFinder finder(near_);
+    engine.broadphase.aabbTest(box.low - around, box.high + around, finder);
+    std::erase_if(near_, [&](const btCollisionObject* other) {
+      return other == mover.object || !images_meet(*mover.object, *other);
+    });
+  }
+  std::ranges::sort(near_, {}, &btCollisionObject::getUserIndex);
+}
+
+/// Of an awake body.
+template <int Dim>
+bool SmallSteps<Dim>::is_fast(const btCollisionObject& object) const {
+  return object.getUserIndex() >= 0 && btRigidBody::upcast(&object) != nullptr &&
+         fast_.is_fast(object.getCompanionId());
+}
+
+template <int Dim>
+bool SmallSteps<Dim>::is_found(const btCollisionObject& a, const btCollisionObject& b) const {
+  return std::ranges::any_of(
+      ahead_, [&](const Ahead& each) { return (each.a == &a && each.b == &b) || (each.a == &b && each.b == &a); });
+}
+
+/// In the plane: whether the point is of flat faces, which must not matter, or behind one that is known.
+template <int Dim>
+void SmallSteps<Dim>::add_ahead(Engine& engine, const btCollisionObject& a, const btCollisionObject& b,
+                                const ContactPoint<3>& found) {
+  const auto in_world = [](const VecF<3>& v) { return to_solver<Dim>(btVector3(v.x(), v.y(), v.z())); };
+  ContactPoint<Dim> point;
+  point.normal = in_world(found.normal);
+  if (point.normal.norm() < least_in_plane) return;
+  point.normal.normalize();
+  point.arm_a = in_world(found.arm_a);
+  point.arm_b = in_world(found.arm_b);
+  point.gap = found.gap;
+  point.friction = btManifoldResult::calculateCombinedFriction(&a, &b);
+  point.restitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
+  if (rolling_friction_) point.rolling_arm = static_cast<float>(arm_of_pair(arm_of(b), arm_of(a)));
+  if constexpr (Dim == 2)
+    for (const Ahead& each : ahead_)
+      if (each.a == &a && each.b == &b && (each.point.arm_b - point.arm_b).cwiseAbs().maxCoeff() < one_point_) return;
+  if (ring_) point.gap += point.normal.dot(shift_of(b, point.arm_b) - shift_of(a, point.arm_a));
+  add_new(engine, a, b, point);
+}
+
+/// Unless Bullet knows the point.
+template <int Dim>
+void SmallSteps<Dim>::add_new(Engine& engine, const btCollisionObject& a, const btCollisionObject& b,
+                              ContactPoint<Dim> point) {
+  const btVector3 place = b.getWorldTransform().getOrigin() + from_solver<Dim>(point.arm_b);
+  const auto proxy = [](const btCollisionObject& object) {  // Bullet looks it up without changing it
+    return const_cast<btBroadphaseProxy*>(object.getBroadphaseHandle());
+  };
+  known_.resize(0);
+  if (const btBroadphasePair* pair = engine.pairs.findPair(proxy(a), proxy(b))) append_manifolds(*pair, known_);
+  for (int i = 0; i < known_.size(); ++i)
+    for (int k = 0; k < known_[i]->getNumContacts(); ++k) {
+      const VecF<Dim> apart = to_solver<Dim>(known_[i]->getContactPoint(k).getPositionWorldOnB() - place);
+      if (apart.norm() < fast_.limit()) return;
+    }
+  const auto moving = [](const btCollisionObject& object) {
+    return btRigidBody::upcast(&object) != nullptr ? std::max(0, object.getCompanionId()) : 0;
+  };
+  point.a = moving(a);
+  point.b = moving(b);
+  ahead_.push_back({&a, &b, point});
+}
+
+template <int Dim>
+void SmallSteps<Dim>::add_points_ahead(std::span<const Vec<Dim>> belts) {
+  for (Ahead& each : ahead_) {
+    each.point.a = slot_at(*each.a, each.point.normal, belts);
+    each.point.b = slot_at(*each.b, each.point.normal, belts);
+    solver_.add(each.point);
+    parts_.push_back(1);
+  }
+}
+
+template <int Dim>
+void SmallSteps<Dim>::gather_ahead(const BodyStates<Dim>& states, double impulse_unit,
+                                   std::vector<Contact<Dim>>& contacts) const {
+  if (ahead_.empty()) return;
+  for (std::size_t i = 0; i < ahead_.size(); ++i) {
+    const ContactPoint<Dim>& point = solver_.points()[i];
+    if (point.normal_sum == 0.0F) continue;  // did not touch
+    const BodyIndex a = ahead_[i].a->getUserIndex();
+    const BodyIndex b = ahead_[i].b->getUserIndex();
+    Contact<Dim> contact = solved_contact(solver_, point, a, b, listed_under_second(a, b, states), states);
+    contact.normal_impulse *= impulse_unit;
+    contact.friction_impulse *= impulse_unit;
+    contacts.push_back(contact);
+  }
+  std::ranges::stable_sort(contacts, {}, [](const Contact<Dim>& each) { return std::pair(each.a, each.b); });
+}
+
+/// Images come after what they are images of, and have its slot.
 template <int Dim>
 void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, const Actions& actions) {
-  for (btRigidBody* body : bodies) {
-    const Image image = image_of(*body);
-    const auto slot = [&] {
-      return (*std::ranges::lower_bound(bodies, image.of, {}, &btRigidBody::getUserIndex))->getCompanionId();
-    };
-    body->setCompanionId(image.sides == 0 ? solver_.add(awake_body<Dim>(*body, dt_)) : slot());
+  first_of_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (image_of(*bodies[i]).sides != 0) {
+      bodies[i]->setCompanionId(bodies[first_of_.back()]->getCompanionId());
+      continue;
+    }
+    first_of_.push_back(i);
+    bodies[i]->setCompanionId(solver_.add(awake_body<Dim>(*bodies[i], dt_)));
   }
   for (const auto& [body, acceleration] : actions.pushes)
     solver_.push(body->getCompanionId(), acceleration.template cast<float>());
-  if (!ring_) return;
+  obstacles_stand_ = actions.moving.empty();
   std::ranges::fill(obstacle_slots_, 0);
   for (const btRigidBody* obstacle : actions.moving)
     obstacle_slots_[first_obstacle - obstacle->getUserIndex()] = slot_of(*obstacle);
@@ -162,6 +373,15 @@ int SmallSteps<Dim>::slot_of(const btCollisionObject& object) {
   return other.getCompanionId();
 }
 
+/// For a contact with this normal.
+template <int Dim>
+int SmallSteps<Dim>::slot_at(const btCollisionObject& object, const VecF<Dim>& normal,
+                             std::span<const Vec<Dim>> belts) {
+  const int number = first_obstacle - object.getUserIndex();
+  if (belts.empty() || number < 0 || belts[number].isZero(0.0)) return slot_of(object);
+  return solver_.add_belt(belts[number].template cast<float>(), normal);
+}
+
 template <int Dim>
 void SmallSteps<Dim>::add_points(btDispatcher& dispatcher, std::span<const Vec<Dim>> belts) {
   btPersistentManifold** manifolds = dispatcher.getInternalManifoldPointer();
@@ -175,21 +395,16 @@ void SmallSteps<Dim>::add_points(btDispatcher& dispatcher, std::span<const Vec<D
     // Bullet's normals point from the second body to the first.
     const int a = slot_of(*manifold.getBody1());
     const int b = slot_of(*manifold.getBody0());
-    if (solver_.body(a).moves || solver_.body(b).moves) add_points(manifold, a, b, belts);
+    if (solver_.body(a).moves || solver_.body(b).moves) add_points(manifold, belts);
   }
 }
 
 template <int Dim>
-void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, int a, int b, std::span<const Vec<Dim>> belts) {
+void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, std::span<const Vec<Dim>> belts) {
   collect(manifold, step_ - 1);
-  const auto slot_at = [&](const btCollisionObject& object, int slot, const VecF<Dim>& normal) {
-    const int number = first_obstacle - object.getUserIndex();
-    if (belts.empty() || number < 0 || belts[number].isZero(0.0)) return slot;
-    return solver_.add_belt(belts[number].template cast<float>(), normal);
-  };
   for (ContactPoint<Dim>& contact : contacts_) {
-    contact.a = slot_at(*manifold.getBody1(), a, contact.normal);
-    contact.b = slot_at(*manifold.getBody0(), b, contact.normal);
+    contact.a = slot_at(*manifold.getBody1(), contact.normal, belts);
+    contact.b = slot_at(*manifold.getBody0(), contact.normal, belts);
     solver_.add(contact);
   }
 }

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "common/solver/contact_solver.h"
+#include "common/solver/fast_bodies.h"
 #include "common/solver/ring.h"
 #include "common/world/world_description.h"
+#include "sim3d/contacts_ahead.h"
+#include "sim3d/engine.h"
 #include "sim3d/warm_start.h"
 
 namespace talus::bullet {
@@ -33,10 +36,15 @@ class SmallSteps {
     std::span<const Vec<Dim>> belts;       // by number of the obstacle: velocity of the surface [m/s]; empty: no belt
     std::vector<std::pair<const btRigidBody*, Vec<Dim>>> pushes;  // accelerations of bodies [m/s^2]
     btVector3 gravity;                                            // [m/s^2]
+    const BodyStates<Dim>& states;                                // of the start of the step
   };
   /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves the bodies with the mean velocity of the
   /// step, by which Bullet is to move them.
-  void solve(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, const Actions& actions);
+  void solve(Engine& engine, std::span<btRigidBody* const> bodies, const Actions& actions);
+
+  /// Appends the contacts of the last step that began within it, and sorts all by their bodies. `impulse_unit`: of the
+  /// points' impulses [N s].
+  void gather_ahead(const BodyStates<Dim>& states, double impulse_unit, std::vector<Contact<Dim>>& contacts) const;
 
   /// After they have moved: gives them the velocity at the end of the step.
   void finish(std::span<btRigidBody* const> bodies) const;
@@ -59,9 +67,28 @@ class SmallSteps {
   void forget(BodyIndex side);
 
  private:
+  /// A contact point that may begin within the step.
+  struct Ahead {
+    const btCollisionObject* a = nullptr;
+    const btCollisionObject* b = nullptr;
+    ContactPoint<Dim> point;
+  };
+
+  void expect_motion(Engine& engine, std::span<btRigidBody* const> bodies, const BodyStates<Dim>& states);
+  bool passes_unseen(Engine& engine, std::span<btRigidBody* const> bodies, const BodyStates<Dim>& states);
+  Mover mover_of(const btCollisionObject& object) const;
+  void find_ahead(Engine& engine, btRigidBody& fast, const BodyStates<Dim>& states, bool first);
+  void find_near(Engine& engine, const Mover& mover, bool first);
+  bool is_fast(const btCollisionObject& object) const;
+  bool is_found(const btCollisionObject& a, const btCollisionObject& b) const;
+  void add_ahead(Engine& engine, const btCollisionObject& a, const btCollisionObject& b, const ContactPoint<3>& found);
+  void add_new(Engine& engine, const btCollisionObject& a, const btCollisionObject& b, ContactPoint<Dim> point);
+  void add_points_ahead(std::span<const Vec<Dim>> belts);
+  int slot_at(const btCollisionObject& object, const VecF<Dim>& normal, std::span<const Vec<Dim>> belts);
+  std::span<btRigidBody* const> at_slot(int slot, std::span<btRigidBody* const> bodies) const;
   void add_bodies(std::span<btRigidBody* const> bodies, const Actions& actions);
   void add_points(btDispatcher& dispatcher, std::span<const Vec<Dim>> belts);
-  void add_points(btPersistentManifold& manifold, int a, int b, std::span<const Vec<Dim>> belts);
+  void add_points(btPersistentManifold& manifold, std::span<const Vec<Dim>> belts);
   void collect(btPersistentManifold& manifold, std::uint32_t last_step);
   int collect(const ContactPoint<Dim>& contact, int first);
   void keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep);
@@ -85,11 +112,19 @@ class SmallSteps {
   std::vector<float> reaches_;     // by shape: from the centre to any point of it at most [m]
   ContactSolver<Dim> solver_;
   std::optional<Ring<Dim>> ring_;
-  std::vector<ContactPoint<Dim>> contacts_;  // to come, of one manifold
+  FastBodies<Dim> fast_;
+  std::vector<Ahead> ahead_;                    // the first points of the solver
+  std::vector<const btCollisionObject*> near_;  // scratch
+  std::vector<ContactPoint<3>> met_;            // scratch
+  std::vector<ContactPoint<Dim>> met_ground_;   // scratch
+  btManifoldArray known_;                       // scratch
+  std::vector<ContactPoint<Dim>> contacts_;     // to come, of one manifold
   std::vector<Source> sources_;
+  std::vector<std::size_t> first_of_;         // by slot of an awake body, from 1 on: its number among the awake
   std::vector<int> parts_;                    // by contact: its points of Bullet's
   std::vector<btCollisionObject*> others_;    // sleepers and moving obstacles that have a slot
   std::vector<int> obstacle_slots_;           // by number; 0: does not move
+  bool obstacles_stand_ = true;               // in this step
   std::vector<SleepingPoint<Dim>> released_;  // scratch
   std::vector<SpinF<Dim>>
       rolling_;  // by contact of the last step: share of each of its points of Bullet's [N m s times the mass scale]

@@ -48,6 +48,11 @@ class CompoundPair final : public btCollisionAlgorithm {
     return 1;  // as all of Bullet's: nothing uses it
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override;
+  /// Appends the manifolds that may have points, for reading.
+  void append_touching(btManifoldArray& manifolds) const {
+    for (const PiecePair& pair : pieces_)
+      if (pair.may_touch && pair.manifold != nullptr) manifolds.push_back(pair.manifold);
+  }
 
   /// What Bullet's dispatcher calls for a new pair.
   struct Maker final : btCollisionAlgorithmCreateFunc {

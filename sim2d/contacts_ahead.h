@@ -1,0 +1,43 @@
+#pragma once
+// Where two fixtures will touch within a step.
+
+#include <box2d/box2d.h>
+
+#include <optional>
+
+#include "common/solver/fast_bodies.h"
+
+namespace talus::box2d {
+
+/// Of a polygon or line: contacts are known so long before the bodies touch, and none is lost while a corner lifts by
+/// less [m].
+inline float skin_of(const b2Fixture& fixture) {
+  return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
+}
+
+/// A fixture and how its body goes on in the step.
+struct Mover {
+  b2Fixture* fixture = nullptr;
+  StepMotion<2> motion;
+  float turn = 0.0F;  // way of its farthest point around the body's centre at most [m]
+
+  b2Transform after(float share) const;
+};
+
+/// The box of all places to which the fixture may come.
+b2AABB swept(const Mover& mover);
+
+/// The first touch of two discs or polygons.
+struct Meeting {
+  Mover a;
+  Mover b;
+  float share = 0.0F;  // of the step
+  b2Manifold manifold;
+  b2WorldManifold place;  // where the bodies are then
+};
+
+/// None: they do not get nearer than `near` [m] within the step. The manifold has the points too that come near in the
+/// rest of it.
+std::optional<Meeting> meet(const Mover& one, const Mover& other, float near);
+
+}  // namespace talus::box2d
