@@ -113,6 +113,10 @@ void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span
   fast_.expect(solver_, static_cast<int>(first_of_.size()), dt_);
   for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
     if (is_buried(*contact)) add_ground_ahead(input, *contact->GetFixtureB()->GetBody());
+  // Below the line a body would be lost, so its ground is sought earlier.
+  for (int slot = 1; slot <= std::ssize(first_of_); ++slot)
+    if (fast_.is_half_fast(slot))
+      for (b2Body* body : at_slot(slot, bodies)) add_ground_ahead(input, *body);
   for (const int slot : fast_.found())
     for (b2Body* body : at_slot(slot, bodies)) find_ahead(world, input, *body, true);
 }
@@ -441,7 +445,7 @@ void SmallSteps::add_ahead(Tag a, Tag b, ContactPoint<2> point, const b2Body& bo
     b2WorldManifold known;
     edge->contact->GetWorldManifold(&known);
     for (int i = 0; i < edge->contact->GetManifold()->pointCount; ++i)
-      if (b2Distance(known.points[i], place) < fast_.limit()) return;
+      if (b2Distance(known.points[i], place) < fast_.corner()) return;
   }
   point.a = moving_slot(owner_of(a));
   point.b = moving_slot(owner_of(b));

@@ -304,7 +304,7 @@ void SmallSteps<Dim>::add_new(Engine& engine, const btCollisionObject& a, const 
   for (int i = 0; i < known_.size(); ++i)
     for (int k = 0; k < known_[i]->getNumContacts(); ++k) {
       const VecF<Dim> apart = to_solver<Dim>(known_[i]->getContactPoint(k).getPositionWorldOnB() - place);
-      if (apart.norm() < fast_.limit()) return;
+      if (apart.norm() < fast_.corner()) return;
     }
   const auto moving = [](const btCollisionObject& object) {
     return btRigidBody::upcast(&object) != nullptr ? std::max(0, object.getCompanionId()) : 0;

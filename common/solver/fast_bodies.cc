@@ -9,8 +9,8 @@
 namespace talus {
 namespace {
 
-constexpr float thickness_share = 0.25F;  // of the thinnest piece, which a body goes in a step before it is fast
-constexpr int longest_search = 32;        // gaps, after which pieces that turn past each other are taken for touching
+constexpr float thickness_share = 0.5F;  // of the thinnest piece, which a body goes in a step before it is fast
+constexpr int longest_search = 32;       // gaps, after which pieces that turn past each other are taken for touching
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void FastBodies<Dim>::follow(const ContactSolver<Dim>& solver) {
   found_.clear();
   for (int slot = 1; slot <= std::ssize(expected_); ++slot) {
     const StepMotion<Dim> moved{solver.body(slot).way, solver.body(slot).turn};
-    if (stray(moved, motion(slot)) <= 2.0F * limit_) continue;
+    if (stray(moved, motion(slot)) <= limit_) continue;
     expected_[slot - 1] = moved;
     longest_ = std::max(longest_, way_of(moved));
     found_.push_back(slot);
@@ -85,7 +85,7 @@ bool FastBodies<Dim>::passes(const ContactSolver<Dim>& solver, const ContactPoin
   const auto way = [&](int slot, const VecF<Dim>& arm) {
     return StepMotion<Dim>{solver.body(slot).way, solver.body(slot).turn}.of(arm);
   };
-  return point.gap + point.normal.dot(way(point.b, point.arm_b) - way(point.a, point.arm_a)) < -limit_;
+  return point.gap + point.normal.dot(way(point.b, point.arm_b) - way(point.a, point.arm_a)) < -corner();
 }
 
 template <int Dim>

@@ -40,7 +40,7 @@ void set_back(ContactPoint<Dim>& point, const StepMotion<Dim>& a, const StepMoti
   point.gap -= share * point.normal.dot(b.of(point.arm_b) - a.of(point.arm_a));
 }
 
-/// Finds the bodies of which a point goes further in a step than a quarter of the thinnest piece of all: contacts found
+/// Finds the bodies of which a point goes further in a step than half of the thinnest piece of all: contacts found
 /// at the end of such a step would begin deep, or be missed. An engine finds the contacts of these where they will be
 /// (first_touch()) and adds them to the solver before it solves. What is struck in the step may become fast in it: then
 /// the engine finds its contacts too and solves the step again.
@@ -60,15 +60,19 @@ class FastBodies {
   /// Of an awake body, as far as it is known.
   const StepMotion<Dim>& motion(int slot) const { return expected_[slot - 1]; }
   bool is_fast(int slot) const { return is_fast(motion(slot)); }
+  /// Whether it goes half as far as a fast one.
+  bool is_half_fast(int slot) const { return way_of(motion(slot)) > corner(); }
   /// Way of its farthest point around its centre at most [m].
   float turn(const StepMotion<Dim>& motion) const { return reach_ * motion.turn.norm(); }
   /// The longest way of any point of an awake body [m].
   float longest() const { return longest_; }
 
-  /// Contacts of different corners are further apart than this [m].
+  /// How far two bodies may come together in a step without a contact known before [m].
   float limit() const { return limit_; }
+  /// Contacts of different corners are further apart than this [m].
+  float corner() const { return 0.5F * limit_; }
   /// So near a contact is known well: the smaller, the more gaps a search takes [m].
-  float near() const { return 0.5F * limit_; }
+  float near() const { return 0.25F * limit_; }
   /// Whether the solved step presses the bodies of this point further into each other than contacts may begin.
   bool passes(const ContactSolver<Dim>& solver, const ContactPoint<Dim>& point) const;
   /// Appends a point of the ground (slot 0) and the body (`slot`) for each corner that the step takes below the ground.

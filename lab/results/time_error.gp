@@ -13,7 +13,7 @@ rows(d, run) = sprintf("<grep '^%d,%s,' time_error.csv", d, run)
 band(d, low, high) = sprintf("set object %d rectangle from graph 0, first %g to graph 1, first %g fc rgb '#eeeeee' fs solid noborder behind", d, low, high)
 
 set title "Example 1 in 2D"
-set yrange [4.6:6.6]
+set yrange [4.2:6.6]
 eval band(2, 5.69, 5.81)
 set key at screen 0.27,0.02
 plot rows(2, "Box2D full") using 4:5:6 with yerrorbars pt 7 lc rgb "#1b6ca8" title "Box2D, small steps, full", \
