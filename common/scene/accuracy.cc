@@ -24,6 +24,13 @@ std::optional<Arrival> coarsest_arrival(const Scene<Dim>& scene) {
   return coarsest;
 }
 
+/// Where the rules for sleeping bodies that feel no forces go wrong whatever the accuracy: what moves slowly wakes
+/// none, and a load on a sleeping body has no effect on what carries it.
+template <int Dim>
+bool needs_rings(const Scene<Dim>& scene) {
+  return !scene.movers.empty() || scene.gravity_motion || !scene.events.empty() || !scene.instruments.loads.empty();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -53,6 +60,8 @@ void apply_accuracy(Scene<Dim>& scene, const SetByScene& set) {
   if (!set.steps) scene.world.dt = 1.0 / fitting_steps_per_second(scene, level.step);
   if (!set.sub_steps) scene.world.solver.sub_steps = level.sub_steps;
   if (!set.tolerance) scene.policy.adaptive.tolerance = level.tolerance;
+  if (!set.rings && scene.world.solver.small_steps())
+    scene.policy.adaptive.rings = needs_rings(scene) ? usual_rings : level.rings;
 }
 
 template <int Dim>
@@ -67,6 +76,7 @@ std::string accuracy_text(const Scene<Dim>& scene) {
     text += fmt::format(", simulated {:g} times as large and {:g} times as slowly", world.units.lengths(),
                         world.units.times());
   if (const auto tolerance = scene.policy.tolerance()) text += fmt::format(", tolerance {:g} D", *tolerance);
+  if (const int rings = scene.policy.rings(); rings > 0) text += fmt::format(", {} rings", rings);
   return text;
 }
 

@@ -17,12 +17,13 @@ struct Accuracy {
   double step;       // largest way of a body in one step as it reaches the ground, over its thickness
   int sub_steps;     // SolverParams::sub_steps
   double tolerance;  // AdaptiveParams::tolerance [D]
+  int rings;         // AdaptiveParams::rings of a pour
 };
 
 inline constexpr std::array<Accuracy, 3> accuracies = {{
-    {"fast", 2.0, 4, 0.1},
-    {"standard", 1.0, usual_sub_steps, AdaptiveParams{}.tolerance},
-    {"fine", 0.5, usual_sub_steps, 0.02},
+    {"fast", 2.0, 4, 0.1, 0},
+    {"standard", 1.0, usual_sub_steps, AdaptiveParams{}.tolerance, 0},
+    {"fine", 0.5, usual_sub_steps, 0.02, usual_rings},
 }};
 inline constexpr std::array<std::string_view, 3> accuracy_names = {accuracies[0].name, accuracies[1].name,
                                                                    accuracies[2].name};
@@ -32,6 +33,7 @@ struct SetByScene {
   bool steps = false;
   bool sub_steps = false;
   bool tolerance = false;
+  bool rings = false;
 };
 
 /// How bodies of a source arrive at the ground, if they fall freely from its highest place.
@@ -64,7 +66,7 @@ double fitting_steps_per_second(const Scene<Dim>& scene, double step, std::optio
 template <int Dim>
 void apply_accuracy(Scene<Dim>& scene, const SetByScene& set);
 
-/// Step, sub-steps and tolerance of a scene, and why the step: a sentence for people.
+/// Step, sub-steps, tolerance and rings of a scene, and why the step: a sentence for people.
 template <int Dim>
 std::string accuracy_text(const Scene<Dim>& scene);
 

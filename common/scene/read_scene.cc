@@ -38,7 +38,6 @@ namespace {
 struct Named {
   bool solver = false;
   bool restitution_threshold = false;
-  bool rings = false;
   SetByScene of_accuracy;
 };
 
@@ -160,7 +159,7 @@ void read_policy(TableReader& table, Scene<Dim>& scene, Named& named) {
   scene.world.engine_sleep = policy.kind == "engine";
   if (scene.world.engine_sleep && !named.solver) scene.world.solver.kind = engine_solver;
   table.table("adaptive", [&](TableReader& own) {
-    named.rings = own.has("rings");
+    named.of_accuracy.rings = own.has("rings");
     named.of_accuracy.tolerance = own.has("tolerance");
     own.read_fields(policy.adaptive, adaptive_fields);
     if (own.ok() && policy.adaptive.rings > 0 && !scene.world.solver.small_steps())
@@ -186,13 +185,6 @@ void check_solver(TableReader& root, const Scene<Dim>& scene) {
     root.error("obstacle", R"(must have no motion of kind "belt" with the engines' own solvers)");
   if (std::ranges::count(scene.events, EventAction::force, &Event<Dim>::action) > 0)
     root.error("event", R"(must not be of do = "force" with the engines' own solvers)");
-}
-
-/// Sleeping bodies must feel forces where something other than a falling body disturbs them, or where their loads
-/// count.
-template <int Dim>
-bool needs_rings(const Scene<Dim>& scene) {
-  return !scene.movers.empty() || scene.gravity_motion || !scene.events.empty() || !scene.instruments.loads.empty();
 }
 
 /// With the accuracy, which needs the frame rate and a scene without errors.
@@ -246,7 +238,6 @@ Scene<Dim> read_root(TableReader& root) {
   read_bodies(root, shapes, scene);
   check_solver(root, scene);
   read_instruments(root, scene);
-  if (!named.rings && scene.world.solver.small_steps() && needs_rings(scene)) scene.policy.adaptive.rings = usual_rings;
   root.table("run", [&](TableReader& table) { read_run(table, scene, named.of_accuracy, root.ok()); });
   check_world(root, scene.world);
   return scene;

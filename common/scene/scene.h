@@ -82,6 +82,8 @@ struct PolicyParams {
   std::optional<double> tolerance() const {
     return kind == "adaptive" ? std::optional(adaptive.tolerance) : std::nullopt;
   }
+  /// See AdaptiveParams.
+  int rings() const { return kind == "adaptive" ? adaptive.rings : 0; }
 };
 
 inline constexpr std::array<std::string_view, 4> policy_kinds = {"full", "engine", "paper", "adaptive"};

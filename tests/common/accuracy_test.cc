@@ -68,18 +68,31 @@ TEST(Accuracy, LeavesWhatTheSceneSetsItself) {
   const Scene<3> scene = plates({{"accuracy=fast"},
                                  {"world.steps_per_second=90"},
                                  {"world.solver.sub_steps=6"},
-                                 {"policy.adaptive.tolerance=0.03"}});
+                                 {"policy.adaptive.tolerance=0.03"},
+                                 {"policy.adaptive.rings=1"}});
   EXPECT_NEAR(1.0 / scene.world.dt, 90.0, 1e-9);
   EXPECT_EQ(scene.world.solver.sub_steps, 6);
   EXPECT_EQ(scene.policy.adaptive.tolerance, 0.03);
+  EXPECT_EQ(scene.policy.adaptive.rings, 1);
 }
 
-TEST(Accuracy, SetsSubStepsAndToleranceOfItsLevel) {
+TEST(Accuracy, SetsSubStepsToleranceAndRingsOfItsLevel) {
   for (const Accuracy& level : accuracies) {
     const Scene<3> scene = plates({{fmt::format("accuracy={}", level.name)}});
     EXPECT_EQ(scene.world.solver.sub_steps, level.sub_steps) << level.name;
     EXPECT_EQ(scene.policy.adaptive.tolerance, level.tolerance) << level.name;
+    EXPECT_EQ(scene.policy.adaptive.rings, level.rings) << level.name;
   }
+}
+
+TEST(Accuracy, GivesRingsAtEachLevelWhereSomethingElseThanABodyMoves) {
+  for (const Accuracy& level : accuracies)
+    EXPECT_EQ(
+        plates({{fmt::format("accuracy={}", level.name)}, {"event=[{time=1, do=\"gravity\", gravity=[0, 0, -1]}]"}})
+            .policy.adaptive.rings,
+        usual_rings)
+        << level.name;
+  EXPECT_EQ(plates({{"accuracy=fine"}, {"world.solver.kind=engine"}}).policy.adaptive.rings, 0);
 }
 
 TEST(Accuracy, OfTheReferenceIsAQuarterOfTheThicknessWithWholeFrames) {
@@ -94,9 +107,9 @@ TEST(Accuracy, HasTheNumbersOfItsLevelsInTheTextOfItsKey) {
   const auto& [fast, standard, fine] = accuracies;
   const std::string numbers = fmt::format(
       "most {:g}, {:g} or {:g} times its thickness in a step; `sub_steps` {}, {} or {}; the `tolerance` "
-      "{:g}, {:g} or {:g}.",
+      "{:g}, {:g} or {:g}; the `rings` of a pour {}, {} or {}.",
       fast.step, standard.step, fine.step, fast.sub_steps, standard.sub_steps, fine.sub_steps, fast.tolerance,
-      standard.tolerance, fine.tolerance);
+      standard.tolerance, fine.tolerance, fast.rings, standard.rings, fine.rings);
   const auto tables = key_tables();
   const auto root = std::ranges::find(tables, "root", &std::pair<std::string, std::string>::first);
   ASSERT_NE(root, tables.end());
