@@ -50,7 +50,7 @@ export class ContactMarks {
     this.discs.count = way === "chains" ? 0 : count;
     if (count === 0) return;
     const large = largeForce(way === "chains" ? chains.map(({ force }) => force) : contacts.map(({ normalForce }) => magnitude(normalForce)));
-    if (large > 1.5 * this.force || large < 0.2 * this.force) this.force = roundUp(large);
+    if (large > 1.25 * this.force || large < 0.3 * this.force) this.force = roundUp(large);
     if (way === "chains") chains.forEach(({ a, b, point, force, kept }, i) => this.placeLine(middle(a), b < 0 ? point : middle(b), force, kept, i));
     else contacts.forEach((contact, i) => this.placePoint(contact, i));
     for (const mesh of [this.discs, this.bars]) {

@@ -5,7 +5,7 @@ import { Enclosed } from "./enclosed";
 import type { Head, Point } from "./head";
 import type { Contact } from "./contacts";
 import { ContactMarks, type ContactWay } from "./contact_marks";
-import { Instances, outlined } from "./instances";
+import { Instances, outlined, type Veil } from "./instances";
 import { InstrumentView } from "./instrument_view";
 import { LayerView } from "./layer_view";
 import { matrixOf } from "./pose";
@@ -30,6 +30,7 @@ import {
 } from "./vendor";
 
 const updatesBetweenSearches = 8; // for what is hidden
+const paleness = 0.7; // of bodies behind contacts: their share of paper
 
 export class Stage {
   private readonly scene = new Scene();
@@ -46,6 +47,7 @@ export class Stage {
   private contactMarks: ContactMarks;
   private layers: LayerView;
   private instruments: InstrumentView;
+  private readonly pale: Veil["share"] = { value: 0 };
   private readonly flat: boolean;
   private head: Head;
   private timeline: Timeline | null = null;
@@ -296,7 +298,7 @@ export class Stage {
     this.instruments = new InstrumentView(this.head);
     this.scene.add(this.contactMarks.group, this.layers.lines, this.instruments.lines);
     const { awake_outline, asleep_outline } = this.head.colours;
-    const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
+    const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline, { colour: this.head.colours.paper, share: this.pale });
     for (const shape of this.head.shapes) {
       const geometry = geometryOf(shape.pieces);
       for (let kind = 0; kind < 2; ++kind) {
@@ -376,9 +378,10 @@ export class Stage {
     this.accompaniedAt = at;
   }
 
-  /// Draws these; none: takes the marks away. The force [N] of a bar of so many metres.
+  /// Draws these over bodies that become pale; none: takes the marks away. The force [N] of a bar of so many metres.
   showContacts(contacts: Contact[], way: ContactWay): { force: number; length: number } {
     this.contactMarks.show(contacts, way, (body) => Array.from(this.poseOf(body)).slice(0, this.head.dimension));
+    this.pale.value = this.marked ? paleness : 0;
     this.redraw();
     return this.contactMarks;
   }
