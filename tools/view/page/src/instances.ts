@@ -71,6 +71,10 @@ export class Instances {
     return moved;
   }
 
+  clear(): void {
+    this.bodies.length = this.mesh.count = 0;
+  }
+
   set(place: number, matrix: Matrix4, tint: Color, asleep: boolean): void {
     this.mesh.setMatrixAt(place, matrix);
     this.mesh.setColorAt(place, tint);

@@ -2,7 +2,7 @@
 
 import { colour, css, highlight, type Paint } from "./colours";
 import { Enclosed } from "./enclosed";
-import type { Head, Point } from "./head";
+import { boundsOf, type Head, type Point } from "./head";
 import type { Contact } from "./contacts";
 import { ContactMarks, type ContactWay } from "./contact_marks";
 import { Instances, outlined, type Veil } from "./instances";
@@ -11,6 +11,7 @@ import { LayerView } from "./layer_view";
 import { matrixOf } from "./pose";
 import { niceLength } from "./scale";
 import { geometryOf } from "./shapes";
+import { repeats, shiftsInside } from "./sides";
 import { Surroundings } from "./surroundings";
 import type { Changed, Timeline } from "./timeline";
 import {
@@ -40,6 +41,8 @@ export class Stage {
   private readonly labels: CanvasRenderingContext2D;
   /// Of each shape the awake bodies, then those that sleep.
   private readonly shapes: Instances[] = [];
+  /// Of each shape the images of bodies that reach through periodic sides.
+  private readonly images: Instances[] = [];
   /// Of each body its mesh and its place there; -1: it is not drawn.
   private readonly mesh: number[] = [];
   private readonly place: number[] = [];
@@ -285,8 +288,8 @@ export class Stage {
 
   /// The run whose frames are shown. Its head must be of the same scene's dimension.
   setRun(timeline: Timeline): void {
-    for (const shape of this.shapes) shape.mesh.removeFromParent();
-    this.shapes.length = this.mesh.length = this.place.length = 0;
+    for (const shape of [...this.shapes, ...this.images]) shape.mesh.removeFromParent();
+    this.shapes.length = this.images.length = this.mesh.length = this.place.length = 0;
     this.timeline = timeline;
     this.head = timeline.head;
     this.box = this.boxOf(this.head);
@@ -301,9 +304,9 @@ export class Stage {
     const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline, { colour: this.head.colours.paper, share: this.pale });
     for (const shape of this.head.shapes) {
       const geometry = geometryOf(shape.pieces);
-      for (let kind = 0; kind < 2; ++kind) {
+      for (const list of [this.shapes, this.shapes, this.images]) {
         const instances = new Instances(geometry, material, !this.flat, 64);
-        this.shapes.push(instances);
+        list.push(instances);
         this.scene.add(instances.mesh);
       }
     }
@@ -336,11 +339,29 @@ export class Stage {
       const tint = body === this.selected ? highlight : paint(body);
       this.shapes[mesh].set(this.place[body], matrixOf(this.poseOf(body)), colour(tint), asleep);
     }
-    for (const shape of this.shapes) shape.upload();
+    if (repeats(this.head.sides)) this.updateImages(paint);
+    for (const shape of [...this.shapes, ...this.images]) shape.upload();
     this.updateObstacles();
     if (this.accompanied >= 0) this.goAlong();
     else if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
+  }
+
+  private updateImages(paint: Paint): void {
+    const { state } = this.timeline!;
+    const { shapes, sides, dimension } = this.head;
+    for (const image of this.images) image.clear();
+    for (let body = 0; body < state.bodies; ++body) {
+      if (this.mesh[body] < 0) continue;
+      const { extent, pieces } = shapes[state.shape[body]];
+      const pose = Array.from(this.poseOf(body));
+      const place = pose.slice(0, dimension);
+      const about = [-extent, extent].map((reach) => place.map((value) => value + reach)) as [Point, Point];
+      if (shiftsInside(sides, about).length === 0) continue;
+      const image = this.images[state.shape[body]];
+      for (const shift of shiftsInside(sides, boundsOf(pieces, pose)))
+        image.set(image.add(body), matrixOf(pose.map((value, i) => value + (shift[i] ?? 0))), colour(body === this.selected ? highlight : paint(body)), state.asleep[body] !== 0);
+    }
   }
 
   private updateObstacles(): void {
@@ -537,9 +558,10 @@ export class Stage {
     return ray;
   }
 
-  private hitAt(x: number, y: number): { body: number; at: Vector3 } | null {
+  /// The nearest body there, or also the image of one.
+  private hitAt(x: number, y: number, instances = this.shapes): { body: number; at: Vector3 } | null {
     const ray = this.rayAt(x, y);
-    const hits = this.shapes.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, at: hit.point, body: shape.bodies[hit.instanceId!] })));
+    const hits = instances.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, at: hit.point, body: shape.bodies[hit.instanceId!] })));
     hits.sort((a, b) => a.distance - b.distance);
     return hits.find(({ body }) => body < this.timeline!.state.bodies) ?? null;
   }
@@ -551,7 +573,7 @@ export class Stage {
 
   /// The body at a place of the canvas [CSS pixels], -1: none.
   bodyAt(x: number, y: number): number {
-    return this.hitAt(x, y)?.body ?? -1;
+    return this.hitAt(x, y, [...this.shapes, ...this.images])?.body ?? -1;
   }
 
   /// The body there, with the point hit in its own axes and in the world's [m].
