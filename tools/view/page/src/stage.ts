@@ -141,6 +141,7 @@ export class Stage {
     if (this.flat) low.z = high.z = 0;
     if (this.head.ground.present) low.setComponent(this.flat ? 1 : 2, Math.max(low.getComponent(this.flat ? 1 : 2), this.head.ground.height));
     if (low.distanceTo(high) > before) this.fit(false);
+    if (low.distanceTo(high) > 2 * this.surroundings.size) for (const stage of [this, this.partner]) stage?.surround();
   }
 
   /// From now on both have one camera and one scale: what one shows, the other does.
@@ -153,11 +154,11 @@ export class Stage {
 
   /// Draws ground and obstacles anew; beside another run, ground with the same squares as there.
   surround(): void {
-    const boxes = [this.head, ...(this.partner ? [this.partner.head] : [])].map(({ box }) => box);
-    const along = (i: 0 | 1, of: (...values: number[]) => number): Point => this.head.box[i].map((_, axis) => of(...boxes.map((box) => box[i][axis])));
+    const [low, high] = this.wholeBox();
+    const inScene = (corner: Vector3): Point => corner.toArray().slice(0, this.head.dimension);
     this.surroundings.group.removeFromParent();
-    this.surroundings = new Surroundings(this.head, [along(0, Math.min), along(1, Math.max)]);
-    this.surroundings.placeSun(...this.wholeBox());
+    this.surroundings = new Surroundings(this.head, [inScene(low), inScene(high)]);
+    this.surroundings.placeSun(low, high);
     this.scene.add(this.surroundings.group);
     if (this.timeline && this.timeline.shown >= 0) this.updateObstacles();
   }

@@ -32,7 +32,8 @@ export class Surroundings {
   readonly gridLength: number;
   private readonly obstacles: Instances[] = [];
   private readonly sun: DirectionalLight | null = null;
-  private readonly size: number;
+  /// Of the box [m].
+  readonly size: number;
 
   /// `box`: the part of space about which ground is drawn.
   constructor(
