@@ -141,19 +141,22 @@ export class Stage {
     if (this.flat) low.z = high.z = 0;
     if (this.head.ground.present) low.setComponent(this.flat ? 1 : 2, Math.max(low.getComponent(this.flat ? 1 : 2), this.head.ground.height));
     if (low.distanceTo(high) > before) this.fit(false);
-    if (low.distanceTo(high) > 2 * this.surroundings.size) for (const stage of [this, this.partner]) stage?.surround();
+    if (low.distanceTo(high) > 2 * this.surroundings.size) this.surround();
   }
 
   /// From now on both have one camera and one scale: what one shows, the other does.
   pairWith(other: Stage): void {
     [this.partner, other.partner] = [other, this];
     this.surround();
-    other.surround();
     this.fit();
   }
 
-  /// Draws ground and obstacles anew; beside another run, ground with the same squares as there.
+  /// Draws ground, sides and obstacles anew; beside another run there too, so that both have the same squares.
   surround(): void {
+    for (const stage of [this, this.partner]) stage?.surroundAlone();
+  }
+
+  private surroundAlone(): void {
     const [low, high] = this.wholeBox();
     const inScene = (corner: Vector3): Point => corner.toArray().slice(0, this.head.dimension);
     this.surroundings.group.removeFromParent();
