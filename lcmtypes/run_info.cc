@@ -42,6 +42,7 @@ RunInfo run_info(const Scene<Dim>& scene, const std::string& scene_name, const s
           .score_threshold = scene.policy.kind == "paper" ? std::optional(scene.policy.paper.tau) : std::nullopt,
           .gravity = in_space(scene.world.gravity_vector()),
           .ground = scene.world.ground,
+          .sides = {in_space(scene.world.periodic().low), in_space(scene.world.periodic().period)},
           .solver = scene.world.solver};
 }
 

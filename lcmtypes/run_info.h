@@ -23,6 +23,7 @@ struct RunInfo {
   std::optional<double> score_threshold = {};  // of policy `paper`
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);        // [m/s^2], y = 0 in 2D; at the start
   Ground ground = {};
+  Periodic<3> sides = {};
   SolverParams solver = {};
 };
 

@@ -35,6 +35,8 @@ talus_run to_run(const RunInfo& info, std::int8_t phase, std::string_view reason
   message.ground_height = info.ground.present ? info.ground.height : 0.0;
   message.ground_friction = info.ground.material.friction;
   message.ground_restitution = info.ground.material.restitution;
+  std::copy(info.sides.low.begin(), info.sides.low.end(), message.side);
+  std::copy(info.sides.period.begin(), info.sides.period.end(), message.period);
   message.solver = clipped(info.solver.kind);
   message.sub_steps = info.solver.sub_steps;
   message.velocity_iterations = info.solver.velocity_iterations;
@@ -56,6 +58,7 @@ std::string_view range_fault(const talus_run& m) {
   if (m.dimension != 2 && m.dimension != 3) return "dimension is neither 2 nor 3";
   if (m.dt < 0 || m.dt == 0.0 || m.steps < 0) return "length out of range";
   if (m.ground_friction < 0 || m.ground_restitution < 0 || m.restitution_threshold < 0) return "world out of range";
+  if (std::any_of(std::begin(m.period), std::end(m.period), is_negative)) return "period out of range";
   if (m.sub_steps < 0 || m.velocity_iterations < 0 || m.position_iterations < 0 || m.friction_directions < 0)
     return "solver out of range";
   if (!(m.tolerance >= 0.0 || m.tolerance == -1.0)) return "tolerance out of range";

@@ -20,9 +20,9 @@ async function drawEachWay(page) {
 
 for (const [scene, ...options] of [["drop_in_a_pile_2d"], ["drop_in_a_pile_2d", "--backend", "bullet-planar"], ["drop_in_a_pile_3d"]]) {
   test(`${[scene, ...options].join(" ")}: contacts are drawn while they are wanted`, async () => {
-    const { url, child } = await serve(scene, ...options, "--pace", "1", ...endless);
+    const { url, child } = await serve(scene, ...options, "--pace", "2", ...endless);
     const page = await openPage(url);
-    await until(page, ({ bodies }) => bodies > 20, 60); // at this pace bodies still fall when a slow page is here
+    await until(page, ({ bodies }) => bodies > 30, 60); // at this pace bodies still fall when a slow page is here
     assert.match(await page.textContent("#contact-note"), /not computed/);
     await drawEachWay(page);
     assert.deepEqual(page.faults, []);

@@ -520,3 +520,33 @@ run.frames = 120
   assert.ok((await at(100)) > after / 2);
   await page.close();
 });
+
+test("a body that reaches through a periodic side is drawn and chosen at both, and moves on without a jump", async () => {
+  const run = join(folder, "flow");
+  talus("run", join(import.meta.dirname, "../../scenes/questions/flow_2d.toml"), "--no-telemetry", "--out", run, "--set", "run.frames=450");
+  const { url } = await serve(run);
+  const page = await openAt(url, 449);
+  assert.match(await page.textContent("#drawn"), /periodic sides/);
+  const period = 4.8; // [m], as the scene has it
+  const found = await page.evaluate((apart) => {
+    const { stage, timeline } = window.talus;
+    const { metresPerPixel } = stage.view();
+    const at = (body, way) => {
+      const { x, y } = stage.placeOf(body);
+      return stage.bodyAt(x + way / metresPerPixel, y);
+    };
+    return Array.from({ length: timeline.state.bodies }, (_, body) => ({ x: timeline.state.pose[3 * body], own: at(body, 0) === body, images: [-apart, apart].filter((way) => at(body, way) === body).length }));
+  }, period);
+  assert.ok(found.every(({ own }) => own));
+  const distance = ({ x }) => Math.min(x + period / 2, period / 2 - x); // to the nearest side
+  assert.ok(found.some((body) => distance(body) < 0.25) && found.some((body) => distance(body) > 0.35), "balls have a radius of 0.27 to 0.33 m");
+  for (const body of found)
+    if (distance(body) < 0.25 || distance(body) > 0.35) assert.equal(body.images, distance(body) < 0.25 ? 1 : 0, JSON.stringify(body));
+  const fastest = await page.evaluate(() => {
+    const { timeline } = window.talus;
+    return Math.max(...Array.from({ length: 450 }, (_, frame) => (timeline.seek(frame), Array.from({ length: timeline.state.bodies }, (__, body) => timeline.speed(body) ?? 0))).flat());
+  });
+  assert.ok(fastest > 1 && fastest < 30, `${fastest} m/s; a jump by a period within a frame of a thirtieth second is 144 m/s`);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});

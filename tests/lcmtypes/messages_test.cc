@@ -368,6 +368,7 @@ TEST(RunMessage, CarriesAllThatTheWorldIsMadeWith) {
   scene.world.down = Vec2(0.6, -0.8);
   scene.world.ground.height = -2.0;
   scene.world.ground.material.friction = 0.25;
+  scene.world.periodic_x = Vec2(-3.0, 7.0);
   scene.world.solver.kind = small_steps_solver;
   scene.world.solver.sub_steps = 6;
   scene.world.solver.velocity_iterations = 37;
@@ -382,6 +383,8 @@ TEST(RunMessage, CarriesAllThatTheWorldIsMadeWith) {
   EXPECT_DOUBLE_EQ(message.gravity[2], -3.2);
   EXPECT_EQ(message.ground_height, -2.0);
   EXPECT_EQ(message.ground_friction, 0.25);
+  EXPECT_EQ(Vec3(message.side), Vec3(-3.0, 0.0, 0.0));
+  EXPECT_EQ(Vec3(message.period), Vec3(10.0, 0.0, 0.0));
   EXPECT_EQ(message.solver, "small_steps");
   EXPECT_EQ(message.sub_steps, 6);
   EXPECT_EQ(message.velocity_iterations, 37);

@@ -11,6 +11,7 @@
 #include "tests/picture/sample.h"
 #include "tools/picture/force_chains.h"
 #include "tools/picture/page.h"
+#include "tools/picture/periodic_sides.h"
 
 namespace talus::picture_test {
 namespace {
@@ -133,6 +134,50 @@ TEST(Picture, HoldsEachBodyOnceAsVectorsIn2D) {
   // 10 asleep and 10 awake, one of those removed; the legend adds a swatch of each.
   EXPECT_EQ(fills(svg, 100, 0, 0), 11U);
   EXPECT_EQ(fills(svg, 0, 100, 0), 10U);
+}
+
+/// A body that sleeps at the upper of two periodic sides, and the colour of the picture at its image behind the lower.
+template <int Dim>
+Colour colour_of_image(double period) {
+  const TemporaryFolder folder;
+  Sample<Dim> sample;
+  sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7, false);
+  sample.add(Vec<Dim>::Unit(Dim - 1) * 0.7 + Vec<Dim>::Unit(0) * 2.9, true);
+  PictureInput<Dim> input = sample.input();
+  input.sides.low = -Vec<Dim>::Unit(0);
+  input.sides.period = Vec<Dim>::Unit(0) * period;
+  draw_pile<Dim>(folder / "a.svg", folder / "a.png", input, small);
+  Vec<Dim> arm = sample.shapes[0].reference;
+  arm[0] += 0.7;
+  arm[Dim - 1] += Dim == 2 ? 0.2 : 0.39;
+  const Vec<Dim> seen = sample.states.pose[1] * arm - input.sides.period;
+  return PngImage(folder / "a.png").at(layout_of<Dim>(with_images(input), small).projection.on_page(seen));
+}
+
+TEST(Picture, DrawsABodyThatReachesThroughAPeriodicSideBehindTheOppositeOneToo) {
+  const auto dark = [](const Colour& colour) { return colour.red + colour.green + colour.blue < 0.9; };
+  EXPECT_TRUE(dark(colour_of_image<2>(4.0)));
+  EXPECT_TRUE(dark(colour_of_image<3>(4.0)));
+  EXPECT_FALSE(dark(colour_of_image<2>(6.0))) << "the body reaches to 4 m, the side is at 5 m";
+  EXPECT_FALSE(dark(colour_of_image<3>(6.0)));
+}
+
+TEST(Picture, ShowsPeriodicSidesFromEdgeToEdgeAndCountsBodiesOnce) {
+  Sample<3> sample;
+  sample.add({2.9, 4.9, 0.7}, true);
+  sample.obstacles.push_back({sample.shapes[0], {Vec3(3.0, 0.0, 0.7), identity_rotation<3>()}});
+  PictureInput<3> input = sample.input();
+  input.sides = {.low = Vec3(-1.0, -5.0, 0.0), .period = Vec3(4.0, 10.0, 0.0)};
+  const PictureInput<3> all = with_images(input);
+  EXPECT_EQ(all.states.size(), 4) << "a body at an edge of two sides has three images";
+  EXPECT_EQ(all.obstacles.size(), 2U);
+  const Framing<3> framing = framing_of(all);
+  EXPECT_LE(framing.box.min().x(), -1.0);
+  EXPECT_GE(framing.box.max().y(), 5.0);
+  EXPECT_EQ(outlines_of(input.sides, framing.box).size(), 4U);
+  const PageContent content = page_content<3>(input, framing.box, small);
+  EXPECT_EQ(content.asleep, 1);
+  EXPECT_TRUE(content.sides);
 }
 
 template <int Dim>

@@ -46,6 +46,12 @@ void select_font(cairo_t* canvas, const TextStyle& style) {
 
 }  // namespace
 
+void begin_dashes(cairo_t* canvas) {
+  constexpr double dash = 7.0;  // [px]
+  cairo_save(canvas);
+  cairo_set_dash(canvas, &dash, 1, 0.0);
+}
+
 double text_width(cairo_t* canvas, const std::string& text, const TextStyle& style) {
   select_font(canvas, style);
   cairo_text_extents_t extents;

@@ -33,6 +33,9 @@ Colour mix(const Colour& from, const Colour& to, double share);
 void trace_polygon(cairo_t* canvas, std::span<const Vec2> corners);
 void trace_line(cairo_t* canvas, std::span<const Vec2> points);
 
+/// Lines are dashed from here to the next cairo_restore().
+void begin_dashes(cairo_t* canvas);
+
 double text_width(cairo_t* canvas, const std::string& text, const TextStyle& style);
 /// One line of text whose base line starts at `at`.
 void draw_text(cairo_t* canvas, const Vec2& at, const std::string& text, const TextStyle& style);

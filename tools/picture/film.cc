@@ -1,6 +1,7 @@
 #include "tools/picture/film.h"
 
 #include "tools/picture/page.h"
+#include "tools/picture/periodic_sides.h"
 #include "tools/picture/scene_painter.h"
 
 namespace talus {
@@ -27,7 +28,7 @@ struct FilmFrames<Dim>::Setting {
 template <int Dim>
 FilmFrames<Dim>::FilmFrames(const PictureInput<Dim>& framed, const PictureParams& params) {
   check(params);
-  const Framing<Dim> framing = framing_of(framed);
+  const Framing<Dim> framing = framing_of(with_images(framed));
   setting_ = std::make_unique<Setting>(
       Setting{params, framing, lay_out(framing, Page(page_content(framed, framing.box, params), params), params)});
 }
@@ -40,9 +41,10 @@ FilmImage FilmFrames<Dim>::draw(const PictureInput<Dim>& input) const {
   const PictureParams& params = setting_->params;
   const int height = setting_->layout.height;
   Framing<Dim> framing = setting_->framing;
-  framing.drawn = present_in(input.states);
+  const PictureInput<Dim> drawn = with_images(input);
+  framing.drawn = present_in(drawn.states);
   const Page page(page_content(input, framing.box, params), params);
-  const Painter scene = scene_painter(input, framing, setting_->layout.projection, params, params.width, height);
+  const Painter scene = scene_painter(drawn, framing, setting_->layout.projection, params, params.width, height);
   const Painter paint = [&](cairo_t* canvas) {
     page.draw_background(canvas);
     cairo_save(canvas);

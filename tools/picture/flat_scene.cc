@@ -6,6 +6,7 @@
 #include "common/shape/surface.h"
 #include "tools/picture/force_chains.h"
 #include "tools/picture/layers.h"
+#include "tools/picture/periodic_sides.h"
 #include "tools/picture/scene_painter.h"
 
 namespace talus {
@@ -42,6 +43,7 @@ struct FlatScene {
     paint_layer_lines(canvas);
     paint_chains(canvas, input, projection, params);
     if (input.ground.present) paint_ground_line(canvas);
+    paint_sides(canvas);
     paint_densities(canvas);
   }
 
@@ -66,6 +68,15 @@ struct FlatScene {
     set_colour(canvas, params.ground);
     cairo_set_line_width(canvas, 2.0);
     cairo_stroke(canvas);
+  }
+
+  void paint_sides(cairo_t* canvas) const {
+    begin_dashes(canvas);
+    for (const std::vector<Vec2>& side : outlines_of(input.sides, framing.box)) trace_line(canvas, on_page(side));
+    set_colour(canvas, params.ground);
+    cairo_set_line_width(canvas, 1.4);
+    cairo_stroke(canvas);
+    cairo_restore(canvas);
   }
 
   void paint_image(cairo_t* canvas) const {

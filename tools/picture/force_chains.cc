@@ -34,7 +34,7 @@ std::vector<Chain<Dim>> chains_of(const PictureInput<Dim>& input) {
       continue;
     }
     const auto [place, first] = of_pair.try_emplace(std::minmax(contact.a, contact.b), chains.size());
-    if (first) chains.push_back({middle(contact.a), middle(contact.b)});
+    if (first) chains.push_back({middle(contact.a), input.sides.near(middle(contact.b), middle(contact.a))});
     chains[place->second].force += force;
   }
   return chains;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/picture/layers.h"
+#include "tools/picture/periodic_sides.h"
 
 namespace talus {
 namespace {
@@ -112,6 +113,7 @@ Framing<Dim> framing_of(const PictureInput<Dim>& input) {
   }
   if (framing.box.isEmpty())
     include(framing, Box<Dim>(Vec<Dim>(Vec<Dim>::Constant(-1.0)), Vec<Dim>(Vec<Dim>::Constant(1.0))));
+  if (input.sides.any()) include(framing, between_sides(input.sides, framing.box));
   return framing;
 }
 

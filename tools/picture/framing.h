@@ -19,7 +19,7 @@ struct Framing {
 /// Shown is what lies within Tukey's fence, 1.5 times the width of the middle half of all bodies and two bodies more to
 /// each side, or within a pile's layers; then all others from the nearest on, each of which is no further from what is
 /// seen than that is large. Bodies beyond such a gap lie outside: one that was shot away would make a dot of all
-/// others. Obstacles are part of the framing unless they are much larger than all else.
+/// others. Obstacles are part of the framing unless they are much larger than all else; periodic sides always are.
 template <int Dim>
 Framing<Dim> framing_of(const PictureInput<Dim>& input);
 

@@ -13,6 +13,8 @@ namespace talus {
 namespace {
 
 constexpr double line_height = 1.45;  // in font sizes
+constexpr double swatch_side = 0.8;
+constexpr double entry_gap = 1.6;  // after an entry of the legend
 
 TextStyle title_style(const PictureParams& params) {
   return {.size = 1.4 * params.font_size, .colour = params.text, .bold = true};
@@ -22,6 +24,11 @@ TextStyle legend_style(const PictureParams& params) { return {.size = params.fon
 
 TextStyle caption_style(const PictureParams& params) {
   return {.size = 0.92 * params.font_size, .colour = params.quiet_text};
+}
+
+/// With the gap after it [px].
+double entry_width(cairo_t* canvas, const std::string& text, const TextStyle& style) {
+  return (1.5 * swatch_side + entry_gap) * style.size + text_width(canvas, text, style);
 }
 
 std::string counted(int count, const char* what) { return fmt::format("{} {}", count, what); }
@@ -42,6 +49,7 @@ PageContent page_content(const PictureInput<Dim>& input, const Box<Dim>& box, co
   content.shapes = legend_of_shapes(input.shapes);
   content.obstacles = !input.obstacles.empty();
   content.layers = !input.piles.empty();
+  content.sides = input.sides.any();
   content.force_scale = force_scale(input);
   content.parallel = Dim == 2;
   return content;
@@ -99,24 +107,36 @@ void Page::draw_title(cairo_t* canvas) const {
 }
 
 void Page::draw_legend(cairo_t* canvas) const {
+  const std::vector<Swatch> all = swatches();
+  TextStyle style = legend_style(params_);
+  double needed = -entry_gap * style.size;
+  for (const Swatch& swatch : all) needed += entry_width(canvas, swatch.text, style);
+  style.size *= std::min(1.0, (params_.width - 2.0 * params_.margin) / needed);
   double left = params_.margin;
-  const char* asleep = content_.shapes.empty() ? "asleep" : "asleep (darker)";
-  left = draw_entry(canvas, left, {params_.asleep}, params_.asleep_outline, counted(content_.asleep, asleep));
-  left = draw_entry(canvas, left, content_.awake_colours, params_.awake_outline, counted(content_.awake, "awake"));
-  for (const LegendEntry& entry : content_.shapes)
-    left = draw_entry(canvas, left, {entry.fill}, params_.awake_outline, entry.text);
-  if (content_.obstacles) left = draw_entry(canvas, left, {params_.obstacle}, params_.obstacle_outline, "obstacles");
-  if (content_.layers)
-    left = draw_entry(canvas, left, {with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density");
-  if (content_.force_scale > 0.0)
-    draw_entry(canvas, left, {params_.weak_force, params_.strong_force}, params_.strong_force,
-               fmt::format("contact forces, the strong ones {:g} N and more", content_.force_scale));
+  for (const Swatch& swatch : all) {
+    draw_swatch(canvas, left, swatch, style);
+    left += entry_width(canvas, swatch.text, style);
+  }
 }
 
-double Page::draw_entry(cairo_t* canvas, double left, const std::vector<Colour>& fills, const Colour& outline,
-                        const std::string& text) const {
-  const TextStyle style = legend_style(params_);
-  const double side = 0.8 * style.size;
+std::vector<Page::Swatch> Page::swatches() const {
+  const char* asleep = content_.shapes.empty() ? "asleep" : "asleep (darker)";
+  std::vector<Swatch> all = {{{params_.asleep}, params_.asleep_outline, counted(content_.asleep, asleep)},
+                             {content_.awake_colours, params_.awake_outline, counted(content_.awake, "awake")}};
+  for (const LegendEntry& entry : content_.shapes) all.push_back({{entry.fill}, params_.awake_outline, entry.text});
+  if (content_.obstacles) all.push_back({{params_.obstacle}, params_.obstacle_outline, "obstacles"});
+  if (content_.sides) all.push_back({{params_.paper}, params_.ground, "periodic sides"});
+  if (content_.layers) all.push_back({{with_alpha(params_.layer, 0.25)}, params_.layer, "layers with their density"});
+  if (content_.force_scale > 0.0)
+    all.push_back({{params_.weak_force, params_.strong_force},
+                   params_.strong_force,
+                   fmt::format("contact forces, the strong ones {:g} N and more", content_.force_scale)});
+  return all;
+}
+
+void Page::draw_swatch(cairo_t* canvas, double left, const Swatch& swatch, const TextStyle& style) const {
+  const auto& [fills, outline, text] = swatch;
+  const double side = swatch_side * style.size;
   for (std::size_t i = 0; i < fills.size(); ++i) {
     const double width = side / static_cast<double>(fills.size());
     cairo_rectangle(canvas, left + width * static_cast<double>(i), legend_base_ - side, width, side);
@@ -128,7 +148,6 @@ double Page::draw_entry(cairo_t* canvas, double left, const std::vector<Colour>&
   cairo_set_line_width(canvas, 1.2);
   cairo_stroke(canvas);
   draw_text(canvas, {left + 1.5 * side, legend_base_ - 0.05 * side}, text, style);
-  return left + 1.5 * side + text_width(canvas, text, style) + 1.6 * style.size;
 }
 
 void Page::draw_scale_bar(cairo_t* canvas, double base, double pixels_per_metre) const {

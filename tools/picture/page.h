@@ -25,6 +25,7 @@ struct PageContent {
   std::vector<LegendEntry> shapes{};    // with colours of their own
   bool obstacles = false;               // whether any is drawn
   bool layers = false;                  // whether piles are drawn
+  bool sides = false;                   // whether periodic sides are drawn
   double force_scale = 0.0;             // of force chains [N]; 0: none are drawn
   bool parallel = true;                 // whether the scale bar holds all over the picture (2D), or in the middle only
 };
@@ -47,9 +48,15 @@ class Page {
 
  private:
   void draw_title(cairo_t* canvas) const;
+  /// An entry of the legend: a box, divided among the fills, with a text.
+  struct Swatch {
+    std::vector<Colour> fills;
+    Colour outline;
+    std::string text;
+  };
+  std::vector<Swatch> swatches() const;
   void draw_legend(cairo_t* canvas) const;
-  double draw_entry(cairo_t* canvas, double left, const std::vector<Colour>& fills, const Colour& outline,
-                    const std::string& text) const;
+  void draw_swatch(cairo_t* canvas, double left, const Swatch& swatch, const TextStyle& style) const;
   void draw_scale_bar(cairo_t* canvas, double base, double pixels_per_metre) const;
   std::string outside_note() const;
 

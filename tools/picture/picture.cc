@@ -3,6 +3,7 @@
 #include "tools/picture/canvas.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/page.h"
+#include "tools/picture/periodic_sides.h"
 #include "tools/picture/scene_painter.h"
 
 namespace talus {
@@ -18,10 +19,10 @@ double draw_pile(const std::filesystem::path& svg, const std::filesystem::path& 
   check(params);
   std::vector<Pile<Dim>> piles;
   for (const Pile<Dim>& pile : input.piles) piles.push_back(with_coarse_layers(pile, most_layers));
-  PictureInput<Dim> drawn = input;
+  PictureInput<Dim> drawn = with_images(input);
   drawn.piles = piles;
   const Framing<Dim> framing = framing_of(drawn);
-  const Page page(page_content(drawn, framing.box, params), params);
+  const Page page(page_content(input, framing.box, params), params);
   const Layout<Dim> layout = lay_out(framing, page, params);
   const Painter scene = scene_painter(drawn, framing, layout.projection, params, params.width, layout.height);
   const Painter paint = [&](cairo_t* canvas) {

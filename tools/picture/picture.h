@@ -12,11 +12,11 @@
 
 namespace talus {
 
-/// What there is to draw. Everything referred to must outlive the call.
+/// What there is to draw. The shapes and piles must outlive the call.
 template <int Dim>
 struct PictureInput {
   std::span<const Shape<Dim>> shapes;    // BodyStates::shape indexes these
-  const BodyStates<Dim>& states;         // removed bodies are not drawn
+  BodyStates<Dim> states;                // removed bodies are not drawn
   std::span<const Pile<Dim>> piles;      // may be empty
   std::vector<Obstacle<Dim>> obstacles;  // where they are
   Ground ground;
@@ -24,6 +24,7 @@ struct PictureInput {
   std::string caption;                           // one line or more, separated by '\n'; may be empty
   std::vector<ContactForce<Dim>> contacts = {};  // drawn as force chains; may be empty
   double force_scale = 0.0;                      // [N] of a line of the strongest colour; 0: as force_scale() gives it
+  Periodic<Dim> sides = {};                      // drawn as dashed lines, with the images of what reaches through them
 };
 
 /// Draws the same picture into two files: sleeping bodies black, awake ones in warm colours, the layers of each pile

@@ -6,6 +6,7 @@
 #include "tools/picture/force_chains.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/page.h"
+#include "tools/picture/periodic_sides.h"
 #include "tools/picture/scene_painter.h"
 #include "tools/picture/shaded_image.h"
 
@@ -23,6 +24,10 @@ struct SolidScene {
     image.paint(canvas);
     if (input.ground.present) paint_grid(canvas);
     for (const Face& face : image.glass()) paint_line(canvas, closed(face.corners), params.obstacle_outline, 1.2);
+    begin_dashes(canvas);
+    for (const std::vector<Vec3>& side : outlines_of(input.sides, framing.box))
+      paint_line(canvas, side, params.ground, 1.4);
+    cairo_restore(canvas);
     for (const Pile<3>& pile : input.piles) {
       for (const Layer& layer : pile.layers)
         for (const double z : {layer.bottom, layer.top})

@@ -123,7 +123,8 @@ PictureInput<Dim> input_at(const RecordedRun<Dim>& run, const BodyStates<Dim>& s
       printable(fmt::format("{}, policy {}, seed {}, {:.1f} s{}", solved_by(run.backend, run.scene.world.solver.kind),
                             run.policy, run.scene.seed, time, event_note(run, time))),
       run.contacts[frame],
-      force_scale};
+      force_scale,
+      run.scene.world.periodic()};
 }
 
 /// The bodies of many frames of a film as if all were there at once, so that the framing holds those that fall or have

@@ -86,6 +86,8 @@ class ToldScene {
   template <class Message>
   void take(const Message& /*message*/) {}
 
+  Vec2 sides_along(int axis) const { return {identity_.side[axis], identity_.side[axis] + identity_.period[axis]}; }
+
   template <int Dim>
   Scene<Dim> scene_in() const {
     Scene<Dim> scene;
@@ -93,6 +95,8 @@ class ToldScene {
     scene.world.dt = identity_.dt;
     scene.world.ground.present = identity_.ground != 0;
     scene.world.ground.height = identity_.ground_height;
+    if (identity_.period[0] > 0.0) scene.world.periodic_x = sides_along(0);
+    if (identity_.period[1] > 0.0) scene.world.periodic_y = sides_along(1);
     scene.policy.kind = identity_.policy;
     scene.seed = static_cast<std::uint64_t>(identity_.seed);
     const Vec<Dim> gravity = in_own_dimension<Dim>(Vec3(identity_.gravity));

@@ -39,15 +39,16 @@ template <int Dim>
 PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene, const Frame<Dim>& frame) {
   const World<Dim>& world = frame.world;
   const auto bodies = world.states().shape.size();
-  return {scene.world.shapes,
-          world.states(),
-          frame.piles.piles(),
-          present_obstacles(scene, world, frame.time),
-          scene.world.ground,
-          printable(scene.title),
-          fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep",
-                      solved_by(backend, scene.world.solver.kind), scene.policy.kind, scene.seed, frame.time, bodies,
-                      bodies_present(world) - static_cast<std::int64_t>(world.awake().size()))};
+  return {.shapes = scene.world.shapes,
+          .states = world.states(),
+          .piles = frame.piles.piles(),
+          .obstacles = present_obstacles(scene, world, frame.time),
+          .ground = scene.world.ground,
+          .title = printable(scene.title),
+          .caption = fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep",
+                                 solved_by(backend, scene.world.solver.kind), scene.policy.kind, scene.seed, frame.time,
+                                 bodies, bodies_present(world) - static_cast<std::int64_t>(world.awake().size())),
+          .sides = scene.world.periodic()};
 }
 
 /// Draws the pictures that events want, and prints a line for each event.

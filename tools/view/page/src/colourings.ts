@@ -114,9 +114,11 @@ export class Colouring {
       const value = valueOf(body);
       if (value !== null) values.set(body, value);
     }
-    // One body in fifty may be beyond the scale: a single fast one would leave all others in one colour.
+    // One body in fifty may be beyond the scale, of forces one in five: a fast body, or an impact and what it presses on,
+    // would leave all others in one colour.
     const sorted = [...values.values()].sort((a, b) => a - b);
-    const high = most ?? Math.max(this.reached.get(this.way) ?? 0, roundUp(sorted[Math.floor(0.98 * sorted.length)] ?? 0));
+    const within = this.way === "force" ? 0.8 : 0.98;
+    const high = most ?? Math.max(this.reached.get(this.way) ?? 0, roundUp(sorted[Math.floor(within * sorted.length)] ?? 0));
     this.reached.set(this.way, high);
     const rest = (asleep: number): number => this.present().filter((body) => !values.has(body) && state.asleep[body] === asleep).length;
     const others = [0, 1].map((asleep): Entry => ({ colours: different(head.shapes.map((shape) => colourOfState(shape, asleep === 1, head.colours))), count: rest(asleep), text: asleep ? "asleep" : "awake" }));

@@ -41,6 +41,9 @@ const causes: (Rgb | null)[] = [[0.2, 0.42, 0.72], null, [0.85, 0.2, 0.15], [0.9
 
 const themes = matchMedia("(prefers-color-scheme: dark)");
 
+/// Of a line or a text on the paper of the system's theme, from that on white.
+export const onPaper = (rgb: Rgb): Rgb => (themes.matches ? mixed(rgb, [1, 1, 1], 0.4) : rgb);
+
 /// Those of the system's theme; `light`: as in the pictures of the program.
 export function themed(light: Settings["colours"]): Colours {
   if (!themes.matches) return { ...light, woken: [0.7, 0.36, 0.06], causes };

@@ -5,6 +5,7 @@ import { colour, force as tints, mixed } from "./colours";
 import { chainsOf, type Contact, magnitude } from "./contacts";
 import type { Head, Point, Rgb } from "./head";
 import { roundUp } from "./scale";
+import { near } from "./sides";
 import { CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Quaternion, Vector3 } from "./vendor";
 
 /// Longest bar, in lengths of that of the scale.
@@ -50,8 +51,8 @@ export class ContactMarks {
     this.discs.count = way === "chains" ? 0 : count;
     if (count === 0) return;
     const large = largeForce(way === "chains" ? chains.map(({ force }) => force) : contacts.map(({ normalForce }) => magnitude(normalForce)));
-    if (large > 1.5 * this.force || large < 0.2 * this.force) this.force = roundUp(large);
-    if (way === "chains") chains.forEach(({ a, b, point, force, kept }, i) => this.placeLine(middle(a), b < 0 ? point : middle(b), force, kept, i));
+    if (large > 1.25 * this.force || large < 0.3 * this.force) this.force = roundUp(large);
+    if (way === "chains") chains.forEach(({ a, b, point, force, kept }, i) => this.placeLine(middle(a), b < 0 ? point : near(this.head.sides, middle(b), middle(a)), force, kept, i));
     else contacts.forEach((contact, i) => this.placePoint(contact, i));
     for (const mesh of [this.discs, this.bars]) {
       mesh.instanceMatrix.needsUpdate = true;

@@ -4,6 +4,7 @@ import { type Colours, themed } from "./colours";
 import type { Layouts } from "./messages";
 import type { EventMessage, MomentReader, ShapeMessage, State } from "./moments";
 import { matrixOf } from "./pose";
+import { betweenSides, type Sides } from "./sides";
 import { piecesOf } from "./surface";
 import { Vector3 } from "./vendor";
 
@@ -68,6 +69,7 @@ export interface Head extends Pick<Settings, "camera"> {
   dimension: 2 | 3;
   dt: number;
   ground: { present: boolean; height: number };
+  sides: Sides;
   /// What is to be seen at first.
   box: Box;
   /// Of policy `paper`: the score above which a body sleeps; below 0 of other policies.
@@ -96,7 +98,7 @@ function extend(box: Box, point: Point): void {
 const emptyBox = (axes: number): Box => [new Array<number>(axes).fill(Infinity), new Array<number>(axes).fill(-Infinity)];
 const diagonal = ([low, high]: Box): number => Math.hypot(...low.map((value, axis) => high[axis] - value));
 
-function boundsOf(pieces: Piece[], pose: number[]): Box {
+export function boundsOf(pieces: Piece[], pose: number[]): Box {
   const axes = pose.length === 3 ? 2 : 3;
   const box = emptyBox(axes);
   const matrix = matrixOf(pose);
@@ -132,12 +134,14 @@ export const obstaclesOf = ({ run, obstacles }: MomentReader): ObstacleHead[] =>
 
 /// Of a run whose shapes are known; `box` is for boxOf().
 export function headOf(reader: MomentReader, settings: Settings, name: string): Head {
-  const { title, backend, policy, version, seed, dimension, dt, ground, ground_height, score_threshold, tolerance } = reader.run!;
+  const { title, backend, policy, version, seed, dimension, dt, ground, ground_height, side, period, score_threshold, tolerance } = reader.run!;
+  const inScene = (values: Float64Array): Point => [values[0], ...(dimension === 2 ? [] : [values[1]]), values[2]];
   const segments = reader.planned > manyBodies ? 12 : 24;
   return {
     ...{ title, name, backend, policy, version, seed, dimension, dt, score_threshold, tolerance },
     ...{ camera: settings.camera, light: settings.colours, colours: themed(settings.colours), damage: "", box: emptyBox(dimension), events: reader.sceneEvents },
     ground: { present: ground === 1, height: ground_height },
+    sides: { low: inScene(side), period: inScene(period) },
     coloured_shapes: colouredShapes(reader.shapes),
     shapes: reader.shapes.map((shape) => shapeHead(shape, dimension === 2, segments)),
     obstacles: obstaclesOf(reader),
@@ -145,8 +149,9 @@ export function headOf(reader: MomentReader, settings: Settings, name: string): 
 }
 
 /// What to show of a state: bodies within 1.5 times the width of the middle half of all and two bodies more, so that one
-/// that was shot away does not make a dot of all others; obstacles unless they are much larger.
-export function boxOf({ dimension, shapes, obstacles }: Head, { bodies, removed, pose, shape }: State): Box {
+/// that was shot away does not make a dot of all others; obstacles unless they are much larger; all
+/// between periodic sides.
+export function boxOf({ dimension, shapes, obstacles, sides }: Head, { bodies, removed, pose, shape }: State): Box {
   const width = dimension === 2 ? 3 : 7;
   const box = emptyBox(dimension);
   const present = Array.from({ length: bodies }, (_, body) => body).filter((body) => removed[body] === 0);
@@ -166,5 +171,5 @@ export function boxOf({ dimension, shapes, obstacles }: Head, { bodies, removed,
     if (size === 0 || diagonal(bounds) < 2.5 * size) for (const corner of bounds) extend(box, corner);
   }
   if (box[0][0] > box[1][0]) for (const side of [-1, 1]) extend(box, fences.map(() => side));
-  return box;
+  return betweenSides(sides, box);
 }

@@ -2,7 +2,7 @@
 
 import { colour } from "./colours";
 import type { Rgb } from "./head";
-import { BufferGeometry, Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, type Material, type Matrix4 } from "./vendor";
+import { BufferGeometry, Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, type Material, type Matrix4, Vector3 } from "./vendor";
 
 /// The bodies of one shape.
 export class Instances {
@@ -71,6 +71,10 @@ export class Instances {
     return moved;
   }
 
+  clear(): void {
+    this.bodies.length = this.mesh.count = 0;
+  }
+
   set(place: number, matrix: Matrix4, tint: Color, asleep: boolean): void {
     this.mesh.setMatrixAt(place, matrix);
     this.mesh.setColorAt(place, tint);
@@ -89,16 +93,25 @@ export class Instances {
   }
 }
 
+/// A share of `colour` in all colours, which may change from picture to picture.
+export interface Veil {
+  colour: Rgb;
+  share: { value: number };
+}
+
 /// Draws outlines one and a half pixels wide, in one colour where `sleeping` is 0, in another where it is 1.
-export function outlined(material: Material, awake: Rgb, asleep: Rgb): Material {
+export function outlined(material: Material, awake: Rgb, asleep: Rgb, veil: Veil = { colour: awake, share: { value: 0 } }): Material {
   material.onBeforeCompile = (shader) => {
+    shader.uniforms.veil = veil.share;
+    shader.uniforms.veilColour = { value: new Vector3(...veil.colour) };
     shader.uniforms.awakeOutline = { value: colour(awake) };
     shader.uniforms.asleepOutline = { value: colour(asleep) };
     shader.vertexShader = shader.vertexShader
       .replace("#include <common>", "#include <common>\nattribute float edge; attribute float sleeping; varying float vEdge; varying float vSleeping;")
       .replace("#include <begin_vertex>", "#include <begin_vertex>\nvEdge = edge; vSleeping = sleeping;");
     shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", "#include <common>\nuniform vec3 awakeOutline; uniform vec3 asleepOutline; varying float vEdge; varying float vSleeping;")
+      .replace("#include <common>", "#include <common>\nuniform vec3 awakeOutline; uniform vec3 asleepOutline; uniform float veil; uniform vec3 veilColour; varying float vEdge; varying float vSleeping;")
+      .replace("#include <colorspace_fragment>", "#include <colorspace_fragment>\ngl_FragColor.rgb = mix(gl_FragColor.rgb, veilColour, veil);")
       .replace(
         "#include <color_fragment>",
         `#include <color_fragment>

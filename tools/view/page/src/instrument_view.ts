@@ -1,18 +1,19 @@
 // The gates and regions of a scene: outlines with their readings beside them.
 
-import { colour, css } from "./colours";
+import { colour, css, onPaper } from "./colours";
 import type { Head, Rgb } from "./head";
 import type { Instruments, Region } from "./moments";
 import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, type Vector2, Vector3 } from "./vendor";
 
 const corners = 48; // of a circle
+const lineHeight = 16; // of the readings [CSS pixels]
 const ball = 1; // talus_region.lcm
 const layer = 2;
 
 const tones: Rgb[] = [[0.0, 0.55, 0.5], [0.75, 0.35, 0.1], [0.5, 0.35, 0.75], [0.8, 0.2, 0.45], [0.3, 0.55, 0.15], [0.15, 0.45, 0.8]];
 
 /// Of an instrument by its number among all: gates, then regions, then loads.
-export const tone = (number: number): Rgb => tones[number % tones.length];
+export const tone = (number: number): Rgb => onPaper(tones[number % tones.length]);
 
 /// [N]
 export const forceOf = (force: ArrayLike<number>): number => Math.hypot(...Array.from(force));
@@ -53,15 +54,21 @@ export class InstrumentView {
   drawLabels(paper: CanvasRenderingContext2D, instruments: Instruments | null, onScreen: (point: Vector3) => Vector2): void {
     if (!instruments) return;
     paper.font = "12px system-ui, sans-serif";
-    paper.textBaseline = "bottom";
-    paper.lineWidth = 3;
-    paper.strokeStyle = css(this.head.colours.paper, 0.85);
+    paper.textBaseline = "middle";
+    const written: { left: number; right: number; y: number }[] = [];
     const write = (at: Place, text: string, number: number): void => {
       const place = onScreen(new Vector3(...this.onStage(at)));
-      const x = Math.max(4, Math.min(place.x, paper.canvas.clientWidth - paper.measureText(text).width - 4));
+      const width = paper.measureText(text).width;
+      const left = Math.max(4, Math.min(place.x, paper.canvas.clientWidth - width - 4));
+      const right = left + width;
+      let y = place.y - lineHeight / 2;
+      const covers = (): boolean => written.some((other) => Math.abs(other.y - y) < lineHeight && other.left < right && other.right > left);
+      while (covers()) y -= lineHeight / 4;
+      written.push({ left, right, y });
+      paper.fillStyle = css(this.head.colours.paper, 0.8);
+      paper.fillRect(left - 3, y - lineHeight / 2, width + 6, lineHeight);
       paper.fillStyle = css(tone(number));
-      paper.strokeText(text, x, place.y - 2);
-      paper.fillText(text, x, place.y - 2);
+      paper.fillText(text, left, y);
     };
     instruments.gates.forEach(({ name, outline, forward, backward, jammed }, i) =>
       write(cornersOf(outline)[0], `${name}: ${forward - backward} passed${jammed ? ", jammed" : ""}`, i));

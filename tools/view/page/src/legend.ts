@@ -4,6 +4,7 @@ import type { Entry } from "./colourings";
 import { css, force, highlight, overfull } from "./colours";
 import { element, make } from "./element";
 import type { Rgb } from "./head";
+import { repeats } from "./sides";
 import type { Timeline } from "./timeline";
 
 /// Something that is drawn beside the bodies.
@@ -22,6 +23,7 @@ export function marksOf({ head, state }: Timeline, { layers, contacts, chosen }:
   const { colours } = head;
   const marks: Mark[] = [];
   if (head.obstacles.length > 0) marks.push({ colours: [colours.obstacle], text: "obstacles" });
+  if (repeats(head.sides)) marks.push({ colours: [colours.ground], line: true, text: "periodic sides" });
   if (layers && state.piles.length > 0) marks.push({ colours: [colours.layer], line: true, text: "layers, with their density" });
   if (layers && state.piles.some((pile) => pile.layers.some(({ density, wake_density }) => wake_density > 0 && density > wake_density))) marks.push({ colours: [overfull], line: true, text: "too dense" });
   if (contacts) marks.push({ colours: force, text: "contacts, weak to strong" });

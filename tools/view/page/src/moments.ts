@@ -23,6 +23,8 @@ export interface RunMessage extends Header {
   score_threshold: number;
   ground: number;
   ground_height: number;
+  side: Float64Array;
+  period: Float64Array;
 }
 
 export interface ShapeMessage extends Header {

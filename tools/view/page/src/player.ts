@@ -13,6 +13,7 @@ import { factsOf, offerPictures, type Scenery } from "./picture";
 import { largest } from "./pile_layers";
 import { Plots } from "./plots";
 import { PointerTools } from "./pointer_tools";
+import { near } from "./sides";
 import { Stage } from "./stage";
 import { type Changed, Timeline } from "./timeline";
 
@@ -539,7 +540,8 @@ export class Player {
     const axes = this.head.dimension;
     let [sum, largest, count] = [0, 0, 0];
     for (let body = 0; body * axes < Math.min(a.length, b.length); ++body) {
-      const distance = Math.hypot(...Array.from({ length: axes }, (_, i) => a[axes * body + i] - b[axes * body + i]));
+      const [from, to] = [a, b].map((places) => Array.from(places.subarray(axes * body, axes * (body + 1))));
+      const distance = Math.hypot(...near(this.head.sides, to, from).map((value, axis) => value - from[axis]));
       if (Number.isNaN(distance)) continue;
       sum += distance;
       largest = Math.max(largest, distance);

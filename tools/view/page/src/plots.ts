@@ -204,7 +204,7 @@ export class Plots {
         series: [{}, ...lines.map(({ label, colour, bars, dashed }) => (row.map ? { label } : { label, stroke: css(colour), width: 1.5, points: { show: false }, ...(dashed ? { dash: [5, 3] } : {}), ...(bars ? { auto: false, fill: css(colour, dashed ? 0.25 : 0.7), width: 0, paths: uPlot.paths.bars!({ size: [1, 3] }) } : {}) }))],
         scales: { x: { time: false }, y: { range: (_, __, high) => [0, 1.05 * Math.max(row === counts ? 1 : 1e-3, high)] } },
         axes: [
-          { ...axis, show: last, size: axisHeight, gap: 2, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))} s`) },
+          { ...axis, show: last, size: axisHeight, gap: 6, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))} s`) },
           { ...axis, size: gutter, gap: 4, splits: ({ bbox }, _, __, high) => (bbox.height < roomForThree * devicePixelRatio ? [0, niceLength(high)] : [0, niceLength(high) / 2, niceLength(high)]), values: (_, ticks) => ticks.map(brief) },
         ],
         padding: [namesHeight, 16, last ? 0 : 4, 0],

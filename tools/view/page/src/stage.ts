@@ -2,15 +2,16 @@
 
 import { colour, css, highlight, type Paint } from "./colours";
 import { Enclosed } from "./enclosed";
-import type { Head, Point } from "./head";
+import { boundsOf, type Head, type Point } from "./head";
 import type { Contact } from "./contacts";
 import { ContactMarks, type ContactWay } from "./contact_marks";
-import { Instances, outlined } from "./instances";
+import { Instances, outlined, type Veil } from "./instances";
 import { InstrumentView } from "./instrument_view";
 import { LayerView } from "./layer_view";
 import { matrixOf } from "./pose";
 import { niceLength } from "./scale";
 import { geometryOf } from "./shapes";
+import { repeats, shiftsInside } from "./sides";
 import { Surroundings } from "./surroundings";
 import type { Changed, Timeline } from "./timeline";
 import {
@@ -30,6 +31,7 @@ import {
 } from "./vendor";
 
 const updatesBetweenSearches = 8; // for what is hidden
+const paleness = 0.7; // of bodies behind contacts: their share of paper
 
 export class Stage {
   private readonly scene = new Scene();
@@ -39,6 +41,8 @@ export class Stage {
   private readonly labels: CanvasRenderingContext2D;
   /// Of each shape the awake bodies, then those that sleep.
   private readonly shapes: Instances[] = [];
+  /// Of each shape the images of bodies that reach through periodic sides.
+  private readonly images: Instances[] = [];
   /// Of each body its mesh and its place there; -1: it is not drawn.
   private readonly mesh: number[] = [];
   private readonly place: number[] = [];
@@ -46,6 +50,7 @@ export class Stage {
   private contactMarks: ContactMarks;
   private layers: LayerView;
   private instruments: InstrumentView;
+  private readonly pale: Veil["share"] = { value: 0 };
   private readonly flat: boolean;
   private head: Head;
   private timeline: Timeline | null = null;
@@ -136,23 +141,27 @@ export class Stage {
     if (this.flat) low.z = high.z = 0;
     if (this.head.ground.present) low.setComponent(this.flat ? 1 : 2, Math.max(low.getComponent(this.flat ? 1 : 2), this.head.ground.height));
     if (low.distanceTo(high) > before) this.fit(false);
+    if (low.distanceTo(high) > 2 * this.surroundings.size) this.surround();
   }
 
   /// From now on both have one camera and one scale: what one shows, the other does.
   pairWith(other: Stage): void {
     [this.partner, other.partner] = [other, this];
     this.surround();
-    other.surround();
     this.fit();
   }
 
-  /// Draws ground and obstacles anew; beside another run, ground with the same squares as there.
+  /// Draws ground, sides and obstacles anew; beside another run there too, so that both have the same squares.
   surround(): void {
-    const boxes = [this.head, ...(this.partner ? [this.partner.head] : [])].map(({ box }) => box);
-    const along = (i: 0 | 1, of: (...values: number[]) => number): Point => this.head.box[i].map((_, axis) => of(...boxes.map((box) => box[i][axis])));
+    for (const stage of [this, this.partner]) stage?.surroundAlone();
+  }
+
+  private surroundAlone(): void {
+    const [low, high] = this.wholeBox();
+    const inScene = (corner: Vector3): Point => corner.toArray().slice(0, this.head.dimension);
     this.surroundings.group.removeFromParent();
-    this.surroundings = new Surroundings(this.head, [along(0, Math.min), along(1, Math.max)]);
-    this.surroundings.placeSun(...this.wholeBox());
+    this.surroundings = new Surroundings(this.head, [inScene(low), inScene(high)]);
+    this.surroundings.placeSun(low, high);
     this.scene.add(this.surroundings.group);
     if (this.timeline && this.timeline.shown >= 0) this.updateObstacles();
   }
@@ -283,8 +292,8 @@ export class Stage {
 
   /// The run whose frames are shown. Its head must be of the same scene's dimension.
   setRun(timeline: Timeline): void {
-    for (const shape of this.shapes) shape.mesh.removeFromParent();
-    this.shapes.length = this.mesh.length = this.place.length = 0;
+    for (const shape of [...this.shapes, ...this.images]) shape.mesh.removeFromParent();
+    this.shapes.length = this.images.length = this.mesh.length = this.place.length = 0;
     this.timeline = timeline;
     this.head = timeline.head;
     this.box = this.boxOf(this.head);
@@ -296,12 +305,12 @@ export class Stage {
     this.instruments = new InstrumentView(this.head);
     this.scene.add(this.contactMarks.group, this.layers.lines, this.instruments.lines);
     const { awake_outline, asleep_outline } = this.head.colours;
-    const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline);
+    const material = outlined(this.flat ? new MeshBasicMaterial() : new MeshLambertMaterial(), awake_outline, asleep_outline, { colour: this.head.colours.paper, share: this.pale });
     for (const shape of this.head.shapes) {
       const geometry = geometryOf(shape.pieces);
-      for (let kind = 0; kind < 2; ++kind) {
+      for (const list of [this.shapes, this.shapes, this.images]) {
         const instances = new Instances(geometry, material, !this.flat, 64);
-        this.shapes.push(instances);
+        list.push(instances);
         this.scene.add(instances.mesh);
       }
     }
@@ -334,11 +343,29 @@ export class Stage {
       const tint = body === this.selected ? highlight : paint(body);
       this.shapes[mesh].set(this.place[body], matrixOf(this.poseOf(body)), colour(tint), asleep);
     }
-    for (const shape of this.shapes) shape.upload();
+    if (repeats(this.head.sides)) this.updateImages(paint);
+    for (const shape of [...this.shapes, ...this.images]) shape.upload();
     this.updateObstacles();
     if (this.accompanied >= 0) this.goAlong();
     else if (this.follows) this.follow(bodies.filter((body) => body < state.bodies && state.removed[body] === 0));
     this.redraw();
+  }
+
+  private updateImages(paint: Paint): void {
+    const { state } = this.timeline!;
+    const { shapes, sides, dimension } = this.head;
+    for (const image of this.images) image.clear();
+    for (let body = 0; body < state.bodies; ++body) {
+      if (this.mesh[body] < 0) continue;
+      const { extent, pieces } = shapes[state.shape[body]];
+      const pose = Array.from(this.poseOf(body));
+      const place = pose.slice(0, dimension);
+      const about = [-extent, extent].map((reach) => place.map((value) => value + reach)) as [Point, Point];
+      if (shiftsInside(sides, about).length === 0) continue;
+      const image = this.images[state.shape[body]];
+      for (const shift of shiftsInside(sides, boundsOf(pieces, pose)))
+        image.set(image.add(body), matrixOf(pose.map((value, i) => value + (shift[i] ?? 0))), colour(body === this.selected ? highlight : paint(body)), state.asleep[body] !== 0);
+    }
   }
 
   private updateObstacles(): void {
@@ -376,9 +403,10 @@ export class Stage {
     this.accompaniedAt = at;
   }
 
-  /// Draws these; none: takes the marks away. The force [N] of a bar of so many metres.
+  /// Draws these over bodies that become pale; none: takes the marks away. The force [N] of a bar of so many metres.
   showContacts(contacts: Contact[], way: ContactWay): { force: number; length: number } {
     this.contactMarks.show(contacts, way, (body) => Array.from(this.poseOf(body)).slice(0, this.head.dimension));
+    this.pale.value = this.marked ? paleness : 0;
     this.redraw();
     return this.contactMarks;
   }
@@ -534,9 +562,10 @@ export class Stage {
     return ray;
   }
 
-  private hitAt(x: number, y: number): { body: number; at: Vector3 } | null {
+  /// The nearest body there, or also the image of one.
+  private hitAt(x: number, y: number, instances = this.shapes): { body: number; at: Vector3 } | null {
     const ray = this.rayAt(x, y);
-    const hits = this.shapes.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, at: hit.point, body: shape.bodies[hit.instanceId!] })));
+    const hits = instances.flatMap((shape) => ray.intersectObject(shape.mesh).map((hit) => ({ distance: hit.distance, at: hit.point, body: shape.bodies[hit.instanceId!] })));
     hits.sort((a, b) => a.distance - b.distance);
     return hits.find(({ body }) => body < this.timeline!.state.bodies) ?? null;
   }
@@ -548,7 +577,7 @@ export class Stage {
 
   /// The body at a place of the canvas [CSS pixels], -1: none.
   bodyAt(x: number, y: number): number {
-    return this.hitAt(x, y)?.body ?? -1;
+    return this.hitAt(x, y, [...this.shapes, ...this.images])?.body ?? -1;
   }
 
   /// The body there, with the point hit in its own axes and in the world's [m].

@@ -1,11 +1,12 @@
 // What stands around the bodies: obstacles, ground, and the light.
 
 import { colour } from "./colours";
-import type { Head, Point } from "./head";
+import { type Box, boundsOf, type Head } from "./head";
 import { Instances, outlined } from "./instances";
 import { matrixOf } from "./pose";
 import { niceLength } from "./scale";
 import { geometryOf } from "./shapes";
+import { outlinesOf, shiftsInside } from "./sides";
 import {
   AmbientLight,
   BufferAttribute,
@@ -14,6 +15,7 @@ import {
   DoubleSide,
   Group,
   LineBasicMaterial,
+  LineDashedMaterial,
   LineSegments,
   Mesh,
   MeshBasicMaterial,
@@ -30,12 +32,13 @@ export class Surroundings {
   readonly gridLength: number;
   private readonly obstacles: Instances[] = [];
   private readonly sun: DirectionalLight | null = null;
-  private readonly size: number;
+  /// Of the box [m].
+  readonly size: number;
 
   /// `box`: the part of space about which ground is drawn.
   constructor(
     private readonly head: Head,
-    private readonly box: [Point, Point],
+    private readonly box: Box,
   ) {
     const sizes = box[1].map((high, i) => high - box[0][i]);
     this.size = Math.hypot(...sizes);
@@ -48,6 +51,7 @@ export class Surroundings {
       this.sun.shadow.radius = 4;
       this.group.add(this.sun, this.sun.target, new AmbientLight(0xffffff, 1.7));
     }
+    this.addSides();
     if (head.ground.present) head.dimension === 2 ? this.addGroundLine() : this.addGroundPlane();
   }
 
@@ -60,18 +64,32 @@ export class Surroundings {
     );
     for (const obstacle of obstacles) {
       const instance = new Instances(geometryOf(obstacle.pieces), material, false, 1);
-      instance.add(0);
       this.obstacles.push(instance);
       this.group.add(instance.mesh);
     }
     obstacles.forEach(({ pose }, number) => this.placeObstacle(number, pose));
   }
 
-  /// `pose` in m and rad.
+  /// `pose` in m and rad. With its images, where it reaches through a periodic side.
   placeObstacle(number: number, pose: ArrayLike<number>): void {
+    const { colours, obstacles, sides } = this.head;
     const instance = this.obstacles[number];
-    instance?.set(0, matrixOf(pose), colour(this.head.colours.obstacle), false);
-    instance?.upload();
+    if (!instance) return;
+    instance.clear();
+    const own = Array.from(pose);
+    for (const shift of [[], ...shiftsInside(sides, boundsOf(obstacles[number].pieces, own))])
+      instance.set(instance.add(number), matrixOf(own.map((value, i) => value + (shift[i] ?? 0))), colour(colours.obstacle), false);
+    instance.upload();
+  }
+
+  private addSides(): void {
+    const points = outlinesOf(this.head.sides, this.box).flatMap((point) => [point[0], point[1], point[2] ?? 1]);
+    const length = this.size / 60;
+    const lines = new LineSegments(
+      new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3)),
+      new LineDashedMaterial({ color: colour(this.head.colours.ground), dashSize: length, gapSize: length }),
+    );
+    this.group.add(lines.computeLineDistances());
   }
 
   /// The nearest obstacle that a ray meets, -1: none.

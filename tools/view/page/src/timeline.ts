@@ -4,6 +4,7 @@ import { causes } from "./causes";
 import type { Head } from "./head";
 import type { Layouts } from "./messages";
 import { mixedPose } from "./pose";
+import { near } from "./sides";
 import { type Instruments, type Moment, type Pile, type SceneEvent, type SleepEvent, State, type Warning } from "./moments";
 
 /// Frames between two kept states: a step back costs at most as many moments.
@@ -146,9 +147,10 @@ export class Timeline {
   speed(body: number): number | null {
     const { before, state } = this;
     if (!before || body >= before.bodies || before.removed[body] !== 0 || state.asleep[body] !== 0) return null;
-    const { dimension, dt } = this.head;
+    const { dimension, dt, sides } = this.head;
     const at = (dimension === 2 ? 3 : 7) * body;
-    const way = Math.hypot(...Array.from({ length: dimension }, (_, axis) => state.pose[at + axis] - before.pose[at + axis]));
+    const [from, to] = [before, state].map(({ pose }) => Array.from(pose.subarray(at, at + dimension)));
+    const way = Math.hypot(...near(sides, to, from).map((value, axis) => value - from[axis]));
     return way / Math.max(dt, (state.step - before.step) * dt);
   }
 
@@ -193,9 +195,13 @@ export class Timeline {
     for (const moment of this.moments[this.shown + 1]) next.apply(moment);
     const share = Math.min(1, (step - state.step) / Math.max(1e-9, next.step - state.step));
     const between = state.copy();
-    const width = this.head.dimension === 2 ? 3 : 7;
-    for (let at = 0; at < between.pose.length; at += width)
-      between.pose.set(mixedPose(state.pose.subarray(at, at + width), next.pose.subarray(at, at + width), share), at);
+    const { dimension, sides } = this.head;
+    const width = dimension === 2 ? 3 : 7;
+    for (let at = 0; at < between.pose.length; at += width) {
+      const [from, to] = [state, next].map(({ pose }) => pose.subarray(at, at + width));
+      to.set(near(sides, Array.from(to.subarray(0, dimension)), from));
+      between.pose.set(mixedPose(from, to, share), at);
+    }
     for (const [obstacle, pose] of between.obstacles) between.obstacles.set(obstacle, mixedPose(pose, next.obstacles.get(obstacle) ?? pose, share));
     return between;
   }

@@ -12,6 +12,7 @@ export {
   InstancedBufferAttribute,
   InstancedMesh,
   LineBasicMaterial,
+  LineDashedMaterial,
   LineSegments,
   Matrix4,
   Mesh,
