@@ -23,7 +23,7 @@ std::vector<double> distances_at(const Trajectory<Dim>& a, const Trajectory<Dim>
   std::vector<double> distances;
   for (BodyIndex i = 0; i < std::min(a.bodies(frame), b.bodies(frame)); ++i) {
     if (!a.present(frame, i) || !b.present(frame, i)) continue;
-    distances.push_back((a.position(frame, i) - b.position(frame, i)).norm());
+    distances.push_back(a.way(b.position(frame, i), a.position(frame, i)).norm());
   }
   return distances;
 }

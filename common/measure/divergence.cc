@@ -30,7 +30,7 @@ std::vector<double> position_differences(const Trajectory<Dim>& a, const Traject
     int present = 0;
     for (BodyIndex i = 0; i < std::min(a.bodies(j), b.bodies(j)); ++i) {
       if (!a.present(j, i) || !b.present(j, i)) continue;
-      sum += (a.position(j, i) - b.position(j, i)).norm();
+      sum += a.way(b.position(j, i), a.position(j, i)).norm();
       ++present;
     }
     means.push_back(present > 0 ? sum / present : 0.0);

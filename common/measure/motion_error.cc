@@ -76,7 +76,8 @@ std::vector<MotionError> motion_errors(const Trajectory<Dim>& full, const Trajec
     const BodyIndex bodies = std::min(full.bodies(j), other.bodies(j));
     for (BodyIndex i = 0; i < bodies; ++i) {
       if (!full.present(j, i) || !full.present(j + 1, i) || !other.present(j, i) || !other.present(j + 1, i)) continue;
-      sums.add_motion(full.position(j + 1, i) - full.position(j, i), other.position(j + 1, i) - other.position(j, i));
+      sums.add_motion(full.way(full.position(j, i), full.position(j + 1, i)),
+                      other.way(other.position(j, i), other.position(j + 1, i)));
       const double extent = extents[full.shape(i)];
       const Spin<Dim> turn_full = turn(full, j, i);
       sums.turn_difference += extent * (turn_full - turn(other, j, i)).norm();

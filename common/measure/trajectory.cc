@@ -13,8 +13,8 @@
 namespace talus {
 
 template <int Dim>
-Trajectory<Dim>::Trajectory(double step_time, std::int64_t steps_per_frame)
-    : step_time_(step_time), steps_per_frame_(steps_per_frame) {
+Trajectory<Dim>::Trajectory(double step_time, std::int64_t steps_per_frame, const Periodic<Dim>& periodic)
+    : step_time_(step_time), steps_per_frame_(steps_per_frame), periodic_(periodic) {
   require(step_time > 0.0 && std::isfinite(step_time), "step_time", step_time, "must be finite and > 0");
   require(steps_per_frame >= 1, "steps_per_frame", static_cast<double>(steps_per_frame), "must be >= 1");
 }

@@ -8,6 +8,7 @@
 
 #include "common/policy/observer.h"
 #include "common/world/body.h"
+#include "common/world/periodic.h"
 
 namespace talus {
 
@@ -18,8 +19,9 @@ namespace talus {
 template <int Dim>
 class Trajectory {
  public:
-  /// `step_time` [s] > 0 is the dt of a step, `steps_per_frame` >= 1. Throws std::invalid_argument.
-  explicit Trajectory(double step_time, std::int64_t steps_per_frame = 1);
+  /// `step_time` [s] > 0 is the dt of a step, `steps_per_frame` >= 1; `periodic`: sides of the world. Throws
+  /// std::invalid_argument.
+  explicit Trajectory(double step_time, std::int64_t steps_per_frame = 1, const Periodic<Dim>& periodic = {});
 
   /// Adds a frame: the states after step number `step`. Frames follow one another at the distance of steps_per_frame,
   /// and bodies never become fewer; throws std::invalid_argument otherwise. `unknown` flags, per body, poses that are
@@ -52,6 +54,8 @@ class Trajectory {
   bool asleep(int frame, BodyIndex body) const { return (flags_[entry(frame, body)] & asleep_flag) != 0; }
   Vec<Dim> position(int frame, BodyIndex body) const;
   Rotation<Dim> rotation(int frame, BodyIndex body) const;
+  /// The way between two places [m]: through periodic sides where that is shorter.
+  Vec<Dim> way(const Vec<Dim>& from, const Vec<Dim>& to) const { return periodic_.near(to, from) - from; }
 
   /// Whether body `body` of two trajectories is the same bit for bit at a frame, absence included. True where either is
   /// unknown.
@@ -70,6 +74,7 @@ class Trajectory {
 
   double step_time_;
   std::int64_t steps_per_frame_;
+  Periodic<Dim> periodic_;
   std::int64_t first_step_ = 0;
   std::vector<std::size_t> first_;   // entry of body 0, per frame
   std::vector<std::uint8_t> lost_;   // per frame
@@ -82,7 +87,8 @@ class Trajectory {
 template <int Dim>
 class TrajectoryRecorder : public Observer<Dim> {
  public:
-  TrajectoryRecorder(double step_time, std::int64_t steps_per_frame) : trajectory_(step_time, steps_per_frame) {}
+  TrajectoryRecorder(double step_time, std::int64_t steps_per_frame, const Periodic<Dim>& periodic = {})
+      : trajectory_(step_time, steps_per_frame, periodic) {}
   void on_frame(const Frame<Dim>& frame) override {
     if (frame.step % trajectory_.steps_per_frame() == 0) trajectory_.append(frame.world.states(), frame.step);
   }

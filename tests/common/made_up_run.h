@@ -22,8 +22,9 @@ BodyStates<Dim> states_at(const std::vector<Vec<Dim>>& places) {
 
 /// Trajectory of `frames` frames at which the bodies stand where `places` says.
 template <int Dim>
-Trajectory<Dim> made_up_run(int frames, double frame_time, const std::function<std::vector<Vec<Dim>>(int)>& places) {
-  Trajectory<Dim> run(frame_time);
+Trajectory<Dim> made_up_run(int frames, double frame_time, const std::function<std::vector<Vec<Dim>>(int)>& places,
+                            const Periodic<Dim>& periodic = {}) {
+  Trajectory<Dim> run(frame_time, 1, periodic);
   for (int frame = 0; frame < frames; ++frame) run.append(states_at<Dim>(places(frame)), frame + 1);
   return run;
 }

@@ -42,6 +42,22 @@ TEST(MotionError, FollowsSection424AndItsVariants) {
   EXPECT_DOUBLE_EQ(error.symmetric, 0.25 / (0.5 + 0.25 + 2 * 0.125));
 }
 
+TEST(MotionError, IsZeroBetweenABodyThatCrossesAPeriodicSideAndOneThatMovesAlikeInTheMiddle) {
+  const Periodic<2> sides{.low = {0.0, 0.0}, .period = {4.0, 0.0}};
+  const auto run_from = [&](double start) {
+    return made_up_run<2>(
+        5, frame_time,
+        [&](int frame) {
+          return std::vector<Vec2>{sides.inside({start + 0.5 * frame, 0.0})};
+        },
+        sides);
+  };
+  const std::vector<double> apart = position_differences(run_from(3.0), run_from(1.5));
+  for (const double distance : apart) EXPECT_DOUBLE_EQ(distance, 1.5);
+  for (const MotionError& error : motion_errors<2>(run_from(3.0), run_from(1.5), one_metre, gravity))
+    EXPECT_DOUBLE_EQ(error.absolute, 0.0);
+}
+
 TEST(MotionError, OfAFrozenBodyIsExactlyOneInThePapersForm) {
   EXPECT_DOUBLE_EQ(average(motion_errors<2>(mover(0.5), mover(0.0), one_metre, gravity)).relative, 1.0);
 }

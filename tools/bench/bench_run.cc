@@ -66,7 +66,7 @@ double drift_after(const Simulation<Dim>& simulation, const Scene<Dim>& scene, c
 template <int Dim>
 Trajectory<Dim> recorded(const Scene<Dim>& scene, const std::string& backend) {
   Simulation<Dim> simulation = bench_simulation(scene, backend);
-  TrajectoryRecorder<Dim> recorder(scene.world.dt, scene.steps_per_frame());
+  TrajectoryRecorder<Dim> recorder(scene.world.dt, scene.steps_per_frame(), scene.world.periodic());
   simulation.add_observer(recorder);
   for (std::int64_t step = 0; step < scene.steps(); ++step) simulation.step();
   return recorder.trajectory();

@@ -143,7 +143,7 @@ Trajectory<Dim> twin_of(const RecordedRun<Dim>& a, double shift) {
   else if (!scene.bodies.empty())
     scene.bodies.front().def.pose.position[0] += shift;
   Simulation<Dim> simulation = make_simulation(scene, a.backend);
-  TrajectoryRecorder<Dim> recorder(scene.world.dt, scene.steps_per_frame());
+  TrajectoryRecorder<Dim> recorder(scene.world.dt, scene.steps_per_frame(), scene.world.periodic());
   simulation.add_observer(recorder);
   for (std::int64_t step = 0; step < a.last_step; ++step) simulation.step();
   return recorder.trajectory();

@@ -34,7 +34,8 @@ std::string text_of(const RecordDamage& damage);
 /// What a record holds.
 template <int Dim>
 struct RecordedRun {
-  explicit RecordedRun(const Scene<Dim>& as_run) : scene(as_run), frames(as_run.world.dt, as_run.steps_per_frame()) {}
+  explicit RecordedRun(const Scene<Dim>& as_run)
+      : scene(as_run), frames(as_run.world.dt, as_run.steps_per_frame(), as_run.world.periodic()) {}
 
   std::string name;     // of the folder, printable
   std::string backend;  // that the run was on; empty: no message has it
