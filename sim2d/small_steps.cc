@@ -92,7 +92,7 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
     if (!passes_unseen(world, input, bodies)) break;
     if (ring_) ring_->start_again();
   }
-  if (ring_) ring_->read(solver_, world.GetGravity().Length());
+  if (ring_) ring_->read(solver_, world.GetGravity().Length(), dt_);
   write_impulses();
   move_bodies(input, bodies);
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;

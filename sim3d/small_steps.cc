@@ -161,7 +161,7 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
     if (!again) break;
     if (ring_) ring_->start_again();
   }
-  if (ring_) ring_->read(solver_, actions.gravity.length());
+  if (ring_) ring_->read(solver_, actions.gravity.length(), dt_);
   write_points();
   set_mean_velocities(bodies);
 }

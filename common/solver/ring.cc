@@ -16,6 +16,9 @@ constexpr float settle_distance = 0.002F;
 /// While obstacles move, bodies that are faster than this share of the slowest count as moving: else what a slow one
 /// carries would be held back by what has not begun to move.
 constexpr float obstacle_share = 0.3F;
+/// Once nothing awake touches them, sleeping bodies are solved if their forces have changed by more than this since
+/// they last were [their weight].
+constexpr float balance = 0.01F;
 /// Steps for which a body stays in the ring that does not reach it any more. Without, the ring's border moves to and
 /// fro, and each move changes forces.
 constexpr int hold_steps = 20;
@@ -244,7 +247,7 @@ VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
 }
 
 template <int Dim>
-void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity) {
+void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) {
   const auto extent = static_cast<float>(params_.extent);
   const auto unit = static_cast<float>(params_.speed_unit(gravity));
   const float distance = wake_distance * extent;
@@ -265,6 +268,8 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity) {
     if (speed > still) moving_.push_back(body);
   }
   read_points(solver, distance);
+  for (const BodyIndex body : members_) sleepers_[body].unsolved.setZero();
+  if (touched_.empty() && last_touched_.empty()) disturb_unbalanced(balance * gravity * dt);
   std::ranges::sort(stirred_);
   stirred_.erase(std::unique(stirred_.begin(), stirred_.end()), stirred_.end());
 }
@@ -276,11 +281,38 @@ void Ring<Dim>::read_points(const ContactSolver<Dim>& solver, float distance) {
     const ContactPoint<Dim>& solved = solver.points()[first_point_ + i];
     SleepingPoint<Dim>& kept = contacts_[points_[i]];
     const VecF<Dim> moved = way_of(solver.body(solved.b), solved.arm_b) - way_of(solver.body(solved.a), solved.arm_a);
+    add_unsolved(kept, solved);
     kept.contact = solved;
     kept.contact.gap += solved.normal.dot(moved);
     if (kept.a >= 0 && kept.b >= 0) continue;
     kept.slip += moved - solved.normal.dot(moved) * solved.normal;
     if (kept.slip.norm() > distance) stirred_.push_back(std::max(kept.a, kept.b));
+  }
+}
+
+/// To the bodies of a point that are immovable in this step.
+template <int Dim>
+void Ring<Dim>::add_unsolved(const SleepingPoint<Dim>& before, const ContactPoint<Dim>& solved) {
+  const auto impulse = [](const ContactPoint<Dim>& point) -> VecF<Dim> {
+    return point.normal_impulse * point.normal + point.friction_impulse;
+  };
+  const VecF<Dim> more = impulse(solved) - impulse(before.contact);
+  for (const BodyIndex side : {before.a, before.b}) {
+    if (side < 0 || sleepers_[side].depth >= 0) continue;
+    VecF<Dim>& unsolved = sleepers_[side].unsolved;
+    if (unsolved.isZero(0.0F)) unsolved_.push_back(side);
+    unsolved += side == before.b ? more : VecF<Dim>(-more);
+  }
+}
+
+template <int Dim>
+void Ring<Dim>::disturb_unbalanced(float impulse_of_unit_mass) {
+  std::erase_if(unsolved_, [&](BodyIndex body) { return !has(body) || sleepers_[body].unsolved.isZero(0.0F); });
+  std::ranges::sort(unsolved_);
+  unsolved_.erase(std::unique(unsolved_.begin(), unsolved_.end()), unsolved_.end());
+  for (const BodyIndex body : unsolved_) {
+    const SolverBody<Dim>& state = sleepers_[body].body;
+    if (state.inverse_mass * sleepers_[body].unsolved.norm() > impulse_of_unit_mass) disturbed_.push_back(body);
   }
 }
 

@@ -17,7 +17,9 @@ namespace talus {
 /// the velocity and the displacement that the solve gives it here, and is to wake when they are too large. A sleeping
 /// body that has itself become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
 ///
-/// Bodies beyond are immovable. Where nothing moves the ring is empty and costs nothing.
+/// Bodies beyond are immovable. Once no awake body touches a sleeping one, those are solved whose forces have changed
+/// since they last were, until the forces of all are in balance. Where nothing moves the ring is empty and costs
+/// nothing.
 template <int Dim>
 class Ring {
  public:
@@ -56,8 +58,8 @@ class Ring {
   void extend(ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   /// Displacement of a point of a body that sleeps here [m].
   VecF<Dim> shift(BodyIndex body, const VecF<Dim>& arm) const;
-  /// After the solve under `gravity` [m/s^2].
-  void read(const ContactSolver<Dim>& solver, float gravity);
+  /// After the solve of a step of `dt` [s] under `gravity` [m/s^2].
+  void read(const ContactSolver<Dim>& solver, float gravity, float dt);
 
   /// Bodies that are to wake after the last step, ascending.
   std::span<const BodyIndex> stirred() const { return stirred_; }
@@ -70,9 +72,10 @@ class Ring {
     SolverBody<Dim> body;  // `way` and `turn`: since it fell asleep
     float reach = 0.0F;
     bool asleep = false;
-    int depth = -1;  // contacts between it and what moves; -1: not reached in this step
-    int slot = 0;    // 0: not in the solver in this step
-    int hold = 0;    // steps for which it stays once it is not reached any more
+    int depth = -1;                          // contacts between it and what moves; -1: not reached in this step
+    int slot = 0;                            // 0: not in the solver in this step
+    int hold = 0;                            // steps for which it stays once it is not reached any more
+    VecF<Dim> unsolved = VecF<Dim>::Zero();  // impulses of its points, less those when it was last solved [N s]
   };
 
   void enter(BodyIndex body, int depth, ContactSolver<Dim>& solver);
@@ -84,6 +87,8 @@ class Ring {
   Contact<Dim> contact_of(const SleepingPoint<Dim>& point, BodyIndex side, const BodyStates<Dim>& states,
                           double impulse_unit) const;
   void read_points(const ContactSolver<Dim>& solver, float distance);
+  void add_unsolved(const SleepingPoint<Dim>& before, const ContactPoint<Dim>& solved);
+  void disturb_unbalanced(float impulse_of_unit_mass);
 
   SleepRing params_;
   SleepingContacts<Dim> contacts_;
@@ -93,7 +98,8 @@ class Ring {
   std::vector<BodyIndex> border_;   // immovable bodies in the solver in this step
   std::vector<BodyIndex> touched_;  // by awake bodies in this step
   std::vector<BodyIndex> last_touched_;
-  std::vector<BodyIndex> disturbed_;  // have lost a point since the last step
+  std::vector<BodyIndex> disturbed_;  // have lost a point since the last step, or are unbalanced
+  std::vector<BodyIndex> unsolved_;   // have had points solved without them
   std::vector<BodyIndex> moving_;     // sleepers that count as moving
   std::vector<BodyIndex> stirred_;
   std::vector<int> points_;          // in the solver, in their order; the first of them is number first_point_

@@ -345,9 +345,9 @@ TYPED_TEST(SleepingLoad, OfAHeapAtRestIsItsWeightOnGroundAndWallsTogether) {
   const auto awake = carried_in_a_bin<TypeParam>("full");
   EXPECT_NEAR(awake[2], 1.0, 0.01);
   EXPECT_NEAR(awake[0] + awake[1], awake[2], 1e-6);
-  // Each body keeps the forces of when it fell asleep or was last solved, which may be before others came to rest.
+  // Once all sleep, those whose forces changed by more than a hundredth of their weight are solved again.
   const auto asleep = carried_in_a_bin<TypeParam>("adaptive");
-  EXPECT_NEAR(asleep[2], 1.0, 0.1);
+  EXPECT_NEAR(asleep[2], 1.0, 0.01);
   EXPECT_NEAR(asleep[0] + asleep[1], asleep[2], 1e-6);
 }
 
