@@ -12,8 +12,8 @@ InvalidValue::InvalidValue(std::string field, std::string value, std::string rul
       value_(std::move(value)),
       rule_(std::move(rule)) {}
 
-void require(bool holds, std::string_view field, double value, std::string_view rule) {
-  if (!holds) throw InvalidValue(std::string(field), fmt::format("{}", value), std::string(rule));
+void refuse(std::string_view field, double value, std::string_view rule) {
+  throw InvalidValue(std::string(field), fmt::format("{}", value), std::string(rule));
 }
 
 void require(bool holds, std::string_view field, const std::string& value, std::string_view rule) {

@@ -22,8 +22,12 @@ class InvalidValue : public std::invalid_argument {
   std::string rule_;
 };
 
-/// Throws InvalidValue unless `holds`. A rule is written as "must be ...".
-void require(bool holds, std::string_view field, double value, std::string_view rule);
+[[noreturn]] void refuse(std::string_view field, double value, std::string_view rule);
+
+/// Throws InvalidValue unless `holds`. A rule is written as "must be ...". The first one stands in loops over bodies.
+inline void require(bool holds, std::string_view field, double value, std::string_view rule) {
+  if (!holds) refuse(field, value, rule);
+}
 void require(bool holds, std::string_view field, const std::string& value, std::string_view rule);
 
 }  // namespace talus

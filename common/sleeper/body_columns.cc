@@ -15,9 +15,9 @@ template <int Dim>
 void BodyColumns<Dim>::put(BodyIndex body, const Vec<Dim>& position, double extent) {
   if (std::ssize(places_) <= body) places_.resize(body + 1);
   const bool large = extent > columns_.width();
-  if (large && places_[body].large) return;
+  const Place& before = places_[body];
+  if (large ? before.large : before.column && columns_.holds(*before.column, position)) return;
   const std::optional<Column> column = large ? std::nullopt : std::optional(columns_.cell_of(position));
-  if (!large && places_[body].column == column) return;
   take_out(body);
   (large ? large_ : bodies_[*column]).push_back(body);
   places_[body] = {large, column};

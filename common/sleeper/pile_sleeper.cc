@@ -174,10 +174,11 @@ void PileSleeper<Dim>::check_step(const GivenStep<Dim>& step) {
           static_cast<double>(count), "must be as many as poses, velocities and spins");
   given_.resize(handles_.entries().size(), 0);
   ++steps_;
-  for (std::size_t i = 0; i < count; ++i) check_state(step, i);
-  for (const Handle handle : step.bodies) {
-    require(given_[handle.slot] != steps_, "bodies", handle.slot, "must have each body once");
-    given_[handle.slot] = steps_;
+  for (std::size_t i = 0; i < count; ++i) {
+    check_state(step, i);
+    std::int64_t& given = given_[step.bodies[i].slot];
+    require(given != steps_, "bodies", step.bodies[i].slot, "must have each body once");
+    given = steps_;
   }
   const auto require_given = [this](Handle handle) {
     require(given_[handle.slot] == steps_, "bodies", handle.slot, "must be among the bodies given: see followed()");

@@ -1,5 +1,5 @@
 // A pile in a Bullet world of the program's own, with a record, the live view and a watch for faults: a line each.
-// watched_pile RECORD; meanwhile `talus monitor` or `talus view --live` shows it, afterwards `talus view RECORD`.
+// watched_pile [RECORD]; meanwhile `talus monitor` or `talus view --live` shows it, afterwards `talus view RECORD`.
 #include <talus/bullet.h>
 #include <talus/simulation.h>
 #include <talus/telemetry.h>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-int main(int, char** arguments) {
+int main(int count, char** arguments) {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
   btDbvtBroadphase broad_phase;
@@ -28,7 +28,7 @@ int main(int, char** arguments) {
   add(0, floor_shape, {0, 0, 0});
 
   talus::BulletSleeper sleeper(world);
-  sleeper.observe(talus::record_world<3>(arguments[1], {.name = "drums", .engine = "bullet"}));
+  sleeper.observe(talus::record_world<3>(count > 1 ? arguments[1] : "pile.lcm", {.name = "drums", .engine = "bullet"}));
   sleeper.observe(talus::publish_world<3>({.name = "drums", .engine = "bullet"}));
   sleeper.observe(std::make_unique<talus::SleeperWatch<3>>(
       [](const talus::Warning& warning) { std::printf("%s\n", talus::advice(warning).c_str()); }));

@@ -22,13 +22,13 @@ def test_bin_picking_gives_other_poses_in_the_bin_for_each_seed(tmp_path):
     assert [line.split()[0] for line in output] == ["seed", "1", "2"]
     assert poses.shape == (2, 200, 7)
     x, y, z = np.moveaxis(poses[..., :3], -1, 0)
-    assert np.abs(x).max() < 1.5 - 0.1 + 0.02  # half the bin less half the thinnest side of a part
-    assert np.abs(y).max() < 2.0 - 0.1 + 0.02
-    assert z.min() > 0.1 - 0.02
-    solid = 200 * 0.6 * 0.4 * 0.2 / (3 * 4)  # height of the parts without gaps
+    assert np.abs(x).max() < 0.15 - 0.01 + 0.002  # half the bin less half the thinnest side of a part
+    assert np.abs(y).max() < 0.20 - 0.01 + 0.002
+    assert z.min() > 0.01 - 0.002
+    solid = 200 * 0.06 * 0.04 * 0.02 / (0.3 * 0.4)  # height of the parts without gaps
     mean_height = z.mean(axis=1)
     assert ((mean_height > 0.5 * solid) & (mean_height < 1.5 * solid)).all()
-    assert np.abs(poses[0] - poses[1]).max() > 0.1
+    assert np.abs(poses[0] - poses[1]).max() > 0.01
 
 
 def test_the_python_of_the_manual_does_what_it_says(tmp_path):

@@ -18,7 +18,7 @@ def record(folder, scene, *options):
 
 @pytest.mark.parametrize("scene", ["drop_in_a_pile_2d", "drop_in_a_pile_3d"])
 def test_has_what_talus_export_writes(scene, tmp_path):
-    run = record(tmp_path / scene, scene, "--set", "run.frames=150")
+    run = record(tmp_path / scene, scene, "--set", "run.frames=150", "--set", "run.contacts=true")
     subprocess.check_call([COMMAND, "export", run, "--out", tmp_path / "run.npz"], stdout=subprocess.DEVNULL)
     npz = np.load(tmp_path / "run.npz")
     read = talus.open(run)
@@ -35,7 +35,11 @@ def test_has_what_talus_export_writes(scene, tmp_path):
     for name in ("step", "body", "woke", "layer"):
         np.testing.assert_array_equal(read.events[name], npz[f"event_{name}"])
     np.testing.assert_array_equal(read.events["cause"], npz["cause_name"][npz["event_cause"]].astype(str))
-    assert len(read.events) > 0
+    for name in ("step", "point", "normal_force", "friction_force", "kept"):
+        np.testing.assert_array_equal(read.contacts[name], npz[f"contact_{name}"])
+    np.testing.assert_array_equal(read.contacts["a"], npz["contact_body"][:, 0])
+    np.testing.assert_array_equal(read.contacts["b"], npz["contact_body"][:, 1])
+    assert len(read.events) > 0 and len(read.contacts) > 0
     assert sum(len(triangles) for _, triangles in read.meshes) == len(npz["mesh_triangle"])
 
 
@@ -53,6 +57,30 @@ def test_a_body_is_nan_until_it_appears_and_then_is_where_the_run_has_it(tmp_pat
     assert read.reason == "finished"
     assert read.seed == 1
     assert (read.backend, read.policy) == ("bullet", "adaptive")
+
+
+@pytest.mark.parametrize("scene", ["drop_in_a_pile_2d", "drop_in_a_pile_3d"])
+def test_the_forces_at_contacts_are_the_impulses_of_the_run_over_its_step(scene, tmp_path):
+    settings = {"run.frames": 60, "run.contacts": True, "policy.kind": "full"}
+    options = [word for key in settings for word in ("--set", f"{key}={str(settings[key]).lower()}")]
+    read = talus.open(record(tmp_path / "run", scene, *options))
+    run = talus.Simulation(scene, set=settings, contacts=True)
+    run.step(int(read.steps[-1]))
+    there = run.contacts()
+    there = there[there["normal_impulse"] > 0]
+    told = read.contacts[read.contacts["step"] == read.steps[-1]]
+    assert len(there) >= 10
+    np.testing.assert_array_equal(told["a"], there["a"])
+    np.testing.assert_array_equal(told["b"], there["b"])
+    np.testing.assert_array_equal(told["point"], there["point"].astype(np.float32))
+    force = there["normal"] * there["normal_impulse"][:, None] / read.dt
+    np.testing.assert_allclose(told["normal_force"], force, rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(told["friction_force"], there["friction_impulse"] / read.dt, rtol=1e-5, atol=1e-5)
+    assert not told["kept"].any()
+
+
+def test_a_run_without_contacts_has_none_in_its_record(tmp_path):
+    assert len(talus.open(record(tmp_path / "run", "drop_in_a_pile_2d", "--set", "run.frames=60")).contacts) == 0
 
 
 def test_the_file_alone_is_enough(tmp_path):

@@ -243,6 +243,31 @@ def test_an_observed_sleeper_leaves_a_record_of_its_bodies(sleeper, tmp_path):
         type(sleeper)(enabled=False).observe(tmp_path / "off.lcm")
 
 
+def test_a_body_that_gets_through_another_is_reported(sleeper):
+    reports = []
+    sleeper.observe(report=lambda *report: reports.append(report))
+    engine = Balls(sleeper)
+    engine.add(at(engine.dimension, 0.0, 5.0))
+    flying = engine.add(at(engine.dimension, -3.0, 5.0))
+    velocity, spin = engine.velocity, np.zeros((2, 1 if engine.dimension == 2 else 3))
+    for x in (-3.0, 3.0):
+        engine.position[1] = at(engine.dimension, x, 5.0)
+        sleeper.step(DT, engine.handle, engine.poses(range(2)), velocity, spin)
+    assert [report[:3] for report in reports] == [("passed", flying, 6.0)]
+    assert "body" in reports[0][3]
+
+
+def test_what_a_report_raises_comes_out_of_the_step(sleeper):
+    def stop(kind, body, value, text):
+        raise InterruptedError(text)
+
+    sleeper.observe(report=stop)
+    engine = Balls(sleeper)
+    engine.add(at(engine.dimension, 1e9, 5.0))
+    with pytest.raises(InterruptedError, match="body 0"):
+        engine.step()
+
+
 def test_another_axis_may_be_up():
     sleeper = talus.PileSleeper3D(gravity=(0, -9.81, 0))
     engine = Balls(sleeper, up=1)

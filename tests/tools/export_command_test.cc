@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 /// A pour of ten seconds in the folder run.
-void record(const TemporaryFolder& folder) {
-  const Outcome outcome =
-      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=150 --out " + (folder / "run"));
+void record(const TemporaryFolder& folder, const std::string& options = "") {
+  const Outcome outcome = talus_command(
+      fmt::format("run drop_in_a_pile_2d --no-telemetry --set run.frames=150 --out {} {}", folder / "run", options));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
@@ -85,6 +85,28 @@ TEST(ExportCommand, WritesTheColumnsAndArraysThatAreDocumented) {
     arrays.insert(bytes.substr(at + 46, length - 4U));
   }
   expect_documented(arrays, "talus export to NPZ");
+}
+
+/// Two discs on the ground that never sleep, 1 m wide and of density 1000.
+TEST(ExportCommand, WritesACsvRowForEachContactThatCarriesTheWeightOfItsBody) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "scene.toml")
+      << "title = \"two discs\"\ndimension = 2\nrun = {frames = 60, contacts = true}\npolicy.kind = \"full\"\n"
+         "shape.disc = {kind = \"ball\", radius = 0.5, density = 1000}\n"
+         "[[source]]\ncount = 2\nspread = [3, 0]\nposition = [0, 1]\n";
+  ASSERT_EQ(talus_command("run " + (folder / "scene.toml") + " --no-telemetry --out " + (folder / "run")).exit_code, 0);
+  ASSERT_EQ(export_run(folder, "--out " + (folder / "a.contacts.csv")).exit_code, 0);
+  const auto rows = rows_of(folder.path() / "a.contacts.csv");
+  Names columns(rows.front().begin(), rows.front().end());
+  for (const char* of_3d : {"y_m", "normal_y_N", "friction_y_N"}) columns.insert(of_3d);
+  expect_documented(columns, "talus export to contacts.csv");
+  ASSERT_GE(rows.size(), 3U);
+  constexpr double weight = 1000.0 * 0.25 * M_PI * 9.81;  // a disc is 1 m deep
+  for (const auto& row : {rows[rows.size() - 2], rows.back()}) {
+    EXPECT_EQ(row[3], "-1") << "the ground";
+    EXPECT_EQ(row[4], "0") << "awake";
+    EXPECT_NEAR(std::stod(row[8]), weight, 0.01 * weight) << "at rest but for the engine's tolerance";
+  }
 }
 
 TEST(ExportCommand, WritesArraysThatNumpyReadsWithTheCountsOfTheRun) {
@@ -167,6 +189,7 @@ TEST(ExportCommand, RefusesBadOptions) {
   refused("--out /no/folder/a.csv", "--out");
   refused("--out " + (folder / "a.csv") + " --from 1000", "has no frame from --from 1000");
   refused("--out " + (folder / "a.csv") + " --every 0", "--every");
+  refused("--out " + (folder / "a.contacts.csv"), "must be of a run with run.contacts = true");
   EXPECT_FALSE(fs::exists(folder.path() / "a.csv")) << "nothing is written where something is refused";
 }
 

@@ -39,8 +39,44 @@ class CsvExport final : public Exporter {
   OutputFile out_;
 };
 
+class ContactsCsvExport final : public Exporter {
+ public:
+  explicit ContactsCsvExport(const ExportInput& input) : plane_(input.dimension == 2), out_(input.file) {
+    out_.write(plane_ ? "step,time_s,a,b,kept,x_m,z_m,normal_x_N,normal_z_N,friction_x_N,friction_z_N\n"
+                      : "step,time_s,a,b,kept,x_m,y_m,z_m,normal_x_N,normal_y_N,normal_z_N,friction_x_N,friction_y_N,"
+                        "friction_z_N\n");
+  }
+
+  void add(const Moment& moment, std::span<const SleepEvent> /*events*/) override {
+    std::string rows;
+    for (const ContactForce<3>& contact : moment.contacts) {
+      fmt::format_to(std::back_inserter(rows), "{},{:.6f},{},{},{:d}", moment.step, moment.time, contact.a, contact.b,
+                     contact.kept);
+      for (const Vec3* vector : {&contact.point, &contact.normal_force, &contact.friction_force})
+        append_vector(rows, *vector);
+      rows += '\n';
+    }
+    out_.write(rows);
+  }
+
+  void finish() override { out_.close(); }
+
+ private:
+  void append_vector(std::string& rows, const Vec3& vector) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!plane_ || axis != 1) fmt::format_to(std::back_inserter(rows), ",{}", static_cast<float>(vector[axis]));
+  }
+
+  bool plane_;
+  OutputFile out_;
+};
+
 }  // namespace
 
 std::unique_ptr<Exporter> make_csv_export(const ExportInput& input) { return std::make_unique<CsvExport>(input); }
+
+std::unique_ptr<Exporter> make_contacts_csv_export(const ExportInput& input) {
+  return std::make_unique<ContactsCsvExport>(input);
+}
 
 }  // namespace talus

@@ -34,8 +34,11 @@ struct Format {
   std::string_view ending;
 };
 
-constexpr std::array<Format, 3> formats = {
-    {{make_csv_export, ".csv"}, {make_npz_export, ".npz"}, {make_vtp_export, ".pvd"}}};
+/// The first whose ending fits is taken.
+constexpr std::array<Format, 4> formats = {{{make_contacts_csv_export, ".contacts.csv"},
+                                            {make_csv_export, ".csv"},
+                                            {make_npz_export, ".npz"},
+                                            {make_vtp_export, ".pvd"}}};
 
 /// Throws std::invalid_argument where the file has no ending of a format.
 Format format_of(const std::string& file) {
@@ -95,13 +98,19 @@ void export_as(const Format& format, const Scene<Dim>& scene, const ExportInput&
 template <int Dim>
 void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
   std::vector<Format> chosen;
-  for (const std::string& file : options.out) chosen.push_back(format_of(file));
+  for (const std::string& file : options.out) {
+    chosen.push_back(format_of(file));
+    if (chosen.back().make == make_contacts_csv_export && !scene.run.contacts)
+      throw std::invalid_argument(
+          fmt::format("--out = {}: {} has no contacts: must be of a run with run.contacts = true", file, options.run));
+  }
   ExportInput input = {.dimension = Dim, .shapes = {}, .file = {}};
   for (const Shape<Dim>& shape : scene.world.shapes) input.shapes.push_back({shape.name, polygons_in_space(shape)});
   const WalkDamage damage =
       walk_chosen<Dim>(scene, options, [&](const Moment& moment, std::span<const SleepEvent> events) {
         ++input.frames;
         input.events += std::ssize(events);
+        input.contacts += std::ssize(moment.contacts);
         input.bodies = moment.bodies.size();
       });
   if (input.frames == 0) {
@@ -125,8 +134,9 @@ void add_export_command(CLI::App& app, int& exit_code) {
       ->check(not_empty());
   command
       ->add_option("-o,--out", options->out,
-                   "File to write, overwritten if there: .csv, a row for each body and frame; .npz, arrays of NumPy; "
-                   ".pvd, a series for ParaView, with a folder beside it; may be repeated")
+                   "File to write, overwritten if there: .csv, a row for each body and frame; .contacts.csv, one for "
+                   "each contact point; .npz, arrays of NumPy; .pvd, a series for ParaView, with a folder beside it; "
+                   "may be repeated")
       ->required()
       ->allow_extra_args(false)
       ->check(in_a_folder());

@@ -24,9 +24,10 @@ struct ExportInput {
   int dimension = 3;
   std::vector<ExportShape> shapes;
   std::filesystem::path file;
-  /// Moments and sleep events that will be added, and bodies of the last one.
+  /// Moments, sleep events and contacts that will be added, and bodies of the last one.
   int frames = 0;
   std::int64_t events = 0;
+  std::int64_t contacts = 0;
   BodyIndex bodies = 0;
 };
 
@@ -42,6 +43,8 @@ class Exporter {
 
 /// A row for each body and moment.
 std::unique_ptr<Exporter> make_csv_export(const ExportInput& input);
+/// A row for each contact point and moment.
+std::unique_ptr<Exporter> make_contacts_csv_export(const ExportInput& input);
 /// Arrays of NumPy, uncompressed; moments pass through, so memory is that of one.
 std::unique_ptr<Exporter> make_npz_export(const ExportInput& input);
 /// A series of point sets (FILE.pvd, and FILE_vtp beside it) with pose, shape, sleep and cause, and a mesh of each

@@ -16,6 +16,7 @@ class NpzExport final : public Exporter {
     const auto frames = static_cast<std::uint64_t>(input.frames);
     const auto bodies = static_cast<std::uint64_t>(input.bodies);
     const auto events = static_cast<std::uint64_t>(input.events);
+    const auto contacts = static_cast<std::uint64_t>(input.contacts);
     step_ = file_.declare("step", "<i8", {frames});
     time_ = file_.declare("time", "<f8", {frames});
     position_ = file_.declare("position", "<f4", {frames, bodies, axes_});
@@ -29,6 +30,12 @@ class NpzExport final : public Exporter {
     event_cause_ = file_.declare("event_cause", "|i1", {events});
     event_layer_ = file_.declare("event_layer", "<i4", {events});
     event_score_ = file_.declare("event_score", "<f4", {events});
+    contact_step_ = file_.declare("contact_step", "<i8", {contacts});
+    contact_body_ = file_.declare("contact_body", "<i4", {contacts, 2});
+    contact_point_ = file_.declare("contact_point", "<f4", {contacts, axes_});
+    contact_normal_force_ = file_.declare("contact_normal_force", "<f4", {contacts, axes_});
+    contact_friction_force_ = file_.declare("contact_friction_force", "<f4", {contacts, axes_});
+    contact_kept_ = file_.declare("contact_kept", "|b1", {contacts});
     shape_ = file_.declare("shape", "<i4", {bodies});
     nowhere_.resize(1);
     declare_names(input.shapes);
@@ -59,6 +66,7 @@ class NpzExport final : public Exporter {
     file_.append(asleep_, asleep);
     file_.append(cause_, cause);
     for (const SleepEvent& event : events) add(event);
+    for (const ContactForce<3>& contact : moment.contacts) add(moment.step, contact);
   }
 
   void finish() override {
@@ -86,6 +94,22 @@ class NpzExport final : public Exporter {
     put(event_cause_, static_cast<std::int8_t>(event.cause));
     put<std::int32_t>(event_layer_, event.layer);
     put(event_score_, static_cast<float>(event.score));
+  }
+
+  void add(std::int64_t step, const ContactForce<3>& contact) {
+    put(contact_step_, step);
+    put<std::int32_t>(contact_body_, contact.a);
+    put<std::int32_t>(contact_body_, contact.b);
+    put_vector(contact_point_, contact.point);
+    put_vector(contact_normal_force_, contact.normal_force);
+    put_vector(contact_friction_force_, contact.friction_force);
+    put<std::int8_t>(contact_kept_, contact.kept ? 1 : 0);
+  }
+
+  /// In 2D without y.
+  void put_vector(int array, const Vec3& vector) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (axes_ == 3 || axis != 1) put(array, static_cast<float>(vector[axis]));
   }
 
   /// Texts of equal length, filled with zeros.
@@ -135,6 +159,7 @@ class NpzExport final : public Exporter {
   std::vector<std::int32_t> shapes_;
   int step_, time_, position_, rotation_, present_, asleep_, cause_, shape_;
   int event_step_, event_body_, event_woke_, event_cause_, event_layer_, event_score_;
+  int contact_step_, contact_body_, contact_point_, contact_normal_force_, contact_friction_force_, contact_kept_;
 };
 
 }  // namespace

@@ -20,6 +20,29 @@ namespace py = pybind11;
 namespace talus {
 namespace {
 
+/// A ContactForce of a step as a row of a structured array, in single precision, as it is recorded.
+template <int Dim>
+struct ForceRow {
+  std::int64_t step;
+  std::int32_t a;
+  std::int32_t b;
+  float point[Dim];
+  float normal_force[Dim];
+  float friction_force[Dim];
+  bool kept;
+};
+
+template <int Dim>
+ForceRow<Dim> force_row(std::int64_t step, const ContactForce<Dim>& contact) {
+  ForceRow<Dim> row = {step, contact.a, contact.b, {}, {}, {}, contact.kept};
+  for (int axis = 0; axis < Dim; ++axis) {
+    row.point[axis] = static_cast<float>(contact.point[axis]);
+    row.normal_force[axis] = static_cast<float>(contact.normal_force[axis]);
+    row.friction_force[axis] = static_cast<float>(contact.friction_force[axis]);
+  }
+  return row;
+}
+
 /// The frames of a record. Where a body is not in the world, at a known pose, its numbers are NaN.
 template <int Dim>
 struct RecordedFrames {
@@ -31,6 +54,7 @@ struct RecordedFrames {
   std::vector<std::uint8_t> asleep;  // [frame, body]
   std::vector<int> shapes;           // [body]
   std::vector<EventRow> events;
+  std::vector<ForceRow<Dim>> contacts;
 
   void reserve() {
     const std::size_t entries = frames * bodies;
@@ -52,6 +76,8 @@ struct RecordedFrames {
       else
         poses.insert(poses.end(), pose_values<Dim>, std::numeric_limits<float>::quiet_NaN());
     }
+    for (const ContactForce<Dim>& contact : contacts_of<Dim>(moment))
+      contacts.push_back(force_row<Dim>(moment.step, contact));
   }
 
   void add(std::span<const SleepEvent> more) {
@@ -133,6 +159,7 @@ py::dict as_dict(const Scene<Dim>& scene, const WalkResult& walk, RecordedFrames
   record["shape_names"] = py::tuple(py::cast(names));
   record["meshes"] = py::tuple(meshes_of(scene.world));
   record["events"] = array_of(std::move(read.events));
+  record["contacts"] = array_of(std::move(read.contacts));
   return record;
 }
 
@@ -157,6 +184,10 @@ py::dict read_recorded(const std::string& path) {
 
 }  // namespace
 
-void add_records(py::module_& module) { module.def("read_record", &read_recorded); }
+void add_records(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(ForceRow<2>, step, a, b, point, normal_force, friction_force, kept);
+  PYBIND11_NUMPY_DTYPE(ForceRow<3>, step, a, b, point, normal_force, friction_force, kept);
+  module.def("read_record", &read_recorded);
+}
 
 }  // namespace talus

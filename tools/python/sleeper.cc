@@ -1,13 +1,17 @@
 // Sleep for other engines.
 
 #include <fmt/format.h>
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "common/math/require.h"
+#include "common/simulation/sleeper_watch.h"
 #include "common/sleeper/pile_sleeper.h"
 #include "common/sleeper/step_buffer.h"
 #ifdef TALUS_LCM
@@ -172,6 +176,12 @@ class ArraySleeper {
     if (publish) sleeper_.observe(publish_world<Dim>(label));
   }
 #endif
+  using Report = std::function<void(std::string_view kind, std::int64_t body, double value, const std::string& text)>;
+  void watch(const Report& report) {
+    sleeper_.observe(std::make_unique<SleeperWatch<Dim>>([this, report](const Warning& warning) {
+      report(to_string(warning.kind), number_of(sleeper_.handle_of(warning.body)), warning.value, advice(warning));
+    }));
+  }
   void end_observers() { sleeper_.end_observers(); }
 
   bool has(std::int64_t body) const { return sleeper_.has(handle_of(body)); }
@@ -246,6 +256,7 @@ void add_sleeper(py::module_& module, const char* name) {
       .def("wake_near", &Sleeper::wake_near)
       .def("moved", &Sleeper::moved)
       .def("set_gravity", &Sleeper::set_gravity)
+      .def("watch", &Sleeper::watch)
       .def("end_observers", &Sleeper::end_observers)
       .def("has", &Sleeper::has)
       .def("asleep", &Sleeper::asleep)

@@ -34,6 +34,16 @@ class Grid {
     return cell;
   }
 
+  /// Whether the position is in the cell, faster than cell_of(); at the very border of a cell the two may differ.
+  template <typename Vector>
+  bool holds(const Cell& cell, const Vector& position) const {
+    for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+      const double within = position[axis] - cell[axis] * width_;
+      if (!(within >= 0.0 && within < width_)) return false;
+    }
+    return true;
+  }
+
   /// The box around the cells from `first` to `last` on each axis of the grid, unbounded on other axes.
   template <int Dim>
   Box<Dim> box_of(const Cell& first, const Cell& last) const {

@@ -40,6 +40,7 @@ class Record:
     shape_names: tuple[str, ...]  #: (S)
     meshes: tuple[tuple[np.ndarray, np.ndarray], ...]  #: (S) of vertices (V, 3) [m] around the centre of mass and triangles (T, 3); plane shapes lie in y = 0
     events: np.ndarray  #: structured: step, body, woke, cause, pile, layer, score; each time a body fell asleep or woke
+    contacts: np.ndarray  #: structured: step, a, b, point, normal_force, friction_force, kept; contact points of all frames of a run with `run.contacts`, else none. Numbers of `a` and `b` as of Simulation.contacts(), `point` [m], forces on a [N], `kept`: neither side is awake
 
     @property
     def positions(self) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -185,6 +186,7 @@ class _PileSleeper:
         record: str | os.PathLike | None = None,
         *,
         publish: bool = False,
+        report: Callable[[str, int, float, str], None] | None = None,
         name: str = "program",
         title: str = "",
         engine: str = "own",
@@ -192,12 +194,21 @@ class _PileSleeper:
         frame_rate: float = 30.0,
     ) -> None:
         """Shows the bodies from now on. record: path of a new file, for talus.open(), `talus view` and `talus film`.
-        publish: to `talus monitor` and `talus view --live`.
+        publish: to `talus monitor` and `talus view --live`. report(kind, body, value, text): called within the step()
+        in which a kind of fault is first seen, "passed" (a body got through another one; value: its way in the step
+        [m]), "overlap" (depth [extents]) or "outside_world" (coordinate [m]). What it raises step() raises, and the
+        changes of that step are lost.
 
         name, title, engine: what they are called there. dt: of the usual step [s], in which a record counts its time.
         frame_rate: frames of a record in a second of simulated time. Without an `enabled` sleeper: ValueError.
         """
-        self._sleeper.observe(record and os.fspath(record), publish, name, title, engine, dt, frame_rate)
+        if record is not None or publish:
+            if not hasattr(self._sleeper, "observe"):
+                raise NotImplementedError("talus was built without LCM, and so without record and live view")
+            path = None if record is None else os.fspath(record)
+            self._sleeper.observe(path, publish, name, title, engine, dt, frame_rate)
+        if report is not None:
+            self._sleeper.watch(report)
 
     def end_observers(self) -> None:
         """Ends record and live view; else they end with the sleeper. OSError: the disk is full."""
