@@ -80,16 +80,16 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   ahead_.clear();
   if (ring_) ring_->start();
   double solving = 0.0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 1;; ++round) {
     add_bodies(input, bodies);
-    if (round == 0) expect_motion(world, input, bodies);
+    if (round == 1) expect_motion(world, input, bodies);
     add_points_ahead(input);
     add_contacts(world, input);
     if (ring_) ring_->extend(solver_, obstacle_slots_);
     const double added = now();
     solver_.solve(params_, vector(world.GetGravity()), dt_);
     solving += now() - added;
-    if (!passes_unseen(world, input, bodies)) break;
+    if (!passes_unseen(world, input, bodies) || round == rounds) break;
     if (ring_) ring_->start_again();
   }
   if (ring_) ring_->read(solver_, world.GetGravity().Length(), dt_);

@@ -145,20 +145,24 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
   ++step_;
   ahead_.clear();
   if (ring_) ring_->start();
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 1;; ++round) {
     solver_.start();
     sources_.clear();
     parts_.clear();
     add_bodies(bodies, actions);
-    if (round == 0) expect_motion(engine, bodies, actions.states);
+    if (round == 1) expect_motion(engine, bodies, actions.states);
     add_points_ahead(actions.belts);
     add_points(engine.dispatcher, actions.belts);
     if (ring_) ring_->extend(solver_, obstacle_slots_);
     solver_.solve(params_, to_solver<Dim>(actions.gravity), dt_);
-    const bool again = passes_unseen(engine, bodies, actions.states);
+    const std::size_t solved = ahead_.size();
+    const bool passes = passes_unseen(engine, bodies, actions.states);
     for (btCollisionObject* other : others_) other->setCompanionId(-1);
     others_.clear();
-    if (!again) break;
+    if (!passes || round == rounds) {
+      ahead_.resize(solved);
+      break;
+    }
     if (ring_) ring_->start_again();
   }
   if (ring_) ring_->read(solver_, actions.gravity.length(), dt_);
