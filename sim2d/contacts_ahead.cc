@@ -9,7 +9,7 @@
 namespace talus::box2d {
 namespace {
 
-/// A copy of a fixture's shape whose skin is `more` thicker.
+/// A copy of a fixture's shape with a skin that is thicker by `more` [m].
 EnginePiece thickened(const b2Fixture& fixture, float more) {
   if (fixture.GetType() == b2Shape::e_circle) {
     b2CircleShape circle = static_cast<const b2CircleShape&>(*fixture.GetShape());

@@ -121,7 +121,7 @@ void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span
     for (b2Body* body : at_slot(slot, bodies)) find_ahead(world, input, *body, true);
 }
 
-/// The ground is a line: Box2D pushes a body whose middle is below it further down.
+/// The ground is a line: Box2D pushes a body further down if its middle is below the line.
 bool SmallSteps::is_buried(b2Contact& contact) {
   if (!contact.IsTouching() || owner_of(*contact.GetFixtureA()) != ground_index) return false;
   if (!is_dynamic(*contact.GetFixtureB()->GetBody())) return false;

@@ -61,7 +61,7 @@ std::vector<Piece> pieces_of(const Mover& mover) {
   return pieces;
 }
 
-/// Bullet's first is our second, so that its normal points as ours.
+/// Bullet's first shape is our second, so that Bullet's normal has the direction of ours.
 btPointCollector nearest(const Piece& a, const Piece& b, float share) {
   btVoronoiSimplexSolver simplex;
   btGjkEpaPenetrationDepthSolver depth;

@@ -49,7 +49,8 @@ class FastBodies {
  public:
   explicit FastBodies(const WorldDescription<Dim>& description);
 
-  /// The awake bodies are in the solver, in the slots from 1 to `bodies`: found() are those whose velocity is fast.
+  /// The awake bodies are in the solver, in the slots from 1 to `bodies`: found() are those that are fast by their
+  /// velocity.
   void expect(const ContactSolver<Dim>& solver, int bodies, float dt);
   /// The step is solved: found() are the bodies that have left the path on which they were expected by more than half
   /// of the thinnest piece, beyond which they might be pushed to the other side.
@@ -60,7 +61,7 @@ class FastBodies {
   /// Of an awake body, as far as it is known.
   const StepMotion<Dim>& motion(int slot) const { return expected_[slot - 1]; }
   bool is_fast(int slot) const { return is_fast(motion(slot)); }
-  /// Whether it goes half as far as a fast one.
+  /// Whether its way in the step is more than half of the way from which on a body counts as fast.
   bool is_half_fast(int slot) const { return way_of(motion(slot)) > corner(); }
   /// Way of its farthest point around its centre at most [m].
   float turn(const StepMotion<Dim>& motion) const { return reach_ * motion.turn.norm(); }

@@ -99,7 +99,7 @@ class Ring {
   std::vector<BodyIndex> touched_;  // by awake bodies in this step
   std::vector<BodyIndex> last_touched_;
   std::vector<BodyIndex> disturbed_;  // have lost a point since the last step, or are unbalanced
-  std::vector<BodyIndex> unsolved_;   // have had points solved without them
+  std::vector<BodyIndex> unsolved_;   // bodies with an `unsolved` impulse
   std::vector<BodyIndex> moving_;     // sleepers that count as moving
   std::vector<BodyIndex> stirred_;
   std::vector<int> points_;          // in the solver, in their order; the first of them is number first_point_

@@ -345,7 +345,7 @@ TYPED_TEST(SleepingLoad, OfAHeapAtRestIsItsWeightOnGroundAndWallsTogether) {
   const auto awake = carried_in_a_bin<TypeParam>("full");
   EXPECT_NEAR(awake[2], 1.0, 0.01);
   EXPECT_NEAR(awake[0] + awake[1], awake[2], 1e-6);
-  // Once all sleep, those whose forces changed by more than a hundredth of their weight are solved again.
+  // Once all sleep, a body is solved again if the forces on it changed by more than a hundredth of its weight.
   const auto asleep = carried_in_a_bin<TypeParam>("adaptive");
   EXPECT_NEAR(asleep[2], 1.0, 0.01);
   EXPECT_NEAR(asleep[0] + asleep[1], asleep[2], 1e-6);
