@@ -16,8 +16,8 @@ constexpr float settle_distance = 0.002F;
 /// While obstacles move, bodies that are faster than this share of the slowest count as moving: else what a slow one
 /// carries would be held back by what has not begun to move.
 constexpr float obstacle_share = 0.3F;
-/// Once nothing awake touches them, sleeping bodies are solved if their forces have changed by more than this since
-/// they last were [their weight].
+/// Once nothing awake touches sleeping bodies, one is solved again if the forces on it have changed by more than this
+/// since its last solve [its weight].
 constexpr float balance = 0.01F;
 /// Steps for which a body stays in the ring that does not reach it any more. Without, the ring's border moves to and
 /// fro, and each move changes forces.

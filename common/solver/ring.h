@@ -17,9 +17,9 @@ namespace talus {
 /// the velocity and the displacement that the solve gives it here, and is to wake when they are too large. A sleeping
 /// body that has itself become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
 ///
-/// Bodies beyond are immovable. Once no awake body touches a sleeping one, those are solved whose forces have changed
-/// since they last were, until the forces of all are in balance. Where nothing moves the ring is empty and costs
-/// nothing.
+/// Bodies beyond are immovable. Once no awake body touches a sleeping one, sleeping bodies are solved again if the
+/// forces on them have changed since their last solve, until all forces balance. Where nothing moves the ring is empty
+/// and costs nothing.
 template <int Dim>
 class Ring {
  public:
