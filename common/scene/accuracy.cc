@@ -24,11 +24,20 @@ std::optional<Arrival> coarsest_arrival(const Scene<Dim>& scene) {
   return coarsest;
 }
 
-/// Where the rules for sleeping bodies that feel no forces go wrong whatever the accuracy: what moves slowly wakes
+/// Where the rules for sleeping bodies that feel no forces go wrong at any accuracy: what moves slowly wakes
 /// none, and a load on a sleeping body has no effect on what carries it.
 template <int Dim>
 bool needs_rings(const Scene<Dim>& scene) {
   return !scene.movers.empty() || scene.gravity_motion || !scene.events.empty() || !scene.instruments.loads.empty();
+}
+
+template <int Dim>
+int usual_rings_of(const Scene<Dim>& scene, const Accuracy& level) {
+  if (!scene.world.solver.small_steps()) return 0;
+  if (needs_rings(scene)) return usual_rings;
+  // Steeper than their friction holds, sleeping bodies that feel forces slide.
+  if (std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope)) return 0;
+  return level.rings;
 }
 
 }  // namespace
@@ -60,8 +69,7 @@ void apply_accuracy(Scene<Dim>& scene, const SetByScene& set) {
   if (!set.steps) scene.world.dt = 1.0 / fitting_steps_per_second(scene, level.step);
   if (!set.sub_steps) scene.world.solver.sub_steps = level.sub_steps;
   if (!set.tolerance) scene.policy.adaptive.tolerance = level.tolerance;
-  if (!set.rings && scene.world.solver.small_steps())
-    scene.policy.adaptive.rings = needs_rings(scene) ? usual_rings : level.rings;
+  if (!set.rings) scene.policy.adaptive.rings = usual_rings_of(scene, level);
 }
 
 template <int Dim>

@@ -65,7 +65,7 @@ class SleepAccount : public ::testing::Test {
   /// Bodies that checks wake in a row that was disturbed again and again, once a second row lies on it.
   template <typename Disturb>
   static int checked_after(Disturb disturb) {
-    auto simulation = SleepAccount::simulation(row<dimension>());
+    auto simulation = SleepAccount::simulation(row<dimension>("[policy.adaptive]\nrings = 0\n"));
     steps(simulation, 300);
     for (int i = 0; i < 30; ++i) disturb(simulation);
     steps(simulation, 120);

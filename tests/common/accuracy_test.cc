@@ -95,6 +95,10 @@ TEST(Accuracy, GivesRingsAtEachLevelWhereSomethingElseThanABodyMoves) {
   EXPECT_EQ(plates({{"accuracy=fine"}, {"world.solver.kind=engine"}}).policy.adaptive.rings, 0);
 }
 
+TEST(Accuracy, GivesNoRingsWhereTheSlopeOfAPileIsControlled) {
+  EXPECT_EQ(plates({{"pile=[{alpha_deg=40, control_slope=true}]"}}).policy.adaptive.rings, 0);
+}
+
 TEST(Accuracy, OfTheReferenceIsAQuarterOfTheThicknessWithWholeFrames) {
   const Scene<3> reference = reference_scene(plates({{"run.frame_rate=50"}}));
   EXPECT_LE(arrival(reference.sources[0], reference.world).step(reference.world.dt), 0.25);
@@ -119,7 +123,7 @@ TEST(Accuracy, HasTheNumbersOfItsLevelsInTheTextOfItsKey) {
 TEST(Accuracy, IsTold) {
   EXPECT_EQ(accuracy_text(plates({})),
             "accuracy standard: 120 steps a second of 8 sub-steps, bodies arrive at 18.8 m/s and go 0.52 times their "
-            "thickness in a step, tolerance 0.05 D");
+            "thickness in a step, tolerance 0.05 D, 2 rings");
 }
 
 }  // namespace

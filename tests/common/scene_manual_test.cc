@@ -152,9 +152,10 @@ TEST(Manual, RefusesAMarkWithoutItsEndOrItsTable) {
 TEST(Manual, GivesTheDefaultsThatTheReaderHas) {
   ASSERT_FALSE(examples().empty());
   const std::string example = examples().front();
-  const Scene<2> shortest = std::get<Scene<2>>(parse_scene(example, "example"));
+  const std::vector<Override> rings = {{"policy.adaptive.rings=1"}};  // by default the accuracy sets them
+  const Scene<2> shortest = std::get<Scene<2>>(parse_scene(example, "example", rings));
   const std::string filled = with_every_default(example, "example");
-  const Scene<2> written_out = std::get<Scene<2>>(parse_scene(filled, "example with every default"));
+  const Scene<2> written_out = std::get<Scene<2>>(parse_scene(filled, "example with every default", rings));
   EXPECT_EQ(description(shortest), description(written_out));
 }
 

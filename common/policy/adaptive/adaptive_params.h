@@ -6,7 +6,7 @@
 
 namespace talus {
 
-/// Rings of a scene that needs any and names none, and of the accuracy `fine` (lab/notes/ring.md).
+/// Rings of a scene that names none, under small steps (lab/notes/ring.md).
 inline constexpr int usual_rings = 2;
 
 /// Parameters of the policy `adaptive`. Lengths are in D, the typical body's extent, and times in sqrt(D/g), the time
