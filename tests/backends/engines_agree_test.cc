@@ -3,7 +3,7 @@
 // Compared are means over three seeds. The height of the centre scatters by 5 % over the seeds on either engine, so the
 // means differ by up to 13 % in three standard errors; the radius of half the bodies does so by about as much. Between
 // the engines comes what is theirs: without sleep piles on planar Bullet are 14 % lower and as much broader
-// (lab/results/engines.md), since its friction starts from zero in each step.
+// with its own solver, since its friction starts from zero in each step.
 #include "tests/backends/backend.h"
 
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET)
