@@ -58,7 +58,7 @@ collected cluster; until [ "$(squeue --noheader)" = "" ]; do sleep 0.1; done
             std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.err.find("sbatch refused "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("Slurm has jobs of this sweep, jobs 1,2: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("Slurm has jobs of this folder, jobs 1,2: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("12 runs: 12 finished, 0 failed, 0 begun, 0 not begun\n"), std::string::npos)
       << outcome.out;
   EXPECT_EQ(hashes("cluster"), local_hashes());
@@ -89,6 +89,20 @@ bash $cluster lose slurm b
 collected cluster && grep -c "due to failure of node b" slurm/slurmctld.log)sh");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_EQ(hashes("cluster"), local_hashes());
+}
+
+TEST_F(LongSlurm, GivesTheBitsOfALocalBenchmark) {
+  const Outcome outcome = on_cluster(R"sh(
+bench='bench scene.toml --policy full,adaptive --seeds 3'
+"$TALUS" $bench --out here || exit
+"$TALUS" $bench --out cluster --on slurm || exit
+for i in $(seq 1200); do [ -e cluster/bench.csv ] && break; sleep 0.1; done
+"$TALUS" bench --status cluster
+hashes() { cut -d, -f1-5 $1/bench.csv; grep -o '"end_hash[^,]*' $1/rows/*.json | sed 's/.*rows//'; }
+[ "$(hashes here)" = "$(hashes cluster)" ])sh");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("3 runs in job 1, an array of 3 tasks of 1"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("6 runs: 6 measured, 0 failed, 0 not measured"), std::string::npos) << outcome.out;
 }
 
 }  // namespace

@@ -164,8 +164,38 @@ TEST_F(Bench, KeepsWhatIsInAFolder) {
   std::ofstream(folder_.path() / "b" / "bench.csv") << "my own numbers\n";
   const Outcome outcome = talus_command("bench drop_in_a_pile_2d --out " + (folder_ / "b"));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("must be a new or an empty folder"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("must be new, empty, or of the same benchmark of the same scenes"), std::string::npos)
+      << outcome.err;
   EXPECT_EQ(contents(folder_.path() / "b" / "bench.csv"), "my own numbers\n");
+}
+
+TEST_F(Bench, GoesOnWithWhatIsNotMeasured) {
+  const std::string arguments = "drop_in_a_pile_2d --policy full,adaptive --seeds 2" + tiny;
+  const auto first = rows(arguments);
+  fs::remove(folder_.path() / "b" / "rows" / "00002.json");
+  EXPECT_NE(talus_command("bench --status " + (folder_ / "b")).out.find("4 runs: 3 measured, 0 failed, 1 not measured"),
+            std::string::npos);
+  const auto second = rows(arguments);
+  ASSERT_EQ(second.size(), 4U);
+  EXPECT_NE(outcome_.err.find("[1/1] drop_in_a_pile_2d box2d full"), std::string::npos) << outcome_.err;
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    EXPECT_EQ(second[i].at("end_hash"), first[i].at("end_hash"));
+    if (i != 2) EXPECT_EQ(second[i].at("seconds"), first[i].at("seconds"));
+  }
+}
+
+// The runs of a seed are one task, so that the times that are compared are of one machine.
+TEST_F(Bench, IsAListOfTasksForASchedulerWithTheSameBits) {
+  const std::string arguments = "drop_in_a_pile_2d --policy full,adaptive --seeds 2" + tiny;
+  const auto here = rows(arguments);
+  const Outcome emitted = talus_command("bench " + arguments + " --emit " + (folder_ / "list"));
+  EXPECT_NE(emitted.out.find("2 lines, 2 tasks of 1"), std::string::npos) << emitted.out << emitted.err;
+  const Outcome outcome =
+      shell("cd " + folder_.path().string() + " && sh list/array.sh 0 && sh list/array.sh 1 && sh list/collect.sh");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto listed = rows_of(folder_.path() / "list" / "bench.csv");
+  ASSERT_EQ(listed.size(), here.size());
+  for (std::size_t i = 0; i < here.size(); ++i) EXPECT_EQ(listed[i].at("end_hash"), here[i].at("end_hash"));
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST_F(SweepCommand, CountsRunsWithWarningsAndFailsForThemIfStrict) {
 
 TEST_F(SweepCommand, EmitsAListWhoseLinesGiveTheBitsOfALocalSweep) {
   const Outcome outcome = emit();
-  EXPECT_NE(outcome.out.find("4 runs, 2 tasks of 3"), std::string::npos) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("4 lines, 2 tasks of 3"), std::string::npos) << outcome.out << outcome.err;
   EXPECT_EQ(std::ranges::count(file("tasks.txt"), '\n'), 4);
   EXPECT_NE(file("array.sh").find("--array=0-1 "), std::string::npos) << file("array.sh");
   EXPECT_NE(file("array.sh").find("--time=5 --comment=\"a b\"\n"), std::string::npos) << file("array.sh");
@@ -127,7 +127,7 @@ TEST_F(SweepCommand, DoesARunOfWhichAKilledProcessLeftAHalfAgain) {
   ASSERT_EQ(emit(" --set run.pace=2").exit_code, 0);  // a second of wall time a run, so that it is seen at work
   const Outcome killed = in_sweep(R"("$TALUS" sweep --resume . --only 0
 setsid "$TALUS" sweep --resume . --only 1 & until ls at_work/run_0001*/frames.csv 2>/dev/null; do :; done
-kill -KILL -- -$!
+kill -KILL -- -$!; flock -w 10 lock true  # until both processes have ended
 "$TALUS" sweep --status .; "$TALUS" sweep --collect .)");
   EXPECT_EQ(killed.exit_code, 1);
   EXPECT_NE(killed.out.find("4 runs: 1 finished, 0 failed, 1 begun, 2 not begun"), std::string::npos) << killed.out;
@@ -158,7 +158,7 @@ TEST_F(SweepCommand, IsRefusedWhereAnotherIsAtWork) {
             (folder_ / "sweep") + R"( --only 0 && code=0
 kill $!; wait; exit $code)");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("another sweep is at work in this folder"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("another command is at work in this folder"), std::string::npos) << outcome.err;
 }
 
 TEST_F(SweepCommand, GoesOnWithNoOtherSceneThanItBegan) {

@@ -107,17 +107,6 @@ std::vector<std::vector<std::string>> settings_of(const BenchOptions& options, c
   return all;
 }
 
-std::vector<std::filesystem::path> files_of(const BenchOptions& options) {
-  std::vector<std::filesystem::path> files;
-  for (const std::string& scene : options.scenes) {
-    files.push_back(find_scene(scene));
-    const auto same_name = [&](const auto& file) { return file.stem() == files.back().stem(); };
-    if (std::ranges::count_if(files, same_name) > 1)
-      throw std::invalid_argument(fmt::format("{}: another scene has this name too", scene));
-  }
-  return files;
-}
-
 /// The cases of a scene on an engine at one seed.
 std::vector<BenchCase> cases_at_seed(const BenchOptions& options, const std::filesystem::path& scene,
                                      const std::string& engine, int seed) {
@@ -156,6 +145,17 @@ BenchOptions completed(BenchOptions options) {
   return options;
 }
 
+std::vector<std::filesystem::path> files_of(const BenchOptions& options) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& scene : options.scenes) {
+    files.push_back(std::filesystem::absolute(find_scene(scene)));
+    const auto same_name = [&](const auto& file) { return file.stem() == files.back().stem(); };
+    if (std::ranges::count_if(files, same_name) > 1)
+      throw std::invalid_argument(fmt::format("{}: another scene has this name too", scene));
+  }
+  return files;
+}
+
 std::vector<BenchCase> bench_cases(const BenchOptions& options) {
   std::vector<BenchCase> cases;
   const std::vector<std::filesystem::path> files = files_of(options);
@@ -173,6 +173,17 @@ std::vector<BenchCase> bench_cases(const BenchOptions& options) {
   }
   if (cases.empty()) throw std::invalid_argument("--backend: no scene runs on this engine");
   return cases;
+}
+
+std::vector<BenchRound> rounds_of(const std::vector<BenchCase>& cases) {
+  std::vector<BenchRound> rounds;
+  for (int i = 0; i < std::ssize(cases); ++i) {
+    const BenchCase& last = cases[std::max(0, i - 1)];
+    const bool same = cases[i].scene == last.scene && cases[i].backend == last.backend && cases[i].seed == last.seed;
+    if (i == 0 || !same) rounds.push_back({i, 0});
+    ++rounds.back().count;
+  }
+  return rounds;
 }
 
 std::optional<PapersNumbers> papers_numbers(const BenchCase& bench_case, std::string_view preset) {

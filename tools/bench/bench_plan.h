@@ -17,7 +17,7 @@ struct BenchOptions {
   std::vector<std::string> policies;  // empty: the preset's, else full, paper, adaptive and the reference
   std::vector<std::string> settings;  // as for `talus sweep`
   std::vector<std::string> backends;  // empty: the first of each dimension
-  std::filesystem::path out = "bench";
+  std::filesystem::path out;
   int seeds = 0;  // 0: three, quick two
   int jobs = 1;
   bool quick = false;
@@ -35,10 +35,21 @@ std::span<const BenchPreset> bench_presets();
 /// The options with what the preset and --quick add. Throws std::invalid_argument without a scene.
 BenchOptions completed(BenchOptions options);
 
+/// The scenes' files, absolute. Throws std::invalid_argument where two have one name.
+std::vector<std::filesystem::path> files_of(const BenchOptions& options);
+
 /// All combinations of scene, engine, settings, policy and seed; those that share a seed side by side. Of `full`,
 /// `engine` and `reference`, combinations that differ in settings of a policy alone are one. Throws
 /// std::invalid_argument and SceneErrors where a run is not possible.
 std::vector<BenchCase> bench_cases(const BenchOptions& options);
+
+/// Cases from `first` on that are compared with each other, and so are measured one after the other: those of a scene,
+/// an engine and a seed.
+struct BenchRound {
+  int first = 0;
+  int count = 0;
+};
+std::vector<BenchRound> rounds_of(const std::vector<BenchCase>& cases);
 
 /// The paper's own numbers for a run: speed-up, and in Table 1 the error [%].
 struct PapersNumbers {

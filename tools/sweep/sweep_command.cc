@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,14 +13,16 @@
 #include "common/scene/read_scene.h"
 #include "common/text/file.h"
 #include "common/text/printable.h"
+#include "tools/commands/job_options.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
+#include "tools/pool/folder_lock.h"
+#include "tools/pool/slurm.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/measured_drift.h"
 #include "tools/sweep/collect.h"
-#include "tools/sweep/slurm.h"
 #include "tools/sweep/sweep_runs.h"
 #include "tools/sweep/sweep_table.h"
 
@@ -49,15 +50,7 @@ struct SweepOptions {
   int seeds = 1;
   std::string policy;  // empty: the scene's
   bool strict = false;
-  int jobs = 0;  // 0: one for each core
-  fs::path out;
-  fs::path emit;
-  fs::path resume;
-  fs::path status;
-  fs::path collect;
-  std::optional<int> only;
-  std::string on = "local";
-  TaskOptions tasks;
+  JobOptions jobs;
   std::optional<std::string> plot;
   Sweep sweep;  // what else is the sweep's own
 };
@@ -105,35 +98,33 @@ int exit_code_of(const SweepOptions& options, const SweepCount& count) {
 
 int run_here(const SweepOptions& options, const Sweep& sweep) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const SweepEnd end = do_runs(sweep, unfinished(sweep), options.jobs > 0 ? options.jobs : cores);
+  const SweepEnd end = do_runs(sweep, unfinished(sweep), options.jobs.jobs > 0 ? options.jobs.jobs : cores);
   const SweepCount count = collect(sweep);
   return end.interrupted && count.finished < count.runs ? exit_codes::interrupted : exit_code_of(options, count);
 }
 
 int write_list(const SweepOptions& options, const Sweep& sweep) {
-  const std::vector<int> numbers = unfinished(sweep);
-  if (numbers.empty()) return exit_code_of(options, collect(sweep));
-  const TaskList list = write_task_list(sweep, numbers, options.tasks);
-  if (options.on == "slurm")
-    print_text(submit(sweep, list));
-  else
-    print_result("{} runs, {} tasks of {}: {}/tasks.txt, array.sh, collect.sh\n", list.runs, list.tasks, list.chunk,
-                 printable(sweep.folder.string()));
+  std::vector<Task> tasks;
+  for (const int number : unfinished(sweep))
+    tasks.push_back(
+        {number, fmt::format("{}", fmt::join(settings_of(sweep.axes, sweep_run(sweep.axes, number)), " "))});
+  if (tasks.empty()) return exit_code_of(options, collect(sweep));
+  leave_to_scheduler("sweep", sweep.folder, tasks, options.jobs);
   return exit_codes::success;
 }
 
 /// Begins a sweep, or goes on with it, in its folder.
 int begin(const SweepOptions& options, const Sweep& sweep) {
-  const SweepLock lock(sweep.folder, SweepLock::Kind::whole_sweep);
-  require_no_jobs(sweep);
+  const FolderLock lock(sweep.folder, FolderLock::Kind::whole);
+  require_no_jobs(sweep.folder);
   begin_sweep(sweep);
-  return options.on == "slurm" || !options.emit.empty() ? write_list(options, sweep) : run_here(options, sweep);
+  return options.jobs.listed() ? write_list(options, sweep) : run_here(options, sweep);
 }
 
 int begin_new(const SweepOptions& options) {
   Sweep sweep = options.sweep;
   if (options.plot) sweep.plot = *options.plot;
-  sweep.folder = fs::absolute(options.emit.empty() ? options.out : options.emit).lexically_normal();
+  sweep.folder = fs::absolute(options.jobs.emit.empty() ? options.jobs.out : options.jobs.emit).lexically_normal();
   sweep.scene = fs::absolute(find_scene(options.scene));
   sweep.text = file_contents(sweep.scene).value_or("");
   sweep.axes = axes_of(options);
@@ -146,7 +137,7 @@ int do_one(const Sweep& sweep, int number) {
   if (number >= sweep_size(sweep.axes))
     throw std::invalid_argument(
         fmt::format("--only {}: must be below {}, the number of runs", number, sweep_size(sweep.axes)));
-  const SweepLock lock(sweep.folder, SweepLock::Kind::one_run);
+  const FolderLock lock(sweep.folder, FolderLock::Kind::one_task);
   if (is_finished(sweep, number)) return exit_codes::success;
   const SweepEnd end = do_runs(sweep, {number}, 1);
   if (end.interrupted) return exit_codes::interrupted;
@@ -155,7 +146,7 @@ int do_one(const Sweep& sweep, int number) {
 
 int tell_status(const Sweep& sweep) {
   const SweepCount count = count_runs(sweep);
-  const std::string jobs = jobs_left(sweep);
+  const std::string jobs = jobs_left(sweep.folder);
   print_result("{} runs: {} finished, {} failed, {} begun, {} not begun{}\n", count.runs, count.finished, count.failed,
                count.begun, count.waiting(), jobs.empty() ? "" : "; " + jobs);
   return count.finished == count.runs ? exit_codes::success : exit_codes::failed;
@@ -168,29 +159,12 @@ Sweep known_sweep(const SweepOptions& options, const fs::path& folder) {
   return sweep;
 }
 
-/// What no option can know of by itself. `plan`: options that a new sweep alone has, the scene first.
-void check_options(const SweepOptions& options, const std::vector<CLI::Option*>& plan) {
-  const std::array<const fs::path*, 5> folders = {&options.out, &options.emit, &options.resume, &options.status,
-                                                  &options.collect};
-  if (std::ranges::count_if(folders, [](const fs::path* folder) { return !folder->empty(); }) != 1)
-    throw std::invalid_argument("sweep: must have one of --out, --emit, --resume, --status and --collect");
-  const bool is_new = !options.out.empty() || !options.emit.empty();
-  if (is_new && options.scene.empty()) throw std::invalid_argument("scene: must be given with --out and --emit");
-  for (const CLI::Option* option : plan)
-    if (!is_new && option->count() > 0)
-      throw std::invalid_argument(fmt::format(
-          "{}: must be left out with --resume, --status and --collect, whose folder has it", option->get_name()));
-  const bool listed = options.on == "slurm" || !options.emit.empty();
-  if (!listed && (options.tasks.chunk > 0 || !options.tasks.sbatch.empty()))
-    throw std::invalid_argument("--chunk, --sbatch: must stand with --on slurm or --emit");
-  if (listed && options.jobs > 0) throw std::invalid_argument("--jobs: must stand without --on slurm and --emit");
-}
-
 int sweep(const SweepOptions& options) {
-  if (!options.status.empty()) return tell_status(known_sweep(options, options.status));
-  if (!options.collect.empty()) return exit_code_of(options, collect(known_sweep(options, options.collect)));
-  if (options.only) return do_one(known_sweep(options, options.resume), *options.only);
-  return options.resume.empty() ? begin_new(options) : begin(options, known_sweep(options, options.resume));
+  const JobOptions& jobs = options.jobs;
+  if (!jobs.status.empty()) return tell_status(known_sweep(options, jobs.status));
+  if (!jobs.collect.empty()) return exit_code_of(options, collect(known_sweep(options, jobs.collect)));
+  if (jobs.only) return do_one(known_sweep(options, jobs.resume), *jobs.only);
+  return jobs.resume.empty() ? begin_new(options) : begin(options, known_sweep(options, jobs.resume));
 }
 
 /// A column of the table, or a number of summary.json.
@@ -231,38 +205,6 @@ std::vector<CLI::Option*> add_plan(CLI::App& command, SweepOptions& options) {
                        "Leave out the estimate of drift at the end of each run, as `talus run`")};
 }
 
-/// The folder, and what is to be done there.
-void add_folders(CLI::App& command, SweepOptions& options) {
-  command.add_option("-o,--out", options.out, "Folder of the sweep: new, empty, or of the same sweep to go on with")
-      ->check(not_empty());
-  command
-      .add_option("--emit", options.emit,
-                  "The same, but only write tasks.txt, a command for each run, and scripts for an array of jobs")
-      ->check(not_empty());
-  CLI::Option* const resume =
-      command.add_option("--resume", options.resume, "Go on with the sweep of this folder")->check(not_empty());
-  command.add_option("--status", options.status, "Count the runs of this folder, and tell of those that failed")
-      ->check(not_empty());
-  command.add_option("--collect", options.collect, "Write table and plot of what has ended in this folder")
-      ->check(not_empty());
-  command.add_option("--only", options.only, "Do the run of this number and nothing else; a line of tasks.txt does so")
-      ->needs(resume)
-      ->check(number_between(0, most_sweep_runs));
-}
-
-void add_schedule(CLI::App& command, SweepOptions& options) {
-  command.add_option("-j,--jobs", options.jobs, "Runs at a time; without it one for each core")
-      ->check(number_between(1, 1000));
-  command.add_option("--on", options.on, "local: run here; slurm: submit an array of jobs, and return at once")
-      ->check(CLI::IsMember({"local", "slurm"}))
-      ->capture_default_str();
-  command.add_option("--sbatch", options.tasks.sbatch, "Options for sbatch as they stand, such as \"-p short\"");
-  command
-      .add_option("--chunk", options.tasks.chunk,
-                  "Runs of one task of the array, one after the other; without it the array has up to 250 tasks")
-      ->check(number_between(1, most_sweep_runs));
-}
-
 }  // namespace
 
 void add_sweep_command(CLI::App& app, int& exit_code) {
@@ -270,8 +212,9 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   command->footer(footer);
   auto options = std::make_shared<SweepOptions>();
   const std::vector<CLI::Option*> plan = add_plan(*command, *options);
-  add_folders(*command, *options);
-  add_schedule(*command, *options);
+  add_job_options(*command, options->jobs, most_sweep_runs);
+  command->add_option("-j,--jobs", options->jobs.jobs, "Runs at a time; without it one for each core")
+      ->check(number_between(1, 1000));
   command->add_flag("--strict", options->strict, "Exit with 1 when a scene or run gave a warning");
   command
       ->add_option("--plot", options->plot,
@@ -279,7 +222,9 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
                    "/gates/0/net; centre_height_m without it")
       ->check(is_measure());
   command->callback([options, plan, &exit_code] {
-    check_options(*options, plan);
+    check_job_options(options->jobs, plan);
+    if (options->jobs.is_new() && options->scene.empty())
+      throw std::invalid_argument("scene: must be given with --out and --emit");
     exit_code = sweep(*options);
   });
 }

@@ -1,21 +1,18 @@
 #include "tools/sweep/sweep_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 
 #include "common/text/file.h"
 #include "common/text/printable.h"
+#include "tools/pool/folder_lock.h"
 
 namespace talus {
 namespace {
@@ -23,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* sweep_file = "sweep.json";
-constexpr const char* lock_file = "lock";
 constexpr const char* work_folder = "at_work";
 constexpr const char* failure_folder = "failed";
 
@@ -87,17 +83,6 @@ std::string last_lines(const std::string& text) {
 }
 
 }  // namespace
-
-SweepLock::SweepLock(const fs::path& folder, Kind kind)
-    : file_(open((folder / lock_file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (file_ < 0) throw std::system_error(errno, std::generic_category(), (folder / lock_file).string());
-  if (flock(file_, (kind == Kind::whole_sweep ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  close(file_);
-  throw std::invalid_argument(
-      fmt::format("{}: another sweep is at work in this folder; start again once it has ended", folder.string()));
-}
-
-SweepLock::~SweepLock() { close(file_); }
 
 void make_sweep_folder(const fs::path& folder) {
   if (fs::exists(folder) && !fs::exists(folder / sweep_file)) {

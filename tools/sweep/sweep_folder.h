@@ -25,21 +25,6 @@ struct Sweep {
   std::vector<SweepAxis> axes;
 };
 
-/// Keeps a second sweep out of a folder as long as it lives, in processes of other machines too where the file system
-/// has locks. One run alone shares the folder with others of its kind.
-class SweepLock {
- public:
-  enum class Kind { whole_sweep, one_run };
-  /// Throws std::invalid_argument where another sweep is at work.
-  SweepLock(const std::filesystem::path& folder, Kind kind);
-  ~SweepLock();
-  SweepLock(const SweepLock&) = delete;
-  SweepLock& operator=(const SweepLock&) = delete;
-
- private:
-  int file_ = -1;
-};
-
 /// Makes the folder. Throws std::invalid_argument where it has files of anything but a sweep.
 void make_sweep_folder(const std::filesystem::path& folder);
 

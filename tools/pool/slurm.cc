@@ -1,4 +1,4 @@
-#include "tools/sweep/slurm.h"
+#include "tools/pool/slurm.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Numbers of the jobs, one a line.
-fs::path job_file(const Sweep& sweep) { return sweep.folder / "slurm" / "jobs"; }
+fs::path job_file(const fs::path& folder) { return folder / "slurm" / "jobs"; }
 
 /// The number of the new job.
 std::string submitted(const fs::path& script, const std::string& option = {}) {
@@ -35,24 +35,24 @@ std::string submitted(const fs::path& script, const std::string& option = {}) {
 
 }  // namespace
 
-std::string submit(const Sweep& sweep, const TaskList& list) {
+std::string submit(const fs::path& folder, const TaskList& list) {
   const std::string array = submitted(list.array);
-  write_file(job_file(sweep), array + "\n");
+  write_file(job_file(folder), array + "\n");
   const std::string collect = submitted(list.collect, "--dependency=afterany:" + array);
-  write_file(job_file(sweep), array + "\n" + collect + "\n");
-  return fmt::format("{} runs in job {}, an array of {} tasks of {}, and job {}, which collects\n", list.runs, array,
+  write_file(job_file(folder), array + "\n" + collect + "\n");
+  return fmt::format("{} runs in job {}, an array of {} tasks of {}, and job {}, which collects\n", list.lines, array,
                      list.tasks, list.chunk, collect);
 }
 
-std::string jobs_left(const Sweep& sweep) {
-  std::istringstream stream(file_contents(job_file(sweep)).value_or(""));
+std::string jobs_left(const fs::path& folder) {
+  std::istringstream stream(file_contents(job_file(folder)).value_or(""));
   std::vector<std::string> jobs;
   for (std::string job; std::getline(stream, job);) jobs.push_back(job);
   if (jobs.empty()) return {};
   const ProgramEnd end = run_program({"squeue", "--me", "--noheader", "--array", "--format=%F %T"});
   if (end.exit_code != 0)
     return fmt::format("jobs {}, unless they have ended: squeue does not tell here (once they have, remove {})",
-                       fmt::join(jobs, ","), job_file(sweep).string());
+                       fmt::join(jobs, ","), job_file(folder).string());
   std::istringstream lines(end.out);
   std::map<std::string, int> counts;
   for (std::string job, state; lines >> job >> state;)
@@ -62,11 +62,11 @@ std::string jobs_left(const Sweep& sweep) {
   return text.empty() ? "" : fmt::format("jobs {}: {}", fmt::join(jobs, ","), text);
 }
 
-void require_no_jobs(const Sweep& sweep) {
-  if (const std::string jobs = jobs_left(sweep); !jobs.empty())
+void require_no_jobs(const fs::path& folder) {
+  if (const std::string jobs = jobs_left(folder); !jobs.empty())
     throw std::invalid_argument(
-        fmt::format("{}: Slurm has jobs of this sweep, {}; start again once they have ended, or scancel them",
-                    sweep.folder.string(), jobs));
+        fmt::format("{}: Slurm has jobs of this folder, {}; start again once they have ended, or scancel them",
+                    folder.string(), jobs));
 }
 
 }  // namespace talus

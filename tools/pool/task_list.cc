@@ -1,7 +1,6 @@
-#include "tools/sweep/task_list.h"
+#include "tools/pool/task_list.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <fstream>
 #include <stdexcept>
@@ -28,8 +27,7 @@ sed -n "$first,$((first + {more}))p" tasks.txt |
 
 constexpr std::string_view collect_script = R"(#!/bin/sh
 #SBATCH --job-name=talus_collect --chdir={folder_for_sbatch} --output=slurm/collect.txt{sbatch}
-# Writes sweep.csv and sweep.svg.
-exec {talus} sweep --collect {folder}
+exec {talus} {command} --collect {folder}
 )";
 
 /// A word of the shell.
@@ -51,39 +49,40 @@ void require_one_line(std::string_view what, const std::string& text) {
     throw std::invalid_argument(fmt::format("{} {}: must be one line", what, text));
 }
 
-void write_tasks(const Sweep& sweep, const std::vector<int>& numbers, const std::string& talus) {
-  const fs::path file = sweep.folder / "tasks.txt";
+void write_tasks(const std::string& start, const fs::path& folder, const std::vector<Task>& tasks) {
+  const fs::path file = folder / "tasks.txt";
   std::ofstream list(file);
-  for (const int number : numbers)
-    list << fmt::format(
-        "{} sweep --resume {} --only {}  # {}\n", talus, shell_word(sweep.folder.string()), number,
-        printable(fmt::format("{}", fmt::join(settings_of(sweep.axes, sweep_run(sweep.axes, number)), " "))));
+  for (const Task& task : tasks)
+    list << fmt::format("{} --resume {} --only {}  # {}\n", start, shell_word(folder.string()), task.number,
+                        printable(task.about));
   list.close();
   if (!list) throw std::system_error(errno, std::generic_category(), file.string());
 }
 
 }  // namespace
 
-TaskList write_task_list(const Sweep& sweep, const std::vector<int>& numbers, const TaskOptions& options) {
+TaskList write_task_list(const std::string& command, const fs::path& folder, const std::vector<Task>& tasks,
+                         const TaskOptions& options) {
   require_one_line("--sbatch", options.sbatch);
-  require_one_line("--out", sweep.folder.string());
+  require_one_line("--out", folder.string());
   const std::string talus = shell_word(fs::read_symlink("/proc/self/exe").string());
-  const int runs = static_cast<int>(numbers.size());
-  const int chunk = options.chunk > 0 ? options.chunk : (runs + most_array_tasks - 1) / most_array_tasks;
-  TaskList list{.runs = runs,
+  const int lines = static_cast<int>(tasks.size());
+  const int chunk = options.chunk > 0 ? options.chunk : (lines + most_array_tasks - 1) / most_array_tasks;
+  TaskList list{.lines = lines,
                 .chunk = chunk,
-                .tasks = (runs + chunk - 1) / chunk,
-                .array = sweep.folder / "array.sh",
-                .collect = sweep.folder / "collect.sh"};
+                .tasks = (lines + chunk - 1) / chunk,
+                .array = folder / "array.sh",
+                .collect = folder / "collect.sh"};
   const auto script = [&](const fs::path& file, std::string_view text) {
     write_file(file, fmt::format(fmt::runtime(text), fmt::arg("last_task", list.tasks - 1),
-                                 fmt::arg("folder_for_sbatch", sbatch_word(sweep.folder.string())),
+                                 fmt::arg("folder_for_sbatch", sbatch_word(folder.string())),
                                  fmt::arg("sbatch", options.sbatch.empty() ? "" : " " + options.sbatch),
                                  fmt::arg("chunk", chunk), fmt::arg("more", chunk - 1),
-                                 fmt::arg("folder", shell_word(sweep.folder.string())), fmt::arg("talus", talus)));
+                                 fmt::arg("folder", shell_word(folder.string())), fmt::arg("talus", talus),
+                                 fmt::arg("command", command)));
   };
-  fs::create_directories(sweep.folder / "slurm");
-  write_tasks(sweep, numbers, talus);
+  fs::create_directories(folder / "slurm");
+  write_tasks(talus + " " + command, folder, tasks);
   script(list.array, array_script);
   script(list.collect, collect_script);
   return list;

@@ -1,0 +1,101 @@
+#include "tools/bench/bench_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "common/text/file.h"
+#include "tools/pool/folder_lock.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* bench_file = "bench.json";
+
+/// All but the folder and the jobs, which change no result. The texts of the scenes are part of what a benchmark is.
+Json json_of(const BenchOptions& options) {
+  Json texts = Json::array();
+  for (const std::string& scene : options.scenes) texts.push_back(file_contents(scene).value_or(""));
+  return {{"scenes", options.scenes},
+          {"texts", texts},
+          {"preset", options.preset},
+          {"policies", options.policies},
+          {"settings", options.settings},
+          {"backends", options.backends},
+          {"seeds", options.seeds},
+          {"quick", options.quick},
+          {"force", options.force},
+          {"drift", options.extras.drift},
+          {"motion_error", options.extras.motion_error},
+          {"frames", options.extras.frames}};
+}
+
+std::string text_of(const BenchOptions& options) {
+  return json_of(options).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+fs::path row_file(const fs::path& folder, int number) { return folder / "rows" / fmt::format("{:05}.json", number); }
+
+bool has_only_a_lock(const fs::path& folder) {
+  return fs::is_directory(folder) && std::ranges::all_of(fs::directory_iterator(folder), [](const auto& entry) {
+           return entry.path().filename() == lock_file;
+         });
+}
+
+}  // namespace
+
+void begin_bench(const BenchOptions& options) {
+  const fs::path file = options.out / bench_file;
+  const bool same = file_contents(file) == text_of(options);
+  if (!same && fs::exists(options.out) && !has_only_a_lock(options.out))
+    throw std::invalid_argument(
+        fmt::format("--out {}: must be new, empty, or of the same benchmark of the same scenes", options.out.string()));
+  fs::create_directories(options.out / "rows");
+  write_file(file, text_of(options));
+}
+
+BenchOptions read_bench(const fs::path& folder) {
+  try {
+    const Json json = Json::parse(file_contents(folder / bench_file).value_or(""));
+    return {.scenes = json.at("scenes"),
+            .preset = json.at("preset"),
+            .policies = json.at("policies"),
+            .settings = json.at("settings"),
+            .backends = json.at("backends"),
+            .out = fs::absolute(folder).lexically_normal(),
+            .seeds = json.at("seeds"),
+            .quick = json.at("quick"),
+            .force = json.at("force"),
+            .extras = {json.at("drift"), json.at("motion_error"), json.at("frames")}};
+  } catch (const Json::exception&) {
+    throw std::invalid_argument(fmt::format("{}: must be a folder that `talus bench` has made", folder.string()));
+  }
+}
+
+void keep_outcome(const fs::path& folder, int number, const TaskOutcome& outcome) {
+  const fs::path file = row_file(folder, number);
+  const fs::path part = fmt::format("{}.{}", file.string(), getpid());
+  const Json failure = {{"failure", outcome.text}};
+  write_file(part, outcome.failed ? failure.dump(-1, ' ', false, Json::error_handler_t::replace) : outcome.text);
+  fs::rename(part, file);
+}
+
+std::vector<BenchRow> kept_rows(const fs::path& folder, const std::vector<BenchCase>& cases) {
+  std::vector<BenchRow> rows;
+  for (int i = 0; i < std::ssize(cases); ++i) {
+    const std::optional<std::string> line = file_contents(row_file(folder, i));
+    const Json json = Json::parse(line.value_or(""), nullptr, false);
+    const std::string failure = !line ? std::string(not_measured) : json.value("failure", "");
+    rows.push_back(failure.empty() ? row_of(cases[i], *line) : BenchRow{cases[i], {}, {}, {}, failure});
+  }
+  return rows;
+}
+
+}  // namespace talus
