@@ -30,10 +30,16 @@ void mix_restitution(b2Contact& contact) {
 
 namespace {
 
-b2CircleShape disc(const Vec2& centre, double radius) {
+/// How pieces of different kinds are thickened [m].
+struct Skins {
+  double around_discs = 0.0;
+  double within_sides = 0.0;  // of what the engine adds around a capsule's sides
+};
+
+b2CircleShape disc(const Vec2& centre, double radius, const Skins& skins) {
   b2CircleShape circle;
   circle.m_p = to_engine(centre);
-  circle.m_radius = static_cast<float>(radius);
+  circle.m_radius = static_cast<float>(radius + skins.around_discs);
   return circle;
 }
 
@@ -57,25 +63,25 @@ b2PolygonShape convex_polygon(const HullPiece<2>& hull) {
   return polygon;
 }
 
-void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b, double radius, double skin) {
-  out.emplace_back(disc(a, radius));
-  out.emplace_back(disc(b, radius));
+void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b, double radius, const Skins& skins) {
+  out.emplace_back(disc(a, radius, skins));
+  out.emplace_back(disc(b, radius, skins));
   const Vec2 along = b - a;
   const Pose<2> middle{(a + b) / 2.0, Rotation<2>(std::atan2(along.y(), along.x()))};
   // Less the skin, the straight sides lie flush with the round ends.
-  const double half_width = std::max(radius - skin, radius / 4.0);
+  const double half_width = std::max(radius - skins.within_sides, radius / 4.0);
   out.emplace_back(rectangle(middle, {along.norm() / 2.0, half_width}));
 }
 
-void append(std::vector<EnginePiece>& out, const BoxPiece<2>& box, double /*skin*/) {
+void append(std::vector<EnginePiece>& out, const BoxPiece<2>& box, const Skins& /*skins*/) {
   out.emplace_back(rectangle(box.pose, box.half));
 }
 
-void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull, double skin) {
+void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull, const Skins& skins) {
   if (hull.corners.size() == 1)
-    out.emplace_back(disc(hull.corners[0], hull.radius));
+    out.emplace_back(disc(hull.corners[0], hull.radius, skins));
   else if (hull.corners.size() == 2)
-    append_capsule(out, hull.corners[0], hull.corners[1], hull.radius, skin);
+    append_capsule(out, hull.corners[0], hull.corners[1], hull.radius, skins);
   else
     out.emplace_back(convex_polygon(hull));
 }
@@ -83,9 +89,9 @@ void append(std::vector<EnginePiece>& out, const HullPiece<2>& hull, double skin
 }  // namespace
 
 std::vector<EnginePiece> engine_pieces(const Shape<2>& shape, const SolverParams& solver) {
-  const double skin = solver.small_steps() ? 0.0 : b2_polygonRadius;
+  const Skins skins = solver.small_steps() ? Skins{.around_discs = skin} : Skins{.within_sides = skin};
   std::vector<EnginePiece> out;
-  for (const Piece<2>& piece : shape.pieces) std::visit([&](const auto& kind) { append(out, kind, skin); }, piece);
+  for (const Piece<2>& piece : shape.pieces) std::visit([&](const auto& kind) { append(out, kind, skins); }, piece);
   return out;
 }
 

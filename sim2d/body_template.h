@@ -28,8 +28,11 @@ inline const b2Shape& base(const EnginePiece& piece) {
   return std::visit([](const auto& one) -> const b2Shape& { return one; }, piece);
 }
 
-/// The pieces of a shape, in their order; a capsule becomes two discs and the rectangle between. Box2D gives polygons a
-/// skin, which its own solver keeps between bodies, and discs none. Under small steps bodies touch without it.
+/// What Box2D adds around polygons and lines [m]. Its own solver keeps it between bodies; under small steps discs have
+/// it too, and bodies touch without it: contacts are known so long before, and none is lost while a body lifts by less.
+inline constexpr float skin = b2_polygonRadius;
+
+/// The pieces of a shape, in their order; a capsule becomes two discs and the rectangle between.
 std::vector<EnginePiece> engine_pieces(const Shape<2>& shape, const SolverParams& solver);
 
 /// The same piece after the motion `pose`. Corners keep their order.

@@ -9,10 +9,8 @@
 namespace talus::box2d {
 namespace {
 
-/// What Box2D adds around a shape: polygons and edges collide as if rounded, discs just as they are.
-float skin(const b2Fixture& fixture) {
-  return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
-}
+/// With the engine's own solver discs have none.
+float skin_of(const b2Fixture& fixture) { return fixture.GetType() == b2Shape::e_circle ? 0.0F : skin; }
 
 }  // namespace
 
@@ -76,8 +74,8 @@ void ContactListener::gather(std::span<const std::uint8_t> asleep, std::vector<C
 void ContactListener::append(const Touch& touch, std::vector<Contact<2>>& out) {
   const ContactRecord& record = *touch.record;
   b2Contact& contact = *record.contact;
-  const float skin_a = skin(*contact.GetFixtureA());
-  const float skin_b = skin(*contact.GetFixtureB());
+  const float skin_a = skin_of(*contact.GetFixtureA());
+  const float skin_b = skin_of(*contact.GetFixtureB());
   const double sign =
       touch.a == record.first ? -1.0 : 1.0;  // Box2D's normal points from its first fixture to its second
   b2WorldManifold world;

@@ -49,7 +49,7 @@ PieceGap<2> gap_between(const Mover& a, const Mover& b, float share) {
   b2SimplexCache cache{};
   b2DistanceOutput output;
   b2Distance(&output, &cache, &input);
-  const auto radius = [](const Mover& of) { return of.fixture->GetShape()->m_radius - skin_of(*of.fixture); };
+  const auto radius = [](const Mover& of) { return of.fixture->GetShape()->m_radius - skin; };
   b2Vec2 normal = output.pointB - output.pointA;
   normal.Normalize();
   return {output.distance - radius(a) - radius(b), {normal.x, normal.y}};

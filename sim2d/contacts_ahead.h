@@ -9,12 +9,6 @@
 
 namespace talus::box2d {
 
-/// Of a polygon or line: contacts are known so long before the bodies touch, and none is lost while a corner lifts by
-/// less [m].
-inline float skin_of(const b2Fixture& fixture) {
-  return fixture.GetType() == b2Shape::e_circle ? 0.0F : fixture.GetShape()->m_radius;
-}
-
 /// A fixture and how its body goes on in the step.
 struct Mover {
   b2Fixture* fixture = nullptr;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "common/solver/solved_contact.h"
+#include "sim2d/body_template.h"
 #include "sim2d/conversions.h"
 
 namespace talus::box2d {
@@ -316,9 +317,8 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
   const b2Vec2 centre_a = centre_of(*pair.a, input.states);
   const b2Vec2 centre_b = centre_of(*pair.b, input.states);
   const VecF<2> tangent = vector(b2Cross(place.normal, 1.0F));
-  const float skins = skin_of(*pair.a) + skin_of(*pair.b);
   for (int i = 0; i < manifold.pointCount; ++i) {
-    point.gap = place.separations[i] + skins;
+    point.gap = place.separations[i] + 2.0F * skin;
     const b2Vec2 half = 0.5F * point.gap * place.normal;  // Box2D's point is in the middle of the gap
     point.arm_a = vector(place.points[i] - half - centre_a);
     point.arm_b = vector(place.points[i] + half - centre_b);

@@ -48,14 +48,16 @@ void add_job_options(CLI::App& command, JobOptions& options, int most) {
 
 void check_job_options(const JobOptions& options, const std::vector<CLI::Option*>& plan) {
   if (options.folders() != 1)
-    throw std::invalid_argument("--out: must be given, or one of --emit, --resume, --status and --collect, and no two of them");
+    throw std::invalid_argument(
+        "--out: must be given, or one of --emit, --resume, --status and --collect, and no two of them");
   for (const CLI::Option* option : plan)
     if (!options.is_new() && option->count() > 0)
       throw std::invalid_argument(fmt::format(
           "{}: must be left out with --resume, --status and --collect, whose folder has it", option->get_name()));
   if (!options.listed() && (options.tasks.chunk > 0 || !options.tasks.sbatch.empty()))
     throw std::invalid_argument("--chunk, --sbatch: must stand with --on slurm or --emit");
-  if (options.listed() && options.jobs > 0) throw std::invalid_argument("--jobs: must stand without --on slurm and --emit");
+  if (options.listed() && options.jobs > 0)
+    throw std::invalid_argument("--jobs: must stand without --on slurm and --emit");
 }
 
 void leave_to_scheduler(const std::string& command, const fs::path& folder, const std::vector<Task>& tasks,
