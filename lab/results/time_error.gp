@@ -14,7 +14,7 @@ band(d, low, high) = sprintf("set object %d rectangle from graph 0, first %g to 
 
 set title "Example 1 in 2D"
 set yrange [4.2:6.6]
-eval band(2, 5.69, 5.81)
+eval band(2, 5.58, 5.68)
 set key at screen 0.27,0.02
 plot rows(2, "Box2D full") using 4:5:6 with yerrorbars pt 7 lc rgb "#1b6ca8" title "Box2D, small steps, full", \
      rows(2, "Box2D adaptive") using 4:5:6 with yerrorbars pt 6 lc rgb "#1b6ca8" title "adaptive", \
@@ -27,9 +27,9 @@ plot rows(2, "Box2D full") using 4:5:6 with yerrorbars pt 7 lc rgb "#1b6ca8" tit
      rows(2, "Box2D v3") using 4:5:6 with yerrorbars pt 13 ps 1.3 lc rgb "#c0392b" title "Box2D v3"
 
 set title "Example 1 in 3D"
-set yrange [1.05:1.5]
+set yrange [1.1:1.45]
 unset object 2
-eval band(3, 1.267, 1.285)
+eval band(3, 1.291, 1.311)
 set key at screen 0.78,0.02
 plot rows(3, "Bullet full") using 4:5:6 with yerrorbars pt 9 lc rgb "#2e8b57" title "Bullet, small steps, full", \
      rows(3, "Bullet adaptive") using 4:5:6 with yerrorbars pt 8 lc rgb "#2e8b57" title "adaptive", \
