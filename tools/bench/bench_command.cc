@@ -28,14 +28,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* footer =
-    "The folder --out (bench) gets bench.csv with a row for each run, and plots; a benchmark that was stopped goes on "
-    "when\n"
-    "it is started again. On slurm an array of jobs does the runs, those with one scene, engine and seed on one "
-    "machine,\n"
-    "and a job after it collects. `reference` is full at settings that are "
-    "taken\n"
-    "for converged; without it in --policy no error of shape is known. Each run gives the bits of\n"
-    "`talus run SCENE --policy POLICY --set seed=SEED` with the settings of its row.\n"
+    "The folder --out (bench) gets bench.csv with a row for each run, and plots; a benchmark that was stopped goes\n"
+    "on when it is started again. On slurm an array of jobs does the runs, those with one scene, engine and seed on\n"
+    "one machine, and a job after it collects. `reference` is full at settings that are taken for converged; without\n"
+    "it in --policy no error of shape is known. Each run gives the bits of `talus run SCENE --policy POLICY\n"
+    "--set seed=SEED` with the settings of its row.\n"
     "Exit code: 0 all runs finished, 1 some failed (bench.csv says how), 2 bad input.\n"
     "Examples:\n"
     "  talus bench --preset table1 --quick\n"
