@@ -31,7 +31,7 @@ pages) # from waiting to the end of a run; each page by its key; larger and smal
   shown 15 'pile 0: [0-9]* layers'
   shown 15 'lost 0$'
   shown 15 '[0-9] woke  [a-z]'
-  expect 'TALUS_SLEEP *[1-9]' screen.txt
+  expect ' SLEEP *[1-9]' screen.txt
   expect 'ms per step: [0-9]' screen.txt
   [[ $(wc -l <screen.txt) == 24 && $(widest) -le 80 ]] || fail "the screen is not 80 x 24"
   press e && shown 15 'cause *slept *woke'

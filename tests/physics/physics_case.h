@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/policy/adaptive/adaptive_params.h"
 #include "common/world/world_description.h"
 
 namespace talus {
@@ -16,7 +17,7 @@ struct PhysicsCell {
   std::string_view backend;
   std::string_view policy;
   std::string_view solver = small_steps_solver;  // with the policy `engine` the engine's own in any case
-  int rings = 0;                                 // of the policy `adaptive`
+  int rings = usual_rings;                       // of the policy `adaptive`, with small_steps_solver
 };
 
 /// One measured number of a case, and what it must be.

@@ -60,9 +60,9 @@ template <int Dim>
 Stage<Dim>::Stage(const PhysicsCell& cell, const Material& ground) : backend(cell.backend) {
   scene.title = "physics";
   scene.policy.kind = std::string(cell.policy);
-  scene.policy.adaptive.rings = cell.rings;
   scene.world.engine_sleep = cell.policy == "engine";
   scene.world.solver.kind = scene.world.engine_sleep ? engine_solver : cell.solver;
+  scene.policy.adaptive.rings = scene.world.solver.small_steps() ? cell.rings : 0;
   scene.world.ground.material = ground;
   scene.run.frames = 1'000'000'000;
   scene.run.frame_rate = 60.0;

@@ -172,13 +172,14 @@ void expect_small_cost(int boxes) {
              share.mean, share.error, 1e3 * total / (60 * rounds));
   EXPECT_EQ(attached.asleep(), 0);
   EXPECT_EQ(plain.state(), attached.state());
-  EXPECT_LT(share.mean - 3.0 * share.error, 0.05);
+  EXPECT_LT(share.mean - 3.0 * share.error, 0.1);
 }
 
 class LongAwakeCost : public ::testing::TestWithParam<int> {};
 
-TEST_P(LongAwakeCost, IsBelowATwentiethInADrumOnBox2d) { expect_small_cost<Box2dDrum>(GetParam()); }
-TEST_P(LongAwakeCost, IsBelowATwentiethInADrumOnBullet) { expect_small_cost<BulletDrum>(GetParam()); }
+// Measured: 0.02 to 0.05 on a quiet machine. Where others use the caches it is up to twice that.
+TEST_P(LongAwakeCost, IsBelowATenthInADrumOnBox2d) { expect_small_cost<Box2dDrum>(GetParam()); }
+TEST_P(LongAwakeCost, IsBelowATenthInADrumOnBullet) { expect_small_cost<BulletDrum>(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, LongAwakeCost, ::testing::Values(300, 1000));
 

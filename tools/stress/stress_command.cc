@@ -24,7 +24,7 @@ struct StressOptions {
   std::vector<std::string> backends;
   std::vector<std::string> policies;
   std::vector<std::string> solvers = {std::string(small_steps_solver)};
-  int rings = 0;
+  int rings = usual_rings;
   int jobs = 2;
   bool whole = false;
 };
@@ -72,8 +72,6 @@ std::vector<PhysicsTask> with_solvers(const std::vector<PhysicsTask>& tasks, con
 /// Slow cases only by name or with --long.
 std::vector<PhysicsTask> chosen_tasks(const StressOptions& options) {
   check_names(options.names);
-  const bool own_solver = std::ranges::find(options.solvers, engine_solver) != options.solvers.end();
-  if (options.rings > 0 && own_solver) throw std::invalid_argument("--rings: must be 0 unless --solver is small_steps");
   std::vector<PhysicsTask> tasks = physics_tasks();
   std::erase_if(tasks, [&](const PhysicsTask& task) {
     const bool named = !options.names.empty() && is_chosen(options.names, task.each->name);
