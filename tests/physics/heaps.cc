@@ -102,7 +102,8 @@ struct Repose {
 
 constexpr std::string_view repose_rises = "the angle of repose rises with friction (Zhou et al. 2001)";
 constexpr std::string_view repose_saturates =
-    "boxes topple before they slide, so more friction changes little; as measured, three times the scatter of eight heaps";
+    "boxes topple before they slide, so more friction changes little; as measured, three times the scatter of eight "
+    "heaps";
 
 }  // namespace
 
