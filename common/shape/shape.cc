@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <limits>
 
 #include "common/math/require.h"
 #include "common/shape/moments.h"
@@ -149,8 +149,9 @@ double thickness(const Shape<Dim>& shape) {
 
 template <int Dim>
 double least_width(const Shape<Dim>& shape) {
-  const auto width = [](const Piece<Dim>& piece) { return smallest_width(piece); };
-  return std::ranges::min(shape.pieces | std::views::transform(width));
+  double least = std::numeric_limits<double>::infinity();
+  for (const Piece<Dim>& piece : shape.pieces) least = std::min(least, smallest_width(piece));
+  return least;
 }
 
 template MassProperties<2> mass_properties(const Piece<2>&);
