@@ -329,7 +329,7 @@ test("the editor completes keys and values with range and meaning from the progr
   await page.keyboard.type("0.25");
   assert.match(await sceneText(page), /\[shape\.L\]\nrolling_friction = 0\.25\n/);
   await type("kind = \"ba");
-  assert.ok((await page.locator(".cm-tooltip-autocomplete li").allInnerTexts()).some((text) => text.includes("ball")));
+  await page.waitForSelector(".cm-tooltip-autocomplete li:has-text('ball')");
   await page.keyboard.press("Escape");
   assert.deepEqual(page.faults, []);
   await page.close();
