@@ -30,10 +30,10 @@ void mix_restitution(b2Contact& contact) {
 
 namespace {
 
-/// How pieces of different kinds are thickened [m].
+/// Where the skin of a polygon has an effect on the other pieces [m].
 struct Skins {
-  double around_discs = 0.0;
-  double within_sides = 0.0;  // of what the engine adds around a capsule's sides
+  double around_discs = 0.0;  // added to their radius
+  double within_sides = 0.0;  // taken off a capsule's sides, so that they lie flush with its ends
 };
 
 b2CircleShape disc(const Vec2& centre, double radius, const Skins& skins) {
@@ -68,7 +68,6 @@ void append_capsule(std::vector<EnginePiece>& out, const Vec2& a, const Vec2& b,
   out.emplace_back(disc(b, radius, skins));
   const Vec2 along = b - a;
   const Pose<2> middle{(a + b) / 2.0, Rotation<2>(std::atan2(along.y(), along.x()))};
-  // Less the skin, the straight sides lie flush with the round ends.
   const double half_width = std::max(radius - skins.within_sides, radius / 4.0);
   out.emplace_back(rectangle(middle, {along.norm() / 2.0, half_width}));
 }

@@ -113,9 +113,9 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
     {place_of<&AdaptiveParams::rings>,
      {.name = "rings",
       .range = between(0.0, 100.0),
-      .default_text = "by `accuracy`; 0 with `control_slope`, but always 2 where an obstacle or gravity moves, events "
-                      "happen or loads "
-                      "are measured; 0 without `small_steps`",
+      .default_text =
+          "by `accuracy`; 0 with `control_slope`; 2 in any case where an obstacle or gravity moves, events happen or "
+          "loads are measured; 0 without `small_steps`",
       .meaning = "sleeping bodies up to this number of contacts from what moves take part in the contact solve, and "
                  "wake when it moves them; impacts, lost supports, avalanches and stability checks then wake none. 0: "
                  "none does. 1: momentum and loads pass on too slowly; 3 and more: slow. Only with the solver "

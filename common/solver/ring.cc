@@ -290,7 +290,7 @@ void Ring<Dim>::read_points(const ContactSolver<Dim>& solver, float distance) {
   }
 }
 
-/// To the bodies of a point that are immovable in this step.
+/// Adds the change of a point's impulses to those of its bodies that were immovable in the solve.
 template <int Dim>
 void Ring<Dim>::add_unsolved(const SleepingPoint<Dim>& before, const ContactPoint<Dim>& solved) {
   const auto impulse = [](const ContactPoint<Dim>& point) -> VecF<Dim> {

@@ -54,7 +54,7 @@ TEST_F(LongSlurm, GivesTheBitsOfALocalSweepAndReturnsAtOnce) {
 collected cluster; until [ "$(squeue --noheader)" = "" ]; do sleep 0.1; done
 "$TALUS" sweep --status cluster)sh");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("12 runs in job 1, an array of 12 tasks of 1, and job 2, which collects"),
+  EXPECT_NE(outcome.out.find("12 lines of tasks.txt in job 1, an array of 12 tasks of 1, and job 2, which collects"),
             std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.err.find("sbatch refused "), std::string::npos) << outcome.err;
@@ -77,7 +77,7 @@ collected cluster)sh");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find("12 runs: 11 finished, 0 failed, 1 begun, 0 not begun"), std::string::npos) << outcome.out;
   EXPECT_EQ(std::ranges::count(contents(folder_.path() / "first.csv"), '\n'), 12);
-  EXPECT_NE(outcome.out.find("\n1 runs in job "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n1 lines of tasks.txt in job "), std::string::npos) << outcome.out;
   EXPECT_EQ(hashes("cluster"), local_hashes());
 }
 
@@ -101,7 +101,8 @@ for i in $(seq 1200); do [ -e cluster/bench.csv ] && break; sleep 0.1; done
 hashes() { cut -d, -f1-5 $1/bench.csv; grep -o '"end_hash[^,]*' $1/rows/*.json | sed 's/.*rows//'; }
 [ "$(hashes here)" = "$(hashes cluster)" ])sh");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("3 runs in job 1, an array of 3 tasks of 1"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("3 lines of tasks.txt in job 1, an array of 3 tasks of 1"), std::string::npos)
+      << outcome.out;
   EXPECT_NE(outcome.out.find("6 runs: 6 measured, 0 failed, 0 not measured"), std::string::npos) << outcome.out;
 }
 

@@ -163,8 +163,9 @@ int bench(const BenchOptions& given, const JobOptions& jobs) {
   if (jobs.is_new()) {
     BenchOptions options = completed(given);
     options.out = fs::absolute(options.out).lexically_normal();
+    const std::vector<fs::path> files = files_of(options);
     options.scenes.clear();
-    for (const fs::path& file : files_of(completed(given))) options.scenes.push_back(file.string());
+    for (const fs::path& file : files) options.scenes.push_back(file.string());
     return begin(options, jobs);
   }
   BenchOptions options = read_bench(!jobs.resume.empty()   ? jobs.resume

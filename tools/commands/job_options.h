@@ -11,7 +11,7 @@
 
 namespace talus {
 
-/// In which folder runs are done, where, and what of it this command does. One of the folders must be given.
+/// The folder of the runs, where they are done, and what the command does there. One of the five folders must be given.
 struct JobOptions {
   std::filesystem::path out;
   std::filesystem::path emit;
@@ -25,7 +25,7 @@ struct JobOptions {
 
   /// How many of the folders are given.
   int folders() const;
-  /// Whether the runs are told here, and not read from a folder.
+  /// Whether other options give the runs, and not a folder.
   bool is_new() const { return !out.empty() || !emit.empty(); }
   /// Whether the runs are left to a scheduler.
   bool listed() const { return on == "slurm" || !emit.empty(); }

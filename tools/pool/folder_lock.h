@@ -4,7 +4,7 @@
 
 namespace talus {
 
-/// Its name in the folder.
+/// The file by which a folder is locked, in that folder.
 inline constexpr const char* lock_file = "lock";
 
 /// Keeps other commands out of a folder as long as it lives, in processes of other machines too where the file system

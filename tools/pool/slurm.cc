@@ -40,8 +40,8 @@ std::string submit(const fs::path& folder, const TaskList& list) {
   write_file(job_file(folder), array + "\n");
   const std::string collect = submitted(list.collect, "--dependency=afterany:" + array);
   write_file(job_file(folder), array + "\n" + collect + "\n");
-  return fmt::format("{} runs in job {}, an array of {} tasks of {}, and job {}, which collects\n", list.lines, array,
-                     list.tasks, list.chunk, collect);
+  return fmt::format("{} lines of tasks.txt in job {}, an array of {} tasks of {}, and job {}, which collects\n",
+                     list.lines, array, list.tasks, list.chunk, collect);
 }
 
 std::string jobs_left(const fs::path& folder) {
