@@ -1,43 +1,15 @@
 #pragma once
 // The contact solver of all engines: small steps with soft contacts.
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "common/math/vector.h"
+#include "common/solver/solver_body.h"
+#include "common/world/team.h"
 
 namespace talus {
-
-/// Single precision, as the engines have it. Spins and turns are one number in 2D (counter-clockwise), a vector in 3D.
-template <int Dim>
-using VecF = Eigen::Matrix<float, Dim, 1>;
-template <int Dim>
-using SpinF = Eigen::Matrix<float, Dim == 2 ? 1 : 3, 1>;
-template <int Dim>
-using InertiaF = Eigen::Matrix<float, Dim == 2 ? 1 : 3, Dim == 2 ? 1 : 3>;
-
-/// Velocity of the end of an arm by a spin, or its displacement by a small turn.
-inline VecF<2> turned(const SpinF<2>& spin, const VecF<2>& arm) { return spin[0] * VecF<2>(-arm.y(), arm.x()); }
-inline VecF<3> turned(const SpinF<3>& spin, const VecF<3>& arm) { return spin.cross(arm); }
-
-/// A body in the solver.
-///
-/// Awake: its mass, and `moves`. Asleep: its mass too, but it does not move, so that contacts with it are as stiff as
-/// when it was awake (else each sleep under load would shift what rests on it). An obstacle: no inverse mass; one that
-/// moves has its velocity, which stays.
-template <int Dim>
-struct SolverBody {
-  VecF<Dim> velocity = VecF<Dim>::Zero();                 // [m/s], before and after
-  SpinF<Dim> spin = SpinF<Dim>::Zero();                   // [rad/s], before and after
-  float inverse_mass = 0.0F;                              // [1/kg]
-  InertiaF<Dim> inverse_inertia = InertiaF<Dim>::Zero();  // in world axes [1/(kg m^2)]
-  bool moves = false;                                     // impulses and gravity act on it
-  VecF<Dim> way = VecF<Dim>::Zero();                      // after: motion in the step [m]
-  SpinF<Dim> turn = SpinF<Dim>::Zero();                   // after: rotation in the step [rad]
-};
 
 /// A point where two bodies touch or may touch within the step. All impulses act on b, their opposites on a.
 ///
@@ -113,6 +85,8 @@ class ContactSolver {
 
   /// Advances velocities by `dt` [s] under `gravity` [m/s^2]. The caller moves the bodies by `way` and `turn`.
   void solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt);
+  /// From now on, threads share steps of many bodies; the bits stay the same.
+  void share_among(const std::shared_ptr<Team>& team) { team_ = team; }
 
   const SolverBody<Dim>& body(int slot) const { return bodies_[slot]; }
   /// In the order in which they were added.
@@ -129,6 +103,7 @@ class ContactSolver {
   std::vector<ContactPoint<Dim>> points_;
   std::vector<Push> pushes_;
   std::unique_ptr<Work> work_;
+  std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
 };
 
 }  // namespace talus

@@ -145,6 +145,7 @@ class PeriodicWorld final : public World<Dim> {
     for (Contact<Dim>& contact : std::span(found).subspan(before)) contact = outward(contact);
   }
   int engine_solved_sleepers() const override { return inner_->solved_sleepers(); }
+  void engine_share_among(const std::shared_ptr<Team>& team) override { inner_->share_among(team); }
 
   /// Images are behind the upper sides: what reaches below a lower side is searched for behind the upper one.
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override {

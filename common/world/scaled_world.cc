@@ -82,6 +82,7 @@ class ScaledWorld final : public World<Dim> {
     for (Contact<Dim>& contact : std::span(found).subspan(before)) contact = outward(contact);
   }
   int engine_solved_sleepers() const override { return inner_->solved_sleepers(); }
+  void engine_share_among(const std::shared_ptr<Team>& team) override { inner_->share_among(team); }
 
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override {
     inner_->query_box({lengths_ * box.min(), lengths_ * box.max()}, found);

@@ -13,6 +13,7 @@
 
 #include "common/world/body.h"
 #include "common/world/sleep_ring.h"
+#include "common/world/team.h"
 #include "common/world/world_description.h"
 
 namespace talus {
@@ -70,6 +71,13 @@ class World {
   /// Advances by dt. Throws NonFiniteState if the state of a body is not finite afterwards; the states then stay as
   /// they were before the step, and each later call throws the same.
   void step();
+
+  /// From now on these threads share the work of a step, where it is large enough. The bits are those of one thread.
+  void share_among(const std::shared_ptr<Team>& team) {
+    team_ = team;
+    engine_share_among(team);
+  }
+  Team& team() const { return *team_; }
 
   /// Puts an awake body elsewhere, with the velocity that it has.
   void place(BodyIndex body, const Pose<Dim>& pose);
@@ -158,7 +166,8 @@ class World {
   std::span<const BodyIndex> awake() const { return awake_; }
 
   /// Appends all bodies, awake or asleep, whose bounding box may touch `box` (a superset), ascending. An empty box
-  /// (a lower corner above the upper one) touches nothing.
+  /// (a lower corner above the upper one) touches nothing. Threads may call it side by side once one call after the
+  /// last change has returned.
   void query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const;
 
   /// Goes up when a shape or an obstacle is new or another one than before. Stays 0 in the engines of talus.
@@ -255,6 +264,9 @@ class World {
   virtual void engine_sleeping_contacts(BodyIndex /*side*/, std::vector<Contact<Dim>>& /*found*/) const {}
   virtual int engine_solved_sleepers() const { return 0; }
 
+  /// An engine that does all of its work on one thread does nothing.
+  virtual void engine_share_among(const std::shared_ptr<Team>& /*team*/) {}
+
   /// Appends the bodies near `box` in any order; a body may come several times.
   virtual void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const = 0;
 
@@ -289,6 +301,7 @@ class World {
   std::vector<std::uint8_t> removed_obstacles_;   // by number; empty: none
   std::vector<Push<Dim>> pushes_;                 // in the next step
   std::vector<Vec<Dim>> belts_;                   // by number: velocity of the surface [m/s]; empty: no belt
+  std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
   EngineTimes times_;
   std::int64_t steps_ = 0;
   std::int64_t form_ = 0;
