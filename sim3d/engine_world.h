@@ -47,6 +47,10 @@ class EngineWorld final : public World<Dim> {
   bool engine_feels(BodyIndex body, BodyIndex side) const override;
   void engine_sleeping_contacts(BodyIndex side, std::vector<Contact<Dim>>& found) const override;
   int engine_solved_sleepers() const override;
+  void engine_share_among(const std::shared_ptr<Team>& team) override {
+    engine_.world.share_among(team);
+    if (small_steps_) small_steps_->share_among(team);
+  }
 
   void use_small_steps();
   typename SmallSteps<Dim>::Actions actions();

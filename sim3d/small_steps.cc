@@ -60,6 +60,7 @@ SolverBody<Dim> awake_body(btRigidBody& rigid, float dt) {
   // At once, as Bullet has it: spread over the sub-steps a tumbling body loses a fifth of its angular momentum.
   if constexpr (Dim == 3) body.spin += to_solver<3>(rigid.computeGyroscopicImpulseImplicit_Body(dt));
   body.inverse_mass = rigid.getInvMass();
+  body.position = to_solver<Dim>(rigid.getWorldTransform().getOrigin());
   body.inverse_inertia = inertia_to_solver<Dim>(rigid.getInvInertiaTensorWorld());
   body.moves = true;
   return body;

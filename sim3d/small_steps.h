@@ -30,6 +30,8 @@ class SmallSteps {
   /// `fastest_spin`: to which a body's is cut [rad/s].
   SmallSteps(const WorldDescription<Dim>& description, double fastest_spin);
 
+  void share_among(const std::shared_ptr<Team>& team) { solver_.share_among(team); }
+
   /// What acts on the bodies in a step besides their contacts.
   struct Actions {
     std::span<btRigidBody* const> moving;  // the obstacles that move in it

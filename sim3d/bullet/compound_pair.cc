@@ -92,10 +92,25 @@ void CompoundPair::processCollision(const btCollisionObjectWrapper* first, const
 
 void CompoundPair::collide(const Side& first, const Side& second, const btDispatcherInfo& info,
                            btManifoldResult& result) {
+  follow(first, second, info, result);
+  part(first, second);
+}
+
+void CompoundPair::follow(const Side& first, const Side& second, const btDispatcherInfo& info,
+                          btManifoldResult& result) {
   refresh(result);
   if (pieces_overlap(first.placed, second.placed))
     descend(tree(first), tree(second), Visit(first, second, info, result));
-  part(first, second);
+}
+
+bool CompoundPair::is_steady(const PlacedBody& first, const PlacedBody& second) const {
+  for (const PiecePair& pair : pieces_)
+    if (pair.manifold == nullptr || !overlap(first.pieces[pair.first].box, second.pieces[pair.second].box))
+      return false;
+  std::size_t near = 0;
+  for (const WorldPiece& a : first.pieces)
+    for (const WorldPiece& b : second.pieces) near += overlap(a.box, b.box) ? 1 : 0;
+  return near == pieces_.size();
 }
 
 void CompoundPair::fetch_points() const {

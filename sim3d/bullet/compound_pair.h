@@ -32,6 +32,11 @@ class CompoundPair final : public btCollisionAlgorithm {
   };
   void collide(const Side& first, const Side& second, const btDispatcherInfo& info, btManifoldResult& result);
 
+  /// Whether its pieces meet as they did: collide() would make and drop nothing.
+  bool is_steady(const PlacedBody& first, const PlacedBody& second) const;
+  /// collide() of a pair that is steady. Touches no memory of other pairs.
+  void follow(const Side& first, const Side& second, const btDispatcherInfo& info, btManifoldResult& result);
+
   /// Whether no two pieces are near each other: nothing to follow.
   bool is_empty() const { return pieces_.empty(); }
 

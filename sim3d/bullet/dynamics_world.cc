@@ -16,6 +16,11 @@ DynamicsWorld::DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInte
       debug_(debug),
       near_pairs_(dispatcher, pairs, !debug.visit_separate_pairs) {}
 
+std::span<btRigidBody* const> DynamicsWorld::bodies() const {
+  if (m_nonStaticRigidBodies.size() == 0) return {};
+  return {&m_nonStaticRigidBodies[0], static_cast<std::size_t>(m_nonStaticRigidBodies.size())};
+}
+
 void DynamicsWorld::set_bodies(std::span<btRigidBody* const> bodies) {
   m_collisionObjects.resize(statics_);
   m_nonStaticRigidBodies.resize(0);
@@ -45,7 +50,7 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
   if (!debug_.bullet_compounds) {
     updateAabbs();
     computeOverlappingPairs();
-    near_pairs_.collide(getDispatchInfo());
+    near_pairs_.collide(getDispatchInfo(), bodies(), *team_);
   } else {
     btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
   }

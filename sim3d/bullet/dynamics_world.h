@@ -4,11 +4,13 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "common/world/debug_options.h"
+#include "common/world/team.h"
 #include "sim3d/bullet/near_pairs.h"
 
 namespace talus::bullet {
@@ -40,6 +42,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
 
   int listed_objects() const { return m_collisionObjects.size(); }
 
+  void share_among(const std::shared_ptr<Team>& team) { team_ = team; }
+
   /// What the last collision detection took [s].
   double collide_seconds() const { return collide_seconds_; }
 
@@ -58,8 +62,11 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void saveKinematicState(btScalar /*time_step*/) override {}
 
  private:
+  std::span<btRigidBody* const> bodies() const;
+
   DebugOptions debug_;
   NearPairs near_pairs_;
+  std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
   int statics_ = 0;
   double collide_seconds_ = 0.0;
   std::function<void()> after_collision_ = [] {};

@@ -19,14 +19,63 @@ void fetch_body(const btBroadphaseProxy& proxy) {
 
 }  // namespace
 
-void NearPairs::collide(const btDispatcherInfo& info) {
+void NearPairs::collide(const btDispatcherInfo& info, std::span<btRigidBody* const> bodies, Team& team) {
   pairs_.places().start_step();
   btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();
+  done_.assign(pairs.size(), 0);
+  if (team.size() > 1 && std::ssize(bodies) >= bodies_to_share) collide_steady(info, bodies, team);
   for (int i = 0; i < pairs.size(); ++i) {
+    if (done_[i] != 0) continue;
     fetch_ahead(i);
     btBroadphasePair& pair = pairs[i];
     if (!IdleMark::is_set(pair) || !is_idle(pair)) visit(pair, info);
   }
+}
+
+void NearPairs::collide_steady(const btDispatcherInfo& info, std::span<btRigidBody* const> bodies, Team& team) {
+  btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();
+  team.divide(static_cast<int>(bodies.size()), [&](int first, int last, int /*member*/) {
+    for (const btRigidBody* body : bodies.subspan(first, last - first))
+      if (const std::int32_t slot = pairs_.list_of(*body); slot >= 0 && body->getCollisionShape()->isCompound())
+        pairs_.places().of(slot, *body);
+  });
+  team.divide(pairs.size(), [&](int first, int last, int /*member*/) {
+    for (int i = first; i < last; ++i) {
+      fetch_ahead(i);
+      done_[i] = visit_steady(pairs[i], info) ? 1 : 0;
+    }
+  });
+}
+
+const PlacedBody* NearPairs::known_place(const btCollisionObject& body) {
+  const std::int32_t slot = pairs_.list_of(body);
+  return slot >= 0 ? pairs_.places().known(slot) : pairs_.places().known_obstacle(body.getUserIndex());
+}
+
+/// Whether it could be done without memory that others share.
+bool NearPairs::visit_steady(btBroadphasePair& pair, const btDispatcherInfo& info) {
+  if (IdleMark::is_set(pair)) {
+    const IdleMark mark = IdleMark::of(pair);
+    const PlacedBody* first = pairs_.places().known(mark.first);
+    const PlacedBody* second = pairs_.places().known(mark.second);
+    return first != nullptr && second != nullptr && !pieces_overlap(*first, *second);
+  }
+  if (!IdleMark::is_compound(pair)) return false;
+  const btCollisionObject& first = body_of(pair.m_pProxy0);
+  const btCollisionObject& second = body_of(pair.m_pProxy1);
+  if (!first.isActive() && !second.isActive()) return true;
+  const PlacedBody* first_placed = known_place(first);
+  const PlacedBody* second_placed = known_place(second);
+  if (first_placed == nullptr || second_placed == nullptr) return false;
+  auto& algorithm = *static_cast<CompoundPair*>(pair.m_algorithm);
+  if (algorithm.is_empty() || !algorithm.is_steady(*first_placed, *second_placed)) return false;
+  const btCollisionObjectWrapper first_whole(nullptr, first.getCollisionShape(), &first, first.getWorldTransform(), -1,
+                                             -1);
+  const btCollisionObjectWrapper second_whole(nullptr, second.getCollisionShape(), &second, second.getWorldTransform(),
+                                              -1, -1);
+  btManifoldResult result(&first_whole, &second_whole);
+  algorithm.follow({first_whole, *first_placed}, {second_whole, *second_placed}, info, result);
+  return true;
 }
 
 // In four strides: the parts of a pair, then what only those lead to, down to the contact points.

@@ -3,6 +3,7 @@
 
 #include <btBulletCollisionCommon.h>
 
+#include "common/world/team.h"
 #include "sim3d/bullet/compound_pair.h"
 #include "sim3d/bullet/pairs.h"
 
@@ -16,9 +17,14 @@ class NearPairs {
   NearPairs(btCollisionDispatcher& dispatcher, PairCache& pairs, bool skip_idle)
       : dispatcher_(dispatcher), pairs_(pairs), skip_idle_(skip_idle) {}
 
-  void collide(const btDispatcherInfo& info);
+  /// `bodies`: those that are awake. Threads share what neither makes nor drops contacts' memory; the rest follows in
+  /// the order of the pairs, so that the bits are the same for any number of threads.
+  void collide(const btDispatcherInfo& info, std::span<btRigidBody* const> bodies, Team& team);
 
  private:
+  void collide_steady(const btDispatcherInfo& info, std::span<btRigidBody* const> bodies, Team& team);
+  bool visit_steady(btBroadphasePair& pair, const btDispatcherInfo& info);
+  const PlacedBody* known_place(const btCollisionObject& body);
   void fetch_ahead(int i) const;
   bool is_idle(const btBroadphasePair& pair);
   void visit(btBroadphasePair& pair, const btDispatcherInfo& info);
@@ -28,6 +34,7 @@ class NearPairs {
   btCollisionDispatcher& dispatcher_;
   PairCache& pairs_;
   bool skip_idle_;
+  std::vector<unsigned char> done_;  // by pair, of this step
 };
 
 }  // namespace talus::bullet

@@ -65,6 +65,12 @@ class PlacedPieces {
     return placed.known_until < step_ ? nullptr : &placed;
   }
 
+  /// The same of an obstacle.
+  const PlacedBody* known_obstacle(int index) const {
+    const std::size_t number = -index;
+    return number < obstacles_.size() && obstacles_[number].known_until >= step_ ? &obstacles_[number] : nullptr;
+  }
+
   void fetch(std::int32_t slot) const { __builtin_prefetch(&slots_[slot]); }
 
  private:
