@@ -55,6 +55,9 @@ class EngineWorld final : public World<2> {
   bool engine_feels(BodyIndex body, BodyIndex side) const override;
   void engine_sleeping_contacts(BodyIndex side, std::vector<Contact<2>>& found) const override;
   int engine_solved_sleepers() const override;
+  void engine_share_among(const std::shared_ptr<Team>& team) override {
+    if (small_steps_) small_steps_->share_among(team);
+  }
 
   EngineTimes box2d_step();
   EngineTimes small_step();

@@ -35,6 +35,7 @@ SolverBody<2> solver_body(const b2Body& from, const b2MassData& mass) {
   SolverBody<2> body;
   body.velocity = vector(from.GetLinearVelocity());
   body.spin[0] = from.GetAngularVelocity();
+  body.position = vector(from.GetWorldCenter());
   body.inverse_mass = 1.0F / mass.mass;
   body.inverse_inertia(0, 0) = 1.0F / mass.I;
   body.moves = true;
@@ -74,8 +75,7 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description)
 
 EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
   const double start = now();
-  // Box2D gives access to its contact manager for reading only.
-  const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
+  collision_.collide(world, std::ssize(bodies), *team_);
   detected_ = input.states.size();
   slots_.resize(input.states.shape.size(), 0);
   ahead_.clear();
@@ -85,7 +85,7 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
     add_bodies(input, bodies);
     if (round == 1) expect_motion(world, input, bodies);
     add_points_ahead(input);
-    add_contacts(world, input);
+    add_contacts(input);
     if (ring_) ring_->extend(solver_, obstacle_slots_);
     const double added = now();
     solver_.solve(params_, vector(world.GetGravity()), dt_);
@@ -112,7 +112,7 @@ std::span<b2Body* const> SmallSteps::at_slot(int slot, std::span<b2Body* const> 
 /// From the velocities; finds the contacts ahead of what is fast.
 void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
   fast_.expect(solver_, static_cast<int>(first_of_.size()), dt_);
-  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
+  for (b2Contact* contact : collision_.touching())
     if (is_buried(*contact)) add_ground_ahead(input, *contact->GetFixtureB()->GetBody());
   // Below the line a body would be lost, so its ground is sought earlier.
   for (int slot = 1; slot <= std::ssize(first_of_); ++slot)
@@ -124,7 +124,7 @@ void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span
 
 /// The ground is a line: Box2D pushes a body further down if its middle is below the line.
 bool SmallSteps::is_buried(b2Contact& contact) {
-  if (!contact.IsTouching() || owner_of(*contact.GetFixtureA()) != ground_index) return false;
+  if (owner_of(*contact.GetFixtureA()) != ground_index) return false;
   if (!is_dynamic(*contact.GetFixtureB()->GetBody())) return false;
   b2WorldManifold place;
   contact.GetWorldManifold(&place);
@@ -150,8 +150,7 @@ void SmallSteps::set_ring(const std::optional<SleepRing>& ring) {
 void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const BodyIndex> bodies,
                         std::span<b2Body* const> from) {
   // A body may fall asleep before its first step.
-  if (bodies.back() >= detected_)
-    const_cast<b2ContactManager&>(world.GetContactManager()).Collide();  // NOLINT(*-const-cast)
+  if (bodies.back() >= detected_) collision_.collide(world, std::ssize(bodies), *team_);
   detected_ = input.states.size();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (input.images[bodies[i]].sides != 0) continue;
@@ -283,9 +282,9 @@ void SmallSteps::add_points_ahead(const StepInput& input) {
   }
 }
 
-void SmallSteps::add_contacts(b2World& world, const StepInput& input) {
-  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext()) {
-    if (!contact->IsTouching() || is_buried(*contact)) continue;
+void SmallSteps::add_contacts(const StepInput& input) {
+  for (b2Contact* contact : collision_.touching()) {
+    if (is_buried(*contact)) continue;
     const Fixtures pair = fixtures_of(*contact);
     b2WorldManifold place;
     contact->GetWorldManifold(&place);

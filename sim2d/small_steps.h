@@ -12,6 +12,7 @@
 #include "common/solver/ring.h"
 #include "common/world/world.h"
 #include "sim2d/body_template.h"
+#include "sim2d/collision.h"
 #include "sim2d/contacts_ahead.h"
 #include "sim2d/tag.h"
 #include "sim2d/warm_start.h"
@@ -40,6 +41,11 @@ class SmallSteps {
 
   /// In place of b2World::Step(); Box2D must know all pairs.
   EngineTimes step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
+
+  void share_among(const std::shared_ptr<Team>& team) {
+    team_ = team;
+    solver_.share_among(team);
+  }
 
   /// Whether sleepers feel forces, see Ring: those that fall asleep from now on.
   void set_ring(const std::optional<SleepRing>& ring);
@@ -106,7 +112,7 @@ class SmallSteps {
   int slot_of(BodyIndex owner, const VecF<2>& normal, const StepInput& input);
   static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);
   void add_points_ahead(const StepInput& input);
-  void add_contacts(b2World& world, const StepInput& input);
+  void add_contacts(const StepInput& input);
   static Fixtures fixtures_of(b2Contact& contact);
   std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
                                              const b2WorldManifold& place, const StepInput& input);
@@ -130,6 +136,8 @@ class SmallSteps {
   std::vector<double> arms_;    // by shape [m]; empty: no rolling friction
   std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
   ContactSolver<2> solver_;
+  Collision collision_;
+  std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
   std::optional<Ring<2>> ring_;
   std::vector<Ahead> ahead_;
   std::vector<std::size_t> first_of_;       // by slot of an awake body, from 1 on: its number among the awake
