@@ -100,6 +100,7 @@ struct RunParams {
   std::string until = std::string(until_frames);
   double pace = 0.0;
   bool contacts = false;
+  int threads = 1;
 };
 
 /// Steps of a run: at 60 a second half a year, at a quarter of a microsecond for a world at rest four minutes.

@@ -163,6 +163,12 @@ inline constexpr auto run_fields = std::to_array<Field<RunParams>>({
       .meaning = "whether frames have the contact points with their forces too: `talus view`, `film` and pictures draw "
                  "force chains then. 45 bytes a point and frame, which make the record of a heap some five times as "
                  "large"}},
+    {place_of<&RunParams::threads>,
+     {.name = "threads",
+      .range = between(1.0, 64.0),
+      .meaning =
+          "that share the work of a step while some hundreds of bodies are awake. The results have the same bits for "
+          "any number"}},
 });
 
 inline constexpr Key dimension_key = {

@@ -11,6 +11,7 @@ namespace talus {
 namespace {
 
 constexpr double largest_turn = 0.2;  // of a part of a path that is taken as straight [rad]
+constexpr int fast_to_share = 64;     // with fewer, threads would wait longer than they work
 constexpr double depth_limit = 0.25;  // that a path may lead into a body [its smallest width]
 
 /// Square of the way of a point at distance 1 from the axis, at most [m²].
@@ -119,20 +120,43 @@ auto PassingWatch<Dim>::end_step(const World<Dim>& world) -> std::span<const Fin
   }
   for (int k = 0; k < std::ssize(obstacles_); ++k)
     if (world.obstacles()[k].moves && world.has_obstacle(k)) note(mover(world, first_obstacle - k));
-  for (const Mover& fast : fast_) test_neighbours(world, fast, farthest);
+  if (!fast_.empty()) test_all(world, farthest);
   return findings_;
 }
 
+/// The first alone: it readies the world for searches side by side.
 template <int Dim>
-void PassingWatch<Dim>::test_neighbours(const World<Dim>& world, const Mover& fast, double margin) {
+void PassingWatch<Dim>::test_all(const World<Dim>& world, double margin) {
+  const std::span<const Mover> others = std::span(fast_).subspan(1);
+  Team& team = world.team();
+  searches_.resize(std::max(searches_.size(), static_cast<std::size_t>(team.size())));
+  for (Search& search : searches_) search.findings.clear();
+  test_neighbours(world, fast_.front(), margin, searches_.front());
+  const auto test_part = [&](int first, int last, int member) {
+    for (int i = first; i < last; ++i) test_neighbours(world, others[i], margin, searches_[member]);
+  };
+  const auto count = static_cast<int>(others.size());
+  if (count < fast_to_share)
+    test_part(0, count, 0);
+  else
+    team.divide(count, test_part);
+  for (const Search& search : searches_)
+    findings_.insert(findings_.end(), search.findings.begin(), search.findings.end());
+  std::ranges::sort(findings_, {}, [](const Finding& each) { return std::pair(each.body, each.way); });
+}
+
+template <int Dim>
+void PassingWatch<Dim>::test_neighbours(const World<Dim>& world, const Mover& fast, double margin,
+                                        Search& search) const {
   const Box<Dim> box = swept(fast);
-  near_.clear();
-  world.query_box({box.min().array() - margin, box.max().array() + margin}, near_);
-  for (const BodyIndex other : near_)
-    if (other != fast.index) test(fast, image_near(world.periodic(), mover(world, other), fast.to.position));
+  search.near.clear();
+  world.query_box({box.min().array() - margin, box.max().array() + margin}, search.near);
+  const auto meet = [&](const Mover& other) { test(fast, other, search.findings); };
+  for (const BodyIndex other : search.near)
+    if (other != fast.index) meet(image_near(world.periodic(), mover(world, other), fast.to.position));
   if (fast.index < 0) return;
   for (int k = 0; k < std::ssize(obstacles_); ++k)
-    if (world.has_obstacle(k)) test(fast, mover(world, first_obstacle - k));
+    if (world.has_obstacle(k)) meet(mover(world, first_obstacle - k));
 }
 
 template <int Dim>
@@ -144,10 +168,10 @@ auto PassingWatch<Dim>::image_near(const Periodic<Dim>& sides, Mover mover, cons
 }
 
 template <int Dim>
-void PassingWatch<Dim>::test(const Mover& fast, const Mover& other) {
+void PassingWatch<Dim>::test(const Mover& fast, const Mover& other, std::vector<Finding>& findings) const {
   if (!swept(fast).intersects(swept(other)) || way(fast, other) < smallest_core_) return;
   if (!passes(fast, other) && !passes(other, fast)) return;
-  findings_.push_back({fast.index >= 0 ? fast.index : other.index, way(fast, other)});
+  findings.push_back({fast.index >= 0 ? fast.index : other.index, way(fast, other)});
 }
 
 template <int Dim>

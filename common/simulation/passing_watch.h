@@ -57,16 +57,22 @@ class PassingWatch {
   static bool enters(const Vec<Dim>& from, const Vec<Dim>& to, const Solid& solid);
   Mover mover(const World<Dim>& world, BodyIndex index) const;
   static Mover image_near(const Periodic<Dim>& sides, Mover mover, const Vec<Dim>& place);
-  void test_neighbours(const World<Dim>& world, const Mover& fast, double margin);
-  void test(const Mover& fast, const Mover& other);
+  /// What one thread finds.
+  struct Search {
+    std::vector<BodyIndex> near;  // scratch
+    std::vector<Finding> findings;
+  };
+  void test_all(const World<Dim>& world, double margin);
+  void test_neighbours(const World<Dim>& world, const Mover& fast, double margin, Search& search) const;
+  void test(const Mover& fast, const Mover& other, std::vector<Finding>& findings) const;
 
   std::vector<Solid> solids_;     // by shape
   std::vector<Solid> obstacles_;  // by number
   double smallest_core_ = 0.0;    // of the bodies [m]
   std::vector<Pose<Dim>> from_;   // by body: where awake ones were before the step
   std::vector<Pose<Dim>> obstacles_from_;
-  std::vector<Mover> fast_;      // in this step
-  std::vector<BodyIndex> near_;  // scratch
+  std::vector<Mover> fast_;  // in this step
+  std::vector<Search> searches_;
   std::vector<Finding> findings_;
 };
 

@@ -43,6 +43,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       with_other.policy.kind = kind;
       return make_policy(with_other);
     };
+  world_->share_among(std::make_shared<Team>(scene.run.threads));
   Interventions<Dim>::take_out_absent(scene, *world_);
   for (std::size_t i = 0; sleep_.policy().decides() && i < scene.bodies.size(); ++i)
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));

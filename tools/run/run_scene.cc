@@ -31,9 +31,12 @@
 namespace talus {
 namespace {
 
-std::vector<Override> with_pace(const RunOptions& options, std::vector<Override> list) {
+/// With those of `run` that have an option.
+std::vector<Override> with_run(const RunOptions& options, std::vector<Override> list) {
   if (options.pace)
     list.push_back({fmt::format("run.pace={}", *options.pace), fmt::format("--pace {}", *options.pace)});
+  if (options.threads)
+    list.push_back({fmt::format("run.threads={}", *options.threads), fmt::format("--threads {}", *options.threads)});
   return list;
 }
 
@@ -133,11 +136,11 @@ int run_scene(const RunOptions& options) {
   if (options.telemetry) check_live_url(options.lcm_url);
 #endif
   const std::filesystem::path file = find_scene(options.scene);
-  const AnyScene scene = read_scene(file, with_pace(options, overrides_of(options)));
+  const AnyScene scene = read_scene(file, with_run(options, overrides_of(options)));
   // Read before the run, so that a policy that does not exist is refused before it.
   std::optional<AnyScene> other;
   if (!options.against.empty()) {
-    std::vector<Override> list = with_pace(options, overrides_of(options));
+    std::vector<Override> list = with_run(options, overrides_of(options));
     list.push_back({"policy.kind=" + options.against, "--against " + options.against});
     other = read_scene(file, list);
   }
