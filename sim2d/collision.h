@@ -12,8 +12,8 @@
 namespace talus::box2d {
 
 /// Replaces b2ContactManager::Collide(), to the bit. There one thread walks a list of all contacts, from one place of
-/// memory to the next, and later steps walk it again for those that touch. Here threads share the contacts that begin or
-/// end nothing; the others follow in the order of the list, as in Box2D.
+/// memory to the next, and later steps walk it again for those that touch. Here threads share the contacts that begin
+/// or end nothing; the others follow in the order of the list, as in Box2D.
 ///
 /// Only for worlds without sensors and joints, whose listener does nothing with a contact that goes on.
 class Collision {

@@ -30,7 +30,7 @@ struct SolverBody {
   float inverse_mass = 0.0F;                              // [1/kg]
   InertiaF<Dim> inverse_inertia = InertiaF<Dim>::Zero();  // in world axes [1/(kg m^2)]
   bool moves = false;                                     // impulses and gravity act on it
-  VecF<Dim> position = VecF<Dim>::Zero();  // only for the division of many bodies among threads [m]
+  VecF<Dim> position = VecF<Dim>::Zero();                 // only for the division of many bodies among threads [m]
   VecF<Dim> way = VecF<Dim>::Zero();                      // after: motion in the step [m]
   SpinF<Dim> turn = SpinF<Dim>::Zero();                   // after: rotation in the step [rad]
 };

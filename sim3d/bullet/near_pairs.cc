@@ -26,7 +26,7 @@ void NearPairs::collide(const btDispatcherInfo& info, std::span<btRigidBody* con
   if (team.size() > 1 && std::ssize(bodies) >= bodies_to_share) collide_steady(info, bodies, team);
   for (int i = 0; i < pairs.size(); ++i) {
     if (done_[i] != 0) continue;
-    fetch_ahead(i);
+    fetch_ahead(i, pairs.size());
     btBroadphasePair& pair = pairs[i];
     if (!IdleMark::is_set(pair) || !is_idle(pair)) visit(pair, info);
   }
@@ -41,7 +41,7 @@ void NearPairs::collide_steady(const btDispatcherInfo& info, std::span<btRigidBo
   });
   team.divide(pairs.size(), [&](int first, int last, int /*member*/) {
     for (int i = first; i < last; ++i) {
-      fetch_ahead(i);
+      fetch_ahead(i, last);
       done_[i] = visit_steady(pairs[i], info) ? 1 : 0;
     }
   });
@@ -78,11 +78,12 @@ bool NearPairs::visit_steady(btBroadphasePair& pair, const btDispatcherInfo& inf
   return true;
 }
 
-// In four strides: the parts of a pair, then what only those lead to, down to the contact points.
-void NearPairs::fetch_ahead(int i) const {
+// In four strides: the parts of a pair, then what only those lead to, down to the contact points. `last`: from there on
+// another thread may write them.
+void NearPairs::fetch_ahead(int i, int last) const {
   constexpr int stride = 4;
   const btBroadphasePairArray& pairs = const_cast<PairCache&>(pairs_).getOverlappingPairArray();
-  if (i + 4 * stride >= pairs.size()) return;
+  if (i + 4 * stride >= last) return;
   const btBroadphasePair& far = pairs[i + 4 * stride];
   if (IdleMark::is_set(far)) {
     const IdleMark mark = IdleMark::of(far);

@@ -25,7 +25,7 @@ class NearPairs {
   void collide_steady(const btDispatcherInfo& info, std::span<btRigidBody* const> bodies, Team& team);
   bool visit_steady(btBroadphasePair& pair, const btDispatcherInfo& info);
   const PlacedBody* known_place(const btCollisionObject& body);
-  void fetch_ahead(int i) const;
+  void fetch_ahead(int i, int last) const;
   bool is_idle(const btBroadphasePair& pair);
   void visit(btBroadphasePair& pair, const btDispatcherInfo& info);
   void meet(btBroadphasePair& pair, const btCollisionObject& first, const btCollisionObject& second,

@@ -45,7 +45,8 @@ class ThreadsTest : public BackendTest<Backend> {
     const Scene<dim> scene = std::get<Scene<dim>>(parse_scene(
         fmt::format("title = \"rain\"\ndimension = {}\nrun.threads = {}\npolicy.kind = \"{}\"\n{}shape.a = {{{}}}\n"
                     "pile = [{{}}]\n"
-                    "obstacle = [{{kind = \"box\", size = {}, position = {}, motion = {{kind = \"path\", times = [0, 9], shifts = {}}}}}]\n"
+                    "obstacle = [{{kind = \"box\", size = {}, position = {}, motion = {{kind = \"path\", times = [0, "
+                    "9], shifts = {}}}}}]\n"
                     "source = [{{count = 1500, rate = 1500, position = {}, velocity = {}, grid = {}, spacing = {}}}]\n",
                     dim, threads, policy, sides, shape, plane ? "[60, 1]" : "[8, 8, 1]",
                     plane ? "[0, 0.5]" : "[0, 0, 0.5]", plane ? "[[0, 0], [2, 0]]" : "[[0, 0, 0], [2, 0, 0]]",
@@ -87,9 +88,9 @@ TYPED_TEST(ThreadsTest, GiveTheSameBitsForBalls) {
 }
 
 TYPED_TEST(ThreadsTest, GiveTheSameBitsBetweenPeriodicSides) {
-  TestFixture::expect_the_same_bits("kind = \"box\", size = " +
-                                        std::string(TypeParam::dim == 2 ? "[0.8, 0.8]" : "[0.8, 0.8, 0.8]"),
-                                    "world.periodic_x = [-60, 60]\n");
+  TestFixture::expect_the_same_bits(
+      "kind = \"box\", size = " + std::string(TypeParam::dim == 2 ? "[0.8, 0.8]" : "[0.8, 0.8, 0.8]"),
+      "world.periodic_x = [-60, 60]\n");
 }
 
 }  // namespace
