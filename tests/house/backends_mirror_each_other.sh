@@ -6,7 +6,7 @@ tag.h               Box2D has no body of its own for a frozen one, so each fixtu
 static_hosts.h      Box2D visits all bodies in a step, so frozen ones share static bodies
 contact_records.h   Box2D tells impulses and speeds to a listener only, Bullet keeps them in its contact points
 continuous.h        Box2D is told for each pair whether to sweep, Bullet sweeps each body above a speed
-collision.h         Box2D's walk over its contacts is one function; Bullet's is replaced in sim3d/bullet/
+collision.h         what walks over the contacts of Box2D; the same for Bullet is in sim3d/bullet/
 body_swap.h         Bullet keeps a body in its broadphase entry while it changes its form
 bodies.h            Bullet leaves the memory of its bodies to the caller
 engine.h            Bullet is a set of objects, Box2D one b2World
