@@ -76,20 +76,20 @@ void Collision::collide(b2World& world, std::ptrdiff_t bodies, Team& team) {
   // Box2D gives access to its contact manager for reading only.
   auto& manager = const_cast<b2ContactManager&>(world.GetContactManager());  // NOLINT(*-const-cast)
   contacts_.clear();
-  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
+  found_.clear();
+  const bool share = bodies >= bodies_to_share;
+  for (b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext()) {
     contacts_.push_back(contact);
-  found_.resize(contacts_.size());
-  const auto follow_part = [&](int first, int last, int /*member*/) {
-    for (int i = first; i < last; ++i) {
-      fetch_ahead(contacts_, i);
-      found_[i] = follow(*contacts_[i], manager.m_broadPhase);
-    }
-  };
+    found_.push_back(share ? Found::changed : follow(*contact, manager.m_broadPhase));
+  }
   const auto count = static_cast<int>(contacts_.size());
-  if (bodies < bodies_to_share)
-    follow_part(0, count, 0);
-  else
-    team.divide(count, follow_part);
+  if (share)
+    team.divide(count, [&](int first, int last, int /*member*/) {
+      for (int i = first; i < last; ++i) {
+        fetch_ahead(contacts_, i);
+        found_[i] = follow(*contacts_[i], manager.m_broadPhase);
+      }
+    });
   touching_.clear();
   for (int i = 0; i < count; ++i) {
     b2Contact* const contact = contacts_[i];

@@ -167,6 +167,8 @@ struct ContactSolver<Dim>::Work {
     int groups = 0;
     int first_block = 0;
     int blocks = 0;
+    int first_point = 0;  // in `lanes`
+    int points = 0;
     int still = 0;  // place of all that stands still, and of unused lanes
     bool bounces = false;
     std::vector<DeepPoint> deep;
@@ -198,6 +200,9 @@ struct ContactSolver<Dim>::Work {
   void read_points(const Share& groups);
 
   int regions() const { return divided.count(); }
+  /// Inside of each region, at the border to the next, and last the remaining.
+  int set_count() const { return 2 * regions(); }
+  int remaining_set() const { return set_count() - 1; }
   /// Calls `work` with the sets of a turn that are the member's.
   template <typename Function>
   void for_sets(Turn turn, const Share& regions_of_member, const Function& work);
@@ -224,6 +229,7 @@ struct ContactSolver<Dim>::Work {
   std::vector<std::pair<int, int>> copy;  // by slot of a moving obstacle: the set that its last copy is of, its place
   std::vector<int> copied;                // slots, by place from the tail on
   std::vector<Group> groups;
+  std::vector<int> start;                              // scratch of sort()
   std::vector<int> order;                              // of the groups, by set, colour and number of points
   std::vector<std::array<std::uint64_t, turns>> used;  // by place: colours of its groups
   std::array<Set, most_sets> sets;
@@ -251,7 +257,7 @@ void ContactSolver<Dim>::Work::place_bodies() {
     of_region[r] = {next, next + of_region[r].last};
     next = of_region[r].last;
     sets[r].still = next++;
-    sets[regions() + r].still = next++;  // the last of these is the rest
+    sets[regions() + r].still = next++;
     next += apart;
   }
   tail = next;
@@ -270,13 +276,13 @@ int ContactSolver<Dim>::Work::set_of(int a, int b) const {
   if (!bodies[a].moves) return divided.of(b);
   const auto [low, high] = std::minmax({divided.of(a), divided.of(b)});
   if (low == high) return low;
-  return high == low + 1 ? regions() + low : 2 * regions() - 1;
+  return high == low + 1 ? regions() + low : remaining_set();
 }
 
 template <int Dim>
 auto ContactSolver<Dim>::Work::turn_of(int set) const -> Turn {
   if (set < regions()) return inside;
-  if (set == 2 * regions() - 1) return remaining;
+  if (set == remaining_set()) return remaining;
   return (set - regions()) % 2 == 0 ? even_border : odd_border;
 }
 
@@ -303,14 +309,14 @@ void ContactSolver<Dim>::Work::sort() {
     groups.push_back({.first = i, .count = end - i, .set = set, .colour = colour});
     i = end;
   }
-  std::array<int, most_sets*(colours + 1) * sizes + 1> start{};
   const auto bin = [](const Group& group) {
     return (group.set * (colours + 1) + group.colour) * sizes + sizes - group.count;
   };
-  const int bins = 2 * regions() * (colours + 1) * sizes;
+  const int bins = set_count() * (colours + 1) * sizes;
+  start.assign(bins + 1, 0);
   for (const Group& group : groups) ++start[bin(group) + 1];
   for (int i = 1; i <= bins; ++i) start[i] += start[i - 1];
-  for (int set = 0; set < 2 * regions(); ++set) {
+  for (int set = 0; set < set_count(); ++set) {
     const int bins_of_set = (colours + 1) * sizes;
     sets[set].first_group = start[set * bins_of_set];
     sets[set].groups = start[(set + 1) * bins_of_set] - sets[set].first_group;
@@ -329,9 +335,10 @@ void ContactSolver<Dim>::Work::make_blocks() {
   copies_of_region.assign(regions(), {});
   int point_blocks = 0;
   int rolling_blocks = 0;
-  for (int number = 0; number < 2 * regions(); ++number) {
+  for (int number = 0; number < set_count(); ++number) {
     Set& set = sets[number];
     set.first_block = static_cast<int>(blocks.size());
+    set.first_point = point_blocks;
     const int first_copy = tail + static_cast<int>(copied.size());
     int lane = lanes_of_a_block;
     int last_colour = -1;
@@ -357,6 +364,7 @@ void ContactSolver<Dim>::Work::make_blocks() {
       group.lane = lane++;
     }
     set.blocks = static_cast<int>(blocks.size()) - set.first_block;
+    set.points = point_blocks - set.first_point;
     if (number < regions()) copies_of_region[number] = {first_copy, tail + static_cast<int>(copied.size())};
   }
   lanes.resize(point_blocks);
@@ -384,8 +392,7 @@ void ContactSolver<Dim>::Work::fill_blocks(Set& set) {
   const Spring fixed = spring_of(fixed_spring * frequency, h);
   set.bounces = false;
   set.deep.clear();
-  for (int i = set.first_block; i < set.first_block + set.blocks; ++i)
-    std::fill_n(lanes.begin() + blocks[i].first_point, blocks[i].points, PointBlock<Dim>{});
+  std::fill_n(lanes.begin() + set.first_point, set.points, PointBlock<Dim>{});
   for (int i = set.first_group; i < set.first_group + set.groups; ++i) {
     const Group& group = groups[order[i]];
     ContactBlock<Dim>& block = blocks[group.block];
@@ -546,7 +553,7 @@ void ContactSolver<Dim>::Work::run(Pass pass, Team& team, const Share& regions_o
   for_sets(inside, regions_of_member, [&](const Set& set) { run(pass, set); });
   if (regions() == 1) return;
   for (const Turn turn : {even_border, odd_border, remaining}) {
-    if (turn == remaining && sets[2 * regions() - 1].groups == 0) continue;
+    if (turn == remaining && sets[remaining_set()].groups == 0) continue;
     team.meet();
     for_sets(turn, regions_of_member, [&](const Set& set) { run(pass, set); });
   }
@@ -565,7 +572,7 @@ void ContactSolver<Dim>::Work::advance(const VecF<Dim>& gravity, std::span<const
     fill_blocks(sets[regions() + r]);
   });
   team.meet();
-  const auto all_sets = std::span(sets).first(2 * regions());
+  const auto all_sets = std::span(sets).first(set_count());
   const bool bounces = std::ranges::any_of(all_sets, &Set::bounces);
   for (int step = 0; step < params.sub_steps; ++step) {
     const int passes = step == 0 ? first_passes : 1;
@@ -593,7 +600,7 @@ void ContactSolver<Dim>::Work::advance(const VecF<Dim>& gravity, std::span<const
 template <int Dim>
 void ContactSolver<Dim>::Work::push_deep() {
   for (int pass = 0; pass < deep_passes; ++pass) {
-    for (const Set& set : std::span(sets).first(2 * regions()))
+    for (const Set& set : std::span(sets).first(set_count()))
       for (const DeepPoint& deep : set.deep) {
         const ContactPoint<Dim>& point = points[deep.point];
         const VecF<Dim>& n = point.normal;
