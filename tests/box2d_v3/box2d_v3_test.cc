@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "tests/box2d_v3/box2d_v3_scene.h"
+#include "tests/sleeper/drum.h"
 #include "tests/sleeper/game.h"
 #include "tests/sleeper/pour.h"
 
@@ -210,6 +213,57 @@ TEST_P(LongBox2dV3PourCost, IsLessThanThatOfTheEngine) {
 }
 INSTANTIATE_TEST_SUITE_P(Boxes, LongBox2dV3PourCost,
                          ::testing::Values(std::pair(300, 8U), std::pair(1000, 3U), std::pair(3000, 1U)));
+
+/// A drum that turns.
+class Box2dV3Drum {
+ public:
+  static std::string name() { return "Box2D 3.1"; }
+
+  Box2dV3Drum(int boxes, bool attached) {
+    b2DestroyBody(scene_.ground);
+    const double radius = drum_radius(boxes);
+    b2BodyDef def = b2DefaultBodyDef();
+    def.type = b2_kinematicBody;
+    def.angularVelocity = drum_spin;
+    bodies_.push_back(b2CreateBody(scene_.world, &def));
+    for (int i = 0; i < drum_sides; ++i) {
+      const Pose<2> at = side(i, radius);
+      const b2Polygon box =
+          b2MakeOffsetBox(static_cast<float>(0.5 * wall), static_cast<float>(0.5 * side_length(radius)),
+                          Box2dV3Scene::to_box2d(at.position), b2MakeRot(static_cast<float>(at.rotation.angle())));
+      const b2ShapeDef shape = b2DefaultShapeDef();
+      b2CreatePolygonShape(bodies_.front(), &shape, &box);
+    }
+    for (int i = 0; i < boxes; ++i) {
+      bodies_.push_back(scene_.add_box({0.7, 0.42}, start(i, 15, radius), b2_dynamicBody));
+      b2Body_EnableSleep(bodies_.back(), false);
+    }
+    if (attached) sleeper_.emplace(scene_.world).add_all(bodies_);
+  }
+  void step() {
+    if (sleeper_) sleeper_->before_step();
+    scene_.step();
+    if (sleeper_) sleeper_->after_step(drop_dt, Box2dV3Scene::substeps);
+  }
+  std::vector<double> state() const {
+    std::vector<double> numbers;
+    for (const b2BodyId body : bodies_) {
+      const b2Transform at = b2Body_GetTransform(body);
+      numbers.insert(numbers.end(), {at.p.x, at.p.y, at.q.c, at.q.s});
+    }
+    return numbers;
+  }
+  int asleep() const { return sleeper_->size() - 1 - sleeper_->awake(); }
+
+ private:
+  Box2dV3Scene scene_;
+  std::vector<b2BodyId> bodies_;
+  std::optional<Box2dV3Sleeper> sleeper_;
+};
+
+class LongBox2dV3AwakeCost : public ::testing::TestWithParam<int> {};
+TEST_P(LongBox2dV3AwakeCost, IsBelowATenthInADrum) { expect_small_cost<Box2dV3Drum>(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Boxes, LongBox2dV3AwakeCost, ::testing::Values(300, 1000));
 
 }  // namespace
 }  // namespace talus::test
