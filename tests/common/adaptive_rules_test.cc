@@ -195,6 +195,45 @@ TEST(SupportLoss, WakesABodyWhoseSupportMovedAway) {
   EXPECT_EQ(loss.woken(world, {}), std::vector<BodyIndex>{1});
 }
 
+TEST(SupportLoss, CountsTheMotionOfASupportOverAllTimesThatItIsAwake) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  world.freeze(std::vector<BodyIndex>{1});
+  SupportLossRule loss;
+  EXPECT_TRUE(loss.woken(world, stack_of_two()).empty());
+  world.move(0, {.position = Vec3(0.0, 0.0, 0.493)});
+  EXPECT_TRUE(loss.woken(world, {}).empty());
+  world.freeze(std::vector<BodyIndex>{0});
+  EXPECT_TRUE(loss.woken(world, {}).empty());
+  world.thaw(std::vector<BodyIndex>{0});
+  EXPECT_TRUE(loss.woken(world, {}).empty());
+  world.move(0, {.position = Vec3(0.0, 0.0, 0.486)});
+  EXPECT_EQ(loss.woken(world, {}), std::vector<BodyIndex>{1});
+}
+
+TEST(SupportLoss, CountsTheMotionOfASupportFromWhereTheBodyFellAsleep) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  world.freeze(std::vector<BodyIndex>{0});
+  SupportLossRule loss;
+  world.touching = {contact(1, 0, Vec3(0.0, 0.0, 1.0), Vec3::UnitZ(), 1.0)};
+  loss.rule.note_falling_asleep(input(world), std::vector<BodyIndex>{1});
+  world.freeze(std::vector<BodyIndex>{1});
+  EXPECT_FALSE(loss.rule.watches(world, 1));
+  world.thaw(std::vector<BodyIndex>{0});
+  EXPECT_TRUE(loss.rule.watches(world, 1));
+  world.move(0, {.position = Vec3(0.0, 0.0, 0.48)});  // before the two have touched again
+  EXPECT_EQ(loss.woken(world, {}), std::vector<BodyIndex>{1});
+}
+
+TEST(SupportLoss, ForgetsTheSupportsOfABodyThatWakes) {
+  StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 0.5), Vec3(0.0, 0.0, 1.5)});
+  world.freeze(std::vector<BodyIndex>{1});
+  SupportLossRule loss;
+  EXPECT_TRUE(loss.woken(world, stack_of_two()).empty());
+  loss.rule.note_awake(1);  // and sleeps again elsewhere
+  world.move(0, {.position = Vec3(0.5, 0.0, 0.5)});
+  EXPECT_TRUE(loss.woken(world, {}).empty());
+}
+
 TEST(SupportLoss, DoesNotWakeABodyOnWhichAnAwakeOneMoves) {
   StillWorld<3> world = cubes_at({Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 0.5)});
   world.freeze(std::vector<BodyIndex>{1});

@@ -87,6 +87,7 @@ void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEve
   for (const SleepEvent& event : events) {
     if (event.woke) {
       sleepers_.take_out(event.body);
+      support_loss_.note_awake(event.body);
       continue;
     }
     const Vec<Dim>& position = world.states().pose[event.body].position;
@@ -127,6 +128,7 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, RuleInput<Dim
   if (bodies_.empty()) return;
   in.contacts = in.world.contacts();
   support_.keep_supported(in, bodies_);
+  if (!ring_) support_loss_.note_falling_asleep(in, bodies_);
   for (const BodyIndex body : bodies_) {
     const Placement place = placement(frame, body);
     decision.freeze.push_back(

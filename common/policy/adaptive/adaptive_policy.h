@@ -46,7 +46,9 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   /// Whether stability checks are on. They take all contacts.
   bool checks_stability() const { return checks_.tolerance() > 0.0; }
   /// Whether a sleeping body rests on an awake one, and wakes once that moves away.
-  bool rests_on_awake(BodyIndex sleeper) const { return support_loss_.watches(sleeper); }
+  bool rests_on_awake(const World<Dim>& world, BodyIndex sleeper) const {
+    return support_loss_.watches(world, sleeper);
+  }
   /// The bodies that sleep, as the policy was told.
   const SleepLedger<Dim>& sleepers() const { return sleepers_; }
 

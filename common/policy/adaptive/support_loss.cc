@@ -1,7 +1,7 @@
 #include "common/policy/adaptive/support_loss.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -11,11 +11,6 @@ namespace {
 /// body lies on top. Chosen, not measured.
 constexpr double max_normal_height = 0.3;
 
-template <typename SupportContact>
-bool supports_before(const SupportContact& l, const SupportContact& r) {
-  return std::tie(l.supporter, l.supported) < std::tie(r.supporter, r.supported);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -24,47 +19,76 @@ SupportLoss<Dim>::SupportLoss(const RuleSetup<Dim>& setup)
 
 template <int Dim>
 void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
-  forget_ended(in);
+  resize(in);
   remember_new(in);
-  for (const SupportContact& contact : contacts_) {
-    const Vec<Dim> now = in.world.pose_near(contact.supporter, contact.point) * contact.local;
-    if ((now - contact.point).norm() > slack_) out.wakes.add(contact.supported, {.cause = SleepCause::lost_support});
+  for (const BodyIndex supporter : in.world.awake()) {
+    for (const Support& support : supports_[supporter]) {
+      if (!in.asleep(support.supported) || in.states().removed[support.supported] != 0) continue;
+      const Vec<Dim> now = in.world.pose_near(supporter, support.point) * support.local;
+      if ((now - support.point).norm() > slack_) out.wakes.add(support.supported, {.cause = SleepCause::lost_support});
+    }
   }
+}
+
+template <int Dim>
+void SupportLoss<Dim>::resize(const RuleInput<Dim>& in) {
+  supports_.resize(in.states().asleep.size());
+  supporters_of_.resize(supports_.size());
+}
+
+/// What has come to support a body that slept already.
+template <int Dim>
+void SupportLoss<Dim>::remember_new(const RuleInput<Dim>& in) {
+  for (const Contact<Dim>& contact : in.contacts) {
+    if (contact.b < 0 || !in.asleep(contact.b)) continue;
+    if (in.asleep(contact.a) || in.rise(contact.normal) > max_normal_height) continue;
+    add(in, contact.a, contact.b, contact.point);
+  }
+}
+
+template <int Dim>
+void SupportLoss<Dim>::note_falling_asleep(const RuleInput<Dim>& in, std::span<const BodyIndex> bodies) {
+  if (bodies.empty()) return;
+  resize(in);
+  for (const Contact<Dim>& contact : in.contacts) {
+    if (contact.b < 0) continue;
+    const double lift = in.rise(contact.normal_impulse * contact.normal + contact.friction_impulse);
+    const auto [lower, upper] = lift > 0.0 ? std::pair(contact.b, contact.a) : std::pair(contact.a, contact.b);
+    if (lift != 0.0 && std::ranges::binary_search(bodies, upper)) add(in, lower, upper, contact.point);
+  }
+}
+
+/// Of the points of a contact the first one counts.
+template <int Dim>
+void SupportLoss<Dim>::add(const RuleInput<Dim>& in, BodyIndex supporter, BodyIndex supported, const Vec<Dim>& point) {
+  std::vector<BodyIndex>& supporters = supporters_of_[supported];
+  if (std::ranges::find(supporters, supporter) != supporters.end()) return;
+  supporters.push_back(supporter);
+  const Pose<Dim> pose = in.world.pose_near(supporter, point);
+  supports_[supporter].push_back({supported, point, pose.rotation.inverse() * (point - pose.position)});
+}
+
+template <int Dim>
+bool SupportLoss<Dim>::watches(const World<Dim>& world, BodyIndex sleeper) const {
+  return sleeper < std::ssize(supporters_of_) && std::ranges::any_of(supporters_of_[sleeper], [&](BodyIndex supporter) {
+           return world.states().asleep[supporter] == 0 && world.states().removed[supporter] == 0;
+         });
+}
+
+template <int Dim>
+void SupportLoss<Dim>::note_awake(BodyIndex body) {
+  if (body >= std::ssize(supporters_of_)) return;
+  for (const BodyIndex supporter : supporters_of_[body])
+    std::erase_if(supports_[supporter], [body](const Support& support) { return support.supported == body; });
+  supporters_of_[body].clear();
 }
 
 template <int Dim>
 void SupportLoss<Dim>::forget(BodyIndex body) {
-  std::erase_if(contacts_, [body](const SupportContact& contact) {
-    return contact.supporter == body || contact.supported == body;
-  });
-}
-
-/// A support ends when its supporter falls asleep, when the supported body wakes, or when either leaves the world.
-template <int Dim>
-void SupportLoss<Dim>::forget_ended(const RuleInput<Dim>& in) {
-  const std::vector<std::uint8_t>& removed = in.states().removed;
-  std::erase_if(contacts_, [&](const SupportContact& contact) {
-    return in.asleep(contact.supporter) || !in.asleep(contact.supported) || removed[contact.supporter] != 0 ||
-           removed[contact.supported] != 0;
-  });
-}
-
-template <int Dim>
-void SupportLoss<Dim>::remember_new(const RuleInput<Dim>& in) {
-  new_contacts_.clear();
-  for (const Contact<Dim>& contact : in.contacts) {
-    if (contact.b < 0 || !in.asleep(contact.b)) continue;
-    if (in.asleep(contact.a) || in.rise(contact.normal) > max_normal_height) continue;
-    const SupportContact support{.supporter = contact.a, .supported = contact.b};
-    if (!new_contacts_.empty() && !supports_before(new_contacts_.back(), support)) continue;  // same pair, next point
-    if (std::binary_search(contacts_.begin(), contacts_.end(), support, supports_before<SupportContact>)) continue;
-    const Pose<Dim> pose = in.world.pose_near(contact.a, contact.point);
-    const Vec<Dim> local = pose.rotation.inverse() * (contact.point - pose.position);
-    new_contacts_.push_back({contact.a, contact.b, contact.point, local});
-  }
-  const auto old = static_cast<std::ptrdiff_t>(contacts_.size());
-  contacts_.insert(contacts_.end(), new_contacts_.begin(), new_contacts_.end());
-  std::inplace_merge(contacts_.begin(), contacts_.begin() + old, contacts_.end(), supports_before<SupportContact>);
+  if (body >= std::ssize(supports_)) return;
+  note_awake(body);
+  for (const Support& support : supports_[body]) std::erase(supporters_of_[support.supported], body);
+  supports_[body].clear();
 }
 
 template class SupportLoss<2>;
