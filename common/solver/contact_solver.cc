@@ -197,7 +197,7 @@ struct ContactSolver<Dim>::Work {
   void keep_changes(const Places& region);
   void push_deep();
   void read_bodies(const Share& slots);
-  void read_points(const Share& groups);
+  void read_points(const Share& share);
 
   int regions() const { return divided.count(); }
   /// Inside of each region, at the border to the next, and last the remaining.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int bodies_of_a_region = bodies_to_share / 2;  // at least
 constexpr int bins = 1024;
-constexpr float widest = 3.0F;  // bodies farther from the middle are in the outermost bins [standard deviations]
+constexpr float deviations = 3.0F;  // bodies farther from the middle are in the outermost bins [standard deviations]
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Regions<Dim>::divide(std::span<const SolverBody<Dim>> bodies) {
   const VecF<Dim> mean = sum / static_cast<float>(moving);
   const VecF<Dim> variance = squares / static_cast<float>(moving) - mean.cwiseAbs2();
   Eigen::Index axis = 0;
-  const float width = widest * std::sqrt(std::max(variance.maxCoeff(&axis), 0.0F));
+  const float width = deviations * std::sqrt(std::max(variance.maxCoeff(&axis), 0.0F));
   const auto bin_of = [&](const SolverBody<Dim>& body) {
     const float share = width > 0.0F ? (body.position[axis] - mean[axis]) / width : 0.0F;  // -1 to 1
     return static_cast<int>(std::clamp(0.5F * (share + 1.0F), 0.0F, 1.0F) * static_cast<float>(bins - 1));

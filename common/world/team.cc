@@ -9,9 +9,9 @@
 namespace talus {
 namespace {
 
-constexpr int fewest = 64;   // things that a thread takes at a time
-constexpr int parts = 16;    // of each thread's share at most, so that none waits long for the last
-constexpr int spins = 4000;  // some 20 us, after which a waiting thread lets others run
+constexpr int fewest = 64;      // things that a thread takes at a time
+constexpr int most_parts = 16;  // of each thread's share at most, so that none waits long for the last
+constexpr int spins = 4000;     // some 20 us, after which a waiting thread lets others run
 
 void wait_a_moment() {
 #if defined(__SSE2__)
@@ -41,7 +41,7 @@ void Team::run(const std::function<void(int)>& task) {
 }
 
 void Team::divide(int count, const std::function<void(int, int, int)>& work) {
-  const int part = std::max(fewest, count / (parts * size()));
+  const int part = std::max(fewest, count / (most_parts * size()));
   std::atomic<int> next = 0;
   run([&](int member) {
     for (int first = next.fetch_add(part); first < count; first = next.fetch_add(part))
