@@ -27,7 +27,7 @@ bool boxes_overlap(const b2Contact& contact, const b2BroadPhase& broad_phase) {
   return broad_phase.TestOverlap(a, b);
 }
 
-/// In two strides: a contact, then its bodies, which only the contact knows.
+/// In two strides: a contact, then its bodies, whose addresses are in the contact.
 void fetch_ahead(std::span<b2Contact* const> contacts, std::size_t i) {
   constexpr std::size_t stride = 4;
   if (i + 2 * stride >= contacts.size()) return;

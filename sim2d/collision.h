@@ -15,7 +15,7 @@ namespace talus::box2d {
 /// memory to the next, and later steps walk it again for those that touch. Here threads share the contacts that begin
 /// or end nothing; the others follow in the order of the list, as in Box2D.
 ///
-/// Only for worlds without sensors and joints, whose listener does nothing with a contact that goes on.
+/// Only for worlds without sensors and joints, whose listener ignores contacts that persist.
 class Collision {
  public:
   /// `bodies`: those that are awake.

@@ -166,9 +166,9 @@ inline constexpr auto run_fields = std::to_array<Field<RunParams>>({
     {place_of<&RunParams::threads>,
      {.name = "threads",
       .range = between(1.0, 64.0),
-      .meaning =
-          "that share the work of a step while some hundreds of bodies are awake. The results have the same bits for "
-          "any number"}},
+      .meaning = "number of threads that share a step while some hundreds of bodies are awake. The results have the "
+                 "same bits for "
+                 "any number"}},
 });
 
 inline constexpr Key dimension_key = {

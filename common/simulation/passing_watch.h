@@ -57,7 +57,7 @@ class PassingWatch {
   static bool enters(const Vec<Dim>& from, const Vec<Dim>& to, const Solid& solid);
   Mover mover(const World<Dim>& world, BodyIndex index) const;
   static Mover image_near(const Periodic<Dim>& sides, Mover mover, const Vec<Dim>& place);
-  /// What one thread finds.
+  /// Memory of one thread.
   struct Search {
     std::vector<BodyIndex> near;  // scratch
     std::vector<Finding> findings;

@@ -169,7 +169,7 @@ struct ContactSolver<Dim>::Work {
     int blocks = 0;
     int first_point = 0;  // in `lanes`
     int points = 0;
-    int still = 0;  // place of all that stands still, and of unused lanes
+    int still = 0;  // place of all fixed bodies, and of unused lanes
     bool bounces = false;
     std::vector<DeepPoint> deep;
   };
@@ -243,7 +243,7 @@ struct ContactSolver<Dim>::Work {
 };
 
 /// Bodies that move stand by region, so that the memory of a region stays with its thread. Behind those of a region
-/// come the places of what stands still, one for each set.
+/// come the places of fixed bodies, one for each set.
 template <int Dim>
 void ContactSolver<Dim>::Work::place_bodies() {
   divided.divide(bodies);

@@ -1,5 +1,5 @@
 #pragma once
-// Parts of a heap that threads solve side by side.
+// Parts of a heap that threads solve in parallel.
 
 #include <Eigen/Core>
 #include <span>

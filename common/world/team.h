@@ -30,7 +30,7 @@ class Team {
   /// task must not throw.
   void run(const std::function<void(int)>& task);
 
-  /// Calls `work(first, last, member)` for parts of [0, count), on whichever thread is free; returns when all are done.
+  /// Calls `work(first, last, member)` for consecutive parts of [0, count) in parallel; returns when all are done.
   void divide(int count, const std::function<void(int, int, int)>& work);
 
   /// Within a task: waits for all threads. What any wrote before is then visible to all.

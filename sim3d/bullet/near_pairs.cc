@@ -22,10 +22,10 @@ void fetch_body(const btBroadphaseProxy& proxy) {
 void NearPairs::collide(const btDispatcherInfo& info, std::span<btRigidBody* const> bodies, Team& team) {
   pairs_.places().start_step();
   btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();
-  done_.assign(pairs.size(), 0);
-  if (team.size() > 1 && std::ssize(bodies) >= bodies_to_share) collide_steady(info, bodies, team);
+  const bool share = team.size() > 1 && std::ssize(bodies) >= bodies_to_share;
+  if (share) collide_steady(info, bodies, team);
   for (int i = 0; i < pairs.size(); ++i) {
-    if (done_[i] != 0) continue;
+    if (share && done_[i] != 0) continue;
     fetch_ahead(i, pairs.size());
     btBroadphasePair& pair = pairs[i];
     if (!IdleMark::is_set(pair) || !is_idle(pair)) visit(pair, info);
@@ -39,6 +39,7 @@ void NearPairs::collide_steady(const btDispatcherInfo& info, std::span<btRigidBo
       if (const std::int32_t slot = pairs_.list_of(*body); slot >= 0 && body->getCollisionShape()->isCompound())
         pairs_.places().of(slot, *body);
   });
+  done_.assign(pairs.size(), 0);
   team.divide(pairs.size(), [&](int first, int last, int /*member*/) {
     for (int i = first; i < last; ++i) {
       fetch_ahead(i, last);
@@ -52,7 +53,7 @@ const PlacedBody* NearPairs::known_place(const btCollisionObject& body) {
   return slot >= 0 ? pairs_.places().known(slot) : pairs_.places().known_obstacle(body.getUserIndex());
 }
 
-/// Whether it could be done without memory that others share.
+/// Does the pair if that takes no memory that pairs share; returns whether it did.
 bool NearPairs::visit_steady(btBroadphasePair& pair, const btDispatcherInfo& info) {
   if (IdleMark::is_set(pair)) {
     const IdleMark mark = IdleMark::of(pair);

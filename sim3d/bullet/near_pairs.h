@@ -34,7 +34,7 @@ class NearPairs {
   btCollisionDispatcher& dispatcher_;
   PairCache& pairs_;
   bool skip_idle_;
-  std::vector<unsigned char> done_;  // by pair, of this step
+  std::vector<unsigned char> done_;  // by pair: whether collide_steady() did it in this step
 };
 
 }  // namespace talus::bullet

@@ -59,7 +59,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_scene_options(*command, *options);
   command->add_option("--pace", options->pace, "Simulated seconds per second at most: 1 is real time; 0: no limit")
       ->check(number_between(0.0, 1e6));
-  command->add_option("--threads", options->threads, "That share a step while hundreds of bodies are awake; same bits")
+  command
+      ->add_option("--threads", options->threads, "Number of threads for steps in which hundreds of bodies are awake")
       ->check(whole_number());
   add_output_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
