@@ -1,10 +1,9 @@
 #include "sim3d/warm_start.h"
 
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-
 #include <algorithm>
 
 #include "sim3d/bullet/idle_pairs.h"
+#include "sim3d/bullet/whole.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
@@ -181,16 +180,13 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   saved_.clear();
   release(sides, saved_);
   if (saved_.empty()) return;
-  const btCollisionObjectWrapper owner(nullptr, sides.owner->getCollisionShape(), sides.owner,
-                                       sides.owner->getWorldTransform(), -1, -1);
-  const btCollisionObjectWrapper partner(nullptr, sides.partner->getCollisionShape(), sides.partner,
-                                         sides.partner->getWorldTransform(), -1, -1);
-  // An algorithm expects its two sides in the order it was made for, which is the pair's.
+  const btCollisionObjectWrapper first = whole(object_of(pair.m_pProxy0));
+  const btCollisionObjectWrapper second = whole(object_of(pair.m_pProxy1));
   const bool owner_first = &object_of(pair.m_pProxy0) == sides.owner;
   IdleMark::clear(pair);
-  PieceRecorder recorder(owner_first ? &owner : &partner, owner_first ? &partner : &owner);
+  PieceRecorder recorder(&first, &second);
   open_manifolds(*pair.m_algorithm);
-  pair.m_algorithm->processCollision(owner_first ? &owner : &partner, owner_first ? &partner : &owner, info, &recorder);
+  pair.m_algorithm->processCollision(&first, &second, info, &recorder);
   for (const PieceRecorder::Entry& entry : recorder.finish()) {
     for (const SavedPoint& point : saved_) {
       if (point.piece == (owner_first ? entry.piece0 : entry.piece1) &&

@@ -1,8 +1,7 @@
 #include "sim3d/bullet/near_pairs.h"
 
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-
 #include "sim3d/bullet/idle_pairs.h"
+#include "sim3d/bullet/whole.h"
 
 namespace talus::bullet {
 namespace {
@@ -70,10 +69,8 @@ bool NearPairs::visit_steady(btBroadphasePair& pair, const btDispatcherInfo& inf
   if (first_placed == nullptr || second_placed == nullptr) return false;
   auto& algorithm = *static_cast<CompoundPair*>(pair.m_algorithm);
   if (algorithm.is_empty() || !algorithm.is_steady(*first_placed, *second_placed)) return false;
-  const btCollisionObjectWrapper first_whole(nullptr, first.getCollisionShape(), &first, first.getWorldTransform(), -1,
-                                             -1);
-  const btCollisionObjectWrapper second_whole(nullptr, second.getCollisionShape(), &second, second.getWorldTransform(),
-                                              -1, -1);
+  const btCollisionObjectWrapper first_whole = whole(first);
+  const btCollisionObjectWrapper second_whole = whole(second);
   btManifoldResult result(&first_whole, &second_whole);
   algorithm.follow({first_whole, *first_placed}, {second_whole, *second_placed}, info, result);
   return true;
@@ -129,10 +126,8 @@ void NearPairs::visit(btBroadphasePair& pair, const btDispatcherInfo& info) {
 
 void NearPairs::meet(btBroadphasePair& pair, const btCollisionObject& first, const btCollisionObject& second,
                      const btDispatcherInfo& info) {
-  const btCollisionObjectWrapper first_whole(nullptr, first.getCollisionShape(), &first, first.getWorldTransform(), -1,
-                                             -1);
-  const btCollisionObjectWrapper second_whole(nullptr, second.getCollisionShape(), &second, second.getWorldTransform(),
-                                              -1, -1);
+  const btCollisionObjectWrapper first_whole = whole(first);
+  const btCollisionObjectWrapper second_whole = whole(second);
   if (pair.m_algorithm == nullptr)
     pair.m_algorithm = dispatcher_.findAlgorithm(&first_whole, &second_whole, nullptr, BT_CONTACT_POINT_ALGORITHMS);
   auto& algorithm = *static_cast<CompoundPair*>(pair.m_algorithm);
