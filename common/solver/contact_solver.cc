@@ -3,22 +3,20 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "common/solver/contact_blocks.h"
-#include "common/solver/regions.h"
+#include "common/solver/contact_sets.h"
 
 namespace talus {
 
 using solver::ContactBlock;
 using solver::Eight;
 using solver::Kernel;
-using solver::lanes_of_a_block;
 using solver::Pass;
 using solver::PointBlock;
-using solver::points_of_a_group;
 using solver::Quad;
 using solver::quads_of_a_body;
 using solver::RollingBlock;
@@ -29,7 +27,6 @@ using solver::spin_size;
 
 namespace {
 
-constexpr int colours = 64;             // bits of a mask; contacts beyond are solved one by one
 constexpr float damping_ratio = 10.0F;  // of a contact's spring: overlap goes away without bouncing
 constexpr float spring = 0.125F;        // its frequency, over that of the sub-steps; from 0.15 on pyramids buckle
 constexpr float fixed_spring = 1.4F;  // how many times that frequency is higher against what never moves: at 2 one pass
@@ -133,61 +130,26 @@ Kernel<Dim> kernel_of(SolverLanes lanes) {
 
 std::span<const SolverLanes> solver_lanes() { return available_lanes(); }
 
-/// The step at hand: its points sorted into sets and blocks, and the motion of its bodies.
-///
-/// A set is of the contacts within a region, of those across the border of two that are side by side, or of the few
-/// others. In a pass threads solve the sets of all regions, then every second border, then the other borders, then the
-/// rest: sets that are solved at the same time share no body that moves.
+/// The step at hand: its points in blocks, and the motion of its bodies.
 template <int Dim>
 struct ContactSolver<Dim>::Work {
+  using Sets = solver::ContactSets<Dim>;
+  using Set = typename Sets::Set;
+  using Group = typename Sets::Group;
+  using Places = typename Sets::Places;
+  using Turn = typename Sets::Turn;
   static constexpr int quads = quads_of_a_body<Dim>;
-  static constexpr int sizes = points_of_a_group<Dim>;
-  static constexpr int most_sets = 2 * Regions<Dim>::most;
 
-  /// When in a pass a set is solved.
-  enum Turn { inside, even_border, odd_border, remaining, turns };
-
-  /// Points of one pair, solved together.
-  struct Group {
-    int first = 0;
-    int count = 0;
-    int set = 0;
-    int colour = 0;  // groups of one colour in a set share no body that moves
-    int block = 0;
-    int lane = 0;
-  };
   struct DeepPoint {
     int group = 0;
     int point = 0;
     float gain = 0.0F;
     float sag = 0.0F;  // overlap by the load that the point carries [m]
   };
-  struct Set {
-    int first_group = 0;  // in `order`
-    int groups = 0;
-    int first_block = 0;
-    int blocks = 0;
-    int first_point = 0;  // in `lanes`
-    int points = 0;
-    int still = 0;  // place of all fixed bodies, and of unused lanes
-    bool bounces = false;
-    std::vector<DeepPoint> deep;
-  };
-  /// Places of the moving bodies of a region.
-  struct Places {
-    int first = 0;
-    int last = 0;
-  };
   explicit Work(SolverLanes kind) : kernel(kernel_of<Dim>(kind)) {}
 
-  void place_bodies();
-  void sort();
-  int set_of(int a, int b) const;
-  Turn turn_of(int set) const;
-  void make_blocks();
-  int place_in(int set, int slot);
   void load_bodies();
-  void fill_blocks(Set& set);
+  void fill_blocks(int number);
   void fill_body(const SolverBody<Dim>& body, Eight& mass, Eight* inertia, int lane) const;
   float fill_point(int number, PointBlock<Dim>& to, int lane, const Spring& of_contact);
   void fill_rolling(const ContactPoint<Dim>& point, RollingBlock<Dim>& to, int lane) const;
@@ -199,16 +161,12 @@ struct ContactSolver<Dim>::Work {
   void read_bodies(const Share& slots);
   void read_points(const Share& share);
 
-  int regions() const { return divided.count(); }
-  /// Inside of each region, at the border to the next, and last the remaining.
-  int set_count() const { return 2 * regions(); }
-  int remaining_set() const { return set_count() - 1; }
   /// Calls `work` with the sets of a turn that are the member's.
   template <typename Function>
   void for_sets(Turn turn, const Share& regions_of_member, const Function& work);
   void run(Pass pass, const Set& set) {
-    kernel({velocity.data(), moved.data(), free.data(), blocks.data() + set.first_block, set.blocks, lanes.data(),
-            rolling.data(), 1.0F / h, params.deep, deepest, carry},
+    kernel({velocity.data(), moved.data(), free.data(), sets.blocks().data() + set.first_block, set.blocks,
+            lanes.data(), rolling.data(), 1.0F / h, params.deep, deepest, carry},
            pass);
   }
   void run(Pass pass, Team& team, const Share& regions_of_member);
@@ -221,19 +179,9 @@ struct ContactSolver<Dim>::Work {
   ContactSolverParams params;
   float h = 0.0F;  // length of a sub-step [s]
   // Made from it.
-  Regions<Dim> divided;
-  std::vector<int> place;  // by slot: of a body that moves
-  std::vector<Places> of_region;
-  int tail = 0;  // place of the first that is of no region
-  std::vector<Places> copies_of_region;
-  std::vector<std::pair<int, int>> copy;  // by slot of a moving obstacle: the set that its last copy is of, its place
-  std::vector<int> copied;                // slots, by place from the tail on
-  std::vector<Group> groups;
-  std::vector<int> start;                              // scratch of sort()
-  std::vector<int> order;                              // of the groups, by set, colour and number of points
-  std::vector<std::array<std::uint64_t, turns>> used;  // by place: colours of its groups
-  std::array<Set, most_sets> sets;
-  std::vector<ContactBlock<Dim>> blocks;
+  Sets sets;
+  std::array<bool, Sets::most> bounces{};               // by set
+  std::array<std::vector<DeepPoint>, Sets::most> deep;  // by set
   std::vector<PointBlock<Dim>> lanes;
   std::vector<RollingBlock<Dim>> rolling;
   std::vector<Quad> velocity;
@@ -242,160 +190,18 @@ struct ContactSolver<Dim>::Work {
   std::vector<Quad> free;
 };
 
-/// Bodies that move stand by region, so that the memory of a region stays with its thread. Behind those of a region
-/// come the places of fixed bodies, one for each set.
 template <int Dim>
-void ContactSolver<Dim>::Work::place_bodies() {
-  divided.divide(bodies);
-  of_region.assign(regions(), {});
-  const auto slots = static_cast<int>(bodies.size());
-  for (int slot = 0; slot < slots; ++slot)
-    if (bodies[slot].moves) ++of_region[divided.of(slot)].last;
-  int next = 0;
-  constexpr int apart = 4;  // from the next region's bodies: a line of memory
-  for (int r = 0; r < regions(); ++r) {
-    of_region[r] = {next, next + of_region[r].last};
-    next = of_region[r].last;
-    sets[r].still = next++;
-    sets[regions() + r].still = next++;
-    next += apart;
-  }
-  tail = next;
-  place.assign(bodies.size(), -1);
-  std::array<int, Regions<Dim>::most> filled{};
-  for (int slot = 0; slot < slots; ++slot) {
-    if (!bodies[slot].moves) continue;
-    const int region = divided.of(slot);
-    place[slot] = of_region[region].first + filled[region]++;
-  }
-}
-
-template <int Dim>
-int ContactSolver<Dim>::Work::set_of(int a, int b) const {
-  if (!bodies[b].moves) return divided.of(a);
-  if (!bodies[a].moves) return divided.of(b);
-  const auto [low, high] = std::minmax({divided.of(a), divided.of(b)});
-  if (low == high) return low;
-  return high == low + 1 ? regions() + low : remaining_set();
-}
-
-template <int Dim>
-auto ContactSolver<Dim>::Work::turn_of(int set) const -> Turn {
-  if (set < regions()) return inside;
-  if (set == remaining_set()) return remaining;
-  return (set - regions()) % 2 == 0 ? even_border : odd_border;
-}
-
-/// Puts points that stand side by side into groups and gives each the first colour that no group of its bodies has in
-/// sets of the same turn.
-template <int Dim>
-void ContactSolver<Dim>::Work::sort() {
-  used.assign(tail, {});
-  groups.clear();
-  const int count = static_cast<int>(points.size());
-  for (int i = 0; i < count;) {
-    const int a = points[i].a;
-    const int b = points[i].b;
-    int end = i + 1;
-    while (end < count && end - i < sizes && points[end].a == a && points[end].b == b) ++end;
-    const int set = set_of(a, b);
-    const Turn turn = turn_of(set);
-    std::uint64_t taken = 0;
-    for (const int slot : {a, b})
-      if (bodies[slot].moves) taken |= used[place[slot]][turn];
-    const int colour = std::countr_one(taken);
-    for (const int slot : {a, b})
-      if (bodies[slot].moves && colour < colours) used[place[slot]][turn] |= std::uint64_t{1} << colour;
-    groups.push_back({.first = i, .count = end - i, .set = set, .colour = colour});
-    i = end;
-  }
-  const auto bin = [](const Group& group) {
-    return (group.set * (colours + 1) + group.colour) * sizes + sizes - group.count;
-  };
-  const int bins = set_count() * (colours + 1) * sizes;
-  start.assign(bins + 1, 0);
-  for (const Group& group : groups) ++start[bin(group) + 1];
-  for (int i = 1; i <= bins; ++i) start[i] += start[i - 1];
-  for (int set = 0; set < set_count(); ++set) {
-    const int bins_of_set = (colours + 1) * sizes;
-    sets[set].first_group = start[set * bins_of_set];
-    sets[set].groups = start[(set + 1) * bins_of_set] - sets[set].first_group;
-  }
-  order.resize(groups.size());
-  for (std::size_t i = 0; i < groups.size(); ++i) order[start[bin(groups[i])]++] = static_cast<int>(i);
-}
-
-/// Gives each group its block and lane, and the block the places of its bodies. Groups that got no colour have a block
-/// each.
-template <int Dim>
-void ContactSolver<Dim>::Work::make_blocks() {
-  blocks.clear();
-  copied.clear();
-  copy.assign(bodies.size(), {-1, 0});
-  copies_of_region.assign(regions(), {});
-  int point_blocks = 0;
-  int rolling_blocks = 0;
-  for (int number = 0; number < set_count(); ++number) {
-    Set& set = sets[number];
-    set.first_block = static_cast<int>(blocks.size());
-    set.first_point = point_blocks;
-    const int first_copy = tail + static_cast<int>(copied.size());
-    int lane = lanes_of_a_block;
-    int last_colour = -1;
-    for (int i = set.first_group; i < set.first_group + set.groups; ++i) {
-      Group& group = groups[order[i]];
-      if (lane == lanes_of_a_block || group.colour != last_colour || group.colour == colours) {
-        ContactBlock<Dim>& block = blocks.emplace_back(ContactBlock<Dim>{});
-        std::ranges::fill(block.a, set.still);
-        std::ranges::fill(block.b, set.still);
-        block.first_point = point_blocks;
-        block.points = group.count;  // the most of all in it, see sort()
-        block.rolling = -1;
-        point_blocks += group.count;
-        lane = 0;
-        last_colour = group.colour;
-      }
-      const ContactPoint<Dim>& first = points[group.first];
-      ContactBlock<Dim>& block = blocks.back();
-      block.a[lane] = place_in(number, first.a);
-      block.b[lane] = place_in(number, first.b);
-      if (first.rolling_arm > 0.0F && block.rolling < 0) block.rolling = rolling_blocks++;
-      group.block = static_cast<int>(blocks.size()) - 1;
-      group.lane = lane++;
-    }
-    set.blocks = static_cast<int>(blocks.size()) - set.first_block;
-    set.points = point_blocks - set.first_point;
-    if (number < regions()) copies_of_region[number] = {first_copy, tail + static_cast<int>(copied.size())};
-  }
-  lanes.resize(point_blocks);
-  rolling.assign(rolling_blocks, RollingBlock<Dim>{});
-}
-
-/// An obstacle that moves has a place for each region that it touches, all else that is not moved by its contacts
-/// shares one.
-template <int Dim>
-int ContactSolver<Dim>::Work::place_in(int set, int slot) {
-  const SolverBody<Dim>& body = bodies[slot];
-  if (body.moves) return place[slot];
-  if (body.velocity.isZero(0.0F) && body.spin.isZero(0.0F)) return sets[set].still;
-  if (copy[slot].first != set) {
-    copy[slot] = {set, tail + static_cast<int>(copied.size())};
-    copied.push_back(slot);
-  }
-  return copy[slot].second;
-}
-
-template <int Dim>
-void ContactSolver<Dim>::Work::fill_blocks(Set& set) {
+void ContactSolver<Dim>::Work::fill_blocks(int number) {
+  const Set& set = sets[number];
   const float frequency = spring / h;
   const Spring between = spring_of(frequency, h);
   const Spring fixed = spring_of(fixed_spring * frequency, h);
-  set.bounces = false;
-  set.deep.clear();
+  bounces[number] = false;
+  deep[number].clear();
   std::fill_n(lanes.begin() + set.first_point, set.points, PointBlock<Dim>{});
-  for (int i = set.first_group; i < set.first_group + set.groups; ++i) {
-    const Group& group = groups[order[i]];
-    ContactBlock<Dim>& block = blocks[group.block];
+  for (const int index : set.groups) {
+    const Group& group = sets.groups()[index];
+    ContactBlock<Dim>& block = sets.blocks()[group.block];
     const ContactPoint<Dim>& first = points[group.first];
     const SolverBody<Dim>& a = bodies[first.a];
     const SolverBody<Dim>& b = bodies[first.b];
@@ -408,10 +214,10 @@ void ContactSolver<Dim>::Work::fill_blocks(Set& set) {
       const float stiffness = fill_point(group.first + k, to, group.lane, of_contact);
       block.bounces = block.bounces || to.bounce.v[group.lane] < 0.0F;
       if (points[group.first + k].gap < -params.deep && stiffness > 0.0F)
-        set.deep.push_back({order[i], group.first + k, to.gain.v[group.lane],
-                            std::min(to.impulse.v[group.lane] / stiffness, deepest)});
+        deep[number].push_back(
+            {index, group.first + k, to.gain.v[group.lane], std::min(to.impulse.v[group.lane] / stiffness, deepest)});
     }
-    set.bounces = set.bounces || block.bounces;
+    bounces[number] = bounces[number] || block.bounces;
     if (first.rolling_arm > 0.0F) fill_rolling(first, rolling[block.rolling], group.lane);
   }
 }
@@ -479,14 +285,14 @@ void ContactSolver<Dim>::Work::fill_rolling(const ContactPoint<Dim>& point, Roll
 /// each sub-step, contact by contact, would come to.
 template <int Dim>
 void ContactSolver<Dim>::Work::load_bodies() {
-  const std::size_t places = tail + copied.size();
+  const std::size_t places = sets.places();
   velocity.assign(quads * places, Quad{});
   moved.assign(quads * places, Quad{});
   free.assign(quads * places, Quad{});
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].moves) set<Dim>(&velocity[quads * place[i]], bodies[i].velocity, bodies[i].spin);
-  for (std::size_t i = 0; i < copied.size(); ++i)
-    set<Dim>(&velocity[quads * (tail + i)], bodies[copied[i]].velocity, bodies[copied[i]].spin);
+  for (int i = 0; i < std::ssize(bodies); ++i)
+    if (bodies[i].moves) set<Dim>(&velocity[quads * sets.place(i)], bodies[i].velocity, bodies[i].spin);
+  int copy = sets.tail();
+  for (const int slot : sets.copied()) set<Dim>(&velocity[quads * copy++], bodies[slot].velocity, bodies[slot].spin);
   const float share = 1.0F / static_cast<float>(params.sub_steps);
   for (const ContactPoint<Dim>& point : points) {
     if (point.normal_impulse == 0.0F && point.rolling_arm == 0.0F) continue;
@@ -498,7 +304,7 @@ void ContactSolver<Dim>::Work::load_bodies() {
     const auto push = [&](int slot, const VecF<Dim>& arm, float sign) {
       const SolverBody<Dim>& body = bodies[slot];
       if (!body.moves) return;
-      Quad* to = &free[quads * place[slot]];
+      Quad* to = &free[quads * sets.place(slot)];
       const SpinF<Dim> spin = body.inverse_inertia * SpinF<Dim>(torque(arm, impulse) + twist);
       add_to<Dim>(to, sign * body.inverse_mass * impulse, sign * spin);
     };
@@ -511,7 +317,7 @@ template <int Dim>
 void ContactSolver<Dim>::Work::begin_sub_step(const VecF<Dim>& gravity, std::span<const Push> pushes,
                                               const Places& region) {
   for (const Push& push : pushes)
-    if (const int at = place[push.slot]; at >= region.first && at < region.last)
+    if (const int at = sets.place(push.slot); at >= region.first && at < region.last)
       add_to<Dim>(&velocity[quads * at], h * push.acceleration, SpinF<Dim>::Zero());
   std::array<Quad, quads> fall{};
   set<Dim>(fall.data(), h * gravity, SpinF<Dim>::Zero());
@@ -543,17 +349,17 @@ template <int Dim>
 template <typename Function>
 void ContactSolver<Dim>::Work::for_sets(Turn turn, const Share& regions_of_member, const Function& work) {
   for (int r = regions_of_member.first; r < regions_of_member.last; ++r) {
-    const int number = turn == inside ? r : regions() + r;
-    if (turn_of(number) == turn && sets[number].groups > 0) work(sets[number]);
+    const int number = turn == Sets::inside ? r : sets.regions() + r;
+    if (sets.turn_of(number) == turn && !sets[number].groups.empty()) work(sets[number]);
   }
 }
 
 template <int Dim>
 void ContactSolver<Dim>::Work::run(Pass pass, Team& team, const Share& regions_of_member) {
-  for_sets(inside, regions_of_member, [&](const Set& set) { run(pass, set); });
-  if (regions() == 1) return;
-  for (const Turn turn : {even_border, odd_border, remaining}) {
-    if (turn == remaining && sets[remaining_set()].groups == 0) continue;
+  for_sets(Sets::inside, regions_of_member, [&](const Set& set) { run(pass, set); });
+  if (sets.regions() == 1) return;
+  for (const Turn turn : {Sets::even_border, Sets::odd_border, Sets::remaining}) {
+    if (turn == Sets::remaining && sets[sets.last()].groups.empty()) continue;
     team.meet();
     for_sets(turn, regions_of_member, [&](const Set& set) { run(pass, set); });
   }
@@ -563,36 +369,35 @@ void ContactSolver<Dim>::Work::run(Pass pass, Team& team, const Share& regions_o
 /// What one thread does in a step.
 template <int Dim>
 void ContactSolver<Dim>::Work::advance(const VecF<Dim>& gravity, std::span<const Push> pushes, Team& team, int member) {
-  const Share mine = share_of(regions(), member, team.size());
+  const Share mine = share_of(sets.regions(), member, team.size());
   const auto for_regions = [&](const auto& work) {
     for (int r = mine.first; r < mine.last; ++r) work(r);
   };
   for_regions([&](int r) {
-    fill_blocks(sets[r]);
-    fill_blocks(sets[regions() + r]);
+    fill_blocks(r);
+    fill_blocks(sets.regions() + r);
   });
   team.meet();
-  const auto all_sets = std::span(sets).first(set_count());
-  const bool bounces = std::ranges::any_of(all_sets, &Set::bounces);
+  const bool any_bounces = std::ranges::any_of(std::span(bounces).first(sets.count()), std::identity());
   for (int step = 0; step < params.sub_steps; ++step) {
     const int passes = step == 0 ? first_passes : 1;
-    for_regions([&](int r) { begin_sub_step(gravity, pushes, of_region[r]); });
+    for_regions([&](int r) { begin_sub_step(gravity, pushes, sets.bodies_of(r)); });
     for (int i = 0; i < passes; ++i) run(Pass::soft, team, mine);
     for_regions([&](int r) {
-      move(of_region[r].first, of_region[r].last);
-      move(copies_of_region[r].first, copies_of_region[r].last);
+      move(sets.bodies_of(r).first, sets.bodies_of(r).last);
+      move(sets.copies_of(r).first, sets.copies_of(r).last);
     });
     for (int i = 1; i < passes; ++i) run(Pass::relax, team, mine);
     run(Pass::end, team, mine);
-    for_regions([&](int r) { keep_changes(of_region[r]); });
+    for_regions([&](int r) { keep_changes(sets.bodies_of(r)); });
   }
   team.meet();
-  if (bounces)
+  if (any_bounces)
     for (int i = 0; i < bounce_passes; ++i) run(Pass::bounce, team, mine);
   if (member == 0) push_deep();
   team.meet();
   read_bodies(share_of(static_cast<int>(bodies.size()), member, team.size()));
-  read_points(share_of(static_cast<int>(groups.size()), member, team.size()));
+  read_points(share_of(static_cast<int>(sets.groups().size()), member, team.size()));
 }
 
 /// Moves what overlaps by more than `deep` beyond its load apart. It gets no velocity by that: as a spring it would be
@@ -600,20 +405,21 @@ void ContactSolver<Dim>::Work::advance(const VecF<Dim>& gravity, std::span<const
 template <int Dim>
 void ContactSolver<Dim>::Work::push_deep() {
   for (int pass = 0; pass < deep_passes; ++pass) {
-    for (const Set& set : std::span(sets).first(set_count()))
-      for (const DeepPoint& deep : set.deep) {
-        const ContactPoint<Dim>& point = points[deep.point];
+    for (const std::vector<DeepPoint>& of_set : std::span(deep).first(sets.count()))
+      for (const DeepPoint& at : of_set) {
+        const ContactPoint<Dim>& point = points[at.point];
         const VecF<Dim>& n = point.normal;
-        const Group& group = groups[deep.group];
-        Quad* const a = &moved[quads * blocks[group.block].a[group.lane]];
-        Quad* const b = &moved[quads * blocks[group.block].b[group.lane]];
+        const Group& group = sets.groups()[at.group];
+        const ContactBlock<Dim>& block = sets.blocks()[group.block];
+        Quad* const a = &moved[quads * block.a[group.lane]];
+        Quad* const b = &moved[quads * block.b[group.lane]];
         const auto way = [&](const Quad* of, const VecF<Dim>& arm) -> VecF<Dim> {
           return linear_of<Dim>(of) + turned(angular_of<Dim>(of), arm);
         };
         const float gap = point.gap + n.dot(way(b, point.arm_b) - way(a, point.arm_a));
-        const float excess = -(gap + params.deep + deep.sag);
+        const float excess = -(gap + params.deep + at.sag);
         if (excess <= 0.0F) continue;
-        const VecF<Dim> push = deep.gain * deep_share * excess * n;
+        const VecF<Dim> push = at.gain * deep_share * excess * n;
         const auto shift = [&](int slot, Quad* to, const VecF<Dim>& arm, float sign) {
           const SolverBody<Dim>& body = bodies[slot];
           if (!body.moves) return;
@@ -631,10 +437,10 @@ void ContactSolver<Dim>::Work::read_bodies(const Share& slots) {
   for (int i = slots.first; i < slots.last; ++i) {
     SolverBody<Dim>& body = bodies[i];
     if (body.moves) {
-      body.way = linear_of<Dim>(&moved[quads * place[i]]);
-      body.turn = angular_of<Dim>(&moved[quads * place[i]]);
-      body.velocity = linear_of<Dim>(&velocity[quads * place[i]]);
-      body.spin = angular_of<Dim>(&velocity[quads * place[i]]);
+      body.way = linear_of<Dim>(&moved[quads * sets.place(i)]);
+      body.turn = angular_of<Dim>(&moved[quads * sets.place(i)]);
+      body.velocity = linear_of<Dim>(&velocity[quads * sets.place(i)]);
+      body.spin = angular_of<Dim>(&velocity[quads * sets.place(i)]);
     } else {
       body.way = h * body.velocity;
       body.turn = h * body.spin;
@@ -650,8 +456,8 @@ template <int Dim>
 void ContactSolver<Dim>::Work::read_points(const Share& share) {
   const auto times = static_cast<float>(params.sub_steps);
   for (int number = share.first; number < share.last; ++number) {
-    const Group& group = groups[number];
-    const ContactBlock<Dim>& block = blocks[group.block];
+    const Group& group = sets.groups()[number];
+    const ContactBlock<Dim>& block = sets.blocks()[group.block];
     const int lane = group.lane;
     for (int i = 0; i < group.count; ++i) {
       ContactPoint<Dim>& point = points[group.first + i];
@@ -694,11 +500,11 @@ void ContactSolver<Dim>::solve(const ContactSolverParams& params, const VecF<Dim
   work.points = points_;
   work.params = params;
   work.h = dt / static_cast<float>(params.sub_steps);
-  work.place_bodies();
-  work.sort();
-  work.make_blocks();
+  work.sets.arrange(bodies_, points_);
+  work.lanes.resize(work.sets.point_blocks());
+  work.rolling.assign(work.sets.rolling_blocks(), RollingBlock<Dim>{});
   work.load_bodies();
-  Team& team = work.regions() > 1 ? *team_ : work.one_thread;
+  Team& team = work.sets.regions() > 1 ? *team_ : work.one_thread;
   team.run([&](int member) { work.advance(gravity, pushes_, team, member); });
 }
 
