@@ -247,6 +247,7 @@ void EngineWorld::engine_place_obstacle(int number, const Pose<2>& at) {
 void EngineWorld::engine_remove_obstacle(int number) {
   find_new_contacts();
   world_.DestroyBody(obstacles_[number]);
+  std::erase(moving_obstacles_, first_obstacle - number);
   obstacles_[number] = nullptr;
   if (small_steps_) small_steps_->forget(first_obstacle - number);
 }

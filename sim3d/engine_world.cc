@@ -223,6 +223,7 @@ void EngineWorld<Dim>::engine_place_obstacle(int number, const Pose<Dim>& at) {
 template <int Dim>
 void EngineWorld<Dim>::engine_remove_obstacle(int number) {
   btCollisionObject& object = obstacle(number);
+  std::erase(moving_obstacles_, btRigidBody::upcast(&object));
   swap_.forget(first_obstacle - number);
   if (small_steps_) small_steps_->forget(first_obstacle - number);
   engine_.pairs.remove_pairs_of_obstacle(object.getBroadphaseHandle(), &engine_.dispatcher);

@@ -73,6 +73,7 @@ void World<Dim>::remove(BodyIndex body) {
   ++removals_;
   states_.removed[body] = 1;
   std::erase(awake_, body);
+  std::erase_if(pushes_, [body](const Push<Dim>& push) { return push.body == body; });
   engine_remove(body);
   if (description_.engine_sleep) follow_engine_sleep();
 }
@@ -121,6 +122,7 @@ template <int Dim>
 void World<Dim>::remove_obstacle(int number) {
   require_obstacle(number);
   gather_contacts();
+  std::erase_if(moves_, [number](const auto& move) { return move.first == number; });
   engine_remove_obstacle(number);
   removed_obstacles_.resize(description_.obstacles.size(), 0);
   removed_obstacles_[number] = 1;
@@ -227,6 +229,7 @@ void World<Dim>::freeze(std::span<const BodyIndex> bodies) {
   if (chosen_.empty()) return;
   gather_contacts();
   for (const BodyIndex body : chosen_) stop(body);
+  std::erase_if(pushes_, [this](const Push<Dim>& push) { return states_.asleep[push.body] != 0; });
   std::erase_if(awake_, [this](BodyIndex body) { return states_.asleep[body] != 0; });
   engine_freeze(chosen_);
   if (description_.engine_sleep) follow_engine_sleep();

@@ -163,6 +163,28 @@ TYPED_TEST(Force, CreatesNoEnergyInTheAccount) {
 }
 
 // Two boxes are pressed against both sides of a third with twice what their friction needs to hold it.
+TYPED_TEST(Force, EndsWithTheBodyAndWithItsSleep) {
+  constexpr int dim = TypeParam::dim;
+  auto description = scene_of<dim>(pushed<dim>(0.0)).world;
+  const auto world = TypeParam::make(description);
+  std::vector<BodyIndex> bodies;
+  for (const double x : {-3.0, 0.0, 3.0}) {
+    BodyDef<dim> box;
+    box.pose.position[0] = x;
+    box.pose.position[dim - 1] = 0.251;
+    bodies.push_back(world->add(box));
+  }
+  world->step();
+  const Vec<dim> force = 10.0 * Vec<dim>::Unit(dim - 1);
+  for (const BodyIndex body : bodies) world->push(body, force);
+  world->freeze(std::span(bodies).first(1));
+  world->remove(bodies[1]);
+  ASSERT_EQ(world->pushes().size(), 1U);
+  EXPECT_EQ(world->pushes()[0].body, bodies[2]);
+  world->step();
+  EXPECT_TRUE(world->pushes().empty());
+}
+
 TYPED_TEST(Force, OfAGripperHoldsABodyInTheAir) {
   constexpr int dim = TypeParam::dim;
   const Scene<dim> one = scene_of<dim>(fmt::format("body = [{{position = {}}}]\n", point<dim>(0.0, 5.0)));

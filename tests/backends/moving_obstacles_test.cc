@@ -218,6 +218,24 @@ TYPED_TEST(MovingObstacle, GivesTheSameBitsInEachRun) {
   EXPECT_EQ(hash(), hash());
 }
 
+TYPED_TEST(MovingObstacle, DoesNotMoveOnceItIsRemoved) {
+  constexpr int dim = TypeParam::dim;
+  Scene<dim> scene = platform<dim>(path<dim>(1.0, 0.0));
+  const auto world = TypeParam::make(scene.world);
+  BodyDef<dim> cube;
+  cube.pose.position = up<dim>(5.0);
+  world->add(cube);
+  Pose<dim> next = world->obstacle_pose(0);
+  const Pose<dim> before = next;
+  next.position += up<dim>(0.1);
+  world->move_obstacle(0, next);
+  world->remove_obstacle(0);
+  world->step();
+  world->restore_obstacle(0, before);
+  world->step();
+  EXPECT_TRUE(world->obstacle_pose(0).position.isApprox(before.position, 0.0));
+}
+
 TYPED_TEST(MovingObstacle, IsTheOnlyKindThatMoves) {
   constexpr int dim = TypeParam::dim;
   Scene<dim> scene = platform<dim>(path<dim>(1.0, 0.0));
