@@ -39,11 +39,7 @@ struct FilmOptions {
 };
 
 void check(const FilmOptions& options) {
-  const auto in = [](double value, double low, double high) { return value >= low && value <= high; };
-  require(in(options.from, 0.0, 1e9), "--from", options.from, "must be in 0 .. 1e9 s");
-  require(options.to < 0.0 || in(options.to, options.from, 1e9), "--to", options.to, "must be --from or later");
-  require(in(options.speed, 0.01, 1e4), "--speed", options.speed, "must be in 0.01 .. 10000");
-  require(in(options.rate, 1.0, 50.0), "--rate", options.rate, "must be in 1 .. 50 frames per second");
+  require(options.to < 0.0 || options.to >= options.from, "--to", options.to, "must be --from or later");
   require(is_film_file(options.out), "--out", options.out, "must end in .webp, .mp4 or .gif");
 }
 
@@ -208,14 +204,21 @@ void add_film_command(CLI::App& app, int& exit_code) {
                    "Film to write, overwritten if there: .webp, .mp4 or .gif, by the program ffmpeg")
       ->required()
       ->check(in_a_folder());
-  command->add_option("--from", options->from, "Simulated time at which the film begins [s]")->capture_default_str();
-  command->add_option("--to", options->to, "Simulated time at which it ends [s]; default: the run's end");
-  command->add_option("--speed", options->speed, "Simulated seconds per second of film")->capture_default_str();
-  command->add_option("--rate", options->rate, "Frames per second of film, 1 to 50")->capture_default_str();
+  command->add_option("--from", options->from, "Simulated time at which the film begins [s]")
+      ->check(number_between(0.0, 1e9))
+      ->capture_default_str();
+  command->add_option("--to", options->to, "Simulated time at which it ends [s]; default: the run's end")
+      ->check(number_between(0.0, 1e9));
+  command->add_option("--speed", options->speed, "Simulated seconds per second of film")
+      ->check(number_between(0.01, 1e4))
+      ->capture_default_str();
+  command->add_option("--rate", options->rate, "Frames per second of film")
+      ->check(number_between(1.0, 50.0))
+      ->capture_default_str();
   command->add_option("--width", options->width, "Width [pixels]")
       ->check(number_between(200, 8000))
       ->capture_default_str();
-  command->add_option("--quality", options->quality, "Of a WebP film, 0 to 100; 100: without loss")
+  command->add_option("--quality", options->quality, "Of a WebP film; 100: without loss")
       ->check(number_between(0, 100))
       ->capture_default_str();
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
