@@ -148,16 +148,6 @@ std::vector<BodyIndex> floating_sleepers(const BodyStates<Dim>& states, std::spa
   return floating;
 }
 
-template <int Dim>
-std::vector<BodyIndex> sunken_sleepers(const WorldDescription<Dim>& description, const BodyStates<Dim>& states) {
-  std::vector<BodyIndex> sunken;
-  for (BodyIndex i = 0; description.ground.present && i < states.size(); ++i) {
-    const bool sleeps = states.asleep[i] != 0 && states.removed[i] == 0;
-    if (sleeps && height<Dim>(states.pose[i].position) < description.ground.height) sunken.push_back(i);
-  }
-  return sunken;
-}
-
 Penetration penetration(std::span<const Touch> touches) {
   std::vector<double> depths;
   depths.reserve(touches.size());
@@ -172,8 +162,6 @@ Penetration penetration(std::span<const Touch> touches) {
 
 template std::vector<Touch> touching_pairs(const WorldDescription<2>&, const BodyStates<2>&, double);
 template std::vector<Touch> touching_pairs(const WorldDescription<3>&, const BodyStates<3>&, double);
-template std::vector<BodyIndex> sunken_sleepers(const WorldDescription<2>&, const BodyStates<2>&);
-template std::vector<BodyIndex> sunken_sleepers(const WorldDescription<3>&, const BodyStates<3>&);
 template std::vector<BodyIndex> floating_sleepers(const BodyStates<2>&, std::span<const Touch>);
 template std::vector<BodyIndex> floating_sleepers(const BodyStates<3>&, std::span<const Touch>);
 

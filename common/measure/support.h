@@ -28,10 +28,6 @@ std::vector<Touch> touching_pairs(const WorldDescription<Dim>& description, cons
 template <int Dim>
 std::vector<BodyIndex> floating_sleepers(const BodyStates<Dim>& states, std::span<const Touch> touches);
 
-/// Sleepers whose centre of mass lies below the ground, ascending. Must be none: they touch it, so none of them floats.
-template <int Dim>
-std::vector<BodyIndex> sunken_sleepers(const WorldDescription<Dim>& description, const BodyStates<Dim>& states);
-
 /// Depths of overlap of touching pairs; pairs apart count with depth 0.
 struct Penetration {
   int pairs = 0;

@@ -65,7 +65,6 @@ class Ring {
   std::span<const BodyIndex> stirred() const { return stirred_; }
   /// Those that were solved in the last step.
   std::span<const BodyIndex> members() const { return members_; }
-  const SleepingContacts<Dim>& contacts() const { return contacts_; }
 
  private:
   struct Sleeper {

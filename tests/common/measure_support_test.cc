@@ -90,17 +90,6 @@ TEST(FloatingSleepers, MayRestOnObstaclesAndOnAwakeBodies) {
   EXPECT_TRUE(floating_sleepers(states, std::vector<Touch>{{0, first_obstacle - 3, 0.0}, {0, 1, 0.0}}).empty());
 }
 
-TEST(SunkenSleepers, AreThoseWithTheirCentreBelowTheGround) {
-  WorldDescription<3> world;
-  world.ground.height = 2.0;
-  BodyStates<3> states = states_at<3>(std::vector<Vec3>{{0, 0, 1.9}, {0, 0, 1.9}, {0, 0, 2.1}, {0, 0, 1.0}});
-  states.asleep = {1, 0, 1, 1};
-  states.removed[3] = 1;
-  EXPECT_EQ(sunken_sleepers(world, states), std::vector<BodyIndex>{0});
-  world.ground.present = false;
-  EXPECT_TRUE(sunken_sleepers(world, states).empty());
-}
-
 TEST(Penetration, CountsGapsAsNoDepth) {
   std::vector<Touch> touches(100, Touch{0, 1, 0.02});
   touches[7].distance = -0.3;
