@@ -133,7 +133,7 @@ TYPED_TEST(SceneRun, KeepsBallsInWallsBuiltAroundAPile) {
   }
 }
 
-// What has just left a spout is slow for a tenth of a second, and so is what a blow has thrown up: a spout that took
+// What has just left a spout is slow for a tenth of a second, and so is what an impact has thrown up: a spout that took
 // these for the pile would climb, here to a hundred metres.
 TYPED_TEST(SceneRun, ASpoutDoesNotClimbOnWhatItHasJustDropped) {
   constexpr int dim = TypeParam::dim;

@@ -1,4 +1,4 @@
-// Who knows which bodies sleep: events, policy and world must agree whatever is done to a run, on every engine.
+// Which bodies sleep: events, policy and world must agree whatever is done to a run, on every engine.
 
 #include <fmt/format.h>
 

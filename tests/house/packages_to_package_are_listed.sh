@@ -1,4 +1,4 @@
-# What dpkg-buildpackage asks for is in the list that ./dev packages installs: the build dependencies of debian/control and
+# What dpkg-buildpackage requires is in the list that ./dev packages installs: the build dependencies of debian/control and
 # build-essential. pkgconf comes with libcairo2-dev.
 set -eu
 listed=$(sed -n '/^\[build\]/,/^\[test\]/p; /^\[package\]/,/^\[browser\]/p' .ci/debian-packages.txt | sed 's/ .*//')
@@ -10,7 +10,7 @@ for package in build-essential $(sed -n '/^Build-Depends:/,/^$/p' debian/control
     pkgconf) continue ;;
   esac
   if ! echo "$listed" | grep -qxF "$package"; then
-    echo "dpkg-buildpackage asks for $package, which is not in .ci/debian-packages.txt"
+    echo "dpkg-buildpackage requires $package, which is not in .ci/debian-packages.txt"
     failed=1
   fi
 done

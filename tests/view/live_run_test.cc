@@ -147,7 +147,7 @@ TEST(LiveRun, StartsLateWithTheShapesThatAreSentAgain) {
   LiveRun live(hub, "waiting");
   hub.add(socket);
   const std::vector<Datagram> messages = messages_of_a_run<3>(40);
-  // Who comes late has the identity of the run and what is sent at its end.
+  // A receiver that comes late has the identity of the run and what is sent at its end.
   live.hear(messages.front());
   for (std::size_t i = messages.size() / 2; i < messages.size(); ++i) live.hear(messages[i]);
   EXPECT_EQ(moments_of<3>(socket.log()).moment().bodies.size(), 12);

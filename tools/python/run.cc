@@ -40,7 +40,7 @@ struct Wanted {
   std::filesystem::path out;  // run folder; empty: none
 };
 
-/// An observer without eyes: a run that is observed looks for what to warn of.
+/// Does nothing, but a run with an observer checks for what to warn of.
 template <int Dim>
 class Presence final : public Observer<Dim> {
  public:
