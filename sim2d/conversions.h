@@ -3,9 +3,7 @@
 
 #include <box2d/box2d.h>
 
-#include <cmath>
-#include <numbers>
-
+#include "common/math/angle.h"
 #include "common/math/vector.h"
 
 namespace talus::box2d {
@@ -14,10 +12,7 @@ inline b2Vec2 to_engine(const Vec2& v) { return {static_cast<float>(v.x()), stat
 inline Vec2 from_engine(const b2Vec2& v) { return {v.x, v.y}; }
 
 /// An angle of any size brought into [-pi, pi], where single precision resolves it.
-inline float engine_angle(double angle) {
-  const bool small = std::abs(angle) <= std::numbers::pi;
-  return static_cast<float>(small ? angle : std::remainder(angle, 2.0 * std::numbers::pi));
-}
+inline float engine_angle(double angle) { return static_cast<float>(wrapped(angle)); }
 
 inline bool is_dynamic(const b2Body& body) { return body.GetType() == b2_dynamicBody; }
 

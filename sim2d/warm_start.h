@@ -25,7 +25,7 @@
 namespace talus::box2d {
 
 /// A point of a former contact. Its feature id names the corner and side it came from, so it is found again on new
-/// fixtures: see EngineWorld::freeze().
+/// fixtures: see EngineWorld::engine_freeze().
 struct SavedPoint {
   static constexpr std::uint32_t no_point = 0xffffffff;
   std::uint32_t feature = no_point;

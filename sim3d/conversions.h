@@ -5,8 +5,8 @@
 #include <LinearMath/btTransform.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "common/math/angle.h"
 #include "common/math/vector.h"
 
 namespace talus::bullet {
@@ -66,7 +66,7 @@ Pose<Dim> from_bullet(const btTransform& transform, const Eigen::Quaterniond& fr
   Eigen::Quaterniond q(turn.w(), turn.x(), turn.y(), turn.z());
   q = (q * frame_inverse).normalized();
   if constexpr (Dim == 2) {
-    const double angle = std::remainder(-2.0 * std::atan2(q.y(), q.w()), 2.0 * std::numbers::pi);
+    const double angle = wrapped(-2.0 * std::atan2(q.y(), q.w()));
     return {from_bullet<2>(transform.getOrigin()), Rotation<2>(angle)};
   } else {
     return {from_bullet<3>(transform.getOrigin()), q};

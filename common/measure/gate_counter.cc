@@ -82,7 +82,7 @@ void GateCounter<Dim>::count(const Crossing& crossing) {
 template <int Dim>
 bool GateCounter<Dim>::covers(const Vec<Dim>& point) const {
   const Vec<Dim> away = point - centre_;
-  if (params_.corners.empty()) return (away - forward_axis_.dot(away) * forward_axis_).norm() <= params_.radius;
+  if (params_.corners.empty()) return along_plane<Vec<Dim>>(away, forward_axis_).norm() <= params_.radius;
   const std::vector<Vec<Dim>>& corners = params_.corners;
   const Vec<Dim> from_corner = point - corners[0];
   const auto within = [](double share) { return share >= 0.0 && share <= 1.0; };

@@ -59,10 +59,10 @@ HeightRange within_round(const ConvexPiece<Dim>& piece, const Vec<Dim>& from) {
   if (piece.corners.size() == 2) {
     const double length = (piece.corners[1] - piece.corners[0]).norm();
     const Vec<Dim> axis = (piece.corners[1] - piece.corners[0]) / length;
-    const auto across = [&](const Vec<Dim>& v) { return Vec<Dim>(v - axis.dot(v) * axis); };
     const Vec<Dim> away = from - piece.corners[0];
     const HeightRange beside = slab(axis.dot(away), axis.dot(up), 0.0, length);
-    parts.push_back(within_radius<Dim>(across(away), across(up), piece.radius).within(beside));
+    parts.push_back(within_radius<Dim>(along_plane<Vec<Dim>>(away, axis), along_plane<Vec<Dim>>(up, axis), piece.radius)
+                        .within(beside));
   }
   HeightRange all = nowhere;
   for (const HeightRange& part : parts) {

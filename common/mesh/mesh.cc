@@ -105,7 +105,7 @@ std::vector<TouchingSide> around(const Mesh& mesh, const Edge& edge, const std::
   const Vec3 axis = (mesh.corners[edge.second] - origin).normalized();
   const auto across = [&](const Side& side) {
     const Vec3 to_third = mesh.corners[mesh.triangles[side.triangle][(side.side + 2) % 3]] - origin;
-    return Vec3((to_third - to_third.dot(axis) * axis).normalized());
+    return along_plane<Vec3>(to_third, axis).normalized();
   };
   const Vec3 zero = across(sides.front());
   std::vector<TouchingSide> all;

@@ -6,18 +6,11 @@
 #include <cmath>
 
 #include "common/math/hash.h"
+#include "common/policy/adaptive/grid.h"
 #include "common/shape/convex_distance.h"
 
 namespace talus {
 namespace {
-
-/// The cell, of the given width [m], that holds a position.
-template <int Dim>
-std::array<int, Dim> cell_of(const Vec<Dim>& position, double width) {
-  std::array<int, Dim> cell{};
-  for (int axis = 0; axis < Dim; ++axis) cell[axis] = static_cast<int>(std::floor(position[axis] / width));
-  return cell;
-}
 
 /// By how much two boxes overlap [m] along the axis where they do least; negative where they are apart.
 template <int Dim>
@@ -87,8 +80,8 @@ template <int Dim>
 void OverlapCheck<Dim>::compare_near(Added& added, const Level& level) const {
   const Solid& body = added.body;
   const Vec<Dim> reach = Vec<Dim>::Constant(0.5 * level.width);
-  const Cell first = cell_of<Dim>(body.bounds.min() - reach, level.width);
-  const Cell last = cell_of<Dim>(body.bounds.max() + reach, level.width);
+  const Cell first = Grid<Dim>(level.width).cell_of(body.bounds.min() - reach);
+  const Cell last = Grid<Dim>(level.width).cell_of(body.bounds.max() + reach);
   double cells = 1.0;
   for (int axis = 0; axis < Dim; ++axis) cells *= last[axis] - first[axis] + 1.0;
   if (cells > static_cast<double>(level.solids.size())) {
@@ -117,7 +110,7 @@ void OverlapCheck<Dim>::keep(const Solid& solid, double width) {
     level = levels_.insert(levels_.end(), {.width = least, .fixed = solid.fixed, .solids = {}, .cells = {}});
   const int index = static_cast<int>(solids_.size());
   level->solids.push_back(index);
-  Chain& chain = level->cells[cell_of<Dim>(solid.pose.position, least)];
+  Chain& chain = level->cells[Grid<Dim>(least).cell_of(solid.pose.position)];
   (chain.first < 0 ? chain.first : solids_[chain.last].next) = index;
   chain.last = index;
   solids_.push_back(solid);

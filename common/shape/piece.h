@@ -1,6 +1,6 @@
 #pragma once
 // The convex pieces that shapes are made of. What depends on the kind of a piece is here, in moments.h (exact
-// integrals), in surface.h (what is drawn), in the translation to messages and in each engine's pieces.h.
+// integrals), in surface.h (what is drawn), in the translation to messages and in each engine's body_template.cc.
 
 #include <string>
 #include <variant>

@@ -82,10 +82,9 @@ float FastBodies<Dim>::stray(const StepMotion<Dim>& moved, const StepMotion<Dim>
 
 template <int Dim>
 bool FastBodies<Dim>::passes(const ContactSolver<Dim>& solver, const ContactPoint<Dim>& point) const {
-  const auto way = [&](int slot, const VecF<Dim>& arm) {
-    return StepMotion<Dim>{solver.body(slot).way, solver.body(slot).turn}.of(arm);
-  };
-  return point.gap + point.normal.dot(way(point.b, point.arm_b) - way(point.a, point.arm_a)) < -corner();
+  return point.gap +
+             point.normal.dot(solver.body(point.b).way_of(point.arm_b) - solver.body(point.a).way_of(point.arm_a)) <
+         -corner();
 }
 
 template <int Dim>

@@ -23,11 +23,6 @@ constexpr float balance = 0.01F;
 /// fro, and each move changes forces.
 constexpr int hold_steps = 20;
 
-template <int Dim>
-VecF<Dim> way_of(const SolverBody<Dim>& body, const VecF<Dim>& arm) {
-  return body.way + turned(body.turn, arm);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -243,7 +238,7 @@ float Ring<Dim>::far_of(const Sleeper& sleeper) {
 
 template <int Dim>
 VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
-  return way_of(sleepers_[body].body, arm);
+  return sleepers_[body].body.way_of(arm);
 }
 
 template <int Dim>
@@ -280,12 +275,12 @@ void Ring<Dim>::read_points(const ContactSolver<Dim>& solver, float distance) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint<Dim>& solved = solver.points()[first_point_ + i];
     SleepingPoint<Dim>& kept = contacts_[points_[i]];
-    const VecF<Dim> moved = way_of(solver.body(solved.b), solved.arm_b) - way_of(solver.body(solved.a), solved.arm_a);
+    const VecF<Dim> moved = solver.body(solved.b).way_of(solved.arm_b) - solver.body(solved.a).way_of(solved.arm_a);
     add_unsolved(kept, solved);
     kept.contact = solved;
     kept.contact.gap += solved.normal.dot(moved);
     if (kept.a >= 0 && kept.b >= 0) continue;
-    kept.slip += moved - solved.normal.dot(moved) * solved.normal;
+    kept.slip += along_plane<VecF<Dim>>(moved, solved.normal);
     if (kept.slip.norm() > distance) stirred_.push_back(std::max(kept.a, kept.b));
   }
 }

@@ -7,10 +7,8 @@ namespace talus {
 template <int Dim>
 Contact<Dim> solved_contact(const ContactSolver<Dim>& solver, const ContactPoint<Dim>& point, BodyIndex a, BodyIndex b,
                             bool swapped, const BodyStates<Dim>& states) {
-  const auto moved = [&](int slot, const VecF<Dim>& arm) -> VecF<Dim> {
-    return solver.body(slot).way + turned(solver.body(slot).turn, arm);
-  };
-  const float gap = point.gap + point.normal.dot(moved(point.b, point.arm_b) - moved(point.a, point.arm_a));
+  const float gap =
+      point.gap + point.normal.dot(solver.body(point.b).way_of(point.arm_b) - solver.body(point.a).way_of(point.arm_a));
   const double sign = swapped ? 1.0 : -1.0;  // the result's normal points to its first body
   Contact<Dim> contact;
   contact.a = swapped ? b : a;

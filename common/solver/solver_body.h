@@ -33,6 +33,9 @@ struct SolverBody {
   VecF<Dim> position = VecF<Dim>::Zero();                 // only for the division of many bodies among threads [m]
   VecF<Dim> way = VecF<Dim>::Zero();                      // after: motion in the step [m]
   SpinF<Dim> turn = SpinF<Dim>::Zero();                   // after: rotation in the step [rad]
+
+  /// After: motion of the point at the end of an arm in the step [m].
+  VecF<Dim> way_of(const VecF<Dim>& arm) const { return way + turned(turn, arm); }
 };
 
 }  // namespace talus

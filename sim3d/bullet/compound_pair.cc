@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "sim3d/bullet/fetch.h"
+
 namespace talus::bullet {
 namespace {
 
@@ -114,12 +116,8 @@ bool CompoundPair::is_steady(const PlacedBody& first, const PlacedBody& second) 
 }
 
 void CompoundPair::fetch_points() const {
-  for (const PiecePair& pair : pieces_) {
-    if (pair.may_touch && pair.manifold != nullptr) {
-      const auto* memory = reinterpret_cast<const char*>(pair.manifold);
-      for (std::size_t at = 0; at < sizeof(btPersistentManifold); at += 64) __builtin_prefetch(memory + at);
-    }
-  }
+  for (const PiecePair& pair : pieces_)
+    if (pair.may_touch && pair.manifold != nullptr) bullet::fetch(*pair.manifold);
 }
 
 // Follows the known points to where the bodies have moved.

@@ -1,5 +1,5 @@
 #pragma once
-// Contacts of Bullet brought into the cache before they are read: they lie scattered in memory.
+// Objects of Bullet brought into the cache before they are read: they lie scattered in memory.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -7,9 +7,11 @@
 
 namespace talus::bullet {
 
-inline void fetch(const btManifoldPoint& point) {
-  const auto* memory = reinterpret_cast<const char*>(&point);
-  for (std::size_t at = 0; at < sizeof(btManifoldPoint); at += 64) __builtin_prefetch(memory + at);
+/// All lines of memory of an object.
+template <typename T>
+void fetch(const T& object) {
+  const auto* memory = reinterpret_cast<const char*>(&object);
+  for (std::size_t at = 0; at < sizeof(T); at += 64) __builtin_prefetch(memory + at);
 }
 
 /// The last bytes of a manifold, which hold its bodies and the number of its points.

@@ -1,5 +1,6 @@
 #include "sim3d/bullet/near_pairs.h"
 
+#include "sim3d/bullet/fetch.h"
 #include "sim3d/bullet/idle_pairs.h"
 #include "sim3d/bullet/whole.h"
 
@@ -8,12 +9,6 @@ namespace {
 
 const btCollisionObject& body_of(const btBroadphaseProxy* proxy) {
   return *static_cast<const btCollisionObject*>(proxy->m_clientObject);
-}
-
-/// The first lines of memory of a body: its place, its shape, and whether it is active.
-void fetch_body(const btBroadphaseProxy& proxy) {
-  const auto* memory = static_cast<const char*>(proxy.m_clientObject);
-  for (std::size_t at = 0; at < sizeof(btCollisionObject); at += 64) __builtin_prefetch(memory + at);
 }
 
 }  // namespace
@@ -93,8 +88,8 @@ void NearPairs::fetch_ahead(int i, int last) const {
     __builtin_prefetch(far.m_pProxy1);
   }
   if (const btBroadphasePair& nearer = pairs[i + 3 * stride]; !IdleMark::is_set(nearer)) {
-    fetch_body(*nearer.m_pProxy0);
-    fetch_body(*nearer.m_pProxy1);
+    fetch(body_of(nearer.m_pProxy0));
+    fetch(body_of(nearer.m_pProxy1));
   }
   if (const btBroadphasePair& near = pairs[i + 2 * stride]; IdleMark::is_compound(near) && near.m_algorithm != nullptr)
     static_cast<const CompoundPair*>(near.m_algorithm)->fetch();

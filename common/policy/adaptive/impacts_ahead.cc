@@ -9,19 +9,13 @@ namespace {
 
 constexpr Wake before_impact{.cause = SleepCause::momentum, .before_impact = true};
 
-/// The part of a vector across gravity.
-template <int Dim>
-Vec<Dim> across_gravity(const RuleInput<Dim>& in, const Vec<Dim>& vector) {
-  return vector - vector.dot(in.world.down()) * in.world.down();
-}
-
 /// Horizontal unit vector from the body towards `other`; none for what lies more than 45 degrees below, since that has
 /// supports that take up the impact, and for what lies straight above.
 template <int Dim>
 std::optional<Vec<Dim>> direction_aside(const RuleInput<Dim>& in, BodyIndex body, BodyIndex other) {
   const Vec<Dim>& from = in.pose_of(body).position;
   const Vec<Dim> to = in.world.pose_near(other, from).position - from;
-  const Vec<Dim> across = across_gravity<Dim>(in, to);
+  const Vec<Dim> across = along_plane<Vec<Dim>>(to, in.world.down());
   const double aside = across.norm();
   if (in.rise(to) <= -aside || aside <= 0.0) return std::nullopt;
   return across / aside;
@@ -43,7 +37,8 @@ double speed_towards(const RuleInput<Dim>& in, BodyIndex body, const Vec<Dim>& d
 template <int Dim>
 double speed_aside(const RuleInput<Dim>& in, BodyIndex body) {
   const double reach = 0.5 * in.shape_of(body).extent;
-  return across_gravity<Dim>(in, in.states().velocity[body]).norm() + reach * in.states().spin[body].norm();
+  return along_plane<Vec<Dim>>(in.states().velocity[body], in.world.down()).norm() +
+         reach * in.states().spin[body].norm();
 }
 
 }  // namespace
