@@ -180,6 +180,7 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   saved_.clear();
   release(sides, saved_);
   if (saved_.empty()) return;
+  // In the order of the pair, for which the algorithm was made.
   const btCollisionObjectWrapper first = whole(object_of(pair.m_pProxy0));
   const btCollisionObjectWrapper second = whole(object_of(pair.m_pProxy1));
   const bool owner_first = &object_of(pair.m_pProxy0) == sides.owner;

@@ -162,11 +162,9 @@ TYPED_TEST(Force, CreatesNoEnergyInTheAccount) {
   EXPECT_TRUE(simulation.warnings().empty());
 }
 
-// Two boxes are pressed against both sides of a third with twice what their friction needs to hold it.
 TYPED_TEST(Force, EndsWithTheBodyAndWithItsSleep) {
   constexpr int dim = TypeParam::dim;
-  auto description = scene_of<dim>(pushed<dim>(0.0)).world;
-  const auto world = TypeParam::make(description);
+  const auto world = TypeParam::make(scene_of<dim>(pushed<dim>(0.0)).world);
   std::vector<BodyIndex> bodies;
   for (const double x : {-3.0, 0.0, 3.0}) {
     BodyDef<dim> box;
@@ -185,6 +183,7 @@ TYPED_TEST(Force, EndsWithTheBodyAndWithItsSleep) {
   EXPECT_TRUE(world->pushes().empty());
 }
 
+// Two boxes are pressed against both sides of a third with twice what their friction needs to hold it.
 TYPED_TEST(Force, OfAGripperHoldsABodyInTheAir) {
   constexpr int dim = TypeParam::dim;
   const Scene<dim> one = scene_of<dim>(fmt::format("body = [{{position = {}}}]\n", point<dim>(0.0, 5.0)));
