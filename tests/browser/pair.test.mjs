@@ -46,16 +46,16 @@ test("a run differs from itself by nothing", async () => {
 });
 
 /// What the two sides show: the time of what is drawn [s], metres of a pixel with the camera, and the size of the canvas.
+/// Read at once: the runs may go on.
 async function sidesOf(page) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  return Promise.all(
-    page.frames().slice(1).map((side) =>
-      side.evaluate(() => {
-        const { timeline, stage } = window.talus;
-        const canvas = document.getElementById("bodies");
-        return { time: window.talus.time, shown: timeline.time(timeline.shown), view: stage.view(), size: [canvas.clientWidth, canvas.clientHeight], grid: stage.surroundings.gridLength };
-      }),
-    ),
+  return page.evaluate(() =>
+    ["a", "b"].map((side) => {
+      const { talus, document } = window.document.getElementById(side).contentWindow;
+      const { time, timeline, stage } = talus;
+      const canvas = document.getElementById("bodies");
+      return { time, shown: timeline.time(timeline.shown), view: stage.view(), size: [canvas.clientWidth, canvas.clientHeight], grid: stage.surroundings.gridLength };
+    }),
   );
 }
 

@@ -6,7 +6,9 @@ import { test } from "node:test";
 import { endless, openPage, openScene, pause, runScene, sceneText, serve, shown, statusOf, talus, temporaryFolder, until, upgrade } from "./browser.mjs";
 
 test("something moves within three seconds of the command", async () => {
-  await (await openPage("about:blank", { talus: false })).close(); // the browser is running
+  const before = await openPage("about:blank", { talus: false }); // the browser is running, and has drawn before
+  await before.evaluate(() => document.createElement("canvas").getContext("webgl2"));
+  await before.close();
   const start = Date.now();
   const { url, child } = await serve("drop_in_a_pile_2d");
   const page = await openPage(url);
