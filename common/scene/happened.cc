@@ -58,8 +58,7 @@ WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEven
     const Event<Dim>& event = scene.events[each.number];
     if (event.action == EventAction::gravity) gravity = event.gravity;
   }
-  world.gravity = gravity.norm();
-  if (world.gravity > 0.0) world.down = gravity / world.gravity;
+  world.set_gravity(gravity);
   const std::vector<std::uint8_t> absent = absent_obstacles(scene, done, time);
   for (std::size_t k = absent.size(); k-- > 0;)
     if (absent[k] != 0) world.obstacles.erase(world.obstacles.begin() + static_cast<std::ptrdiff_t>(k));

@@ -3,8 +3,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
-#include <string>
 
 #include "common/scene/overlap.h"
 #include "common/scene/read_shape.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
@@ -50,8 +49,7 @@ void read_world(TableReader& table, Scene<Dim>& scene, Named& named) {
   if (table.is_array("gravity")) {
     Vec<Dim> gravity = world.gravity_vector();
     table.read(gravity_vector_key, gravity);
-    world.gravity = gravity.norm();
-    if (world.gravity > 0.0) world.down = gravity / world.gravity;
+    world.set_gravity(gravity);
     table.read_fields(world, fields.subspan(1));
   } else {
     table.read_fields(world, fields);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -94,17 +93,6 @@ void read_scale(TableReader& table, ShapeNames& shapes, WorldDescription<Dim>& w
   world.shapes.insert(world.shapes.end(), sized.begin(), sized.end());
 }
 
-template <int Dim>
-void read_orientation(TableReader& table, Source<Dim>& source) {
-  std::string choice;
-  if (table.has("orientation")) table.read(orientation_key, choice);
-  source.orientation = read_rotation<Dim>(table);
-  if (!choice.empty() && source.orientation)
-    table.error("orientation", "must not be given beside angle_deg");
-  else if (choice.empty() && !source.orientation)
-    table.fill("orientation", toml_text(random_orientation));
-}
-
 /// A body at the limit of what the source may drop: an error at `key` if the engines cannot simulate it.
 template <int Dim>
 void check_body(TableReader& table, std::string_view key, const BodyDef<Dim>& body,
@@ -168,7 +156,7 @@ Source<Dim> read_source(TableReader& table, ShapeNames& shapes, WorldDescription
   read_shapes(table, shapes, source);
   table.read_fields(source, source_fields<Dim>);
   check_sweep(table, source);
-  read_orientation(table, source);
+  source.orientation = read_rotation<Dim>(table);
   if (table.has("scale")) table.table("scale", [&](TableReader& own) { read_scale(own, shapes, world, source); });
   if (table.ok() && !source.shapes.empty() && shapes.complete()) {
     if (!table.has("spread")) {

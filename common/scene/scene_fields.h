@@ -9,13 +9,6 @@
 
 namespace talus {
 
-inline constexpr std::string_view random_orientation = "random";
-inline constexpr std::array<std::string_view, 1> orientations = {random_orientation};
-inline constexpr Key orientation_key = {.name = "orientation",
-                                        .type = "text",
-                                        .choices = orientations,
-                                        .default_text = "`\"random\"`",
-                                        .meaning = "each body has a random rotation, uniformly distributed"};
 inline constexpr Key angle_key = {
     .name = "angle_deg",
     .unit = "degrees",
@@ -97,7 +90,6 @@ inline constexpr auto source_fields = std::to_array<Field<Source<Dim>>>({
       .unit = "m/s",
       .range = between(0.0, 1e3),
       .meaning = "uniform to both sides of `velocity` on each axis"}},
-    {{}, orientation_key},
     {{}, angle_key},
     {{}, axis_key},
     {place_of<&Source<Dim>::spin_spread>,

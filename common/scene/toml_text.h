@@ -3,7 +3,6 @@
 
 #include <toml++/toml.h>
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
