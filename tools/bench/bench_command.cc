@@ -8,13 +8,14 @@
 #include <stdexcept>
 
 #include "common/scene/scene.h"
-#include "common/simulation/stopwatch.h"
 #include "common/text/printable.h"
+#include "common/world/stopwatch.h"
 #include "tools/bench/bench_folder.h"
 #include "tools/bench/bench_plan.h"
 #include "tools/bench/bench_table.h"
 #include "tools/bench/published.h"
 #include "tools/commands/job_options.h"
+#include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/pool/folder_lock.h"
 #include "tools/pool/in_processes.h"
@@ -209,7 +210,7 @@ std::vector<CLI::Option*> add_plan(CLI::App& command, BenchOptions& options) {
           ->type_name("PATH=VALUES")
           ->allow_extra_args(false),
       command.add_option("--seeds", options.seeds, "Runs of each case, with the seeds from 1 on (3, quick: 2)")
-          ->check(CLI::Range(1, 1000)),
+          ->check(whole_number(1, 1000)),
       command.add_flag("-q,--quick", options.quick, "Half of each scene's frames, fewer scenes of table1"),
       command.add_flag("-f,--force", options.force, "Run outside of the window in which results hold too"),
       command.add_flag("--drift", options.extras.drift, "Measure how far bodies move once all are woken at the end"),
@@ -225,9 +226,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   auto jobs = std::make_shared<JobOptions>();
   const std::vector<CLI::Option*> plan = add_plan(*command, *options);
-  add_job_options(*command, *jobs, most_sweep_runs);
-  command->add_option("-j,--jobs", jobs->jobs, "Runs at a time (1); side by side their times are some per cent longer")
-      ->check(CLI::Range(1, 1024));
+  add_job_options(*command, *jobs, most_sweep_runs,
+                  "Runs at a time (1); side by side their times are some per cent longer");
   command->callback([=, &exit_code] {
     if (jobs->folders() == 0) jobs->out = "bench";
     check_job_options(*jobs, plan);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 #include <set>
 #include <vector>
 
@@ -40,21 +39,18 @@ struct ValueKind {
   std::string limits;  // as "1 to 64"; empty: none
 };
 
-/// From what CLI11 and validators.h say, as "INT:1 to 64", "TEXT:{a,b}" or "INT:INT in [1 - 64]".
+/// From what CLI11 and validators.h say, as "INT:1 to 64" or "TEXT:{a,b}".
 ValueKind kind_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t colon = std::min(type.find(':'), type.size());
   ValueKind kind = {type.substr(0, colon), colon < type.size() ? type.substr(colon + 1) : ""};
   if (kind.word == "INT" || kind.word == "UINT" || kind.word == "FLOAT") kind.word = "NUMBER";
-  std::smatch match;
   if (kind.limits.starts_with('{')) {
     constexpr std::size_t longest_word = 20;
     const std::string values = kind.limits.substr(1, kind.limits.size() - 2);
     const bool is_short = values.size() <= longest_word;
     if (is_short) kind.word = replaced(values, ",", "|");
     kind.limits = is_short ? "" : "one of " + replaced(values, ",", ", ");
-  } else if (std::regex_match(kind.limits, match, std::regex(R"(INT in \[(\S+) - (\S+)\])"))) {
-    kind.limits = fmt::format("{} to {}", match[1].str(), match[2].str());
   } else if (kind.limits.find("DIR") != std::string::npos) {
     kind = {"FOLDER", ""};
   }
@@ -106,7 +102,8 @@ std::string option_text(const CLI::Option& option) {
     head = fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
   else if (takes_value(option))
     head += fmt::format(" \\fI{}\\fR", roff(kind_of(option).word));
-  return fmt::format(".TP\n{}\n{}\n", head, roff(meaning_of(option)));
+  const std::string group = option.get_group() == "Options" ? "" : option.get_group() + ": ";
+  return fmt::format(".TP\n{}\n{}\n", head, roff(group + meaning_of(option)));
 }
 
 void append_command(const CLI::App& command, const std::string& name, std::string& page) {

@@ -9,6 +9,7 @@
 #include "common/text/printable.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
+#include "tools/pool/in_processes.h"
 #include "tools/pool/slurm.h"
 
 namespace talus {
@@ -20,7 +21,7 @@ int JobOptions::folders() const {
   return static_cast<int>(std::ranges::count_if(all, [](const fs::path* folder) { return !folder->empty(); }));
 }
 
-void add_job_options(CLI::App& command, JobOptions& options, int most) {
+void add_job_options(CLI::App& command, JobOptions& options, int most, const std::string& jobs) {
   command.add_option("-o,--out", options.out, "Folder of the runs: new, empty, or of the same runs to go on with")
       ->check(not_empty());
   command
@@ -35,7 +36,8 @@ void add_job_options(CLI::App& command, JobOptions& options, int most) {
       ->check(not_empty());
   command.add_option("--only", options.only, "Do the task of this number and nothing else, as a line of tasks.txt")
       ->needs(resume)
-      ->check(number_between(0, most));
+      ->check(whole_number(0, most));
+  command.add_option("-j,--jobs", options.jobs, jobs)->check(whole_number(1, most_jobs));
   command.add_option("--on", options.on, "local: run here; slurm: submit an array of jobs, and return at once")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
@@ -43,7 +45,7 @@ void add_job_options(CLI::App& command, JobOptions& options, int most) {
   command
       .add_option("--chunk", options.tasks.chunk,
                   "Lines of one task of the array, one after the other; without it the array has up to 250 tasks")
-      ->check(number_between(1, most));
+      ->check(whole_number(1, most));
 }
 
 void check_job_options(const JobOptions& options, const std::vector<CLI::Option*>& plan) {

@@ -31,8 +31,8 @@ struct JobOptions {
   bool listed() const { return on == "slurm" || !emit.empty(); }
 };
 
-/// `most`: runs of one folder.
-void add_job_options(CLI::App& command, JobOptions& options, int most);
+/// `most`: runs of one folder; `jobs`: what the help tells of --jobs.
+void add_job_options(CLI::App& command, JobOptions& options, int most, const std::string& jobs);
 
 /// What no option can know of by itself. `plan`: the options that tell which runs, the scene first. Throws
 /// std::invalid_argument.

@@ -8,6 +8,10 @@ void add_scene_options(CLI::App& command, SceneChoice& choice) {
   command.add_option("scene", choice.scene, "Scene file, or the name of a scene that `talus list` shows")
       ->required()
       ->check(not_empty());
+  add_setting_options(command, choice);
+}
+
+void add_setting_options(CLI::App& command, SceneChoice& choice) {
   command.add_option("-b,--backend", choice.backend, "Engine: box2d or bullet-planar in 2D, bullet in 3D")
       ->check(not_empty());
   command

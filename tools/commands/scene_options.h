@@ -9,5 +9,7 @@ namespace talus {
 /// Adds what all commands have that read a scene: the scene, --backend, --policy, --set, --seed and --force. `choice`
 /// must outlive the command.
 void add_scene_options(CLI::App& command, SceneChoice& choice);
+/// Those besides the scene itself.
+void add_setting_options(CLI::App& command, SceneChoice& choice);
 
 }  // namespace talus

@@ -47,15 +47,20 @@ inline CLI::Validator number_between(double low, double high, Bound lower = Boun
   return CLI::Validator(check, fmt::format("{}{:g} to {}", lower == Bound::kept ? "" : "above ", low, most));
 }
 
-/// For an option: a whole number from 0 to the largest of 64 bits. CLI11 takes a larger one for the largest.
-inline CLI::Validator whole_number() {
-  const auto check = [](const std::string& text) -> std::string {
+/// For an option: a whole number from `low` to `high`. CLI11 takes one beyond 64 bits for the largest.
+inline CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
+  const auto check = [=](const std::string& text) -> std::string {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc() && end == text.data() + text.size() && value >= 0) return {};
-    return fmt::format("{}: must be a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max());
+    if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high) return {};
+    return fmt::format("{}: must be a whole number from {} to {}", text, low, high);
   };
-  return CLI::Validator(check, "");
+  return CLI::Validator(check, fmt::format("{} to {}", low, high));
+}
+
+/// The same, up to the largest of 64 bits, of which its help tells nothing.
+inline CLI::Validator whole_number() {
+  return whole_number(0, std::numeric_limits<std::int64_t>::max()).description("");
 }
 
 }  // namespace talus

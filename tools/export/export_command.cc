@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -146,7 +144,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
   command->add_option("--to", options->to, "Simulated time up to which they are [s]; default: the run's end")
       ->check(number_between(0.0, 1e9));
   command->add_option("--every", options->every, "Take every Nth frame of output")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(whole_number(1, 1'000'000))
       ->capture_default_str();
   command->footer(
       "Example:\n  talus run drop_in_a_pile_3d --out runs/pile\n  talus export runs/pile --out pile.npz --out "

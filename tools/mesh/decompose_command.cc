@@ -5,6 +5,7 @@
 
 #include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
+#include "tools/commands/validators.h"
 #include "tools/mesh/convex_parts.h"
 #include "tools/mesh/decomposition.h"
 #include "tools/output/output.h"
@@ -54,10 +55,10 @@ void add_decompose_command(CLI::App& app) {
   auto params = std::make_shared<ConvexPartsParams>();
   command->add_option("mesh", *mesh, "Wavefront OBJ file, closed surface")->required();
   command->add_option("--parts", params->parts, "Number of parts to try first; each costs time in every contact")
-      ->check(CLI::Range(1, most_parts))
+      ->check(whole_number(1, most_parts))
       ->capture_default_str();
   command->add_option("--corners", params->corners, "Corners of a part at most, tried first")
-      ->check(CLI::Range(4, most_part_corners))
+      ->check(whole_number(4, most_part_corners))
       ->capture_default_str();
   command->callback([=] { decompose(*mesh, *params); });
 }

@@ -12,6 +12,9 @@ struct TaskOutcome {
   bool failed = false;
 };
 
+/// Tasks at a time that the commands allow.
+inline constexpr int most_jobs = 1024;
+
 /// Runs `task(i)` for i from 0 to below `count`, each in a forked process of its own and up to `jobs` at a time, and
 /// gives each outcome to `done` in this process, in the order in which they end. Engines have global state, so tasks
 /// cannot share a process; a crash costs one task. Once `stop`, if given, says so, no further task is begun and those

@@ -367,7 +367,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       ->add_option("--twins", options->twins,
                    "Run A's scene so many times more, its source moved by 1e-6 m and multiples: what differs between "
                    "these is noise, the floor of each number")
-      ->check(number_between(0, 100))
+      ->check(whole_number(0, 100))
       ->capture_default_str();
   command->add_flag("--json", options->json, "As JSON");
   command->callback(

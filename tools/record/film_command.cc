@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <future>
 #include <memory>
@@ -216,10 +215,10 @@ void add_film_command(CLI::App& app, int& exit_code) {
       ->check(number_between(1.0, 50.0))
       ->capture_default_str();
   command->add_option("--width", options->width, "Width [pixels]")
-      ->check(number_between(200, 8000))
+      ->check(whole_number(200, 8000))
       ->capture_default_str();
   command->add_option("--quality", options->quality, "Of a WebP film; 100: without loss")
-      ->check(number_between(0, 100))
+      ->check(whole_number(0, 100))
       ->capture_default_str();
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
   command->callback([options, &exit_code] {

@@ -1,6 +1,7 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -13,12 +14,14 @@
 
 #include "common/scene/setting_differences.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/scene_options.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
 #include "tools/record/recorded_run.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
+#include "tools/run/run_options.h"
 #include "tools/serve/live_view.h"
 #include "tools/serve/open_browser.h"
 #include "tools/serve/run_loop.h"
@@ -29,14 +32,9 @@ namespace talus {
 namespace {
 
 struct ViewOptions {
-  std::string what;
+  SceneChoice choice;   // its scene may be a record too
   std::string other;    // a second record; empty: none
   std::string against;  // a second policy; empty: none
-  std::string backend;
-  std::string policy;
-  std::vector<std::string> settings;
-  std::optional<std::int64_t> seed;
-  bool force = false;
   double pace = 1.0;
   int port = 0;
   std::string listen = std::string(loopback);
@@ -49,15 +47,16 @@ struct ViewOptions {
   std::size_t history_bytes() const { return static_cast<std::size_t>(history) << 20U; }
 };
 
-RunChoice choice_of(const ViewOptions& options) {
-  RunChoice choice = {
-      .file = find_scene(options.what), .backend = options.backend, .force = options.force, .pace = options.pace};
-  for (const std::string& setting : options.settings) choice.overrides.push_back({setting});
-  if (!options.policy.empty())
-    choice.overrides.push_back({"policy.kind=" + options.policy, "--policy " + options.policy});
-  if (options.seed)
-    choice.overrides.push_back({fmt::format("seed={}", *options.seed), fmt::format("--seed {}", *options.seed)});
-  return choice;
+/// Options of a scene that is to be simulated.
+constexpr std::array of_a_scene = {"--backend", "--policy", "--against", "--accuracy",
+                                   "--set",     "--seed",   "--force",   "--pace"};
+
+RunChoice run_of(const ViewOptions& options) {
+  return {.file = find_scene(options.choice.scene),
+          .overrides = overrides_of(options.choice),
+          .backend = options.choice.backend,
+          .force = options.choice.force,
+          .pace = options.pace};
 }
 
 /// Serves until Ctrl-C, or for the time of --seconds; `work` lasts a moment and is done again and again.
@@ -89,7 +88,7 @@ ServedPage pair_page(const PairTexts& texts) { return {.path = "/", .page = page
 
 void view_scene(const ViewOptions& options) {
   PageHub hub(options.history_bytes());
-  RunLoop loop(choice_of(options), hub);
+  RunLoop loop(run_of(options), hub);
   const ViewServer server(options.port, {{.path = "/", .page = page_of_run(), .hub = &hub, .loop = &loop}},
                           options.listen);
   serve(options, server);
@@ -100,9 +99,9 @@ void view_policies(const ViewOptions& options) {
   PageHub hub_a(options.history_bytes());
   PageHub hub_b(options.history_bytes());
   ViewOptions other = options;
-  other.policy = options.against;
-  RunLoop a(choice_of(options), hub_a);
-  RunLoop b(choice_of(other), hub_b);
+  other.choice.policy = options.against;
+  RunLoop a(run_of(options), hub_a);
+  RunLoop b(run_of(other), hub_b);
   const std::string page = page_of_run();
   const ViewServer server(options.port,
                           {pair_page({.of_runs = true}),
@@ -132,20 +131,21 @@ void view_record(const ViewOptions& options) {
     return ServedPage{.path = path, .page = page_of_record(name_of_run(run)), .record = record_bytes(run)};
   };
   if (options.other.empty()) {
-    const ViewServer server(options.port, {served("/", options.what)}, options.listen);
+    const ViewServer server(options.port, {served("/", options.choice.scene)}, options.listen);
     serve(options, server);
     return;
   }
-  const AnyScene a = scene_of_run(options.what);
+  const AnyScene a = scene_of_run(options.choice.scene);
   const AnyScene b = scene_of_run(options.other);
   if (a.index() != b.index())
     throw std::invalid_argument(
-        fmt::format("{} and {} are runs in 2D and in 3D: two runs side by side must be of one dimension", options.what,
-                    options.other));
+        fmt::format("{} and {} are runs in 2D and in 3D: two runs side by side must be of one dimension",
+                    options.choice.scene, options.other));
   const PairTexts texts = {.of_runs = false,
-                           .ms_per_step = {ms_per_step_of(options.what), ms_per_step_of(options.other)},
+                           .ms_per_step = {ms_per_step_of(options.choice.scene), ms_per_step_of(options.other)},
                            .differences = setting_differences(toml_of(a), toml_of(b))};
-  const ViewServer server(options.port, {pair_page(texts), served("/a/", options.what), served("/b/", options.other)},
+  const ViewServer server(options.port,
+                          {pair_page(texts), served("/a/", options.choice.scene), served("/b/", options.other)},
                           options.listen);
   serve(options, server);
 }
@@ -164,19 +164,18 @@ void refuse_idle_options(const CLI::App& command, const ViewOptions& options, Sh
           "{}: must be of {}; {}", name, rule,
           shown == Shown::live
               ? "--live shows the run of another process"
-              : fmt::format("{} is {}", options.what, shown == Shown::scene ? "a scene" : "a recorded run")));
+              : fmt::format("{} is {}", options.choice.scene, shown == Shown::scene ? "a scene" : "a recorded run")));
   };
   if (shown != Shown::scene)
-    for (const char* name : {"--backend", "--policy", "--against", "--set", "--seed", "--force", "--pace"})
-      refuse(name, "a scene");
+    for (const char* name : of_a_scene) refuse(name, "a scene");
   if (shown != Shown::live) refuse("--lcm-url", "--live");
   if (shown == Shown::record) refuse("--history", "a scene or of --live");
 }
 
 void view(const CLI::App& command, const ViewOptions& options) {
-  if (options.what.empty() != options.live)
+  if (options.choice.scene.empty() != options.live)
     throw std::invalid_argument("talus view: must have either a scene or run folder to show, or --live");
-  const bool record = !options.live && is_record(options.what);
+  const bool record = !options.live && is_record(options.choice.scene);
   if (!options.other.empty() && !(record && is_record(options.other)))
     throw std::invalid_argument("talus view: what stands side by side must be two run folders or records");
   refuse_idle_options(command, options, options.live ? Shown::live : record ? Shown::record : Shown::scene);
@@ -209,7 +208,7 @@ CLI::Validator pace() {
 
 void add_options(CLI::App& command, ViewOptions& options) {
   command
-      .add_option("what", options.what,
+      .add_option("what", options.choice.scene,
                   "Run folder or its record, scene file, or the name of a scene that `talus list` shows")
       ->check(not_empty());
   command.add_option("other", options.other, "Second run folder, shown beside the first in step")->check(not_empty());
@@ -218,21 +217,12 @@ void add_options(CLI::App& command, ViewOptions& options) {
       .add_option("--lcm-url", options.lcm_url,
                   "Of --live: where to listen; else LCM_DEFAULT_URL, else this machine's runs")
       ->check(not_empty());
-  command.add_option("-b,--backend", options.backend, "Of a scene: engine, as in `talus run`")->check(not_empty());
-  command.add_option("-p,--policy", options.policy, "Of a scene: which bodies may sleep")->check(not_empty());
-  command.add_option("--against", options.against, "Of a scene: another policy, shown beside the first")
-      ->check(not_empty());
-  command.add_option("-s,--set", options.settings, "Of a scene: replace a value, as policy.tau=0.4; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--seed", options.seed, "Of a scene: seed of all that is random, 0 or more")
-      ->check(whole_number());
-  command.add_flag("-f,--force", options.force, "Of a scene: show it outside of the window in which results hold too");
-  command
-      .add_option("--pace", options.pace,
-                  "Of a scene: simulated seconds per second, 0.01 to 1000; 0: as fast as possible")
+  add_setting_options(command, options.choice);
+  command.add_option("--against", options.against, "Another policy, shown beside the first")->check(not_empty());
+  command.add_option("--pace", options.pace, "Simulated seconds per second; 0: as fast as possible")
       ->check(pace())
       ->capture_default_str();
+  for (const char* name : of_a_scene) command.get_option(name)->group("Of a scene");
   command
       .add_option("--listen", options.listen,
                   "IPv4 address of an interface of this machine, on which other machines reach the page: its "
@@ -240,13 +230,13 @@ void add_options(CLI::App& command, ViewOptions& options) {
       ->check(one_interface())
       ->capture_default_str();
   command.add_option("--port", options.port, "Port of the interface; 0: one that is free")
-      ->check(CLI::Range(0, 65535))
+      ->check(whole_number(0, 65535))
       ->capture_default_str();
   command
       .add_option("--history", options.history,
                   "Of a scene or --live: MiB of memory for the frames that pages can scrub back to; where a run has "
                   "more, some are left out")
-      ->check(CLI::Range(1, 65536))
+      ->check(whole_number(1, 65536))
       ->capture_default_str();
   command.add_flag("!--no-open", options.open, "Only print the address: open no browser");
   command.add_option("--seconds", options.seconds, "Stop after so many seconds; else Ctrl-C stops")

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -144,10 +143,10 @@ void add_stress_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--rings", options->rings, "Rings of sleeping bodies that policy adaptive solves; with small_steps")
-      ->check(CLI::Range(0, 100))
+      ->check(whole_number(0, 100))
       ->capture_default_str();
   command->add_option("-j,--jobs", options->jobs, "Runs at a time, each in a process of its own")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number(1, most_jobs))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = stress(*options); });
 }

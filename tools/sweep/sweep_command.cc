@@ -192,7 +192,7 @@ std::vector<CLI::Option*> add_plan(CLI::App& command, SweepOptions& options) {
           ->type_name("PATH=VALUES")
           ->allow_extra_args(false),
       command.add_option("--seeds", options.seeds, "Each combination with this many seeds, from 1 on")
-          ->check(number_between(1, 100000))
+          ->check(whole_number(1, 100000))
           ->capture_default_str(),
       command.add_option("-b,--backend", sweep.backend, "Engine, as for `talus run`")->check(not_empty()),
       command.add_option("-p,--policy", options.policy, "Which bodies may sleep, as for `talus run`; several by --set")
@@ -212,9 +212,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   command->footer(footer);
   auto options = std::make_shared<SweepOptions>();
   const std::vector<CLI::Option*> plan = add_plan(*command, *options);
-  add_job_options(*command, options->jobs, most_sweep_runs);
-  command->add_option("-j,--jobs", options->jobs.jobs, "Runs at a time; without it one for each core")
-      ->check(number_between(1, 1000));
+  add_job_options(*command, options->jobs, most_sweep_runs, "Runs at a time; without it one for each core");
   command->add_flag("--strict", options->strict, "Exit with 1 when a scene or run gave a warning");
   command
       ->add_option("--plot", options->plot,
