@@ -55,13 +55,10 @@ void ContactListener::start_step(bool sleepers, bool recording) {
 }
 
 void ContactListener::gather(std::span<const std::uint8_t> asleep, std::vector<Contact<2>>& out) const {
-  const auto awake = [asleep](BodyIndex body) { return body >= 0 && asleep[body] == 0; };
   touches_.clear();
   for (const ContactRecord& record : records_.all()) {
     if (!record.contact->IsTouching()) continue;
-    const BodyIndex first = owner_of(record.first);
-    const BodyIndex second = owner_of(record.second);
-    const bool swap = !awake(first) || (awake(second) && second < first);
+    const bool swap = listed_under_second(owner_of(record.first), owner_of(record.second), asleep);
     touches_.push_back(swap ? Touch{record.second, record.first, &record}
                             : Touch{record.first, record.second, &record});
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim2d/body_template.h"
+#include "sim2d/conversions.h"
 
 namespace talus::box2d {
 namespace {
@@ -52,20 +53,19 @@ PieceGap<2> gap_between(const Mover& a, const Mover& b, float share) {
   const auto radius = [](const Mover& of) { return of.fixture->GetShape()->m_radius - skin; };
   b2Vec2 normal = output.pointB - output.pointA;
   normal.Normalize();
-  return {output.distance - radius(a) - radius(b), {normal.x, normal.y}};
+  return {output.distance - radius(a) - radius(b), to_solver(normal)};
 }
 
 }  // namespace
 
 b2Transform Mover::after(float share) const {
   const b2Body& body = *fixture->GetBody();
-  const VecF<2> way = share * motion.way;
-  return {body.GetPosition() + b2Vec2(way.x(), way.y()), b2Rot(body.GetAngle() + share * motion.turn[0])};
+  return {body.GetPosition() + from_solver(share * motion.way), b2Rot(body.GetAngle() + share * motion.turn[0])};
 }
 
 b2AABB swept(const Mover& mover) {
   b2AABB box = mover.fixture->GetAABB(0);
-  const b2Vec2 way(mover.motion.way.x(), mover.motion.way.y());
+  const b2Vec2 way = from_solver(mover.motion.way);
   const b2AABB end = {box.lowerBound + way, box.upperBound + way};
   box.Combine(end);
   const b2Vec2 around(mover.turn, mover.turn);

@@ -71,7 +71,7 @@ void give_velocity(b2Body& body, const Vec<2>& velocity, const Spin<2>& spin) {
 }  // namespace
 
 EngineWorld::EngineWorld(const WorldDescription<2>& description)
-    : World<2>(description, {fastest_speed<2>(description.dt), fastest_spin(description.dt)}),
+    : RingWorld<2>(description, {fastest_speed<2>(description.dt), fastest_spin(description.dt)}),
       world_(to_engine(description.gravity_vector())),
       hosts_(world_, sleepers_in_a_host(description)),
       continuous_(description),
@@ -290,22 +290,6 @@ void EngineWorld::resume(BodyIndex body) {
   all.pose[body].rotation.angle() += static_cast<double>(state.turn[0]);
   all.velocity[body] = state.velocity.cast<double>();
   all.spin[body] = state.spin.cast<double>();
-}
-
-std::span<const BodyIndex> EngineWorld::engine_stirred() const {
-  return ring() != nullptr ? ring()->stirred() : std::span<const BodyIndex>();
-}
-
-bool EngineWorld::engine_feels(BodyIndex body, BodyIndex side) const {
-  return ring() != nullptr && ring()->touch(body, side);
-}
-
-void EngineWorld::engine_sleeping_contacts(BodyIndex side, std::vector<Contact<2>>& found) const {
-  if (ring() != nullptr) ring()->append_contacts(side, states(), 1.0, found);
-}
-
-int EngineWorld::engine_solved_sleepers() const {
-  return ring() != nullptr ? static_cast<int>(ring()->members().size()) : 0;
 }
 
 void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "common/solver/ring_world.h"
 #include "common/world/memory_reserve.h"
-#include "common/world/world.h"
 #include "sim2d/body_template.h"
 #include "sim2d/contacts.h"
 #include "sim2d/continuous.h"
@@ -19,7 +19,7 @@
 namespace talus::box2d {
 
 /// See make_box2d_world().
-class EngineWorld final : public World<2> {
+class EngineWorld final : public RingWorld<2> {
  public:
   explicit EngineWorld(const WorldDescription<2>& description);
 
@@ -51,17 +51,14 @@ class EngineWorld final : public World<2> {
   void engine_restore_obstacle(int number) override;
   void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
   void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
-  std::span<const BodyIndex> engine_stirred() const override;
-  bool engine_feels(BodyIndex body, BodyIndex side) const override;
-  void engine_sleeping_contacts(BodyIndex side, std::vector<Contact<2>>& found) const override;
-  int engine_solved_sleepers() const override;
   void engine_share_among(const std::shared_ptr<Team>& team) override {
     if (small_steps_) small_steps_->share_among(team);
   }
 
   EngineTimes box2d_step();
   EngineTimes small_step();
-  const Ring<2>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
+  const Ring<2>* ring() const override { return small_steps_ ? small_steps_->ring() : nullptr; }
+  double impulse_unit() const override { return 1.0; }
   bool idle() const;
   void keep_contacts(std::span<const BodyIndex> bodies);
   StepInput step_input() const { return {awake(), states(), templates_, obstacles_, belts(), pushes(), images()}; }

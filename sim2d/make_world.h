@@ -1,5 +1,5 @@
 #pragma once
-// Box2D 2.4.1 behind the seam.
+// Box2D 2.4.1 behind the interface World.
 
 #include <memory>
 

@@ -1,41 +1,25 @@
 #include "sim2d/small_steps.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "common/solver/solved_contact.h"
+#include "common/world/stopwatch.h"
 #include "sim2d/body_template.h"
 #include "sim2d/conversions.h"
 
 namespace talus::box2d {
 namespace {
 
-// A step is solved again when a body that was struck in it gets past something out of its expected reach: a
-// chain of so many may be struck in a step.
-constexpr int rounds = 8;
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-VecF<2> vector(const b2Vec2& v) { return {v.x, v.y}; }
-b2Vec2 to_box2d(const VecF<2>& v) { return {v.x(), v.y()}; }
-
-/// Ascending as (first, second) are.
-std::uint64_t ascending_pair(std::int32_t first, std::int32_t second) {
-  constexpr std::uint32_t sign = 0x80000000;
-  return (std::uint64_t{static_cast<std::uint32_t>(first) ^ sign} << 32U) | (static_cast<std::uint32_t>(second) ^ sign);
-}
-
 /// As Box2D has it.
 VecF<2> tangent_of(const ContactPoint<2>& point) { return {point.normal.y(), -point.normal.x()}; }
 
 SolverBody<2> solver_body(const b2Body& from, const b2MassData& mass) {
   SolverBody<2> body;
-  body.velocity = vector(from.GetLinearVelocity());
+  body.velocity = to_solver(from.GetLinearVelocity());
   body.spin[0] = from.GetAngularVelocity();
-  body.position = vector(from.GetWorldCenter());
+  body.position = to_solver(from.GetWorldCenter());
   body.inverse_mass = 1.0F / mass.mass;
   body.inverse_inertia(0, 0) = 1.0F / mass.I;
   body.moves = true;
@@ -74,7 +58,7 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description)
 }
 
 EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
-  const double start = now();
+  Stopwatch watch;
   collision_.collide(world, std::ssize(bodies), *team_);
   detected_ = input.states.size();
   slots_.resize(input.states.shape.size(), 0);
@@ -87,10 +71,10 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
     add_points_ahead(input);
     add_contacts(input);
     if (ring_) ring_->extend(solver_, obstacle_slots_);
-    const double added = now();
-    solver_.solve(params_, vector(world.GetGravity()), dt_);
-    solving += now() - added;
-    if (!passes_unseen(world, input, bodies) || round == rounds) break;
+    Stopwatch solve;
+    solver_.solve(params_, to_solver(world.GetGravity()), dt_);
+    solving += solve.lap();
+    if (!passes_unseen(world, input, bodies) || round == most_solves) break;
     if (ring_) ring_->start_again();
   }
   if (ring_) ring_->read(solver_, world.GetGravity().Length(), dt_);
@@ -99,14 +83,7 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
   sleepers_.clear();
   for (const BodyIndex body : input.awake) slots_[body] = 0;
-  return {.collide = now() - start - solving, .solve = solving};
-}
-
-/// An awake body and its images.
-std::span<b2Body* const> SmallSteps::at_slot(int slot, std::span<b2Body* const> bodies) const {
-  const std::size_t first = first_of_[slot - 1];
-  const std::size_t next = slot < std::ssize(first_of_) ? first_of_[slot] : bodies.size();
-  return bodies.subspan(first, next - first);
+  return {.collide = watch.lap() - solving, .solve = solving};
 }
 
 /// From the velocities; finds the contacts ahead of what is fast.
@@ -117,9 +94,9 @@ void SmallSteps::expect_motion(b2World& world, const StepInput& input, std::span
   // Below the line a body would be lost, so its ground is sought earlier.
   for (int slot = 1; slot <= std::ssize(first_of_); ++slot)
     if (fast_.is_half_fast(slot))
-      for (b2Body* body : at_slot(slot, bodies)) add_ground_ahead(input, *body);
+      for (b2Body* body : bodies_at<b2Body>(slot, first_of_, bodies)) add_ground_ahead(input, *body);
   for (const int slot : fast_.found())
-    for (b2Body* body : at_slot(slot, bodies)) find_ahead(world, input, *body, true);
+    for (b2Body* body : bodies_at<b2Body>(slot, first_of_, bodies)) find_ahead(world, input, *body, true);
 }
 
 /// The ground is a line: Box2D pushes a body further down if its middle is below the line.
@@ -137,7 +114,7 @@ bool SmallSteps::passes_unseen(b2World& world, const StepInput& input, std::span
   const auto known = static_cast<std::ptrdiff_t>(ahead_.size());
   fast_.follow(solver_);
   for (const int slot : fast_.found())
-    for (b2Body* body : at_slot(slot, bodies)) find_ahead(world, input, *body, false);
+    for (b2Body* body : bodies_at<b2Body>(slot, first_of_, bodies)) find_ahead(world, input, *body, false);
   return std::any_of(ahead_.begin() + known, ahead_.end(),
                      [&](const Ahead& each) { return fast_.passes(solver_, each.point); });
 }
@@ -240,7 +217,7 @@ void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bod
     const b2Body* from = input.obstacles[i];
     if (from == nullptr || from->GetType() != b2_kinematicBody) continue;
     SolverBody<2> body;
-    body.velocity = vector(from->GetLinearVelocity());
+    body.velocity = to_solver(from->GetLinearVelocity());
     body.spin[0] = from->GetAngularVelocity();
     obstacle_slots_[i] = solver_.add(body);
   }
@@ -288,8 +265,8 @@ void SmallSteps::add_contacts(const StepInput& input) {
     const Fixtures pair = fixtures_of(*contact);
     b2WorldManifold place;
     contact->GetWorldManifold(&place);
-    const int a = slot_of(owner_of(*pair.a), vector(place.normal), input);
-    const int b = slot_of(owner_of(*pair.b), vector(place.normal), input);
+    const int a = slot_of(owner_of(*pair.a), to_solver(place.normal), input);
+    const int b = slot_of(owner_of(*pair.b), to_solver(place.normal), input);
     int number = 0;
     for (ContactPoint<2> point : points_of(pair, *contact->GetManifold(), place, input)) {
       point.a = a;
@@ -309,18 +286,18 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
                                                        const b2WorldManifold& place, const StepInput& input) {
   points_.clear();
   ContactPoint<2> point;
-  point.normal = vector(place.normal);
+  point.normal = to_solver(place.normal);
   point.friction = pair.friction;
   point.restitution = pair.restitution;
   if (!arms_.empty()) add_rolling(pair, input, point);
   const b2Vec2 centre_a = centre_of(*pair.a, input.states);
   const b2Vec2 centre_b = centre_of(*pair.b, input.states);
-  const VecF<2> tangent = vector(b2Cross(place.normal, 1.0F));
+  const VecF<2> tangent = to_solver(b2Cross(place.normal, 1.0F));
   for (int i = 0; i < manifold.pointCount; ++i) {
     point.gap = place.separations[i] + 2.0F * skin;
     const b2Vec2 half = 0.5F * point.gap * place.normal;  // Box2D's point is in the middle of the gap
-    point.arm_a = vector(place.points[i] - half - centre_a);
-    point.arm_b = vector(place.points[i] + half - centre_b);
+    point.arm_a = to_solver(place.points[i] - half - centre_a);
+    point.arm_b = to_solver(place.points[i] + half - centre_b);
     if (pair.contact != nullptr) {
       point.normal_impulse = manifold.points[i].normalImpulse;
       point.friction_impulse = manifold.points[i].tangentImpulse * tangent;
@@ -434,7 +411,7 @@ void SmallSteps::add_ground_ahead(const StepInput& input, b2Body& body) {
 
 /// Unless Box2D knows the point, which is one of `body_b` with what `a` is of.
 void SmallSteps::add_ahead(Tag a, Tag b, ContactPoint<2> point, const b2Body& body_b) {
-  const b2Vec2 place = body_b.GetPosition() + to_box2d(point.arm_b);
+  const b2Vec2 place = body_b.GetPosition() + from_solver(point.arm_b);
   for (const b2ContactEdge* edge = body_b.GetContactList(); edge != nullptr; edge = edge->next) {
     if (!edge->contact->IsTouching() || is_buried(*edge->contact)) continue;
     const BodyIndex other =
@@ -480,9 +457,9 @@ void SmallSteps::move_bodies(const StepInput& input, std::span<b2Body* const> bo
     b2Body& body = *bodies[i];
     const float longest = b2_maxTranslation / std::max(from.way.norm(), b2_maxTranslation);
     const float largest = b2_maxRotation / std::max(std::abs(from.turn[0]), b2_maxRotation);
-    body.SetLinearVelocity(to_box2d(longest * from.velocity));
+    body.SetLinearVelocity(from_solver(longest * from.velocity));
     body.SetAngularVelocity(largest * from.spin[0]);
-    const b2Vec2 to = body.GetPosition() + to_box2d(longest * from.way);
+    const b2Vec2 to = body.GetPosition() + from_solver(longest * from.way);
     const float angle = body.GetAngle() + largest * from.turn[0];
     if (to.IsValid() && b2IsValid(angle)) body.SetTransform(to, angle);  // else the velocity tells it
   }
@@ -492,11 +469,11 @@ void SmallSteps::gather(const BodyStates<2>& states, std::vector<Contact<2>>& ou
   ordered_.clear();
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
-    const bool swap = listed_under_second(owner_of(source.a), owner_of(source.b), states);
+    const bool swap = listed_under_second(owner_of(source.a), owner_of(source.b), states.asleep);
     const Tag first = swap ? source.b : source.a;
     const Tag second = swap ? source.a : source.b;
-    ordered_.push_back({ascending_pair(owner_of(first), owner_of(second)),
-                        ascending_pair(piece_of(second), piece_of(first)), static_cast<std::uint32_t>(i), swap});
+    ordered_.push_back({pair_order(owner_of(first), owner_of(second)), pair_order(piece_of(second), piece_of(first)),
+                        static_cast<std::uint32_t>(i), swap});
   }
   std::ranges::sort(ordered_);
   for (const Listed& listed : ordered_) {

@@ -75,8 +75,8 @@ class SmallSteps {
   };
   /// A contact point with what gather() sorts by: its bodies, of which `a` is awake, then their pieces.
   struct Listed {
-    std::uint64_t bodies = 0;  // a, then b
-    std::uint64_t pieces = 0;  // of b, then of a
+    std::int64_t bodies = 0;  // a, then b
+    std::int64_t pieces = 0;  // of b, then of a
     std::uint32_t source = 0;
     bool swapped = false;  // the source has the bodies in the other order
     auto operator<=>(const Listed&) const = default;
@@ -107,7 +107,6 @@ class SmallSteps {
   bool passes_unseen(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
   static bool is_buried(b2Contact& contact);
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
-  std::span<b2Body* const> at_slot(int slot, std::span<b2Body* const> bodies) const;
   void keep(b2Contact& contact, const StepInput& input);
   int slot_of(BodyIndex owner, const VecF<2>& normal, const StepInput& input);
   static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);

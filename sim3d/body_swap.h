@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "sim3d/bodies.h"
 #include "sim3d/engine.h"

@@ -11,6 +11,19 @@
 namespace talus::bullet {
 namespace {
 
+// Masses that Bullet holds as they are [kg]. Its solver leaves out each contact between bodies whose inverse mass has
+// a norm below SIMD_EPSILON (btVector3::fuzzyZero): from 1.45e7 kg in 3D, from 1.19e7 kg in the plane. Far below
+// 1e-4 kg, products of inverse masses leave single precision's range.
+constexpr double least_plain_mass = 0.01;  // of the heaviest shape; the lightest weighs a hundredth or more
+constexpr double most_plain_mass = 1e6;
+
+/// A piece and where it sits in the axes of its shape.
+struct PlacedPiece {
+  std::unique_ptr<btCollisionShape> shape;
+  Vec3 position = Vec3::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
 Vec3 lift(const Vec2& v) { return {v.x(), 0.0, v.y()}; }
 
 // Faces and edges let two polyhedra exchange all points of a contact at once instead of one a step.
@@ -71,19 +84,22 @@ Piece<3> lift(const HullPiece<2>& flat, double half_depth) {
   return hull;
 }
 
-}  // namespace
-
 PlacedPiece make_piece(const Piece<3>& piece) {
   return std::visit([](const auto& p) { return make(p); }, piece);
 }
 
+/// The piece turned about the origin.
 Piece<3> turned(const Piece<3>& piece, const Eigen::Quaterniond& by) {
   return std::visit([&by](const auto& p) { return turn(p, by); }, piece);
 }
 
+/// A 2D piece as a 3D one around the x-z plane: boxes and polygons reach `half_depth` to both sides along y, discs
+/// become balls and capsules stay capsules, which in the plane are the same.
 Piece<3> extrude(const Piece<2>& piece, double half_depth) {
   return std::visit([half_depth](const auto& p) { return lift(p, half_depth); }, piece);
 }
+
+}  // namespace
 
 template <int Dim>
 double mass_scale(std::span<const Shape<Dim>> shapes) {

@@ -11,30 +11,8 @@
 
 namespace talus::bullet {
 
-/// A piece and where it sits in the axes of its shape.
-struct PlacedPiece {
-  std::unique_ptr<btCollisionShape> shape;
-  Vec3 position = Vec3::Zero();
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-};
-
-PlacedPiece make_piece(const Piece<3>& piece);
-
-/// The piece turned about the origin.
-Piece<3> turned(const Piece<3>& piece, const Eigen::Quaterniond& by);
-
-/// A 2D piece as a 3D one around the x-z plane: boxes and polygons reach `half_depth` to both sides along y, discs
-/// become balls and capsules stay capsules, which in the plane are the same.
-Piece<3> extrude(const Piece<2>& piece, double half_depth);
-
-/// Masses that Bullet holds as they are [kg]. Its solver leaves out each contact between bodies whose inverse mass has
-/// a norm below SIMD_EPSILON (btVector3::fuzzyZero): from 1.45e7 kg in 3D, from 1.19e7 kg in the plane. Far below
-/// 1e-4 kg, products of inverse masses leave single precision's range.
-inline constexpr double least_plain_mass = 0.01;  // of the heaviest shape; the lightest weighs a hundredth or more
-inline constexpr double most_plain_mass = 1e6;
-
 /// Factor of all masses and inertias that go into Bullet, and so of all impulses that come out. A power of two, which
-/// changes no bit of the motion; 1 where the heaviest shape lies within the limits above.
+/// changes no bit of the motion; 1 where Bullet holds the masses as they are.
 template <int Dim>
 double mass_scale(std::span<const Shape<Dim>> shapes);
 

@@ -7,15 +7,6 @@
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
-namespace {
-
-/// Ascending as (a, b) are; b is negative for ground and obstacles.
-std::int64_t place_of_pair(BodyIndex a, BodyIndex b) { return (std::int64_t{a} << 32) + b; }
-
-/// An obstacle that moves is active too.
-bool is_awake_body(const btCollisionObject& object) { return object.isActive() && object.getUserIndex() >= 0; }
-
-}  // namespace
 
 template <int Dim>
 void Contacts<Dim>::note_motion(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving_obstacles) {
@@ -27,14 +18,15 @@ void Contacts<Dim>::note_motion(std::span<btRigidBody* const> bodies, std::span<
 }
 
 template <int Dim>
-void Contacts<Dim>::gather(const Engine& engine, std::vector<Contact<Dim>>& contacts) const {
-  find_touches(engine);
+void Contacts<Dim>::gather(const Engine& engine, std::span<const std::uint8_t> asleep,
+                           std::vector<Contact<Dim>>& contacts) const {
+  find_touches(engine, asleep);
   std::ranges::sort(places_);
   for (const Place& place : places_) append(touches_[place.touch], contacts);
 }
 
 template <int Dim>
-void Contacts<Dim>::find_touches(const Engine& engine) const {
+void Contacts<Dim>::find_touches(const Engine& engine, std::span<const std::uint8_t> asleep) const {
   touches_.clear();
   places_.clear();
   btPersistentManifold** manifolds = const_cast<Engine&>(engine).dispatcher.getInternalManifoldPointer();
@@ -44,12 +36,12 @@ void Contacts<Dim>::find_touches(const Engine& engine) const {
     const btPersistentManifold& manifold = *manifolds[i];
     const btCollisionObject& first = *manifold.getBody0();
     const btCollisionObject& second = *manifold.getBody1();
-    if (manifold.getNumContacts() == 0 || (!is_awake_body(first) && !is_awake_body(second))) continue;
-    // The awake one is a, of two awake ones the first added.
-    const bool swap = !is_awake_body(first) || (is_awake_body(second) && second.getUserIndex() < first.getUserIndex());
+    if (manifold.getNumContacts() == 0) continue;
+    const bool swap = listed_under_second(first.getUserIndex(), second.getUserIndex(), asleep);
     const btCollisionObject& a = swap ? second : first;
     const btCollisionObject& b = swap ? first : second;
-    places_.push_back({place_of_pair(a.getUserIndex(), b.getUserIndex()), touches_.size()});
+    if (a.getUserIndex() < 0 || asleep[a.getUserIndex()] != 0) continue;  // nor is b awake
+    places_.push_back({pair_order(a.getUserIndex(), b.getUserIndex()), touches_.size()});
     touches_.push_back({&manifold, &a, &b, swap});
   }
 }

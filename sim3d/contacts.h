@@ -24,8 +24,8 @@ class Contacts {
   /// `bodies` are those that stand one after the other in Bullet's list.
   void note_motion(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving_obstacles);
 
-  /// After a step: appends its contacts, see World::contacts().
-  void gather(const Engine& engine, std::vector<Contact<Dim>>& contacts) const;
+  /// After a step: appends its contacts, see World::contacts(). `asleep`: by body.
+  void gather(const Engine& engine, std::span<const std::uint8_t> asleep, std::vector<Contact<Dim>>& contacts) const;
 
  private:
   struct Motion {
@@ -51,7 +51,7 @@ class Contacts {
     std::size_t touch = 0;
     auto operator<=>(const Place&) const = default;
   };
-  void find_touches(const Engine& engine) const;
+  void find_touches(const Engine& engine, std::span<const std::uint8_t> asleep) const;
   void append(const Touch& touch, std::vector<Contact<Dim>>& contacts) const;
   Motion motion_before(const btCollisionObject& object) const;
 

@@ -6,13 +6,10 @@
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 
-#include <algorithm>
+#include "sim3d/conversions.h"
 
 namespace talus::bullet {
 namespace {
-
-VecF<3> vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-btVector3 to_engine(const VecF<3>& v) { return {v.x(), v.y(), v.z()}; }
 
 /// A convex piece of a mover.
 struct Piece {
@@ -36,14 +33,14 @@ bool stay_apart(const Piece& a, const Piece& b, float turns) {
   if (between.fuzzyZero()) return false;
   const btVector3 line = between.normalized();
   const btScalar gap = -reach(b, -line) - reach(a, line);
-  return gap > line.dot(to_engine(a.of->motion.way - b.of->motion.way)) + turns;
+  return gap > line.dot(from_solver<3>(a.of->motion.way - b.of->motion.way)) + turns;
 }
 
 /// Of a box on its way.
 SweptBox swept(const SweptBox& from, const VecF<3>& way, float turn) {
   SweptBox box = from;
-  box.low.setMin(from.low + to_engine(way));
-  box.high.setMax(from.high + to_engine(way));
+  box.low.setMin(from.low + from_solver<3>(way));
+  box.high.setMax(from.high + from_solver<3>(way));
   const btVector3 around(turn, turn, turn);
   return {box.low - around, box.high + around};
 }
@@ -117,7 +114,8 @@ void meet(const Piece& a, const Piece& b, float near, std::vector<ContactPoint<3
   const std::optional<float> share =
       first_touch<3>(a.of->motion, b.of->motion, turns, near, [&](float at) -> PieceGap<3> {
         const btPointCollector found_nearest = nearest(a, b, at);
-        return {found_nearest.m_hasResult ? found_nearest.m_distance : 0.0F, vector(found_nearest.m_normalOnBInWorld)};
+        return {found_nearest.m_hasResult ? found_nearest.m_distance : 0.0F,
+                to_solver<3>(found_nearest.m_normalOnBInWorld)};
       });
   if (!share) return;
   const float rest = (1.0F - *share) * ((a.of->motion.way - b.of->motion.way).norm() + turns);
@@ -125,10 +123,10 @@ void meet(const Piece& a, const Piece& b, float near, std::vector<ContactPoint<3
   const btVector3 centre_b = b.of->after(*share).getOrigin();
   for (const Points::Point& each : points_at(a, b, *share, rest).all) {
     ContactPoint<3> point;
-    point.normal = vector(each.normal);
+    point.normal = to_solver<3>(each.normal);
     point.gap = each.gap;
-    point.arm_a = vector(each.on_a - centre_a);
-    point.arm_b = vector(each.on_a + each.gap * each.normal - centre_b);
+    point.arm_a = to_solver<3>(each.on_a - centre_a);
+    point.arm_b = to_solver<3>(each.on_a + each.gap * each.normal - centre_b);
     set_back(point, a.of->motion, b.of->motion, *share);
     found.push_back(point);
   }
@@ -139,8 +137,8 @@ void meet(const Piece& a, const Piece& b, float near, std::vector<ContactPoint<3
 btTransform Mover::after(float share) const {
   if (share == 0.0F) return object->getWorldTransform();
   btTransform moved;
-  btTransformUtil::integrateTransform(object->getWorldTransform(), to_engine(motion.way), to_engine(motion.turn), share,
-                                      moved);
+  btTransformUtil::integrateTransform(object->getWorldTransform(), from_solver<3>(motion.way),
+                                      from_solver<3>(motion.turn), share, moved);
   return moved;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/math/angle.h"
 #include "common/math/vector.h"
+#include "common/solver/solver_body.h"
 
 namespace talus::bullet {
 
@@ -40,6 +41,33 @@ Spin<Dim> spin_from_bullet(const btVector3& spin) {
     return Spin<2>(-spin.y());
   else
     return from_bullet<3>(spin);
+}
+
+// The same for the vectors of the solver, in single precision as Bullet's.
+template <int Dim>
+VecF<Dim> to_solver(const btVector3& v) {
+  if constexpr (Dim == 2)
+    return {v.x(), v.z()};
+  else
+    return {v.x(), v.y(), v.z()};
+}
+template <int Dim>
+btVector3 from_solver(const VecF<Dim>& v) {
+  return {v[0], Dim == 2 ? 0.0F : v[1], v[Dim - 1]};
+}
+template <int Dim>
+SpinF<Dim> spin_to_solver(const btVector3& spin) {
+  if constexpr (Dim == 2)
+    return SpinF<2>(-spin.y());
+  else
+    return to_solver<3>(spin);
+}
+template <int Dim>
+btVector3 spin_from_solver(const SpinF<Dim>& spin) {
+  if constexpr (Dim == 2)
+    return {0.0F, -spin[0], 0.0F};
+  else
+    return from_solver<3>(spin);
 }
 
 inline Eigen::Quaterniond quaternion(const Rotation<3>& rotation) { return rotation.normalized(); }

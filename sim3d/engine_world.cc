@@ -1,9 +1,9 @@
 #include "sim3d/engine_world.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "common/world/stopwatch.h"
 #include "sim3d/bodies.h"
 #include "sim3d/body_template.h"
 #include "sim3d/conversions.h"
@@ -57,7 +57,7 @@ void give_velocity(btRigidBody& body, const Vec<Dim>& velocity, const Spin<Dim>&
 // Planar as free: one engine, so the limits are those of 3D.
 template <int Dim>
 EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
-    : World<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
+    : RingWorld<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
       engine_(gravity_of(description), description.solver, description.debug),
       small_steps_(make_small_steps(description)) {
@@ -163,8 +163,8 @@ Pose<Dim> EngineWorld<Dim>::engine_place(BodyIndex body, const Pose<Dim>& pose) 
 
 template <int Dim>
 void EngineWorld<Dim>::engine_contacts(std::vector<Contact<Dim>>& contacts) const {
-  contacts_.gather(engine_, contacts);
-  if (small_steps_) small_steps_->gather_ahead(this->states(), 1.0 / mass_scale_, contacts);
+  contacts_.gather(engine_, this->states().asleep, contacts);
+  if (small_steps_) small_steps_->gather_ahead(this->states(), impulse_unit(), contacts);
 }
 
 template <int Dim>
@@ -181,13 +181,12 @@ EngineTimes EngineWorld<Dim>::engine_step() {
     engine_.broadphase.calculateOverlappingPairs(&engine_.dispatcher);
     return {};
   }
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   engine_.world.stepSimulation(static_cast<btScalar>(this->description().dt), 0);
   detected_ = this->states().size();
   strayed_known_ = false;
-  const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double collide = engine_.world.collide_seconds();
-  return {.collide = collide, .solve = total - collide};
+  return {.collide = collide, .solve = watch.lap() - collide};
 }
 
 template <int Dim>
@@ -317,26 +316,6 @@ void EngineWorld<Dim>::resume(BodyIndex body, const btVector3& velocity, const b
   all.pose[body] = from_bullet<Dim>(rigid.getWorldTransform(), template_of_body(body).frame_inverse);
   all.velocity[body] = from_bullet<Dim>(velocity);
   all.spin[body] = spin_from_bullet<Dim>(spin);
-}
-
-template <int Dim>
-std::span<const BodyIndex> EngineWorld<Dim>::engine_stirred() const {
-  return ring() != nullptr ? ring()->stirred() : std::span<const BodyIndex>();
-}
-
-template <int Dim>
-bool EngineWorld<Dim>::engine_feels(BodyIndex body, BodyIndex side) const {
-  return ring() != nullptr && ring()->touch(body, side);
-}
-
-template <int Dim>
-void EngineWorld<Dim>::engine_sleeping_contacts(BodyIndex side, std::vector<Contact<Dim>>& found) const {
-  if (ring() != nullptr) ring()->append_contacts(side, this->states(), 1.0 / mass_scale_, found);
-}
-
-template <int Dim>
-int EngineWorld<Dim>::engine_solved_sleepers() const {
-  return ring() != nullptr ? static_cast<int>(ring()->members().size()) : 0;
 }
 
 // Bullet's lists in the order of indices, whatever the order of freezing and thawing was.

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/world/world.h"
+#include "common/solver/ring_world.h"
 #include "sim3d/body_swap.h"
 #include "sim3d/body_template.h"
 #include "sim3d/contacts.h"
@@ -15,7 +15,7 @@ namespace talus::bullet {
 
 /// See make_bullet_world() and make_bullet_planar_world().
 template <int Dim>
-class EngineWorld final : public World<Dim> {
+class EngineWorld final : public RingWorld<Dim> {
  public:
   explicit EngineWorld(const WorldDescription<Dim>& description);
   EngineWorld(const EngineWorld&) = delete;
@@ -43,10 +43,6 @@ class EngineWorld final : public World<Dim> {
   void engine_contacts(std::vector<Contact<Dim>>& contacts) const override;
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
   void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
-  std::span<const BodyIndex> engine_stirred() const override;
-  bool engine_feels(BodyIndex body, BodyIndex side) const override;
-  void engine_sleeping_contacts(BodyIndex side, std::vector<Contact<Dim>>& found) const override;
-  int engine_solved_sleepers() const override;
   void engine_share_among(const std::shared_ptr<Team>& team) override {
     engine_.world.share_among(team);
     if (small_steps_) small_steps_->share_among(team);
@@ -54,7 +50,8 @@ class EngineWorld final : public World<Dim> {
 
   void use_small_steps();
   typename SmallSteps<Dim>::Actions actions();
-  const Ring<Dim>* ring() const { return small_steps_ ? small_steps_->ring() : nullptr; }
+  const Ring<Dim>* ring() const override { return small_steps_ ? small_steps_->ring() : nullptr; }
+  double impulse_unit() const override { return 1.0 / mass_scale_; }
   bool idle() const { return rigid_.empty() && (!small_steps_ || small_steps_->idle(moving_obstacles_)); }
   void keep_contacts(std::span<const BodyIndex> bodies);
   void renew_kept_points();

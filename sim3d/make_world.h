@@ -1,5 +1,5 @@
 #pragma once
-// Bullet 3.24 (single precision) behind the seam.
+// Bullet 3.24 (single precision) behind the interface World.
 
 #include <memory>
 

@@ -8,38 +8,11 @@
 #include "sim3d/body_template.h"
 #include "sim3d/bullet/fetch.h"
 #include "sim3d/bullet/idle_pairs.h"
+#include "sim3d/conversions.h"
 #include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
 namespace {
-
-// Between a vector of Bullet's and the solver's: the plane is Bullet's x and z, its turn against Bullet's about y
-// (conversions.h).
-template <int Dim>
-VecF<Dim> to_solver(const btVector3& v) {
-  if constexpr (Dim == 2)
-    return {v.x(), v.z()};
-  else
-    return {v.x(), v.y(), v.z()};
-}
-template <int Dim>
-SpinF<Dim> spin_to_solver(const btVector3& spin) {
-  if constexpr (Dim == 2)
-    return SpinF<2>(-spin.y());
-  else
-    return to_solver<3>(spin);
-}
-template <int Dim>
-btVector3 from_solver(const VecF<Dim>& v) {
-  return {v[0], Dim == 2 ? 0.0F : v[1], v[Dim - 1]};
-}
-template <int Dim>
-btVector3 spin_from_solver(const SpinF<Dim>& spin) {
-  if constexpr (Dim == 2)
-    return {0.0F, -spin[0], 0.0F};
-  else
-    return from_solver<3>(spin);
-}
 
 template <int Dim>
 InertiaF<Dim> inertia_to_solver(const btMatrix3x3& inverse) {
@@ -85,10 +58,6 @@ SolverBody<Dim> moving_obstacle(const btRigidBody& obstacle) {
   body.spin = spin_to_solver<Dim>(obstacle.getAngularVelocity());
   return body;
 }
-
-// A step is solved again when a body that was struck in it gets past something out of its expected reach: a
-// chain of so many may be struck in a step.
-constexpr int rounds = 8;
 
 // Two points of a planar pair that are nearer are one, at the front and the back of the bodies [extents of the
 // smallest].
@@ -160,7 +129,7 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
     const bool passes = passes_unseen(engine, bodies, actions.states);
     for (btCollisionObject* other : others_) other->setCompanionId(-1);
     others_.clear();
-    if (!passes || round == rounds) {
+    if (!passes || round == most_solves) {
       ahead_.resize(solved);
       break;
     }
@@ -171,21 +140,13 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
   set_mean_velocities(bodies);
 }
 
-/// An awake body and its images.
-template <int Dim>
-std::span<btRigidBody* const> SmallSteps<Dim>::at_slot(int slot, std::span<btRigidBody* const> bodies) const {
-  const std::size_t first = first_of_[slot - 1];
-  const std::size_t next = slot < std::ssize(first_of_) ? first_of_[slot] : bodies.size();
-  return bodies.subspan(first, next - first);
-}
-
 /// From the velocities; finds the contacts ahead of what is fast.
 template <int Dim>
 void SmallSteps<Dim>::expect_motion(Engine& engine, std::span<btRigidBody* const> bodies,
                                     const BodyStates<Dim>& states) {
   fast_.expect(solver_, static_cast<int>(first_of_.size()), dt_);
   for (const int slot : fast_.found())
-    for (btRigidBody* body : at_slot(slot, bodies)) find_ahead(engine, *body, states, true);
+    for (btRigidBody* body : bodies_at<btRigidBody>(slot, first_of_, bodies)) find_ahead(engine, *body, states, true);
 }
 
 /// After a step is solved: whether a body that was struck, and so moves fast, gets past something. Finds what is ahead
@@ -196,7 +157,7 @@ bool SmallSteps<Dim>::passes_unseen(Engine& engine, std::span<btRigidBody* const
   const auto known = static_cast<std::ptrdiff_t>(ahead_.size());
   fast_.follow(solver_);
   for (const int slot : fast_.found())
-    for (btRigidBody* body : at_slot(slot, bodies)) find_ahead(engine, *body, states, false);
+    for (btRigidBody* body : bodies_at<btRigidBody>(slot, first_of_, bodies)) find_ahead(engine, *body, states, false);
   return std::any_of(ahead_.begin() + known, ahead_.end(),
                      [&](const Ahead& each) { return fast_.passes(solver_, each.point); });
 }
@@ -278,7 +239,7 @@ bool SmallSteps<Dim>::is_found(const btCollisionObject& a, const btCollisionObje
 template <int Dim>
 void SmallSteps<Dim>::add_ahead(Engine& engine, const btCollisionObject& a, const btCollisionObject& b,
                                 const ContactPoint<3>& found) {
-  const auto in_world = [](const VecF<3>& v) { return to_solver<Dim>(btVector3(v.x(), v.y(), v.z())); };
+  const auto in_world = [](const VecF<3>& v) { return to_solver<Dim>(from_solver<3>(v)); };
   ContactPoint<Dim> point;
   point.normal = in_world(found.normal);
   if (point.normal.norm() < least_in_plane) return;
@@ -338,7 +299,7 @@ void SmallSteps<Dim>::gather_ahead(const BodyStates<Dim>& states, double impulse
     if (point.normal_sum == 0.0F) continue;  // did not touch
     const BodyIndex a = ahead_[i].a->getUserIndex();
     const BodyIndex b = ahead_[i].b->getUserIndex();
-    Contact<Dim> contact = solved_contact(solver_, point, a, b, listed_under_second(a, b, states), states);
+    Contact<Dim> contact = solved_contact(solver_, point, a, b, listed_under_second(a, b, states.asleep), states);
     contact.normal_impulse *= impulse_unit;
     contact.friction_impulse *= impulse_unit;
     contacts.push_back(contact);

@@ -87,7 +87,6 @@ class SmallSteps {
   void add_new(Engine& engine, const btCollisionObject& a, const btCollisionObject& b, ContactPoint<Dim> point);
   void add_points_ahead(std::span<const Vec<Dim>> belts);
   int slot_at(const btCollisionObject& object, const VecF<Dim>& normal, std::span<const Vec<Dim>> belts);
-  std::span<btRigidBody* const> at_slot(int slot, std::span<btRigidBody* const> bodies) const;
   void add_bodies(std::span<btRigidBody* const> bodies, const Actions& actions);
   void add_points(btDispatcher& dispatcher, std::span<const Vec<Dim>> belts);
   void add_points(btPersistentManifold& manifold, std::span<const Vec<Dim>> belts);

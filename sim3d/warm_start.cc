@@ -1,7 +1,5 @@
 #include "sim3d/warm_start.h"
 
-#include <algorithm>
-
 #include "sim3d/bullet/idle_pairs.h"
 #include "sim3d/bullet/whole.h"
 #include "sim3d/friction_impulse.h"

@@ -1,7 +1,5 @@
 #include "common/measure/contact_forces.h"
 
-#include <algorithm>
-
 namespace talus {
 namespace {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "common/pile/angle_of_repose.h"
+#include "common/pile/profile.h"
 #include "common/shape/convex_distance.h"
 
 namespace talus {
@@ -219,12 +219,17 @@ Applicable<double> packing_of_bed(std::span<const PlacedBody<Dim>> bodies, const
   return {.value = spread.volume / (section.area() * 2.0 * spread.mean)};
 }
 
+/// How full the cone (3D) or wedge (2D) below the slope is of solid matter; a body counts where its centre is.
 template <int Dim>
 double packing_of_heap(std::span<const PlacedBody<Dim>> bodies, const AngleOfRepose& slope,
                        const ProfileGrid<Dim>& grid) {
-  Vec<Dim> base;
-  base << grid.centre, grid.base;
-  return packing<Dim>(bodies, base, slope.foot, slope.apex, 1).all;
+  double solid = 0.0;
+  for (const PlacedBody<Dim>& body : bodies) {
+    const double above = height<Dim>(body.centre) - grid.base;
+    const double radius = (horizontal<Dim>(body.centre) - grid.centre).norm();
+    if (above >= 0.0 && above < slope.apex && radius <= slope.foot * (1.0 - above / slope.apex)) solid += body.volume;
+  }
+  return solid / Profile<Dim>::slice_volume(slope.foot, 0.0, slope.apex);
 }
 
 }  // namespace

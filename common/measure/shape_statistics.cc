@@ -1,38 +1,11 @@
 #include "common/measure/shape_statistics.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/math/require.h"
 #include "common/measure/ensemble.h"
-#include "common/pile/profile.h"
 
 namespace talus {
-
-template <int Dim>
-Packing packing(std::span<const PlacedBody<Dim>> bodies, const Vec<Dim>& base_centre, double foot, double apex,
-                int layers) {
-  require(foot > 0.0, "foot", foot, "must be > 0");
-  require(apex > 0.0, "apex", apex, "must be > 0");
-  require(layers >= 1, "layers", layers, "must be >= 1");
-  const double rise = apex / layers;
-  const auto radius_at = [&](double above) { return foot * (1.0 - above / apex); };
-  Packing result;
-  result.layers.assign(layers, 0.0);
-  double solid = 0.0;
-  for (const PlacedBody<Dim>& body : bodies) {
-    const double above = height<Dim>(body.centre) - height<Dim>(base_centre);
-    const double radius = (horizontal<Dim>(body.centre) - horizontal<Dim>(base_centre)).norm();
-    if (above < 0.0 || above >= apex || radius > radius_at(above)) continue;
-    const int layer = std::min(static_cast<int>(above / rise), layers - 1);
-    result.layers[layer] += body.volume;
-    solid += body.volume;
-  }
-  for (int layer = 0; layer < layers; ++layer)
-    result.layers[layer] /= Profile<Dim>::slice_volume(radius_at(layer * rise), radius_at((layer + 1) * rise), rise);
-  result.all = solid / Profile<Dim>::slice_volume(foot, 0.0, apex);
-  return result;
-}
 
 template <int Dim>
 Vec<Dim - 1> middle(std::span<const PlacedBody<Dim>> bodies) {
@@ -75,8 +48,6 @@ ProfileGrid<Dim> grid_around(std::span<const PlacedBody<Dim>> bodies, double bas
 
 template ProfileGrid<2> grid_around(std::span<const PlacedBody<2>>, double, double);
 template ProfileGrid<3> grid_around(std::span<const PlacedBody<3>>, double, double);
-template Packing packing<2>(std::span<const PlacedBody<2>>, const Vec<2>&, double, double, int);
-template Packing packing<3>(std::span<const PlacedBody<3>>, const Vec<3>&, double, double, int);
 template Vec<1> middle<2>(std::span<const PlacedBody<2>>);
 template Vec<2> middle<3>(std::span<const PlacedBody<3>>);
 template ShapeStatistics<2> shape_statistics(std::span<const PlacedBody<2>>, const ProfileGrid<2>&);

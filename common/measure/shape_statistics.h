@@ -8,18 +8,6 @@
 
 namespace talus {
 
-/// How full a cone (3D) or wedge (2D) is of solid matter.
-struct Packing {
-  std::vector<double> layers;  // solid volume of the bodies whose centre lies in the layer / its volume; bottom-up
-  double all = 0.0;            // the same over the whole outline
-};
-
-/// Outline of radius `foot` at the ground and height `apex`, cut into `layers` >= 1 slices of equal thickness; what
-/// lies outside does not count. A body counts to the layer of its centre, so single layers of a height near D scatter.
-template <int Dim>
-Packing packing(std::span<const PlacedBody<Dim>> bodies, const Vec<Dim>& base_centre, double foot, double apex,
-                int layers);
-
 /// All about one pile at one moment.
 template <int Dim>
 struct ShapeStatistics {

@@ -1,7 +1,6 @@
 #pragma once
 // Where every body was, frame by frame: what the measures compare.
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,7 +39,6 @@ class Trajectory {
 
   /// Whether nothing is known of a frame.
   bool lost(int frame) const { return lost_[frame] != 0; }
-  int lost_frames() const { return static_cast<int>(std::count(lost_.begin(), lost_.end(), 1)); }
 
   /// Bodies added by the last frame, by a given frame; 0 for a lost frame.
   BodyIndex bodies() const { return static_cast<BodyIndex>(shape_.size()); }

@@ -42,32 +42,6 @@ BodyStates<Dim> states_of(const Moment& moment) {
 }
 
 template <int Dim>
-std::vector<Pile<Dim>> piles_of(const Moment& moment) {
-  if constexpr (Dim == 3) return moment.piles;
-  std::vector<Pile<Dim>> piles;
-  for (const Pile<3>& pile : moment.piles) {
-    Pile<Dim>& here = piles.emplace_back();
-    if constexpr (Dim == 2) here.centre = {pile.centre.x(), pile.centre.z()};
-    here.alpha = pile.alpha;
-    here.structure_size = pile.structure_size;
-    here.lift = pile.lift;
-    here.height = pile.height;
-    here.radius = pile.radius;
-    here.layers = pile.layers;
-    here.merged_into = pile.merged_into;
-  }
-  return piles;
-}
-
-template <int Dim>
-std::vector<ObstaclePose<Dim>> obstacles_of(const Moment& moment) {
-  std::vector<ObstaclePose<Dim>> obstacles;
-  for (std::size_t i = 0; i < moment.moved_obstacle.size(); ++i)
-    obstacles.push_back({moment.moved_obstacle[i], moment.obstacle_pose.pose<Dim>(i)});
-  return obstacles;
-}
-
-template <int Dim>
 std::vector<ContactForce<Dim>> contacts_of(const Moment& moment) {
   const auto in_plane = [](const Vec3& vector) -> Vec<Dim> {
     if constexpr (Dim == 3)
@@ -86,11 +60,7 @@ template void PoseList::set<2>(std::size_t, const Pose<2>&);
 template void PoseList::set<3>(std::size_t, const Pose<3>&);
 template BodyStates<2> states_of<2>(const Moment&);
 template BodyStates<3> states_of<3>(const Moment&);
-template std::vector<Pile<2>> piles_of<2>(const Moment&);
-template std::vector<Pile<3>> piles_of<3>(const Moment&);
 template std::vector<ContactForce<2>> contacts_of<2>(const Moment&);
 template std::vector<ContactForce<3>> contacts_of<3>(const Moment&);
-template std::vector<ObstaclePose<2>> obstacles_of<2>(const Moment&);
-template std::vector<ObstaclePose<3>> obstacles_of<3>(const Moment&);
 
 }  // namespace talus

@@ -97,16 +97,8 @@ std::vector<Pile<3>> piles_in_space(const Frame<Dim>& frame);
 template <int Dim>
 BodyStates<Dim> states_of(const Moment& moment);
 
-/// Its piles.
-template <int Dim>
-std::vector<Pile<Dim>> piles_of(const Moment& moment);
-
 /// Its contacts.
 template <int Dim>
 std::vector<ContactForce<Dim>> contacts_of(const Moment& moment);
-
-/// Its obstacles that have moved.
-template <int Dim>
-std::vector<ObstaclePose<Dim>> obstacles_of(const Moment& moment);
 
 }  // namespace talus

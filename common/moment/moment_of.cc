@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "common/math/in_space.h"
 #include "common/moment/moment.h"

@@ -1,7 +1,6 @@
 #include "common/pile/boundary.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 

@@ -1,8 +1,6 @@
 #pragma once
 // All piles of a run, with the bodies in their layers: counting, growth, drift, slope and merging.
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -2,7 +2,6 @@
 // A piece as a convex polytope with its corners, edges and faces, grown by a radius.
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "common/shape/shape.h"

@@ -1,6 +1,5 @@
 #include "common/shape/surface.h"
 
-#include <algorithm>
 #include <numbers>
 
 #include "common/math/require.h"

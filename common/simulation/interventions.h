@@ -2,7 +2,6 @@
 // What acts on a run besides its engine and its policy.
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>

@@ -8,7 +8,7 @@
 #include "common/scene/scene_fields.h"
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
-#include "common/simulation/stopwatch.h"
+#include "common/world/stopwatch.h"
 
 namespace talus {
 namespace {

@@ -14,6 +14,9 @@ struct BodyTraits {
   Box<Dim> bounds = {};                         // in the body's own axes, around the centre of mass [m]
   double friction = 0.5;                        // of its surface against one like it
   std::vector<Piece<Dim>> pieces = {};          // convex, in the same axes; empty: the box of `bounds`
+
+  /// For an axis about which the body cannot turn: so large that a contact hardly turns it [kg m^2].
+  double locked_inertia() const { return 1e6 * mass * bounds.diagonal().squaredNorm(); }
 };
 
 /// Adds a piece for BodyTraits::pieces, unless it is one that no shape of talus has, such as one without volume.

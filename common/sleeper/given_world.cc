@@ -14,8 +14,7 @@ template <int Dim>
 WorldDescription<Dim> empty_description(const Vec<Dim>& gravity) {
   WorldDescription<Dim> description;
   description.ground.present = false;
-  description.gravity = gravity.norm();
-  if (description.gravity > 0.0) description.down = gravity / description.gravity;
+  description.set_gravity(gravity);
   return description;
 }
 
@@ -106,13 +105,13 @@ void GivenWorld<Dim>::place(BodyIndex body, const Pose<Dim>& pose) {
 /// first, pairs side by side.
 template <int Dim>
 void GivenWorld<Dim>::give_contacts(std::span<const Contact<Dim>> contacts) {
-  const auto turns = [this](BodyIndex a, BodyIndex b) { return !is_awake(a) || (is_awake(b) && b < a); };
+  const auto turns = [this](BodyIndex a, BodyIndex b) { return listed_under_second(a, b, this->states().asleep); };
   runs_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto [a, b] = turns(contacts[i].a, contacts[i].b) ? std::pair(contacts[i].b, contacts[i].a)
                                                             : std::pair(contacts[i].a, contacts[i].b);
     if (!is_awake(a)) continue;
-    const std::int64_t pair = (std::int64_t{a} << 32) + b;
+    const std::int64_t pair = pair_order(a, b);
     if (!runs_.empty() && runs_.back().pair == pair && runs_.back().first + runs_.back().count == i)
       ++runs_.back().count;
     else

@@ -1,7 +1,6 @@
 #pragma once
-// The world of another engine, behind the seam.
+// The world of another engine, as a World.
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>

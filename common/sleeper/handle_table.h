@@ -1,7 +1,6 @@
 #pragma once
 // The bodies of a sleeper by handle.
 
-#include <optional>
 #include <vector>
 
 #include "common/math/require.h"

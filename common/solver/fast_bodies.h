@@ -40,6 +40,19 @@ void set_back(ContactPoint<Dim>& point, const StepMotion<Dim>& a, const StepMoti
   point.gap -= share * point.normal.dot(b.of(point.arm_b) - a.of(point.arm_a));
 }
 
+/// A step is solved again when a body that was struck in it gets past something out of its expected reach: a chain of
+/// so many may be struck in a step.
+inline constexpr int most_solves = 8;
+
+/// The awake body that has a slot of the solver, and its images, which come after it in `bodies`. `firsts`: by slot,
+/// from 1 on, the number of the body there.
+template <typename Body>
+std::span<Body* const> bodies_at(int slot, std::span<const std::size_t> firsts, std::span<Body* const> bodies) {
+  const std::size_t first = firsts[slot - 1];
+  const std::size_t next = slot < std::ssize(firsts) ? firsts[slot] : bodies.size();
+  return bodies.subspan(first, next - first);
+}
+
 /// Finds the bodies of which a point goes further in a step than half of the thinnest piece of all: contacts found
 /// at the end of such a step would begin deep, or be missed. An engine finds the contacts of these where they will be
 /// (first_touch()) and adds them to the solver before it solves. What is struck in the step may become fast in it: then

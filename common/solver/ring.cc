@@ -1,7 +1,6 @@
 #include "common/solver/ring.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace talus {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/math/vector.h"
@@ -59,6 +60,16 @@ struct Contact {
   double approach_speed = 0.0;                   // [m/s] at which the two came together before the step, >= 0
   double depth = 0.0;                            // [m], positive where they overlap
 };
+
+/// Whether World::contacts() lists a contact between `a` and `b`, each a body or another side, under `b`: the first is
+/// awake, and of two awake bodies it has the lower index. `asleep`: by body.
+inline bool listed_under_second(BodyIndex a, BodyIndex b, std::span<const std::uint8_t> asleep) {
+  const auto awake = [&](BodyIndex side) { return side >= 0 && asleep[side] == 0; };
+  return !awake(a) || (awake(b) && b < a);
+}
+
+/// Ascending as (first, second) are.
+inline std::int64_t pair_order(std::int32_t first, std::int32_t second) { return (std::int64_t{first} << 32) + second; }
 
 /// A point of contact of two bodies, awake or asleep, or of one with the ground or an obstacle.
 template <int Dim>

@@ -1,7 +1,6 @@
 #pragma once
 // Containers without a lid, made of obstacles.
 
-#include <span>
 #include <vector>
 
 #include "common/world/world_description.h"

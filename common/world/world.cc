@@ -1,9 +1,9 @@
 #include "common/world/world.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "common/math/require.h"
+#include "common/world/stopwatch.h"
 
 namespace talus {
 
@@ -146,8 +146,7 @@ template <int Dim>
 void World<Dim>::set_gravity(const Vec<Dim>& gravity) {
   require(gravity.allFinite(), "gravity", gravity.norm(), "must be finite");
   engine_set_gravity(gravity);
-  description_.gravity = gravity.norm();
-  if (description_.gravity > 0.0) description_.down = gravity / description_.gravity;
+  description_.set_gravity(gravity);
 }
 
 template <int Dim>
@@ -173,14 +172,14 @@ void World<Dim>::place_obstacles() {
 
 template <int Dim>
 void World<Dim>::read_step() {
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   if (const std::optional<BodyIndex> broken = engine_read(states_)) {
     failure_.emplace(steps_, *broken);
     throw NonFiniteState(*failure_);
   }
   if (description_.engine_sleep) follow_engine_sleep();
   contacts_wait_ = record_contacts_;
-  times_.read = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  times_.read = watch.lap();
 }
 
 template <int Dim>

@@ -1,5 +1,5 @@
 #pragma once
-// The seam to a physics engine.
+// The interface to a physics engine.
 
 #include <cstdint>
 #include <functional>

@@ -89,6 +89,11 @@ struct WorldDescription {
 
   /// [m/s^2]
   Vec<Dim> gravity_vector() const { return gravity * down; }
+  /// Without gravity the direction stays.
+  void set_gravity(const Vec<Dim>& vector) {
+    gravity = vector.norm();
+    if (gravity > 0.0) down = vector / gravity;
+  }
   Periodic<Dim> periodic() const {
     Periodic<Dim> sides;
     for (const auto& [axis, of_axis] : {std::pair(0, periodic_x), std::pair(1, periodic_y)}) {

@@ -1,6 +1,7 @@
 #pragma once
-// The smallest engine behind the seam, as an example of docs/extending.md: spheres that fall on the ground plane, slide
-// on it without friction and pass through each other. Each shape becomes the sphere that its lowest point gives.
+// The smallest engine behind the interface World, as an example of docs/extending.md: spheres that fall on the ground
+// plane, slide on it without friction and pass through each other. Each shape becomes the sphere that its lowest point
+// gives.
 
 #include <talus/simulation.h>
 

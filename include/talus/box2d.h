@@ -369,7 +369,7 @@ class Box2dSleeper {
     }
   }
 
-  /// A body that cannot turn has no inertia; it counts as very heavy to turn.
+  /// A body that cannot turn has no inertia.
   static BodyTraits<2> traits(const b2Body& body) {
     b2Transform own;
     own.SetIdentity();
@@ -383,7 +383,7 @@ class Box2dSleeper {
     }
     traits.bounds.translate(-centre);
     const double inertia = body.GetInertia() - traits.mass * centre.squaredNorm();
-    traits.inertia(0, 0) = inertia > 0.0 ? inertia : 1e6 * traits.mass * traits.bounds.diagonal().squaredNorm();
+    traits.inertia(0, 0) = inertia > 0.0 ? inertia : traits.locked_inertia();
     return traits;
   }
 

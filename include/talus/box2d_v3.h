@@ -248,7 +248,7 @@ class Box2dV3Sleeper {
                        {from_box2d(b2Body_GetPosition(body)), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(body)))});
   }
 
-  /// A body that cannot turn counts as very heavy to turn.
+  /// A body that cannot turn has no inertia.
   static BodyTraits<2> traits(b2BodyId body) {
     const Vec2 centre = from_box2d(b2Body_GetLocalCenterOfMass(body));
     BodyTraits<2> traits{.mass = b2Body_GetMass(body)};
@@ -260,7 +260,7 @@ class Box2dV3Sleeper {
     }
     traits.bounds.translate(-centre);
     const double inertia = b2Body_IsFixedRotation(body) ? 0.0 : b2Body_GetRotationalInertia(body);
-    traits.inertia(0, 0) = inertia > 0.0 ? inertia : 1e6 * traits.mass * traits.bounds.diagonal().squaredNorm();
+    traits.inertia(0, 0) = inertia > 0.0 ? inertia : traits.locked_inertia();
     return traits;
   }
 

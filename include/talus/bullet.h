@@ -259,16 +259,15 @@ class BulletSleeper {
     }
   }
 
-  /// An axis about which a body cannot turn has no inverse inertia; it counts as very heavy there.
+  /// An axis about which a body cannot turn has no inverse inertia.
   static BodyTraits<3> traits(const btRigidBody& body) {
     btVector3 low;
     btVector3 high;
     body.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
     BodyTraits<3> traits{.mass = body.getMass(), .bounds = {from_bullet(low), from_bullet(high)}};
-    const double locked = 1e6 * traits.mass * traits.bounds.diagonal().squaredNorm();
     for (int axis = 0; axis < 3; ++axis) {
       const btScalar inverse = body.getInvInertiaDiagLocal()[axis];
-      traits.inertia(axis, axis) = inverse > 0 ? 1.0 / inverse : locked;
+      traits.inertia(axis, axis) = inverse > 0 ? 1.0 / inverse : traits.locked_inertia();
     }
     traits.friction = body.getFriction() * body.getFriction();  // Bullet multiplies those of two bodies
     return traits;

@@ -1,6 +1,6 @@
 #include "sim3d/bullet/dynamics_world.h"
 
-#include <chrono>
+#include "common/world/stopwatch.h"
 
 namespace talus::bullet {
 namespace {
@@ -46,7 +46,7 @@ void DynamicsWorld::restore_static(btCollisionObject& object) {
 }
 
 void DynamicsWorld::performDiscreteCollisionDetection() {
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   if (!debug_.bullet_compounds) {
     updateAabbs();
     computeOverlappingPairs();
@@ -55,7 +55,7 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
     btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
   }
   after_collision_();
-  collide_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  collide_seconds_ = watch.lap();
 }
 
 void DynamicsWorld::calculateSimulationIslands() {

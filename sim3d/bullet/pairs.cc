@@ -15,19 +15,6 @@ bool is_static(const btBroadphaseProxy* proxy) {
   return proxy->m_collisionFilterGroup == btBroadphaseProxy::StaticFilter;
 }
 
-/// In two strides: the parts of a pair, then the bodies, which only those know.
-void fetch_ahead(const btBroadphasePairArray& pairs, int i) {
-  constexpr int stride = 4;
-  if (i + 2 * stride >= pairs.size()) return;
-  const btBroadphasePair& far = pairs[i + 2 * stride];
-  __builtin_prefetch(far.m_algorithm);
-  __builtin_prefetch(far.m_pProxy0);
-  __builtin_prefetch(far.m_pProxy1);
-  const btBroadphasePair& near = pairs[i + stride];
-  __builtin_prefetch(near.m_pProxy0->m_clientObject);
-  __builtin_prefetch(near.m_pProxy1->m_clientObject);
-}
-
 }  // namespace
 
 btBroadphasePair* PairCache::addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) {
@@ -44,17 +31,6 @@ void* PairCache::removeOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* 
   forget(a, b);
   forget(b, a);
   return btHashedOverlappingPairCache::removeOverlappingPair(a, b, dispatcher);
-}
-
-void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) {
-  btBroadphasePairArray& pairs = getOverlappingPairArray();
-  for (int i = 0; i < pairs.size();) {
-    fetch_ahead(pairs, i);
-    if (callback->processOverlap(pairs[i]))
-      removeOverlappingPair(pairs[i].m_pProxy0, pairs[i].m_pProxy1, dispatcher);
-    else
-      ++i;
-  }
 }
 
 std::int32_t PairCache::list_of(const btBroadphaseProxy* proxy) const {

@@ -20,10 +20,6 @@ class PairCache final : public btHashedOverlappingPairCache {
   btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override;
   void* removeOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b, btDispatcher* dispatcher) override;
 
-  /// As Bullet's, with the memory that the next pairs will need on its way: in a large heap it comes from afar.
-  void processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) override;
-  using btHashedOverlappingPairCache::processAllOverlappingPairs;
-
   /// Called by the broadphase for a proxy that is about to go. Takes no memory: it is part of the end of a world that
   /// ran out of it.
   void removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;

@@ -4,7 +4,6 @@
 #include <btBulletCollisionCommon.h>
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "sim3d/bullet/lanes.h"

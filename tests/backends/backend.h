@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -99,7 +98,7 @@ Simulation<Backend::dim> simulation_on(Scene<Backend::dim> scene) {
 template <typename Backend>
 constexpr int falls_in_a_step = has_small_steps<Backend> ? SolverParams{}.sub_steps : 1;
 
-/// The example of docs/extending.md. Its bodies do not collide, so it runs in the suites on the seam alone.
+/// The example of docs/extending.md. Its bodies do not collide, so it runs in the suites on the interface alone.
 struct Toy {
   static constexpr int dim = 3;
   static constexpr bool small_steps = false;

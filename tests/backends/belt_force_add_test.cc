@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "common/scene/diagnostics.h"
 #include "common/scene/read_scene.h"
 #include "common/simulation/simulation.h"

@@ -8,10 +8,10 @@ namespace talus::contact_test {
 namespace {
 
 template <typename Backend>
-class Seam : public BackendTest<Backend> {};
-TYPED_TEST_SUITE(Seam, Backends, BackendName);
+class WorldInterface : public BackendTest<Backend> {};
+TYPED_TEST_SUITE(WorldInterface, Backends, BackendName);
 
-TYPED_TEST(Seam, ContactImpulsesOfARestingBoxCarryItsWeight) {
+TYPED_TEST(WorldInterface, ContactImpulsesOfARestingBoxCarryItsWeight) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
   world->record_contacts(true);
@@ -29,7 +29,7 @@ TYPED_TEST(Seam, ContactImpulsesOfARestingBoxCarryItsWeight) {
   EXPECT_NEAR(impulse, weight, 0.02 * weight);
 }
 
-TYPED_TEST(Seam, ContactHasTheSpeedOfApproach) {
+TYPED_TEST(WorldInterface, ContactHasTheSpeedOfApproach) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
   world->record_contacts(true);
@@ -44,7 +44,7 @@ TYPED_TEST(Seam, ContactHasTheSpeedOfApproach) {
   EXPECT_NEAR(approach, std::sqrt(131.0), 0.4);
 }
 
-TYPED_TEST(Seam, ContactNamesTheFrozenBodyThatABodyRestsOn) {
+TYPED_TEST(WorldInterface, ContactNamesTheFrozenBodyThatABodyRestsOn) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
   world->record_contacts(true);
@@ -60,7 +60,7 @@ TYPED_TEST(Seam, ContactNamesTheFrozenBodyThatABodyRestsOn) {
   }
 }
 
-TYPED_TEST(Seam, QueryBoxFindsAwakeAndSleepingBodiesInOrder) {
+TYPED_TEST(WorldInterface, QueryBoxFindsAwakeAndSleepingBodiesInOrder) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
   for (int i = 0; i < 5; ++i) world->add(this->at(up<dim>(2.0) + 3.0 * i * Vec<dim>::Unit(0)));
@@ -72,7 +72,7 @@ TYPED_TEST(Seam, QueryBoxFindsAwakeAndSleepingBodiesInOrder) {
   EXPECT_EQ(found, (std::vector<BodyIndex>{1, 2, 4}));
 }
 
-TYPED_TEST(Seam, AwakeListsTheBodiesThatAreNeitherAsleepNorRemoved) {
+TYPED_TEST(WorldInterface, AwakeListsTheBodiesThatAreNeitherAsleepNorRemoved) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
   for (int i = 0; i < 4; ++i) world->add(this->at(up<dim>(2.0) + 3.0 * i * Vec<dim>::Unit(0)));
@@ -82,7 +82,7 @@ TYPED_TEST(Seam, AwakeListsTheBodiesThatAreNeitherAsleepNorRemoved) {
   EXPECT_EQ(std::vector<BodyIndex>(awake.begin(), awake.end()), (std::vector<BodyIndex>{1, 3}));
 }
 
-TYPED_TEST(Seam, SetVelocityThrowsABody) {
+TYPED_TEST(WorldInterface, SetVelocityThrowsABody) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
   const BodyIndex body = world->add(this->at(up<dim>(20.0)));
@@ -91,7 +91,7 @@ TYPED_TEST(Seam, SetVelocityThrowsABody) {
   EXPECT_NEAR(this->pose(*world, body).position[0], 3.0, 1e-3);
 }
 
-TYPED_TEST(Seam, EngineSleepPutsARestingBoxToSleepAndAnImpactWakesIt) {
+TYPED_TEST(WorldInterface, EngineSleepPutsARestingBoxToSleepAndAnImpactWakesIt) {
   constexpr int dim = TypeParam::dim;
   auto description = this->description();
   description.engine_sleep = true;
@@ -109,7 +109,7 @@ TYPED_TEST(Seam, EngineSleepPutsARestingBoxToSleepAndAnImpactWakesIt) {
   EXPECT_FALSE(this->asleep(*world, box));
 }
 
-TYPED_TEST(Seam, WithoutEngineSleepNoBodySleeps) {
+TYPED_TEST(WorldInterface, WithoutEngineSleepNoBodySleeps) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
   world->add(this->at(up<dim>(0.5)));

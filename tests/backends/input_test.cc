@@ -1,6 +1,5 @@
 // Bad input is refused on every engine, before the engine gets it, and does no harm.
 
-#include <cmath>
 #include <limits>
 
 #include "tests/backends/backend.h"

@@ -1,6 +1,5 @@
 // Slope control on every engine.
 
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 

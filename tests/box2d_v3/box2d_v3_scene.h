@@ -3,7 +3,6 @@
 
 #include <list>
 #include <optional>
-#include <vector>
 
 #include "talus/box2d_v3.h"
 #include "tests/sleeper/drops.h"

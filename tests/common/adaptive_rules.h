@@ -1,7 +1,6 @@
 #pragma once
 // What rules of the policy `adaptive` are made from and called with, in tests with cubes of 1 m and 1 kg.
 
-#include <algorithm>
 #include <vector>
 
 #include "common/policy/adaptive/rule.h"

@@ -79,15 +79,6 @@ TYPED_TEST(ShapeStatisticsOfAHeap, FindRadiiAndCentreOfMassOfConeAndWedge) {
   EXPECT_NEAR(statistics.r95, foot * (dim == 2 ? 0.7764 : 0.8647), 0.1);
 }
 
-TYPED_TEST(ShapeStatisticsOfAHeap, FindItPackedFull) {
-  constexpr int dim = TypeParam::dim;
-  const auto bodies = heap<dim>();
-  const Packing full = packing<dim>(bodies, Vec<dim>::Zero(), foot, slope * foot, 4);
-  ASSERT_EQ(full.layers.size(), 4U);
-  EXPECT_NEAR(full.all, 1.0, 0.05);  // cubes stick out of the surface by up to 0.1 of 10 m
-  for (std::size_t layer = 0; layer < 3; ++layer) EXPECT_NEAR(full.layers[layer], 1.0, 0.1);
-}
-
 TYPED_TEST(ShapeStatisticsOfAHeap, DifferFromTheHeapLiftedByAStepByThatStep) {
   constexpr int dim = TypeParam::dim;
   auto bodies = heap<dim>();

@@ -67,7 +67,7 @@ TEST(Trajectory, LeavesUnknownBodiesAndLostFramesOutOfAllMeasures) {
                     step == 3 ? unknown : std::vector<std::uint8_t>{});
     }
   }
-  EXPECT_EQ(harmed.lost_frames(), 1);
+  EXPECT_TRUE(harmed.lost(1));
   EXPECT_EQ(harmed.bodies(1), 0);
   EXPECT_FALSE(harmed.present(1, 0));
   EXPECT_FALSE(harmed.present(2, 1));

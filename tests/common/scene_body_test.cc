@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <set>
-
 #include "common/scene/read_scene.h"
 #include "common/scene/typical_body.h"
 

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <numbers>
 
 #include "common/math/random.h"

@@ -1,5 +1,4 @@
 // Input: arguments of `--set`, one a line.
-#include <string>
 #include <vector>
 
 #include "tests/fuzz/fuzz_target.h"

@@ -2,7 +2,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <numbers>
-#include <numeric>
 
 #include "common/policy/paper_policy.h"
 #include "lcmtypes/bodies_message.h"

@@ -179,9 +179,9 @@ TEST(MomentReader, GivesStatesOfTheRunsOwnDimension) {
   EXPECT_EQ(states.pose[10].position, Vec2(-0.75, 0.01F));
   EXPECT_EQ(states.shape[11], 1);
   EXPECT_EQ(states.asleep[11], 1);
-  const std::vector<Pile<2>> piles = piles_of<2>(reader.moment());
+  const std::vector<Pile<3>>& piles = reader.moment().piles;
   ASSERT_EQ(piles.size(), 1U);
-  EXPECT_EQ(piles[0].centre, Vec2(0.0, 0.0));
+  EXPECT_EQ(piles[0].centre, Vec3(0.0, 0.0, 0.0));
   EXPECT_FALSE(piles[0].layers.empty());
 }
 
@@ -219,10 +219,9 @@ TEST(MomentReader, PutsObstaclesWhereTheyHaveMoved) {
   scene.movers = {{.first = 0, .count = 1, .motion = {.times = {0.0, 0.5}, .shifts = {Vec3::Zero(), Vec3::UnitZ()}}}};
   MomentReader reader(3, limits);
   for (const LogEvent& event : recorded<3>(60, scene)) take(event, reader);
-  const auto obstacles = obstacles_of<3>(reader.moment());
-  ASSERT_EQ(obstacles.size(), 1U);
-  EXPECT_EQ(obstacles[0].obstacle, 0);
-  EXPECT_NEAR(obstacles[0].pose.position.z(), 8.0, 1e-6) << "7 m and the metre of the plan";
+  const Moment& moment = reader.moment();
+  EXPECT_EQ(moment.moved_obstacle, std::vector({0}));
+  EXPECT_NEAR(moment.obstacle_pose.pose<3>(0).position.z(), 8.0, 1e-6) << "7 m and the metre of the plan";
 }
 
 TEST(MomentReader, KeepsPosesOfManyObstaclesByTheirNumber) {
@@ -241,12 +240,9 @@ TEST(MomentReader, KeepsPosesOfManyObstaclesByTheirNumber) {
   const auto at = [](double x) { return Pose<3>{.position = Vec3(x, 0.0, 0.0)}; };
   pass(to_obstacles<3>(std::vector<ObstaclePose<3>>{{2, at(2.5)}}));
   pass(to_obstacles<3>(std::vector<ObstaclePose<3>>{{0, at(0.5)}, {1, at(1.5)}}));
-  const auto obstacles = obstacles_of<3>(reader.moment());
-  ASSERT_EQ(obstacles.size(), 3U);
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(obstacles[k].obstacle, k);
-    EXPECT_EQ(obstacles[k].pose.position.x(), k + 0.5);
-  }
+  const Moment& moment = reader.moment();
+  EXPECT_EQ(moment.moved_obstacle, std::vector({0, 1, 2}));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(moment.obstacle_pose.pose<3>(k).position.x(), k + 0.5);
 }
 
 TEST(MomentReader, RefusesWhatTheSceneDoesNotHave) {

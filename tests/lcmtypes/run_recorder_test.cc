@@ -5,7 +5,6 @@
 
 #include <csignal>
 #include <map>
-#include <set>
 
 #include "lcmtypes/log_reader.h"
 #include "lcmtypes/wire.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"

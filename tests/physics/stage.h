@@ -2,9 +2,7 @@
 // A scene of a case under construction, and what is read from its run.
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -47,7 +47,7 @@ TEST(Box2DWorld, RefusesVelocitiesAndNumbersOfBodiesThatAreNone) {
   EXPECT_THROW(world->query_box({Vec2(nan, 0.0), Vec2(1.0, 1.0)}, found), std::invalid_argument);
 }
 
-TEST(Box2DWorld, TakesEveryShapeThatTheSeamAllows) {
+TEST(Box2DWorld, TakesEveryShapeThatAWorldAllows) {
   const auto polygon = [](const std::vector<Vec2>& corners) { return hull_pieces<2>(corners); };
   std::vector<Vec2> octagon;
   for (int i = 0; i < 8; ++i) {
@@ -96,7 +96,7 @@ TEST(Ground, HoldsFarFromTheOrigin) {
   }
 }
 
-// Nothing that comes through the seam is known to do it, so the engine is made to err by hand.
+// Nothing that comes through the interface is known to do it, so the engine is made to err by hand.
 TEST(NonFiniteState, IsReportedAndTheStatesBeforeItAreKept) {
   const auto world = make_box2d_world(l_world());
   add_stack(*world, 3, 3);

@@ -1,7 +1,6 @@
 #pragma once
 // Heaps of L shapes for the tests of this folder.
 
-#include <memory>
 #include <random>
 
 #include "common/shape/catalogue.h"

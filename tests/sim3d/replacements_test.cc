@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <random>
 
 #include "common/shape/catalogue.h"

@@ -1,7 +1,6 @@
 #pragma once
 // The same rain of boxes for every world of these tests.
 
-#include <cmath>
 #include <numbers>
 #include <random>
 #include <vector>

@@ -1,7 +1,6 @@
 #pragma once
 // Which boxes hang in the air.
 
-#include <numeric>
 #include <vector>
 
 #include "common/shape/catalogue.h"

@@ -1,7 +1,6 @@
 #pragma once
 // A page of the manual as a reader takes commands from it.
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>

@@ -13,7 +13,7 @@
 #include "common/scene/typical_body.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/state_hash.h"
-#include "common/simulation/stopwatch.h"
+#include "common/world/stopwatch.h"
 #include "tools/run/backends.h"
 #include "tools/run/measured_drift.h"
 #include "tools/run/processor_watch.h"

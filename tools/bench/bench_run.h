@@ -65,7 +65,8 @@ struct BenchColumn {
 };
 
 inline constexpr auto bench_columns = std::to_array<BenchColumn>({
-    {"seconds", &BenchNumbers::seconds, "processor time of all steps but the first, nothing recorded [s]"},
+    {"seconds", &BenchNumbers::seconds,
+     "processor time of the thread that steps, without the first step and with nothing recorded [s]"},
     {"wall_seconds", &BenchNumbers::wall_seconds, "wall time of the same steps [s]"},
     {"steps", &BenchNumbers::steps, "steps of the run"},
     {"bodies", &BenchNumbers::bodies, "bodies at the end"},

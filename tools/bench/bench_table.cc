@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "common/text/file.h"
 #include "tools/bench/bench_plan.h"
 #include "tools/output/csv.h"
+#include "tools/output/table.h"
 #include "tools/plot/plot.h"
 
 namespace talus {
@@ -92,27 +92,14 @@ Cells summary_cells(const BenchGroup& group, std::string_view preset) {
           published(papers.error)};
 }
 
-/// Letters on the screen.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-std::string in_columns(std::vector<Cells> lines) {
-  std::string text;
-  std::vector<std::size_t> widths(lines.front().size(), 0);
-  for (std::size_t i = 0; i < widths.size(); ++i) {
-    const bool empty = std::all_of(lines.begin() + 1, lines.end(),
-                                   [&](const Cells& line) { return line[i] == "-" || line[i].empty(); });
-    for (const Cells& line : lines)
-      if (!empty) widths[i] = std::max(widths[i], width_of(line[i]));
+/// Leaves out the columns in which no row has a value.
+void drop_empty_columns(Table& table) {
+  for (std::size_t i = table.columns.size(); i-- > 0;) {
+    if (!std::ranges::all_of(table.rows, [&](const Cells& row) { return row[i] == "-" || row[i].empty(); })) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    table.columns.erase(table.columns.begin() + at);
+    for (Cells& row : table.rows) row.erase(row.begin() + at);
   }
-  for (const Cells& line : lines) {
-    std::string row;
-    for (std::size_t i = 0; i < widths.size(); ++i)
-      if (widths[i] > 0) row += line[i] + std::string(widths[i] - width_of(line[i]) + 2, ' ');
-    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
 }
 
 constexpr std::size_t most_curves = 7;  // colours that people of any colour vision can distinguish
@@ -225,11 +212,25 @@ void write_frames_csv(const std::filesystem::path& file, const std::vector<Bench
 }
 
 std::string bench_summary(const std::vector<BenchRow>& rows, std::string_view preset) {
-  std::vector<Cells> lines = {{"scene", "engine", "policy", "settings", "runs", "time [s]", "speed-up", "awake",
-                               "centre [%]", "r50 [%]", "drift [D]", "motion error [%]", "paper: speed-up",
-                               "error [%]"}};
-  for (const BenchGroup& group : groups_of(rows)) lines.push_back(summary_cells(group, preset));
-  return in_columns(std::move(lines));
+  Table table = {.caption = "",
+                 .columns = {{"scene"},
+                             {"engine"},
+                             {"policy"},
+                             {"settings"},
+                             {"runs", true},
+                             {"time [s]", true},
+                             {"speed-up", true},
+                             {"awake", true},
+                             {"centre [%]", true},
+                             {"r50 [%]", true},
+                             {"drift [D]", true},
+                             {"motion error [%]", true},
+                             {"paper: speed-up", true},
+                             {"error [%]", true}},
+                 .rows = {}};
+  for (const BenchGroup& group : groups_of(rows)) table.rows.push_back(summary_cells(group, preset));
+  drop_empty_columns(table);
+  return text_of(table);
 }
 
 std::vector<std::string> write_bench_plots(const std::filesystem::path& folder, const std::vector<BenchRow>& rows) {

@@ -1,7 +1,6 @@
 #pragma once
 // What formats of space show of either dimension: a scene in 2D lies in the plane y = 0.
 
-#include <string>
 #include <vector>
 
 #include "common/math/in_space.h"

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <ostream>
 #include <stdexcept>
-#include <utility>
 
 #include "tools/monitor/faults.h"
 #include "tools/monitor/json_view.h"

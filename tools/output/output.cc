@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <string>
 #include <system_error>
 
 #include "common/text/printable.h"

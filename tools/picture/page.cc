@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include "tools/picture/canvas.h"
 #include "tools/picture/force_chains.h"

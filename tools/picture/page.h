@@ -1,7 +1,6 @@
 #pragma once
 // What stands around the scene: title, legend, scale bar, caption.
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 #pragma once
 // Where points of the world come to lie on the page.
 
-#include <algorithm>
 #include <span>
 
 #include "common/math/vector.h"

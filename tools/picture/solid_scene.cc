@@ -1,6 +1,5 @@
 // The 3D scene: a shaded image with lines and text on top of it.
 
-#include <array>
 #include <memory>
 
 #include "tools/picture/force_chains.h"

@@ -17,7 +17,7 @@
 #include "common/policy/observer.h"
 #include "common/scene/read_scene.h"
 #include "common/simulation/state_hash.h"
-#include "common/simulation/stopwatch.h"
+#include "common/world/stopwatch.h"
 #include "tools/python/arrays.h"
 #include "tools/python/contact_row.h"
 #include "tools/python/module.h"

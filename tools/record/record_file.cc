@@ -7,7 +7,6 @@
 #include <bit>
 #include <fstream>
 #include <stdexcept>
-#include <vector>
 
 #include "lcmtypes/channels.h"
 #include "lcmtypes/layout.h"

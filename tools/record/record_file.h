@@ -4,9 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <stdexcept>
-#include <string>
 
 #include "lcmtypes/log_reader.h"
 

@@ -99,9 +99,7 @@ class ToldScene {
     if (identity_.period[1] > 0.0) scene.world.periodic_y = sides_along(1);
     scene.policy.kind = identity_.policy;
     scene.seed = static_cast<std::uint64_t>(identity_.seed);
-    const Vec<Dim> gravity = in_own_dimension<Dim>(Vec3(identity_.gravity));
-    scene.world.gravity = gravity.norm();
-    if (gravity.norm() > 0.0) scene.world.down = gravity / gravity.norm();
+    scene.world.set_gravity(in_own_dimension<Dim>(Vec3(identity_.gravity)));
     for (const auto& [index, message] : shapes_)
       if (message.dimension == Dim && index == std::ssize(scene.world.shapes))
         scene.world.shapes.push_back(to_shape<Dim>(message));

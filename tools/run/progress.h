@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/policy/observer.h"
-#include "common/simulation/stopwatch.h"
+#include "common/world/stopwatch.h"
 
 namespace talus {
 

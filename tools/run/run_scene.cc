@@ -4,15 +4,14 @@
 
 #include <chrono>
 #include <optional>
-#include <span>
 #include <thread>
 
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/state_hash.h"
-#include "common/simulation/stopwatch.h"
 #include "common/text/printable.h"
+#include "common/world/stopwatch.h"
 #include "common/world/world.h"
 #ifdef TALUS_LCM
 #include "lcmtypes/live_link.h"

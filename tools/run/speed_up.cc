@@ -1,13 +1,12 @@
 #include "tools/run/speed_up.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "common/measure/ensemble.h"
 #include "common/policy/sleep_policy.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
-#include "common/simulation/stopwatch.h"
+#include "common/world/stopwatch.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/processor_watch.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/simulation/stopwatch.h"
+#include "common/world/stopwatch.h"
 #include "common/world/world.h"
 #include "tools/output/output.h"
 

@@ -6,9 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
-#include <span>
 #include <stdexcept>
 #include <vector>
 

@@ -11,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>

@@ -1,9 +1,6 @@
 #pragma once
 // What the runs of a sweep gave, gathered from their folders.
 
-#include <cstdint>
-#include <vector>
-
 #include "tools/sweep/sweep_folder.h"
 
 namespace talus {

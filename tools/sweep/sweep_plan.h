@@ -2,7 +2,6 @@
 // The runs of a sweep: the product of all values.
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace talus {

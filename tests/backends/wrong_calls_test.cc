@@ -2,12 +2,11 @@
 
 #include <functional>
 #include <limits>
-#include <optional>
 
 #include "common/world/world.h"
 #include "tests/backends/backend.h"
 
-namespace talus::seam_test {
+namespace talus::wrong_calls_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -200,4 +199,4 @@ TYPED_TEST(CallOrder, AFrozenBodyIsListedOnceHoweverOftenItIsFrozen) {
 }
 
 }  // namespace
-}  // namespace talus::seam_test
+}  // namespace talus::wrong_calls_test
