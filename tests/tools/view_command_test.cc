@@ -51,6 +51,7 @@ TEST(ViewCommand, RefusesBadInput) {
   refused("drop_in_a_pile_2d --port 70000", "--port");
   refused("drop_in_a_pile_2d drop_in_a_pile_3d", "must be two run folders");
   refused("drop_in_a_pile_2d --against sleepy", "policy.kind");
+  refused("drop_in_a_pile_2d --accuracy rough", "--accuracy rough: accuracy");
   refused(folder.path().string() + " --against full", "--against: must be of a scene");
   refused("drop_in_a_pile_2d --lcm-url udpm://239.255.76.67:7667",
           "--lcm-url: must be of --live; drop_in_a_pile_2d is a scene");
@@ -76,7 +77,7 @@ TEST(ViewCommand, RefusesOptionsThatDoNotApplyToWhatIsShown) {
   ASSERT_EQ(talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=5 --out " + run).exit_code, 0);
   for (const std::string& shown : {run, run + " " + run, std::string("--live")})
     for (const char* each : {"--policy full", "--set world.gravity=5", "--seed 3", "--backend box2d", "--force",
-                             "--pace 2", "--against full"}) {
+                             "--pace 2", "--against full", "--accuracy fast"}) {
       const std::string option = each;
       const Outcome outcome = talus_command("view " + shown + " " + option);
       EXPECT_EQ(outcome.exit_code, 2) << shown << " " << option;
