@@ -25,7 +25,7 @@ class ContinuousCollision final : public b2ContactFilter {
  public:
   explicit ContinuousCollision(const WorldDescription<2>& description);
 
-  /// Before a step, once Box2D knows all pairs: sweeps the body, made of this shape, if one of its pairs needs it.
+  /// Before a step, once Box2D has found all pairs: sweeps the body, made of this shape, if one of its pairs needs it.
   void note_body(b2Body& body, int shape) {
     if (!is_fast(body, restless_size_)) return;
     restless_ = true;

@@ -64,7 +64,7 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
     if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;
-    if (small_steps_) templates_.back().sweep_from = 0;  // never: it knows the contacts ahead
+    if (small_steps_) templates_.back().sweep_from = 0;  // never: it finds the contacts ahead
   }
   if (description.ground.present) add_ground();
   add_obstacles();

@@ -10,21 +10,14 @@
 
 #include "common/scene/diagnostics.h"
 #include "common/text/printable.h"
-#include "tools/bench/bench_command.h"
 #include "tools/commands/command_line_text.h"
 #include "tools/commands/commands.h"
 #ifdef TALUS_BULLET
 #include "sim3d/plain_heap.h"
-#include "tools/mesh/decompose_command.h"
-#endif
-#ifdef TALUS_LCM
-#include "tools/monitor/monitor_command.h"
 #endif
 #include "tools/output/output.h"
 #include "tools/run/huge_pages.h"
 #include "tools/run/version.h"
-#include "tools/stress/stress_command.h"
-#include "tools/sweep/sweep_command.h"
 
 namespace {
 
@@ -44,11 +37,11 @@ void add_commands(CLI::App& app, int& exit_code) {
   talus::add_sweep_command(app, exit_code);
   talus::add_reference_command(app, exit_code);
 #ifdef TALUS_BULLET
-  talus::add_decompose_command(app);
+  talus::add_decompose_command(app, exit_code);
 #endif
 #ifdef TALUS_LCM
   talus::add_view_command(app, exit_code);
-  talus::add_monitor_command(app);
+  talus::add_monitor_command(app, exit_code);
   talus::add_compare_command(app, exit_code);
   talus::add_film_command(app, exit_code);
   talus::add_replay_command(app, exit_code);
@@ -74,8 +67,6 @@ int execute(int argc, char** argv) {
   add_commands(app, exit_code);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::RuntimeError& error) {
-    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> unknown = app.remaining(true);
     if (error.get_exit_code() != 0 && !unknown.empty()) {

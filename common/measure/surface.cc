@@ -15,7 +15,7 @@ namespace {
 
 constexpr int columns_per_bin = 4;
 
-/// Columns around the grid's centre: `side` along each horizontal axis, numbered x first. Each knows its highest body.
+/// Columns around the grid's centre: `side` along each horizontal axis, numbered x first. Each has its highest body.
 template <int Dim>
 class Columns {
  public:

@@ -9,8 +9,9 @@
 
 namespace talus {
 
-/// Applies a policy to a world: counts its piles, has the policy decide, and carries out what it decides and what the
-/// caller wants, in one place. It tells piles and policy what was done. Bodies fall asleep and wake in no other way.
+/// Applies a policy to a world: counts its piles, has the policy decide, and carries out its decisions and the
+/// caller's requests, in one place. Piles and policy then get what was done. Bodies fall asleep and wake in no other
+/// way.
 template <int Dim>
 class SleepControl {
  public:

@@ -29,7 +29,7 @@
 #include "lcmtypes/publisher.h"
 #include "lcmtypes/run_recorder.h"
 #include "sim2d/make_world.h"
-#include "tools/monitor/monitor_command.h"
+#include "tools/commands/commands.h"
 
 namespace talus {
 namespace {
@@ -200,7 +200,8 @@ void invent(const std::string& url, int runs) {
 
 int main(int argc, char** argv) {
   CLI::App app;
-  talus::add_monitor_command(app);
+  int exit_code = talus::exit_codes::success;
+  talus::add_monitor_command(app, exit_code);
   talus::Options options;
   CLI::App* run = app.add_subcommand("run");
   run->add_option("--lcm-url", options.url);
@@ -232,6 +233,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
   } catch (const std::invalid_argument& refused) {
     fmt::print(stderr, "{}\n", refused.what());
-    return 2;
+    return talus::exit_codes::bad_input;
   }
+  return exit_code;
 }

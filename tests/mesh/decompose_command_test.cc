@@ -1,5 +1,3 @@
-#include "tools/mesh/decompose_command.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +5,7 @@
 
 #include "common/mesh/mesh_shape.h"
 #include "tests/common/temporary_folder.h"
+#include "tools/commands/commands.h"
 
 namespace talus::decompose_command_test {
 namespace {
@@ -15,7 +14,8 @@ namespace fs = std::filesystem;
 
 void decompose(const std::string& arguments) {
   CLI::App app;
-  add_decompose_command(app);
+  int exit_code = exit_codes::success;
+  add_decompose_command(app, exit_code);
   app.parse("decompose " + arguments, false);
 }
 

@@ -99,6 +99,14 @@ TEST_F(LogCommand, InfoPrintsEachMessageOfAChannelAsJson) {
   EXPECT_EQ(slept, Json::parse(contents(folder_.path() / "run" / "summary.json"))["slept_events"]);
 }
 
+TEST_F(LogCommand, InfoNamesTheChannelsWhereAChosenOneHasNoMessage) {
+  const Outcome outcome = talus_command("info --messages --channel TALUS_SLEEPS " + (folder_ / "run"));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("--channel TALUS_SLEEPS: no message in the log; its channels are"), std::string::npos);
+  EXPECT_NE(outcome.err.find("TALUS_SLEEP,"), std::string::npos) << outcome.err;
+}
+
 TEST_F(LogCommand, RepairLeavesOutTheDamagedMessageOnly) {
   hurt_a_copy();
   ASSERT_EQ(talus_command("info --repair " + (folder_ / "hurt") + " --out " + (folder_ / "whole")).exit_code, 0);

@@ -1,5 +1,3 @@
-#include "tools/bench/bench_command.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,8 +12,8 @@
 #include "tools/bench/bench_plan.h"
 #include "tools/bench/bench_table.h"
 #include "tools/bench/published.h"
+#include "tools/commands/commands.h"
 #include "tools/commands/job_options.h"
-#include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/pool/folder_lock.h"
 #include "tools/pool/in_processes.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -43,18 +42,12 @@ std::string text_of(const BenchOptions& options) {
 
 fs::path row_file(const fs::path& folder, int number) { return folder / "rows" / fmt::format("{:05}.json", number); }
 
-bool has_only_a_lock(const fs::path& folder) {
-  return fs::is_directory(folder) && std::ranges::all_of(fs::directory_iterator(folder), [](const auto& entry) {
-           return entry.path().filename() == lock_file;
-         });
-}
-
 }  // namespace
 
 void begin_bench(const BenchOptions& options) {
   const fs::path file = options.out / bench_file;
   const bool same = file_contents(file) == text_of(options);
-  if (!same && fs::exists(options.out) && !has_only_a_lock(options.out))
+  if (!same && !is_new_folder(options.out))
     throw std::invalid_argument(
         fmt::format("--out {}: must be new, empty, or of the same benchmark of the same scenes", options.out.string()));
   fs::create_directories(options.out / "rows");

@@ -106,28 +106,13 @@ std::string option_text(const CLI::Option& option) {
   return fmt::format(".TP\n{}\n{}\n", head, roff(group + meaning_of(option)));
 }
 
-void append_command(const CLI::App& command, const std::string& name, std::string& page) {
-  page += fmt::format(".SS {}\n{}\n", roff(name), roff(command.get_description()));
+std::string command_text(const CLI::App& command) {
+  std::string page = fmt::format(".SS {}\n{}\n", roff(command.get_name()), roff(command.get_description()));
   for (const CLI::Option* option : command.get_options())
     if (option->get_name() != "--help") page += option_text(*option);
   if (const std::string footer = command.get_footer(); !footer.empty())
     page += fmt::format(".PP\n.nf\n{}\n.fi\n", roff(footer));
-  for (const CLI::App* below : commands_of(command)) append_command(*below, name + " " + below->get_name(), page);
-}
-
-/// A case of the script for a command and each below it; `path` as `talus bench`.
-void append_case(const CLI::App& command, const std::string& path, std::string& cases) {
-  cases += fmt::format("    '{}') words='{}' ;;\n", path, fmt::join(words_of(command), " "));
-  for (const CLI::App* below : commands_of(command)) append_case(*below, path + " " + below->get_name(), cases);
-}
-
-/// A case of the script for each command below another one, which enters it.
-void append_paths(const CLI::App& command, const std::string& path, std::string& cases) {
-  for (const CLI::App* below : commands_of(command)) {
-    const std::string name = path + " " + below->get_name();
-    cases += fmt::format("      '{0}') path='{0}' ;;\n", name);
-    append_paths(*below, name, cases);
-  }
+  return page;
 }
 
 }  // namespace
@@ -150,7 +135,7 @@ std::string man_page(const CLI::App& app) {
       "Each command prints its options with \\fB\\-\\-help\\fR. Scene files are described in docs/scenes.md of the "
       "source;\n\\fBtalus reference\\fR prints all their keys.\n.SH COMMANDS\n",
       upper, app.get_name(), roff(replaced(app.get_description(), app.get_name() + ": ", "")), app.get_name());
-  for (const CLI::App* command : commands_of(app)) append_command(*command, command->get_name(), page);
+  for (const CLI::App* command : commands_of(app)) page += command_text(*command);
   page += ".SH EXIT STATUS\n0 done, 1 the run failed, 2 bad input, 130 interrupted.\n";
   return page;
 }
@@ -158,26 +143,22 @@ std::string man_page(const CLI::App& app) {
 // Words of a command that begin with what is typed; names of scenes after `run`, `check`, `view`, `sweep`; else files.
 std::string bash_completion(const CLI::App& app) {
   std::string cases;
-  append_case(app, app.get_name(), cases);
-  std::string paths;
-  append_paths(app, app.get_name(), paths);
+  for (const CLI::App* command : commands_of(app))
+    cases += fmt::format("    {}) words='{}' ;;\n", command->get_name(), fmt::join(words_of(*command), " "));
   return fmt::format(R"bash(# Completion of {0} for bash, made by `{0} reference --completion bash`.
 _{0}() {{
-  local current=${{COMP_WORDS[COMP_CWORD]}} path={0} words='' word
-  for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
-    case "$path $word" in
-{2}    esac
-  done
-  case $path in
-{1}  esac
-  case "$path" in '{0} run' | '{0} check' | '{0} view' | '{0} sweep')
+  local current=${{COMP_WORDS[COMP_CWORD]}} words='{1}' command=''
+  ((COMP_CWORD == 1)) || command=${{COMP_WORDS[1]}}
+  case $command in
+{2}  esac
+  case $command in run | check | view | sweep)
     [[ $current == -* ]] || words+=" $({0} list 2>/dev/null | cut -d ' ' -f 1)" ;;
   esac
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
 }}
 complete -o default -F _{0} {0}
 )bash",
-                     app.get_name(), cases, paths);
+                     app.get_name(), fmt::join(words_of(app), " "), cases);
 }
 
 std::string zsh_completion(const CLI::App& app) {

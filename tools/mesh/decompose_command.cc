@@ -1,11 +1,9 @@
-#include "tools/mesh/decompose_command.h"
-
 #include <algorithm>
 #include <memory>
 
 #include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
-#include "tools/commands/validators.h"
+#include "tools/commands/commands.h"
 #include "tools/mesh/convex_parts.h"
 #include "tools/mesh/decomposition.h"
 #include "tools/output/output.h"
@@ -44,7 +42,7 @@ void decompose(const std::filesystem::path& mesh_file, const ConvexPartsParams& 
 
 }  // namespace
 
-void add_decompose_command(CLI::App& app) {
+void add_decompose_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("decompose", "Cut a mesh into the convex parts with which it collides in 3D scenes");
   command->footer(
@@ -60,7 +58,10 @@ void add_decompose_command(CLI::App& app) {
   command->add_option("--corners", params->corners, "Corners of a part at most, tried first")
       ->check(whole_number(4, most_part_corners))
       ->capture_default_str();
-  command->callback([=] { decompose(*mesh, *params); });
+  command->callback([=, &exit_code] {
+    decompose(*mesh, *params);
+    exit_code = exit_codes::success;
+  });
 }
 
 }  // namespace talus

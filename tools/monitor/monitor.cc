@@ -14,6 +14,7 @@
 #include "tools/monitor/receiver_process.h"
 #include "tools/monitor/terminal_screen.h"
 #include "tools/monitor/text_view.h"
+#include "tools/output/output.h"
 
 namespace talus {
 namespace {
@@ -48,7 +49,13 @@ class Reporter {
     if (!out_.flush()) throw std::runtime_error("standard output cannot be written");
   }
 
-  bool flawless() const { return heard_ && listener_.runs().lost() == 0 && faults_of(listener_, receiver_).none(); }
+  /// Of the program, at the end.
+  int exit_code() const {
+    if (!params_.fail_on_loss) return exit_codes::success;
+    if (!heard_) print_message("talus monitor: no run was heard");
+    const bool flawless = heard_ && listener_.runs().lost() == 0 && faults_of(listener_, receiver_).none();
+    return flawless ? exit_codes::success : exit_codes::failed;
+  }
 
  private:
   Listener& listener_;
@@ -130,7 +137,7 @@ int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream
   }
   hear_the_rest(receiver, listener);
   reporter.report();
-  return params.fail_on_loss && !reporter.flawless() ? 1 : 0;
+  return reporter.exit_code();
 }
 
 int watch_on_screen(ReceiverProcess& receiver, const MonitorParams& params, const std::string& address,
@@ -150,7 +157,7 @@ int watch_on_screen(ReceiverProcess& receiver, const MonitorParams& params, cons
   hear_the_rest(receiver, listener);
   Reporter reporter(listener, receiver, params, out);
   reporter.report();
-  return params.fail_on_loss && !reporter.flawless() ? 1 : 0;
+  return reporter.exit_code();
 }
 
 }  // namespace talus

@@ -1,5 +1,3 @@
-#include "tools/monitor/monitor_command.h"
-
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <iostream>
@@ -10,7 +8,6 @@
 
 #include "lcmtypes/live_link.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/validators.h"
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
 #include "tools/monitor/run_view.h"
@@ -29,7 +26,7 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
   const std::string address = receiving_url(url);
   if (const std::string problem = problem_with(address); !problem.empty()) {
     print_message("talus monitor: {}", problem);
-    return 1;
+    return exit_codes::failed;
   }
   ReceiverProcess receiver([&address](const DatagramSender& sender) {
     const LiveLink link = open_live_link(address);
@@ -45,7 +42,7 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
 
 }  // namespace
 
-void add_monitor_command(CLI::App& app) {
+void add_monitor_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "monitor", "Watch running simulations over LCM: a full screen in a terminal, else a line per second and run");
   const auto params = std::make_shared<MonitorParams>();
@@ -68,10 +65,7 @@ void add_monitor_command(CLI::App& app) {
       "\"lost\" counts messages that this monitor missed;\n"
       "against that, as root: sysctl -w net.core.rmem_max=4194304, of which the monitor takes all. The record of the "
       "run is complete in any case.");
-  command->callback([params, url] {
-    const int code = run_monitor(*params, *url);
-    if (code != 0) throw CLI::RuntimeError(code);
-  });
+  command->callback([params, url, &exit_code] { exit_code = run_monitor(*params, *url); });
 }
 
 }  // namespace talus

@@ -5,13 +5,23 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
 
 namespace talus {
 
-FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
+namespace fs = std::filesystem;
+
+bool is_new_folder(const fs::path& folder) {
+  if (!fs::exists(folder)) return true;
+  return fs::is_directory(folder) && std::ranges::all_of(fs::directory_iterator(folder), [](const auto& entry) {
+           return entry.path().filename() == lock_file;
+         });
+}
+
+FolderLock::FolderLock(const fs::path& folder, Kind kind)
     : file_(open((folder / lock_file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (file_ < 0) throw std::system_error(errno, std::generic_category(), (folder / lock_file).string());
   if (flock(file_, (kind == Kind::whole ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;

@@ -7,6 +7,9 @@ namespace talus {
 /// The file by which a folder is locked, in that folder.
 inline constexpr const char* lock_file = "lock";
 
+/// Whether there is no such folder yet, or one without anything but a lock.
+bool is_new_folder(const std::filesystem::path& folder);
+
 /// Keeps other commands out of a folder as long as it lives, in processes of other machines too where the file system
 /// has locks. One task alone shares the folder with others of its kind.
 class FolderLock {

@@ -33,7 +33,7 @@ namespace py = pybind11;
 namespace talus {
 namespace {
 
-/// What Python wants to know of a run besides its states.
+/// What Python gets of a run besides its states.
 struct Wanted {
   bool warnings = false;
   bool contacts = false;      // of each step

@@ -1,9 +1,11 @@
 #include "tools/record/log_messages.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "tools/output/json_text.h"
 #include "tools/output/output.h"
@@ -19,13 +21,22 @@ bool is_wanted(const MessageChoice& choice, const LogEvent& event, std::int64_t 
   return time >= choice.from && time <= choice.to;
 }
 
+/// A run may have no message on a channel, as on that of sleep events; a channel may be misspelt.
+void warn_of_silent_channels(const MessageChoice& choice, const std::set<std::string>& heard) {
+  for (const std::string& channel : choice.channels)
+    if (!heard.contains(channel))
+      print_message("talus: --channel {}: no message in the log; its channels are {}", channel, fmt::join(heard, ", "));
+}
+
 }  // namespace
 
 void print_messages(const std::filesystem::path& file, const MessageChoice& choice) {
   LogReader log(file.string());
   std::optional<std::int64_t> begin;
+  std::set<std::string> heard;
   for (LogEvent event; log.next(event);) {
     if (!begin) begin = event.timestamp;
+    heard.insert(event.channel);
     if (!is_wanted(choice, event, *begin)) continue;
     nlohmann::ordered_json json = {
         {"channel", event.channel}, {"stamp_us", event.timestamp}, {"bytes", event.data.size()}};
@@ -34,6 +45,7 @@ void print_messages(const std::filesystem::path& file, const MessageChoice& choi
   }
   if (!begin && log.damage().bytes > 0) throw no_event_log(file);
   if (log.damage().bytes > 0) print_message("{}: {} damaged bytes left out", file.string(), log.damage().bytes);
+  warn_of_silent_channels(choice, heard);
 }
 
 }  // namespace talus

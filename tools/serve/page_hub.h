@@ -61,7 +61,7 @@ class PageHub {
   void remove(int number);
   /// The page has shown the last frame that it was sent.
   void acknowledge(int number);
-  /// Whether this page wants frames to have contacts.
+  /// Whether frames for this page have contacts.
   void want_contacts(int number, bool wanted);
   /// Whether any page does.
   bool contacts_wanted() const;

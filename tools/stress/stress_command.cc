@@ -1,5 +1,3 @@
-#include "tools/stress/stress_command.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,7 +8,7 @@
 
 #include "common/scene/scene.h"
 #include "tests/physics/physics_case.h"
-#include "tools/commands/validators.h"
+#include "tools/commands/commands.h"
 #include "tools/output/output.h"
 #include "tools/pool/in_processes.h"
 #include "tools/run/backends.h"

@@ -1,5 +1,3 @@
-#include "tools/sweep/sweep_command.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,8 +11,8 @@
 #include "common/scene/read_scene.h"
 #include "common/text/file.h"
 #include "common/text/printable.h"
+#include "tools/commands/commands.h"
 #include "tools/commands/job_options.h"
-#include "tools/commands/validators.h"
 #include "tools/output/output.h"
 #include "tools/pool/folder_lock.h"
 #include "tools/pool/slurm.h"

@@ -82,23 +82,21 @@ std::string last_lines(const std::string& text) {
   return printable(end);
 }
 
+std::invalid_argument other_sweep(const fs::path& folder) {
+  return std::invalid_argument(
+      fmt::format("--out {}: must be new, empty, or of the same sweep of the same scene", folder.string()));
+}
+
 }  // namespace
 
 void make_sweep_folder(const fs::path& folder) {
-  if (fs::exists(folder) && !fs::exists(folder / sweep_file)) {
-    const std::vector<fs::path> entries = entries_of(folder);
-    if (!fs::is_directory(folder) ||
-        std::ranges::any_of(entries, [](const fs::path& entry) { return entry.filename() != lock_file; }))
-      throw std::invalid_argument(
-          fmt::format("--out {}: must be new, empty, or of the same sweep of the same scene", folder.string()));
-  }
+  if (!fs::exists(folder / sweep_file) && !is_new_folder(folder)) throw other_sweep(folder);
   fs::create_directories(folder);
 }
 
 void begin_sweep(const Sweep& sweep) {
   if (fs::exists(sweep.folder / sweep_file) && identity(read_sweep(sweep.folder)) != identity(sweep))
-    throw std::invalid_argument(
-        fmt::format("--out {}: must be new, empty, or of the same sweep of the same scene", sweep.folder.string()));
+    throw other_sweep(sweep.folder);
   write_file(sweep.folder / sweep_file, text_of(sweep));
   fs::remove_all(sweep.folder / work_folder);
   fs::create_directories(sweep.folder / work_folder);

@@ -15,7 +15,7 @@ template <int Dim>
 std::optional<Vec<Dim>> direction_aside(const RuleInput<Dim>& in, BodyIndex body, BodyIndex other) {
   const Vec<Dim>& from = in.pose_of(body).position;
   const Vec<Dim> to = in.world.pose_near(other, from).position - from;
-  const Vec<Dim> across = along_plane<Vec<Dim>>(to, in.world.down());
+  const auto across = along_plane<Vec<Dim>>(to, in.world.down());
   const double aside = across.norm();
   if (in.rise(to) <= -aside || aside <= 0.0) return std::nullopt;
   return across / aside;
