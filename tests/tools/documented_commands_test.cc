@@ -57,9 +57,8 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive,reference --seeds 32 --drift --out "
      "example1",
      "talus bench drop_in_a_pile_2d --policy full,reference --seeds 2 --set run.frames=20 --drift --out example1"},
-    {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive --set accuracy=fast --seeds 32 --drift "
-     "--out "
-     "fast",
+    {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive,reference --set accuracy=fast --seeds 32 "
+     "--drift --out fast",
      "talus bench drop_in_a_pile_2d --policy full,adaptive --set accuracy=fast --seeds 1 --set run.frames=20 --out "
      "fast"},
     {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive --set "
