@@ -133,10 +133,16 @@ template <int Dim>
 void GivenWorld<Dim>::engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const {
   const auto before = static_cast<std::ptrdiff_t>(found.size());
   columns_.query(box, found);
+  const auto larger = [](const Box<Dim>& inner, double margin) {
+    return Box<Dim>(inner.min().array() - margin, inner.max().array() + margin);
+  };
   const auto apart = [&](BodyIndex body) {
-    const Vec<Dim> margin = Vec<Dim>::Constant(box_margin * this->shape_of(body).extent);
-    const Box<Dim> bounds = this->bounds_of(body);
-    return !box.intersects(Box<Dim>(bounds.min() - margin, bounds.max() + margin));
+    const Shape<Dim>& shape = this->shape_of(body);
+    const double margin = box_margin * shape.extent;
+    const double reach = shape.bounds.min().cwiseAbs().cwiseMax(shape.bounds.max().cwiseAbs()).norm();
+    // Most of a column is far above or below: that is seen without turning the shape.
+    return !larger(box, reach + margin).contains(this->states().pose[body].position) ||
+           !box.intersects(larger(this->bounds_of(body), margin));
   };
   found.erase(std::remove_if(found.begin() + before, found.end(), apart), found.end());
 }

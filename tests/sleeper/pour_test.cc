@@ -81,8 +81,8 @@ void expect_as_in_own_world(std::string_view engine, unsigned seeds) {
   EXPECT_LT(std::abs(awake.difference()), 3.0);
 }
 
-TEST(APour, OnBox2dPilesAsInTalussOwnWorld) { expect_as_in_own_world<SleepingBox2dScene>("Box2D", 3); }
-TEST(APour, OnBulletPilesAsInTalussOwnWorld) { expect_as_in_own_world<SleepingBulletScene>("Bullet", 3); }
+TEST(APour, OnBox2dPilesAsInTalussOwnWorld) { expect_as_in_own_world<SleepingBox2dScene>("Box2D", 6); }
+TEST(APour, OnBulletPilesAsInTalussOwnWorld) { expect_as_in_own_world<SleepingBulletScene>("Bullet", 6); }
 TEST(LongPour, OnBox2dPilesAsInTalussOwnWorld) { expect_as_in_own_world<SleepingBox2dScene>("Box2D", 16); }
 TEST(LongPour, OnBulletPilesAsInTalussOwnWorld) { expect_as_in_own_world<SleepingBulletScene>("Bullet", 16); }
 
