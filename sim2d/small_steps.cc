@@ -409,7 +409,7 @@ void SmallSteps::add_ground_ahead(const StepInput& input, b2Body& body) {
   for (const ContactPoint<2>& point : points_) add_ahead(ground, tag, point, body);
 }
 
-/// Unless Box2D has the point, which is one of `body_b` with what `a` is of.
+/// Adds nothing where Box2D already has that point between `body_b` and the owner of `a`.
 void SmallSteps::add_ahead(Tag a, Tag b, ContactPoint<2> point, const b2Body& body_b) {
   const b2Vec2 place = body_b.GetPosition() + from_solver(point.arm_b);
   for (const b2ContactEdge* edge = body_b.GetContactList(); edge != nullptr; edge = edge->next) {

@@ -257,7 +257,7 @@ void SmallSteps<Dim>::add_ahead(Engine& engine, const btCollisionObject& a, cons
   add_new(engine, a, b, point);
 }
 
-/// Unless Bullet has the point.
+/// Adds nothing where Bullet already has that point.
 template <int Dim>
 void SmallSteps<Dim>::add_new(Engine& engine, const btCollisionObject& a, const btCollisionObject& b,
                               ContactPoint<Dim> point) {

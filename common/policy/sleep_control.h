@@ -10,8 +10,8 @@
 namespace talus {
 
 /// Applies a policy to a world: counts its piles, has the policy decide, and carries out its decisions and the
-/// caller's requests, in one place. Piles and policy then get what was done. Bodies fall asleep and wake in no other
-/// way.
+/// caller's requests, in one place. Then it reports the changes to piles and policy. Bodies fall asleep and wake in no
+/// other way.
 template <int Dim>
 class SleepControl {
  public:

@@ -18,7 +18,7 @@ struct VelocityChange {
   Spin<Dim> spin = Spin<Dim>::Zero();    // [rad/s]
 };
 
-/// A policy's decision for one frame: what to do, which is not yet done. In each event the policy sets all but
+/// A policy's decision for one frame: changes that are not made yet. In each event the policy sets all but
 /// `step` and `woke`, which the simulation fills in.
 template <int Dim>
 struct Decision {

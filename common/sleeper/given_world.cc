@@ -140,7 +140,7 @@ void GivenWorld<Dim>::engine_query_box(const Box<Dim>& box, std::vector<BodyInde
     const Shape<Dim>& shape = this->shape_of(body);
     const double margin = box_margin * shape.extent;
     const double reach = shape.bounds.min().cwiseAbs().cwiseMax(shape.bounds.max().cwiseAbs()).norm();
-    // Most of a column is far above or below: that is seen without turning the shape.
+    // Most bodies of a column lie far above or below the box: they are left out before their shape is turned.
     return !larger(box, reach + margin).contains(this->states().pose[body].position) ||
            !box.intersects(larger(this->bounds_of(body), margin));
   };

@@ -18,7 +18,7 @@ void add_bench_command(CLI::App& app, int& exit_code);
 void add_stress_command(CLI::App& app, int& exit_code);
 void add_sweep_command(CLI::App& app, int& exit_code);
 
-/// Where talus is built with Bullet.
+// Where talus is built with Bullet, whose libraries cut meshes into convex parts.
 void add_decompose_command(CLI::App& app, int& exit_code);
 
 // On the messages of runs; where talus is built with LCM.

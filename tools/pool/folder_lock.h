@@ -7,7 +7,7 @@ namespace talus {
 /// The file by which a folder is locked, in that folder.
 inline constexpr const char* lock_file = "lock";
 
-/// Whether there is no such folder yet, or one without anything but a lock.
+/// Whether the folder does not exist, or holds at most a lock.
 bool is_new_folder(const std::filesystem::path& folder);
 
 /// Keeps other commands out of a folder as long as it lives, in processes of other machines too where the file system

@@ -33,7 +33,7 @@ namespace py = pybind11;
 namespace talus {
 namespace {
 
-/// What Python gets of a run besides its states.
+/// What a run collects for Python besides its states.
 struct Wanted {
   bool warnings = false;
   bool contacts = false;      // of each step

@@ -21,7 +21,7 @@ bool is_wanted(const MessageChoice& choice, const LogEvent& event, std::int64_t 
   return time >= choice.from && time <= choice.to;
 }
 
-/// A run may have no message on a channel, as on that of sleep events; a channel may be misspelt.
+/// Not an error: a run without sleep events has no message on TALUS_SLEEP.
 void warn_of_silent_channels(const MessageChoice& choice, const std::set<std::string>& heard) {
   for (const std::string& channel : choice.channels)
     if (!heard.contains(channel))
