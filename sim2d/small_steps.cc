@@ -46,13 +46,11 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description)
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
       dt_(static_cast<float>(description.dt)),
       fast_(description) {
-  bool rolls = false;
   for (const Shape<2>& shape : description.shapes) {
     reaches_.push_back(static_cast<float>(bounding_radius(shape)));
-    arms_.push_back(rolling_arm(shape));
-    rolls = rolls || arms_.back() > 0.0;
+    arms_.push_back(static_cast<float>(rolling_arm(shape)));
   }
-  if (!rolls) arms_.clear();
+  rolls_ = std::ranges::any_of(arms_, [](float arm) { return arm > 0.0F; });
   for (const Obstacle<2>& obstacle : description.obstacles)
     obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
 }
@@ -287,9 +285,12 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
   points_.clear();
   ContactPoint<2> point;
   point.normal = to_solver(place.normal);
+  const float grip = grip_between(input.states, owner_of(*pair.a), owner_of(*pair.b));
   point.friction = pair.friction;
   point.restitution = pair.restitution;
-  if (!arms_.empty()) add_rolling(pair, input, point);
+  if (rolls_) point.rolling_arm = of_pair(pair, input, arms_);
+  if (grip > 0.0F) point.hold(grip, of_pair(pair, input, reaches_));
+  if (point.rolling_arm > 0.0F) add_rolling_impulse(pair, point);
   const b2Vec2 centre_a = centre_of(*pair.a, input.states);
   const b2Vec2 centre_b = centre_of(*pair.b, input.states);
   const VecF<2> tangent = to_solver(b2Cross(place.normal, 1.0F));
@@ -315,12 +316,16 @@ VecF<2> SmallSteps::shift_of(BodyIndex side, const VecF<2>& arm) const {
   return side >= 0 && ring_->has(side) ? ring_->shift(side, arm) : VecF<2>::Zero();
 }
 
-void SmallSteps::add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const {
-  const auto arm_of = [&](b2Fixture& fixture) {
+/// A length by shape, for both bodies of a pair.
+float SmallSteps::of_pair(const Fixtures& pair, const StepInput& input, std::span<const float> lengths) {
+  const auto of = [&](b2Fixture& fixture) {
     const BodyIndex owner = owner_of(fixture);
-    return owner >= 0 ? std::optional(arms_[input.states.shape[owner]]) : std::optional<double>();
+    return owner >= 0 ? std::optional<double>(lengths[input.states.shape[owner]]) : std::nullopt;
   };
-  point.rolling_arm = static_cast<float>(arm_of_pair(arm_of(*pair.a), arm_of(*pair.b)));
+  return static_cast<float>(arm_of_pair(of(*pair.a), of(*pair.b)));
+}
+
+void SmallSteps::add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const {
   const Tag a = tag_of(*pair.a);
   const Tag b = tag_of(*pair.b);
   const auto key = [](const Rolling& each) { return std::tuple(each.low, each.high); };

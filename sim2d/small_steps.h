@@ -115,7 +115,8 @@ class SmallSteps {
   static Fixtures fixtures_of(b2Contact& contact);
   std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
                                              const b2WorldManifold& place, const StepInput& input);
-  void add_rolling(const Fixtures& pair, const StepInput& input, ContactPoint<2>& point) const;
+  static float of_pair(const Fixtures& pair, const StepInput& input, std::span<const float> lengths);
+  void add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const;
   int moving_slot(BodyIndex owner) const;
   Mover mover_of(b2Fixture& fixture) const;
   void find_ahead(b2World& world, const StepInput& input, b2Body& body, bool first);
@@ -132,7 +133,8 @@ class SmallSteps {
   ContactSolverParams params_;
   float dt_;
   FastBodies<2> fast_;
-  std::vector<double> arms_;    // by shape [m]; empty: no rolling friction
+  std::vector<float> arms_;     // by shape, see rolling_arm() [m]
+  bool rolls_ = false;          // a shape has rolling friction
   std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
   ContactSolver<2> solver_;
   Collision collision_;

@@ -6,7 +6,6 @@ namespace {
 void set_common(btCollisionObject& object, const Surface& surface, BodyIndex index) {
   object.setFriction(surface.friction);
   object.setRestitution(surface.restitution);
-  object.setSpinningFriction(surface.rolling_arm);  // for SmallSteps; Bullet uses it only beside its rolling friction
   object.setUserIndex(index);
 }
 

@@ -195,7 +195,6 @@ BodyTemplate make_body_template(const Shape<Dim>& shape, double mass_scale) {
   set_inertia(made, Inertia<Dim>(mass_scale * shape.inertia));
   made.surface.friction = static_cast<btScalar>(pair_friction(shape.material.friction, 1.0));  // Bullet multiplies both
   made.surface.restitution = static_cast<btScalar>(std::sqrt(shape.material.restitution));
-  made.surface.rolling_arm = static_cast<btScalar>(rolling_arm(shape));
   made.inner_radius = static_cast<btScalar>(0.5 * least_width(shape));
   made.sweep_from = made.inner_radius;
   return made;

@@ -21,7 +21,6 @@ double mass_scale(std::span<const Shape<Dim>> shapes);
 struct Surface {
   btScalar friction = 0;
   btScalar restitution = 0;
-  btScalar rolling_arm = 0;  // see arm_of_pair() [m]
 };
 
 /// All that a body of one Shape needs from it; made once and shared by its bodies.

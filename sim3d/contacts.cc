@@ -53,7 +53,7 @@ void Contacts<Dim>::append(const Touch& touch, std::vector<Contact<Dim>>& contac
   for (int i = 0; i < touch.manifold->getNumContacts(); ++i) {
     const btManifoldPoint& point = touch.manifold->getContactPoint(i);
     const btScalar push = small_steps_ ? impulse_of_step(point) : point.m_appliedImpulse;
-    if (point.getDistance() > 0 && push <= 0) continue;
+    if (point.getDistance() > 0 && push == 0) continue;
     const btVector3 normal = touch.swap ? -point.m_normalWorldOnB : point.m_normalWorldOnB;  // from second to first
     const btVector3 friction = small_steps_ ? friction_of_step(point) : friction_impulse(point);
     const btVector3& where = point.getPositionWorldOnB();

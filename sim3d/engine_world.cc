@@ -41,9 +41,10 @@ btVector3 gravity_of(const WorldDescription<Dim>& description) {
 
 /// Null: Bullet's own solver is to be used.
 template <int Dim>
-std::unique_ptr<SmallSteps<Dim>> make_small_steps(const WorldDescription<Dim>& description) {
+std::unique_ptr<SmallSteps<Dim>> make_small_steps(const WorldDescription<Dim>& description,
+                                                  const BodyStates<Dim>& states) {
   if (!description.solver.small_steps()) return nullptr;
-  return std::make_unique<SmallSteps<Dim>>(description, fastest_spin(description.dt));
+  return std::make_unique<SmallSteps<Dim>>(description, fastest_spin(description.dt), states);
 }
 
 template <int Dim>
@@ -60,7 +61,7 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     : RingWorld<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
       engine_(gravity_of(description), description.solver, description.debug),
-      small_steps_(make_small_steps(description)) {
+      small_steps_(make_small_steps(description, this->states())) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
     if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;

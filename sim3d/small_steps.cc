@@ -85,17 +85,13 @@ void append_manifolds(const btBroadphasePair& pair, btManifoldArray& manifolds) 
     pair.m_algorithm->getAllContactManifolds(manifolds);
 }
 
-/// The arm of an object; none of what is no body.
-std::optional<double> arm_of(const btCollisionObject& object) {
-  if (object.getUserIndex() < 0) return std::nullopt;
-  return static_cast<double>(object.getSpinningFriction());
-}
-
 }  // namespace
 
 template <int Dim>
-SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fastest_spin)
-    : params_{.sub_steps = description.solver.sub_steps,
+SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fastest_spin,
+                            const BodyStates<Dim>& states)
+    : states_(states),
+      params_{.sub_steps = description.solver.sub_steps,
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
       dt_(static_cast<float>(description.dt)),
       fastest_spin_(static_cast<float>(fastest_spin)),
@@ -104,7 +100,8 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
   for (const Shape<Dim>& shape : description.shapes) {
     smallest = std::min(smallest, shape.extent);
     reaches_.push_back(static_cast<float>(bounding_radius(shape)));
-    rolling_friction_ = rolling_friction_ || shape.material.rolling_friction > 0.0;
+    arms_.push_back(static_cast<float>(rolling_arm(shape)));
+    rolls_ = rolls_ || arms_.back() > 0.0F;
   }
   one_point_ = static_cast<float>(one_point * smallest);
   obstacle_slots_.assign(description.obstacles.size(), 0);
@@ -249,7 +246,7 @@ void SmallSteps<Dim>::add_ahead(Engine& engine, const btCollisionObject& a, cons
   point.gap = found.gap;
   point.friction = btManifoldResult::calculateCombinedFriction(&a, &b);
   point.restitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
-  if (rolling_friction_) point.rolling_arm = static_cast<float>(arm_of_pair(arm_of(b), arm_of(a)));
+  hold_together(a, b, point);
   if constexpr (Dim == 2)
     for (const Ahead& each : ahead_)
       if (each.a == &a && each.b == &b && (each.point.arm_b - point.arm_b).cwiseAbs().maxCoeff() < one_point_) return;
@@ -382,7 +379,6 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
   const btCollisionObject& object_b = *manifold.getBody0();
   const btVector3& centre_a = object_a.getWorldTransform().getOrigin();
   const btVector3& centre_b = object_b.getWorldTransform().getOrigin();
-  const double arm = rolling_friction_ ? arm_of_pair(arm_of(object_b), arm_of(object_a)) : 0.0;
   const auto first = static_cast<int>(parts_.size());
   SpinF<Dim> rolling = SpinF<Dim>::Zero();
   contacts_.clear();
@@ -400,14 +396,31 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
     contact.gap = point.getDistance();
     if (ring_) contact.gap += contact.normal.dot(shift_of(object_b, contact.arm_b) - shift_of(object_a, contact.arm_a));
     contact.friction = point.m_combinedFriction;
-    contact.rolling_arm = static_cast<float>(arm);
+    hold_together(object_a, object_b, contact);
     contact.restitution = point.m_combinedRestitution;
     contact.normal_impulse = point.m_appliedImpulse;
     contact.friction_impulse = to_solver<Dim>(friction_impulse(point));
-    if (arm > 0.0) rolling += rolling_of(point, last_step);
+    if (contact.rolling_arm > 0.0F) rolling += rolling_of(point, last_step);
     sources_.push_back({&point, collect(contact, first)});
   }
   if (!contacts_.empty()) contacts_[0].rolling_impulse = rolling;
+}
+
+/// Rolling friction, and the grip of the bodies.
+template <int Dim>
+void SmallSteps<Dim>::hold_together(const btCollisionObject& a, const btCollisionObject& b,
+                                    ContactPoint<Dim>& point) const {
+  if (!rolls_ && states_.grip.empty()) return;
+  const auto of_pair = [&](const std::vector<float>& lengths) {
+    const auto of = [&](const btCollisionObject& object) {
+      const BodyIndex body = object.getUserIndex();
+      return body >= 0 ? std::optional<double>(lengths[states_.shape[body]]) : std::nullopt;
+    };
+    return static_cast<float>(arm_of_pair(of(b), of(a)));
+  };
+  if (rolls_) point.rolling_arm = of_pair(arms_);
+  const float grip = grip_between(states_, a.getUserIndex(), b.getUserIndex());
+  if (grip > 0.0F) point.hold(grip, of_pair(reaches_));
 }
 
 /// Of a sleeper's point, which Bullet does not know.
@@ -455,7 +468,7 @@ void SmallSteps<Dim>::write_points() {
     set_friction_impulse(point, from_solver<Dim>(share * contact.friction_impulse));
     set_impulse_of_step(point, share * contact.normal_sum, from_solver<Dim>(share * contact.friction_sum));
   }
-  if (!rolling_friction_) return;
+  if (!rolls_ && states_.grip.empty()) return;
   // Bullet keeps the mark when it finds the point again in the next step, and calls nothing when the point ends.
   static_assert(sizeof(std::uintptr_t) == 8);
   for (const Source& source : sources_) {

@@ -27,8 +27,8 @@ namespace talus::bullet {
 template <int Dim>
 class SmallSteps {
  public:
-  /// `fastest_spin`: to which a body's is cut [rad/s].
-  SmallSteps(const WorldDescription<Dim>& description, double fastest_spin);
+  /// `fastest_spin`: to which a body's is cut [rad/s]. `states`: of the world, which outlive this.
+  SmallSteps(const WorldDescription<Dim>& description, double fastest_spin, const BodyStates<Dim>& states);
 
   void share_among(const std::shared_ptr<Team>& team) { solver_.share_among(team); }
 
@@ -93,6 +93,7 @@ class SmallSteps {
   void collect(btPersistentManifold& manifold, std::uint32_t last_step);
   int collect(const ContactPoint<Dim>& contact, int first);
   void keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep);
+  void hold_together(const btCollisionObject& a, const btCollisionObject& b, ContactPoint<Dim>& point) const;
   VecF<Dim> shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const;
   int slot_of(const btCollisionObject& object);
   void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
@@ -105,12 +106,14 @@ class SmallSteps {
     int contact;
   };
 
+  const BodyStates<Dim>& states_;
   ContactSolverParams params_;
   float dt_;
-  float fastest_spin_;             // [rad/s]
-  float one_point_ = 0.0F;         // points of a planar pair that are nearer are one [m]
-  bool rolling_friction_ = false;  // of a shape
-  std::vector<float> reaches_;     // by shape: from the centre to any point of it at most [m]
+  float fastest_spin_;          // [rad/s]
+  float one_point_ = 0.0F;      // points of a planar pair that are nearer are one [m]
+  std::vector<float> arms_;     // by shape, see rolling_arm() [m]
+  bool rolls_ = false;          // a shape has rolling friction
+  std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
   ContactSolver<Dim> solver_;
   std::optional<Ring<Dim>> ring_;
   FastBodies<Dim> fast_;

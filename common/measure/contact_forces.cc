@@ -57,7 +57,7 @@ std::vector<ContactForce<Dim>> ContactForces<Dim>::of(const World<Dim>& world) c
   std::vector<ContactForce<Dim>> forces;
   if (!wanted_) return forces;
   const auto add = [&](const Contact<Dim>& contact) {
-    if (contact.normal_impulse <= 0.0 || removed(states, contact)) return;  // near, but without force
+    if (contact.normal_impulse == 0.0 || removed(states, contact)) return;  // near, but without force
     forces.push_back({.a = contact.a,
                       .b = contact.b,
                       .point = contact.point,

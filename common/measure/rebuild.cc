@@ -27,6 +27,7 @@ std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const Wor
     world->add({states.shape[body], states.pose[body],
                 limited(states.velocity[body], fastest_speed<Dim>(description.dt, description.units)),
                 limited(states.spin[body], fastest_spin(description.dt))});
+    if (body < std::ssize(states.grip) && !states.removed[body]) world->set_grip(body, states.grip[body]);
     if (states.removed[body])
       world->remove(body);
     else if (states.asleep[body])

@@ -25,7 +25,7 @@ template <int Dim>
 void RegionMeter<Dim>::note_contacts(const World<Dim>& world) {
   touches_ = world.states().asleep;
   for (const Contact<Dim>& contact : world.contacts()) {
-    if (contact.normal_impulse <= 0.0) continue;
+    if (contact.normal_impulse == 0.0) continue;
     touches_[contact.a] = 1;
     if (contact.b >= 0) touches_[contact.b] = 1;
   }

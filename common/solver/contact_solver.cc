@@ -34,6 +34,7 @@ constexpr float carry = 2.0F;         // an impulse is carried into the next sub
 constexpr int first_passes = 2;       // of the first sub-step, in which contacts begin
 constexpr int bounce_passes = 4;
 constexpr int deep_passes = 3;
+constexpr float cohesive_reach = 0.01F;  // gap over which bodies attract each other [m]
 constexpr float deepest = 0.04F;    // overlap that a spring sees at most [m]: that of a hundred times a body's weight.
                                     // Two that press on a body from both sides would else grow without end
 constexpr float deep_share = 0.2F;  // of a deep overlap, moved apart in each of them
@@ -263,7 +264,7 @@ float ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int 
   if (point.restitution > 0.0F && point.approach_speed > params.restitution_threshold)
     to.bounce.v[lane] = -point.restitution * point.approach_speed;
   const float share = 1.0F / static_cast<float>(params.sub_steps);
-  to.impulse.v[lane] = to.before.v[lane] = share * point.normal_impulse;
+  to.impulse.v[lane] = to.before.v[lane] = share * point.pressing_impulse();
   for (int i = 0; i < Dim - 1; ++i)
     to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] = share * point.friction_impulse.dot(tangents[i]);
   return gain * stiff * of_contact.rate;
@@ -296,7 +297,7 @@ void ContactSolver<Dim>::Work::load_bodies() {
   for (const ContactPoint<Dim>& point : points) {
     if (point.normal_impulse == 0.0F && point.rolling_arm == 0.0F) continue;
     // Friction lies in the plane of contact, as it was loaded.
-    VecF<Dim> impulse = share * point.normal_impulse * point.normal;
+    VecF<Dim> impulse = share * point.pressing_impulse() * point.normal;
     for (const VecF<Dim>& tangent : tangents_of(point.normal))
       impulse += share * point.friction_impulse.dot(tangent) * tangent;
     const SpinF<Dim> twist = point.rolling_arm > 0.0F ? SpinF<Dim>(share * point.rolling_impulse) : SpinF<Dim>::Zero();
@@ -317,7 +318,7 @@ void ContactSolver<Dim>::Work::begin_sub_step(const VecF<Dim>& gravity, std::spa
                                               const Places& region) {
   for (const Push& push : pushes)
     if (const int at = sets.place(push.slot); at >= region.first && at < region.last)
-      add_to<Dim>(&velocity[quads * at], h * push.acceleration, SpinF<Dim>::Zero());
+      add_to<Dim>(&velocity[quads * at], h * push.acceleration, h * push.turning);
   std::array<Quad, quads> fall{};
   set<Dim>(fall.data(), h * gravity, SpinF<Dim>::Zero());
   for (int i = region.first; i < region.last; ++i) {
@@ -464,8 +465,8 @@ void ContactSolver<Dim>::Work::read_points(const Share& share) {
       const auto tangents = tangents_of(point.normal);
       const bool bounced = from.bounce.v[lane] < 0.0F && from.highest.v[lane] > 0.0F;
       const float kept = bounced ? 0.0F : times;
-      point.normal_sum = from.sum.v[lane];
-      point.normal_impulse = kept * from.impulse.v[lane];
+      point.normal_sum = from.sum.v[lane] - point.attraction;
+      point.normal_impulse = bounced ? 0.0F : times * from.impulse.v[lane] - point.attraction;
       point.friction_sum = from.tangent_sum[0].v[lane] * tangents[0];
       point.friction_impulse = kept * from.tangent_impulse[0].v[lane] * tangents[0];
       if constexpr (Dim == 3) {
@@ -490,11 +491,40 @@ void ContactSolver<Dim>::start() {
   bodies_.resize(1);
   points_.clear();
   pushes_.clear();
+  cohesive_ = false;
+}
+
+/// Cohesion is a force that pulls both bodies of a pair together at the points where they touch. So their impulses
+/// become larger by it, and with them what friction and rolling friction hold.
+template <int Dim>
+void ContactSolver<Dim>::attract(float gravity, float dt) {
+  const auto touches = [](const ContactPoint<Dim>& point) { return point.gap < cohesive_reach; };
+  for (auto first = points_.begin(); first != points_.end();) {
+    const auto last = std::find_if(first, points_.end(),
+                                   [&](const ContactPoint<Dim>& p) { return p.a != first->a || p.b != first->b; });
+    const auto touching = static_cast<float>(first->cohesion > 0.0F ? std::count_if(first, last, touches) : 0);
+    for (auto point = first; point != last && touching > 0.0F; ++point) {
+      if (!touches(*point)) continue;
+      const float weight = gravity / std::max(bodies_[point->a].inverse_mass, bodies_[point->b].inverse_mass);
+      const float size = point->cohesion * weight / touching;
+      point->attraction = dt * size;
+      pull(point->a, point->arm_a, size * point->normal);
+      pull(point->b, point->arm_b, -size * point->normal);
+    }
+    first = last;
+  }
+}
+
+template <int Dim>
+void ContactSolver<Dim>::pull(int slot, const VecF<Dim>& arm, const VecF<Dim>& force) {
+  const SolverBody<Dim>& body = bodies_[slot];
+  if (body.moves) pushes_.push_back({slot, body.inverse_mass * force, body.inverse_inertia * torque(arm, force)});
 }
 
 template <int Dim>
 void ContactSolver<Dim>::solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt) {
   Work& work = *work_;
+  if (cohesive_) attract(gravity.norm(), dt);
   work.bodies = bodies_;
   work.points = points_;
   work.params = params;

@@ -1,6 +1,7 @@
 #pragma once
 // The contact solver of all engines: small steps with soft contacts.
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,13 +26,29 @@ struct ContactPoint {
   float gap = 0.0F;  // at the start of the step; overlap is negative [m]
   float friction = 0.0F;
   float restitution = 0.0F;
+  float cohesion = 0.0F;  // attraction of the pair where it touches, over the weight of the lighter body
   float rolling_arm =
       0.0F;  // largest torque against relative spin, over the normal force [m]; of the pair's first point
 
+  /// Raises what holds its bodies together by the `grip` of the pair (World::set_grip()). `rolling_arm` without the
+  /// grip is set before; `radius`: of the pair's bounding spheres, as arm_of_pair() has it [m].
+  void hold(float grip, float radius) {
+    constexpr float cohesion_of_grip = 8.0F;
+    friction += grip;
+    rolling_arm += grip * radius;
+    cohesion = cohesion_of_grip * grip;
+  }
+
   // Carried in and out.
-  float normal_impulse = 0.0F;                      // [N s]
+  float normal_impulse = 0.0F;                      // below 0 where cohesion holds [N s]
   VecF<Dim> friction_impulse = VecF<Dim>::Zero();   // in the world's axes [N s]
   SpinF<Dim> rolling_impulse = SpinF<Dim>::Zero();  // of the pair's first point [N m s]
+
+  // In the step.
+  float attraction = 0.0F;  // impulse of the cohesion [N s]
+  /// With which the surfaces press on each other at the start: what is carried and what balances the attraction. A
+  /// point that begins starts without, else the bodies would not attract each other until the solver has taken it back.
+  float pressing_impulse() const { return normal_impulse == 0.0F ? 0.0F : std::max(0.0F, normal_impulse + attraction); }
 
   // After the step.
   float normal_sum = 0.0F;                     // impulse of the whole step [N s]
@@ -73,7 +90,11 @@ class ContactSolver {
     bodies_.push_back(body);
     return static_cast<int>(bodies_.size()) - 1;
   }
-  void add(const ContactPoint<Dim>& point) { points_.push_back(point); }
+  void add(const ContactPoint<Dim>& point) {
+    points_.push_back(point);
+    points_.back().attraction = 0.0F;
+    cohesive_ = cohesive_ || point.cohesion > 0.0F;
+  }
   /// Returns a slot for the surface of an obstacle that moves along itself, at a point with this normal.
   int add_belt(const VecF<Dim>& velocity, const VecF<Dim>& normal) {
     SolverBody<Dim> belt;
@@ -81,7 +102,7 @@ class ContactSolver {
     return add(belt);
   }
   /// Accelerates a body throughout the step [m/s^2], beside gravity.
-  void push(int slot, const VecF<Dim>& acceleration) { pushes_.push_back({slot, acceleration}); }
+  void push(int slot, const VecF<Dim>& acceleration) { pushes_.push_back({slot, acceleration, SpinF<Dim>::Zero()}); }
 
   /// Advances velocities by `dt` [s] under `gravity` [m/s^2]. The caller moves the bodies by `way` and `turn`.
   void solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt);
@@ -97,11 +118,16 @@ class ContactSolver {
   struct Push {
     int slot = 0;
     VecF<Dim> acceleration = VecF<Dim>::Zero();  // [m/s^2]
+    SpinF<Dim> turning = SpinF<Dim>::Zero();     // [rad/s^2]
   };
+
+  void attract(float gravity, float dt);
+  void pull(int slot, const VecF<Dim>& arm, const VecF<Dim>& force);
 
   std::vector<SolverBody<Dim>> bodies_;
   std::vector<ContactPoint<Dim>> points_;
   std::vector<Push> pushes_;
+  bool cohesive_ = false;  // some point
   std::unique_ptr<Work> work_;
   std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
 };

@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// Gives World what it needs to know of the ring.
+/// Gives World what it needs to know of the ring and of the grip of bodies.
 template <int Dim>
 class RingWorld : public World<Dim> {
  protected:
@@ -22,6 +22,7 @@ class RingWorld : public World<Dim> {
   /// Of the impulses in the solver [N s].
   virtual double impulse_unit() const = 0;
 
+  void engine_set_grip(BodyIndex /*body*/, double /*grip*/) final {}  // the solver takes it from states()
   std::span<const BodyIndex> engine_stirred() const final {
     return ring() != nullptr ? ring()->stirred() : std::span<const BodyIndex>();
   }

@@ -1,6 +1,7 @@
 #pragma once
 // Bodies as dense indices with their state in arrays by field.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -44,9 +45,19 @@ struct BodyStates {
   std::vector<Spin<Dim>> spin;        // [rad/s]
   std::vector<std::uint8_t> asleep;   // 1: costs nothing until thawed (or woken by the engine's own rule)
   std::vector<std::uint8_t> removed;  // 1: no longer in the world; its other entries stay as they last were
+  std::vector<float> grip;            // see World::set_grip(); shorter: 0 for the others
 
   BodyIndex size() const { return static_cast<BodyIndex>(shape.size()); }
 };
+
+/// Of a contact between two sides, each a body, the ground or an obstacle: the larger grip of its bodies.
+template <int Dim>
+float grip_between(const BodyStates<Dim>& states, BodyIndex a, BodyIndex b) {
+  const auto of = [&](BodyIndex side) {
+    return side >= 0 && side < std::ssize(states.grip) ? states.grip[side] : 0.0F;
+  };
+  return std::max(of(a), of(b));
+}
 
 /// One point of contact of an awake body after a step.
 template <int Dim>
@@ -55,7 +66,7 @@ struct Contact {
   BodyIndex b = ground_index;                    // awake or sleeping body, ground or obstacle
   Vec<Dim> point = Vec<Dim>::Zero();             // [m], in the world's axes
   Vec<Dim> normal = Vec<Dim>::Zero();            // unit, from b to a
-  double normal_impulse = 0.0;                   // [N s] over the step, >= 0
+  double normal_impulse = 0.0;                   // [N s] over the step, below 0 where a grip pulls
   Vec<Dim> friction_impulse = Vec<Dim>::Zero();  // [N s] over the step, on a
   double approach_speed = 0.0;                   // [m/s] at which the two came together before the step, >= 0
   double depth = 0.0;                            // [m], positive where they overlap

@@ -86,6 +86,10 @@ class PeriodicWorld final : public World<Dim> {
     for (int image = 0; image < images(); ++image) inner_->set_velocity(inner(body, image), velocity, spin);
   }
 
+  void engine_set_grip(BodyIndex body, double grip) override {
+    for (int image = 0; image < images(); ++image) inner_->set_grip(inner(body, image), grip);
+  }
+
   /// Calls do_it(number in the inner world, how far it is from the obstacle).
   template <typename Do>
   void for_each_image(int obstacle, Do do_it) const {

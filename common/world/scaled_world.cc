@@ -54,6 +54,7 @@ class ScaledWorld final : public World<Dim> {
   void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) override {
     inner_->set_velocity(body, times_ * velocity, spin / times_);
   }
+  void engine_set_grip(BodyIndex body, double grip) override { inner_->set_grip(body, grip); }
   void engine_move_obstacle(int number, const Pose<Dim>& to, const Vec<Dim>& /*velocity*/,
                             const Spin<Dim>& /*spin*/) override {
     inner_->move_obstacle(number, inward(to));

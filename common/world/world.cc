@@ -223,6 +223,21 @@ void World<Dim>::push(BodyIndex body, const Vec<Dim>& force) {
 }
 
 template <int Dim>
+void World<Dim>::set_grip(BodyIndex body, double grip) {
+  require_present(body);
+  require(grip >= 0.0 && std::isfinite(grip), "grip", grip, "must be >= 0 and finite");
+  require(grip == 0.0 || description_.solver.small_steps(), "grip", grip, "must be 0 unless the solver is small_steps");
+  engine_set_grip(body, grip);
+  if (std::ssize(states_.grip) <= body) states_.grip.resize(body + 1, 0.0F);
+  states_.grip[body] = static_cast<float>(grip);
+}
+
+template <int Dim>
+void World<Dim>::engine_set_grip(BodyIndex /*body*/, double grip) {
+  require(grip == 0.0, "grip", grip, "must be 0: the bodies of this engine have none");
+}
+
+template <int Dim>
 void World<Dim>::freeze(std::span<const BodyIndex> bodies) {
   choose(bodies, false);
   if (chosen_.empty()) return;

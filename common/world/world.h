@@ -88,6 +88,11 @@ class World {
   /// A force on the centre of mass of an awake body throughout the next step [N], in addition to others. Only with the
   /// solver `small_steps`.
   void push(BodyIndex body, const Vec<Dim>& force);
+  /// Makes a body hold on to what it touches, from the next step on and until it is set anew, see ContactPoint::hold():
+  /// the coefficient of friction of its contacts is higher by `grip` [-], and so is that of rolling friction, and both
+  /// bodies attract each other. Between two bodies the larger grip counts. The contacts of a sleeping body keep what
+  /// they had as it fell asleep. Only with the solver `small_steps`.
+  void set_grip(BodyIndex body, double grip);
   /// What push() has added for the next step.
   std::span<const Push<Dim>> pushes() const { return pushes_; }
 
@@ -241,6 +246,9 @@ class World {
   virtual Pose<Dim> engine_place(BodyIndex body, const Pose<Dim>& pose);
   virtual void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
 
+  /// An engine whose bodies can have no grip throws. One that has takes it from states() in each step.
+  virtual void engine_set_grip(BodyIndex body, double grip);
+
   /// Before a step: gives an obstacle that may move the velocity of its centre and the spin that take it to its next
   /// pose. An engine without moving obstacles throws.
   virtual void engine_move_obstacle(int number, const Pose<Dim>& to, const Vec<Dim>& velocity, const Spin<Dim>& spin);
@@ -310,6 +318,15 @@ class World {
   bool record_contacts_ = false;
   bool has_ring_ = false;
 };
+
+/// sqrt(D/g) [s], the time in which a body falls by D/2, of a body of `extent` D [m] in the world's present gravity:
+/// the unit of the times of rules. In less than a thousandth of the Earth's gravity it no longer grows, since there
+/// nothing slides.
+template <int Dim>
+double time_unit(double extent, const World<Dim>& world) {
+  constexpr double least_gravity = 0.01;  // [m/s^2]
+  return std::sqrt(extent / std::max(world.gravity_size(), least_gravity));
+}
 
 /// Makes an empty world of some engine.
 template <int Dim>

@@ -81,6 +81,15 @@ TYPED_TEST(WrongCall, ThatGivesAFrozenBodyAVelocityIsRefused) {
   EXPECT_EQ(this->velocity_error(1, up<TypeParam::dim>(1.0)), "body = 1: must be awake to get a velocity");
 }
 
+TYPED_TEST(WrongCall, WithAGripThatIsNoneIsRefused) {
+  for (const double grip : {-0.5, nan, infinite}) {
+    const std::string error = this->error_of([&] { this->world->set_grip(0, grip); });
+    EXPECT_TRUE(error.ends_with("must be >= 0 and finite")) << error;
+  }
+  const std::string error = this->error_of([&] { this->world->set_grip(0, 0.5); });
+  EXPECT_TRUE(error.starts_with(TypeParam::small_steps ? "no error" : "grip = 0.5: must be 0")) << error;
+}
+
 TYPED_TEST(WrongCall, WithAVelocityThatIsNoNumberIsRefused) {
   EXPECT_EQ(this->velocity_error(0, nan * Vec<TypeParam::dim>::Ones()), "body.velocity[0] = nan: must be finite");
   EXPECT_EQ(this->velocity_error(0, Vec<TypeParam::dim>::Constant(infinite)), "body.velocity[0] = inf: must be finite");

@@ -28,6 +28,7 @@ class StillWorld final : public World<Dim> {
   EngineTimes engine_step() override { return {}; }
   std::optional<BodyIndex> engine_read(BodyStates<Dim>&) override { return std::nullopt; }
   void engine_set_velocity(BodyIndex, const Vec<Dim>&, const Spin<Dim>&) override {}
+  void engine_set_grip(BodyIndex, double) override {}
   void engine_freeze(std::span<const BodyIndex>) override {}
   void engine_thaw(std::span<const BodyIndex>) override {}
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override {

@@ -26,15 +26,6 @@ struct RuleSetup {
   const WorldDescription<Dim>& world;
 };
 
-/// sqrt(D/g) [s], the time in which a body falls by D/2, of a body of `extent` D [m] in the world's present gravity:
-/// the unit of the policy's times. In less than a thousandth of the Earth's gravity it no longer grows, since there
-/// nothing slides.
-template <int Dim>
-double time_unit(double extent, const World<Dim>& world) {
-  constexpr double least_gravity = 0.01;  // [m/s^2]
-  return std::sqrt(extent / std::max(world.gravity_size(), least_gravity));
-}
-
 /// One finished step; references are valid during one update().
 template <int Dim>
 struct RuleInput {
