@@ -54,13 +54,6 @@ int nearest_pile(std::span<const Pile<Dim>> piles, const Vec<Dim>& point) {
 }
 
 template <int Dim>
-double controlled_slope(std::span<const Pile<Dim>> piles, const Vec<Dim>& point) {
-  const int pile = nearest_pile(piles, point);
-  if (pile < 0 || !piles[pile].slope_controlled) return 0.0;
-  return piles[pile].alpha;
-}
-
-template <int Dim>
 Pile<Dim> make_pile(const Vec<Dim>& centre, double alpha, double structure_size, const TypicalBody& body,
                     const std::optional<Boundary<Dim>>& boundary) {
   Pile<Dim> pile;
@@ -132,8 +125,6 @@ template struct Pile<2>;
 template struct Pile<3>;
 template int nearest_pile(std::span<const Pile<2>>, const Vec<2>&);
 template int nearest_pile(std::span<const Pile<3>>, const Vec<3>&);
-template double controlled_slope(std::span<const Pile<2>>, const Vec<2>&);
-template double controlled_slope(std::span<const Pile<3>>, const Vec<3>&);
 template Pile<2> make_pile(const Vec<2>&, double, double, const TypicalBody&, const std::optional<Boundary<2>>&);
 template Pile<3> make_pile(const Vec<3>&, double, double, const TypicalBody&, const std::optional<Boundary<3>>&);
 

@@ -54,7 +54,7 @@ template <int Dim>
 struct Pile {
   Vec<Dim> centre = Vec<Dim>::Zero();     // middle of the base [m]
   double alpha = 0.0;                     // slope [rad]
-  bool slope_controlled = false;          // whether `adaptive` holds the pile at alpha (PileParams::control_slope)
+  bool slope_controlled = false;          // whether the pile is held at alpha (PileParams::control_slope)
   double structure_size = 0.0;            // N of section 3.1: how many bodies the structure has room for
   double lift = 0.0;                      // height of the part with upright sides; 0 without walls [m]
   double height = 0.0;                    // h, lift included [m]
@@ -85,10 +85,6 @@ inline Pile<3> in_space(const Pile<3>& pile) { return pile; }
 /// Number of the pile that a point belongs to: of the piles that reach it the one with the nearest axis; -1: none.
 template <int Dim>
 int nearest_pile(std::span<const Pile<Dim>> piles, const Vec<Dim>& point);
-
-/// Slope [rad] of the nearest pile if it is controlled; else 0.
-template <int Dim>
-double controlled_slope(std::span<const Pile<Dim>> piles, const Vec<Dim>& point);
 
 /// An empty structure with room for `structure_size` bodies (section 3.1): k = max(1, floor(h / D)) layers of equal
 /// thickness h / k, so that their volumes sum to N v_obj. Within walls the base grows until it touches the nearest

@@ -21,9 +21,9 @@ inline constexpr auto pile_fields = std::to_array<Field<PileParams<Dim>>>({
     {place_of<&PileParams<Dim>::control_slope>,
      {.name = "control_slope",
       .meaning =
-          "whether `adaptive` holds the pile at `alpha_deg`, which must then be given, where that is steeper than "
-          "the angle of repose ([how](method.md#slope-control)). It damps the bodies, which no real force does, "
-          "and the pile sinks once it is woken as a whole. Not within walls"}},
+          "whether raised friction and attraction of its bodies hold the pile at `alpha_deg`, which must then be "
+          "given, where that is steeper than the angle of repose ([how](method.md#slope-control)). Not within walls; "
+          "without effect with the engines' own solvers"}},
     {place_of<&PileParams<Dim>::at>,
      {.name = "at",
       .type = "point",

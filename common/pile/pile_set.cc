@@ -25,7 +25,7 @@ constexpr double min_slope_change = std::numbers::pi / 180.0;  // [rad]; less is
 template <int Dim>
 PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body) : body_(body) {
   for (const PileParams<Dim>& pile : params) {
-    needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true) || !pile.alpha;
+    needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true) || !pile.alpha || pile.control_slope;
     if (pile.at)
       add_pile(pile, *pile.at);
     else

@@ -34,10 +34,7 @@ bool needs_rings(const Scene<Dim>& scene) {
 template <int Dim>
 int usual_rings_of(const Scene<Dim>& scene, const Accuracy& level) {
   if (!scene.world.solver.small_steps()) return 0;
-  if (needs_rings(scene)) return usual_rings;
-  // Steeper than their friction holds, sleeping bodies that feel forces slide.
-  if (std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope)) return 0;
-  return level.rings;
+  return needs_rings(scene) ? usual_rings : level.rings;
 }
 
 }  // namespace

@@ -93,29 +93,12 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .range = between(0.0, 89.0),
       .meaning = "slope from the top of one column to the top of the next from which bodies may slide. Low: plains "
                  "wake; high: heaps become too steep"}},
-    {place_of<&AdaptiveParams::slope_proportional_gain>,
-     {.name = "slope_proportional_gain",
-      .unit = "sqrt(g/D)",
-      .range = between(0.0, 1e6),
-      .meaning =
-          "in a pile with `control_slope`: damping of bodies in contact, per radian of missing slope. Low: late; "
-          "high: a thin tower on a broad foot"}},
-    {place_of<&AdaptiveParams::slope_integral_gain>,
-     {.name = "slope_integral_gain",
-      .unit = "g/D",
-      .range = between(0.0, 1e6),
-      .meaning = "growth of that damping in a second, per radian of missing slope. Low: piles too flat; high: waves"}},
-    {place_of<&AdaptiveParams::slope_max_damping>,
-     {.name = "slope_max_damping",
-      .unit = "sqrt(g/D)",
-      .range = between(0.0, 1e6),
-      .meaning = "the largest damping. Low: piles too flat; high: bodies stick wherever they touch"}},
     {place_of<&AdaptiveParams::rings>,
      {.name = "rings",
       .range = between(0.0, 100.0),
       .default_text =
-          "by `accuracy`; 0 with `control_slope`; 2 in any case where an obstacle or gravity moves, events happen or "
-          "loads are measured; 0 without `small_steps`",
+          "by `accuracy`; 2 in any case where an obstacle or gravity moves, events happen or loads are measured; 0 "
+          "without `small_steps`",
       .meaning = "sleeping bodies up to this number of contacts from what moves take part in the contact solve, and "
                  "wake when it moves them; impacts, lost supports, avalanches and stability checks then wake none. 0: "
                  "none does. 1: momentum and loads pass on too slowly; 3 and more: slow. Only with the solver "

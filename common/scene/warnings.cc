@@ -126,10 +126,8 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
   warn_of_unused_settings(scene.world.solver, lines);
   if (scene.policy.kind == "paper" && scene.piles.empty())
     lines.emplace_back("policy.kind = \"paper\" without any [[pile]]: no body will ever sleep");
-  if (scene.policy.kind != "adaptive" && std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope)) {
-    lines.push_back(
-        fmt::format("policy.kind = \"{}\" controls no slope; pile.control_slope has no effect", scene.policy.kind));
-  }
+  if (!scene.world.solver.small_steps() && std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope))
+    lines.emplace_back("pile.control_slope has no effect with the engines' own solvers: they raise no friction");
   const double few_steps = 60.0 * scene.world.units.times();
   if (scene.world.dt > 1.0 / few_steps)
     lines.push_back(fmt::format("world.steps_per_second below {:g}: bodies sink visibly into each other", few_steps));

@@ -35,6 +35,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
       dt_(scene.world.dt),
       debug_(scene.world.debug),
       interventions_(scene),
+      slope_control_(scene),
       ends_at_rest_(scene.run.until == until_rest),
       steps_(scene.steps()) {
   if (ends_at_rest_ || interventions_.clock().waits_for_rest()) rest_check_.emplace(scene);
@@ -63,6 +64,7 @@ void Simulation<Dim>::step() {
   sleep_.start_step();
   if (step_ == 0) emitter_.add_initial(*world_);
   interventions_.do_due_events(intervened(), rested_, piles().piles());
+  if (slope_control_.active()) sleep_.wake(slope_control_.update(*world_, piles(), step_), SleepCause::avalanche);
   emitter_.emit(*world_, time());
   if (!asleep_at_start_.empty()) freeze_initial_bodies();
   if (watched()) watchdog_.note_added(*world_, step_);
@@ -117,7 +119,7 @@ bool Simulation<Dim>::needs_contacts() const {
 /// Without a policy and without observers piles are not counted.
 template <int Dim>
 bool Simulation<Dim>::counts_piles() const {
-  return sleep_.policy().decides() || watched() || interventions_.clock().waits_for_layers();
+  return slope_control_.active() || sleep_.policy().decides() || watched() || interventions_.clock().waits_for_layers();
 }
 
 template <int Dim>

@@ -14,6 +14,7 @@
 #include "common/simulation/emitter.h"
 #include "common/simulation/interventions.h"
 #include "common/simulation/rest_check.h"
+#include "common/simulation/slope_control.h"
 #include "common/simulation/watchdog.h"
 
 namespace talus {
@@ -100,6 +101,7 @@ class Simulation {
   DebugOptions debug_;
   std::vector<BodyIndex> asleep_at_start_;
   Interventions<Dim> interventions_;
+  SlopeControl<Dim> slope_control_;
   std::function<std::unique_ptr<SleepPolicy<Dim>>(const std::string&)> make_policy_;  // that an event switches to
   std::optional<RestCheck<Dim>> rest_check_;  // where the scene ends at rest or an event waits for it
   bool ends_at_rest_;

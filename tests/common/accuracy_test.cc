@@ -95,10 +95,6 @@ TEST(Accuracy, GivesRingsAtEachLevelWhereSomethingElseThanABodyMoves) {
   EXPECT_EQ(plates({{"accuracy=fine"}, {"world.solver.kind=engine"}}).policy.adaptive.rings, 0);
 }
 
-TEST(Accuracy, GivesNoRingsWhereTheSlopeOfAPileIsControlled) {
-  EXPECT_EQ(plates({{"pile=[{alpha_deg=40, control_slope=true}]"}}).policy.adaptive.rings, 0);
-}
-
 TEST(Accuracy, OfTheReferenceIsAQuarterOfTheThicknessWithWholeFrames) {
   const Scene<3> reference = reference_scene(plates({{"run.frame_rate=50"}}));
   EXPECT_LE(arrival(reference.sources[0], reference.world).step(reference.world.dt), 0.25);

@@ -123,43 +123,6 @@ TEST_F(LocalAvalanchesTest, AHeapThatSleepsAgainUnchangedIsNotCheckedAgain) {
   EXPECT_TRUE(sliding().empty());
 }
 
-// At 45 degrees a column of 4 m may stand 4 m above the next, and the top body of each 1 m out of the slope.
-TEST_F(LocalAvalanchesTest, AControlledPileSlidesOnlyAboveItsSlopeAndIsNotCheckedWhenQuiet) {
-  Pile<3> pile;
-  pile.alpha = std::numbers::pi / 4.0;
-  pile.slope_controlled = true;
-  pile.radius = 10.0;
-  piles_.push_back(pile);
-  lay(96, 0.0);  // highest centres at 5.5 m
-  EXPECT_TRUE(sliding().empty());
-  put_to_sleep({world_.add({.pose = {.position = Vec3(0.5, 0.5, 7.5)}})});  // steep, but grown by 1 % only
-  EXPECT_TRUE(sliding().empty());
-  lay(16, 0.0);
-  EXPECT_FALSE(sliding().empty());
-}
-
-// A controlled slope below the 25 degrees of the rule changes nothing.
-TEST_F(LocalAvalanchesTest, APileControlledAtAFlatSlopeSlidesAsOthersDo) {
-  Pile<3> pile;
-  pile.alpha = 0.4;
-  pile.slope_controlled = true;
-  pile.radius = 10.0;
-  piles_.push_back(pile);
-  const std::vector<BodyIndex> heap = lay(48, 0.0);
-  EXPECT_EQ(sliding(), heap);
-}
-
-TEST_F(LocalAvalanchesTest, AHeapOutOfReachOfAControlledPileSlidesAsOthersDo) {
-  Pile<3> pile;
-  pile.centre = Vec3(40.0, 0.0, 0.0);
-  pile.alpha = std::numbers::pi / 4.0;
-  pile.slope_controlled = true;
-  pile.radius = 10.0;
-  piles_.push_back(pile);
-  const std::vector<BodyIndex> heap = lay(96, 0.0);
-  EXPECT_EQ(sliding(), heap);
-}
-
 TEST_F(LocalAvalanchesTest, NothingSlidesThroughAWall) {
   lay(48, 0.0);
   Pile<3> pile;

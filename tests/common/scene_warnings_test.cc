@@ -69,7 +69,7 @@ TEST(Warnings, DoNotMindOneLargeBodyThatIsThrownIntoAPile) {
 }
 
 TEST(Warnings, TellOfAPolicyThatControlsNoSlopes) {
-  expect_one(warnings_with({{"pile[0].control_slope=true"}, {"policy.kind=full"}}), "controls no slope");
+  expect_one(warnings_with({{"pile[0].control_slope=true"}, {"policy.kind=engine"}}), "they raise no friction");
   EXPECT_EQ(warnings_with({{"pile[0].control_slope=true"}}), "");
 }
 

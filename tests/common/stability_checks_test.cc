@@ -274,17 +274,6 @@ TEST_F(LoadedRegion, IsHeldForAShortTimeAndCheckedAgainOnceItIsQuiet) {
   EXPECT_EQ(steps(2 * sample_time), (std::vector<BodyIndex>{0, 1})) << "once it is quiet";
 }
 
-TEST_F(StabilityChecksTest, LeaveAPileAloneWhoseSlopeIsControlledAboveTheAngleOfAvalanches) {
-  Pile<3> pile = make_pile<3>(Vec3(2.0, 2.0, 0.0), 1.0, 100.0, parts().typical, std::nullopt);
-  pile.slope_controlled = true;
-  piles_ = {pile};
-  put_to_sleep({add(1.0)});
-  EXPECT_TRUE(steps(20 * 60).empty());
-  EXPECT_FALSE(may_begin()) << "so that a pile at rest costs nothing";
-  piles_.front().slope_controlled = false;
-  EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{0}));
-}
-
 TEST_F(StabilityChecksTest, GoOnWhenABodyUnderCheckIsRemoved) {
   put_to_sleep({add(1.0), add(2.0)});
   steps(sample_time);

@@ -26,9 +26,6 @@ struct AdaptiveParams {
   double avalanche_width = 4.0;
   double avalanche_growth = 1.15;
   double avalanche_angle = in_radians(25.0);
-  double slope_proportional_gain = 20.0;
-  double slope_integral_gain = 0.3;
-  double slope_max_damping = 4.0;
   int rings = 0;
   double ring_still_speed = 0.01;
 

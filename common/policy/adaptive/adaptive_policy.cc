@@ -40,7 +40,6 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       impacts_({params, typical, world}),
       support_loss_({params, typical, world}),
       avalanches_({params, typical, world}),
-      slope_controller_({params, typical, world}),
       checks_({params, typical, world}),
       sleepers_(params.avalanche_width * typical.extent) {}
 
@@ -50,7 +49,7 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
   const bool nothing_to_wake = ring_ ? frame.world.stirred().empty() : !checks_.may_begin(sleepers_);
   if (frame.world.awake().empty() && nothing_to_wake) return;
   RuleInput<Dim> in{frame.world, {}, frame.piles.piles(), frame.step};
-  if (!ring_ || std::ranges::any_of(in.piles, &Pile<Dim>::slope_controlled)) in.contacts = in.world.contacts();
+  if (!ring_) in.contacts = in.world.contacts();
   output_.clear();
   rest_.update(in);
   find_wakes(in);
@@ -69,14 +68,12 @@ void AdaptivePolicy<Dim>::find_wakes(const RuleInput<Dim>& in) {
   if (ring_) {
     for (const BodyIndex body : in.world.stirred())
       output_.wakes.add(body, {.cause = SleepCause::motion, .before_impact = true});
-    slope_controller_.update(in, output_);
     return;
   }
   impacts_ahead_.update(in, output_);
   impacts_.update(in, rest_, output_);
   support_loss_.update(in, output_);
   avalanches_.update(in, sleepers_, output_);
-  slope_controller_.update(in, output_);
   checks_.update(in, rest_, sleepers_, output_);
 }
 

@@ -11,7 +11,6 @@
 #include "common/policy/adaptive/local_avalanches.h"
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/adaptive/sleep_ledger.h"
-#include "common/policy/adaptive/slope_controller.h"
 #include "common/policy/adaptive/stability_checks.h"
 #include "common/policy/adaptive/support_criterion.h"
 #include "common/policy/adaptive/support_loss.h"
@@ -89,7 +88,6 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   Impacts<Dim> impacts_;
   SupportLoss<Dim> support_loss_;
   LocalAvalanches<Dim> avalanches_;
-  SlopeController<Dim> slope_controller_;
   StabilityChecks<Dim> checks_;
   SleepLedger<Dim> sleepers_;
   RuleOutput<Dim> output_;         // scratch

@@ -6,11 +6,6 @@
 namespace talus {
 namespace {
 
-/// By how much a column of a controlled pile may exceed the pile's slope [D]. Tops are single bodies, each of which may
-/// stand out of the slope. Without it such piles became 2 degrees flatter in 2D and kept a fifth more bodies awake
-/// (lab/notes/slope_control.md).
-constexpr double top_roughness = 2.0;
-
 /// Height [m] of the highest wall of a pile between two points, of which only the horizontal parts count; none if no
 /// wall separates them.
 template <int Dim>
@@ -31,8 +26,7 @@ std::optional<double> wall_between(std::span<const Pile<Dim>> piles, const Vec<D
 
 template <int Dim>
 LocalAvalanches<Dim>::LocalAvalanches(const RuleSetup<Dim>& setup)
-    : extent_(setup.typical.extent),
-      grid_(setup.params.avalanche_width * setup.typical.extent),
+    : grid_(setup.params.avalanche_width * setup.typical.extent),
       growth_(setup.params.avalanche_growth),
       angle_(setup.params.avalanche_angle),
       ground_(setup.world.ground.height) {}
@@ -69,9 +63,7 @@ template <int Dim>
 bool LocalAvalanches<Dim>::is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const {
   const double top = neighbourhood_.at(cell).top.value_or(ground_);
   const Vec<Dim> middle = grid_.template middle_of<Dim>(cell);
-  const double slope = controlled_slope(piles, middle);
-  const double rise =
-      grid_.width() * std::tan(std::max(slope, angle_)) + (slope > angle_ ? top_roughness * extent_ : 0.0);
+  const double rise = grid_.width() * std::tan(angle_);
   return std::ranges::any_of(neighbourhood_, [&](const auto& beside) {
     const double wall = wall_between(piles, middle, grid_.template middle_of<Dim>(beside.first)).value_or(ground_);
     return top - std::max(beside.second.top.value_or(ground_), wall) > rise;

@@ -53,7 +53,6 @@ class LocalAvalanches {
   bool mostly_awake() const;
   bool is_steep(std::span<const Pile<Dim>> piles, const Cell& cell) const;
 
-  double extent_;  // D [m]
   Columns grid_;
   double growth_;  // of a column until it is checked, as a factor
   double angle_;   // slope between columns from which they may slide [rad]

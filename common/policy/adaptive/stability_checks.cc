@@ -58,7 +58,6 @@ StabilityChecks<Dim>::StabilityChecks(const RuleSetup<Dim>& setup)
     : columns_(setup.params.avalanche_width * setup.typical.extent),
       blocks_(block_width * setup.typical.extent),
       tolerance_(setup.params.tolerance * setup.typical.extent),
-      angle_(setup.params.avalanche_angle),
       extent_(setup.typical.extent),
       loaded_share_(setup.params.loaded_share()) {}
 
@@ -119,7 +118,7 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
   for (const auto& [column, count] : sleepers.counts()) {
     if (count.unchecked == 0) continue;
     may_begin_ = expects_arrivals(in.step) || !in.world.awake().empty();
-    if (controlled_slope<Dim>(in.piles, columns_.template middle_of<Dim>(column)) <= angle_) waiting.insert(column);
+    waiting.insert(column);
   }
   while (!waiting.empty()) {
     const Region region = take_region(sleepers, waiting);

@@ -146,7 +146,6 @@ class StabilityChecks {
   Columns columns_;
   Blocks blocks_;
   double tolerance_;                             // [m]; 0: no checks
-  double angle_;                                 // [rad] above which a controlled slope is not checked
   double extent_;                                // D [m]
   Times times_;                                  // in the gravity of the last update()
   double loaded_share_;                          // of the sleeping bodies that are fresh when a loaded check begins
