@@ -282,7 +282,7 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
       btVector3 velocity;
       btVector3 spin;
       if (moves) {
-        const btTransform place = small_steps_->thaw(*at(body), velocity, spin, renewed_);
+        const btTransform place = small_steps_->thaw(*at(body), bodies, velocity, spin, renewed_);
         renew_kept_points();
         at(body)->setWorldTransform(place);
       }

@@ -550,12 +550,17 @@ void SmallSteps<Dim>::keep(btPersistentManifold& manifold, std::span<btRigidBody
 }
 
 template <int Dim>
-btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin,
-                                  std::vector<WarmStart::Renewed>& renewed) {
+btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, std::span<const BodyIndex> waking,
+                                  btVector3& velocity, btVector3& spin, std::vector<WarmStart::Renewed>& renewed) {
   released_.clear();
   const SolverBody<Dim> state = ring_->wake(object.getUserIndex(), released_);
   renewed.clear();
+  const auto shift_asleep = [&](BodyIndex side, const VecF<Dim>& arm) -> VecF<Dim> {
+    const bool stays = side >= 0 && ring_->has(side) && !std::ranges::binary_search(waking, side);
+    return stays ? ring_->shift(side, arm) : VecF<Dim>::Zero();
+  };
   for (const SleepingPoint<Dim>& point : released_) {
+    const VecF<Dim> moved = shift_asleep(point.b, point.contact.arm_b) - shift_asleep(point.a, point.contact.arm_a);
     const auto a = static_cast<BodyIndex>(point.key.a);
     const auto b = static_cast<BodyIndex>(point.key.b);
     const bool of_b = WarmStart::owns(b, a);
@@ -563,7 +568,7 @@ btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, btVector3& ve
     renewed.push_back({.owner = of_b ? b : a,
                        .partner = of_b ? a : b,
                        .arm = from_solver<Dim>(of_b ? point.contact.arm_b : point.contact.arm_a),
-                       .distance = point.contact.gap,
+                       .distance = point.contact.gap - point.contact.normal.dot(moved),
                        .impulse = point.contact.normal_impulse,
                        .friction = of_b ? friction : -friction});
   }

@@ -61,10 +61,11 @@ class SmallSteps {
   void skip();
   /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep. `shapes`: of each of them.
   void freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, std::span<const int> shapes);
-  /// With a ring: the pose at which a body wakes. `renewed`: its contact points with sleeping neighbours, ground and
-  /// obstacles, sorted by owner.
-  btTransform thaw(const btCollisionObject& object, btVector3& velocity, btVector3& spin,
-                   std::vector<WarmStart::Renewed>& renewed);
+  /// With a ring: the pose at which a body wakes. `waking`: all that wake with it, ascending. `renewed`: its contact
+  /// points with sleeping neighbours, ground and obstacles, sorted by owner; their distances are between the places
+  /// that Bullet has, where a neighbour that sleeps on has not moved.
+  btTransform thaw(const btCollisionObject& object, std::span<const BodyIndex> waking, btVector3& velocity,
+                   btVector3& spin, std::vector<WarmStart::Renewed>& renewed);
   /// A body or an obstacle leaves the world.
   void forget(BodyIndex side);
 
