@@ -85,8 +85,8 @@ void SlopeControl<Dim>::measure(const BodyStates<Dim>& states, const PileSet<Dim
   }
 }
 
-/// Too few bodies make no slope: they get the largest grip. A slope that rises is that of bodies that are about to roll
-/// down: it counts as it is.
+/// A pile of too few bodies has no slope and gets the largest grip. Only sinking is foreseen: a slope that rises
+/// belongs to bodies that are about to roll down.
 template <int Dim>
 void SlopeControl<Dim>::update_grip(const Pile<Dim>& pile, Control& control, double interval) {
   if (control.positions.size() < min_bodies_for_slope) {

@@ -45,7 +45,7 @@ struct BodyStates {
   std::vector<Spin<Dim>> spin;        // [rad/s]
   std::vector<std::uint8_t> asleep;   // 1: costs nothing until thawed (or woken by the engine's own rule)
   std::vector<std::uint8_t> removed;  // 1: no longer in the world; its other entries stay as they last were
-  std::vector<float> grip;            // see World::set_grip(); shorter: 0 for the others
+  std::vector<float> grip;            // see World::set_grip(); bodies beyond its end have 0
 
   BodyIndex size() const { return static_cast<BodyIndex>(shape.size()); }
 };

@@ -88,10 +88,10 @@ class World {
   /// A force on the centre of mass of an awake body throughout the next step [N], in addition to others. Only with the
   /// solver `small_steps`.
   void push(BodyIndex body, const Vec<Dim>& force);
-  /// Makes a body hold on to what it touches, from the next step on and until it is set anew, see ContactPoint::hold():
-  /// the coefficient of friction of its contacts is higher by `grip` [-], and so is that of rolling friction, and both
-  /// bodies attract each other. Between two bodies the larger grip counts. The contacts of a sleeping body keep what
-  /// they had as it fell asleep. Only with the solver `small_steps`.
+  /// Adds `grip` [-] to the coefficient of friction of a body's contacts, from the next step on and until it is set
+  /// again. A torque resists relative spin, and the bodies of a contact attract each other, both in proportion to the
+  /// grip (ContactPoint::hold()). Of two bodies the larger grip counts. The contacts of a sleeping body keep the grip
+  /// with which it fell asleep. Only with the solver `small_steps`.
   void set_grip(BodyIndex body, double grip);
   /// What push() has added for the next step.
   std::span<const Push<Dim>> pushes() const { return pushes_; }
@@ -246,7 +246,8 @@ class World {
   virtual Pose<Dim> engine_place(BodyIndex body, const Pose<Dim>& pose);
   virtual void engine_set_velocity(BodyIndex body, const Vec<Dim>& velocity, const Spin<Dim>& spin) = 0;
 
-  /// An engine whose bodies can have no grip throws. One that has takes it from states() in each step.
+  /// By default throws: not every engine has the forces of a grip. An engine that has them reads states().grip in each
+  /// step.
   virtual void engine_set_grip(BodyIndex body, double grip);
 
   /// Before a step: gives an obstacle that may move the velocity of its centre and the spin that take it to its next

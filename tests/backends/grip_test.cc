@@ -9,7 +9,7 @@
 namespace talus::grip_test {
 namespace {
 
-/// Unit cubes and balls of 10 N a kilogram; obstacle 0 is a plate whose lower side is at 5 m.
+/// Unit cubes and balls in a gravity of 10 m/s^2; obstacle 0 is a plate whose lower side is at 5 m.
 template <typename Backend>
 class Grip : public BackendTest<Backend> {
  protected:
@@ -54,7 +54,7 @@ TYPED_TEST(Grip, HoldsABodyBelowAPlateFromAnEighthOn) {
   }
 }
 
-// The side of the world goes through the middle of the body.
+// The body lies across the side: its centre is on it.
 TYPED_TEST(Grip, HoldsABodyAtASideOfAPeriodicWorld) {
   WorldDescription<TypeParam::dim> description = this->with_plate();
   description.periodic_x = Vec<2>(-5.0, 5.0);
