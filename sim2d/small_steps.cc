@@ -142,19 +142,44 @@ void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const 
       if (edge->contact->IsTouching() && !(falls_asleep_too && other < bodies[i])) keep(*edge->contact, input);
     }
   }
+  for (b2Body* body : from) keep_near(world, input, *body);
 }
 
 void SmallSteps::keep(b2Contact& contact, const StepInput& input) {
   b2WorldManifold place;
   contact.GetWorldManifold(&place);
-  const Fixtures pair = fixtures_of(contact);
+  keep(fixtures_of(contact), *contact.GetManifold(), place, input);
+}
+
+/// Points of a body that falls asleep with what it does not touch yet, but may by the displacements of sleeping bodies.
+/// Box2D finds no contacts between bodies that sleep, and others only within their skins.
+void SmallSteps::keep_near(b2World& world, const StepInput& input, b2Body& body) {
+  const float reach = ring_->reach();
+  const BodyIndex own = input.original(owner_of(*body.GetFixtureList()));
+  found_near_.clear();
+  for (b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
+    find_around(world, {fixture, {}, 0.5F * reach}, 0.5F * reach);
+    for (b2Fixture* other : found_) {
+      const BodyIndex side = input.original(owner_of(*other));
+      const bool awake = side >= 0 && !ring_->has(side);
+      if (awake || ring_->touch(own, side)) continue;
+      if (const std::optional<Meeting> met = meet({other, {}, 0.5F * reach}, {fixture, {}, 0.5F * reach}, reach))
+        found_near_.push_back(*met);
+    }
+  }
+  for (const Meeting& met : found_near_)
+    keep(unknown_pair(*met.a.fixture, *met.b.fixture), met.manifold, met.place, input);
+}
+
+void SmallSteps::keep(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
+                      const StepInput& input) {
   int number = 0;
-  for (const ContactPoint<2>& point : points_of(pair, *contact.GetManifold(), place, input)) {
+  for (const ContactPoint<2>& point : points_of(pair, manifold, place, input)) {
     SleepingPoint<2> kept{
         .a = input.original(owner_of(*pair.a)), .b = input.original(owner_of(*pair.b)), .contact = point, .key = {}};
     if (number > 0) kept.contact.rolling_impulse.setZero();
     kept.key = {static_cast<std::uint64_t>(tag_of(*pair.a)), static_cast<std::uint64_t>(tag_of(*pair.b)),
-                contact.GetManifold()->points[number].id.key};
+                manifold.points[number].id.key};
     ring_->keep(kept);
     ++number;
   }
@@ -279,6 +304,12 @@ SmallSteps::Fixtures SmallSteps::fixtures_of(b2Contact& contact) {
   return {contact.GetFixtureA(), contact.GetFixtureB(), contact.GetFriction(), contact.GetRestitution(), &contact};
 }
 
+/// Of which Box2D has no contact.
+SmallSteps::Fixtures SmallSteps::unknown_pair(b2Fixture& a, b2Fixture& b) {
+  return {&a, &b, b2MixFriction(a.GetFriction(), b.GetFriction()), std::sqrt(a.GetRestitution() * b.GetRestitution()),
+          nullptr};
+}
+
 /// Without their slots; valid until the next call.
 std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, const b2Manifold& manifold,
                                                        const b2WorldManifold& place, const StepInput& input) {
@@ -355,7 +386,7 @@ Mover SmallSteps::mover_of(b2Fixture& fixture) const {
 void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Body& body, bool first) {
   for (b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
     const Mover fast = mover_of(*fixture);
-    find_near(world, fast);
+    find_around(world, fast, fast_.longest());
     for (b2Fixture* other : found_) {
       const BodyIndex owner = owner_of(*other);
       const bool both = owner >= 0 && moving_slot(owner) != 0 && fast_.is_fast(moving_slot(owner));
@@ -368,10 +399,10 @@ void SmallSteps::find_ahead(b2World& world, const StepInput& input, b2Body& body
   add_ground_ahead(input, body);
 }
 
-/// The fixtures that the mover may meet in the step, but for the ground.
-void SmallSteps::find_near(b2World& world, const Mover& mover) {
+/// The fixtures in the mover's box and `margin` [m] around it, but for the ground.
+void SmallSteps::find_around(b2World& world, const Mover& mover, float margin) {
   b2AABB box = swept(mover);
-  const b2Vec2 around(fast_.longest(), fast_.longest());
+  const b2Vec2 around(margin, margin);
   box.lowerBound -= around;
   box.upperBound += around;
   found_.clear();
@@ -393,9 +424,7 @@ bool SmallSteps::is_known(b2Fixture& one, b2Fixture& other) const {
 void SmallSteps::add_ahead(const Meeting& met, const StepInput& input) {
   b2Fixture& a = *met.a.fixture;
   b2Fixture& b = *met.b.fixture;
-  const Fixtures pair{&a, &b, b2MixFriction(a.GetFriction(), b.GetFriction()),
-                      std::sqrt(a.GetRestitution() * b.GetRestitution()), nullptr};
-  for (ContactPoint<2> point : points_of(pair, met.manifold, met.place, input)) {
+  for (ContactPoint<2> point : points_of(unknown_pair(a, b), met.manifold, met.place, input)) {
     point.arm_a -= met.share * met.a.motion.way;  // the centres are where they are then
     point.arm_b -= met.share * met.b.motion.way;
     set_back(point, met.a.motion, met.b.motion, met.share);

@@ -108,11 +108,14 @@ class SmallSteps {
   static bool is_buried(b2Contact& contact);
   void add_bodies(const StepInput& input, std::span<b2Body* const> bodies);
   void keep(b2Contact& contact, const StepInput& input);
+  void keep_near(b2World& world, const StepInput& input, b2Body& body);
+  void keep(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place, const StepInput& input);
   int slot_of(BodyIndex owner, const VecF<2>& normal, const StepInput& input);
   static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);
   void add_points_ahead(const StepInput& input);
   void add_contacts(const StepInput& input);
   static Fixtures fixtures_of(b2Contact& contact);
+  static Fixtures unknown_pair(b2Fixture& a, b2Fixture& b);
   std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
                                              const b2WorldManifold& place, const StepInput& input);
   static float of_pair(const Fixtures& pair, const StepInput& input, std::span<const float> lengths);
@@ -120,7 +123,7 @@ class SmallSteps {
   int moving_slot(BodyIndex owner) const;
   Mover mover_of(b2Fixture& fixture) const;
   void find_ahead(b2World& world, const StepInput& input, b2Body& body, bool first);
-  void find_near(b2World& world, const Mover& mover);
+  void find_around(b2World& world, const Mover& mover, float margin);
   bool is_known(b2Fixture& one, b2Fixture& other) const;
   void add_ahead(const Meeting& met, const StepInput& input);
   void add_ground_ahead(const StepInput& input, b2Body& body);
@@ -150,6 +153,7 @@ class SmallSteps {
   std::vector<Rolling> rolling_;            // of the last step, sorted
   BodyIndex detected_ = 0;                  // number of bodies that collision detection has seen
   std::vector<b2Fixture*> found_;           // scratch
+  std::vector<Meeting> found_near_;         // scratch
   std::vector<ContactPoint<2>> points_;     // scratch
   std::vector<SleepingPoint<2>> released_;  // scratch
   mutable std::vector<Listed> ordered_;     // scratch

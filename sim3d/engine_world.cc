@@ -262,7 +262,7 @@ void EngineWorld<Dim>::keep_contacts(std::span<const BodyIndex> bodies) {
     falling_asleep.push_back(rigid_body(body));
     shapes.push_back(this->states().shape[body]);
   }
-  small_steps_->freeze(engine_.dispatcher, falling_asleep, shapes);
+  small_steps_->freeze(engine_, falling_asleep, shapes);
 }
 
 template <int Dim>

@@ -85,6 +85,10 @@ void append_manifolds(const btBroadphasePair& pair, btManifoldArray& manifolds) 
     pair.m_algorithm->getAllContactManifolds(manifolds);
 }
 
+PointKey key_of(const btCollisionObject& a, const btCollisionObject& b) {
+  return {.a = static_cast<std::uint64_t>(a.getUserIndex()), .b = static_cast<std::uint64_t>(b.getUserIndex())};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -199,23 +203,31 @@ void SmallSteps<Dim>::find_ahead(Engine& engine, btRigidBody& fast, const BodySt
   }
 }
 
-/// The objects that the mover may meet in the step, sorted by their numbers. As long as it moves as expected and turns
-/// little, and no obstacle moves, those are the partners that Bullet has found for its way.
+/// The objects that the mover may meet in the step. As long as it moves as expected and turns little, and no obstacle
+/// moves, those are the partners that Bullet has found for its way.
 template <int Dim>
 void SmallSteps<Dim>::find_near(Engine& engine, const Mover& mover, bool first) {
-  near_.clear();
   if (first && mover.turn <= fast_.limit() && obstacles_stand_) {
+    near_.clear();
     for (const btBroadphaseProxy* partner : engine.pairs.partners(mover.object->getBroadphaseHandle()))
       near_.push_back(static_cast<const btCollisionObject*>(partner->m_clientObject));
+    std::ranges::sort(near_, {}, &btCollisionObject::getUserIndex);
   } else {
-    const SweptBox box = swept(mover);
-    const btVector3 around(fast_.longest(), fast_.longest(), fast_.longest());
-    ObjectFinder finder(near_);
-    engine.broadphase.aabbTest(box.low - around, box.high + around, finder);
-    std::erase_if(near_, [&](const btCollisionObject* other) {
-      return other == mover.object || !images_meet(*mover.object, *other);
-    });
+    find_around(engine, mover, fast_.longest());
   }
+}
+
+/// The objects in the mover's box and `margin` [m] around it, sorted by their numbers.
+template <int Dim>
+void SmallSteps<Dim>::find_around(Engine& engine, const Mover& mover, float margin) {
+  const SweptBox box = swept(mover);
+  const btVector3 around(margin, margin, margin);
+  near_.clear();
+  ObjectFinder finder(near_);
+  engine.broadphase.aabbTest(box.low - around, box.high + around, finder);
+  std::erase_if(near_, [&](const btCollisionObject* other) {
+    return other == mover.object || !images_meet(*mover.object, *other);
+  });
   std::ranges::sort(near_, {}, &btCollisionObject::getUserIndex);
 }
 
@@ -232,26 +244,36 @@ bool SmallSteps<Dim>::is_found(const btCollisionObject& a, const btCollisionObje
       ahead_, [&](const Ahead& each) { return (each.a == &a && each.b == &b) || (each.a == &b && each.b == &a); });
 }
 
-/// In the plane: whether the point is of flat faces, which must not matter, or behind one that is known.
+/// A point of `a` and `b` that Bullet does not know. None in the plane where it is of flat faces, which must not
+/// matter.
 template <int Dim>
-void SmallSteps<Dim>::add_ahead(Engine& engine, const btCollisionObject& a, const btCollisionObject& b,
-                                const ContactPoint<3>& found) {
+std::optional<ContactPoint<Dim>> SmallSteps<Dim>::in_world(const btCollisionObject& a, const btCollisionObject& b,
+                                                           const ContactPoint<3>& found) const {
   const auto in_world = [](const VecF<3>& v) { return to_solver<Dim>(from_solver<3>(v)); };
   ContactPoint<Dim> point;
   point.normal = in_world(found.normal);
-  if (point.normal.norm() < least_in_plane) return;
+  if (point.normal.norm() < least_in_plane) return std::nullopt;
   point.normal.normalize();
   point.arm_a = in_world(found.arm_a);
   point.arm_b = in_world(found.arm_b);
   point.gap = found.gap;
+  if (ring_) point.gap += point.normal.dot(shift_of(b, point.arm_b) - shift_of(a, point.arm_a));
   point.friction = btManifoldResult::calculateCombinedFriction(&a, &b);
   point.restitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
   hold_together(a, b, point);
+  return point;
+}
+
+/// In the plane not if it lies behind one that is known.
+template <int Dim>
+void SmallSteps<Dim>::add_ahead(Engine& engine, const btCollisionObject& a, const btCollisionObject& b,
+                                const ContactPoint<3>& found) {
+  const std::optional<ContactPoint<Dim>> point = in_world(a, b, found);
+  if (!point) return;
   if constexpr (Dim == 2)
     for (const Ahead& each : ahead_)
-      if (each.a == &a && each.b == &b && (each.point.arm_b - point.arm_b).cwiseAbs().maxCoeff() < one_point_) return;
-  if (ring_) point.gap += point.normal.dot(shift_of(b, point.arm_b) - shift_of(a, point.arm_a));
-  add_new(engine, a, b, point);
+      if (each.a == &a && each.b == &b && (each.point.arm_b - point->arm_b).cwiseAbs().maxCoeff() < one_point_) return;
+  add_new(engine, a, b, *point);
 }
 
 /// Adds nothing where Bullet already has that point.
@@ -519,14 +541,14 @@ void SmallSteps<Dim>::skip() {
 }
 
 template <int Dim>
-void SmallSteps<Dim>::freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies,
-                             std::span<const int> shapes) {
+void SmallSteps<Dim>::freeze(Engine& engine, std::span<btRigidBody* const> bodies, std::span<const int> shapes) {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (image_of(*bodies[i]).sides == 0)
       ring_->put_to_sleep(bodies[i]->getUserIndex(), awake_body<Dim>(*bodies[i], dt_), reaches_[shapes[i]]);
-  btPersistentManifold** manifolds = dispatcher.getInternalManifoldPointer();
-  for (int i = 0; i < dispatcher.getNumManifolds(); ++i)
+  btPersistentManifold** manifolds = engine.dispatcher.getInternalManifoldPointer();
+  for (int i = 0; i < engine.dispatcher.getNumManifolds(); ++i)
     if (manifolds[i]->getNumContacts() > 0) keep(*manifolds[i], bodies);
+  for (const btRigidBody* body : bodies) keep_near(engine, *body);
 }
 
 /// Of a pair of which one side falls asleep and the other is not awake. Bullet has the points of before it moved the
@@ -535,8 +557,6 @@ template <int Dim>
 void SmallSteps<Dim>::keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep) {
   const btCollisionObject& object_a = *manifold.getBody1();
   const btCollisionObject& object_b = *manifold.getBody0();
-  const PointKey key{.a = static_cast<std::uint64_t>(object_a.getUserIndex()),
-                     .b = static_cast<std::uint64_t>(object_b.getUserIndex())};
   const BodyIndex a = image_of(object_a).of;
   const BodyIndex b = image_of(object_b).of;
   const auto falls_asleep = [&](BodyIndex body) {
@@ -546,7 +566,30 @@ void SmallSteps<Dim>::keep(btPersistentManifold& manifold, std::span<btRigidBody
   if (!(falls_asleep(a) || falls_asleep(b)) || is_awake(a) || is_awake(b)) return;
   manifold.refreshContactPoints(object_b.getWorldTransform(), object_a.getWorldTransform());
   collect(manifold, step_);
-  for (const ContactPoint<Dim>& contact : contacts_) ring_->keep({.a = a, .b = b, .contact = contact, .key = key});
+  for (const ContactPoint<Dim>& contact : contacts_)
+    ring_->keep({.a = a, .b = b, .contact = contact, .key = key_of(object_a, object_b)});
+}
+
+/// Points of a body that falls asleep with what it does not touch yet, but may by the displacements of sleeping bodies.
+/// Bullet finds no points between bodies that sleep, and those of boxes and balls only once they overlap.
+template <int Dim>
+void SmallSteps<Dim>::keep_near(Engine& engine, const btRigidBody& body) {
+  const Mover own{&body, {}, 0.5F * ring_->reach()};
+  find_around(engine, own, own.turn);
+  const BodyIndex b = image_of(body).of;
+  for (const btCollisionObject* other : near_) {
+    const BodyIndex a = image_of(*other).of;
+    const bool awake = a >= 0 && !ring_->has(a);
+    if (a == ground_index || awake || ring_->touch(b, a)) continue;
+    met_.clear();
+    meet({other, {}, own.turn}, own, ring_->reach(), met_);
+    contacts_.clear();
+    const auto first = static_cast<int>(parts_.size());
+    for (const ContactPoint<3>& found : met_)
+      if (const std::optional<ContactPoint<Dim>> point = in_world(*other, body, found)) collect(*point, first);
+    for (const ContactPoint<Dim>& point : contacts_)
+      ring_->keep({.a = a, .b = b, .contact = point, .key = key_of(*other, body)});
+  }
 }
 
 template <int Dim>

@@ -60,7 +60,7 @@ class SmallSteps {
   /// In place of a step in which nothing moves.
   void skip();
   /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep. `shapes`: of each of them.
-  void freeze(btDispatcher& dispatcher, std::span<btRigidBody* const> bodies, std::span<const int> shapes);
+  void freeze(Engine& engine, std::span<btRigidBody* const> bodies, std::span<const int> shapes);
   /// With a ring: the pose at which a body wakes. `waking`: all that wake with it, ascending. `renewed`: its contact
   /// points with sleeping neighbours, ground and obstacles, sorted by owner; their distances are between the places
   /// that Bullet has, where a neighbour that sleeps on has not moved.
@@ -82,6 +82,7 @@ class SmallSteps {
   Mover mover_of(const btCollisionObject& object) const;
   void find_ahead(Engine& engine, btRigidBody& fast, const BodyStates<Dim>& states, bool first);
   void find_near(Engine& engine, const Mover& mover, bool first);
+  void find_around(Engine& engine, const Mover& mover, float margin);
   bool is_fast(const btCollisionObject& object) const;
   bool is_found(const btCollisionObject& a, const btCollisionObject& b) const;
   void add_ahead(Engine& engine, const btCollisionObject& a, const btCollisionObject& b, const ContactPoint<3>& found);
@@ -94,6 +95,9 @@ class SmallSteps {
   void collect(btPersistentManifold& manifold, std::uint32_t last_step);
   int collect(const ContactPoint<Dim>& contact, int first);
   void keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep);
+  void keep_near(Engine& engine, const btRigidBody& body);
+  std::optional<ContactPoint<Dim>> in_world(const btCollisionObject& a, const btCollisionObject& b,
+                                            const ContactPoint<3>& found) const;
   void hold_together(const btCollisionObject& a, const btCollisionObject& b, ContactPoint<Dim>& point) const;
   VecF<Dim> shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const;
   int slot_of(const btCollisionObject& object);

@@ -29,7 +29,8 @@ class Ring {
 
   /// A body falls asleep. `state`: its mass and its velocity; `reach`: from its centre to any point of it at most [m].
   void put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float reach);
-  /// A contact point of a body that has fallen asleep, unless the other body is awake.
+  /// A contact point of a body that has fallen asleep, unless the other body is awake; also where the two may touch
+  /// later, with gaps up to reach().
   void keep(const SleepingPoint<Dim>& point) { contacts_.keep(point); }
   /// A body wakes. Returns its velocity, and as `way` and `turn` its displacement; its points go to `released`.
   SolverBody<Dim> wake(BodyIndex body, std::vector<SleepingPoint<Dim>>& released);
@@ -41,7 +42,9 @@ class Ring {
   /// `impulse_unit`: of the points' impulses [N s].
   void append_contacts(BodyIndex side, const BodyStates<Dim>& states, double impulse_unit,
                        std::vector<Contact<Dim>>& out) const;
-  /// Whether a body sleeps here in contact with a body that does too, or with an obstacle.
+  /// How far two bodies come together in their sleep at most, before one of them wakes [m].
+  float reach() const;
+  /// Whether a body sleeps here and has a contact point with a body that does too, or with an obstacle.
   bool touch(BodyIndex body, BodyIndex side) const;
 
   // Within a step.

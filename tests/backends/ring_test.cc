@@ -13,6 +13,7 @@
 
 #include "common/scene/read_scene.h"
 #include "common/simulation/simulation.h"
+#include "common/world/energy.h"
 #include "tests/backends/backend.h"
 
 namespace talus::ring_test {
@@ -145,7 +146,7 @@ TYPED_TEST(RingTest, AWallThatSleepsFromTheStartFallsWhenItsLowestRowIsRemoved) 
 TYPED_TEST(RingTest, APileAtRestHasNoBodyInTheRing) {
   auto simulation = TestFixture::simulation(TestFixture::scene(
       "run = {frames = 2400}\nshape.L = {kind = \"L\"}\nsource = [{count = 40, rate = 6.6}]\npile = [{}]\n"));
-  TestFixture::run(simulation, 25.0);
+  TestFixture::run(simulation, 35.0);
   EXPECT_EQ(simulation.world().states().size(), 40);
   EXPECT_TRUE(simulation.world().awake().empty());
   EXPECT_EQ(simulation.world().solved_sleepers(), 0);
@@ -167,6 +168,31 @@ TYPED_TEST(RingTest, ASlowPlatformCarriesAStackOfSleepers) {
   TestFixture::run(simulation, 22.0);
   for (BodyIndex body = 0; body < 3; ++body)
     EXPECT_NEAR(simulation.world().states().pose[body].position[0] - from[body], 0.2, 0.002) << "cube " << body;
+}
+
+TYPED_TEST(RingTest, ARowThatASlowPusherMovesNeverHasTwiceTheEnergyOfItsSpeed) {
+  // Four cubes, a hundredth of their size apart, at 10 mm/s for each metre of it. In its sleep one comes to the next.
+  constexpr double speed = 0.01;
+  for (const double size : {1.0, 4.0}) {
+    auto simulation = TestFixture::simulation(TestFixture::scene(fmt::format(
+        "run = {{frames = 6000}}\nworld.gravity = {}\nshape.cube = {{kind = \"box\", size = {}, friction = 0.5}}\n"
+        "body = [{{position = {}, repeat = {}, step = {}}}]\n"
+        "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\n"
+        "motion = {{kind = \"path\", times = [2, 202], shifts = [{}, {}]}}\n",
+        9.81 * size, TestFixture::vector(size, size, size), TestFixture::vector(1.6 * size, 0.51 * size),
+        TypeParam::dim == 2 ? "[4, 1]" : "[4, 1, 1]", TestFixture::vector(1.01 * size, 0.0),
+        TestFixture::vector(size, 2.0 * size, 2.0 * size), TestFixture::vector(0.5 * size, 1.2 * size),
+        TestFixture::vector(0, 0), TestFixture::vector(200.0 * speed * size, 0))));
+    TestFixture::run(simulation, 2.0);
+    const double at_speed = 4.0 * 0.5 * simulation.world().shape_of(0).mass * std::pow(speed * size, 2);
+    double most = 0.0;
+    for (int step = 0; step < 12000; ++step) {
+      simulation.step();
+      most = std::max(most, kinetic_energy(simulation.world()));
+    }
+    EXPECT_GT(simulation.world().states().pose[0].position[0], 3.4 * size) << "the pusher has come that far";
+    EXPECT_LT(most, 2.0 * at_speed) << "cubes of " << size << " m";
+  }
 }
 
 TYPED_TEST(RingTest, DominoesThatGrowByTwoFifthsAllFall) {
