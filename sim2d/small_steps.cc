@@ -177,7 +177,6 @@ void SmallSteps::keep(const Fixtures& pair, const b2Manifold& manifold, const b2
   for (const ContactPoint<2>& point : points_of(pair, manifold, place, input)) {
     SleepingPoint<2> kept{
         .a = input.original(owner_of(*pair.a)), .b = input.original(owner_of(*pair.b)), .contact = point, .key = {}};
-    if (number > 0) kept.contact.rolling_impulse.setZero();
     kept.key = {static_cast<std::uint64_t>(tag_of(*pair.a)), static_cast<std::uint64_t>(tag_of(*pair.b)),
                 manifold.points[number].id.key};
     ring_->keep(kept);
@@ -338,6 +337,7 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
       point.gap += point.normal.dot(shift_of(input.original(owner_of(*pair.b)), point.arm_b) -
                                     shift_of(input.original(owner_of(*pair.a)), point.arm_a));
     points_.push_back(point);
+    point.rolling_impulse.setZero();  // that of the pair is in its first point
   }
   return points_;
 }

@@ -3,6 +3,8 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <cstdint>
+
 namespace talus::bullet {
 
 /// On the first body, in the world's axes [N s].
@@ -28,6 +30,23 @@ inline void set_impulse_of_step(btManifoldPoint& point, btScalar normal, const b
 inline btScalar impulse_of_step(const btManifoldPoint& point) { return point.m_prevRHS; }
 inline btVector3 friction_of_step(const btManifoldPoint& point) {
   return point.m_lateralFrictionDir1 * point.m_contactMotion1 + point.m_lateralFrictionDir2 * point.m_contactMotion2;
+}
+
+/// Which rolling impulse a point has: an entry of a list that small steps keep from one step to the next.
+struct PointMark {
+  std::uint32_t step = 0;  // number of the step that made the list; 0: none
+  std::uint32_t entry = 0;
+};
+static_assert(sizeof(std::uintptr_t) == 8);
+
+/// In a field that Bullet keeps when it finds the point again; it calls nothing when the point ends.
+inline void set_mark(btManifoldPoint& point, const PointMark& mark) {
+  const std::uintptr_t both = (std::uintptr_t{mark.step} << 32U) | mark.entry;
+  point.m_userPersistentData = reinterpret_cast<void*>(both);  // NOLINT(performance-no-int-to-ptr)
+}
+inline PointMark mark_of(const btManifoldPoint& point) {
+  const auto both = reinterpret_cast<std::uintptr_t>(point.m_userPersistentData);
+  return {static_cast<std::uint32_t>(both >> 32U), static_cast<std::uint32_t>(both)};
 }
 
 }  // namespace talus::bullet

@@ -402,7 +402,7 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
   const btVector3& centre_a = object_a.getWorldTransform().getOrigin();
   const btVector3& centre_b = object_b.getWorldTransform().getOrigin();
   const auto first = static_cast<int>(parts_.size());
-  SpinF<Dim> rolling = SpinF<Dim>::Zero();
+  const SpinF<Dim>* rolling = nullptr;
   contacts_.clear();
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     btManifoldPoint& point = manifold.getContactPoint(i);
@@ -422,10 +422,10 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
     contact.restitution = point.m_combinedRestitution;
     contact.normal_impulse = point.m_appliedImpulse;
     contact.friction_impulse = to_solver<Dim>(friction_impulse(point));
-    if (contact.rolling_arm > 0.0F) rolling += rolling_of(point, last_step);
-    sources_.push_back({&point, collect(contact, first)});
+    if (rolling == nullptr && contact.rolling_arm > 0.0F) rolling = rolling_of(point, last_step);
+    sources_.push_back({&point, collect(contact, first), first});
   }
-  if (!contacts_.empty()) contacts_[0].rolling_impulse = rolling;
+  if (rolling != nullptr) contacts_[0].rolling_impulse = *rolling;
 }
 
 /// Rolling friction, and the grip of the bodies.
@@ -471,12 +471,21 @@ int SmallSteps<Dim>::collect(const ContactPoint<Dim>& contact, int first) {
   return first + static_cast<int>(contacts_.size()) - 1;
 }
 
-/// Zero for a point that was not part of that step.
+/// That of the point's manifold; null for a point that was not part of that step.
 template <int Dim>
-SpinF<Dim> SmallSteps<Dim>::rolling_of(const btManifoldPoint& point, std::uint32_t step) const {
-  const auto mark = reinterpret_cast<std::uintptr_t>(point.m_userPersistentData);
-  if (mark >> 32U != step) return SpinF<Dim>::Zero();
-  return rolling_[mark & 0xffffffffU];
+const SpinF<Dim>* SmallSteps<Dim>::rolling_of(const btManifoldPoint& point, std::uint32_t step) const {
+  const PointMark mark = mark_of(point);
+  return mark.step == step ? &rolling_[mark.entry] : nullptr;
+}
+
+/// The mark of a point that comes back before the next step with this impulse on its owner. The next entry is for a
+/// manifold that has the owner second.
+template <int Dim>
+PointMark SmallSteps<Dim>::marked(const SpinF<Dim>& on_owner) {
+  if (on_owner.isZero(0.0F)) return {};
+  rolling_.push_back(on_owner);
+  rolling_.emplace_back(-on_owner);
+  return {step_, static_cast<std::uint32_t>(rolling_.size() - 2)};
 }
 
 template <int Dim>
@@ -491,15 +500,13 @@ void SmallSteps<Dim>::write_points() {
     set_impulse_of_step(point, share * contact.normal_sum, from_solver<Dim>(share * contact.friction_sum));
   }
   if (!rolls_ && states_.grip.empty()) return;
-  // Bullet keeps the mark when it finds the point again in the next step, and calls nothing when the point ends.
-  static_assert(sizeof(std::uintptr_t) == 8);
+  rolling_.assign(parts_.size(), SpinF<Dim>::Zero());
+  int added = -1;
   for (const Source& source : sources_) {
-    const std::uintptr_t mark = (std::uintptr_t{step_} << 32U) | static_cast<std::uint32_t>(source.contact);
-    source.point->m_userPersistentData = reinterpret_cast<void*>(mark);  // NOLINT(performance-no-int-to-ptr)
+    if (source.contact > added) rolling_[source.first] += points[source.contact].rolling_impulse;
+    added = std::max(added, source.contact);
+    set_mark(*source.point, {step_, static_cast<std::uint32_t>(source.first)});
   }
-  rolling_.clear();
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    rolling_.push_back(points[i].rolling_impulse / static_cast<float>(parts_[i]));
 }
 
 template <int Dim>
@@ -608,12 +615,14 @@ btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, std::span<con
     const auto b = static_cast<BodyIndex>(point.key.b);
     const bool of_b = WarmStart::owns(b, a);
     const btVector3 friction = from_solver<Dim>(point.contact.friction_impulse);
+    const SpinF<Dim>& rolling = point.contact.rolling_impulse;
     renewed.push_back({.owner = of_b ? b : a,
                        .partner = of_b ? a : b,
                        .arm = from_solver<Dim>(of_b ? point.contact.arm_b : point.contact.arm_a),
                        .distance = point.contact.gap - point.contact.normal.dot(moved),
                        .impulse = point.contact.normal_impulse,
-                       .friction = of_b ? friction : -friction});
+                       .friction = of_b ? friction : -friction,
+                       .mark = marked(of_b ? rolling : SpinF<Dim>(-rolling))});
   }
   std::ranges::stable_sort(renewed, {}, &WarmStart::Renewed::owner);
   velocity = from_solver<Dim>(state.velocity);

@@ -103,12 +103,14 @@ class SmallSteps {
   int slot_of(const btCollisionObject& object);
   void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
   void write_points();
-  SpinF<Dim> rolling_of(const btManifoldPoint& point, std::uint32_t step) const;
+  const SpinF<Dim>* rolling_of(const btManifoldPoint& point, std::uint32_t step) const;
+  PointMark marked(const SpinF<Dim>& on_owner);
 
   /// A point of Bullet's and the solver's that it is part of.
   struct Source {
     btManifoldPoint* point;
     int contact;
+    int first;  // contact of its manifold
   };
 
   const BodyStates<Dim>& states_;
@@ -135,8 +137,8 @@ class SmallSteps {
   std::vector<int> obstacle_slots_;           // by number; 0: does not move
   bool obstacles_stand_ = true;               // in this step
   std::vector<SleepingPoint<Dim>> released_;  // scratch
-  std::vector<SpinF<Dim>>
-      rolling_;  // by contact of the last step: share of each of its points of Bullet's [N m s times the mass scale]
+  /// Of the last step by the first contact of a manifold, and of points that come back [N m s times the mass scale].
+  std::vector<SpinF<Dim>> rolling_;
   std::uint32_t step_ = 1;  // number of the last one, from 2 on: the mark of a new point is 0
 };
 

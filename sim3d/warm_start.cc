@@ -2,7 +2,6 @@
 
 #include "sim3d/bullet/idle_pairs.h"
 #include "sim3d/bullet/whole.h"
-#include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
 namespace {
@@ -109,7 +108,8 @@ void WarmStart::save(btBroadphasePair& pair) {
                      point.m_appliedImpulse,
                      {friction.x(), friction.y(), friction.z()},
                      static_cast<std::int16_t>(first ? point.m_index0 : point.m_index1),
-                     static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0)});
+                     static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0),
+                     PointMark()});
       }
     }
   }
@@ -142,6 +142,7 @@ void WarmStart::renew(const btCollisionObject& owner, std::span<const Renewed> p
     const btScalar share = 1 / static_cast<btScalar>(parts[i]);
     saved.distance = points[i].distance;
     saved.impulse = share * points[i].impulse;
+    saved.mark = points[i].mark;
     for (int k = 0; k < 3; ++k) saved.friction[k] = share * points[i].friction[k];
   }
 }
@@ -221,6 +222,7 @@ void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersiste
   const int known = manifold.getCacheEntry(point);
   btManifoldPoint& target = manifold.getContactPoint(known >= 0 ? known : manifold.addManifoldPoint(point));
   target.m_appliedImpulse = saved.impulse;
+  if (saved.mark.step != 0) set_mark(target, {saved.mark.step, saved.mark.entry + (first ? 0 : 1)});
   const btVector3 friction(saved.friction[0], saved.friction[1], saved.friction[2]);
   set_friction_impulse(target, first ? friction : -friction);
 }

@@ -11,6 +11,7 @@
 
 #include "common/world/body.h"
 #include "sim3d/bullet/pairs.h"
+#include "sim3d/friction_impulse.h"
 
 namespace talus::bullet {
 
@@ -27,6 +28,7 @@ class WarmStart {
     btScalar distance = 0;  // between the two surfaces [m]
     btScalar impulse = 0;   // [N s]
     btVector3 friction;     // impulse on the owner, in the world's axes [N s]
+    PointMark mark;         // of its rolling impulse
   };
 
   /// Whether the first of two sides owns the points of their pair: of two bodies the one added first does; ground and
@@ -58,6 +60,7 @@ class WarmStart {
     float friction[3];   // impulse on the owner, in the world's axes [N s]
     std::int16_t piece;  // number within the owner's shape; -1 where the shape is a single piece
     std::int16_t partners_piece;
+    PointMark mark;
   };
   struct Node {
     SavedPoint point;

@@ -62,14 +62,12 @@ std::span<const BodyIndex> SlopeControl<Dim>::update(World<Dim>& world, const Pi
 template <int Dim>
 void SlopeControl<Dim>::find_held(const BodyStates<Dim>& states, const PileSet<Dim>& piles) {
   held_.clear();
-  const auto too_steep = [&](int pile) {
-    return pile >= 0 && controls_[pile].grip == 0.0F &&
-           controls_[pile].slope.value_or(0.0) > piles.piles()[pile].alpha + allowed_steepness;
-  };
-  for (BodyIndex body = 0; body < std::ssize(states.grip); ++body)
-    if (states.asleep[body] != 0 && states.grip[body] > 0.0F && states.removed[body] == 0 &&
-        too_steep(controlled_pile(piles.piles(), states.pose[body].position)))
-      held_.push_back(body);
+  if (std::ranges::none_of(controls_, &Control::too_steep)) return;
+  for (BodyIndex body = 0; body < std::ssize(states.grip); ++body) {
+    if (states.asleep[body] == 0 || states.grip[body] == 0.0F || states.removed[body] != 0) continue;
+    const int pile = controlled_pile(piles.piles(), states.pose[body].position);
+    if (pile >= 0 && controls_[pile].too_steep) held_.push_back(body);
+  }
 }
 
 /// Of the bodies that have touched something, moving or not: those at rest alone are the core, up to ten degrees
@@ -92,6 +90,7 @@ void SlopeControl<Dim>::update_grip(const Pile<Dim>& pile, Control& control, dou
   if (control.positions.size() < min_bodies_for_slope) {
     control.grip = max_grip;
     control.slope.reset();
+    control.too_steep = false;
     return;
   }
   const double slope = estimate_angle_of_repose<Dim>(control.positions);
@@ -99,6 +98,7 @@ void SlopeControl<Dim>::update_grip(const Pile<Dim>& pile, Control& control, dou
   control.slope = slope;
   const double missing = pile.alpha - slope + foreseen * sinking;
   control.grip = static_cast<float>(std::clamp(grip_per_radian * missing, 0.0, max_grip));
+  control.too_steep = control.grip == 0.0F && slope > pile.alpha + allowed_steepness;
 }
 
 template class SlopeControl<2>;

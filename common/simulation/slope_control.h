@@ -37,6 +37,7 @@ class SlopeControl {
   struct Control {
     float grip = 0.0F;
     std::optional<double> slope;      // as last measured [rad]
+    bool too_steep = false;           // without a grip: sleeping bodies that still have one must wake
     std::vector<Vec<Dim>> positions;  // scratch: of its bodies, relative to the middle of its base [m]
   };
 

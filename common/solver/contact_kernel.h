@@ -193,15 +193,28 @@ void solve_friction(Pair<Dim>& pair, PointBlock<Dim>& point) {
   }
 }
 
+/// The normal impulse of a pair.
+template <int Dim>
+Lanes push_of(const ContactArrays<Dim>& arrays, const ContactBlock<Dim>& block) {
+  Lanes push = load(arrays.points[block.first_point].impulse);
+  for (int j = 1; j < block.points; ++j) push = push + load(arrays.points[block.first_point + j].impulse);
+  return push;
+}
+
+/// Share of a rolling impulse that a pair's normal impulse allows.
+template <int Size>
+Lanes share_within(Lanes limit, const Several<Size>& impulse) {
+  Lanes square = impulse.x[0] * impulse.x[0];
+  for (int i = 1; i < Size; ++i) square = square + impulse.x[i] * impulse.x[i];
+  const Lanes length = root(square);
+  return if_below(limit, length, limit / length, splat(1.0F));
+}
+
 template <int Dim>
 void solve_rolling(Pair<Dim>& pair, RollingBlock<Dim>& rolling, Lanes push) {
   const auto impulse = load(rolling.impulse);
   auto next = impulse - times(load(rolling.gain), pair.b.angular - pair.a.angular);
-  const Lanes limit = load(rolling.arm) * push;
-  Lanes square = next.x[0] * next.x[0];
-  for (int i = 1; i < spin_size<Dim>; ++i) square = square + next.x[i] * next.x[i];
-  const Lanes length = root(square);
-  next = if_below(limit, length, limit / length, splat(1.0F)) * next;
+  next = share_within(load(rolling.arm) * push, next) * next;
   pair.twist(next - impulse);
   store(rolling.impulse, next);
 }
@@ -248,6 +261,19 @@ void end_sub_step(const ContactArrays<Dim>& arrays, const ContactBlock<Dim>& blo
   take_back(arrays, block, cut, point);
 }
 
+/// A rolling impulse is carried on as far as the normal impulses that are.
+template <int Dim>
+void end_rolling(const ContactArrays<Dim>& arrays, const ContactBlock<Dim>& block) {
+  RollingBlock<Dim>& rolling = arrays.rolling[block.rolling];
+  const auto impulse = load(rolling.impulse);
+  const Lanes share = share_within(load(rolling.arm) * push_of(arrays, block), impulse);
+  if (!any_below(share, splat(1.0F))) return;
+  store(rolling.impulse, share * impulse);
+  Pair<Dim> carried(block, arrays.free);
+  carried.twist((splat(1.0F) - share) * impulse);
+  carried.store_to(block, arrays.free);
+}
+
 // How often a pair's points are solved again in a pass in which they are hit, and the speed that an impact takes away
 // at least [m/s]. Solved once, a box that lands flat loses a fourth of the friction of its impact.
 constexpr int impact_repeats = 4;
@@ -279,14 +305,12 @@ void pass(const ContactArrays<Dim>& arrays) {
     solve_points();
     if (has_impact(arrays, block))
       for (int j = 0; j < impact_repeats; ++j) solve_points();
-    if (block.rolling >= 0) {
-      Lanes push = load(points[0].impulse);
-      for (int j = 1; j < block.points; ++j) push = push + load(points[j].impulse);
-      solve_rolling<Dim>(pair, arrays.rolling[block.rolling], push);
-    }
+    if (block.rolling >= 0) solve_rolling<Dim>(pair, arrays.rolling[block.rolling], push_of(arrays, block));
     pair.store_to(block, arrays.velocity);
-    if constexpr (Of == Pass::end)
+    if constexpr (Of == Pass::end) {
       for (int j = 0; j < block.points; ++j) end_sub_step<Dim>(arrays, block, points[j]);
+      if (block.rolling >= 0) end_rolling(arrays, block);
+    }
   }
 }
 

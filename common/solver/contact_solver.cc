@@ -149,6 +149,7 @@ struct ContactSolver<Dim>::Work {
   explicit Work(SolverLanes kind) : kernel(kernel_of<Dim>(kind)) {}
 
   void load_bodies();
+  SpinF<Dim> join_rolling(const Group& group);
   void fill_blocks(int number);
   void fill_body(const SolverBody<Dim>& body, Eight& mass, Eight* inertia, int lane) const;
   float fill_point(int number, PointBlock<Dim>& to, int lane, const Spring& of_contact);
@@ -294,23 +295,38 @@ void ContactSolver<Dim>::Work::load_bodies() {
   int copy = sets.tail();
   for (const int slot : sets.copied()) set<Dim>(&velocity[quads * copy++], bodies[slot].velocity, bodies[slot].spin);
   const float share = 1.0F / static_cast<float>(params.sub_steps);
+  const auto push = [&](int slot, const VecF<Dim>& impulse, const SpinF<Dim>& twist) {
+    const SolverBody<Dim>& body = bodies[slot];
+    if (!body.moves) return;
+    add_to<Dim>(&free[quads * sets.place(slot)], body.inverse_mass * impulse, body.inverse_inertia * twist);
+  };
   for (const ContactPoint<Dim>& point : points) {
-    if (point.normal_impulse == 0.0F && point.rolling_arm == 0.0F) continue;
+    if (point.normal_impulse == 0.0F) continue;
     // Friction lies in the plane of contact, as it was loaded.
     VecF<Dim> impulse = share * point.pressing_impulse() * point.normal;
     for (const VecF<Dim>& tangent : tangents_of(point.normal))
       impulse += share * point.friction_impulse.dot(tangent) * tangent;
-    const SpinF<Dim> twist = point.rolling_arm > 0.0F ? SpinF<Dim>(share * point.rolling_impulse) : SpinF<Dim>::Zero();
-    const auto push = [&](int slot, const VecF<Dim>& arm, float sign) {
-      const SolverBody<Dim>& body = bodies[slot];
-      if (!body.moves) return;
-      Quad* to = &free[quads * sets.place(slot)];
-      const SpinF<Dim> spin = body.inverse_inertia * SpinF<Dim>(torque(arm, impulse) + twist);
-      add_to<Dim>(to, sign * body.inverse_mass * impulse, sign * spin);
-    };
-    push(point.a, point.arm_a, -1.0F);
-    push(point.b, point.arm_b, 1.0F);
+    push(point.a, -impulse, -torque(point.arm_a, impulse));
+    push(point.b, impulse, torque(point.arm_b, impulse));
   }
+  for (const Group& group : sets.groups()) {
+    if (points[group.first].rolling_arm == 0.0F) continue;
+    const SpinF<Dim> twist = share * join_rolling(group);
+    push(points[group.first].a, VecF<Dim>::Zero(), -twist);
+    push(points[group.first].b, VecF<Dim>::Zero(), twist);
+  }
+}
+
+/// A group has one rolling impulse, which its first point carries from now on. A pair with several contacts may be
+/// grouped otherwise than in the step before.
+template <int Dim>
+SpinF<Dim> ContactSolver<Dim>::Work::join_rolling(const Group& group) {
+  ContactPoint<Dim>& first = points[group.first];
+  for (ContactPoint<Dim>& other : points.subspan(group.first + 1, group.count - 1)) {
+    first.rolling_impulse += other.rolling_impulse;
+    other.rolling_impulse.setZero();
+  }
+  return first.rolling_impulse;
 }
 
 template <int Dim>

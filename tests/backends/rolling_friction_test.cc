@@ -92,6 +92,21 @@ TYPED_TEST(RollingFriction, LetsAHeapOfBallsComeToRestUnderEachPolicy) {
   }
 }
 
+/// Bodies with flat sides touch with several points and pieces at once. A run warns of energy that its steps create.
+TYPED_TEST(RollingFriction, OfBodiesWithFlatSidesCreatesNoEnergy) {
+  constexpr int dim = TypeParam::dim;
+  for (const int seed : {1, 2, 3, 4}) {
+    const auto scene = std::get<Scene<dim>>(parse_scene(
+        fmt::format("title = \"L\"\ndimension = {}\nseed = {}\npolicy.kind = \"full\"\n"
+                    "shape.L = {{kind = \"L\", friction = 3.6, rolling_friction = 3}}\nground.friction = 3.6\n"
+                    "source = [{{count = 60, rate = 6.6, position = {}, velocity = {}}}]\n",
+                    dim, seed, at<dim>(0, 8), at<dim>(0, -10)),
+        "text"));
+    const auto simulation = TestFixture::run(scene, 12.0);
+    for (const Warning& warning : simulation.warnings()) ADD_FAILURE() << "seed " << seed << ": " << account(warning);
+  }
+}
+
 TYPED_TEST(RollingFriction, OfASleepingBallIsThatOfAnAwakeOne) {
   constexpr int dim = TypeParam::dim;
   const std::string heap =

@@ -42,6 +42,7 @@ class SlopeControl : public ::testing::Test {
     auto simulation = simulation_on<Backend>(scene);
     while (!simulation.emitter().finished()) simulation.step();
     run_on(simulation, 15.0);
+    for (const Warning& warning : simulation.warnings()) ADD_FAILURE() << account(warning);
     return simulation;
   }
 

@@ -269,6 +269,28 @@ TYPED_TEST(ContactSolverTest, RollingResistanceSlowsASpinByItsArm) {
   EXPECT_NEAR(solver.body(slot).spin[0], 3.0F - 0.1F * 2.0F * g * dt / 0.5F, 1e-3F);
 }
 
+// Two contacts of one pair may be grouped otherwise than in the step before, so any of their points may carry a rolling
+// impulse. Where nothing presses it holds nothing.
+TYPED_TEST(ContactSolverTest, ARollingImpulseThatNothingPressesTurnsNoBody) {
+  constexpr int D = TypeParam::value;
+  for (int points = 1; points <= 3; ++points) {
+    for (int carries = 0; carries < points; ++carries) {
+      ContactSolver<D> solver;
+      const int slot = solver.add(body_of<D>(2.0F, 0.5F));
+      for (int i = 0; i < points; ++i) {
+        ContactPoint<D> point;
+        point.b = slot;
+        point.gap = 1.0F;
+        point.rolling_arm = 0.1F;
+        if (i == carries) point.rolling_impulse[0] = 5.0F;
+        solver.add(point);
+      }
+      solver.solve({}, VecF<D>::Zero(), dt);
+      EXPECT_NEAR(solver.body(slot).spin.norm(), 0.0F, 1e-4F) << points << " points, number " << carries;
+    }
+  }
+}
+
 TYPED_TEST(ContactSolverTest, ContactsWithSleepersAreAsStiffAsWithTheSameBodiesAwake) {
   constexpr int D = TypeParam::value;
   // An overlap between two bodies at rest parts at the same speed in the first step, shared by their masses.
