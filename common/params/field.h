@@ -72,6 +72,8 @@ struct Key {
   std::string_view not_below = {};
   /// Texts that a text may be.
   std::span<const std::string_view> choices = {};
+  /// The choice that a number in `range` stands for; null: there must be a text.
+  std::string_view (*choice_of)(double) = nullptr;
   /// For the manual: a rule besides the range, which the code that uses the field checks.
   std::string_view further_rule = {};
   /// For the manual, where no constant says it; else the member's default is taken.

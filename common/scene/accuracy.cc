@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "common/math/vector.h"
 #include "common/shape/shape.h"
@@ -29,6 +30,11 @@ std::optional<Arrival> coarsest_arrival(const Scene<Dim>& scene) {
 template <int Dim>
 bool needs_rings(const Scene<Dim>& scene) {
   return !scene.movers.empty() || scene.gravity_motion || !scene.events.empty() || !scene.instruments.loads.empty();
+}
+
+template <int Dim>
+const Accuracy& level_of(const Scene<Dim>& scene) {
+  return *std::ranges::find(accuracies, scene.accuracy, &Accuracy::name);
 }
 
 template <int Dim>
@@ -62,7 +68,7 @@ double fitting_steps_per_second(const Scene<Dim>& scene, double step, std::optio
 
 template <int Dim>
 void apply_accuracy(Scene<Dim>& scene, const SetByScene& set) {
-  const Accuracy& level = *std::ranges::find(accuracies, scene.accuracy, &Accuracy::name);
+  const Accuracy& level = level_of(scene);
   if (!set.steps) scene.world.dt = 1.0 / fitting_steps_per_second(scene, level.step);
   if (!set.sub_steps) scene.world.solver.sub_steps = level.sub_steps;
   if (!set.tolerance) scene.policy.adaptive.tolerance = level.tolerance;
@@ -70,9 +76,23 @@ void apply_accuracy(Scene<Dim>& scene, const SetByScene& set) {
 }
 
 template <int Dim>
+std::optional<double> calibrated_error(const Scene<Dim>& scene) {
+  const Accuracy& level = level_of(scene);
+  if (!scene.world.solver.small_steps() || scene.policy.kind != "adaptive") return std::nullopt;
+  Scene<Dim> of_level = scene;
+  apply_accuracy(of_level, {});
+  const auto settings = [](const Scene<Dim>& of) {
+    return std::tuple(of.world.dt, of.world.solver.sub_steps, of.policy.adaptive.tolerance, of.policy.adaptive.rings);
+  };
+  return settings(scene) == settings(of_level) ? std::optional(level.error) : std::nullopt;
+}
+
+template <int Dim>
 std::string accuracy_text(const Scene<Dim>& scene) {
   const WorldDescription<Dim>& world = scene.world;
-  std::string text = fmt::format("accuracy {}: {:.6g} steps a second", scene.accuracy, 1.0 / world.dt);
+  std::string text = fmt::format("accuracy {}", scene.accuracy);
+  if (const auto error = calibrated_error(scene)) text += fmt::format(", {:g} % over 60 scenes", 100.0 * *error);
+  text += fmt::format(": {:.6g} steps a second", 1.0 / world.dt);
   if (world.solver.small_steps()) text += fmt::format(" of {} sub-steps", world.solver.sub_steps);
   if (const auto coarsest = coarsest_arrival(scene))
     text += fmt::format(", bodies arrive at {:.3g} m/s and go {:.2g} times their thickness in a step", coarsest->speed,
@@ -91,6 +111,8 @@ template double fitting_steps_per_second(const Scene<2>&, double, std::optional<
 template double fitting_steps_per_second(const Scene<3>&, double, std::optional<double>);
 template void apply_accuracy(Scene<2>&, const SetByScene&);
 template void apply_accuracy(Scene<3>&, const SetByScene&);
+template std::optional<double> calibrated_error(const Scene<2>&);
+template std::optional<double> calibrated_error(const Scene<3>&);
 template std::string accuracy_text(const Scene<2>&);
 template std::string accuracy_text(const Scene<3>&);
 

@@ -1,6 +1,7 @@
 #pragma once
 // What the accuracy that a scene names sets, where the scene does not set it itself.
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -13,6 +14,9 @@ namespace talus {
 /// One level of accuracy.
 struct Accuracy {
   std::string_view name;
+  /// Of the height of a heap's centre of mass under `adaptive`, relative to a converged run: root mean square over 60
+  /// scenes, without the scatter of the seeds (lab/results/cells.md).
+  double error;
   double step;       // largest way of a body in one step as it reaches the ground, over its thickness
   int sub_steps;     // SolverParams::sub_steps
   double tolerance;  // AdaptiveParams::tolerance [D]
@@ -20,12 +24,19 @@ struct Accuracy {
 };
 
 inline constexpr std::array<Accuracy, 3> accuracies = {{
-    {"fast", 2.0, 4, 0.1, 0},
-    {"standard", 1.0, usual_sub_steps, AdaptiveParams{}.tolerance, usual_rings},
-    {"fine", 0.5, usual_sub_steps, 0.02, usual_rings},
+    {"fast", 0.2, 2.0, 4, 0.1, 0},
+    {"standard", 0.05, 1.0, usual_sub_steps, AdaptiveParams{}.tolerance, usual_rings},
+    {"fine", 0.03, 0.5, usual_sub_steps, 0.02, usual_rings},
 }};
 inline constexpr std::array<std::string_view, 3> accuracy_names = {accuracies[0].name, accuracies[1].name,
                                                                    accuracies[2].name};
+
+inline constexpr double least_error = accuracies.back().error;
+
+/// The fastest level with at most this error, from `least_error` on.
+constexpr std::string_view level_within(double error) {
+  return std::ranges::find_if(accuracies, [error](const Accuracy& level) { return level.error <= error; })->name;
+}
 
 /// The values of a level that a scene sets itself.
 struct SetByScene {
@@ -65,7 +76,11 @@ double fitting_steps_per_second(const Scene<Dim>& scene, double step, std::optio
 template <int Dim>
 void apply_accuracy(Scene<Dim>& scene, const SetByScene& set);
 
-/// Step, sub-steps, tolerance and rings of a scene, and why the step: a sentence for people.
+/// The error of the scene's level; none where the scene sets a part of it otherwise, or the policy has no calibration.
+template <int Dim>
+std::optional<double> calibrated_error(const Scene<Dim>& scene);
+
+/// Level, error, step, sub-steps, tolerance and rings of a scene, and why the step: a sentence for people.
 template <int Dim>
 std::string accuracy_text(const Scene<Dim>& scene);
 

@@ -329,8 +329,14 @@ bool TableReader::read_value(const toml::node& node, const std::string& name, co
   return true;
 }
 
-bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& /*range*/,
+bool TableReader::read_value(const toml::node& node, const std::string& name, const Key& key, const Range& range,
                              std::string& value) {
+  if (key.choice_of != nullptr && node.is_number()) {
+    double number = 0.0;
+    if (!read_value(node, name, key, range, number)) return false;
+    value = key.choice_of(number);
+    return true;
+  }
   if (!key.choices.empty())
     return read_choice(node, name, value, std::vector<std::string>(key.choices.begin(), key.choices.end()));
   const auto* text = node.as_string();

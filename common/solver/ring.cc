@@ -18,8 +18,6 @@ constexpr float obstacle_share = 0.3F;
 /// Once nothing awake touches sleeping bodies, one is solved again if the forces on it have changed by more than this
 /// since its last solve [its weight].
 constexpr float balance = 0.01F;
-/// The ring goes on over contacts that carry something, or whose gap is narrower than this [D].
-constexpr float narrow_gap = 0.002F;
 /// Steps for which a body stays in the ring that does not reach it any more. Without, the ring's border moves to and
 /// fro, and each move changes forces.
 constexpr int hold_steps = 20;
@@ -151,12 +149,10 @@ void Ring<Dim>::enter(BodyIndex body, int depth, ContactSolver<Dim>& solver) {
 
 template <int Dim>
 void Ring<Dim>::enter_partners(BodyIndex side, int depth, ContactSolver<Dim>& solver) {
-  const float narrow = narrow_gap * static_cast<float>(params_.extent);
   for (const int number : contacts_.of(side)) {
     const SleepingPoint<Dim>& point = contacts_[number];
     const BodyIndex partner = point.a == side ? point.b : point.a;
-    const bool touches = point.contact.normal_impulse != 0.0F || point.contact.gap < narrow;
-    if (partner >= 0 && (side < 0 || touches)) enter(partner, depth, solver);
+    if (partner >= 0) enter(partner, depth, solver);
   }
 }
 

@@ -20,7 +20,8 @@ void add_setting_options(CLI::App& command, SceneChoice& choice) {
       ->check(not_empty());
   command
       .add_option("-a,--accuracy", choice.accuracy,
-                  "fast, standard or fine: sets the step, sub-steps and tolerance that the scene leaves open")
+                  "fast, standard, fine, or the relative error that is accepted, as 0.05: sets the step, sub-steps and "
+                  "tolerance that the scene leaves open")
       ->check(not_empty());
   command.add_option("-s,--set", choice.settings, "Replace a value of the scene, as policy.tau=0.4; may be repeated")
       ->type_name("PATH=VALUE")

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/measure/resting_shape.h"
+#include "common/scene/accuracy.h"
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
 #include "common/text/file.h"
@@ -202,6 +203,8 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
       {"picture_pixels_per_m", input.pixels_per_metre},
       {"wall_s", input.wall_seconds}};
   summary.update(statistics_json(statistics));
+  const std::optional<double> error = calibrated_error(scene);
+  summary["accuracy"] = {{"level", scene.accuracy}, {"error", error ? Json(*error) : Json()}};
   summary["shape"] = shape_of_rest_json(scene, simulation);
   summary["estimate"] = drift_estimate_json(input.probe, told_drift(simulation.frame()));
   summary["measured"] = measured_json(input.measured);
