@@ -14,8 +14,8 @@ namespace talus {
 /// One level of accuracy.
 struct Accuracy {
   std::string_view name;
-  /// Of the height of a heap's centre of mass under `adaptive`, relative to a converged run: root mean square over 60
-  /// scenes, without the scatter of the seeds (lab/results/cells.md).
+  /// Of a heap's shape under `adaptive`, relative to a converged run, as calibrated over 60 scenes (docs/accuracy.md,
+  /// "Levels").
   double error;
   double step;       // largest way of a body in one step as it reaches the ground, over its thickness
   int sub_steps;     // SolverParams::sub_steps

@@ -23,11 +23,11 @@ bool is_header_array(const toml::node& node) {
                                         [](const toml::node& element) { return element.is_table(); });
 }
 
-std::string rule_of(std::span<const std::string> choices) {
+std::string rule_of(std::span<const std::string> choices, bool or_number) {
   constexpr std::size_t most_named = 50;
-  return fmt::format("must be {}{}{}", choices.size() == 1 ? "" : "one of ",
+  return fmt::format("must be {}{}{}{}", choices.size() == 1 ? "" : "one of ",
                      fmt::join(choices.first(std::min(choices.size(), most_named)), ", "),
-                     choices.size() > most_named ? ", ..." : "");
+                     choices.size() > most_named ? ", ..." : "", or_number ? ", or a number" : "");
 }
 
 std::string below(const std::string& path, std::string_view key) {
@@ -338,7 +338,8 @@ bool TableReader::read_value(const toml::node& node, const std::string& name, co
     return true;
   }
   if (!key.choices.empty())
-    return read_choice(node, name, value, std::vector<std::string>(key.choices.begin(), key.choices.end()));
+    return read_choice(node, name, value, std::vector<std::string>(key.choices.begin(), key.choices.end()),
+                       key.choice_of != nullptr);
   const auto* text = node.as_string();
   if (text == nullptr || (*text)->empty() || (*text)->find_first_of("\n\r") != std::string::npos) {
     error_at(node, name, "must be a text on one line, in quotes, not empty");
@@ -439,10 +440,10 @@ std::size_t TableReader::count_of_points(const toml::node& node, const std::stri
 }
 
 bool TableReader::read_choice(const toml::node& node, const std::string& name, std::string& value,
-                              std::span<const std::string> choices) {
+                              std::span<const std::string> choices, bool or_number) {
   const auto* text = node.as_string();
   if (text == nullptr || std::find(choices.begin(), choices.end(), **text) == choices.end()) {
-    error_at(node, name, rule_of(choices), text == nullptr ? "" : suggestion(**text, choices));
+    error_at(node, name, rule_of(choices, or_number), text == nullptr ? "" : suggestion(**text, choices));
     return false;
   }
   value = **text;

@@ -128,7 +128,7 @@ class TableReader {
   bool read_array(const toml::node& node, const std::string& name, const Key& key, const Range& range,
                   std::span<double> values);
   bool read_choice(const toml::node& node, const std::string& name, std::string& value,
-                   std::span<const std::string> choices);
+                   std::span<const std::string> choices, bool or_number = false);
   bool all_whole(const toml::node& node, const std::string& name, std::span<const double> numbers);
   std::size_t count_of_points(const toml::node& node, const std::string& name);
   bool has_meaning(const Key& key);

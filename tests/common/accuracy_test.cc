@@ -124,7 +124,7 @@ TEST(Accuracy, OfANumberIsTheFastestLevelWithThatError) {
   for (const auto& [error, level] : levels)
     EXPECT_EQ(plates({{fmt::format("accuracy={}", error)}}).accuracy, level) << error;
   for (const char* refused : {"0.029", "0", "-1", "nan"})
-    EXPECT_THROW(plates({{fmt::format("accuracy={}", refused)}}), std::invalid_argument) << refused;
+    EXPECT_THROW(plates({{fmt::format("accuracy={}", refused)}}), SceneErrors) << refused;
 }
 
 TEST(Accuracy, HasAnErrorWhereTheSceneSetsNoPartOfItsLevel) {

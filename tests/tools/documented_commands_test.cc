@@ -65,9 +65,9 @@ constexpr auto shortened = std::to_array<Shortened>({
      "world.solver.kind=engine,small_steps --seeds 8 --drift --out solvers",
      "talus bench drop_in_a_pile_2d --policy full,adaptive --set world.solver.kind=engine,small_steps --seeds 1 --set "
      "run.frames=20 --drift --out solvers"},
-    {"talus bench lab/truth/scenes/*.toml --policy full,adaptive,reference --set accuracy=fast,standard,fine --seeds 4 "
+    {"talus bench lab/truth/scenes/*.toml --policy adaptive,reference --set accuracy=fast,standard,fine --seeds 6 "
      "--out levels",
-     "talus bench drop_in_a_pile_2d --policy full,adaptive,reference --set accuracy=fast,standard,fine --seeds 1 --set "
+     "talus bench drop_in_a_pile_2d --policy adaptive,reference --set accuracy=fast,standard,fine --seeds 1 --set "
      "run.frames=20 --out levels"},
     {"talus stress", "talus stress stack-5"},
     {"talus stress standing --policy adaptive", "talus stress stack-5 --policy adaptive"},
