@@ -25,7 +25,7 @@ struct Accuracy {
 
 inline constexpr std::array<Accuracy, 3> accuracies = {{
     {"fast", 0.2, 2.0, 4, 0.1, 0},
-    {"standard", 0.05, 1.0, usual_sub_steps, AdaptiveParams{}.tolerance, usual_rings},
+    {"standard", 0.07, 1.0, usual_sub_steps, AdaptiveParams{}.tolerance, usual_rings},
     {"fine", 0.03, 0.5, usual_sub_steps, 0.02, usual_rings},
 }};
 inline constexpr std::array<std::string_view, 3> accuracy_names = {accuracies[0].name, accuracies[1].name,

@@ -120,7 +120,7 @@ TEST(Accuracy, HasTheNumbersOfItsLevelsInTheTextOfItsKey) {
 
 TEST(Accuracy, OfANumberIsTheFastestLevelWithThatError) {
   const std::vector<std::pair<double, std::string>> levels = {{0.5, "fast"},      {0.2, "fast"},   {0.199, "standard"},
-                                                              {0.05, "standard"}, {0.049, "fine"}, {0.03, "fine"}};
+                                                              {0.07, "standard"}, {0.069, "fine"}, {0.03, "fine"}};
   for (const auto& [error, level] : levels)
     EXPECT_EQ(plates({{fmt::format("accuracy={}", error)}}).accuracy, level) << error;
   for (const char* refused : {"0.029", "0", "-1", "nan"})
@@ -135,7 +135,7 @@ TEST(Accuracy, HasAnErrorWhereTheSceneSetsNoPartOfItsLevel) {
 
 TEST(Accuracy, IsTold) {
   EXPECT_EQ(accuracy_text(plates({})),
-            "accuracy standard, 5 % over 60 scenes: 120 steps a second of 8 sub-steps, bodies arrive at 18.8 m/s and "
+            "accuracy standard, 7 % over 60 scenes: 120 steps a second of 8 sub-steps, bodies arrive at 18.8 m/s and "
             "go 0.52 times their "
             "thickness in a step, tolerance 0.05 D, 2 rings");
 }
