@@ -478,8 +478,8 @@ const SpinF<Dim>* SmallSteps<Dim>::rolling_of(const btManifoldPoint& point, std:
   return mark.step == step ? &rolling_[mark.entry] : nullptr;
 }
 
-/// The mark of a point that comes back before the next step with this impulse on its owner. The next entry is for a
-/// manifold that has the owner second.
+/// Keeps the rolling impulse on the owner of a point that is put back before the next step. Returns its mark; the entry
+/// behind it is the opposite impulse, for a manifold that has the owner second.
 template <int Dim>
 PointMark SmallSteps<Dim>::marked(const SpinF<Dim>& on_owner) {
   if (on_owner.isZero(0.0F)) return {};

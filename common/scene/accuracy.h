@@ -76,7 +76,8 @@ double fitting_steps_per_second(const Scene<Dim>& scene, double step, std::optio
 template <int Dim>
 void apply_accuracy(Scene<Dim>& scene, const SetByScene& set);
 
-/// The error of the scene's level; none where the scene sets a part of it otherwise, or the policy has no calibration.
+/// The error of the scene's level. None if the scene has other values than its level, or a policy or solver for which
+/// the levels are not calibrated.
 template <int Dim>
 std::optional<double> calibrated_error(const Scene<Dim>& scene);
 

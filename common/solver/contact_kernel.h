@@ -261,7 +261,7 @@ void end_sub_step(const ContactArrays<Dim>& arrays, const ContactBlock<Dim>& blo
   take_back(arrays, block, cut, point);
 }
 
-/// A rolling impulse is carried on as far as the normal impulses that are.
+/// Limits the rolling impulse that starts the next sub-step by the normal impulses that start it.
 template <int Dim>
 void end_rolling(const ContactArrays<Dim>& arrays, const ContactBlock<Dim>& block) {
   RollingBlock<Dim>& rolling = arrays.rolling[block.rolling];
