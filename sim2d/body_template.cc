@@ -25,7 +25,8 @@ bool restitutions_differ(const WorldDescription<2>& description) {
 }
 
 void mix_restitution(b2Contact& contact) {
-  contact.SetRestitution(std::sqrt(contact.GetFixtureA()->GetRestitution() * contact.GetFixtureB()->GetRestitution()));
+  contact.SetRestitution(static_cast<float>(
+      pair_restitution(contact.GetFixtureA()->GetRestitution(), contact.GetFixtureB()->GetRestitution())));
 }
 
 namespace {

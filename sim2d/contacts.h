@@ -15,9 +15,9 @@
 
 namespace talus::box2d {
 
-/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made again, tells
-/// the choice of continuous collision what was solved, and, in a step that records contacts, notes what only a listener
-/// sees: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
+/// Listens to Box2D within a step: mixes restitutions, warm-starts contacts that freezing or thawing made again, passes
+/// solved contacts to ContinuousCollision, and, in a step that records contacts, notes what only a listener
+/// gets: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
 class ContactListener final : public b2ContactListener {
  public:
   ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start, ContinuousCollision& continuous);

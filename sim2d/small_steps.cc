@@ -45,12 +45,8 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description)
     : params_{.sub_steps = description.solver.sub_steps,
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
       dt_(static_cast<float>(description.dt)),
-      fast_(description) {
-  for (const Shape<2>& shape : description.shapes) {
-    reaches_.push_back(static_cast<float>(bounding_radius(shape)));
-    arms_.push_back(static_cast<float>(rolling_arm(shape)));
-  }
-  rolls_ = std::ranges::any_of(arms_, [](float arm) { return arm > 0.0F; });
+      fast_(description),
+      resistance_(description.shapes) {
   for (const Obstacle<2>& obstacle : description.obstacles)
     obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
 }
@@ -72,14 +68,12 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
     Stopwatch solve;
     solver_.solve(params_, to_solver(world.GetGravity()), dt_);
     solving += solve.lap();
-    if (!passes_unseen(world, input, bodies) || round == most_solves) break;
+    if (round == most_solves || !passes_unseen(world, input, bodies)) break;
     if (ring_) ring_->start_again();
   }
   if (ring_) ring_->read(solver_, world.GetGravity().Length(), dt_);
   write_impulses();
   move_bodies(input, bodies);
-  for (const BodyIndex sleeper : sleepers_) slots_[sleeper] = 0;
-  sleepers_.clear();
   for (const BodyIndex body : input.awake) slots_[body] = 0;
   return {.collide = watch.lap() - solving, .solve = solving};
 }
@@ -130,7 +124,7 @@ void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (input.images[bodies[i]].sides != 0) continue;
     const int shape = input.states.shape[bodies[i]];
-    ring_->put_to_sleep(bodies[i], solver_body(*from[i], input.templates[shape].mass), reaches_[shape]);
+    ring_->put_to_sleep(bodies[i], solver_body(*from[i], input.templates[shape].mass), resistance_.reach(shape));
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const b2ContactEdge* edge = from[i]->GetContactList(); edge != nullptr; edge = edge->next) {
@@ -139,7 +133,8 @@ void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const 
                                                                       : *edge->contact->GetFixtureA());
       if (other >= 0 && input.states.asleep[other] == 0) continue;
       const bool falls_asleep_too = is_dynamic(*edge->other);
-      if (edge->contact->IsTouching() && !(falls_asleep_too && other < bodies[i])) keep(*edge->contact, input);
+      if (edge->contact->IsTouching() && !is_buried(*edge->contact) && !(falls_asleep_too && other < bodies[i]))
+        keep(*edge->contact, input);
     }
   }
   for (b2Body* body : from) keep_near(world, input, *body);
@@ -238,6 +233,7 @@ void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bod
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
     const b2Body* from = input.obstacles[i];
     if (from == nullptr || from->GetType() != b2_kinematicBody) continue;
+    if (from->GetLinearVelocity() == b2Vec2_zero && from->GetAngularVelocity() == 0.0F) continue;
     SolverBody<2> body;
     body.velocity = to_solver(from->GetLinearVelocity());
     body.spin[0] = from->GetAngularVelocity();
@@ -305,8 +301,8 @@ SmallSteps::Fixtures SmallSteps::fixtures_of(b2Contact& contact) {
 
 /// Of which Box2D has no contact.
 SmallSteps::Fixtures SmallSteps::unknown_pair(b2Fixture& a, b2Fixture& b) {
-  return {&a, &b, b2MixFriction(a.GetFriction(), b.GetFriction()), std::sqrt(a.GetRestitution() * b.GetRestitution()),
-          nullptr};
+  return {&a, &b, b2MixFriction(a.GetFriction(), b.GetFriction()),
+          static_cast<float>(pair_restitution(a.GetRestitution(), b.GetRestitution())), nullptr};
 }
 
 /// Without their slots; valid until the next call.
@@ -315,11 +311,9 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
   points_.clear();
   ContactPoint<2> point;
   point.normal = to_solver(place.normal);
-  const float grip = grip_between(input.states, owner_of(*pair.a), owner_of(*pair.b));
   point.friction = pair.friction;
   point.restitution = pair.restitution;
-  if (rolls_) point.rolling_arm = of_pair(pair, input, arms_);
-  if (grip > 0.0F) point.hold(grip, of_pair(pair, input, reaches_));
+  resistance_.add_to(point, input.states, owner_of(*pair.a), owner_of(*pair.b));
   if (point.rolling_arm > 0.0F) add_rolling_impulse(pair, point);
   const b2Vec2 centre_a = centre_of(*pair.a, input.states);
   const b2Vec2 centre_b = centre_of(*pair.b, input.states);
@@ -342,18 +336,9 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
   return points_;
 }
 
-/// Of a sleeper's point, which Box2D does not know.
+/// Displacement of a sleeper's point, which the pose in Box2D does not contain.
 VecF<2> SmallSteps::shift_of(BodyIndex side, const VecF<2>& arm) const {
   return side >= 0 && ring_->has(side) ? ring_->shift(side, arm) : VecF<2>::Zero();
-}
-
-/// A length by shape, for both bodies of a pair.
-float SmallSteps::of_pair(const Fixtures& pair, const StepInput& input, std::span<const float> lengths) {
-  const auto of = [&](b2Fixture& fixture) {
-    const BodyIndex owner = owner_of(fixture);
-    return owner >= 0 ? std::optional<double>(lengths[input.states.shape[owner]]) : std::nullopt;
-  };
-  return static_cast<float>(arm_of_pair(of(*pair.a), of(*pair.b)));
 }
 
 void SmallSteps::add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const {
@@ -440,7 +425,10 @@ void SmallSteps::add_ground_ahead(const StepInput& input, b2Body& body) {
   if (std::ranges::any_of(ahead_, [&](const Ahead& each) { return each.a == ground && each.b == tag; })) return;
   points_.clear();
   fast_.meet_ground(slots_[owner], input.states.shape[owner], input.states.pose[owner], true, points_);
-  for (const ContactPoint<2>& point : points_) add_ahead(ground, tag, point, body);
+  for (ContactPoint<2>& point : points_) {
+    resistance_.add_to(point, input.states, ground_index, owner);
+    add_ahead(ground, tag, point, body);
+  }
 }
 
 /// Adds nothing where Box2D already has that point between `body_b` and the owner of `a`.
@@ -495,7 +483,8 @@ void SmallSteps::move_bodies(const StepInput& input, std::span<b2Body* const> bo
     body.SetAngularVelocity(largest * from.spin[0]);
     const b2Vec2 to = body.GetPosition() + from_solver(longest * from.way);
     const float angle = body.GetAngle() + largest * from.turn[0];
-    if (to.IsValid() && b2IsValid(angle)) body.SetTransform(to, angle);  // else the velocity tells it
+    if (to.IsValid() && b2IsValid(angle))
+      body.SetTransform(to, angle);  // else engine_read() finds a velocity that is not finite
   }
 }
 

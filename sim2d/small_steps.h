@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/solver/contact_solver.h"
+#include "common/solver/pair_resistance.h"
 #include "common/solver/ring.h"
 #include "common/world/world.h"
 #include "sim2d/body_template.h"
@@ -39,7 +40,7 @@ class SmallSteps {
  public:
   explicit SmallSteps(const WorldDescription<2>& description);
 
-  /// In place of b2World::Step(); Box2D must know all pairs.
+  /// In place of b2World::Step(). All new pairs must have been found.
   EngineTimes step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
 
   void share_among(const std::shared_ptr<Team>& team) {
@@ -47,11 +48,12 @@ class SmallSteps {
     solver_.share_among(team);
   }
 
-  /// Whether sleepers feel forces, see Ring: those that fall asleep from now on.
+  /// Whether sleepers feel forces, see Ring.
   void set_ring(const std::optional<SleepRing>& ring);
   /// Null without.
   const Ring<2>* ring() const { return ring_ ? &*ring_ : nullptr; }
-  /// With a ring, before their bodies in Box2D go: awake bodies fall asleep. Box2D must know all pairs.
+  /// With a ring, before their bodies in Box2D go: awake bodies fall asleep. All new pairs must have
+  /// been found.
   void freeze(b2World& world, const StepInput& input, std::span<const BodyIndex> bodies, std::span<b2Body* const> from);
   /// With a ring: a body wakes. Returns its velocity and its displacement; the impulses of its contacts go to `warm`.
   SolverBody<2> thaw(BodyIndex body, WarmStart& warm);
@@ -118,7 +120,6 @@ class SmallSteps {
   static Fixtures unknown_pair(b2Fixture& a, b2Fixture& b);
   std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
                                              const b2WorldManifold& place, const StepInput& input);
-  static float of_pair(const Fixtures& pair, const StepInput& input, std::span<const float> lengths);
   void add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const;
   int moving_slot(BodyIndex owner) const;
   Mover mover_of(b2Fixture& fixture) const;
@@ -136,16 +137,14 @@ class SmallSteps {
   ContactSolverParams params_;
   float dt_;
   FastBodies<2> fast_;
-  std::vector<float> arms_;     // by shape, see rolling_arm() [m]
-  bool rolls_ = false;          // a shape has rolling friction
-  std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
+  PairResistance<2> resistance_;
   ContactSolver<2> solver_;
   Collision collision_;
   std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
   std::optional<Ring<2>> ring_;
   std::vector<Ahead> ahead_;
   std::vector<std::size_t> first_of_;       // by slot of an awake body, from 1 on: its number among the awake
-  std::vector<float> obstacle_reaches_;     // by number: as reaches_ [m]
+  std::vector<float> obstacle_reaches_;     // by number: from the centre to any point of it at most [m]
   std::vector<Source> sources_;             // by point
   std::vector<int> slots_;                  // by body; 0: not in this step yet
   std::vector<BodyIndex> sleepers_;         // in this step

@@ -43,12 +43,12 @@ void WarmStart::apply(b2Contact& contact) const {
   }
 }
 
-std::int32_t& SleepingContacts::next_of(std::int32_t node, BodyIndex body) {
+std::int32_t& SavedContacts::next_of(std::int32_t node, BodyIndex body) {
   Node& n = nodes_[node];
   return n.next[owner_of(n.contact.low) == body ? 0 : 1];
 }
 
-void SleepingContacts::keep(const SavedContact& contact) {
+void SavedContacts::keep(const SavedContact& contact) {
   if (free_.empty()) {
     free_.push_back(static_cast<std::int32_t>(nodes_.size()));
     nodes_.emplace_back();
@@ -65,13 +65,13 @@ void SleepingContacts::keep(const SavedContact& contact) {
   }
 }
 
-void SleepingContacts::unlink(std::int32_t node, BodyIndex body) {
+void SavedContacts::unlink(std::int32_t node, BodyIndex body) {
   std::int32_t* link = &first_[body];
   while (*link != node) link = &next_of(*link, body);
   *link = next_of(node, body);
 }
 
-void SleepingContacts::release(BodyIndex body, std::vector<SavedContact>& out) {
+void SavedContacts::release(BodyIndex body, std::vector<SavedContact>& out) {
   if (body >= std::ssize(first_)) return;
   std::int32_t& first = first_[body];
   while (first >= 0) {

@@ -2,16 +2,9 @@
 // Contact impulses that outlive their contacts. Box2D finds this step's impulses from the last step's, and its contacts
 // die with the fixtures that freezing and thawing exchange; without their impulses a thawed heap slumps.
 //
-// Tried on heaps of 400 L shapes at rest, all frozen for two seconds and thawed; peak mean speed and mean way within
-// the next second, the same heap never frozen in brackets:
-//   nothing restored                        0.40 to 0.47 m/s, 48 to 79 mm (at most 0.0002 m/s, 0.02 mm)
-//   impulses found by the points' places    0.0000 to 0.0002 m/s, at most 0.02 mm
-//   by feature ids, with the fixtures' numbers in the broad phase kept (what is done here: less to store, and no
-//   contact is ever measured from its other side): the same on the jammed stack below, on heaps at rest as calm
-// A stack dropped from 60 m, in which bodies are jammed 0.26 m into each other, is left less calm: 0.0059 m/s, 0.70 mm
-// (0.0005 m/s, 0.13 mm; nothing restored 0.25 m/s, 25 mm), since there the order of contacts decides how the jam is
-// held. With that order restored too, by giving Box2D the pairs oldest first, even this heap does as if never frozen;
-// it takes writing to the engine's contact manager behind its back, so it is left out.
+// Impulses are found again by feature ids, which needs the fixtures' numbers in the broad phase kept
+// (EngineWorld::engine_freeze()). The order of contacts is not restored, so deeply jammed stacks are a little less calm
+// after a thaw (lab/notes/tried_and_left.md).
 
 #include <box2d/box2d.h>
 
@@ -40,7 +33,7 @@ struct SavedContact {
 };
 
 /// Contacts between sleepers: the engine has none of these. Every contact is in the lists of both its bodies.
-class SleepingContacts {
+class SavedContacts {
  public:
   void keep(const SavedContact& contact);
   /// Removes all contacts of a body and appends them to `out`.
@@ -75,7 +68,7 @@ class WarmStart {
   bool empty() const { return waiting_.empty(); }
 
  private:
-  SleepingContacts sleeping_;
+  SavedContacts sleeping_;
   std::vector<SavedContact> waiting_;
 };
 

@@ -33,7 +33,7 @@ void BodySwap::thaw(std::unique_ptr<btCollisionObject>& object, const BodyTempla
   warm_start_.announce(*proxy, engine_.pairs);
 }
 
-// The contacts that stay must know their new owner.
+// The manifolds that stay must point to the new object.
 void BodySwap::exchange(std::unique_ptr<btCollisionObject>& object, std::unique_ptr<btCollisionObject> successor) {
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
   successor->setBroadphaseHandle(proxy);

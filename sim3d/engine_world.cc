@@ -83,11 +83,8 @@ void EngineWorld<Dim>::use_small_steps() {
 
 template <int Dim>
 typename SmallSteps<Dim>::Actions EngineWorld<Dim>::actions() {
-  typename SmallSteps<Dim>::Actions actions{.moving = moving_obstacles_,
-                                            .belts = this->belts(),
-                                            .pushes = {},
-                                            .gravity = engine_.world.getGravity(),
-                                            .states = this->states()};
+  typename SmallSteps<Dim>::Actions actions{
+      .moving = moving_obstacles_, .belts = this->belts(), .pushes = {}, .gravity = engine_.world.getGravity()};
   for (const Push<Dim>& push : this->pushes())
     actions.pushes.emplace_back(rigid_body(push.body), push.force / this->shape_of(push.body).mass);
   return actions;
@@ -165,7 +162,7 @@ Pose<Dim> EngineWorld<Dim>::engine_place(BodyIndex body, const Pose<Dim>& pose) 
 template <int Dim>
 void EngineWorld<Dim>::engine_contacts(std::vector<Contact<Dim>>& contacts) const {
   contacts_.gather(engine_, this->states().asleep, contacts);
-  if (small_steps_) small_steps_->gather_ahead(this->states(), impulse_unit(), contacts);
+  if (small_steps_) small_steps_->gather_ahead(impulse_unit(), contacts);
 }
 
 template <int Dim>
@@ -257,12 +254,8 @@ void EngineWorld<Dim>::keep_contacts(std::span<const BodyIndex> bodies) {
   if (bodies.back() >= detected_) engine_.world.performDiscreteCollisionDetection();
   detected_ = this->states().size();
   std::vector<btRigidBody*> falling_asleep;
-  std::vector<int> shapes;
-  for (const BodyIndex body : bodies) {
-    falling_asleep.push_back(rigid_body(body));
-    shapes.push_back(this->states().shape[body]);
-  }
-  small_steps_->freeze(engine_, falling_asleep, shapes);
+  for (const BodyIndex body : bodies) falling_asleep.push_back(rigid_body(body));
+  small_steps_->freeze(engine_, falling_asleep);
 }
 
 template <int Dim>

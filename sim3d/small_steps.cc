@@ -26,12 +26,10 @@ InertiaF<Dim> inertia_to_solver(const btMatrix3x3& inverse) {
 }
 
 template <int Dim>
-SolverBody<Dim> awake_body(btRigidBody& rigid, float dt) {
+SolverBody<Dim> awake_body(const btRigidBody& rigid) {
   SolverBody<Dim> body;
   body.velocity = to_solver<Dim>(rigid.getLinearVelocity());
   body.spin = spin_to_solver<Dim>(rigid.getAngularVelocity());
-  // At once, as Bullet has it: spread over the sub-steps a tumbling body loses a fifth of its angular momentum.
-  if constexpr (Dim == 3) body.spin += to_solver<3>(rigid.computeGyroscopicImpulseImplicit_Body(dt));
   body.inverse_mass = rigid.getInvMass();
   body.position = to_solver<Dim>(rigid.getWorldTransform().getOrigin());
   body.inverse_inertia = inertia_to_solver<Dim>(rigid.getInvInertiaTensorWorld());
@@ -99,14 +97,10 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
       dt_(static_cast<float>(description.dt)),
       fastest_spin_(static_cast<float>(fastest_spin)),
-      fast_(description) {
+      fast_(description),
+      resistance_(description.shapes) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Shape<Dim>& shape : description.shapes) {
-    smallest = std::min(smallest, shape.extent);
-    reaches_.push_back(static_cast<float>(bounding_radius(shape)));
-    arms_.push_back(static_cast<float>(rolling_arm(shape)));
-    rolls_ = rolls_ || arms_.back() > 0.0F;
-  }
+  for (const Shape<Dim>& shape : description.shapes) smallest = std::min(smallest, shape.extent);
   one_point_ = static_cast<float>(one_point * smallest);
   obstacle_slots_.assign(description.obstacles.size(), 0);
 }
@@ -121,16 +115,16 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
     sources_.clear();
     parts_.clear();
     add_bodies(bodies, actions);
-    if (round == 1) expect_motion(engine, bodies, actions.states);
+    if (round == 1) expect_motion(engine, bodies);
     add_points_ahead(actions.belts);
     add_points(engine.dispatcher, actions.belts);
     if (ring_) ring_->extend(solver_, obstacle_slots_);
     solver_.solve(params_, to_solver<Dim>(actions.gravity), dt_);
     const std::size_t solved = ahead_.size();
-    const bool passes = passes_unseen(engine, bodies, actions.states);
+    const bool again = round < most_solves && passes_unseen(engine, bodies);
     for (btCollisionObject* other : others_) other->setCompanionId(-1);
     others_.clear();
-    if (!passes || round == most_solves) {
+    if (!again) {
       ahead_.resize(solved);
       break;
     }
@@ -143,22 +137,20 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
 
 /// From the velocities; finds the contacts ahead of what is fast.
 template <int Dim>
-void SmallSteps<Dim>::expect_motion(Engine& engine, std::span<btRigidBody* const> bodies,
-                                    const BodyStates<Dim>& states) {
+void SmallSteps<Dim>::expect_motion(Engine& engine, std::span<btRigidBody* const> bodies) {
   fast_.expect(solver_, static_cast<int>(first_of_.size()), dt_);
   for (const int slot : fast_.found())
-    for (btRigidBody* body : bodies_at<btRigidBody>(slot, first_of_, bodies)) find_ahead(engine, *body, states, true);
+    for (btRigidBody* body : bodies_at<btRigidBody>(slot, first_of_, bodies)) find_ahead(engine, *body, true);
 }
 
 /// After a step is solved: whether a body that was struck, and so moves fast, gets past something. Finds what is ahead
 /// of it.
 template <int Dim>
-bool SmallSteps<Dim>::passes_unseen(Engine& engine, std::span<btRigidBody* const> bodies,
-                                    const BodyStates<Dim>& states) {
+bool SmallSteps<Dim>::passes_unseen(Engine& engine, std::span<btRigidBody* const> bodies) {
   const auto known = static_cast<std::ptrdiff_t>(ahead_.size());
   fast_.follow(solver_);
   for (const int slot : fast_.found())
-    for (btRigidBody* body : bodies_at<btRigidBody>(slot, first_of_, bodies)) find_ahead(engine, *body, states, false);
+    for (btRigidBody* body : bodies_at<btRigidBody>(slot, first_of_, bodies)) find_ahead(engine, *body, false);
   return std::any_of(ahead_.begin() + known, ahead_.end(),
                      [&](const Ahead& each) { return fast_.passes(solver_, each.point); });
 }
@@ -183,7 +175,7 @@ Mover SmallSteps<Dim>::mover_of(const btCollisionObject& object) const {
 
 /// Contacts of a fast body that begin within the step. `first`: the first time in the step.
 template <int Dim>
-void SmallSteps<Dim>::find_ahead(Engine& engine, btRigidBody& fast, const BodyStates<Dim>& states, bool first) {
+void SmallSteps<Dim>::find_ahead(Engine& engine, btRigidBody& fast, bool first) {
   const Mover mover = mover_of(fast);
   find_near(engine, mover, first);
   for (const btCollisionObject* other : near_) {
@@ -191,8 +183,11 @@ void SmallSteps<Dim>::find_ahead(Engine& engine, btRigidBody& fast, const BodySt
     if (other->getUserIndex() == ground_index) {
       met_ground_.clear();
       const BodyIndex body = fast.getUserIndex();
-      fast_.meet_ground(fast.getCompanionId(), states.shape[body], states.pose[body], false, met_ground_);
-      for (const ContactPoint<Dim>& point : met_ground_) add_new(engine, *other, fast, point);
+      fast_.meet_ground(fast.getCompanionId(), states_.shape[body], states_.pose[body], false, met_ground_);
+      for (ContactPoint<Dim>& point : met_ground_) {
+        resistance_.add_to(point, states_, ground_index, body);
+        add_new(engine, *other, fast, point);
+      }
     } else {
       const Mover second = mover_of(*other);
       if ((second.motion.way - mover.motion.way).norm() + second.turn + mover.turn <= fast_.limit()) continue;
@@ -244,8 +239,7 @@ bool SmallSteps<Dim>::is_found(const btCollisionObject& a, const btCollisionObje
       ahead_, [&](const Ahead& each) { return (each.a == &a && each.b == &b) || (each.a == &b && each.b == &a); });
 }
 
-/// A point of `a` and `b` that Bullet does not know. None in the plane where it is of flat faces, which must not
-/// matter.
+/// A point of `a` and `b` that is in no manifold. None in the plane where it is of flat faces, which must not matter.
 template <int Dim>
 std::optional<ContactPoint<Dim>> SmallSteps<Dim>::in_world(const btCollisionObject& a, const btCollisionObject& b,
                                                            const ContactPoint<3>& found) const {
@@ -260,7 +254,7 @@ std::optional<ContactPoint<Dim>> SmallSteps<Dim>::in_world(const btCollisionObje
   if (ring_) point.gap += point.normal.dot(shift_of(b, point.arm_b) - shift_of(a, point.arm_a));
   point.friction = btManifoldResult::calculateCombinedFriction(&a, &b);
   point.restitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
-  hold_together(a, b, point);
+  resistance_.add_to(point, states_, a.getUserIndex(), b.getUserIndex());
   return point;
 }
 
@@ -310,15 +304,14 @@ void SmallSteps<Dim>::add_points_ahead(std::span<const Vec<Dim>> belts) {
 }
 
 template <int Dim>
-void SmallSteps<Dim>::gather_ahead(const BodyStates<Dim>& states, double impulse_unit,
-                                   std::vector<Contact<Dim>>& contacts) const {
+void SmallSteps<Dim>::gather_ahead(double impulse_unit, std::vector<Contact<Dim>>& contacts) const {
   if (ahead_.empty()) return;
   for (std::size_t i = 0; i < ahead_.size(); ++i) {
     const ContactPoint<Dim>& point = solver_.points()[i];
     if (point.normal_sum == 0.0F) continue;  // did not touch
     const BodyIndex a = ahead_[i].a->getUserIndex();
     const BodyIndex b = ahead_[i].b->getUserIndex();
-    Contact<Dim> contact = solved_contact(solver_, point, a, b, listed_under_second(a, b, states.asleep), states);
+    Contact<Dim> contact = solved_contact(solver_, point, a, b, listed_under_second(a, b, states_.asleep), states_);
     contact.normal_impulse *= impulse_unit;
     contact.friction_impulse *= impulse_unit;
     contacts.push_back(contact);
@@ -336,7 +329,10 @@ void SmallSteps<Dim>::add_bodies(std::span<btRigidBody* const> bodies, const Act
       continue;
     }
     first_of_.push_back(i);
-    bodies[i]->setCompanionId(solver_.add(awake_body<Dim>(*bodies[i], dt_)));
+    SolverBody<Dim> body = awake_body<Dim>(*bodies[i]);
+    // At once, as Bullet has it: spread over the sub-steps a tumbling body loses a fifth of its angular momentum.
+    if constexpr (Dim == 3) body.spin += to_solver<3>(bodies[i]->computeGyroscopicImpulseImplicit_Body(dt_));
+    bodies[i]->setCompanionId(solver_.add(body));
   }
   for (const auto& [body, acceleration] : actions.pushes)
     solver_.push(body->getCompanionId(), acceleration.template cast<float>());
@@ -387,9 +383,12 @@ void SmallSteps<Dim>::add_points(btDispatcher& dispatcher, std::span<const Vec<D
 template <int Dim>
 void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, std::span<const Vec<Dim>> belts) {
   collect(manifold, step_ - 1);
+  if (contacts_.empty()) return;
+  const int a = slot_at(*manifold.getBody1(), contacts_[0].normal, belts);
+  const int b = slot_at(*manifold.getBody0(), contacts_[0].normal, belts);
   for (ContactPoint<Dim>& contact : contacts_) {
-    contact.a = slot_at(*manifold.getBody1(), contact.normal, belts);
-    contact.b = slot_at(*manifold.getBody0(), contact.normal, belts);
+    contact.a = a;
+    contact.b = b;
     solver_.add(contact);
   }
 }
@@ -418,7 +417,7 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
     contact.gap = point.getDistance();
     if (ring_) contact.gap += contact.normal.dot(shift_of(object_b, contact.arm_b) - shift_of(object_a, contact.arm_a));
     contact.friction = point.m_combinedFriction;
-    hold_together(object_a, object_b, contact);
+    resistance_.add_to(contact, states_, object_a.getUserIndex(), object_b.getUserIndex());
     contact.restitution = point.m_combinedRestitution;
     contact.normal_impulse = point.m_appliedImpulse;
     contact.friction_impulse = to_solver<Dim>(friction_impulse(point));
@@ -428,24 +427,7 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
   if (rolling != nullptr) contacts_[0].rolling_impulse = *rolling;
 }
 
-/// Rolling friction, and the grip of the bodies.
-template <int Dim>
-void SmallSteps<Dim>::hold_together(const btCollisionObject& a, const btCollisionObject& b,
-                                    ContactPoint<Dim>& point) const {
-  if (!rolls_ && states_.grip.empty()) return;
-  const auto of_pair = [&](const std::vector<float>& lengths) {
-    const auto of = [&](const btCollisionObject& object) {
-      const BodyIndex body = object.getUserIndex();
-      return body >= 0 ? std::optional<double>(lengths[states_.shape[body]]) : std::nullopt;
-    };
-    return static_cast<float>(arm_of_pair(of(b), of(a)));
-  };
-  if (rolls_) point.rolling_arm = of_pair(arms_);
-  const float grip = grip_between(states_, a.getUserIndex(), b.getUserIndex());
-  if (grip > 0.0F) point.hold(grip, of_pair(reaches_));
-}
-
-/// Of a sleeper's point, which Bullet does not know.
+/// Displacement of a sleeper's point, which the pose in Bullet does not contain.
 template <int Dim>
 VecF<Dim> SmallSteps<Dim>::shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const {
   const BodyIndex body = image_of(object).of;
@@ -499,7 +481,7 @@ void SmallSteps<Dim>::write_points() {
     set_friction_impulse(point, from_solver<Dim>(share * contact.friction_impulse));
     set_impulse_of_step(point, share * contact.normal_sum, from_solver<Dim>(share * contact.friction_sum));
   }
-  if (!rolls_ && states_.grip.empty()) return;
+  if (!resistance_.active(states_)) return;
   rolling_.assign(parts_.size(), SpinF<Dim>::Zero());
   int added = -1;
   for (const Source& source : sources_) {
@@ -548,10 +530,11 @@ void SmallSteps<Dim>::skip() {
 }
 
 template <int Dim>
-void SmallSteps<Dim>::freeze(Engine& engine, std::span<btRigidBody* const> bodies, std::span<const int> shapes) {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (image_of(*bodies[i]).sides == 0)
-      ring_->put_to_sleep(bodies[i]->getUserIndex(), awake_body<Dim>(*bodies[i], dt_), reaches_[shapes[i]]);
+void SmallSteps<Dim>::freeze(Engine& engine, std::span<btRigidBody* const> bodies) {
+  for (btRigidBody* body : bodies)
+    if (image_of(*body).sides == 0)
+      ring_->put_to_sleep(body->getUserIndex(), awake_body<Dim>(*body),
+                          resistance_.reach(states_.shape[body->getUserIndex()]));
   btPersistentManifold** manifolds = engine.dispatcher.getInternalManifoldPointer();
   for (int i = 0; i < engine.dispatcher.getNumManifolds(); ++i)
     if (manifolds[i]->getNumContacts() > 0) keep(*manifolds[i], bodies);

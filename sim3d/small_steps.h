@@ -10,6 +10,7 @@
 
 #include "common/solver/contact_solver.h"
 #include "common/solver/fast_bodies.h"
+#include "common/solver/pair_resistance.h"
 #include "common/solver/ring.h"
 #include "common/world/world_description.h"
 #include "sim3d/contacts_ahead.h"
@@ -38,7 +39,6 @@ class SmallSteps {
     std::span<const Vec<Dim>> belts;       // by number of the obstacle: velocity of the surface [m/s]; empty: no belt
     std::vector<std::pair<const btRigidBody*, Vec<Dim>>> pushes;  // accelerations of bodies [m/s^2]
     btVector3 gravity;                                            // [m/s^2]
-    const BodyStates<Dim>& states;                                // of the start of the step
   };
   /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves the bodies with the mean velocity of the
   /// step, by which Bullet is to move them.
@@ -46,12 +46,12 @@ class SmallSteps {
 
   /// Appends the contacts of the last step that began within it, and sorts all by their bodies. `impulse_unit`: of the
   /// points' impulses [N s].
-  void gather_ahead(const BodyStates<Dim>& states, double impulse_unit, std::vector<Contact<Dim>>& contacts) const;
+  void gather_ahead(double impulse_unit, std::vector<Contact<Dim>>& contacts) const;
 
   /// After they have moved: gives them the velocity at the end of the step.
   void finish(std::span<btRigidBody* const> bodies) const;
 
-  /// Whether sleepers feel forces, see Ring: those that fall asleep from now on.
+  /// Whether sleepers feel forces, see Ring.
   void set_ring(const std::optional<SleepRing>& ring);
   /// Null without.
   const Ring<Dim>* ring() const { return ring_ ? &*ring_ : nullptr; }
@@ -59,8 +59,8 @@ class SmallSteps {
   bool idle(std::span<btRigidBody* const> moving) const;
   /// In place of a step in which nothing moves.
   void skip();
-  /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep. `shapes`: of each of them.
-  void freeze(Engine& engine, std::span<btRigidBody* const> bodies, std::span<const int> shapes);
+  /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep.
+  void freeze(Engine& engine, std::span<btRigidBody* const> bodies);
   /// With a ring: the pose at which a body wakes. `waking`: all that wake with it, ascending. `renewed`: its contact
   /// points with sleeping neighbours, ground and obstacles, sorted by owner; their distances are between the places
   /// that Bullet has, where a neighbour that sleeps on has not moved.
@@ -77,10 +77,10 @@ class SmallSteps {
     ContactPoint<Dim> point;
   };
 
-  void expect_motion(Engine& engine, std::span<btRigidBody* const> bodies, const BodyStates<Dim>& states);
-  bool passes_unseen(Engine& engine, std::span<btRigidBody* const> bodies, const BodyStates<Dim>& states);
+  void expect_motion(Engine& engine, std::span<btRigidBody* const> bodies);
+  bool passes_unseen(Engine& engine, std::span<btRigidBody* const> bodies);
   Mover mover_of(const btCollisionObject& object) const;
-  void find_ahead(Engine& engine, btRigidBody& fast, const BodyStates<Dim>& states, bool first);
+  void find_ahead(Engine& engine, btRigidBody& fast, bool first);
   void find_near(Engine& engine, const Mover& mover, bool first);
   void find_around(Engine& engine, const Mover& mover, float margin);
   bool is_fast(const btCollisionObject& object) const;
@@ -98,7 +98,6 @@ class SmallSteps {
   void keep_near(Engine& engine, const btRigidBody& body);
   std::optional<ContactPoint<Dim>> in_world(const btCollisionObject& a, const btCollisionObject& b,
                                             const ContactPoint<3>& found) const;
-  void hold_together(const btCollisionObject& a, const btCollisionObject& b, ContactPoint<Dim>& point) const;
   VecF<Dim> shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const;
   int slot_of(const btCollisionObject& object);
   void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
@@ -116,14 +115,12 @@ class SmallSteps {
   const BodyStates<Dim>& states_;
   ContactSolverParams params_;
   float dt_;
-  float fastest_spin_;          // [rad/s]
-  float one_point_ = 0.0F;      // points of a planar pair that are nearer are one [m]
-  std::vector<float> arms_;     // by shape, see rolling_arm() [m]
-  bool rolls_ = false;          // a shape has rolling friction
-  std::vector<float> reaches_;  // by shape: from the centre to any point of it at most [m]
+  float fastest_spin_;      // [rad/s]
+  float one_point_ = 0.0F;  // points of a planar pair that are nearer are one [m]
   ContactSolver<Dim> solver_;
   std::optional<Ring<Dim>> ring_;
   FastBodies<Dim> fast_;
+  PairResistance<Dim> resistance_;
   std::vector<Ahead> ahead_;                    // the first points of the solver
   std::vector<const btCollisionObject*> near_;  // scratch
   std::vector<ContactPoint<3>> met_;            // scratch

@@ -10,7 +10,7 @@ btCollisionObject& object_of(const btBroadphaseProxy* proxy) {
   return *static_cast<btCollisionObject*>(proxy->m_clientObject);
 }
 
-/// Learns which manifold lies between which two pieces: Bullet gives this only while it works on a pair.
+/// Records which manifold lies between which two pieces: Bullet gives this only while it processes a pair.
 class PieceRecorder final : public btManifoldResult {
  public:
   using btManifoldResult::btManifoldResult;

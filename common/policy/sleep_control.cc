@@ -90,7 +90,7 @@ void SleepControl<Dim>::change_sleep(std::vector<SleepEvent>& events, bool woke)
   note(events);
 }
 
-/// Tells all that keep account of sleeping bodies what happened.
+/// Updates piles and policy after bodies fell asleep or woke.
 template <int Dim>
 void SleepControl<Dim>::note(std::span<const SleepEvent> events) {
   for (const SleepEvent& event : events) {

@@ -65,9 +65,9 @@ class SleepPolicy {
   /// excludes.
   virtual void decide(const Frame<Dim>& frame, Decision<Dim>& decision) = 0;
 
-  /// Told of each body that fell asleep or woke, right after it did, whatever the cause: the policy's decisions as far
-  /// as they were carried out, the user, events, gravity, obstacles. A sleeping body that left the world comes as one
-  /// that woke. What a policy keeps about sleeping bodies must follow from these calls alone.
+  /// Called for each body that fell asleep or woke, right after it did, whatever the cause: the policy's decisions as
+  /// far as they were carried out, the user, events, gravity, obstacles. A sleeping body that left the world comes as
+  /// one that woke. What a policy keeps about sleeping bodies must follow from these calls alone.
   virtual void note(const World<Dim>& /*world*/, std::span<const SleepEvent> /*events*/) {}
 
   /// The number of an awake body is now that of another one, or the body was put elsewhere: what the policy keeps of it

@@ -16,10 +16,12 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .range = between(0.0, 10.0),
       .default_text = "by `accuracy`",
       .meaning =
-          "mean distance that the bodies of a region at rest may still move when all of them wake. Each region is "
-          "checked for it when it comes to rest; one that moves and is steeper than its friction holds, when 10 times "
-          "this share of it is unchecked; below 0.05 both rest distances shrink in proportion. Large: heaps come "
-          "to rest too steep; small: checks take long and more is awake; 0: no checks"}},
+          "mean distance that sleeping bodies may still move when all of them wake; a run warns where it estimates "
+          "more. Below 0.05 both rest distances shrink in proportion. With `rings = 0` each region is checked for it "
+          "when it comes to rest; one that moves and is steeper than its friction holds, when 10 times this share of "
+          "it "
+          "is unchecked. Large: heaps come to rest too steep; small: checks take long and more is awake; 0: no "
+          "checks"}},
     {place_of<&AdaptiveParams::rest_distance>,
      {.name = "rest_distance",
       .unit = "D",
@@ -56,21 +58,23 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
      {.name = "wake_height",
       .unit = "D",
       .range = above(0.0, 10.0),
-      .meaning = "an impact wakes a body if it would give the struck point enough speed to rise by this height; an "
+      .meaning = "only with `rings = 0`: an impact wakes a body if it would give the struck point enough speed to rise "
+                 "by this height; an "
                  "impact from straight above counts by a third. Low: much wakes for nothing; high: impacts end as on "
                  "rock, and the pile stays too steep"}},
     {place_of<&AdaptiveParams::heavy_impact>,
      {.name = "heavy_impact",
       .unit = "bodies",
       .range = above(0.0, 1e9),
-      .meaning = "number of typical bodies that an impact must be able to move to wake them before it lands. Low: each "
+      .meaning = "only with `rings = 0`: number of typical bodies that an impact must be able to move to wake them "
+                 "before it lands. Low: each "
                  "drop wakes a heap; high: a heavy fast body is stopped as by rock"}},
     {place_of<&AdaptiveParams::support_slack>,
      {.name = "support_slack",
       .unit = "D",
       .range = above(0.0, 10.0),
-      .meaning =
-          "how far a supporting contact may move before the supported body wakes. Large: bodies hang in the air"}},
+      .meaning = "only with `rings = 0`: how far a supporting contact may move before the supported body wakes. Large: "
+                 "bodies hang in the air"}},
     {place_of<&AdaptiveParams::awake_share>,
      {.name = "awake_share",
       .range = below(1.0),
@@ -79,19 +83,21 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
      {.name = "avalanche_width",
       .unit = "D",
       .range = above(0.0, 1e3),
-      .meaning =
-          "width of the columns of local avalanches. Narrow: heaps do not slide as a whole; wide: much is awake"}},
+      .meaning = "only with `rings = 0`: width of the columns of local avalanches. Narrow: heaps do not slide as a "
+                 "whole; wide: much is awake"}},
     {place_of<&AdaptiveParams::avalanche_growth>,
      {.name = "avalanche_growth",
       .range = above(1.0, 1e3),
-      .meaning = "growth of a column's sleeping bodies, as a factor, from one check to the next, from which the column "
+      .meaning = "only with `rings = 0`: growth of a column's sleeping bodies, as a factor, from one check to the "
+                 "next, from which the column "
                  "may slide. Large: heaps become too steep; small: much wakes for nothing; 1000: in effect never"}},
     {place_of<&AdaptiveParams::avalanche_angle>,
      {.name = "avalanche_angle_deg",
       .unit = "degrees",
       .stored = Stored::in_radians,
       .range = between(0.0, 89.0),
-      .meaning = "slope from the top of one column to the top of the next from which bodies may slide. Low: plains "
+      .meaning = "only with `rings = 0`: slope from the top of one column to the top of the next from which bodies may "
+                 "slide. Low: plains "
                  "wake; high: heaps become too steep"}},
     {place_of<&AdaptiveParams::rings>,
      {.name = "rings",

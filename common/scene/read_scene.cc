@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "common/pile/angle_of_repose.h"
@@ -118,7 +119,8 @@ void read_bodies(TableReader& root, const ShapeNames& shapes, Scene<Dim>& scene)
   const std::vector<std::uint8_t> absent = absent_obstacles(scene, {}, 0.0);
   OverlapCheck<Dim> placed(scene.world, absent);
   root.tables("body", [&](TableReader& table) { read_body(table, shapes, placed, scene); });
-  if (!root.has("source") && !root.has("body"))
+  const bool has_sources = root.has("source") && !(root.ok() && scene.sources.empty());
+  if (!has_sources && !root.has("body"))
     root.error("source", "must be given: at least one [[source]] or [[body]], where bodies come from");
 }
 
@@ -156,6 +158,10 @@ void read_policy(TableReader& table, Scene<Dim>& scene, Named& named) {
   // The engine's own sleeping belongs to its own solver.
   scene.world.engine_sleep = policy.kind == "engine";
   if (scene.world.engine_sleep && !named.solver) scene.world.solver.kind = engine_solver;
+  if (scene.world.engine_sleep && scene.world.solver.small_steps())
+    table.error(
+        "kind",
+        R"(must not be "engine" with world.solver.kind = "small_steps": the engine's sleeping needs its own solver)");
   table.table("adaptive", [&](TableReader& own) {
     named.of_accuracy.rings = own.has("rings");
     named.of_accuracy.tolerance = own.has("tolerance");
@@ -183,6 +189,15 @@ void check_solver(TableReader& root, const Scene<Dim>& scene) {
     root.error("obstacle", R"(must have no motion of kind "belt" with the engines' own solvers)");
   if (std::ranges::count(scene.events, EventAction::force, &Event<Dim>::action) > 0)
     root.error("event", R"(must not be of do = "force" with the engines' own solvers)");
+  std::set<std::string> rolling;  // without the numbers of sizes and variants
+  for (const Shape<Dim>& shape : scene.world.shapes)
+    if (shape.material.rolling_friction > 0.0) rolling.insert(shape.name.substr(0, shape.name.find_first_of("#*")));
+  for (const std::string& name : rolling)
+    root.named_table("shape", name, [](TableReader& table) {
+      table.allow_unknown_keys();
+      table.error("rolling_friction", R"(must be 0 where policy.kind or world.solver.kind is "engine": )"
+                                      "the engines' own solvers resist no rolling");
+    });
 }
 
 /// With the accuracy, which needs the frame rate and a scene without errors.

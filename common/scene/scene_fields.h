@@ -122,7 +122,7 @@ inline constexpr auto policy_fields = std::to_array<Field<PolicyParams>>({
      {.name = "kind",
       .choices = policy_kinds,
       .meaning =
-          "`full`: no body ever sleeps, the plain engine. `engine`: the engine's own rule, whole "
+          "`full`: no body ever sleeps. `engine`: the engine's own rule, whole "
           "[islands](extending.md#glossary) at once. `paper`: the method as published. `adaptive`: each body by its "
           "contacts, see [method](method.md)"}},
     {{}, {.name = "adaptive", .type = "table", .default_text = "see below", .meaning = "`[policy.adaptive]`"}},

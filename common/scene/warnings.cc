@@ -121,9 +121,29 @@ void warn_of_unused_settings(const SolverParams& solver, Lines& lines) {
   }
 }
 
+/// Rules that rings replace, and the other way round.
+void warn_of_unused_rules(const AdaptiveParams& params, Lines& lines) {
+  const AdaptiveParams usual;
+  const auto warn = [&](bool changed, std::string_view name) {
+    if (changed)
+      lines.push_back(fmt::format("policy.adaptive.{} has no effect: policy.adaptive.rings is {}", name, params.rings));
+  };
+  if (params.rings > 0) {
+    warn(params.wake_height != usual.wake_height, "wake_height");
+    warn(params.heavy_impact != usual.heavy_impact, "heavy_impact");
+    warn(params.support_slack != usual.support_slack, "support_slack");
+    warn(params.avalanche_width != usual.avalanche_width, "avalanche_width");
+    warn(params.avalanche_growth != usual.avalanche_growth, "avalanche_growth");
+    warn(params.avalanche_angle != usual.avalanche_angle, "avalanche_angle_deg");
+  } else {
+    warn(params.ring_still_speed != usual.ring_still_speed, "ring_still_speed");
+  }
+}
+
 template <int Dim>
 void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
   warn_of_unused_settings(scene.world.solver, lines);
+  if (scene.policy.kind == "adaptive") warn_of_unused_rules(scene.policy.adaptive, lines);
   if (scene.policy.kind == "paper" && scene.piles.empty())
     lines.emplace_back("policy.kind = \"paper\" without any [[pile]]: no body will ever sleep");
   if (!scene.world.solver.small_steps() && std::ranges::any_of(scene.piles, &PileParams<Dim>::control_slope))

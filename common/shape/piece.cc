@@ -69,7 +69,7 @@ void check_corners(const std::vector<Vec2>& corners, const std::string& field) {
   check_corner_count<2>(count, field);
   const std::size_t bad = non_convex_corner(corners).value_or(count);
   require(bad == count, fmt::format("{}[{}]", field, bad), text(corners[bad % count]),
-          "must be a corner of a convex polygon given counter-clockwise, no three corners on one line");
+          "must be a corner of a convex polygon, no three corners on one line");
 }
 
 void check_corners(const std::vector<Vec3>& corners, const std::string& field) {

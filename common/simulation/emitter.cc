@@ -14,11 +14,10 @@ constexpr double settled_speed = 1.0;
 }  // namespace
 
 template <int Dim>
-Emitter<Dim>::Emitter(const Scene<Dim>& scene) : total_(static_cast<int>(scene.bodies_planned())) {
+Emitter<Dim>::Emitter(const Scene<Dim>& scene)
+    : obstacles_(static_cast<int>(scene.world.obstacles.size())), total_(static_cast<int>(scene.bodies_planned())) {
   for (const InitialBody<Dim>& body : scene.bodies) initial_.push_back(body.def);
   if (scene.world.ground.present) ground_ = scene.world.ground.height;
-  for (const Obstacle<Dim>& obstacle : scene.world.obstacles)
-    fixed_.push_back(bounds_at(obstacle.shape, obstacle.pose));
   std::uint64_t number = 0;
   for (const Source<Dim>& source : scene.sources) {
     std::seed_seq seed{scene.seed, number++};
@@ -169,8 +168,9 @@ bool Emitter<Dim>::lies_on_something(const World<Dim>& world, BodyIndex body, co
   Box<Dim> beneath = bounds;
   beneath.min()[Dim - 1] -= 0.05 * bounds.sizes()[Dim - 1];
   if (height<Dim>(beneath.min()) < ground_) return true;
-  if (std::any_of(fixed_.begin(), fixed_.end(), [&](const Box<Dim>& box) { return box.intersects(beneath); }))
-    return true;
+  for (int k = 0; k < obstacles_; ++k)
+    if (world.has_obstacle(k) && bounds_at(world.obstacle_shape(k), world.obstacle_pose(k)).intersects(beneath))
+      return true;
   beneath_.clear();
   world.query_box(beneath, beneath_);
   return std::ranges::any_of(beneath_, [&](BodyIndex other) {

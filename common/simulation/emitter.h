@@ -66,12 +66,12 @@ class Emitter {
 
   std::vector<BodyDef<Dim>> initial_;  // still to be added
   std::vector<Spout> spouts_;
-  std::vector<Box<Dim>> fixed_;                               // around the obstacles
   double ground_ = -std::numeric_limits<double>::infinity();  // [m]
   std::deque<Birth> births_;                                  // that are too young to be as fast as what is in flight
   std::vector<BodyIndex> near_;                               // scratch
   std::vector<BodyIndex> beneath_;                            // scratch
   int emitted_ = 0;
+  int obstacles_ = 0;  // in the description, there or not
   int total_ = 0;
   int waiting_ = 0;  // bodies of sources that wait for an event
   std::int64_t waits_ = 0;

@@ -31,12 +31,11 @@ EventClock<Dim>::EventClock(const std::vector<Event<Dim>>& events) {
 
 template <int Dim>
 std::span<const int> EventClock<Dim>::update(double time, int bodies, bool at_rest, std::span<const Pile<Dim>> piles) {
-  constexpr double rounding = 1e-9;  // [s]: a time that is a whole number of steps is not a step late
   due_.clear();
   std::erase_if(waiting_, [&](const Condition& condition) {
     const bool is_due = condition.rest      ? at_rest
                         : condition.density ? greatest_density(piles, condition.pile) > *condition.density
-                        : condition.time    ? time >= *condition.time - rounding
+                        : condition.time    ? time >= *condition.time - time_rounding
                                             : bodies >= condition.bodies;
     if (is_due) due_.push_back(condition.number);
     at_rest = at_rest && !(is_due && condition.rest);

@@ -8,6 +8,9 @@
 
 namespace talus {
 
+/// A time that is a whole number of steps is not a step late by rounding [s].
+inline constexpr double time_rounding = 1e-9;
+
 /// Finds which events of a scene are due. Each happens once.
 template <int Dim>
 class EventClock {

@@ -105,7 +105,7 @@ void Interventions<Dim>::pull_body(const Intervened<Dim>& run) {
 template <int Dim>
 void Interventions<Dim>::push_bodies(const Intervened<Dim>& run) {
   std::erase_if(pushes_, [&](const TimedPush& push) {
-    return (push.end && run.time >= *push.end) || run.world.states().removed[push.push.body] != 0;
+    return (push.end && run.time >= *push.end - time_rounding) || run.world.states().removed[push.push.body] != 0;
   });
   for (const TimedPush& each : pushes_) {
     const BodyIndex body = each.push.body;

@@ -98,7 +98,7 @@ class Interventions {
   double time_ = 0.0;  // at which the last step began [s]
   std::optional<Pull<Dim>> pull_;
   std::vector<TimedPush> pushes_;
-  std::vector<BodyIndex> held_awake_;  // in this step, ascending: pushed and pulled bodies, and what lies beside those
+  std::vector<BodyIndex> held_awake_;  // in this step, ascending: pushed bodies, the pulled one and what lies beside it
 };
 
 }  // namespace talus

@@ -61,10 +61,10 @@ void MovingObstacles<Dim>::find_sleepers(const World<Dim>& world, const Piece& p
 template <int Dim>
 bool MovingObstacles<Dim>::touches(const World<Dim>& world, const Piece& piece, BodyIndex body) const {
   const double reach = margin_ + piece.travel;
-  const Box<Dim> bounds = world.bounds_of(body);
-  if (bounds.squaredExteriorDistance(piece.bounds) > reach * reach) return false;
+  const Pose<Dim> pose = world.pose_near(body, piece.bounds.center());
+  if (bounds_at(world.shape_of(body), pose).squaredExteriorDistance(piece.bounds) > reach * reach) return false;
   return std::ranges::any_of(bodies_[world.states().shape[body]], [&](const ConvexPiece<Dim>& own) {
-    return signed_distance(moved(own, world.states().pose[body]), piece.piece, reach) < reach;
+    return signed_distance(moved(own, pose), piece.piece, reach) < reach;
   });
 }
 

@@ -156,7 +156,7 @@ void PassingWatch<Dim>::test_neighbours(const World<Dim>& world, const Mover& fa
     if (other != fast.index) meet(image_near(world.periodic(), mover(world, other), fast.to.position));
   if (fast.index < 0) return;
   for (int k = 0; k < std::ssize(obstacles_); ++k)
-    if (world.has_obstacle(k)) meet(mover(world, first_obstacle - k));
+    if (world.has_obstacle(k)) meet(image_near(world.periodic(), mover(world, first_obstacle - k), fast.to.position));
 }
 
 template <int Dim>

@@ -17,8 +17,7 @@ RestCheck<Dim>::RestCheck(const Scene<Dim>& scene)
 /// [steps]
 template <int Dim>
 std::int64_t RestCheck<Dim>::period_in(const World<Dim>& world) const {
-  constexpr double least_gravity = 1e-3;  // [m/s^2]; without gravity there is no such time
-  const double time = rest_time * std::sqrt(extent_ / std::max(world.gravity_size(), least_gravity));
+  const double time = rest_time * time_unit(extent_, world);
   return steps_per_frame_ * std::max<std::int64_t>(1, std::llround(time / frame_time_));
 }
 

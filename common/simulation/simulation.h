@@ -51,7 +51,8 @@ class Simulation {
   /// world; once it is removed, this ends.
   void pull(const Pull<Dim>& pull) { interventions_.pull(pull); }
   void release() { interventions_.release(); }
-  /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present.
+  /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present. One that
+  /// changes the policy must be of a kind that the scene has.
   void do_event(const Event<Dim>& event) { interventions_.act(intervened(), event); }
 
   /// The last finished step.

@@ -48,7 +48,8 @@ std::span<const BodyIndex> SlopeControl<Dim>::update(World<Dim>& world, const Pi
   controls_.resize(piles.piles().size());
   measure(world.states(), piles);
   for (std::size_t p = 0; p < controls_.size(); ++p)
-    update_grip(piles.piles()[p], controls_[p], static_cast<double>(steps) * world.dt() / unit);
+    update_grip(piles.piles()[p], controls_[p], static_cast<double>(step - measured_) * world.dt() / unit);
+  measured_ = step;
   const BodyStates<Dim>& states = world.states();
   for (const BodyIndex body : world.awake()) {
     const int pile = controlled_pile(piles.piles(), states.pose[body].position);

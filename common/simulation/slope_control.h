@@ -47,6 +47,7 @@ class SlopeControl {
 
   bool active_;
   double extent_;                  // D [m]
+  std::int64_t measured_ = 0;      // number of the step of the last measurement
   std::vector<Control> controls_;  // [pile]
   std::vector<BodyIndex> held_;    // scratch: to wake
 };

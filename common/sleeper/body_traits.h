@@ -1,5 +1,5 @@
 #pragma once
-// What a sleeper must know of a body besides its motion.
+// The data of a body that a sleeper needs besides its motion.
 
 #include <vector>
 

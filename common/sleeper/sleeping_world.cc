@@ -65,7 +65,13 @@ typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::wake_all() {
 template <int Dim>
 typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::freeze_saved(std::span<const BodyIndex> bodies, bool settled) {
   if (bodies.empty()) return {};
-  if (!control_) make_policy(typical_now());
+  if (!control_) {
+    for (const BodyIndex body : bodies) {
+      const double low = height<Dim>(world_.bounds_of(body).min());
+      floor_ = std::min(floor_.value_or(low), low);
+    }
+    make_policy(typical_now());
+  }
   for (const BodyIndex body : bodies) control_->note_touch(body);
   return control_->freeze(bodies, settled ? SleepCause::user : SleepCause::rest);
 }
@@ -177,7 +183,7 @@ bool SleepingWorld<Dim>::needs_all_contacts() const {
 
 template <int Dim>
 bool SleepingWorld<Dim>::needs_contacts(BodyIndex body) const {
-  return near_sleep_[body] != 0 || !control_->piles().has_touched(body);
+  return !control_ || near_sleep_[body] != 0 || !control_->piles().has_touched(body);
 }
 
 template class SleepingWorld<2>;

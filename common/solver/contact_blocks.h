@@ -90,8 +90,8 @@ struct ContactArrays {
   PointBlock<Dim>* points;
   RollingBlock<Dim>* rolling;
   float inverse_h;  // 1 over the length of a sub-step
-  float deep;       // overlap, beyond that of the load, that the spring sees at most
-  float deepest;    // overlap that the spring sees at most
+  float deep;       // largest overlap that acts on the spring, beyond that of the load
+  float deepest;    // largest overlap that acts on the spring
   float carry;      // an impulse is carried on at this times the one before at most
 };
 

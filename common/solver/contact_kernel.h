@@ -61,7 +61,6 @@ inline Several<3> times(const Several<6>& m, const Several<3>& a) {
   return {{(m.x[0] * a.x[0] + m.x[3] * a.x[1]) + m.x[4] * a.x[2], (m.x[3] * a.x[0] + m.x[1] * a.x[1]) + m.x[5] * a.x[2],
            (m.x[4] * a.x[0] + m.x[5] * a.x[1]) + m.x[2] * a.x[2]}};
 }
-inline Several<2> second_tangent(const Several<2>& /*normal*/, const Several<2>& tangent) { return tangent; }
 inline Several<3> second_tangent(const Several<3>& normal, const Several<3>& tangent) { return cross(normal, tangent); }
 
 /// Velocities or displacements of eight bodies.
@@ -71,17 +70,17 @@ struct Motion {
   Several<spin_size<Dim>> angular;
 };
 
-inline Motion<2> load_motion(const Quad* quads, const std::int32_t* places, Motion<2>* /*kind*/) {
-  Lanes quad[4];
-  load_quads(quads, 1, places, quad);
-  return {{{quad[0], quad[1]}}, {{quad[2]}}};
-}
-inline Motion<3> load_motion(const Quad* quads, const std::int32_t* places, Motion<3>* /*kind*/) {
+template <int Dim>
+Motion<Dim> load_motion(const Quad* quads, const std::int32_t* places) {
   Lanes linear[4];
-  Lanes angular[4];
-  load_quads(quads, 2, places, linear);
-  load_quads(quads + 1, 2, places, angular);
-  return {{{linear[0], linear[1], linear[2]}}, {{angular[0], angular[1], angular[2]}}};
+  load_quads(quads, Dim - 1, places, linear);
+  if constexpr (Dim == 2) {
+    return {{{linear[0], linear[1]}}, {{linear[2]}}};
+  } else {
+    Lanes angular[4];
+    load_quads(quads + 1, 2, places, angular);
+    return {{{linear[0], linear[1], linear[2]}}, {{angular[0], angular[1], angular[2]}}};
+  }
 }
 inline void store_motion(Quad* quads, const std::int32_t* places, const Motion<2>& m) {
   const Lanes quad[4] = {m.linear.x[0], m.linear.x[1], m.angular.x[0], splat(0.0F)};
@@ -105,8 +104,8 @@ struct Pair {
   Several<inertia_size<Dim>> inverse_inertia_b;
 
   Pair(const ContactBlock<Dim>& block, const Quad* velocity)
-      : a(load_motion(velocity, block.a, static_cast<Motion<Dim>*>(nullptr))),
-        b(load_motion(velocity, block.b, static_cast<Motion<Dim>*>(nullptr))),
+      : a(load_motion<Dim>(velocity, block.a)),
+        b(load_motion<Dim>(velocity, block.b)),
         inverse_mass_a(load(block.inverse_mass_a)),
         inverse_mass_b(load(block.inverse_mass_b)),
         inverse_inertia_a(load(block.inverse_inertia_a)),
@@ -296,8 +295,8 @@ void pass(const ContactArrays<Dim>& arrays) {
     ContactBlock<Dim>& block = arrays.blocks[i];
     PointBlock<Dim>* const points = arrays.points + block.first_point;
     Pair<Dim> pair(block, arrays.velocity);
-    const Motion<Dim> moved_a = load_motion(arrays.moved, block.a, static_cast<Motion<Dim>*>(nullptr));
-    const Motion<Dim> moved_b = load_motion(arrays.moved, block.b, static_cast<Motion<Dim>*>(nullptr));
+    const Motion<Dim> moved_a = load_motion<Dim>(arrays.moved, block.a);
+    const Motion<Dim> moved_b = load_motion<Dim>(arrays.moved, block.b);
     const auto solve_points = [&] {
       for (int j = 0; j < block.points; ++j) solve_normal<Dim, Of>(arrays, block, moved_a, moved_b, pair, points[j]);
       for (int j = 0; j < block.points; ++j) solve_friction<Dim>(pair, points[j]);

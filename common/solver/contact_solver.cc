@@ -28,15 +28,15 @@ namespace {
 
 constexpr float damping_ratio = 10.0F;  // of a contact's spring: overlap goes away without bouncing
 constexpr float spring = 0.125F;        // its frequency, over that of the sub-steps; from 0.15 on pyramids buckle
-constexpr float fixed_spring = 1.4F;  // how many times that frequency is higher against what never moves: at 2 one pass
-                                      // no longer carries a body a hundred times as heavy as the one below it
-constexpr float carry = 2.0F;         // an impulse is carried into the next sub-step at this times its last at most
-constexpr int first_passes = 2;       // of the first sub-step, in which contacts begin
+constexpr float fixed_spring = 1.4F;    // factor of that frequency against what never moves; at 2, one pass no longer
+                                        // carries a body a hundred times as heavy as the one below it
+constexpr float carry = 2.0F;           // an impulse is carried into the next sub-step at this times its last at most
+constexpr int first_passes = 2;         // of the first sub-step, in which contacts begin
 constexpr int bounce_passes = 4;
 constexpr int deep_passes = 3;
 constexpr float cohesive_reach = 0.01F;  // gap over which bodies attract each other [m]
-constexpr float deepest = 0.04F;    // overlap that a spring sees at most [m]: that of a hundred times a body's weight.
-                                    // Two that press on a body from both sides would else grow without end
+constexpr float deepest = 0.04F;    // largest overlap that acts on the spring [m]: that of a hundred times a body's
+                                    // weight. Two that press on a body from both sides would else grow without end
 constexpr float deep_share = 0.2F;  // of a deep overlap, moved apart in each of them
 
 float inverse(float x) { return x > 0.0F ? 1.0F / x : 0.0F; }
@@ -103,18 +103,6 @@ Spring spring_of(float frequency, float h) {
   return {omega / a, h * omega * a};
 }
 
-std::span<const SolverLanes> available_lanes() {
-  static constexpr std::array all = {SolverLanes::plain, SolverLanes::sse2, SolverLanes::avx2};
-#if defined(TALUS_AVX2_LANES)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-  return std::span(all).first(has_avx2 ? 3 : 2);
-#elif defined(__SSE2__) && !defined(TALUS_PLAIN_LANES)
-  return std::span(all).first(2);
-#else
-  return std::span(all).first(1);
-#endif
-}
-
 template <int Dim>
 Kernel<Dim> kernel_of(SolverLanes lanes) {
 #if defined(TALUS_AVX2_LANES)
@@ -128,7 +116,17 @@ Kernel<Dim> kernel_of(SolverLanes lanes) {
 
 }  // namespace
 
-std::span<const SolverLanes> solver_lanes() { return available_lanes(); }
+std::span<const SolverLanes> solver_lanes() {
+  static constexpr std::array all = {SolverLanes::plain, SolverLanes::sse2, SolverLanes::avx2};
+#if defined(TALUS_AVX2_LANES)
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  return std::span(all).first(has_avx2 ? 3 : 2);
+#elif defined(__SSE2__) && !defined(TALUS_PLAIN_LANES)
+  return std::span(all).first(2);
+#else
+  return std::span(all).first(1);
+#endif
+}
 
 /// The step at hand: its points in blocks, and the motion of its bodies.
 template <int Dim>
@@ -510,24 +508,29 @@ void ContactSolver<Dim>::start() {
   cohesive_ = false;
 }
 
-/// Cohesion is a force that pulls both bodies of a pair together at the points where they touch. So their impulses
-/// become larger by it, and with them what friction and rolling friction hold.
+/// Cohesion is a force that pulls both bodies of a pair together, in equal shares at the points where they touch; all
+/// that never moves is one side. So their impulses become larger by it, and with them what friction and rolling
+/// friction hold.
 template <int Dim>
 void ContactSolver<Dim>::attract(float gravity, float dt) {
-  const auto touches = [](const ContactPoint<Dim>& point) { return point.gap < cohesive_reach; };
-  for (auto first = points_.begin(); first != points_.end();) {
-    const auto last = std::find_if(first, points_.end(),
-                                   [&](const ContactPoint<Dim>& p) { return p.a != first->a || p.b != first->b; });
-    const auto touching = static_cast<float>(first->cohesion > 0.0F ? std::count_if(first, last, touches) : 0);
-    for (auto point = first; point != last && touching > 0.0F; ++point) {
-      if (!touches(*point)) continue;
-      const float weight = gravity / std::max(bodies_[point->a].inverse_mass, bodies_[point->b].inverse_mass);
-      const float size = point->cohesion * weight / touching;
-      point->attraction = dt * size;
-      pull(point->a, point->arm_a, size * point->normal);
-      pull(point->b, point->arm_b, -size * point->normal);
+  const auto pair_of = [this](int number) {
+    return std::pair<int, int>(std::minmax(points_[number].a, points_[number].b));
+  };
+  cohesive_points_.clear();
+  for (int i = 0; i < std::ssize(points_); ++i)
+    if (points_[i].cohesion > 0.0F && points_[i].gap < cohesive_reach) cohesive_points_.push_back(i);
+  std::ranges::stable_sort(cohesive_points_, {}, pair_of);  // those of a body of several pieces are not side by side
+  for (std::span<const int> rest = cohesive_points_; !rest.empty();) {
+    const auto same = std::ranges::equal_range(rest, pair_of(rest[0]), {}, pair_of);
+    for (const int number : same) {
+      ContactPoint<Dim>& point = points_[number];
+      const float weight = gravity / std::max(bodies_[point.a].inverse_mass, bodies_[point.b].inverse_mass);
+      const float size = point.cohesion * weight / static_cast<float>(same.size());
+      point.attraction = dt * size;
+      pull(point.a, point.arm_a, size * point.normal);
+      pull(point.b, point.arm_b, -size * point.normal);
     }
-    first = last;
+    rest = rest.subspan(same.size());
   }
 }
 

@@ -127,7 +127,8 @@ class ContactSolver {
   std::vector<SolverBody<Dim>> bodies_;
   std::vector<ContactPoint<Dim>> points_;
   std::vector<Push> pushes_;
-  bool cohesive_ = false;  // some point
+  std::vector<int> cohesive_points_;  // scratch
+  bool cohesive_ = false;             // some point
   std::unique_ptr<Work> work_;
   std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
 };

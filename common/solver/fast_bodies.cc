@@ -37,7 +37,6 @@ FastBodies<Dim>::FastBodies(const WorldDescription<Dim>& description) : ground_(
     reach_ = std::max(reach_, static_cast<float>(bounding_radius(shape)));
     thinnest = std::min(thinnest, least_width(shape));
     materials_.push_back(shape.material);
-    arms_.push_back(static_cast<float>(rolling_arm(shape)));
     std::vector<Corner>& corners = corners_.emplace_back();
     for (const ConvexPiece<Dim>& piece : convex_pieces(shape))
       for (const Vec<Dim>& corner : piece.corners) corners.push_back({corner, piece.radius});
@@ -94,8 +93,7 @@ void FastBodies<Dim>::meet_ground(int slot, int shape, const Pose<Dim>& pose, bo
   ContactPoint<Dim> point;
   point.b = slot;
   point.friction = static_cast<float>(pair_friction(ground_.material.friction, materials_[shape].friction));
-  point.restitution = static_cast<float>(std::sqrt(ground_.material.restitution * materials_[shape].restitution));
-  point.rolling_arm = arms_[shape];
+  point.restitution = static_cast<float>(pair_restitution(ground_.material.restitution, materials_[shape].restitution));
   for (const Corner& corner : corners_[shape]) {
     const Vec<Dim> arm = pose.rotation * corner.place - corner.radius * Vec<Dim>::Unit(Dim - 1);
     const Vec<Dim> place = pose.position + arm;

@@ -75,7 +75,7 @@ class FastBodies {
   const StepMotion<Dim>& motion(int slot) const { return expected_[slot - 1]; }
   bool is_fast(int slot) const { return is_fast(motion(slot)); }
   /// Whether its way in the step is more than half of the way from which on a body counts as fast.
-  bool is_half_fast(int slot) const { return way_of(motion(slot)) > corner(); }
+  bool is_half_fast(int slot) const { return way_of(motion(slot)) > 0.5F * limit_; }
   /// Way of its farthest point around its centre at most [m].
   float turn(const StepMotion<Dim>& motion) const { return reach_ * motion.turn.norm(); }
   /// The longest way of any point of an awake body [m].
@@ -89,7 +89,8 @@ class FastBodies {
   float near() const { return 0.25F * limit_; }
   /// Whether the solved step presses the bodies of this point further into each other than contacts may begin.
   bool passes(const ContactSolver<Dim>& solver, const ContactPoint<Dim>& point) const;
-  /// Appends a point of the ground (slot 0) and the body (`slot`) for each corner that the step takes below the ground.
+  /// Appends a point of the ground (slot 0) and the body (`slot`) for each corner that the step takes below the ground,
+  /// without what PairResistance adds.
   /// `buried`: also for those that are there already.
   void meet_ground(int slot, int shape, const Pose<Dim>& pose, bool buried,
                    std::vector<ContactPoint<Dim>>& found) const;
@@ -106,7 +107,6 @@ class FastBodies {
 
   Ground ground_;
   std::vector<Material> materials_;           // by shape
-  std::vector<float> arms_;                   // by shape: see rolling_arm() [m]
   std::vector<std::vector<Corner>> corners_;  // by shape
   float reach_ = 0.0F;                        // from a body's centre to any point of it at most, over all shapes [m]
   float limit_ = 0.0F;                        // [m]

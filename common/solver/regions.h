@@ -1,7 +1,6 @@
 #pragma once
 // Parts of a heap that threads solve in parallel.
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 

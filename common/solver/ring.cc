@@ -10,7 +10,7 @@ namespace {
 constexpr float wake_distance = 0.01F;
 /// Or is faster than this, at which it would rise by that distance [sqrt(g D)].
 constexpr float wake_speed = 0.14F;
-/// Or has come to rest in the ring farther than this from where it fell asleep [D]: the engine is to know its place.
+/// Or has come to rest in the ring farther than this from where it fell asleep [D]: the engine's pose must be updated.
 constexpr float settle_distance = 0.002F;
 /// While obstacles move, bodies that are faster than this share of the slowest count as moving: else what a slow one
 /// carries would be held back by what has not begun to move.
@@ -26,7 +26,10 @@ constexpr int hold_steps = 20;
 
 template <int Dim>
 void Ring<Dim>::put_to_sleep(BodyIndex body, const SolverBody<Dim>& state, float reach) {
-  if (body >= std::ssize(sleepers_)) sleepers_.resize(body + 1);
+  if (body >= std::ssize(sleepers_)) {
+    sleepers_.resize(body + 1);
+    listed_.resize(body + 1, 0);
+  }
   Sleeper& sleeper = sleepers_[body];
   sleeper = {.body = state, .reach = reach, .asleep = true, .hold = hold_steps};
   sleeper.body.moves = true;
@@ -102,13 +105,15 @@ Contact<Dim> Ring<Dim>::contact_of(const SleepingPoint<Dim>& point, BodyIndex si
 
 template <int Dim>
 bool Ring<Dim>::idle(std::span<const BodyIndex> moving) const {
-  return members_.empty() && before_.empty() && touched_.empty() && disturbed_.empty() && moving_.empty() &&
+  return members_.empty() && before_.empty() && disturbed_.empty() &&
          std::ranges::all_of(moving, [this](BodyIndex obstacle) { return contacts_.of(obstacle).empty(); });
 }
 
 template <int Dim>
 void Ring<Dim>::start() {
   before_.insert(before_.end(), members_.begin(), members_.end());
+  for (const BodyIndex body : before_)
+    if (has(body)) --sleepers_[body].hold;
   stirred_.clear();
   last_touched_.swap(touched_);
   start_again();
@@ -190,17 +195,22 @@ template <int Dim>
 void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
   for (const BodyIndex body : members_) sleepers_[body].hold = hold_steps;
   const bool reached = !members_.empty();
+  for (const BodyIndex body : before_)
+    if (reached && has(body) && sleepers_[body].depth < 0 && sleepers_[body].hold >= 0)
+      enter(body, params_.rings, solver);
+}
+
+/// Those of the step before that have not been solved in this one come to rest where they are.
+template <int Dim>
+void Ring<Dim>::let_go() {
   for (const BodyIndex body : before_) {
     if (!has(body) || sleepers_[body].depth >= 0) continue;
     Sleeper& sleeper = sleepers_[body];
-    if (reached && sleeper.hold-- > 0) {
-      enter(body, params_.rings, solver);
-    } else {
-      sleeper.body.velocity.setZero();
-      sleeper.body.spin.setZero();
-      if (far_of(sleeper) > settle_distance * static_cast<float>(params_.extent)) stirred_.push_back(body);
-    }
+    sleeper.body.velocity.setZero();
+    sleeper.body.spin.setZero();
+    if (far_of(sleeper) > settle_distance * static_cast<float>(params_.extent)) stirred_.push_back(body);
   }
+  before_.clear();
 }
 
 template <int Dim>
@@ -252,8 +262,8 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) 
   const float distance = wake_distance * extent;
   float still = static_cast<float>(params_.still_speed) * unit;
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);
+  let_go();
   moving_.clear();
-  before_.clear();
   disturbed_.clear();
   for (const BodyIndex body : members_) {
     Sleeper& sleeper = sleepers_[body];
@@ -273,7 +283,7 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) 
   stirred_.erase(std::unique(stirred_.begin(), stirred_.end()), stirred_.end());
 }
 
-/// A point on an obstacle that has slid farther than `distance` is no longer there: its body wakes.
+/// A point on ground or an obstacle that has slid farther than `distance` has left its place: its body wakes.
 template <int Dim>
 void Ring<Dim>::read_points(const ContactSolver<Dim>& solver, float distance) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -299,16 +309,20 @@ void Ring<Dim>::add_unsolved(const SleepingPoint<Dim>& before, const ContactPoin
   for (const BodyIndex side : {before.a, before.b}) {
     if (side < 0 || sleepers_[side].depth >= 0) continue;
     VecF<Dim>& unsolved = sleepers_[side].unsolved;
-    if (unsolved.isZero(0.0F)) unsolved_.push_back(side);
+    if (listed_[side] == 0) unsolved_.push_back(side);
+    listed_[side] = 1;
     unsolved += side == before.b ? more : VecF<Dim>(-more);
   }
 }
 
 template <int Dim>
 void Ring<Dim>::disturb_unbalanced(float impulse_of_unit_mass) {
-  std::erase_if(unsolved_, [&](BodyIndex body) { return !has(body) || sleepers_[body].unsolved.isZero(0.0F); });
+  std::erase_if(unsolved_, [&](BodyIndex body) {
+    if (has(body) && !sleepers_[body].unsolved.isZero(0.0F)) return false;
+    listed_[body] = 0;
+    return true;
+  });
   std::ranges::sort(unsolved_);
-  unsolved_.erase(std::unique(unsolved_.begin(), unsolved_.end()), unsolved_.end());
   for (const BodyIndex body : unsolved_) {
     const SolverBody<Dim>& state = sleepers_[body].body;
     if (state.inverse_mass * sleepers_[body].unsolved.norm() > impulse_of_unit_mass) disturbed_.push_back(body);

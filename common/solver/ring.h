@@ -13,7 +13,7 @@ namespace talus {
 /// The sleeping bodies that take part in the contact solve: those that touch an awake body or a moving obstacle, and
 /// those up to SleepRing::rings contacts away. They are solved with their mass, the contact points of when they fell
 /// asleep and the impulses that held them. So an impact passes on in the same step, a load or a friction force reaches
-/// the next ring in the next step, and a support that goes is missed at once. The engine does not move them: each keeps
+/// the next ring in the next step, and the loss of a support acts at once. The engine does not move them: each keeps
 /// the velocity and the displacement that the solve gives it here, and is to wake when they are too large. A sleeping
 /// body that has itself become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
 ///
@@ -76,13 +76,14 @@ class Ring {
     bool asleep = false;
     int depth = -1;                          // contacts between it and what moves; -1: not reached in this step
     int slot = 0;                            // 0: not in the solver in this step
-    int hold = 0;                            // steps for which it stays once it is not reached any more
+    int hold = 0;                            // steps for which it stays once it is not reached any more; below 0: none
     VecF<Dim> unsolved = VecF<Dim>::Zero();  // impulses of its points, less those when it was last solved [N s]
   };
 
   void enter(BodyIndex body, int depth, ContactSolver<Dim>& solver);
   void enter_partners(BodyIndex side, int depth, ContactSolver<Dim>& solver);
   void hold_back(ContactSolver<Dim>& solver);
+  void let_go();
   void add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   int slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   static float far_of(const Sleeper& sleeper);
@@ -101,7 +102,8 @@ class Ring {
   std::vector<BodyIndex> touched_;  // by awake bodies in this step
   std::vector<BodyIndex> last_touched_;
   std::vector<BodyIndex> disturbed_;  // have lost a point since the last step, or are unbalanced
-  std::vector<BodyIndex> unsolved_;   // bodies with an `unsolved` impulse
+  std::vector<BodyIndex> unsolved_;   // bodies that may have an `unsolved` impulse, each once
+  std::vector<std::uint8_t> listed_;  // [body] whether it is in unsolved_
   std::vector<BodyIndex> moving_;     // sleepers that count as moving
   std::vector<BodyIndex> stirred_;
   std::vector<int> points_;          // in the solver, in their order; the first of them is number first_point_

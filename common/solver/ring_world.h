@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// Gives World what it needs to know of the ring and of the grip of bodies.
+/// Implements the functions of World on the ring and on the grip of bodies.
 template <int Dim>
 class RingWorld : public World<Dim> {
  protected:

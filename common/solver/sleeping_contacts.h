@@ -25,7 +25,7 @@ struct SleepingPoint {
   BodyIndex b = ground_index;
   ContactPoint<Dim> contact;  // its slots mean nothing here
   PointKey key;
-  VecF<Dim> slip = VecF<Dim>::Zero();  // of b over a since the body fell asleep; against obstacles only [m]
+  VecF<Dim> slip = VecF<Dim>::Zero();  // of b over a since the body fell asleep; against ground and obstacles only [m]
 };
 
 /// The contact points of which no side is awake, with the impulses that hold them: the engines have none of these. Each

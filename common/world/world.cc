@@ -265,8 +265,12 @@ void World<Dim>::thaw(std::span<const BodyIndex> bodies) {
 template <int Dim>
 void World<Dim>::set_ring(const std::optional<SleepRing>& ring) {
   if (!ring && !has_ring_) return;
-  if (ring)
+  if (ring) {
     require(description_.solver.small_steps(), "rings", ring->rings, "must be 0 unless the solver is small_steps");
+    for (BodyIndex body = 0; body < states_.size(); ++body)
+      require(states_.asleep[body] == 0 || states_.removed[body] != 0, "rings", ring->rings,
+              "must be set while no body sleeps");
+  }
   engine_set_ring(ring);
   has_ring_ = ring.has_value();
 }

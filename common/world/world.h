@@ -104,8 +104,8 @@ class World {
   /// given them. Bodies already awake are left alone. Acts at once; must not be called during step().
   void thaw(std::span<const BodyIndex> bodies);
 
-  /// From now on the bodies that fall asleep take part in the contact solve, see Ring; without value no longer. Bodies
-  /// that sleep already do not. Only with the solver `small_steps`.
+  /// From now on sleeping bodies take part in the contact solve, see Ring; without value no longer. Only with the
+  /// solver `small_steps`, and while no body sleeps.
   void set_ring(const std::optional<SleepRing>& ring);
   bool has_ring() const { return has_ring_; }
   /// Sleeping bodies that the solve of the last step moves: the caller wakes them. Ascending, each once.

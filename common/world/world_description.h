@@ -114,6 +114,8 @@ bool same_gravity(const Vec<Dim>& a, const Vec<Dim>& b) {
 
 /// Friction of the contact of two surfaces: the geometric mean, as Box2D mixes them by itself.
 inline double pair_friction(double a, double b) { return std::sqrt(a * b); }
+/// Its restitution, on all engines.
+inline double pair_restitution(double a, double b) { return std::sqrt(a * b); }
 
 /// Torque by which the contact of two bodies resists turning, over the normal force [m]: the geometric mean of the
 /// arms of both shapes. What is no body has none and leaves it to the other.
@@ -121,8 +123,8 @@ inline double arm_of_pair(std::optional<double> a, std::optional<double> b) {
   return a && b ? std::sqrt(*a * *b) : a.value_or(b.value_or(0.0));
 }
 
-/// Throws InvalidValue; backends call it first, since Bullet would swallow a bad
-/// value and Box2D abort the process.
+/// Throws InvalidValue. Backends call it first, since Bullet accepts a bad value without an error and Box2D aborts the
+/// process.
 template <int Dim>
 void check(const WorldDescription<Dim>& description);
 template <int Dim>

@@ -1,6 +1,7 @@
 #include "sim3d/bullet/placed_pieces.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace talus::bullet {
 

@@ -136,6 +136,19 @@ TYPED_TEST(Force, BelowTheLimitOfFrictionMovesNothing) {
   EXPECT_NEAR(TestFixture::place(simulation)[0], 0.0, 0.01);
 }
 
+// In the air a tenth of a second with the body's weight gives a tenth of g, whichever steps these are.
+TYPED_TEST(Force, ActsForItsTimeToTheStep) {
+  constexpr int dim = TypeParam::dim;
+  for (int first = 1; first <= 60; ++first) {
+    Scene<dim> scene = scene_of<dim>(pushed<dim>(1.0, "seconds = 0.1\n"));
+    scene.bodies[0].def.pose.position[dim - 1] = 50.0;
+    scene.events[0].time = first * scene.world.dt;
+    auto simulation = TestFixture::simulation(scene);
+    for (int step = 0; step < first + 20; ++step) simulation.step();
+    EXPECT_NEAR(simulation.world().states().velocity[0][0], 0.1 * gravity, 1e-3) << first;
+  }
+}
+
 // With 0.3 g beyond friction, x = 0.3 g t^2 / 2 for one second, then it slides on until friction has stopped it.
 // Friction is right to 3 % on the engines, which is 5 % of the difference.
 TYPED_TEST(Force, AboveItAcceleratesForItsTime) {

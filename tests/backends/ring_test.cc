@@ -233,6 +233,15 @@ TYPED_TEST(RingTest, ARunIsTheSameBitsAgain) {
   EXPECT_EQ(ends[0], ends[1]);
 }
 
+TYPED_TEST(RingTest, IsSetWhileNoBodySleepsOnly) {
+  auto world = TypeParam::make(TestFixture::description());
+  const BodyIndex body = world->add(TestFixture::at(up<TypeParam::dim>(0.5)));
+  world->freeze(std::vector{body});
+  EXPECT_THROW(world->set_ring(SleepRing{}), std::invalid_argument);
+  world->thaw(std::vector{body});
+  EXPECT_NO_THROW(world->set_ring(SleepRing{}));
+}
+
 template <typename Backend>
 class RingOfOwnSolver : public BackendTest<Backend> {};
 TYPED_TEST_SUITE(RingOfOwnSolver, Backends, BackendName);

@@ -291,6 +291,27 @@ TYPED_TEST(ContactSolverTest, ARollingImpulseThatNothingPressesTurnsNoBody) {
   }
 }
 
+// Bodies of several pieces have several contacts, which an engine lists among those of others.
+TYPED_TEST(ContactSolverTest, CohesionOfAPairDoesNotDependOnTheOrderOfItsContacts) {
+  constexpr int D = TypeParam::value;
+  for (const std::vector<int>& partners : {std::vector{2, 2, 3}, std::vector{2, 3, 2}}) {
+    ContactSolver<D> solver;
+    for (int i = 0; i < 3; ++i) solver.add(body_of<D>(2.0F, 0.5F));
+    for (const int partner : partners) {
+      ContactPoint<D> point;
+      point.a = 1;
+      point.b = partner;
+      point.cohesion = 0.5F;
+      solver.add(point);
+    }
+    solver.solve({}, -g * up<D>(), dt);
+    float attraction = 0.0F;
+    for (const ContactPoint<D>& point : solver.points())
+      if (point.b == 2) attraction += point.attraction;
+    EXPECT_NEAR(attraction, 0.5F * 2.0F * g * dt, 1e-5F);
+  }
+}
+
 TYPED_TEST(ContactSolverTest, ContactsWithSleepersAreAsStiffAsWithTheSameBodiesAwake) {
   constexpr int D = TypeParam::value;
   // An overlap between two bodies at rest parts at the same speed in the first step, shared by their masses.

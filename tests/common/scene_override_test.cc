@@ -61,6 +61,15 @@ TEST(WrongOverride, IsNamedInItsError) {
   EXPECT_EQ(error_of("source[0].rate=fast"), "--set source[0].rate=fast: source[0].rate = \"fast\": must be a number");
 }
 
+TEST(WrongOverride, OfAnIncludeIsRefused) {
+  try {
+    with({{"include=base.toml"}});
+    ADD_FAILURE() << "no error";
+  } catch (const SceneErrors& errors) {
+    EXPECT_NE(std::string(errors.what()).find("include must be given in the file"), std::string::npos);
+  }
+}
+
 TEST(WrongOverride, FromAnotherOptionIsNamedByThatOption) {
   try {
     with({{"seed=-1", "--seed -1"}});

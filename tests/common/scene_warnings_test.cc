@@ -45,6 +45,15 @@ TEST(Warnings, TellOfMotionsThatSinglePrecisionRoundsAway) {
   expect_one(platform_at("1000", "0.001"), "go up to 100 % too far or too short");
 }
 
+TEST(Warnings, NameRulesThatRingsReplace) {
+  expect_one(warnings_with({{"policy.adaptive.wake_height=0.1"}}),
+             "policy.adaptive.wake_height has no effect: policy.adaptive.rings is 2");
+  expect_one(warnings_with({{"policy.adaptive.ring_still_speed=0.1"}, {"policy.adaptive.rings=0"}}),
+             "policy.adaptive.ring_still_speed has no effect: policy.adaptive.rings is 0");
+  EXPECT_EQ(warnings_with({{"policy.adaptive.wake_height=0.1"}, {"policy.adaptive.rings=0"}}), "");
+  EXPECT_EQ(warnings_with({{"policy.adaptive.wake_height=0.1"}, {"policy.kind=full"}}), "");
+}
+
 TEST(Warnings, TellOfSizesThatEnginesHoldBadly) {
   expect_one(warnings_with({{"shape.ball.radius=0.09"}, {"source[0].position=[0, 0, 4]"}}),
              "shape.ball: 0.18 to 0.18 m wide");

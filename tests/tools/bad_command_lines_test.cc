@@ -190,7 +190,7 @@ TEST_F(BadCommandLine, OfBenchIsRefused) {
 
 #ifdef TALUS_BULLET
 TEST_F(BadCommandLine, OfBenchOnBulletIsRefused) {
-  refuse({{"bench drop_in_a_pile_2d --backend bullet --out new", {"--backend", "no scene"}},
+  refuse({{"bench drop_in_a_pile_2d --backend bullet --out new", {"--backend = bullet", "one of the scenes"}},
           {"bench drop_in_a_pile_2d --backend bullet-planar --set world.solver.kind=engine "
            "--set world.solver.velocity_iterations=2 --out new",
            {"velocity_iterations", "window"}}});

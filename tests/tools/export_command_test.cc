@@ -187,7 +187,7 @@ TEST(ExportCommand, RefusesBadOptions) {
   refused("--out " + (folder / "a.txt"), "must end in .csv");
   refused("--out " + (folder / "a.vtp"), "must end in .csv, .npz or .pvd");
   refused("--out /no/folder/a.csv", "--out");
-  refused("--out " + (folder / "a.csv") + " --from 1000", "has no frame from --from 1000");
+  refused("--out " + (folder / "a.csv") + " --from 1000", "--from = 1000, --to = inf: must have a frame of");
   refused("--out " + (folder / "a.csv") + " --every 0", "--every");
   refused("--out " + (folder / "a.contacts.csv"), "must be of a run with run.contacts = true");
   EXPECT_FALSE(fs::exists(folder.path() / "a.csv")) << "nothing is written where something is refused";

@@ -36,7 +36,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  talus bench --preset table1 --quick\n"
     "  talus bench drop_in_a_pile_2d --policy full,adaptive,reference --seeds 8\n"
-    "  talus bench drop_in_a_pile_2d --policy full,adaptive --set policy.adaptive.tolerance=0.02,0.05,0.1 --drift\n"
+    "  talus bench drop_in_a_pile_2d --policy full,adaptive --set accuracy=fast,standard --drift\n"
     "  talus bench published           # experiments of scenes/published, what others found beside what talus gives";
 
 void require_new_folder(const fs::path& folder) {

@@ -150,7 +150,7 @@ std::vector<std::filesystem::path> files_of(const BenchOptions& options) {
     files.push_back(std::filesystem::absolute(find_scene(scene)));
     const auto same_name = [&](const auto& file) { return file.stem() == files.back().stem(); };
     if (std::ranges::count_if(files, same_name) > 1)
-      throw std::invalid_argument(fmt::format("{}: another scene has this name too", scene));
+      throw std::invalid_argument(fmt::format("SCENE = {}: must be the only one of this name", scene));
   }
   return files;
 }
@@ -170,7 +170,9 @@ std::vector<BenchCase> bench_cases(const BenchOptions& options) {
       }
     }
   }
-  if (cases.empty()) throw std::invalid_argument("--backend: no scene runs on this engine");
+  if (cases.empty())
+    throw std::invalid_argument(fmt::format("--backend = {}: must be an engine on which one of the scenes runs",
+                                            fmt::join(options.backends, ",")));
   return cases;
 }
 

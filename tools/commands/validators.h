@@ -34,16 +34,16 @@ enum class Bound { kept, left_out };
 
 /// For an option: a finite number up to `high`, from or above `low`. CLI::Range lets nan through.
 inline CLI::Validator number_between(double low, double high, Bound lower = Bound::kept) {
+  std::string most = fmt::format("{:g}", high);
+  if (const std::size_t sign = most.find("e+0"); sign != std::string::npos) most.replace(sign, 3, "e");
   const auto check = [=](const std::string& text) -> std::string {
     double value = NAN;
     const bool inside = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value <= high &&
                         (lower == Bound::kept ? value >= low : value > low);
     if (inside) return {};
-    return fmt::format("{}: must be a number {} {:g} and at most {:g}", text, lower == Bound::kept ? "from" : "above",
-                       low, high);
+    return fmt::format("{}: must be a number {} {:g} {} {}", text, lower == Bound::kept ? "from" : "above", low,
+                       lower == Bound::kept ? "to" : "and at most", most);
   };
-  std::string most = fmt::format("{:g}", high);
-  if (const std::size_t sign = most.find("e+0"); sign != std::string::npos) most.replace(sign, 3, "e");
   return CLI::Validator(check, fmt::format("{}{:g} to {}", lower == Bound::kept ? "" : "above ", low, most));
 }
 

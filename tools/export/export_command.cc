@@ -112,8 +112,9 @@ void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
         input.bodies = moment.bodies.size();
       });
   if (input.frames == 0) {
-    throw std::invalid_argument(fmt::format("{}: has no frame from --from {:g} to --to {:g} s ({} damaged bytes)",
-                                            options.run, options.from, options.to, damage.bytes));
+    throw std::invalid_argument(
+        fmt::format("--from = {:g}, --to = {:g}: must have a frame of {} in between ({} damaged bytes)", options.from,
+                    options.to, options.run, damage.bytes));
   }
   report_damage(damage);
   for (std::size_t i = 0; i < chosen.size(); ++i) {

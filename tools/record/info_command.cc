@@ -32,6 +32,7 @@ void summarize(const std::filesystem::path& file, bool as_json) {
 
 void info(const InfoOptions& options) {
   const std::filesystem::path file = record_file(options.run);
+  require(options.choice.from <= options.choice.to, "--to", options.choice.to, "must not be before --from");
   if (options.repair)
     repair_log(file, options.one_run, options.out);
   else if (options.messages)

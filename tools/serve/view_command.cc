@@ -174,10 +174,10 @@ void refuse_idle_options(const CLI::App& command, const ViewOptions& options, Sh
 
 void view(const CLI::App& command, const ViewOptions& options) {
   if (options.choice.scene.empty() != options.live)
-    throw std::invalid_argument("talus view: must have either a scene or run folder to show, or --live");
+    throw std::invalid_argument("must have either a scene or run folder to show, or --live");
   const bool record = !options.live && is_record(options.choice.scene);
   if (!options.other.empty() && !(record && is_record(options.other)))
-    throw std::invalid_argument("talus view: what stands side by side must be two run folders or records");
+    throw std::invalid_argument("what stands side by side must be two run folders or records");
   refuse_idle_options(command, options, options.live ? Shown::live : record ? Shown::record : Shown::scene);
   if (options.live) return view_live(options);
   if (record) return view_record(options);

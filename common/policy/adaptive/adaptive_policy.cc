@@ -77,8 +77,8 @@ void AdaptivePolicy<Dim>::find_wakes(const RuleInput<Dim>& in) {
   checks_.update(in, rest_, sleepers_, output_);
 }
 
-/// A body that sleeps by the user's wish was not put there by a rule: it makes no heap slide and waits for no check, as
-/// none does that feels forces.
+/// A body that sleeps by the user's request was not put there by a rule: it makes no heap slide and waits for no check,
+/// as none does that feels forces.
 template <int Dim>
 void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEvent> events) {
   for (const SleepEvent& event : events) {

@@ -48,7 +48,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool rests_on_awake(const World<Dim>& world, BodyIndex sleeper) const {
     return support_loss_.watches(world, sleeper);
   }
-  /// The bodies that sleep, as the policy was told.
+  /// The bodies that sleep, by the calls of note().
   const SleepLedger<Dim>& sleepers() const { return sleepers_; }
 
  private:

@@ -28,8 +28,8 @@ class LocalAvalanches {
   /// A body fell asleep at `position` [m].
   void note_asleep(const Vec<Dim>& position) { grown_.push_back(grid_.cell_of(position)); }
 
-  /// Wakes the columns that may slide. Over the wall of a pile only what lies above its rim can slide; a pile whose
-  /// slope is controlled may be as steep as that. Costs O(columns that grew), and a box query for each that is checked.
+  /// Wakes the columns that may slide. Over the wall of a pile only what lies above its rim can slide. Costs
+  /// O(columns that grew), and a box query for each that is checked.
   void update(const RuleInput<Dim>& in, const SleepLedger<Dim>& sleepers, RuleOutput<Dim>& out);
 
  private:

@@ -3,8 +3,6 @@
 // they may change. Each rule is a class with a constructor from RuleSetup and a function update(RuleInput, RuleOutput)
 // that is called once a step.
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <span>

@@ -13,7 +13,7 @@ namespace talus {
 
 /// Whether a sleeping body waits for a stability check.
 enum class Standing : std::uint8_t {
-  settled,    // no: a check left it where it lies, or it sleeps by the user's wish
+  settled,    // no: a check left it where it lies, or it sleeps by the user's request
   unchecked,  // yes: only a check under load has left it where it lies
   fresh,      // yes: no check has left it where it lies
 };

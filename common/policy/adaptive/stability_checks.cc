@@ -113,13 +113,10 @@ void StabilityChecks<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<
   for (Check& check : checks_) release_resting(in, check);
   std::erase_if(checks_, [](const Check& check) { return check.members.empty(); });
   observe_motion(in, rest);
-  may_begin_ = false;
   std::set<Column> waiting;
-  for (const auto& [column, count] : sleepers.counts()) {
-    if (count.unchecked == 0) continue;
-    may_begin_ = expects_arrivals(in.step) || !in.world.awake().empty();
-    waiting.insert(column);
-  }
+  for (const auto& [column, count] : sleepers.counts())
+    if (count.unchecked > 0) waiting.insert(column);
+  may_begin_ = !waiting.empty() && (expects_arrivals(in.step) || !in.world.awake().empty());
   while (!waiting.empty()) {
     const Region region = take_region(sleepers, waiting);
     if (is_quiet(region, in.step)) {

@@ -25,8 +25,7 @@ namespace talus {
 /// A region is a set of connected vertical columns with unchecked sleeping bodies, and the columns around these. It is
 /// quiet when no body moves in contact with another one. While bodies are on their way to a first contact, a check also
 /// waits until it has enough unchecked bodies to be worth its cost. When no more arrive, some bodies may move, since a
-/// slope that slides slowly as a whole would otherwise delay its own check. A pile whose slope is controlled is left
-/// out where it is steeper than heaps become by themselves, since only sleep keeps it so steep.
+/// slope that slides slowly as a whole would otherwise delay its own check.
 ///
 /// A pour that never pauses leaves no region quiet. There a region is checked although it moves as soon as enough of
 /// its sleeping bodies have not been checked where they lie, and its surface is steeper than the lowest friction of a
