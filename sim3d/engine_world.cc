@@ -239,6 +239,7 @@ void EngineWorld<Dim>::engine_restore_obstacle(int number) {
     object.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     object.forceActivationState(DISABLE_DEACTIVATION);
   }
+  engine_.pairs.places().forget_obstacle(object.getUserIndex());
   engine_.world.restore_static(object);
 }
 

@@ -28,18 +28,18 @@ std::vector<Contact<Dim>> kept_by_ring(const World<Dim>& world) {
 }  // namespace
 
 template <int Dim>
-void ContactForces<Dim>::want(bool wanted, const World<Dim>& world) {
-  if (wanted == wanted_) return;
-  wanted_ = wanted;
+void ContactForces<Dim>::record(bool on, const World<Dim>& world) {
+  if (on == on_) return;
+  on_ = on;
   kept_.clear();
   last_.clear();
-  if (wanted) last_.assign(world.contacts().begin(), world.contacts().end());
+  if (on) last_.assign(world.contacts().begin(), world.contacts().end());
 }
 
 /// A body with an event in this step was awake in it, or is from now on: what was kept of it no longer holds.
 template <int Dim>
 void ContactForces<Dim>::on_frame(const Frame<Dim>& frame) {
-  if (!wanted_) return;
+  if (!on_) return;
   const BodyStates<Dim>& states = frame.world.states();
   moved_.assign(states.asleep.size(), 0);
   for (const SleepEvent& event : frame.events) moved_[event.body] = 1;
@@ -55,7 +55,7 @@ template <int Dim>
 std::vector<ContactForce<Dim>> ContactForces<Dim>::of(const World<Dim>& world) const {
   const BodyStates<Dim>& states = world.states();
   std::vector<ContactForce<Dim>> forces;
-  if (!wanted_) return forces;
+  if (!on_) return forces;
   const auto add = [&](const Contact<Dim>& contact) {
     if (contact.normal_impulse == 0.0 || removed(states, contact)) return;  // near, but without force
     forces.push_back({.a = contact.a,

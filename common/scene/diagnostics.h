@@ -57,7 +57,7 @@ struct Diagnostics {
   std::set<std::string, std::less<>> included = {};  // files whose values hold where this one gives none
   std::vector<SceneError> errors = {};
   std::set<std::string> keys = {};       // every key that the reader looked for, as `source[].rate` or `shape.*.kind`
-  bool fills = false;                    // whether keys, filled are wanted
+  bool fills = false;                    // whether keys and filled are collected
   std::vector<FilledTable> filled = {};  // the file with the defaults of the keys that it does not give
   std::vector<std::filesystem::path> referred = {};  // files that it names, as it names them
   std::vector<std::string> warnings = {};            // of what is allowed but seldom meant, each with its place

@@ -50,6 +50,8 @@ class PlacedPieces {
 
   /// The slot's body has changed, begins or ceases to move.
   void forget(std::int32_t slot) { slots_[slot].known_until = -1; }
+  /// The obstacle stands elsewhere.
+  void forget_obstacle(int index) { obstacle(index).known_until = -1; }
 
   /// The pieces of a body with a compound shape. `slot` -1: an obstacle.
   const PlacedBody& of(std::int32_t slot, const btCollisionObject& body) {

@@ -236,6 +236,32 @@ TYPED_TEST(MovingObstacle, DoesNotMoveOnceItIsRemoved) {
   EXPECT_TRUE(world->obstacle_pose(0).position.isApprox(before.position, 0.0));
 }
 
+TYPED_TEST(MovingObstacle, OfSeveralPiecesHoldsABodyWhereItIsPutBack) {
+  constexpr int dim = TypeParam::dim;
+  const std::vector<Vec2> bench = {{-2, 0}, {-0.2, 0}, {0, 0.2}, {0.2, 0}, {2, 0}, {2, 1}, {-2, 1}};
+  const std::vector<Vec2> notched = {{-0.5, 0}, {0.5, 0}, {0.5, 0.5}, {0.1, 0.5}, {0, 0.4}, {-0.1, 0.5}, {-0.5, 0.5}};
+  WorldDescription<dim> description = platform<dim>(path<dim>(1.0, 0.0)).world;
+  description.shapes = {make_shape<dim>("notched", polygon_pieces<dim>(notched, 1.0), {.friction = 0.8})};
+  description.obstacles = {
+      {make_shape<dim>("bench", polygon_pieces<dim>(bench, 4.0), {.friction = 0.8}), {.position = up<dim>(5.0)}}};
+  const auto world = TypeParam::make(description);
+  const auto low = [&] { return height<dim>(world->bounds_of(0).min()); };
+  const auto top = [&] {
+    return height<dim>(bounds_at(world->obstacle_shape(0), world->obstacle_pose(0)).max());
+  };
+  const auto run = [&](int steps) {
+    for (int i = 0; i < steps; ++i) world->step();
+  };
+  world->add({.pose = {.position = up<dim>(6.0)}});
+  run(120);
+  EXPECT_NEAR(low(), top(), 0.03);
+  world->remove_obstacle(0);
+  run(1);
+  world->restore_obstacle(0, {.position = up<dim>(3.0)});
+  run(120);
+  EXPECT_NEAR(low(), top(), 0.03);
+}
+
 TYPED_TEST(MovingObstacle, IsTheOnlyKindThatMoves) {
   constexpr int dim = TypeParam::dim;
   Scene<dim> scene = platform<dim>(path<dim>(1.0, 0.0));

@@ -41,7 +41,7 @@ std::vector<std::string> moments(int count, int bodies) {
   Events events(writer);
   const auto run = still_run<Dim>(scene, bodies);
   ContactForces<Dim> contacts;
-  contacts.want(true, run->world());
+  contacts.record(true, run->world());
   writer.set_contacts(contacts);
   run->add_observer(contacts);
   run->add_observer(events);

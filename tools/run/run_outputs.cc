@@ -51,7 +51,7 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
           .sides = scene.world.periodic()};
 }
 
-/// Draws the pictures that events want, and prints a line for each event.
+/// Draws the pictures of events, and prints a line for each event.
 template <int Dim>
 class EventWatch final : public Observer<Dim> {
  public:
@@ -97,7 +97,7 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
   simulation.add_observer(statistics_);
   simulation.add_observer(avalanches_);
   if (!scene.instruments.empty()) simulation.add_observer(instruments_);
-  contacts_.want(scene.run.contacts, simulation.world());
+  contacts_.record(scene.run.contacts, simulation.world());
   if (scene.run.contacts) simulation.add_observer(contacts_);
   add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
 #ifdef TALUS_LCM

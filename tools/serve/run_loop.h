@@ -30,7 +30,7 @@ struct RunChoice {
   double pace = 1.0;                     // simulated seconds per second, 0: as fast as possible
 };
 
-/// Simulates in a thread of its own and publishes states to the hub as pages want them. It begins to run when the first
+/// Simulates in a thread of its own and publishes states to the hub as fast as its pages take them. It begins to run when the first
 /// page comes.
 class RunLoop {
  public:

@@ -102,7 +102,7 @@ class SimulatedScene final : public ShownRun {
     writer_.shapes();
     if (!scene.instruments.empty()) simulation_.add_observer(meters_);
     simulation_.add_observer(steps_);
-    contacts_.want(scene.run.contacts, simulation_.world());
+    contacts_.record(scene.run.contacts, simulation_.world());
     simulation_.add_observer(contacts_);
   }
 
@@ -138,7 +138,7 @@ class SimulatedScene final : public ShownRun {
     return {.step = frame.step, .block = messages_.take()};
   }
 
-  void show_contacts(bool show) override { contacts_.want(show || scene_.run.contacts, simulation_.world()); }
+  void show_contacts(bool show) override { contacts_.record(show || scene_.run.contacts, simulation_.world()); }
 
   std::string account(std::int64_t body) const override {
     return json_text(body_account<Dim>(simulation_, scene_, contacts_.of(simulation_.world()), body));

@@ -37,9 +37,9 @@ class ShownRun {
   virtual std::string beginning() const = 0;
   /// The present state, with all that happened since the last call.
   virtual ShownFrame frame() = 0;
-  /// Whether frames have contacts from now on, also where the scene does not want them. Costs nothing while false.
+  /// Whether frames have contacts from now on, also where the scene records none. Costs nothing while false.
   virtual void show_contacts(bool show) = 0;
-  /// What is known of a body here only (body_account.h), as JSON.
+  /// What only this process has of a body (body_account.h), as JSON.
   virtual std::string account(std::int64_t body) const = 0;
   /// By hand between steps: wakes a body and adds `velocity` [m/s], an entry for each axis, to its own; or takes it out
   /// of the world. The text returned says what is wrong; then nothing is done. Empty: done.
