@@ -56,6 +56,24 @@ void warn_of_sources(const Scene<Dim>& scene, Lines& lines) {
   }
 }
 
+/// Those that cannot happen, or not to all bodies that they name.
+template <int Dim>
+void warn_of_events(const Scene<Dim>& scene, Lines& lines) {
+  const double end = static_cast<double>(scene.run.frames) / scene.run.frame_rate;
+  const std::int64_t bodies = scene.bodies_planned();
+  for (std::size_t i = 0; i < scene.events.size(); ++i) {
+    const Event<Dim>& event = scene.events[i];
+    if (event.time && *event.time >= end)
+      lines.push_back(fmt::format("event[{}]: is due at {:.4g} s, the run ends at {:.4g} s", i, *event.time, end));
+    if (event.bodies > bodies)
+      lines.push_back(fmt::format("event[{}]: waits for {} bodies, the scene has {}", i, event.bodies, bodies));
+    if (const auto beyond =
+            std::ranges::find_if(event.numbers, [&](double n) { return n >= static_cast<double>(bodies); });
+        beyond != event.numbers.end())
+      lines.push_back(fmt::format("event[{}]: there is no body {:g}, the scene has {}", i, *beyond, bodies));
+  }
+}
+
 // The engines' contact skins and tolerances are made for bodies of about a metre.
 template <int Dim>
 void warn_of_sizes(const WorldDescription<Dim>& world, Lines& lines) {
@@ -203,6 +221,7 @@ template <int Dim>
 std::vector<std::string> warnings(const Scene<Dim>& scene) {
   Lines lines = scene.reader_warnings;
   warn_of_sources(scene, lines);
+  warn_of_events(scene, lines);
   warn_of_sizes(scene.world, lines);
   warn_of_mixtures(scene, lines);
   warn_of_settings(scene, lines);

@@ -45,6 +45,14 @@ TEST(Warnings, TellOfMotionsThatSinglePrecisionRoundsAway) {
   expect_one(platform_at("1000", "0.001"), "go up to 100 % too far or too short");
 }
 
+TEST(Warnings, TellOfEventsThatCannotHappen) {
+  EXPECT_EQ(warnings_with({{"event=[{time = 5, do = \"wake\", body = [9]}]"}}), "");
+  expect_one(warnings_with({{"event=[{time = 1e6, do = \"wake\"}]"}}), "event[0]: is due at 1e+06 s, the run ends at");
+  expect_one(warnings_with({{"event=[{bodies = 11, do = \"wake\"}]"}}),
+             "event[0]: waits for 11 bodies, the scene has 10");
+  expect_one(warnings_with({{"event=[{time = 5, do = \"wake\", body = [3, 10]}]"}}), "event[0]: there is no body 10");
+}
+
 TEST(Warnings, NameRulesThatRingsReplace) {
   expect_one(warnings_with({{"policy.adaptive.wake_height=0.1"}}),
              "policy.adaptive.wake_height has no effect: policy.adaptive.rings is 2");
