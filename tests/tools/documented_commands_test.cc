@@ -54,6 +54,9 @@ constexpr auto shortened = std::to_array<Shortened>({
     {"talus bench published --out published", "talus bench published overhang_2d --seeds 1 --out published"},
     {"talus bench --preset table1 --out table1",
      "talus bench varying_drops_2d --preset table1 --quick --seeds 1 --set run.frames=20 --out table1"},
+    {"talus bench --preset table1 --set accuracy=fast --out table1_fast",
+     "talus bench varying_drops_2d --preset table1 --quick --seeds 1 --set accuracy=fast --set run.frames=20 --out "
+     "table1_fast"},
     {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive,reference --seeds 32 --drift --out "
      "example1",
      "talus bench drop_in_a_pile_2d --policy full,reference --seeds 2 --set run.frames=20 --drift --out example1"},
