@@ -1,6 +1,6 @@
 #pragma once
-// How far two convex pieces are apart, or how deep in each other. Engines report contacts of awake bodies only; sleepers
-// are measured by this.
+// How far two convex pieces are apart, or how deep in each other. Engines report contacts of awake bodies only;
+// sleepers are measured by this.
 //
 // Why own code: libccd 2.1 is off by up to 0.1 m in 1 of 2,500 overlapping box pairs and finds no depth for 1 of 6
 // boxes stacked flush; FCL 0.7 aborts on flush boxes; a growing hull (EPA) of our own met the same trouble with faces

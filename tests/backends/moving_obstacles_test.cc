@@ -246,9 +246,7 @@ TYPED_TEST(MovingObstacle, OfSeveralPiecesHoldsABodyWhereItIsPutBack) {
       {make_shape<dim>("bench", polygon_pieces<dim>(bench, 4.0), {.friction = 0.8}), {.position = up<dim>(5.0)}}};
   const auto world = TypeParam::make(description);
   const auto low = [&] { return height<dim>(world->bounds_of(0).min()); };
-  const auto top = [&] {
-    return height<dim>(bounds_at(world->obstacle_shape(0), world->obstacle_pose(0)).max());
-  };
+  const auto top = [&] { return height<dim>(bounds_at(world->obstacle_shape(0), world->obstacle_pose(0)).max()); };
   const auto run = [&](int steps) {
     for (int i = 0; i < steps; ++i) world->step();
   };

@@ -30,8 +30,8 @@ struct RunChoice {
   double pace = 1.0;                     // simulated seconds per second, 0: as fast as possible
 };
 
-/// Simulates in a thread of its own and publishes states to the hub as fast as its pages take them. It begins to run when the first
-/// page comes.
+/// Simulates in a thread of its own and publishes states to the hub as fast as its pages take them. It begins to run
+/// when the first page comes.
 class RunLoop {
  public:
   static constexpr double fastest_pace = 1000.0;
