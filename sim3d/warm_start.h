@@ -52,19 +52,19 @@ class WarmStart {
 
  private:
   struct SavedPoint {
-    BodyIndex partner;
-    float place[3];      // on the owner, in its axes [m]
-    float normal[3];     // from the partner to the owner, in the world's axes
-    float distance;      // between the two surfaces [m], negative where they overlap
-    float impulse;       // [N s]
-    float friction[3];   // impulse on the owner, in the world's axes [N s]
-    std::int16_t piece;  // number within the owner's shape; -1 where the shape is a single piece
-    std::int16_t partners_piece;
+    BodyIndex partner = 0;
+    float place[3] = {};      // on the owner, in its axes [m]
+    float normal[3] = {};     // from the partner to the owner, in the world's axes
+    float distance = 0;       // between the two surfaces [m], negative where they overlap
+    float impulse = 0;        // [N s]
+    float friction[3] = {};   // impulse on the owner, in the world's axes [N s]
+    std::int16_t piece = -1;  // number within the owner's shape; -1 where the shape is a single piece
+    std::int16_t partners_piece = -1;
     PointMark mark;
   };
   struct Node {
     SavedPoint point;
-    std::int32_t next;  // of the same owner, -1: the last
+    std::int32_t next = -1;  // of the same owner, -1: the last
   };
   struct Sides;
   void keep(const Sides& sides, const SavedPoint& point);

@@ -33,7 +33,7 @@ std::filesystem::path included_file(const toml::table& table, std::string_view s
   };
   const bool inside = !name.empty() && name.is_relative() && std::ranges::count(name, "..") == 0;
   if (!inside) return refuse("must be a file in or below the scene's folder");
-  const std::filesystem::path file = std::filesystem::path(scene).parent_path() / name;
+  std::filesystem::path file = std::filesystem::path(scene).parent_path() / name;
   if (file == std::filesystem::path(scene) || diagnostics.included.contains(file.string()))
     return refuse("must not lead back to a file that includes it");
   if (std::ssize(diagnostics.included) >= most_includes)

@@ -1,6 +1,7 @@
 #include <memory>
 #include <string>
 
+#include "common/math/require.h"
 #include "tools/commands/commands.h"
 #include "tools/output/json_text.h"
 #include "tools/output/output.h"
