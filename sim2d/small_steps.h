@@ -40,7 +40,7 @@ class SmallSteps {
  public:
   explicit SmallSteps(const WorldDescription<2>& description);
 
-  /// In place of b2World::Step(). All new pairs must have been found.
+  /// Called in place of b2World::Step(), after Box2D has found all new pairs.
   EngineTimes step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
 
   void share_among(const std::shared_ptr<Team>& team) {
@@ -52,8 +52,8 @@ class SmallSteps {
   void set_ring(const std::optional<SleepRing>& ring);
   /// Null without.
   const Ring<2>* ring() const { return ring_ ? &*ring_ : nullptr; }
-  /// With a ring, before their bodies in Box2D go: awake bodies fall asleep. All new pairs must have
-  /// been found.
+  /// With a ring: awake bodies fall asleep. To be called before their bodies in Box2D are destroyed, and after Box2D
+  /// has found all new pairs.
   void freeze(b2World& world, const StepInput& input, std::span<const BodyIndex> bodies, std::span<b2Body* const> from);
   /// With a ring: a body wakes. Returns its velocity and its displacement; the impulses of its contacts go to `warm`.
   SolverBody<2> thaw(BodyIndex body, WarmStart& warm);

@@ -56,7 +56,7 @@ void warn_of_sources(const Scene<Dim>& scene, Lines& lines) {
   }
 }
 
-/// Those that cannot happen, or not to all bodies that they name.
+/// Events that cannot happen, or that name bodies which the scene does not have.
 template <int Dim>
 void warn_of_events(const Scene<Dim>& scene, Lines& lines) {
   const double end = static_cast<double>(scene.run.frames) / scene.run.frame_rate;
@@ -139,7 +139,7 @@ void warn_of_unused_settings(const SolverParams& solver, Lines& lines) {
   }
 }
 
-/// Rules that rings replace, and the other way round.
+/// Settings of rules that have no effect with rings, and of rings without them.
 void warn_of_unused_rules(const AdaptiveParams& params, Lines& lines) {
   const AdaptiveParams usual;
   const auto warn = [&](bool changed, std::string_view name) {

@@ -71,7 +71,7 @@ class Emitter {
   std::vector<BodyIndex> near_;                               // scratch
   std::vector<BodyIndex> beneath_;                            // scratch
   int emitted_ = 0;
-  int obstacles_ = 0;  // in the description, there or not
+  int obstacles_ = 0;  // of the description, present or removed
   int total_ = 0;
   int waiting_ = 0;  // bodies of sources that wait for an event
   std::int64_t waits_ = 0;

@@ -78,10 +78,9 @@ class SleepingWorld {
   std::vector<std::uint8_t> stays_awake_;  // [body]
   std::vector<std::uint8_t> near_sleep_;   // [body] after the last decision
   TypicalBody typical_{.bounding_volume = 0.0, .extent = 0.0, .mass = 0.0};
-  int typical_count_ = 0;  // bodies when it was found
-  int count_ = 0;          // bodies now
-  std::optional<double>
-      floor_;  // height at which a body first touched what is no body, or of the lowest saved sleeper [m]
+  int typical_count_ = 0;        // bodies when it was found
+  int count_ = 0;                // bodies now
+  std::optional<double> floor_;  // where a body first touched what is no body, or the lowest point of those saved [m]
   std::unique_ptr<SleepControl<Dim>> control_;
   const AdaptivePolicy<Dim>* policy_ = nullptr;  // that of control_
   std::optional<GravityChange<Dim>> gravity_;

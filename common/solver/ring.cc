@@ -200,7 +200,7 @@ void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
       enter(body, params_.rings, solver);
 }
 
-/// Those of the step before that have not been solved in this one come to rest where they are.
+/// Bodies that were solved in the step before, but not in this one, come to rest where they are.
 template <int Dim>
 void Ring<Dim>::let_go() {
   for (const BodyIndex body : before_) {

@@ -114,7 +114,7 @@ bool same_gravity(const Vec<Dim>& a, const Vec<Dim>& b) {
 
 /// Friction of the contact of two surfaces: the geometric mean, as Box2D mixes them by itself.
 inline double pair_friction(double a, double b) { return std::sqrt(a * b); }
-/// Its restitution, on all engines.
+/// Restitution of the contact of two surfaces, on all engines: the geometric mean.
 inline double pair_restitution(double a, double b) { return std::sqrt(a * b); }
 
 /// Torque by which the contact of two bodies resists turning, over the normal force [m]: the geometric mean of the

@@ -114,7 +114,7 @@ TYPED_TEST(LongSlopeControl, DoesNotFlattenASteeperPile) {
   EXPECT_NEAR(this->mean_slope(150, 8, 20.0 * degree), this->mean_slope(150, 8, 20.0 * degree, false), 6.0 * degree);
 }
 
-// In 3D, where bunnies stand at 38 degrees once something has stopped them, one of six is 2.8 degrees too steep.
+// In 3D, where bunnies stand at 38 degrees once something has stopped them, one of eight is 3.5 degrees too steep.
 TYPED_TEST(LongSlopeControl, MakesThePilesOfFigureThreeOverSeeds) {
   for (const int seed : {2, 3, 4, 5, 6})
     for (const int degrees : {35, 45}) this->expect_slope_of_bunnies(degrees, seed, 4.0);
