@@ -29,8 +29,10 @@ void SleeperWatch<Dim>::on_frame(const Frame<Dim>& frame) {
     extent_ = extent;
     overlap_.emplace(extent, frame.world.gravity_size(), frame.world.dt());
   }
-  for (; reported_ < warnings_.all().size(); ++reported_)
-    if (report_) report_(warnings_.all()[reported_]);
+  while (reported_ < warnings_.all().size()) {
+    const Warning& warning = warnings_.all()[reported_++];
+    if (report_) report_(warning);
+  }
 }
 
 template class SleeperWatch<2>;

@@ -15,6 +15,12 @@ struct Handle {
   auto operator<=>(const Handle&) const = default;
 };
 
+/// A handle as one number; 0 is the default.
+inline std::uint64_t number_of(Handle handle) { return (std::uint64_t{handle.generation} << 32U) | handle.slot; }
+inline Handle handle_of(std::uint64_t number) {
+  return {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32U)};
+}
+
 /// What a sleeper may do with a body.
 enum class BodyRole : std::uint8_t {
   sleeps,       // it sleeps when the policy decides so

@@ -29,18 +29,22 @@ const SleeperOptions& checked(const SleeperOptions& options) {
 }
 
 template <int Dim>
-bool finite(const Pose<Dim>& pose) {
-  if constexpr (Dim == 2)
-    return pose.position.allFinite() && std::isfinite(pose.rotation.angle());
-  else
-    return pose.position.allFinite() && pose.rotation.coeffs().allFinite();
+void check_pose(const Pose<Dim>& pose) {
+  require(pose.position.allFinite(), "pose", pose.position.norm(), "must be finite");
+  if constexpr (Dim == 2) {
+    require(std::isfinite(pose.rotation.angle()), "angle of a pose", pose.rotation.angle(), "must be finite");
+  } else {
+    constexpr double unit_within = 1e-3;  // single precision rounds
+    const double norm = pose.rotation.norm();
+    require(std::abs(norm - 1.0) < unit_within, "norm of the quaternion of a pose", norm, "must be 1");
+  }
 }
 
 template <int Dim>
 bool finite(const GivenContact<Dim>& contact) {
   // A sum is finite only if its terms are.
   const Vec<Dim> sum = contact.point + contact.normal + contact.friction_impulse;
-  return std::isfinite(sum.sum() + contact.normal_impulse + contact.approach_speed);
+  return std::isfinite(sum.sum() + contact.normal_impulse + contact.approach_speed + contact.depth);
 }
 
 }  // namespace
@@ -53,7 +57,7 @@ PileSleeper<Dim>::PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& opt
 
 template <int Dim>
 Handle PileSleeper<Dim>::add(const BodyTraits<Dim>& traits, const Pose<Dim>& pose, BodyRole role) {
-  require(finite<Dim>(pose), "pose", pose.position.norm(), "must be finite");
+  check_pose<Dim>(pose);
   const bool kinematic = role == BodyRole::kinematic;
   const Shape<Dim> shape = shape_with(traits, kinematic);
   const Pose<Dim> at = turn_.in(pose);
@@ -121,14 +125,15 @@ const SleepChanges<Dim>& PileSleeper<Dim>::after_step(const GivenStep<Dim>& step
   clear_changes();
   if (!enabled_) return changes_;
   check_step(step);
-  for (const auto& observer : observers_) observer->on_start(world());
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  tell([this](Observer<Dim>& observer) { observer.on_start(world()); });
   take_states(step);
   take_contacts(step);
   note(sleeping_.prepare(contacts_));
   if (sleeping_.any_asleep()) wake_reached();
   world().give_contacts(contacts_);
   sleeping_.end_motion(step.dt);
-  for (const auto& observer : observers_) observer->on_motion(world(), sleeping_.time());
+  tell([this](Observer<Dim>& observer) { observer.on_motion(world(), sleeping_.time()); });
   const Decision<Dim>& decision = sleeping_.decide(follows_);
   note(decision.thaw);
   note(decision.freeze);
@@ -151,8 +156,23 @@ template <int Dim>
 void PileSleeper<Dim>::show_step() {
   std::ranges::stable_sort(events_, {}, &SleepEvent::body);
   for (SleepEvent& event : events_) event.step = sleeping_.step();
-  for (const auto& observer : observers_) observer->on_frame(sleeping_.frame(events_, warnings()));
+  tell([this](Observer<Dim>& observer) { observer.on_frame(sleeping_.frame(events_, warnings())); });
   events_.clear();
+}
+
+/// What an observer throws comes out of the next step, before that changes anything: the changes of this one must be
+/// carried out.
+template <int Dim>
+void PileSleeper<Dim>::tell(const std::function<void(Observer<Dim>&)>& call) {
+  telling_ = true;
+  for (const auto& observer : observers_) {
+    try {
+      call(*observer);
+    } catch (...) {
+      if (!failure_) failure_ = std::current_exception();
+    }
+  }
+  telling_ = false;
 }
 
 /// Wakes what kinematic bodies reach.
@@ -186,9 +206,8 @@ void PileSleeper<Dim>::check_step(const GivenStep<Dim>& step) {
   for (const BodyIndex body : world().awake()) require_given(handle_of(body));
   for (const Handle handle : kinematic_handles_) require_given(handle);
   for (const GivenContact<Dim>& contact : step.contacts) {
-    require(handles_.has(contact.a), "contact.a", contact.a.slot, "must be the handle of a body that is there");
-    require(contact.b == Handle{} || handles_.has(contact.b), "contact.b", contact.b.slot,
-            "must be the handle of a body that is there, or the default");
+    handles_.at(contact.a, "contact.a");
+    if (contact.b != Handle{}) handles_.at(contact.b, "contact.b");
     require(finite<Dim>(contact), "contact of body", contact.a.slot, "must be finite");
   }
 }
@@ -198,8 +217,9 @@ template <int Dim>
 void PileSleeper<Dim>::check_state(const GivenStep<Dim>& step, std::size_t i) const {
   const Handle handle = step.bodies[i];
   const Entry& entry = handles_.at(handle, "bodies");
-  if (!finite<Dim>(step.poses[i]) || !step.velocities[i].allFinite() || !step.spins[i].allFinite())
-    require(false, fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), "must be finite");
+  check_pose<Dim>(step.poses[i]);
+  if (!step.velocities[i].allFinite() || !step.spins[i].allFinite())
+    require(false, fmt::format("velocity of body {}", handle.slot), step.velocities[i].norm(), "must be finite");
   if (entry.role == BodyRole::kinematic || world().states().asleep[entry.number] == 0) return;
   const double reach = 0.5 * world().shape_of(entry.number).extent;
   const Pose<Dim>& slept = world().states().pose[entry.number];
@@ -261,6 +281,7 @@ void PileSleeper<Dim>::note(const Events& events) {
 
 template <int Dim>
 void PileSleeper<Dim>::clear_changes() {
+  require(!telling_, "call", "by an observer", "must come after the step, whose changes it would lose");
   changes_.thaw.clear();
   changes_.velocities.clear();
   changes_.freeze.clear();
@@ -295,7 +316,7 @@ void PileSleeper<Dim>::set_pieces(Handle handle, const std::vector<Piece<Dim>>& 
 
 template <int Dim>
 void PileSleeper<Dim>::add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose) {
-  require(finite<Dim>(pose), "pose", pose.position.norm(), "must be finite");
+  check_pose<Dim>(pose);
   BodyTraits<Dim> traits{.pieces = pieces};
   traits.bounds.setEmpty();
   for (const Piece<Dim>& piece : pieces)
@@ -305,20 +326,9 @@ void PileSleeper<Dim>::add_static(const std::vector<Piece<Dim>>& pieces, const P
 
 template <int Dim>
 void PileSleeper<Dim>::end_observers(std::string_view reason) {
-  const std::vector<std::unique_ptr<Observer<Dim>>> ended = std::move(observers_);
-  std::span<const Warning> warnings;
+  tell([&](Observer<Dim>& observer) { observer.on_end(sleeping_.frame({}, warnings()), reason); });
   observers_.clear();
-  for (const auto& observer : ended)
-    if (warnings.empty()) warnings = observer->warnings();
-  std::exception_ptr first;  // each is told of the end, whatever another one throws
-  for (const auto& observer : ended) {
-    try {
-      observer->on_end(sleeping_.frame({}, warnings), reason);
-    } catch (...) {
-      if (!first) first = std::current_exception();
-    }
-  }
-  if (first) std::rethrow_exception(first);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 template <int Dim>
@@ -361,7 +371,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::wake_all() {
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::wake_near(const Box<Dim>& box) {
   clear_changes();
-  require(!box.min().hasNaN() && !box.max().hasNaN(), "box", "NaN", "must have corners that are numbers");
+  require(box.min().allFinite() && box.max().allFinite(), "box", "not finite", "must have finite corners");
   if (box.isEmpty()) return changes_;
   Box<Dim> turned;
   turned.extend(turn_.in(box.min()));
@@ -374,7 +384,7 @@ template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::moved(Handle handle, const Pose<Dim>& to) {
   clear_changes();
   const Entry& entry = handles_.at(handle, "body");
-  require(finite<Dim>(to), "pose", to.position.norm(), "must be finite");
+  check_pose<Dim>(to);
   const Box<Dim> before = bounds(entry);
   const double extent = (before.max() - before.min()).norm();
   std::vector<BodyIndex> neighbours = near(before, extent);
@@ -417,7 +427,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::restore(std::span<const SavedSleep> s
     const Entry& entry = handles_.at(saved[i].body, "saved body");
     require(!saved[i].asleep || entry.role == BodyRole::sleeps, "saved body", saved[i].body.slot,
             "must have the role of bodies that sleep, since it slept");
-    require(finite<Dim>(poses[i]), "pose", poses[i].position.norm(), "must be finite");
+    check_pose<Dim>(poses[i]);
   }
   note(sleeping_.wake_all());
   std::vector<BodyIndex> settled;

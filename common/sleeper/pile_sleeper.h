@@ -2,6 +2,8 @@
 // Sleep body by body for a world that talus does not simulate.
 
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -52,7 +54,8 @@ class PileSleeper {
   /// If not: whether it takes those of this body. Contacts between bodies of which none is needed change nothing and
   /// may be left out.
   bool needs_contacts(Handle handle) const;
-  /// One decision. Call it after each step of the engine, substeps too.
+  /// One decision. Call it after each step of the engine, substeps too. Throws what an observer threw in the step
+  /// before, then without a decision.
   const SleepChanges<Dim>& after_step(const GivenStep<Dim>& step);
 
   /// Before something acts on a body: a force, a new velocity. Without effect on an awake one.
@@ -109,6 +112,7 @@ class PileSleeper {
   void note(const Events& events);
   std::span<const Warning> warnings() const;
   void show_step();
+  void tell(const std::function<void(Observer<Dim>&)>& call);
   void clear_changes();
   void wake_reached();
 
@@ -127,7 +131,9 @@ class PileSleeper {
   std::int64_t steps_ = 0;
   SleepChanges<Dim> changes_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;
-  Events events_;  // since the last frame, where there are observers
+  Events events_;               // since the last frame, where there are observers
+  std::exception_ptr failure_;  // that an observer has thrown
+  bool telling_ = false;        // observers are being called
 };
 
 }  // namespace talus

@@ -39,6 +39,7 @@ BodyIndex SleepingWorld<Dim>::add(const Shape<Dim>& shape, const Pose<Dim>& pose
   stays_awake_.resize(world_.states().asleep.size());
   near_sleep_.resize(stays_awake_.size());
   stays_awake_[body] = stays_awake ? 1 : 0;
+  if (!stays_awake) ++came_;
   ++count_;
   return body;
 }
@@ -46,6 +47,7 @@ BodyIndex SleepingWorld<Dim>::add(const Shape<Dim>& shape, const Pose<Dim>& pose
 template <int Dim>
 void SleepingWorld<Dim>::remove(BodyIndex body) {
   --count_;
+  if (stays_awake_[body] == 0) ++left_;
   if (control_)
     control_->remove(body);
   else
@@ -91,13 +93,14 @@ typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::set_moving(BodyIndex bod
   return woken;
 }
 
-/// Of the bodies that may sleep.
+/// Of the bodies that may sleep, one at least.
 template <int Dim>
-TypicalBody SleepingWorld<Dim>::typical_now() const {
+TypicalBody SleepingWorld<Dim>::typical_now() {
+  typical_count_ += came_ - left_;
+  came_ = left_ = 0;
   std::vector<const Shape<Dim>*> shapes;
   for (BodyIndex body = 0; body < world_.states().size(); ++body)
     if (world_.states().removed[body] == 0 && stays_awake_[body] == 0) shapes.push_back(&world_.shape_of(body));
-  if (shapes.empty()) return {};
   TypicalBody typical = typical_of<Dim>(shapes);
   if (options_.extent) typical.extent = *options_.extent;
   return typical;
@@ -106,7 +109,6 @@ TypicalBody SleepingWorld<Dim>::typical_now() const {
 template <int Dim>
 void SleepingWorld<Dim>::make_policy(const TypicalBody& typical) {
   typical_ = typical;
-  typical_count_ = count_;
   WorldDescription<Dim> description;
   description.ground.present = false;
   description.ground.height = floor_.value_or(0.0);
@@ -124,13 +126,10 @@ typename SleepingWorld<Dim>::Events SleepingWorld<Dim>::prepare(std::span<const 
     if (touch == contacts.end()) return {};
     floor_ = height<Dim>(touch->point);
   }
-  const bool as_many = count_ < 2 * typical_count_ && 2 * count_ > typical_count_;
-  if (control_ && as_many) return {};
+  if (typical_count_ + came_ == left_) return {};  // none may sleep
+  if (control_ && came_ < typical_count_ && 2 * left_ < typical_count_) return {};
   const TypicalBody now = typical_now();
-  if (control_ && std::abs(now.extent - typical_.extent) < new_extent * typical_.extent) {
-    typical_count_ = count_;
-    return {};
-  }
+  if (control_ && std::abs(now.extent - typical_.extent) < new_extent * typical_.extent) return {};
   Events woken = wake_all();
   make_policy(now);
   return woken;
@@ -178,12 +177,13 @@ Frame<Dim> SleepingWorld<Dim>::frame(std::span<const SleepEvent> events, std::sp
 
 template <int Dim>
 bool SleepingWorld<Dim>::needs_all_contacts() const {
-  return !control_ || any_asleep() || control_->piles().has_unplaced() || policy_->checks_stability();
+  if (!control_) return !floor_;
+  return any_asleep() || control_->piles().has_unplaced() || policy_->checks_stability();
 }
 
 template <int Dim>
 bool SleepingWorld<Dim>::needs_contacts(BodyIndex body) const {
-  return !control_ || near_sleep_[body] != 0 || !control_->piles().has_touched(body);
+  return control_ && (near_sleep_[body] != 0 || !control_->piles().has_touched(body));
 }
 
 template class SleepingWorld<2>;

@@ -30,7 +30,11 @@ class SleepingWorld {
   BodyIndex add(const Shape<Dim>& shape, const Pose<Dim>& pose, bool stays_awake);
   void remove(BodyIndex body);
   /// Whether a body must not fall asleep.
-  void keep_awake(BodyIndex body, bool stays_awake) { stays_awake_[body] = stays_awake ? 1 : 0; }
+  void keep_awake(BodyIndex body, bool stays_awake) {
+    if ((stays_awake_[body] != 0) == stays_awake) return;
+    ++(stays_awake ? left_ : came_);
+    stays_awake_[body] = stays_awake ? 1 : 0;
+  }
 
   using Events = std::vector<SleepEvent>;
   /// Wakes those that sleep, and returns them.
@@ -70,7 +74,7 @@ class SleepingWorld {
   double extent() const { return typical_.extent; }
 
  private:
-  TypicalBody typical_now() const;
+  TypicalBody typical_now();
   void make_policy(const TypicalBody& typical);
 
   SleeperOptions options_;
@@ -78,7 +82,9 @@ class SleepingWorld {
   std::vector<std::uint8_t> stays_awake_;  // [body]
   std::vector<std::uint8_t> near_sleep_;   // [body] after the last decision
   TypicalBody typical_{.bounding_volume = 0.0, .extent = 0.0, .mass = 0.0};
-  int typical_count_ = 0;        // bodies when it was found
+  int typical_count_ = 0;        // bodies that might sleep when it was last looked for
+  int came_ = 0;                 // since then, of bodies that may sleep
+  int left_ = 0;                 // the same
   int count_ = 0;                // bodies now
   std::optional<double> floor_;  // where a body first touched what is no body, or the lowest point of those saved [m]
   std::unique_ptr<SleepControl<Dim>> control_;

@@ -147,6 +147,22 @@ TEST_F(AnObservedWorld, EndsForEachObserverThoughOneFails) {
   EXPECT_EQ(seen.end, "finished");
 }
 
+TEST_F(AnObservedWorld, CarriesOutTheChangesOfAStepInWhichAnObserverFails) {
+  struct Failing final : Observer<2> {
+    void on_frame(const Frame<2>& frame) override {
+      if (!frame.events.empty()) throw std::runtime_error("disk full");
+    }
+  };
+  auto& box = scene.drop({Vec2(0, 0.4), Rotation<2>(0)});
+  scene.sleeper->observe(std::make_unique<Failing>());
+  int steps = 0;
+  while (!scene.sleeper->asleep(box) && steps++ < 400) run(1);
+  ASSERT_TRUE(scene.sleeper->asleep(box));
+  EXPECT_THROW(run(1), std::runtime_error);
+  EXPECT_NO_THROW(run(1));
+  EXPECT_NEAR(box.GetPosition().y, 0.3F, 0.05F) << "it was frozen in the engine too";
+}
+
 TEST(AnObserver, IsRefusedWhereNoBodyMaySleep) {
   b2World world(b2Vec2(0, -10));
   Box2dSleeper sleeper(world, {.enabled = false});

@@ -55,11 +55,6 @@ std::string& last_message() {
   return message;
 }
 
-talus_handle to_c(Handle handle) { return (talus_handle{handle.generation} << 32) + handle.slot; }
-Handle from_c(talus_handle handle) {
-  return {static_cast<std::uint32_t>(handle), static_cast<std::uint32_t>(handle >> 32)};
-}
-
 template <int Dim>
 Vec<Dim> vector_of(const double* numbers) {
   return Eigen::Map<const Vec<Dim>>(numbers);
@@ -71,13 +66,10 @@ void write(const Vec<Dim>& vector, double* numbers) {
 }
 template <int Dim>
 Pose<Dim> pose_of(const double* position, const double* rotation) {
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     return {vector_of<2>(position), Rotation<2>(rotation[0])};
-  } else {
-    const Rotation<3> turn(rotation[3], rotation[0], rotation[1], rotation[2]);
-    require(std::abs(turn.norm() - 1.0) < 1e-3, "rotation", turn.norm(), "must be a quaternion of length 1");
-    return {vector_of<3>(position), turn.normalized()};
-  }
+  else
+    return {vector_of<3>(position), Rotation<3>(rotation[3], rotation[0], rotation[1], rotation[2])};
 }
 template <int Dim>
 Spin<Dim> spin_of(const double* spin) {
@@ -157,24 +149,24 @@ class Sleeper final : public talus_sleeper {
     for (Eigen::Index i = 0; i < traits.inertia.size(); ++i) traits.inertia(i) = body.inertia[i];
     if (body.piece.count > 0 || body.piece.radius != 0.0)
       traits.pieces = pieces_of<Dim>(body.piece, vector_of<Dim>(body.centre));
-    return to_c(core_.add(traits, pose_of<Dim>(body.position, body.rotation), static_cast<BodyRole>(body.role)));
+    return number_of(core_.add(traits, pose_of<Dim>(body.position, body.rotation), static_cast<BodyRole>(body.role)));
   }
   const std::vector<talus_handle>& followed() override {
     followed_.clear();
-    for (const Handle handle : core_.followed()) followed_.push_back(to_c(handle));
+    for (const Handle handle : core_.followed()) followed_.push_back(number_of(handle));
     return followed_;
   }
   const talus_changes& after_step(const talus_step& step) override {
     buffer_.clear();
     for (std::size_t i = 0; i < step.body_count; ++i) {
       const talus_state& state = step.states[i];
-      buffer_.add(from_c(step.bodies[i]), pose_of<Dim>(state.position, state.rotation), vector_of<Dim>(state.velocity),
-                  spin_of<Dim>(state.spin));
+      buffer_.add(handle_of(step.bodies[i]), pose_of<Dim>(state.position, state.rotation),
+                  vector_of<Dim>(state.velocity), spin_of<Dim>(state.spin));
     }
     for (std::size_t i = 0; i < step.contact_count; ++i) {
       const talus_contact& contact = step.contacts[i];
-      buffer_.contacts.push_back({.a = from_c(contact.a),
-                                  .b = from_c(contact.b),
+      buffer_.contacts.push_back({.a = handle_of(contact.a),
+                                  .b = handle_of(contact.b),
                                   .point = vector_of<Dim>(contact.point),
                                   .normal = vector_of<Dim>(contact.normal),
                                   .normal_impulse = contact.normal_impulse,
@@ -184,14 +176,14 @@ class Sleeper final : public talus_sleeper {
     }
     return written(core_.after_step(buffer_.step(step.dt)));
   }
-  const talus_changes& remove(talus_handle body) override { return written(core_.remove(from_c(body))); }
-  const talus_changes& wake(talus_handle body) override { return written(core_.wake(from_c(body))); }
+  const talus_changes& remove(talus_handle body) override { return written(core_.remove(handle_of(body))); }
+  const talus_changes& wake(talus_handle body) override { return written(core_.wake(handle_of(body))); }
   const talus_changes& wake_all() override { return written(core_.wake_all()); }
   const talus_changes& wake_near(const double* low, const double* high) override {
     return written(core_.wake_near({vector_of<Dim>(low), vector_of<Dim>(high)}));
   }
   const talus_changes& moved(talus_handle body, const double* position, const double* rotation) override {
-    return written(core_.moved(from_c(body), pose_of<Dim>(position, rotation)));
+    return written(core_.moved(handle_of(body), pose_of<Dim>(position, rotation)));
   }
   const talus_changes& set_gravity(const double* gravity) override {
     return written(core_.set_gravity(vector_of<Dim>(gravity)));
@@ -199,19 +191,19 @@ class Sleeper final : public talus_sleeper {
   const std::vector<talus_saved>& snapshot() override {
     saved_.clear();
     for (const SavedSleep& one : core_.snapshot())
-      saved_.push_back({to_c(one.body), one.asleep ? 1 : 0, one.settled ? 1 : 0});
+      saved_.push_back({number_of(one.body), one.asleep ? 1 : 0, one.settled ? 1 : 0});
     return saved_;
   }
   const talus_changes& restore(std::span<const talus_saved> saved, const talus_state* states) override {
     std::vector<SavedSleep> given;
     std::vector<Pose<Dim>> poses;
     for (std::size_t i = 0; i < saved.size(); ++i) {
-      given.push_back({from_c(saved[i].body), saved[i].asleep != 0, saved[i].settled != 0});
+      given.push_back({handle_of(saved[i].body), saved[i].asleep != 0, saved[i].settled != 0});
       poses.push_back(pose_of<Dim>(states[i].position, states[i].rotation));
     }
     return written(core_.restore(given, poses));
   }
-  bool asleep(talus_handle body) const override { return core_.asleep(from_c(body)); }
+  bool asleep(talus_handle body) const override { return core_.asleep(handle_of(body)); }
 
 #ifdef TALUS_LCM
   void record(const char* path, const talus_label* label) override {
@@ -225,8 +217,8 @@ class Sleeper final : public talus_sleeper {
   void watch(talus_report report, void* context) override {
     core_.observe(std::make_unique<SleeperWatch<Dim>>([this, report, context](const Warning& warning) {
       const std::string text = advice(warning);
-      const talus_warning told = {to_string(warning.kind).data(), to_c(core_.handle_of(warning.body)), warning.value,
-                                  text.c_str()};
+      const talus_warning told = {to_string(warning.kind).data(), number_of(core_.handle_of(warning.body)),
+                                  warning.value, text.c_str()};
       report(&told, context);
     }));
   }
@@ -237,13 +229,14 @@ class Sleeper final : public talus_sleeper {
     if (body == 0)
       core_.add_static(made, {});
     else
-      core_.set_pieces(from_c(body), made);
+      core_.set_pieces(handle_of(body), made);
   }
   void end_observers() override { core_.end_observers(); }
 
  private:
   static void write_traits(const BodyTraits<Dim>& traits, talus_body& body) {
     body.piece = {};
+    write<Dim>(Vec<Dim>::Zero(), body.centre);
     body.mass = traits.mass;
     for (Eigen::Index i = 0; i < traits.inertia.size(); ++i) body.inertia[i] = traits.inertia(i);
     write<Dim>(traits.bounds.min(), body.low);
@@ -251,7 +244,7 @@ class Sleeper final : public talus_sleeper {
   }
   static void write_changes(const std::vector<SleepChange>& from, std::vector<talus_change>& to) {
     to.clear();
-    for (const SleepChange& change : from) to.push_back({to_c(change.body), static_cast<int>(change.cause)});
+    for (const SleepChange& change : from) to.push_back({number_of(change.body), static_cast<int>(change.cause)});
   }
   const talus_changes& written(const SleepChanges<Dim>& changes) {
     write_changes(changes.thaw, thaw_);
@@ -259,7 +252,7 @@ class Sleeper final : public talus_sleeper {
     velocities_.clear();
     for (const GivenVelocity<Dim>& change : changes.velocities) {
       talus_velocity& velocity = velocities_.emplace_back();
-      velocity.body = to_c(change.body);
+      velocity.body = number_of(change.body);
       write<Dim>(change.velocity, velocity.velocity);
       write<static_cast<int>(Spin<Dim>::SizeAtCompileTime)>(change.spin, velocity.spin + (Dim == 2 ? 2 : 0));
     }

@@ -25,11 +25,8 @@ namespace py = pybind11;
 namespace talus {
 namespace {
 
-/// Generation and slot; 0 is the default handle.
-std::int64_t number_of(Handle handle) { return (static_cast<std::int64_t>(handle.generation) << 32) | handle.slot; }
-Handle handle_of(std::int64_t number) {
-  return {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32)};
-}
+/// NumPy's usual whole numbers have a sign.
+std::int64_t whole(Handle handle) { return static_cast<std::int64_t>(number_of(handle)); }
 
 using HandleArray = py::array_t<std::int64_t, py::array::c_style>;
 
@@ -61,14 +58,10 @@ Vec<Dim> vector_in(const DoubleArray& array, std::string_view field) {
 template <int Dim>
 Pose<Dim> pose_at(const double* row) {
   Pose<Dim> pose{.position = vector_at<Vec<Dim>>(row)};
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 2)
     pose.rotation = Rotation<2>(row[2]);
-  } else {
+  else
     pose.rotation.coeffs() = vector_at<Eigen::Vector4d>(row + 3);
-    const double norm = pose.rotation.norm();
-    require(!(std::abs(norm - 1.0) > 1e-3), "norm of the quaternion of a pose", norm, "must be 1");
-    pose.rotation.normalize();
-  }
   return pose;
 }
 
@@ -132,7 +125,7 @@ class ArraySleeper {
 
   HandleArray followed() {
     std::vector<std::int64_t> numbers;
-    for (const Handle handle : sleeper_.followed()) numbers.push_back(number_of(handle));
+    for (const Handle handle : sleeper_.followed()) numbers.push_back(whole(handle));
     return array_of(std::move(numbers));
   }
 
@@ -178,7 +171,7 @@ class ArraySleeper {
   using Report = std::function<void(std::string_view kind, std::int64_t body, double value, const std::string& text)>;
   void watch(const Report& report) {
     sleeper_.observe(std::make_unique<SleeperWatch<Dim>>([this, report](const Warning& warning) {
-      report(to_string(warning.kind), number_of(sleeper_.handle_of(warning.body)), warning.value, advice(warning));
+      report(to_string(warning.kind), whole(sleeper_.handle_of(warning.body)), warning.value, advice(warning));
     }));
   }
   void end_observers() { sleeper_.end_observers(); }
@@ -191,7 +184,7 @@ class ArraySleeper {
   py::array_t<SavedRow> snapshot() const {
     std::vector<SavedRow> rows;
     for (const SavedSleep& saved : sleeper_.snapshot())
-      rows.push_back({number_of(saved.body), saved.asleep, saved.settled});
+      rows.push_back({whole(saved.body), saved.asleep, saved.settled});
     return array_of(std::move(rows));
   }
   py::tuple restore(const py::array_t<SavedRow, py::array::c_style>& saved, const DoubleArray& poses) {
@@ -213,19 +206,18 @@ class ArraySleeper {
 
   std::int64_t add(const DoubleArray& pose, BodyTraits<Dim> traits, double friction, int role) {
     traits.friction = friction;
-    return number_of(sleeper_.add(traits, pose_in<Dim>(pose), static_cast<BodyRole>(role)));
+    return whole(sleeper_.add(traits, pose_in<Dim>(pose), static_cast<BodyRole>(role)));
   }
 
   static py::list list_of(const std::vector<SleepChange>& changes) {
     py::list list;
-    for (const SleepChange& change : changes)
-      list.append(py::make_tuple(number_of(change.body), to_string(change.cause)));
+    for (const SleepChange& change : changes) list.append(py::make_tuple(whole(change.body), to_string(change.cause)));
     return list;
   }
   static py::tuple changes(const SleepChanges<Dim>& all) {
     py::list velocities;
     for (const GivenVelocity<Dim>& change : all.velocities)
-      velocities.append(py::make_tuple(number_of(change.body), DoubleArray(Dim, change.velocity.data()),
+      velocities.append(py::make_tuple(whole(change.body), DoubleArray(Dim, change.velocity.data()),
                                        DoubleArray(change.spin.size(), change.spin.data()), to_string(change.cause)));
     return py::make_tuple(list_of(all.thaw), velocities, list_of(all.freeze));
   }
