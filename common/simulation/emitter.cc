@@ -31,7 +31,7 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
   if (finished()) return;
   const double gravity = world.gravity_size();
   const double slow_time = gravity > 0.0 ? settled_speed / world.units().speeds() / gravity : 0.0;  // [s]
-  while (!births_.empty() && births_.front().time + slow_time <= time) births_.pop_front();
+  while (!recent_.empty() && recent_.front().time + slow_time <= time) recent_.pop_front();
   for (Spout& spout : spouts_) {
     bool ridden = spout.source.ride_above == 0.0;
     while (due(spout, time)) {
@@ -45,7 +45,7 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
         break;
       }
       const BodyIndex added = world.add(body);
-      if (births_.empty() || births_.back().time < time) births_.push_back({time, added});
+      if (recent_.empty() || recent_.back().time < time) recent_.push_back({time, added});
       spout.drawn = false;
       ++spout.emitted;
       ++emitted_;
@@ -153,9 +153,9 @@ void Emitter<Dim>::ride(const World<Dim>& world, Spout& spout, double time) {
   world.query_box(column, near_);
   const BodyStates<Dim>& states = world.states();
   const double settled = settled_speed / world.units().speeds();
-  const BodyIndex newborn = births_.empty() ? states.size() : births_.front().body;
+  const BodyIndex first_recent = recent_.empty() ? states.size() : recent_.front().body;
   for (const BodyIndex body : near_) {
-    if (body >= newborn || states.velocity[body].norm() > settled) continue;
+    if (body >= first_recent || states.velocity[body].norm() > settled) continue;
     const Box<Dim> bounds = world.bounds_of(body);
     const double lift = height<Dim>(bounds.max()) + spout.source.ride_above - height<Dim>(spout.source.position);
     if (lift > spout.lift && lies_on_something(world, body, bounds)) spout.lift = lift;

@@ -50,7 +50,7 @@ class Emitter {
   };
 
   /// The first of the bodies that appeared at one time.
-  struct Birth {
+  struct Appearance {
     double time = 0.0;
     BodyIndex body = 0;
   };
@@ -67,7 +67,7 @@ class Emitter {
   std::vector<BodyDef<Dim>> initial_;  // still to be added
   std::vector<Spout> spouts_;
   double ground_ = -std::numeric_limits<double>::infinity();  // [m]
-  std::deque<Birth> births_;                                  // that are too young to be as fast as what is in flight
+  std::deque<Appearance> recent_;                             // that cannot be as fast yet as what is in flight
   std::vector<BodyIndex> near_;                               // scratch
   std::vector<BodyIndex> beneath_;                            // scratch
   int emitted_ = 0;

@@ -17,8 +17,8 @@ class EventClock {
  public:
   explicit EventClock(const std::vector<Event<Dim>>& events);
 
-  /// Before a step from `time` [s] on, with so many bodies in the world, at rest or not, and its piles: those that are
-  /// due, in the order of the file; of those that wait for rest only the first.
+  /// Before a step from `time` [s] on, after so many bodies have appeared, in a world at rest or not, with its piles:
+  /// those that are due, in the order of the file; of those that wait for rest only the first.
   std::span<const int> update(double time, int bodies, bool at_rest, std::span<const Pile<Dim>> piles);
   /// The same until the next update.
   std::span<const int> due() const { return due_; }

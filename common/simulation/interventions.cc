@@ -182,6 +182,7 @@ std::vector<int> Interventions<Dim>::obstacles_named(const Event<Dim>& event) co
 
 template <int Dim>
 void Interventions<Dim>::remove(const Intervened<Dim>& run, BodyIndex body) const {
+  run.world.require_present(body);
   const std::vector<BodyIndex> near =
       sleepers_by(run.world, body, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
   run.remove(body);

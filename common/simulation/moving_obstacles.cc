@@ -84,9 +84,10 @@ Pose<Dim> MovingObstacles<Dim>::pose_at(const World<Dim>& world, int obstacle, d
 
 template <int Dim>
 bool MovingObstacles<Dim>::moves_after(const World<Dim>& world, double time) const {
-  return std::ranges::any_of(movers_, [&](const Mover<Dim>& mover) {
-    return world.has_obstacle(mover.first) && mover.motion.moves_after(time);
-  });
+  for (const Mover<Dim>& mover : movers_)
+    for (int obstacle = mover.first; obstacle < mover.first + mover.count; ++obstacle)
+      if (world.has_obstacle(obstacle) && mover.motion.moves_after(time)) return true;
+  return false;
 }
 
 template class MovingObstacles<2>;

@@ -62,6 +62,9 @@ class World {
  public:
   virtual ~World() = default;
 
+  /// Throws InvalidValue unless the body is in the world.
+  void require_present(BodyIndex body) const;
+
   /// Adds an awake body and returns its index, the number of bodies added before.
   BodyIndex add(const BodyDef<Dim>& body);
 
@@ -289,7 +292,6 @@ class World {
 
   void place_obstacles();
   void require_obstacle(int number) const;
-  void require_present(BodyIndex body) const;
   /// Those of `bodies` that are asleep, or those that are not: ascending, each once.
   void choose(std::span<const BodyIndex> bodies, bool asleep);
   void read_step();
@@ -325,7 +327,6 @@ class World {
 /// nothing slides.
 template <int Dim>
 double time_unit(double extent, const World<Dim>& world) {
-  constexpr double least_gravity = 0.01;  // [m/s^2]
   return std::sqrt(extent / std::max(world.gravity_size(), least_gravity));
 }
 

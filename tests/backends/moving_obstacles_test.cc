@@ -22,25 +22,17 @@ Scene<Dim> platform(const std::string& motion, const std::string& rest = "") {
   return std::get<Scene<Dim>>(parse_scene(text, "text"));
 }
 
-template <int Dim>
-std::string along(double x, double height) {
-  return Dim == 2 ? fmt::format("[{}, {}]", x, height) : fmt::format("[{}, 0, {}]", x, height);
-}
-
 /// From 2 s on by `x` and `height` within 2 s.
 template <int Dim>
 std::string path(double x, double height) {
-  return fmt::format("{{kind = \"path\", times = [2, 4], shifts = [{}, {}]}}", along<Dim>(0, 0), along<Dim>(x, height));
+  return fmt::format("{{kind = \"path\", times = [2, 4], shifts = [{}, {}]}}", vector_text<Dim>(0, 0),
+                     vector_text<Dim>(x, height));
 }
 
 template <typename Backend>
 class MovingObstacle : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
-  static void run_until(Simulation<dimension>& simulation, double time) {
-    while (simulation.time() < time - 1e-9) simulation.step();
-  }
   static Vec<dimension> place(const Simulation<dimension>& simulation) {
     return simulation.world().states().pose[0].position;
   }
@@ -52,15 +44,15 @@ TYPED_TEST_SUITE(MovingObstacle, Backends, BackendName);
 TYPED_TEST(MovingObstacle, CarriesASleeperAwayAndLetsItSleepWhenItStandsStill) {
   constexpr int dim = TypeParam::dim;
   const Scene<dim> scene = platform<dim>(path<dim>(2.0, 0.0));
-  auto simulation = TestFixture::simulation(scene);
-  TestFixture::run_until(simulation, 2.0);
+  auto simulation = simulation_on<TypeParam>(scene);
+  run_until(simulation, 2.0);
   EXPECT_TRUE(TestFixture::asleep(simulation)) << "before it moves";
   simulation.step();  // after it the contact may be found in which it moves the body
   for (int i = 0; i < 100; ++i) {
     simulation.step();
     ASSERT_FALSE(TestFixture::asleep(simulation)) << simulation.time();
   }
-  TestFixture::run_until(simulation, 6.0);
+  run_until(simulation, 6.0);
   EXPECT_TRUE(TestFixture::asleep(simulation)) << "after it has moved";
   EXPECT_NEAR(TestFixture::place(simulation)[0], 2.0, 0.1);
   EXPECT_NEAR(height<dim>(TestFixture::place(simulation)), 2.5, 0.03);
@@ -73,10 +65,10 @@ TYPED_TEST(MovingObstacle, LiftsABodyWithoutThrowingIt) {
     if (!has_policy<TypeParam>(policy)) continue;
     SCOPED_TRACE(policy);
     auto simulation =
-        TestFixture::simulation(platform<dim>(path<dim>(0.0, 3.0), fmt::format("policy.kind = \"{}\"", policy)));
-    TestFixture::run_until(simulation, 3.0);
+        simulation_on<TypeParam>(platform<dim>(path<dim>(0.0, 3.0), fmt::format("policy.kind = \"{}\"", policy)));
+    run_until(simulation, 3.0);
     EXPECT_NEAR(height<dim>(TestFixture::place(simulation)), 4.0, 0.1);
-    TestFixture::run_until(simulation, 6.0);
+    run_until(simulation, 6.0);
     EXPECT_NEAR(height<dim>(TestFixture::place(simulation)), 5.5, 0.03);
   }
 }
@@ -84,15 +76,15 @@ TYPED_TEST(MovingObstacle, LiftsABodyWithoutThrowingIt) {
 TYPED_TEST(MovingObstacle, TurnsABodyWithIt) {
   constexpr int dim = TypeParam::dim;
   if constexpr (dim == 3) {
-    auto simulation = TestFixture::simulation(
+    auto simulation = simulation_on<TypeParam>(
         platform<dim>("{kind = \"turn\", speed_deg = 45, axis = [0, 0, 1], start = 1, end = 3}"));
-    TestFixture::run_until(simulation, 5.0);
+    run_until(simulation, 5.0);
     const Vec3 side = simulation.world().states().pose[0].rotation * Vec3::UnitX();
     EXPECT_LT((side - Vec3::UnitY()).norm(), 0.1);
   } else {
     // Tilted by 60 degrees, it lets the body slide off.
-    auto simulation = TestFixture::simulation(platform<dim>("{kind = \"turn\", speed_deg = 30, start = 1, end = 3}"));
-    TestFixture::run_until(simulation, 6.0);
+    auto simulation = simulation_on<TypeParam>(platform<dim>("{kind = \"turn\", speed_deg = 30, start = 1, end = 3}"));
+    run_until(simulation, 6.0);
     EXPECT_LT(height<dim>(TestFixture::place(simulation)), 1.0);
   }
 }
@@ -114,9 +106,9 @@ double carried_along(const Carry& carry) {
       "[[body]]\nposition = {}\n"
       "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\nfriction = 0.8\n"
       "motion = {{kind = \"path\", times = [1, 101], shifts = [{}, {}]}}\n",
-      dim, carry.steps_per_second, dim == 2 ? "[1, 1]" : "[1, 1, 1]", along<dim>(carry.away, 0.5),
-      dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", along<dim>(carry.away, -0.25), along<dim>(0.0, 0.0),
-      along<dim>(100.0 * carry.speed, 0.0));
+      dim, carry.steps_per_second, dim == 2 ? "[1, 1]" : "[1, 1, 1]", vector_text<dim>(carry.away, 0.5),
+      dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", vector_text<dim>(carry.away, -0.25), vector_text<dim>(0.0, 0.0),
+      vector_text<dim>(100.0 * carry.speed, 0.0));
   const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
   auto simulation = simulation_on<Backend>(scene);
   const auto place = [&] { return simulation.world().states().pose[0].position[0]; };
@@ -132,16 +124,16 @@ double carried_around(const Carry& carry, bool upright) {
   constexpr int dim = Backend::dim;
   const std::string drum =
       fmt::format("kind = \"ring\"\nouter_radius = 6\ninner_radius = 5\nparts = 64\nfriction = 0.8\n{}position = {}\n",
-                  dim == 2 ? "" : "depth = 2\n", along<dim>(carry.away, 0.0));
-  const std::string table =
-      fmt::format("kind = \"box\"\nsize = [8, 8, 0.5]\nfriction = 0.8\nposition = {}\n", along<dim>(carry.away, -5.22));
+                  dim == 2 ? "" : "depth = 2\n", vector_text<dim>(carry.away, 0.0));
+  const std::string table = fmt::format("kind = \"box\"\nsize = [8, 8, 0.5]\nfriction = 0.8\nposition = {}\n",
+                                        vector_text<dim>(carry.away, -5.22));
   const std::string text = fmt::format(
       "title = \"Drum\"\ndimension = {}\nworld.steps_per_second = {}\npolicy.kind = \"full\"\n"
       "ground.present = false\nshape.box = {{kind = \"box\", size = {}, friction = 0.8}}\n"
       "[[body]]\nposition = {}\n"
       "[[obstacle]]\n{}motion = {{kind = \"turn\", speed_deg = {}{}, start = 2}}\n",
       dim, carry.steps_per_second, dim == 2 ? "[1, 0.5]" : "[1, 0.5, 0.5]",
-      along<dim>(carry.away + (upright ? 3.0 : 0.0), -4.71), upright ? table : drum, carry.speed,
+      vector_text<dim>(carry.away + (upright ? 3.0 : 0.0), -4.71), upright ? table : drum, carry.speed,
       dim == 2  ? ""
       : upright ? ", axis = [0, 0, 1]"
                 : ", axis = [0, -1, 0]");
@@ -210,9 +202,9 @@ TYPED_TEST(MovingObstacle, StrikesABodyAtRestAtItsOwnSpeed) {
 TYPED_TEST(MovingObstacle, GivesTheSameBitsInEachRun) {
   constexpr int dim = TypeParam::dim;
   const auto hash = [] {
-    auto simulation = TestFixture::simulation(
-        platform<dim>(fmt::format("{{kind = \"sine\", amplitude = {}, frequency = 1.5}}", along<dim>(0.4, 0.1))));
-    TestFixture::run_until(simulation, 4.0);
+    auto simulation = simulation_on<TypeParam>(
+        platform<dim>(fmt::format("{{kind = \"sine\", amplitude = {}, frequency = 1.5}}", vector_text<dim>(0.4, 0.1))));
+    run_until(simulation, 4.0);
     return state_hash(simulation.world().states());
   };
   EXPECT_EQ(hash(), hash());
@@ -274,7 +266,7 @@ TYPED_TEST(MovingObstacle, KeepsARunThatEndsAtRestFromEnding) {
   for (const char* policy : {"full", "adaptive", "engine"}) {
     if (!has_policy<TypeParam>(policy)) continue;
     SCOPED_TRACE(policy);
-    auto simulation = TestFixture::simulation(platform<dim>(
+    auto simulation = simulation_on<TypeParam>(platform<dim>(
         path<dim>(1.0, 0.0), fmt::format("run = {{until = \"rest\", frames = 600}}\npolicy.kind = \"{}\"", policy)));
     while (!simulation.finished()) simulation.step();
     EXPECT_TRUE(simulation.at_rest());
@@ -283,18 +275,30 @@ TYPED_TEST(MovingObstacle, KeepsARunThatEndsAtRestFromEnding) {
   }
 }
 
+TYPED_TEST(MovingObstacle, KeepsARunFromEndingThoughOneOfItsPiecesIsGone) {
+  constexpr int dim = TypeParam::dim;
+  auto scene = platform<dim>(path<dim>(1.0, 0.0), "run = {until = \"rest\", frames = 600}");
+  scene.world.obstacles.insert(scene.world.obstacles.begin(), scene.world.obstacles[0]);
+  scene.world.obstacles[0].pose.position += up<dim>(50.0);
+  scene.movers[0].count = 2;
+  auto simulation = simulation_on<TypeParam>(scene);
+  simulation.cut_obstacle(0);
+  while (!simulation.finished()) simulation.step();
+  EXPECT_GT(simulation.time(), 4.0);
+}
+
 TYPED_TEST(MovingObstacle, IsNotNeededForTheEndAtRest) {
   constexpr int dim = TypeParam::dim;
   auto scene = platform<dim>(path<dim>(1.0, 0.0), "run = {until = \"rest\", frames = 600}");
   scene.movers.clear();
   scene.bodies[0].def.pose.position += up<dim>(3.0);
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   while (!simulation.finished()) simulation.step();
   EXPECT_TRUE(simulation.at_rest());
   EXPECT_GT(simulation.time(), 0.8) << "the fall alone takes as long";
   EXPECT_LT(simulation.time(), 8.0);
   scene.run.frames = 10;
-  auto cut = TestFixture::simulation(scene);
+  auto cut = simulation_on<TypeParam>(scene);
   while (!cut.finished()) cut.step();
   EXPECT_FALSE(cut.at_rest());
 }

@@ -58,8 +58,9 @@ def test_a_removed_body_is_no_longer_present():
     run.remove(0)
     assert not run.present()[0]
     assert run.present()[1:].all()
-    with pytest.raises(ValueError, match="body"):
-        run.remove(0)
+    for body in (0, -1, 10**6):
+        with pytest.raises(ValueError, match="body"):
+            run.remove(body)
 
 
 def test_contacts_of_a_box_at_rest_carry_its_weight():

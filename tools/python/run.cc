@@ -231,9 +231,7 @@ class Run {
 
   /// As an event of the scene does, to these bodies alone.
   void act(Event<Dim> event, const std::vector<BodyIndex>& bodies) {
-    for (const BodyIndex body : bodies)
-      require(body >= 0 && body < states().size() && states().removed[body] == 0, "body", body,
-              "must be the number of a body that is there");
+    for (const BodyIndex body : bodies) simulation_.world().require_present(body);
     if (bodies.empty()) return;  // to an event it means all
     event.numbers.assign(bodies.begin(), bodies.end());
     simulation_.do_event(event);
@@ -300,8 +298,7 @@ py::object open_run(const std::string& scene_text, const std::string& policy, st
   const AnyScene scene = is_text ? parse_scene(scene_text, "scene", overrides) : read_scene(file, overrides);
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> py::object {
-        const std::vector<std::string> engines = backends(Dim);
-        const std::string engine = backend.empty() && !engines.empty() ? engines.front() : backend;
+        const std::string engine = backend_for(backend, Dim);
         check_window(of_dimension, engine, file, choice.force);
         return py::cast(
             std::make_unique<Run<Dim>>(of_dimension, file.stem().string(), engine, Wanted{warnings, contacts, out}));
