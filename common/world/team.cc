@@ -21,7 +21,7 @@ void wait_a_moment() {
 
 }  // namespace
 
-Team::Team(int threads) {
+Team::Team(int threads) : Team() {
   for (int member = 1; member < threads; ++member) workers_.emplace_back([this, member] { work(member); });
 }
 

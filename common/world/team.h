@@ -37,13 +37,14 @@ class Team {
   void meet();
 
  private:
+  Team() = default;  // delegated to, so that the destructor ends the threads where one more cannot be made
   void work(int member);
 
-  std::vector<std::jthread> workers_;
   const std::function<void(int)>* task_ = nullptr;
   alignas(64) std::atomic<unsigned> task_number_ = 0;
   alignas(64) std::atomic<int> arrived_ = 0;
   alignas(64) std::atomic<unsigned> meeting_ = 0;
+  std::vector<std::jthread> workers_;  // joined before what they use is gone
 };
 
 /// The part of `count` things that is a member's: [first, last).
