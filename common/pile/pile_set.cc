@@ -11,7 +11,7 @@ namespace {
 /// Least distance by which a centre drifts [D]. A drift makes all bodies be recounted, so smaller ones wait.
 constexpr double min_drift = 0.02;
 
-/// Piles merge when their centres were near at so many slow updates: piles that pass each other stay apart.
+/// Piles merge when their centres were near at so many slow updates in a row: piles that pass each other stay apart.
 constexpr int updates_to_merge = 2;
 
 // A slope that is not given is measured each time that the pile has grown by a tenth, and by a hundredth if the pile
@@ -196,12 +196,12 @@ void PileSet<Dim>::update_slope(std::size_t pile, const BodyStates<Dim>& states)
 /// Section 3.5: two piles of one kind whose centres lie near each other become one.
 template <int Dim>
 void PileSet<Dim>::merge_near(const BodyStates<Dim>& states) {
-  for (std::size_t a = 0; a < piles_.size(); ++a) {
-    for (std::size_t b = a + 1; b < piles_.size(); ++b) {
-      if (!may_merge(a, b)) continue;
-      if (++records_[b].near_updates < updates_to_merge) continue;
-      merge(a, b, states);
-    }
+  for (std::size_t b = 1; b < piles_.size(); ++b) {
+    std::size_t a = 0;
+    while (a < b && !may_merge(a, b)) ++a;
+    int& updates = records_[b].near_updates;
+    updates = a < b ? updates + 1 : 0;
+    if (updates >= updates_to_merge) merge(a, b, states);
   }
 }
 

@@ -64,7 +64,7 @@ class PileSet {
     PileCounts<Dim> counts{};
     int last_count = 0;      // bodies at the last slow update
     int measured_count = 0;  // bodies when the slope was measured last, where none is given
-    int near_updates = 0;    // slow updates at which another pile's centre was near
+    int near_updates = 0;    // slow updates in a row at which another pile's centre was near
   };
 
   void add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre);

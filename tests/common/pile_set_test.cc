@@ -162,13 +162,15 @@ TEST(UnlocatedPile, BeginsAtTheGivenPlaceAndCountsTheBodiesThere) {
 }
 
 /// Two piles on the x axis, `distance` apart, with three bodies on each.
-std::pair<PileSet<3>, Bodies<3>> two_piles(double distance, double merge_distance, std::array<bool, 2> held = {}) {
+std::pair<PileSet<3>, Bodies<3>> two_piles(double distance, double merge_distance, std::array<bool, 2> held = {},
+                                           double drift_rate = PileParams<3>{}.drift_rate) {
   Bodies<3> bodies;
   std::vector<PileParams<3>> params(2);
   for (int side = 0; side < 2; ++side) {
     const Vec3 centre(side * distance, 0.0, 0.0);
     params[side].at = centre;
     params[side].merge_distance = merge_distance;
+    params[side].drift_rate = drift_rate;
     params[side].alpha = 0.5;
     params[side].control_slope = held[side];
     for (int i = 0; i < 3; ++i) bodies.add(centre + Vec3(0.0, 0.0, 0.1));
@@ -208,6 +210,16 @@ TEST(PilesNearEachOther, StayApartUntilTheyWereNearTwice) {
   auto [piles, bodies] = two_piles(1.0, 1.0);
   for (int step = 0; step < 59; ++step) {  // a look every 30 steps
     piles.update(bodies.states, bodies.awake(), dt);
+    EXPECT_EQ(piles.piles()[1].merged_into, -1);
+  }
+}
+
+TEST(PilesNearEachOther, StayApartWhereTheyPassEachOtherTwice) {
+  auto [piles, bodies] = two_piles(2.5, 2.0, {}, 100.0);
+  for (const double place : {2.5, 3.2, 2.5}) {  // of the second: near, too far, and near again
+    for (int number = 3; number < 6; ++number) bodies.states.pose[number].position.x() = place;
+    for (int step = 0; step < 30; ++step) piles.update(bodies.states, bodies.awake(), dt);  // to the next look
+    EXPECT_NEAR(piles.piles()[1].centre.x(), place, 0.1);
     EXPECT_EQ(piles.piles()[1].merged_into, -1);
   }
 }
