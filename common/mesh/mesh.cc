@@ -26,10 +26,6 @@ std::uint64_t content_hash(const Mesh& mesh) {
   return hash.value();
 }
 
-namespace {
-
-using Triangle = std::array<int, 3>;
-
 Box<3> bounds_of(const Mesh& mesh) {
   Box<3> bounds;
   for (const Vec3& corner : mesh.corners) {
@@ -39,6 +35,10 @@ Box<3> bounds_of(const Mesh& mesh) {
   }
   return bounds;
 }
+
+namespace {
+
+using Triangle = std::array<int, 3>;
 
 // The smallest number first and the direction kept: equal for triangles that are the same.
 Triangle canonical(Triangle triangle) {

@@ -20,6 +20,9 @@ Moments<3> moments(const Mesh& mesh);
 /// FNV-1a over the bits of corners and triangles: equal hashes mean equal meshes.
 std::uint64_t content_hash(const Mesh& mesh);
 
+/// Throws std::invalid_argument on a corner that is not finite.
+Box<3> bounds_of(const Mesh& mesh);
+
 /// Mends what is harmless: merges corners closer than about a millionth of the mesh's length, drops triangles that are
 /// then without area or there twice, drops corners that no triangle uses, and turns every connected part so that its
 /// outside is outside. Overlapping parts count twice; hollows become solid.

@@ -12,11 +12,7 @@
 namespace talus {
 namespace {
 
-double longest_side(const Mesh& mesh) {
-  Box<3> bounds;
-  for (const Vec3& corner : mesh.corners) bounds.extend(corner);
-  return bounds.sizes().maxCoeff();
-}
+double longest_side(const Mesh& mesh) { return bounds_of(mesh).sizes().maxCoeff(); }
 
 Mesh scaled(Mesh mesh, double factor, bool y_up) {
   for (Vec3& corner : mesh.corners) corner = factor * (y_up ? Vec3(corner.x(), -corner.z(), corner.y()) : corner);

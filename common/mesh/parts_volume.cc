@@ -25,8 +25,7 @@ struct Part {
 };
 
 Part half_spaces_of(const Mesh& mesh) {
-  Part part;
-  for (const Vec3& corner : mesh.corners) part.bounds.extend(corner);
+  Part part{.half_spaces = {}, .bounds = bounds_of(mesh)};
   for (const auto& triangle : mesh.triangles) {
     const auto corner = [&](std::size_t k) { return mesh.corners[triangle[k]]; };
     const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));

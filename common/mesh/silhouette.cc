@@ -72,9 +72,7 @@ std::vector<Vec2> simplified(std::vector<Vec2> loop, double detail) {
 }  // namespace
 
 std::vector<Vec2> silhouette(const Mesh& mesh, double detail) {
-  Box<3> bounds;
-  for (const Vec3& corner : mesh.corners) bounds.extend(corner);
-  const double ticks = ticks_per_length / bounds.diagonal().norm();
+  const double ticks = ticks_per_length / bounds_of(mesh).diagonal().norm();
   require(std::isfinite(detail) && detail > 0.0, "silhouette.detail", detail, "must be finite and above 0 m");
   std::vector<Vec2> outline;
   for (const ClipperLib::IntPoint& point : largest_region(mesh, ticks))

@@ -77,11 +77,16 @@ std::vector<Vec3> points_on_sphere(int count) {
   return points;
 }
 
-/// Leaves out corners that are not convex, from the first on.
+/// Leaves out corners that are not convex: of corners in order around the origin their hull is left.
 void make_convex(std::vector<Vec2>& corners) {
   while (corners.size() > 3) {
-    const std::optional<std::size_t> bad = non_convex_corner(corners);
+    std::optional<std::size_t> bad = non_convex_corner(corners);
     if (!bad) return;
+    const std::size_t count = corners.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::array near = {corners[(i + count - 1) % count], corners[i], corners[(i + 1) % count]};
+      if (non_convex_corner(near)) bad = i;
+    }
     corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(*bad));
   }
 }
@@ -115,13 +120,9 @@ std::vector<Piece<Dim>> box_pieces(const Vec<Dim>& size) {
 
 template <int Dim>
 std::vector<Piece<Dim>> l_pieces(const LParams& params) {
-  require(std::isfinite(params.thickness) && params.thickness > 0.0, "l.thickness", params.thickness,
-          "must be finite and above 0 m");
-  require(std::isfinite(params.arm_x) && params.arm_x > params.thickness, "l.arm_x", params.arm_x,
-          "must be finite and above the thickness");
-  require(std::isfinite(params.arm_z) && params.arm_z > params.thickness, "l.arm_z", params.arm_z,
-          "must be finite and above the thickness");
-  require(std::isfinite(params.depth) && params.depth > 0.0, "l.depth", params.depth, "must be finite and above 0 m");
+  check_fields<LParams>(params, l_fields, "l");
+  require(params.arm_x > params.thickness, "l.arm_x", params.arm_x, "must be above the thickness");
+  require(params.arm_z > params.thickness, "l.arm_z", params.arm_z, "must be above the thickness");
   const double t = params.thickness;
   return {box_between<Dim>({0.0, 0.0}, {params.arm_x, t}, params.depth),
           box_between<Dim>({0.0, t}, {t, params.arm_z}, params.depth)};
@@ -204,8 +205,8 @@ std::vector<Piece<Dim>> stone_pieces(const StoneParams& params, std::mt19937_64&
   if constexpr (Dim == 2) {
     std::vector<Vec2> corners;
     for (int i = 0; i < count; ++i) {
-      const Vec2 at = on_circle(inwards(), 2.0 * std::numbers::pi * (i + 0.6 * uniform(random)) / count);
-      corners.emplace_back(radii.cwiseProduct(at));
+      const double angle = 2.0 * std::numbers::pi * (i + 0.6 * uniform(random)) / count;
+      corners.emplace_back(radii.cwiseProduct(on_circle(inwards(), angle)));
     }
     make_convex(corners);
     return hull_pieces<2>(corners);

@@ -31,7 +31,7 @@ class QhullState {
   QhullState& operator=(const QhullState&) = delete;
 
   qhT* get() { return &state_; }
-  // qhull writes what it dislikes here instead of to the terminal.
+  // Qhull's messages go here instead of to the terminal.
   FILE* messages() { return messages_; }
 
  private:

@@ -98,11 +98,13 @@ template <int Dim>
 Shape<Dim> make_compound(std::string name, const std::vector<CompoundPart<Dim>>& parts, const Material& surface) {
   std::vector<Piece<Dim>> pieces;
   double mass = 0.0;
+  double filled = 0.0;
   MassProperties<Dim> whole;
   for (const CompoundPart<Dim>& part : parts) {
     for (const Piece<Dim>& piece : part.shape.pieces) pieces.push_back(placed(piece, part.pose));
     mass += part.shape.mass;
     whole.volume += part.shape.volume;
+    filled += part.shape.filling * part.shape.volume;
     whole.centre += part.shape.mass * part.pose.position;
   }
   whole.centre /= mass;
@@ -112,7 +114,9 @@ Shape<Dim> make_compound(std::string name, const std::vector<CompoundPart<Dim>>&
   Material material = surface;
   material.density = mass / whole.volume;
   whole.inertia /= material.density;
-  return make_shape<Dim>(std::move(name), std::move(pieces), material, whole);
+  Shape<Dim> shape = make_shape<Dim>(std::move(name), std::move(pieces), material, whole);
+  shape.filling = filled / whole.volume;
+  return shape;
 }
 
 template <int Dim>

@@ -1,7 +1,9 @@
 #pragma once
 // A body's shape: convex pieces that do not overlap, in axes whose origin is the centre of mass.
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/math/vector.h"
@@ -42,6 +44,15 @@ struct Shape {
   double filling = 1.0;          // volume of the pieces' union over `volume`; not 1 where pieces stand in for a mesh
   std::string colour;            // in pictures, "#rrggbb"; empty: one of the picture's own, by the shape's number
 };
+
+/// Between the name of a shape and the number of its variant (`rock#2`), and the factor of its size (`rock#2*1.5`): no
+/// TOML key has them without quotes.
+inline constexpr std::string_view variant_mark = "#";
+inline constexpr std::string_view size_mark = "*";
+/// A shape's name without these.
+inline std::string base_name(const std::string& name) {
+  return name.substr(0, std::min(name.find(variant_mark), name.find(size_mark)));
+}
 
 /// Volume, centre of mass and inertia (about that centre) of unit density.
 template <int Dim>

@@ -53,12 +53,16 @@ TEST(SceneShapes, OfAnEllipseHaveItsSizeAndArea) {
 }
 
 template <int Dim>
+std::vector<Shape<Dim>> stones(int seed, const std::string& more = "") {
+  return scene_of<Dim>(fmt::format("seed = {}\nshape.rock = {{kind = \"stone\"{}}}\nbody = [{{position = {}}}]", seed,
+                                   more, Dim == 2 ? "[0, 9]" : "[0, 0, 9]"))
+      .world.shapes;
+}
+
+template <int Dim>
 std::vector<double> volumes_of_stones(int seed, const std::string& more = "") {
-  const auto scene =
-      scene_of<Dim>(fmt::format("seed = {}\nshape.rock = {{kind = \"stone\"{}}}\nbody = [{{position = {}}}]", seed,
-                                more, Dim == 2 ? "[0, 9]" : "[0, 0, 9]"));
   std::vector<double> volumes;
-  for (const Shape<Dim>& shape : scene.world.shapes) volumes.push_back(shape.volume);
+  for (const Shape<Dim>& shape : stones<Dim>(seed, more)) volumes.push_back(shape.volume);
   return volumes;
 }
 
@@ -75,6 +79,20 @@ TEST(SceneShapes, OfRoughStonesAreMadeWithEachSeed) {
     for (const double volume : volumes_of_stones<3>(seed, ", roughness = 0.9, elongation = 3"))
       EXPECT_GT(volume, 0.001);
   }
+}
+
+TEST(SceneShapes, OfAStoneAreTheHullOfItsCorners) {
+  for (int seed = 1; seed <= 30; ++seed)
+    for (const Shape<2>& shape : stones<2>(seed, ", roughness = 0.9")) {
+      const auto& corners = std::get<HullPiece<2>>(shape.pieces.at(0)).corners;
+      const std::size_t count = corners.size();
+      // An edge that cuts off a corner of the seven would leave the origin of the stone outside.
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec2 edge = corners[(i + 1) % count] - corners[i];
+        const Vec2 origin = shape.reference - corners[i];
+        EXPECT_GT(edge.x() * origin.y() - edge.y() * origin.x(), 0.0) << "seed " << seed << ", " << shape.name;
+      }
+    }
 }
 
 constexpr const char* discs =
@@ -101,6 +119,20 @@ TEST(SceneSizes, OfALognormalDistributionHaveAMedianOfOne) {
 TEST(SceneSizes, OfAListHaveItsShares) {
   const auto scene = scene_of<2>(fmt::format(fmt::runtime(discs), "factors = [0.5, 1], shares = [3, 1]"));
   EXPECT_EQ(scene.sources[0].shares, (std::vector<double>{0.75, 1.0}));
+}
+
+TEST(SceneSizes, AreMeantByTheNameOfTheirShapeInAnEvent) {
+  const auto scene = scene_of<2>(fmt::format(fmt::runtime(discs), "factors = [0.5, 1, 2]") +
+                                 "\nevent = [{time = 1, do = \"remove\", shape = \"disc\"}]");
+  EXPECT_EQ(scene.events.at(0).shapes, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(SceneSizes, ThatAreTooManyAreRefused) {
+  std::string sources = "shape.rock = {kind = \"stone\", variants = 100}\n";
+  for (int i = 0; i < 3; ++i)
+    sources +=
+        fmt::format("[[source]]\nposition = [{}, 20]\nscale = {{uniform = [0.5, 1.5], classes = 100}}\n", 50 * i);
+  EXPECT_EQ(error_of(sources), "source[1].scale: must make at most 20000 shapes in all");
 }
 
 TEST(SceneSizes, ThatMakeNoDistributionAreRefused) {
@@ -249,6 +281,24 @@ TEST(SceneShapes, OfACompoundThatCannotBeMadeAreRefusedWithTheField) {
   EXPECT_EQ(error_of(box + "shape.c = {kind = \"compound\", density = 3, parts = [{shape = \"box\"}]}"),
             "shape.c.density: means nothing for a compound: each part has its own");
   EXPECT_EQ(error_of(box + "shape.c = {kind = \"compound\"}"), "shape.c.parts: must be given");
+}
+
+TEST(SceneShapes, OfCompoundsThatDoubleTheirPiecesAreRefused) {
+  std::string text = "shape.s0 = {kind = \"box\", size = [1, 1]}\nbody = [{position = [0, 9], shape = \"s0\"}]\n";
+  for (int i = 1; i <= 7; ++i) {
+    const std::string part = fmt::format("{{shape = \"s{}\"}}", i - 1);
+    text += fmt::format("shape.s{} = {{kind = \"compound\", parts = [{}]}}\n", i,
+                        fmt::format("{}", fmt::join(std::vector<std::string>(i < 7 ? 3 : 2, part), ", ")));
+  }
+  EXPECT_EQ(error_of(text), "shape.s7.parts: must have at most 1000 convex pieces");
+}
+
+TEST(SceneShapes, OfCompoundsInsideEachOtherAreRefusedFromADepthOn) {
+  std::string text = "shape.z = {kind = \"box\", size = [1, 1]}\nbody = [{position = [0, 9], shape = \"z\"}]\n";
+  for (char name = 'a'; name < 'l'; ++name)
+    text += fmt::format("shape.{} = {{kind = \"compound\", parts = [{{shape = \"{}\"}}]}}\n", name,
+                        name == 'k' ? 'z' : static_cast<char>(name + 1));
+  EXPECT_NE(error_of(text).find("must not be the 9th compound inside another"), std::string::npos) << error_of(text);
 }
 
 TEST(SceneShapes, OfACompoundWithPartsInEachOtherAreWarnedOf) {
