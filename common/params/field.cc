@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
 
 #include "common/math/angle.h"
 
@@ -52,7 +52,10 @@ std::string Range::rule() const {
 double as_written(const Key& key, double kept) {
   if (key.stored == Stored::as_written) return kept;
   const double converted = key.stored == Stored::in_radians ? in_degrees(kept) : 1.0 / kept;
-  return std::strtod(fmt::format("{:.15g}", converted).c_str(), nullptr);
+  const std::string text = fmt::format("{:.15g}", converted);
+  double rounded = converted;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);  // strtod follows the program's locale
+  return rounded;
 }
 
 double as_kept(const Key& key, double written) {

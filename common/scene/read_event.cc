@@ -42,7 +42,7 @@ void check_keys(TableReader& table, EventAction action) {
 }
 
 template <int Dim>
-void read_event_shapes(TableReader& table, const ShapeNames& shapes, Event<Dim>& event) {
+void read_event_shapes(TableReader& table, const ShapeNames& shapes, const Scene<Dim>& scene, Event<Dim>& event) {
   std::vector<std::string> names;
   if (shapes.names().empty())
     table.has("shape");
@@ -51,7 +51,11 @@ void read_event_shapes(TableReader& table, const ShapeNames& shapes, Event<Dim>&
   constexpr int no_shape = -1;  // of a part of compounds: an event that names it means no body
   for (const std::string& name : names) {
     const std::vector<int> variants = shapes.variants(name);
-    event.shapes.insert(event.shapes.end(), variants.begin(), variants.end());
+    const std::vector<Shape<Dim>>& all = scene.world.shapes;
+    for (const int variant : variants)
+      for (int i = 0; i < std::ssize(all); ++i)
+        if (i == variant || all[i].name.starts_with(all[variant].name + std::string(size_mark)))
+          event.shapes.push_back(i);
     if (variants.empty()) event.shapes.push_back(no_shape);
   }
 }
@@ -120,7 +124,7 @@ Event<Dim> read_event(TableReader& table, const ShapeNames& shapes, const Scene<
   Event<Dim> event;
   table.read_fields(event, event_fields<Dim>);
   event.action = read_action(table);
-  read_event_shapes(table, shapes, event);
+  read_event_shapes(table, shapes, scene, event);
   read_event_obstacle(table, scene, event);
   if (table.ok()) check_keys(table, event.action);
   if (table.ok()) check_event(table, scene, event);

@@ -124,7 +124,7 @@ inline constexpr auto belt_fields = std::to_array<Field<Motion<Dim>>>({
       .required = true,
       .unit = "m/s",
       .range = speed_range,
-      .further_rule = "below 2 m a step in 2D, 500 m/s in 3D",
+      .further_rule = fastest_rule,
       .meaning = "the obstacle stays in its place, and its surface moves: on each side the part of this vector along "
                  "the side. Not with the engines' own solvers"}},
     motion_start_field<Dim>,

@@ -39,7 +39,7 @@ inline constexpr auto obstacle_fields = std::to_array<Field<Pose<Dim>>>({
       .type = "text",
       .further_rule = "of no other obstacle",
       .default_text = "none",
-      .meaning = "by which an [event](#events-event) removes it"}},
+      .meaning = "for [events](#events-event) and [loads](#forces-on-ground-and-obstacles-load)"}},
     {{},
      {.name = "motion",
       .type = "table",

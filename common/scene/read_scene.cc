@@ -191,7 +191,7 @@ void check_solver(TableReader& root, const Scene<Dim>& scene) {
     root.error("event", R"(must not be of do = "force" with the engines' own solvers)");
   std::set<std::string> rolling;  // without the numbers of sizes and variants
   for (const Shape<Dim>& shape : scene.world.shapes)
-    if (shape.material.rolling_friction > 0.0) rolling.insert(shape.name.substr(0, shape.name.find_first_of("#*")));
+    if (shape.material.rolling_friction > 0.0) rolling.insert(base_name(shape.name));
   for (const std::string& name : rolling)
     root.named_table("shape", name, [](TableReader& table) {
       table.allow_unknown_keys();

@@ -237,6 +237,11 @@ std::optional<CompoundPart<Dim>> BodyShapes<Dim>::read_part(TableReader& table) 
                                      params.shape));
     return std::nullopt;
   }
+  constexpr std::size_t deepest = 8;
+  if (under_way_.size() > deepest) {
+    table.error("shape", fmt::format("must not be the {}th compound inside another", deepest + 1));
+    return std::nullopt;
+  }
   parts_.insert(params.shape);
   root_.named_table("shape", params.shape, [&](TableReader& own) {
     if (done_.contains(params.shape))
@@ -265,6 +270,10 @@ std::vector<Shape<Dim>> BodyShapes<Dim>::read_compound(const std::string& name, 
     if (part) parts.push_back(std::move(*part));
   });
   if (table.ok() && parts.empty() && complete) table.error("parts", "must be one or more parts");
+  constexpr std::size_t most_pieces = 1000;
+  std::size_t pieces = 0;
+  for (const CompoundPart<Dim>& part : parts) pieces += part.shape.pieces.size();
+  if (pieces > most_pieces) table.error("parts", fmt::format("must have at most {} convex pieces", most_pieces));
   std::vector<Shape<Dim>> shapes;
   if (!complete || !table.ok()) return shapes;
   table.check([&] {

@@ -96,10 +96,6 @@ Pose<Dim> pose_of_centre(const Shape<Dim>& shape, const Pose<Dim>& pose) {
   return {pose * Vec<Dim>(-shape.reference), pose.rotation};
 }
 
-/// Stands between the name of a shape and the number of its variant or the factor of its size: no TOML key has it
-/// without quotes.
-inline constexpr std::string_view variant_mark = "#";
-
 /// The shape that the keys of `kind` describe, of a stone all its variants; none, with an error at the key or at the
 /// table, if one of them is wrong or the engines cannot simulate such a shape. `seed`: of the scene.
 template <int Dim>
@@ -143,7 +139,7 @@ inline constexpr auto part_fields = std::to_array<Field<PartParams<Dim>>>({
       .range = coordinate_range,
       .default_text = "origin",
       .meaning = "where the origin of the part's own axes goes, in those of the compound. Where parts overlap the mass "
-                 "of both counts; deeper than 0.005 m `talus check` warns"}},
+                 "of both counts; deeper than 0.005 m, of small parts less, `talus check` warns"}},
     {{}, angle_key},
     {{}, axis_key},
 });

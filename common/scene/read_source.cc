@@ -71,6 +71,11 @@ void read_scale(TableReader& table, ShapeNames& shapes, WorldDescription<Dim>& w
   check_scale(table, params);
   if (!table.ok() || source.shapes.empty() || !shapes.complete()) return;
   const std::vector<double> factors = factors_of(params);
+  constexpr std::size_t most_shapes = 20'000;  // of a scene
+  if (world.shapes.size() + factors.size() * source.shapes.size() > most_shapes) {
+    table.error("", fmt::format("must make at most {} shapes in all", most_shapes));
+    return;
+  }
   params.shares.resize(factors.size(), 1.0);
   const double whole = std::accumulate(params.shares.begin(), params.shares.end(), 0.0);
   std::vector<Shape<Dim>> sized;
@@ -79,7 +84,7 @@ void read_scale(TableReader& table, ShapeNames& shapes, WorldDescription<Dim>& w
     for (std::size_t i = 0; i < factors.size(); ++i) {
       for (const int shape : source.shapes) {
         const Shape<Dim>& original = world.shapes[shape];
-        sized.push_back(scaled(original, factors[i], fmt::format("{}*{:g}", original.name, factors[i])));
+        sized.push_back(scaled(original, factors[i], fmt::format("{}{}{:g}", original.name, size_mark, factors[i])));
       }
       sum += params.shares[i] / whole;
       source.shares.push_back(sum);

@@ -26,6 +26,10 @@ inline constexpr Key axis_key = {.name = "axis",
                                  .default_text = "required with `angle_deg`",
                                  .meaning = "axis of the rotation, of any length"};
 
+/// How fast a body may be at most, see fastest_speed() and fastest_spin().
+inline constexpr std::string_view fastest_rule = "up to 2 m a step in 2D, 500 m/s in 3D";
+inline constexpr std::string_view fastest_spin_rule = "up to a quarter turn a step";
+
 template <int Dim>
 inline constexpr auto source_fields = std::to_array<Field<Source<Dim>>>({
     {{},
@@ -83,7 +87,7 @@ inline constexpr auto source_fields = std::to_array<Field<Source<Dim>>>({
      {.name = "velocity",
       .unit = "m/s",
       .range = speed_range,
-      .further_rule = "below 2 m a step in 2D, 500 m/s in 3D",
+      .further_rule = fastest_rule,
       .meaning = "of bodies when they appear. Too slow: the next one waits until this one has left"}},
     {place_of<&Source<Dim>::velocity_spread>,
      {.name = "velocity_spread",
@@ -96,7 +100,7 @@ inline constexpr auto source_fields = std::to_array<Field<Source<Dim>>>({
      {.name = "spin_spread",
       .unit = "rad/s",
       .range = between(0.0, 1e4),
-      .further_rule = "up to a quarter turn a step",
+      .further_rule = fastest_spin_rule,
       .meaning = "spin, uniform to both sides of 0 on each axis"}},
     {place_of<&Source<Dim>::sweep>,
      {.name = "sweep",
@@ -285,7 +289,11 @@ inline constexpr auto event_fields = std::to_array<Field<Event<Dim>>>({
       .default_text = "none",
       .meaning = "`remove`, `add`: this obstacle and no body"}},
     {place_of<&Event<Dim>::velocity>,
-     {.name = "velocity", .unit = "m/s", .range = speed_range, .meaning = "`kick`: added to that of each body"}},
+     {.name = "velocity",
+      .unit = "m/s",
+      .range = speed_range,
+      .further_rule = fastest_rule,
+      .meaning = "`kick`: added to that of each body"}},
     {place_of<&Event<Dim>::spin>,
      {.name = "spin",
       .type = "vector, in 2D a number",

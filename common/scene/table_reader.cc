@@ -434,9 +434,9 @@ bool TableReader::all_whole(const toml::node& node, const std::string& name, std
 }
 
 std::size_t TableReader::count_of_points(const toml::node& node, const std::string& name) {
-  if (node.is_array()) return node.as_array()->size();
-  error_at(node, name, "must be an array of points");
-  return 0;
+  const std::size_t count = node.is_array() ? node.as_array()->size() : 0;
+  if (count == 0) error_at(node, name, "must be an array of one point or more");
+  return count;
 }
 
 bool TableReader::read_choice(const toml::node& node, const std::string& name, std::string& value,

@@ -7,9 +7,9 @@
 
 namespace talus {
 
-/// Of each shape of the scene, how many of its bodies the sources will drop; 0 of a shape so rare, less than one
-/// for fifty of the most frequent shape, that no pile is made of it, as what is thrown into a pile. Without sources:
-/// one of each.
+/// Of each shape of the scene, how many of its bodies are placed or will be dropped; 0 of a shape so rare, less than
+/// one for fifty of the most frequent shape, that no pile is made of it, as what is thrown into a pile. Without
+/// sources: one of each.
 template <int Dim>
 std::vector<double> bodies_of_piles(const Scene<Dim>& scene);
 

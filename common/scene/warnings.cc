@@ -84,7 +84,7 @@ void warn_of_sizes(const WorldDescription<Dim>& world, Lines& lines) {
     const Vec<Dim> sides = shape.bounds.sizes();
     if (sides.minCoeff() >= smallest && sides.maxCoeff() <= largest) continue;
     const std::pair<double, double> own(sides.minCoeff(), sides.maxCoeff());
-    auto& [least, most] = widths.try_emplace(shape.name.substr(0, shape.name.find_first_of("#*")), own).first->second;
+    auto& [least, most] = widths.try_emplace(base_name(shape.name), own).first->second;
     least = std::min(least, own.first);
     most = std::max(most, own.second);
   }

@@ -36,7 +36,7 @@ std::vector<LegendEntry> legend_of_shapes(std::span<const Shape<Dim>> shapes) {
   constexpr std::size_t most = 7;
   std::vector<LegendEntry> legend;
   for (const Shape<Dim>& shape : shapes) {
-    const std::string name = shape.name.substr(0, shape.name.find_first_of("#*"));
+    const std::string name = base_name(shape.name);
     const bool named = std::ranges::any_of(legend, [&](const LegendEntry& entry) { return entry.text == name; });
     if (!shape.colour.empty() && !named && legend.size() < most) legend.push_back({colour_of(shape.colour), name});
   }
