@@ -41,8 +41,9 @@ void AvalancheWatch<Dim>::begin(const Frame<Dim>& frame) {
 /// Bodies move from the step after their waking on.
 template <int Dim>
 bool AvalancheWatch<Dim>::quiet(const Lasting& lasting, const BodyStates<Dim>& states) const {
-  return std::all_of(lasting.bodies.begin(), lasting.bodies.end(),
-                     [&](BodyIndex body) { return states.velocity[body].norm() <= quiet_speed_; });
+  return std::all_of(lasting.bodies.begin(), lasting.bodies.end(), [&](BodyIndex body) {
+    return states.removed[body] != 0 || states.velocity[body].norm() <= quiet_speed_;
+  });
 }
 
 template <int Dim>

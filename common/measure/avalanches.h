@@ -24,8 +24,8 @@ struct Avalanche {
 template <int Dim>
 class AvalancheWatch final : public Observer<Dim> {
  public:
-  /// `quiet_speed` [m/s] > 0; 0.05 is a slow creep for bodies of a metre.
-  explicit AvalancheWatch(double dt, double quiet_speed = 0.05) : dt_(dt), quiet_speed_(quiet_speed) {}
+  /// `quiet_speed` [m/s] > 0.
+  AvalancheWatch(double dt, double quiet_speed) : dt_(dt), quiet_speed_(quiet_speed) {}
 
   void on_frame(const Frame<Dim>& frame) override;
   void on_end(const Frame<Dim>& last, std::string_view reason) override;

@@ -59,7 +59,7 @@ LoadMeter<Dim>::LoadMeter(const Scene<Dim>& scene, std::vector<BodyIndex> sides,
 
 template <int Dim>
 void LoadMeter<Dim>::update(const World<Dim>& world) {
-  if (!knows_all_forces(world)) {
+  if (!all_forces_known(world)) {
     whole_.known = false;
     next_frame_.known = false;
   }
@@ -86,7 +86,7 @@ void LoadMeter<Dim>::end_frame() {
 }
 
 template <int Dim>
-bool LoadMeter<Dim>::knows_all_forces(const World<Dim>& world) {
+bool LoadMeter<Dim>::all_forces_known(const World<Dim>& world) {
   const BodyStates<Dim>& states = world.states();
   std::erase_if(asleep_from_start_,
                 [&](BodyIndex body) { return states.asleep[body] == 0 || states.removed[body] != 0; });

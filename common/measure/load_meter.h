@@ -52,7 +52,7 @@ class LoadMeter {
 
  private:
   LoadMeter(const Scene<Dim>& scene, std::vector<BodyIndex> sides, const LoadParams<Dim>& params);
-  bool knows_all_forces(const World<Dim>& world);
+  bool all_forces_known(const World<Dim>& world);
   void add(std::span<const Contact<Dim>> contacts, Wrench<Dim>& sum);
 
   std::vector<BodyIndex> sides_;  // ascending

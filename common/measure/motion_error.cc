@@ -88,13 +88,12 @@ std::vector<MotionError> motion_errors(const Trajectory<Dim>& full, const Trajec
   return errors;
 }
 
-MotionError average(std::span<const MotionError> errors, int first_frame) {
+MotionError average(std::span<const MotionError> errors) {
   MotionError mean;
   int frames = 0;
   int with_motion = 0;
   double left_out = 0.0;
-  for (std::size_t j = std::max(first_frame, 0); j < errors.size(); ++j) {
-    const MotionError& error = errors[j];
+  for (const MotionError& error : errors) {
     if (error.bodies == 0) continue;
     ++frames;
     mean.bodies += error.bodies;

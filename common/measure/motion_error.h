@@ -27,8 +27,7 @@ template <int Dim>
 std::vector<MotionError> motion_errors(const Trajectory<Dim>& full, const Trajectory<Dim>& other,
                                        std::span<const double> extents, double gravity);
 
-/// Means over the frames from `first_frame` on that have bodies; `relative` over those where it is defined, `left_out`
-/// by bodies.
-MotionError average(std::span<const MotionError> errors, int first_frame = 0);
+/// Means over the frames that have bodies; `relative` over those where it is defined, `left_out` by bodies.
+MotionError average(std::span<const MotionError> errors);
 
 }  // namespace talus

@@ -88,16 +88,6 @@ WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim
   return observation.finish(world->states(), params);
 }
 
-WakeTest excess(const WakeTest& run, const WakeTest& full) {
-  WakeTest beyond;
-  beyond.bodies = run.bodies;
-  for (const auto field : {&WakeTest::mean, &WakeTest::p95, &WakeTest::max, &WakeTest::share_far, &WakeTest::energy,
-                           &WakeTest::energy_all, &WakeTest::creep}) {
-    beyond.*field = run.*field - full.*field;
-  }
-  return beyond;
-}
-
 template WakeTest wake_test(const WorldMaker<2>&, const WorldDescription<2>&, const BodyStates<2>&,
                             const WakeTestParams&);
 template WakeTest wake_test(const WorldMaker<3>&, const WorldDescription<3>&, const BodyStates<3>&,

@@ -39,8 +39,4 @@ template <int Dim>
 WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
                    const BodyStates<Dim>& states, const WakeTestParams& params = {});
 
-/// What `run` shows beyond a full run's state tested alike: creep and the rebuilding are in both. Field by field;
-/// without displacements.
-WakeTest excess(const WakeTest& run, const WakeTest& full);
-
 }  // namespace talus

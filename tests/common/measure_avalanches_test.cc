@@ -34,7 +34,7 @@ struct OverfullPile {
     simulation.step();  // density 1: an avalanche
   }
   Simulation<3> simulation;
-  AvalancheWatch<3> watch{1.0 / 60.0};
+  AvalancheWatch<3> watch{1.0 / 60.0, 0.05};
 };
 
 TEST(AvalancheWatch, TellsWhichLayerWokeHowManyAndHowLongTheyTook) {
@@ -50,6 +50,15 @@ TEST(AvalancheWatch, TellsWhichLayerWokeHowManyAndHowLongTheyTook) {
   EXPECT_EQ(record.woken, 3);
   EXPECT_DOUBLE_EQ(record.seconds, 1.0 / 60.0);
   EXPECT_EQ(record.longest_way, 0.0);
+}
+
+TEST(AvalancheWatch, DoesNotWaitForABodyThatWasRemovedAsItMoved) {
+  OverfullPile pile;
+  pile.simulation.do_event({.action = EventAction::kick, .numbers = {0}, .velocity = Vec3(1.0, 0.0, 0.0)});
+  pile.simulation.remove(0);
+  pile.simulation.step();
+  ASSERT_EQ(pile.watch.records().size(), 1U);
+  EXPECT_DOUBLE_EQ(pile.watch.records().front().seconds, 1.0 / 60.0);
 }
 
 TEST(AvalancheWatch, KeepsOneThatLastsToTheEndOfTheRun) {

@@ -81,17 +81,6 @@ TEST(WakeTest, IgnoresRemovedBodies) {
   EXPECT_NEAR(test.max, 0.0, 1e-12);
 }
 
-TEST(WakeTest, ExcessIsWhatAFullRunDoesNotShow) {
-  WakeTest run;
-  WakeTest full;
-  run.mean = 0.3;
-  full.mean = 0.1;
-  run.creep = 0.02;
-  full.creep = 0.03;
-  EXPECT_DOUBLE_EQ(excess(run, full).mean, 0.2);
-  EXPECT_DOUBLE_EQ(excess(run, full).creep, -0.01);
-}
-
 TEST(WakeTest, RefusesSettingsThatMeanNothing) {
   WakeTestParams params;
   params.duration = 0.0;

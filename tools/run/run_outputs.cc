@@ -79,6 +79,9 @@ class EventWatch final : public Observer<Dim> {
   bool prints_;
 };
 
+/// Of bodies of a metre: a slow creep [m/s].
+constexpr double quiet_speed = 0.05;
+
 }  // namespace
 
 template <int Dim>
@@ -91,7 +94,7 @@ template <int Dim>
 RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
-      avalanches_(scene.world.dt),
+      avalanches_(scene.world.dt, quiet_speed / scene.world.units.speeds()),
       instruments_(scene, folder_) {
   write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
