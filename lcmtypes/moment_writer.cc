@@ -173,14 +173,17 @@ typename MomentWriter<Dim>::Sent MomentWriter<Dim>::bodies(const Frame<Dim>& fra
 }
 
 template <int Dim>
-void MomentWriter<Dim>::all_bodies(const Frame<Dim>& frame) {
+std::size_t MomentWriter<Dim>::all_bodies(const Frame<Dim>& frame) {
   const BodyStates<Dim>& states = frame.world.states();
   std::vector<BodyIndex> bodies;
   for (BodyIndex body = 0; body < states.size(); ++body)
     if (states.removed[body] == 0) bodies.push_back(body);
-  send_all(to_bodies<Dim>(states, bodies, true), frame.step, frame.time);
+  auto messages = to_bodies<Dim>(states, bodies, true);
+  const std::size_t sent = messages.size();
+  send_all(std::move(messages), frame.step, frame.time);
   fell_asleep_.clear();
   removed_ = false;
+  return sent;
 }
 
 template class MomentWriter<2>;

@@ -87,8 +87,8 @@ class MomentWriter {
     std::size_t messages = 0;
   };
   Sent bodies(const Frame<Dim>& frame, std::span<const BodyIndex> more = {});
-  /// A key frame: poses of all bodies in the world.
-  void all_bodies(const Frame<Dim>& frame);
+  /// A key frame: poses of all bodies in the world, in how many messages.
+  std::size_t all_bodies(const Frame<Dim>& frame);
   /// Whether bodies have left the world since the last key frame: only a key frame says which are left.
   bool owes_key_frame() const { return removed_; }
 

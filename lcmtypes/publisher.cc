@@ -86,8 +86,8 @@ void Publisher<Dim>::on_frame(const Frame<Dim>& frame) {
   if (bodies_pulse_.due(now)) send_bodies(frame, now);
 }
 
-/// Poses of the bodies that move or have just fallen asleep, and of some of the others in turn. Obstacles and contacts
-/// are shown with the bodies of the same step, and so come before them.
+/// Poses of the bodies that move or have just fallen asleep, and of some of the others in turn; of all once bodies have
+/// left. Obstacles and contacts are shown with the bodies of the same step, and so come before them.
 template <int Dim>
 void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now) {
   const BodyIndex bodies = frame.world.states().size();
@@ -99,7 +99,9 @@ void Publisher<Dim>::send_bodies(const Frame<Dim>& frame, Clock::time_point now)
   }
   writer_.obstacles(frame);
   const std::size_t contacts = writer_.contacts(frame);
-  const auto bytes = static_cast<double>(max_message_bytes * (contacts + writer_.bodies(frame, in_turn).messages));
+  const bool all = writer_.owes_key_frame() && bodies <= most_in_key_frame && key_frames_pulse_.due(now);
+  const std::size_t poses = all ? writer_.all_bodies(frame) : writer_.bodies(frame, in_turn).messages;
+  const auto bytes = static_cast<double>(max_message_bytes * (contacts + poses));
   bodies_pulse_.wait_until(now + std::chrono::duration_cast<Clock::duration>(
                                      std::chrono::duration<double>(bytes / bodies_bytes_per_second)));
 }

@@ -98,6 +98,7 @@ class Publisher final : public Observer<Dim>, private MessageSink {
   Pulse events_pulse_{1.0};
   Pulse piles_pulse_;
   Pulse bodies_pulse_;
+  Pulse key_frames_pulse_{1.0};  // after bodies have left the world
   double bodies_rate_ = 0.0;
   BodyIndex turn_ = 0;  // the body from which on poses of resting ones are sent next
   // Since the last statistics:

@@ -21,8 +21,9 @@ struct RecorderParams {
 /// Writes the record of a run: the scene's files and shapes at the start, events of the scene, sleep events of each
 /// step, piles, statistics and poses of each frame of output, of obstacles that move too, key frames, and why it ended.
 /// Key frames come after at least as many poses of moving bodies, so together they take no more room than what moves,
-/// however many sleep. Stamps are simulated time and nothing in the file is from the wall clock, so the same run gives
-/// the same bytes. When the disk is full a call throws std::system_error, and later ones do nothing.
+/// however many sleep; and once bodies have left the world. Stamps are simulated time and nothing in the file is from
+/// the wall clock, so the same run gives the same bytes. When the disk is full a call throws std::system_error, and
+/// later ones do nothing.
 template <int Dim>
 class RunRecorder final : public Observer<Dim>, private MessageSink {
  public:

@@ -18,7 +18,6 @@ talus_stats to_stats(const Frame<Dim>& frame) {
   const auto removed = std::count(states.removed.begin(), states.removed.end(), 1);
   message.awake = static_cast<std::int32_t>(frame.world.awake().size());
   message.asleep = states.size() - message.awake - static_cast<std::int32_t>(removed);
-  message.contacts = -1;
   message.kinetic_energy = kinetic_energy(frame.world);
   message.planned = frame.bodies_planned;
   message.appeared = states.size();
@@ -85,7 +84,7 @@ std::vector<Warning> warnings_of(const talus_stats& message) {
 
 std::string_view range_fault(const talus_stats& m) {
   if (!header_holds(m)) return "header out of range";
-  if (m.awake < 0 || m.asleep < 0 || m.contacts < -1) return "negative count";
+  if (m.awake < 0 || m.asleep < 0) return "negative count";
   if (m.kinetic_energy < 0) return "kinetic energy out of range";
   if (m.planned < 0 || m.appeared < 0) return "negative count";
   if (!(m.drift_estimate >= 0.0 || m.drift_estimate == -1.0)) return "estimate of drift out of range";

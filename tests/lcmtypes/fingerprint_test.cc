@@ -26,7 +26,7 @@ TEST(Fingerprint, OfEachTypeIsPinned) {
   EXPECT_EQ(fingerprint(talus_run::getHash()), 0xD12C1566EEFAB08CU);
   EXPECT_EQ(fingerprint(talus_piles::getHash()), 0x9478FDAFE464F6D2U);
   EXPECT_EQ(fingerprint(talus_sleep::getHash()), 0x81A04516E02D7E80U);
-  EXPECT_EQ(fingerprint(talus_stats::getHash()), 0x2045780C8D6043CDU);
+  EXPECT_EQ(fingerprint(talus_stats::getHash()), 0x1152B025D1F1E02FU);
   EXPECT_EQ(fingerprint(talus_bodies::getHash()), 0xC6FA8471FD1162E7U);
   EXPECT_EQ(fingerprint(talus_shapes::getHash()), 0xAB1C584AF8545F4CU);
   EXPECT_EQ(fingerprint(talus_event::getHash()), 0x6F5F4E167CF5A516U);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <set>
@@ -140,6 +141,29 @@ TEST(Publisher, SendsPosesAtTheirRateAndAllOfThemWithinTwoSecondsAndAtTheEnd) {
   EXPECT_EQ(bodies.back().step, 2000);
   EXPECT_EQ(bodies.back().body_count, 12);
   EXPECT_GE(run.ear.all<talus_shapes>().size(), 2U) << "at the first step, and at the end";
+}
+
+TEST(Publisher, NamesAllBodiesOnceOneHasLeft) {
+  lcm::LCM lcm("memq://");
+  Ear ear(lcm);
+  const Scene<2> scene = still_scene<2>();
+  Publisher<2> publisher(run_info(scene, "still", "none"), {.bodies_rate = 1000.0}, lcm);
+  publisher.set_world(scene.world);
+  const auto run = still_run<2>(scene, 12);
+  run->add_observer(publisher);
+  run->step();
+  run->remove(3);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+  while (std::chrono::steady_clock::now() < until) run->step();
+  const std::int64_t last = run->frame().step;
+  run->end("finished");
+  ear.listen();
+  const auto bodies = ear.all<talus_bodies>();
+  const auto key_frame = std::ranges::find(bodies, 1, &talus_bodies::key_frame);
+  ASSERT_NE(key_frame, bodies.end());
+  EXPECT_LT(key_frame->step, last) << "before the end, which has one too";
+  EXPECT_EQ(key_frame->body_count, 11);
+  EXPECT_EQ(std::ranges::count(key_frame->body, 3), 0);
 }
 
 TEST(Publisher, SendsWhereObstaclesAreAsLongAsTheyMove) {
