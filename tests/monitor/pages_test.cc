@@ -223,6 +223,15 @@ TEST(MonitorPages, AlertToLossSilenceWavesAndFaults) {
   EXPECT_TRUE(shows(text, "undecodable 1, the last one on TALUS_RUN: too short"));
 }
 
+TEST(SleepHistory, CountsEachCause) {
+  SleepHistory history;
+  for (int cause = 0; cause <= static_cast<int>(SleepCause::motion); ++cause)
+    history.add({.woke = true, .cause = static_cast<SleepCause>(cause)});
+  for (const SleepCause cause : {SleepCause::score, SleepCause::check, SleepCause::motion})
+    EXPECT_EQ(history.count({cause, true}), 1) << to_string(cause);
+  EXPECT_EQ(history.newest(20, [](const SleepEvent&) { return true; }).size(), 11U);
+}
+
 TEST(MonitorPages, WrapAnAlertThatIsWiderThanTheScreen) {
   Screen screen;
   Sender run(screen, 42, "heap");

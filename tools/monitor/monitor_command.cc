@@ -28,12 +28,7 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
     print_message("talus monitor: {}", problem);
     return exit_codes::failed;
   }
-  ReceiverProcess receiver([&address](const DatagramSender& sender) {
-    const LiveLink link = open_live_link(address);
-    if (!link.lcm) throw std::runtime_error(link.problem);
-    receive(*link.lcm, all_channels, sender);
-    throw std::runtime_error("LCM stopped receiving");
-  });
+  ReceiverProcess receiver(receive_at(address));
   const std::atomic<bool>& interrupted = stop_signal();
   std::unique_ptr<TerminalScreen> screen = params.json || params.plain ? nullptr : TerminalScreen::open();
   if (!screen) return monitor(receiver, params, std::cout, interrupted);

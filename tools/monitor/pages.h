@@ -21,7 +21,7 @@ struct Choice {
 };
 
 /// What a key did.
-enum class Effect : std::uint8_t { none, redraw, quit };
+enum class Effect : std::uint8_t { redraw, quit };
 
 /// Numbers of special keys; others are those of their characters.
 namespace keys {

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "lcmtypes/live_link.h"
+
 namespace talus {
 namespace {
 
@@ -37,6 +39,15 @@ void receive(lcm::LCM& lcm, std::span<const Channel> channels, const DatagramSen
     heard = lcm.handleTimeout(sign_of_life_ms);
     if (heard == 0) sender.alive();
   }
+}
+
+ReceiverProcess::Body receive_at(const std::string& address) {
+  return [address](const DatagramSender& sender) {
+    const LiveLink link = open_live_link(address);
+    if (!link.lcm) throw std::runtime_error(link.problem);
+    receive(*link.lcm, all_channels, sender);
+    throw std::runtime_error("LCM stopped receiving");
+  };
 }
 
 }  // namespace talus

@@ -124,7 +124,7 @@ void ReceiverProcess::run_child(int socket, pid_t parent) {
   try {
     body_(DatagramSender(socket));
   } catch (const std::exception& error) {
-    print_message("talus monitor: {}", error.what());
+    print_message("live: {}", error.what());
   }
   _exit(1);
 }

@@ -28,11 +28,6 @@ void SleepHistory::add(const SleepEvent& event) {
   if (++rising_.bodies >= wave_size_) wave_ = rising_;
 }
 
-const SleepEvent* SleepHistory::last(Kind kind) const {
-  const auto& events = events_[index(kind)];
-  return events.empty() ? nullptr : &events.back().event;
-}
-
 std::vector<SleepEvent> SleepHistory::sorted(std::vector<const Numbered*>& found, std::size_t most) {
   std::ranges::sort(found, std::ranges::greater(), &Numbered::number);
   if (found.size() > most) found.resize(most);

@@ -47,8 +47,8 @@ struct Wave {
 /// The latest sleep events of each cause, so that a flood of one cause does not push out the others.
 class SleepHistory {
  public:
-  static constexpr std::size_t most_events = 200;  // of each kind
-  static constexpr std::size_t causes = 10;        // numbers of talus_sleep
+  static constexpr std::size_t most_events = 200;                                          // of each kind
+  static constexpr std::size_t causes = static_cast<std::size_t>(SleepCause::motion) + 1;  // numbers of talus_sleep
 
   /// What happened to a body, and why.
   struct Kind {
@@ -61,8 +61,6 @@ class SleepHistory {
 
   /// Events of a kind so far.
   std::int64_t count(Kind kind) const { return counts_[index(kind)]; }
-  /// The last event of a kind; nullptr where there was none.
-  const SleepEvent* last(Kind kind) const;
   /// The newest events of those that `accept` takes, newest first, at most `most`.
   template <class Accept>
   std::vector<SleepEvent> newest(std::size_t most, const Accept& accept) const {

@@ -20,15 +20,6 @@ std::string working_address(const std::string& url) {
   return address;
 }
 
-ReceiverProcess::Body receive_at(const std::string& address) {
-  return [address](const DatagramSender& sender) {
-    const LiveLink link = open_live_link(address);
-    if (!link.lcm) throw std::runtime_error(link.problem);
-    receive(*link.lcm, all_channels, sender);
-    throw std::runtime_error("LCM stopped receiving");
-  };
-}
-
 }  // namespace
 
 LiveView::LiveView(const std::string& url, PageHub& hub)
