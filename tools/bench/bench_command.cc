@@ -31,7 +31,7 @@ constexpr const char* footer =
     "on when it is started again. On slurm an array of jobs does the runs, those with one scene, engine and seed on\n"
     "one machine, and a job after it collects. `reference` is full at settings that are taken for converged; without\n"
     "it in --policy no error of shape is known. Each run gives the bits of `talus run SCENE --policy POLICY\n"
-    "--set seed=SEED` with the settings of its row.\n"
+    "--set seed=SEED --set run.until=frames` with the settings of its row.\n"
     "Exit code: 0 all runs finished, 1 some failed (bench.csv says how), 2 bad input.\n"
     "Examples:\n"
     "  talus bench --preset table1 --quick\n"

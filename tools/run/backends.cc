@@ -59,6 +59,11 @@ Backend<Dim> find_backend(std::string_view name) {
 
 std::vector<std::string> backends(int dimension) { return dimension == 2 ? names<2>() : names<3>(); }
 
+std::string backend_for(const std::string& name, int dimension) {
+  const std::vector<std::string> engines = backends(dimension);
+  return name.empty() && !engines.empty() ? engines.front() : name;
+}
+
 template <int Dim>
 EngineTraits engine_traits(std::string_view backend) {
   return find_backend<Dim>(backend).traits;

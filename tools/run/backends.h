@@ -15,6 +15,9 @@ namespace talus {
 /// Names of the engines in this build that can simulate `dimension`, the default first.
 std::vector<std::string> backends(int dimension);
 
+/// The engine of that name, in this build or not; an empty one: the default.
+std::string backend_for(const std::string& name, int dimension);
+
 /// What the engine of that name does badly. Throws std::invalid_argument where this build has no such engine.
 template <int Dim>
 EngineTraits engine_traits(std::string_view backend);

@@ -114,11 +114,6 @@ void check_live_url(const std::string& url) {
 }
 #endif
 
-std::string backend_for(const SceneChoice& options, int dimension) {
-  const std::vector<std::string> engines = backends(dimension);
-  return options.backend.empty() && !engines.empty() ? engines.front() : options.backend;
-}
-
 }  // namespace
 
 std::vector<Override> overrides_of(const SceneChoice& choice) {
@@ -145,7 +140,7 @@ int run_scene(const RunOptions& options) {
   }
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) {
-        const std::string backend = backend_for(options, Dim);
+        const std::string backend = backend_for(options.backend, Dim);
         const std::vector<SceneError> outside = check_window(of_dimension, backend, file, options.force);
         if (other) check_window(std::get<Scene<Dim>>(*other), backend, file, options.force);
         if (options.measure_drift) require_measurable_drift(of_dimension);

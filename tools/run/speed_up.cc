@@ -14,14 +14,16 @@
 namespace talus {
 namespace {
 
-/// Processor time [s] of all steps but the first, in which the engine allocates.
+/// Processor time of a step [s], mean over all but the first, in which the engine allocates. Runs that end once they
+/// rest are of different length.
 template <int Dim>
 double seconds_of(const Scene<Dim>& scene, const std::string& backend) {
   Simulation<Dim> simulation(scene, make_world<Dim>(backend, scene.world), make_policy(scene));
   simulation.step();
+  std::int64_t steps = 0;
   ProcessorWatch processor;
-  while (!simulation.finished()) simulation.step();
-  return processor.lap();
+  for (; !simulation.finished(); ++steps) simulation.step();
+  return processor.lap() / static_cast<double>(std::max<std::int64_t>(1, steps));
 }
 
 /// Where a round is long, how far the rounds are.
@@ -66,12 +68,11 @@ int tell_speed_up(const Scene<Dim>& own, const Scene<Dim>& other, const std::str
   const SpeedUp measured = measure_speed_up(own, other, backend);
   const std::vector<double> ratios = measured.ratios();
   const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
-  const double step_ms = 1e3 / static_cast<double>(own.steps());
   print_result(
       "  {:.2f} times as fast as policy {} (median; {:.2f} to {:.2f} in {} rounds of processor time, nothing "
       "recorded: {:.3f} and {:.3f} ms a step)\n",
-      median(ratios), other.policy.kind, *low, *high, ratios.size(), median(measured.own) * step_ms,
-      median(measured.other) * step_ms);
+      median(ratios), other.policy.kind, *low, *high, ratios.size(), 1e3 * median(measured.own),
+      1e3 * median(measured.other));
   return exit_codes::success;
 }
 

@@ -15,10 +15,10 @@ struct SpeedUpParams {
   double most_seconds = 10.0;  // of wall time, after which no round beyond the least begins
 };
 
-/// Processor time of this thread, each number a round.
+/// Processor time of this thread for a step, mean over a run; each number a round.
 struct SpeedUp {
-  std::vector<double> own;    // [s] a run
-  std::vector<double> other;  // [s] a run
+  std::vector<double> own;    // [s]
+  std::vector<double> other;  // [s]
   std::vector<double> ratios() const;
 };
 

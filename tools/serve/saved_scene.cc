@@ -341,7 +341,6 @@ class Saving {
   const World<Dim>& world_;
   toml::table root_;
   Renumbering numbers_;
-  double extent_ = 1e3;
   double resolution_ = 1e-6;                  // [m], also of velocities [m/s]; a power of ten
   std::vector<std::int64_t> source_numbers_;  // in the file; -1: nothing is left of it
   std::vector<NamedShape> shape_names_;

@@ -134,7 +134,7 @@ class SimulatedScene final : public ShownRun {
     writer_.instruments(frame);
     writer_.obstacles(frame, all);
     writer_.contacts(frame);
-    all ? writer_.all_bodies(frame) : void(writer_.bodies(frame));
+    all ? void(writer_.all_bodies(frame)) : void(writer_.bodies(frame));
     return {.step = frame.step, .block = messages_.take()};
   }
 
@@ -149,7 +149,7 @@ class SimulatedScene final : public ShownRun {
     constexpr double fastest = 1000.0;  // [m/s]; the engine's own limit is lower
     const auto allowed = [](double part) { return std::abs(part) <= fastest; };
     if (velocity.size() != Dim || !std::ranges::all_of(velocity, allowed))
-      return fmt::format("velocity: must be {} numbers of -1000 to 1000", Dim);
+      return fmt::format("velocity: must be {} numbers of {} to {}", Dim, -fastest, fastest);
     Event<Dim> event;
     event.action = EventAction::kick;
     event.numbers = {static_cast<double>(body)};
@@ -249,8 +249,7 @@ std::unique_ptr<ShownRun> show_run(const AnyScene& scene, const std::string& bac
                                    bool force) {
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> std::unique_ptr<ShownRun> {
-        const std::vector<std::string> engines = backends(Dim);
-        const std::string& engine = backend.empty() && !engines.empty() ? engines.front() : backend;
+        const std::string engine = backend_for(backend, Dim);
         print_scene_warnings(check_window(of_dimension, engine, file, force), scene_warnings(of_dimension, engine));
         return std::make_unique<SimulatedScene<Dim>>(of_dimension, engine, file.stem().string());
       },

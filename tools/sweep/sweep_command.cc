@@ -69,8 +69,7 @@ std::vector<SweepAxis> axes_of(const SweepOptions& options) {
 
 template <int Dim>
 void check_run(const Sweep& sweep, const Scene<Dim>& scene) {
-  const std::vector<std::string> engines = backends(Dim);
-  const std::string& backend = sweep.backend.empty() && !engines.empty() ? engines.front() : sweep.backend;
+  const std::string backend = backend_for(sweep.backend, Dim);
   check_window(scene, backend, sweep.scene, sweep.force);
   if (sweep.measure_drift) require_measurable_drift(scene);
 }

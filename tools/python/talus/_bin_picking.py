@@ -26,8 +26,10 @@ class BinPicking:
         self._set = {**(set or {}), "run.until": "frames", "run.frames": 10**7}
         self._simulation: Simulation | None = None
 
-    def reset(self, seed: int | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-        """Pours the parts anew and lets them settle."""
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+        """Pours the parts anew and lets them settle. seed: None: that of the scene, each time. options: none are read."""
         self._simulation = Simulation(self._scene, seed=seed, set=self._set)
         settled = self._settle()
         return self._observation(), {"settled": settled, "time": self._simulation.time}

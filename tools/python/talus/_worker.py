@@ -9,7 +9,7 @@ from ._run import simulate
 
 
 def main():
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the sweep hears it, and ends its processes
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the sweep gets the signal, and ends its processes
     output = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what anything prints is no result
     arguments = pickle.load(sys.stdin.buffer)
