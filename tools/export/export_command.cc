@@ -79,8 +79,10 @@ WalkDamage walk_chosen(const Scene<Dim>& scene, const ExportOptions& options, co
 
 void report_damage(const WalkDamage& damage) {
   if (damage.none()) return;
-  print_message("the record is damaged: {} bytes and {} messages left out; bodies of unknown pose count as absent",
-                damage.bytes, damage.undecodable);
+  print_message(
+      "the record is damaged: {} bytes and {} messages left out, {} messages missing; bodies of unknown pose count as "
+      "absent",
+      damage.bytes, damage.undecodable, damage.missing);
 }
 
 template <int Dim>

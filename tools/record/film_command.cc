@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <future>
 #include <memory>
@@ -71,15 +72,17 @@ struct Cut {
   int frame(int shown) const { return static_cast<int>(first + shown * step); }
 };
 
+/// The first frame is that of one frame time.
 template <int Dim>
 Cut cut_of(const FilmOptions& options, const Trajectory<Dim>& frames) {
   require(frames.frames() > 0, "run", options.run, "must have recorded a frame");
   const double frame_time = frames.frame_time();
   const double end = frames.frames() - 1;
   Cut cut;
-  cut.last = static_cast<int>(options.to < 0.0 ? end : std::min(end, options.to / frame_time));
-  require(options.from <= cut.last * frame_time, "--from", options.from, "must lie within the run");
-  cut.first = static_cast<int>(options.from / frame_time);
+  const auto frame_at = [&](double time) { return std::max(0.0, std::floor(time / frame_time + 1e-6) - 1.0); };
+  cut.last = static_cast<int>(options.to < 0.0 ? end : std::min(end, frame_at(options.to)));
+  require(frame_at(options.from) <= cut.last, "--from", options.from, "must lie within the run");
+  cut.first = static_cast<int>(frame_at(options.from));
   cut.step = std::max(1.0, options.speed / options.rate / frame_time);
   cut.frame_time = cut.step * frame_time / options.speed;
   return cut;
@@ -159,6 +162,8 @@ void in_order(int count, const Make& make, const Take& take) {
 
 template <int Dim>
 void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
+  if (const std::string damage = text_of(run.damage); !damage.empty())
+    print_message("the record is damaged: {}", damage);
   const Cut cut = cut_of(options, run.frames);
   const BodyStates<Dim> end = states_at(run.frames, cut.last);
   const double scale = force_scale(input_at(run, end, cut.last));

@@ -108,8 +108,9 @@ class RunCount {
 
  private:
   void take(const talus_lcm::talus_event& message) {
-    if (events_.size() < most_listed)
-      events_.push_back({{"number", message.number}, {"step", message.step}, {"text", message.text}});
+    const auto is_this = [&](const Json& listed) { return listed["number"] == message.number; };
+    if (message.happened_step < 0 || events_.size() >= most_listed || std::ranges::any_of(events_, is_this)) return;
+    events_.push_back({{"number", message.number}, {"step", message.happened_step}, {"text", message.text}});
   }
 
   void take(const talus_lcm::talus_bodies& message) {

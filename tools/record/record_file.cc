@@ -130,8 +130,7 @@ void refuse_other_format(const LogEvent& event, const std::filesystem::path& fil
 }
 
 bool is_of_run(const LogEvent& event) {
-  return std::find(channel_names.begin(), channel_names.end(), event.channel) != channel_names.end() &&
-         event.data.size() >= header_bytes;
+  return channel_named(event.channel).has_value() && event.data.size() >= header_bytes;
 }
 
 MessageHeader header_of(const LogEvent& event) {

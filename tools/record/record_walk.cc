@@ -47,7 +47,8 @@ WalkResult walk_record(const Scene<Dim>& scene, LogReader& log, const std::files
   show();
   return {.damage = {.bytes = log.damage().bytes,
                      .undecodable = reader.undecodable(),
-                     .lost_events = reader.lost(Channel::sleep)},
+                     .lost_events = reader.lost(Channel::sleep),
+                     .missing = reader.lost()},
           .run = identity_of(reader),
           .last = reader.moment(),
           .later_events = reader.later_events()};

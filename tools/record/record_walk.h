@@ -18,8 +18,9 @@ struct WalkDamage {
   std::uint64_t bytes = 0;       // that are no message
   std::int64_t undecodable = 0;  // messages whose checksum holds and that are of another kind all the same
   std::int64_t lost_events = 0;  // messages with sleep events that are missing between others
+  std::int64_t missing = 0;      // messages of all channels that are missing between others
 
-  bool none() const { return bytes == 0 && undecodable == 0; }
+  bool none() const { return bytes == 0 && undecodable == 0 && missing == 0; }
 };
 
 /// The run's identity and end, from the record, of any bytes. Empty where no message has it.
