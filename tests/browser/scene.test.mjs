@@ -192,6 +192,13 @@ test("a slider changes a number of the scene, which runs again", async () => {
   await page.locator("#value").press("Enter");
   await page.waitForFunction(() => document.getElementById("errors").textContent.includes("count"));
   assert.equal((await shown(page)).bodies, 7, "the run goes on as it was");
+  const text = await page.evaluate(() => window.talus.simulation.editor.text);
+  await page.evaluate(() => window.talus.command({ do: "remove", body: 0 }));
+  await until(page, ({ bodies }) => bodies === 6);
+  assert.match(await page.textContent("#errors"), /count/, "what is done by hand mends no text");
+  await page.locator("#value").fill("");
+  await page.locator("#value").press("Enter");
+  assert.equal(await page.evaluate(() => window.talus.simulation.editor.text), text, "an empty field is no number");
   await page.close();
   child.kill();
 });

@@ -22,7 +22,7 @@ class FrameHistory {
   FrameHistory(std::size_t most_bytes, Merge merge) : most_bytes_(most_bytes), merge_(std::move(merge)) {}
 
   /// Adds a frame after `step` steps; steps never decrease. Returns its number, which is larger than all before.
-  /// `held`: numbers of frames that must stay, since others know all up to them and no more.
+  /// `held`: numbers of frames that must stay: the last that some page was sent.
   std::int64_t add(std::int64_t step, std::string block, std::span<const std::int64_t> held);
 
   /// Blocks one after the other.

@@ -124,7 +124,9 @@ void RunLoop::obey(int page, const std::string& what, const Json& command) {
   } else if (what == "pace") {
     set_pace(page, value);
   } else if (what == "policy" && value.is_string()) {
-    start_scene(page, text_, value.get<std::string>());
+    std::string text;  // another page's thread may replace it
+    change([&] { text = text_; });
+    start_scene(page, text, value.get<std::string>());
   } else if (what == "scene" && command.value("text", Json()).is_string()) {
     start_scene(page, command["text"].get<std::string>(), "");
   } else {
@@ -169,14 +171,16 @@ void RunLoop::set_pace(int page, const Json& value) {
   if (pace == 0.0 || (pace >= slowest_pace && pace <= fastest_pace))
     change([&] { pace_ = pace; });
   else
-    reply_errors(page, error_of("pace: must be 0 (as fast as possible) or 0.01 to 1000"));
+    reply_errors(
+        page, error_of(fmt::format("pace: must be 0 (as fast as possible) or {} to {}", slowest_pace, fastest_pace)));
 }
 
 /// Reads the scene in the page's thread, so that the run goes on meanwhile.
 void RunLoop::start_scene(int page, const std::string& text, const std::string& policy) {
+  const bool of_text = policy.empty();
   try {
     std::vector<Override> overrides;
-    if (!policy.empty()) overrides.push_back({"policy.kind=" + policy, "policy " + policy});
+    if (!of_text) overrides.push_back({"policy.kind=" + policy, "policy " + policy});
     AnyScene scene = parse_scene(text, file_.string(), overrides);
     change([&] {
       scene_ = std::move(scene);
@@ -185,16 +189,16 @@ void RunLoop::start_scene(int page, const std::string& text, const std::string& 
       restart_ = true;
       running_ = true;
     });
-    reply_errors(page, Json::array());
+    reply_errors(page, Json::array(), of_text);
   } catch (const SceneErrors& errors) {
-    reply_errors(page, errors_of(errors));
+    reply_errors(page, errors_of(errors), of_text);
   } catch (const std::exception& error) {
-    reply_errors(page, error_of(error.what()));
+    reply_errors(page, error_of(error.what()), of_text);
   }
 }
 
-void RunLoop::reply_errors(int page, const Json& errors) {
-  hub_.reply(page, text_of({{"kind", "errors"}, {"errors", errors}}));
+void RunLoop::reply_errors(int page, const Json& errors, bool of_text) {
+  hub_.reply(page, text_of({{"kind", "errors"}, {"of_text", of_text}, {"errors", errors}}));
 }
 
 void RunLoop::work() {

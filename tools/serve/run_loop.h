@@ -69,7 +69,8 @@ class RunLoop {
   void do_by_hand();
   std::string save(int page, const ShownRun& run);
   void set_pace(int page, const nlohmann::ordered_json& value);
-  void reply_errors(int page, const nlohmann::ordered_json& errors);
+  /// `of_text`: of the scene's text that the page sent, else of a command.
+  void reply_errors(int page, const nlohmann::ordered_json& errors, bool of_text = false);
   void change(const std::function<void()>& what);
 
   void work();

@@ -16,7 +16,7 @@ interface Reading {
   effect: string;
 }
 
-/// What only the simulation knows of a body (tools/serve/body_account.h).
+/// What of a body is only in the simulation (tools/serve/body_account.h).
 export interface Account {
   body: number;
   step: number;

@@ -17,7 +17,7 @@ export const causes: (Cause | null)[] = [
   null,
   null,
   { name: "engine", slept: "the engine's own rule", woke: "the engine's own rule" },
-  { name: "user", slept: "by hand", woke: "by hand, or a body near it was removed" },
+  { name: "user", slept: "an event of the scene, or by hand", woke: "an event of the scene, gravity or an obstacle that moves, or by hand" },
   { name: "check", slept: "the check of its region ended", woke: "its region is checked for stability" },
   { name: "motion", slept: "", woke: "forces move it" },
 ];

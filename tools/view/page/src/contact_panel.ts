@@ -10,19 +10,19 @@ import type { Stage } from "./stage";
 export class ContactPanel {
   /// Whether the colours of bodies are those of their forces.
   private coloured = false;
-  /// Asks a simulation for contacts, or for none any more; null: it takes no commands.
-  private ask: ((wanted: boolean) => void) | null = null;
+  /// Turns the contacts of a simulation on or off; null: it takes no commands.
+  private request: ((wanted: boolean) => void) | null = null;
 
   constructor(changed: () => void) {
     element("contacts").addEventListener("change", () => {
-      this.ask?.(this.wanted());
+      this.request?.(this.wanted());
       changed();
     });
   }
 
   /// Of a simulation that takes commands.
-  steer(ask: (wanted: boolean) => void): void {
-    this.ask = ask;
+  steer(request: (wanted: boolean) => void): void {
+    this.request = request;
     this.offer();
     this.note(null, 0, 0);
   }
@@ -47,7 +47,7 @@ export class ContactPanel {
   colourBodies(coloured: boolean): void {
     if (this.coloured === coloured) return;
     this.coloured = coloured;
-    this.ask?.(this.wanted());
+    this.request?.(this.wanted());
   }
 
   /// Sum of the normal forces on each body [N]; null: not known.
@@ -70,8 +70,8 @@ export class ContactPanel {
 
   private note(contacts: Contact[] | null, force: number, length: number): void {
     const text = element("contact-note");
-    if (!this.wanted()) text.textContent = this.ask ? "Off, they are not computed for the page." : "";
-    else if (!contacts) text.textContent = this.ask ? "This frame came without contacts: the next step has them." : "This frame has none.";
+    if (!this.wanted()) text.textContent = this.request ? "Off, they are not computed for the page." : "";
+    else if (!contacts) text.textContent = this.request ? "This frame came without contacts: the next step has them." : "This frame has none.";
     else {
       const kept = contacts.filter((contact) => contact.kept).length;
       const scale = this.way === "chains" ? `; a line ${(lineWidth * length).toPrecision(2)} m wide: ${withUnit(force, "N")}` : `; a bar of ${length.toPrecision(3)} m: ${withUnit(force, "N")}`;

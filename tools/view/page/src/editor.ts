@@ -1,4 +1,4 @@
-// The editor of a scene's text, a script of its own: CodeMirror with the keys of a scene file as the program knows them.
+// The editor of a scene's text, a script of its own: CodeMirror with the keys of a scene file.
 
 import { acceptCompletion, autocompletion, type Completion, type CompletionContext, type CompletionResult, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";

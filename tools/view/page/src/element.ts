@@ -19,7 +19,10 @@ export function showPace(list: HTMLSelectElement, pace: number): void {
   list.value = value;
 }
 
-/// The paces of a list; 0: as fast as possible.
+/// Times real time; 0: as fast as possible, which only a simulation can be.
+export const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+export const simulationPaces = [...paces, 64, 0];
+
 export function offerPaces(list: HTMLSelectElement, paces: number[]): void {
   list.replaceChildren(...paces.map((pace) => new Option(pace === 0 ? "fastest" : `${pace}\u00d7`, String(pace), false, pace === 1)));
 }

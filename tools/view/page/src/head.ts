@@ -3,7 +3,7 @@
 import { type Colours, themed } from "./colours";
 import type { Layouts } from "./messages";
 import type { EventMessage, MomentReader, ShapeMessage, State } from "./moments";
-import { matrixOf } from "./pose";
+import { matrixOf, poseValues } from "./pose";
 import { betweenSides, type Sides } from "./sides";
 import { piecesOf } from "./surface";
 import { Vector3 } from "./vendor";
@@ -34,7 +34,7 @@ export interface ObstacleHead {
   pieces: Piece[];
 }
 
-/// What the page knows of any run (tools/view/page_settings.h).
+/// What comes with the page, whatever the run (tools/view/page_settings.h).
 export interface Settings extends Layouts {
   camera: { azimuth: number; elevation: number };
   colours: {
@@ -130,7 +130,7 @@ function colouredShapes(shapes: ShapeMessage[]): { name: string; colour: Rgb }[]
 }
 
 export const obstaclesOf = ({ run, obstacles }: MomentReader): ObstacleHead[] =>
-  obstacles.map((obstacle) => ({ name: obstacle.name, pose: Array.from(obstacle.pose.subarray(0, run!.dimension === 2 ? 3 : 7)), pieces: piecesOf(obstacle, run!.dimension === 2, 48) }));
+  obstacles.map((obstacle) => ({ name: obstacle.name, pose: Array.from(obstacle.pose.subarray(0, poseValues(run!.dimension))), pieces: piecesOf(obstacle, run!.dimension === 2, 48) }));
 
 /// Of a run whose shapes are known; `box` is for boxOf().
 export function headOf(reader: MomentReader, settings: Settings, name: string): Head {
@@ -152,7 +152,7 @@ export function headOf(reader: MomentReader, settings: Settings, name: string): 
 /// that was shot away does not make a dot of all others; obstacles unless they are much larger; all
 /// between periodic sides.
 export function boxOf({ dimension, shapes, obstacles, sides }: Head, { bodies, removed, pose, shape }: State): Box {
-  const width = dimension === 2 ? 3 : 7;
+  const width = poseValues(dimension);
   const box = emptyBox(dimension);
   const present = Array.from({ length: bodies }, (_, body) => body).filter((body) => removed[body] === 0);
   const at = (body: number, axis: number): number => pose[width * body + axis];

@@ -2,7 +2,7 @@
 
 import { colour } from "./colours";
 import type { Rgb } from "./head";
-import { BufferGeometry, Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, type Material, type Matrix4, Vector3 } from "./vendor";
+import { BufferGeometry, Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, LineSegments, type Material, type Matrix4, Mesh, type Object3D, Vector3 } from "./vendor";
 
 /// The bodies of one shape.
 export class Instances {
@@ -71,6 +71,13 @@ export class Instances {
     return moved;
   }
 
+  /// Takes the mesh out of the scene and frees what the graphics card holds of it.
+  dispose(): void {
+    this.mesh.removeFromParent();
+    this.mesh.dispose();
+    this.mesh.geometry.dispose();
+  }
+
   clear(): void {
     this.bodies.length = this.mesh.count = 0;
   }
@@ -91,6 +98,15 @@ export class Instances {
     this.sleeping.needsUpdate = true;
     this.mesh.boundingSphere = null;
   }
+}
+
+/// Takes a part out of the scene and frees what the graphics card holds of its geometry.
+export function discard(part: Object3D): void {
+  part.removeFromParent();
+  part.traverse((one) => {
+    if (one instanceof Mesh || one instanceof LineSegments) one.geometry.dispose();
+    if (one instanceof InstancedMesh) one.dispose();
+  });
 }
 
 /// A share of `colour` in all colours, which may change from picture to picture.

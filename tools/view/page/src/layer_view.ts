@@ -21,11 +21,6 @@ export class LayerView {
     return this.head.dimension === 2;
   }
 
-  /// Another run, or other colours.
-  forget(): void {
-    this.drawn = null;
-  }
-
   update(piles: Pile[]): void {
     if (this.drawn === piles) return;
     this.drawn = piles;

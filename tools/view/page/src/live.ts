@@ -48,7 +48,7 @@ interface Thinned {
   mebibytes: number;
 }
 
-type Message = Status | Begin | { kind: "scene"; text: string } | { kind: "errors"; errors: Fault[] } | Thinned | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
+type Message = Status | Begin | { kind: "scene"; text: string } | { kind: "errors"; of_text: boolean; errors: Fault[] } | Thinned | { kind: "saved"; name: string; text: string } | (Account & { kind: "body" });
 
 declare global {
   interface Window {
@@ -72,6 +72,8 @@ class Live implements Simulation {
   private begun = false;
   /// Of this run, once frames were left out.
   private thinned: Thinned | null = null;
+  /// Of the scene's text as it was sent last.
+  private ofText: Fault[] = [];
   private form = 0;
   /// Of the scene's text.
   readonly editor: Editor;
@@ -105,7 +107,7 @@ class Live implements Simulation {
     element("policy").addEventListener("change", () => this.send({ do: "policy", value: element<HTMLSelectElement>("policy").value }));
     element("number").addEventListener("change", () => this.showNumber());
     element("slider").addEventListener("input", () => (element<HTMLInputElement>("value").value = element<HTMLInputElement>("slider").value));
-    for (const id of ["slider", "value"]) element(id).addEventListener("change", () => this.setNumber(Number(element<HTMLInputElement>(id).value)));
+    for (const id of ["slider", "value"]) element(id).addEventListener("change", () => this.setNumber(element<HTMLInputElement>(id).valueAsNumber));
   }
 
   send(command: object): void {
@@ -175,7 +177,8 @@ class Live implements Simulation {
         download(`${message.name}_step_${this.player?.shown().step ?? 0}.toml`, new Blob([message.text], { type: "application/toml" }));
         break;
       case "errors":
-        this.showErrors(message.errors);
+        if (message.of_text) this.markText(message.errors);
+        this.listErrors(message.of_text ? message.errors : [...this.ofText, ...message.errors]);
     }
   }
 
@@ -247,10 +250,14 @@ class Live implements Simulation {
     for (const id of commands) element(id).hidden = true;
   }
 
-  private showErrors(errors: Fault[]): void {
-    this.editor.mark(errors);
-    if (errors.length > 0) element<HTMLDetailsElement>("scene").open = true;
+  private listErrors(errors: Fault[]): void {
     element("errors").replaceChildren(...errors.map(({ line, text }) => make("li", { textContent: text, onclick: () => this.editor.goTo(line) })));
+    if (errors.length > 0) element<HTMLDetailsElement>("scene").open = true;
+  }
+
+  private markText(errors: Fault[]): void {
+    this.ofText = errors;
+    this.editor.mark(errors);
     const first = errors.find(({ line }) => line > 0);
     if (first) this.editor.goTo(first.line);
   }

@@ -1,5 +1,5 @@
 import { keepAddress, viewOfAddress } from "./address";
-import { boxOf, headOf, obstaclesOf, type Settings } from "./head";
+import { boxOf, headOf, type Settings } from "./head";
 import { connect } from "./live";
 import { LogReader } from "./messages";
 import { MomentReader } from "./moments";
@@ -43,7 +43,8 @@ function timelineOf(log: Uint8Array, settings: Settings, name: string): Timeline
   }
   if (!timeline) throw new Error("the record holds no frame");
   if (events.damage + undecodable > 0) timeline.head.damage = `${events.damage} damaged bytes and ${undecodable} messages not decodable: frames may be missing`;
-  timeline.head.obstacles = obstaclesOf(reader);
+  const { shapes, coloured_shapes, obstacles } = headOf(reader, settings, name); // of a program's world some come later
+  Object.assign(timeline.head, { shapes, coloured_shapes, obstacles });
   timeline.head.box = boxOf(timeline.head, timeline.newest);
   return timeline;
 }

@@ -2,6 +2,7 @@
 
 import { type Contact, contactsOf } from "./contacts";
 import { decode, type Layouts, type Message } from "./messages";
+import { poseValues } from "./pose";
 
 // Of the message types, the fields that the page uses (lcmtypes/*.lcm).
 interface Header {
@@ -140,6 +141,7 @@ export interface Warning {
 /// An event of the scene, by its number, with its time [s].
 export interface SceneEvent {
   number: number;
+  step: number;
   time: number;
 }
 
@@ -292,7 +294,7 @@ export class MomentReader {
     const known = this.sceneEvents[message.number];
     if (known && known.happened_step >= 0) return;
     this.sceneEvents[message.number] = message;
-    if (message.happened_step >= 0) this.news.sceneEvents.push({ number: message.number, time: message.happened_time });
+    if (message.happened_step >= 0) this.news.sceneEvents.push({ number: message.number, step: message.happened_step, time: message.happened_time });
   }
 
   private takePiles({ part, parts, piles }: PilesMessage): void {
@@ -345,7 +347,7 @@ export class State {
     private readonly dimension: 2 | 3,
     private readonly layouts: Layouts,
   ) {
-    this.components = dimension === 2 ? 3 : 7;
+    this.components = poseValues(dimension);
     this.pose = new Float32Array(64 * this.components);
   }
 

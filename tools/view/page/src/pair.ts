@@ -4,7 +4,7 @@
 import { keepAddress, type View, viewOfAddress } from "./address";
 import { type Way, ways } from "./colourings";
 import { onTheme, themed } from "./colours";
-import { dragPlots, element, make, offerPaces, onClick, showGoing, showPace } from "./element";
+import { dragPlots, element, make, offerPaces, onClick, paces, showGoing, showPace, simulationPaces } from "./element";
 import { Keys } from "./keys";
 import { listed } from "./legend";
 import { offerPictures } from "./picture";
@@ -32,7 +32,7 @@ export interface Difference {
   /// Mean and largest distance of the bodies that both have [m].
   mean: number;
   largest: number;
-  /// Time of a step of A over that of B; 0: not known.
+  /// Time of a step of B over that of A; 0: not known.
   speedUp: number;
 }
 
@@ -46,7 +46,7 @@ class Pair {
   private plots: Plots | null = null;
   /// Of the plots: a run that begins anew has another one.
   private plotted: Timeline[] = [];
-  /// That the address asks for, as long as there are no frames of it [s].
+  /// That stands in the address, as long as there are no frames of it [s].
   private wantedTime: number | null = null;
 
   constructor(private readonly players: [Player, Player]) {
@@ -57,7 +57,7 @@ class Pair {
     onClick("restart", () => this.restart());
     onClick("fit", () => this.players[0].resetCamera());
     onClick("help", () => keys.toggle());
-    offerPaces(rate, [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, ...(texts.of_runs ? [64, 0] : [])]);
+    offerPaces(rate, texts.of_runs ? simulationPaces : paces);
     rate.addEventListener("change", () => this.both((player) => player.command({ do: "pace", value: this.pace() })));
     paint.append(...Object.entries(ways).map(([way, text]) => new Option(text, way)).filter(({ value }) => value !== "force"));
     paint.addEventListener("change", () => this.colourBy(paint.value as Way));
@@ -219,10 +219,11 @@ class Pair {
     }
     showGoing(element("play"), this.playing || this.runs());
     Object.assign(element<HTMLInputElement>("scrub"), { max: String(this.end()), value: String(this.time) });
-    if (this.players.some(({ timeline }, i) => timeline !== this.plotted[i])) this.plot(this.plots!.shown);
+    const begun = this.players.some(({ timeline }, i) => timeline !== this.plotted[i]);
+    if (begun) this.plot(this.plots!.shown);
     this.plots!.refresh();
     if (now - this.compared > 500) this.compare(now);
-    if (this.time !== before) this.show();
+    if (begun || this.time !== before) this.show();
     requestAnimationFrame((next) => this.tick(next));
   }
 

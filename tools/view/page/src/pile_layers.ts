@@ -1,6 +1,7 @@
 // Which layer of which pile.
 
 import type { Layer, Pile, State } from "./moments";
+import { poseValues } from "./pose";
 
 /// The pile with the most bodies.
 export function largest(piles: Pile[]): Pile | undefined {
@@ -13,7 +14,7 @@ export const fullest = ({ wake_density }: Layer): number => (wake_density > 0 ? 
 
 /// Layer in which the centre of a body lies, counted from the bottom; the first pile counts.
 export function layerOf({ pose, piles }: State, dimension: 2 | 3, body: number): { pile: number; number: number; layer: Layer } | null {
-  const at = pose.subarray((dimension === 2 ? 3 : 7) * body);
+  const at = pose.subarray(poseValues(dimension) * body);
   for (const [pile, { centre, layers }] of piles.entries()) {
     const height = at[dimension - 1] - centre[dimension - 1];
     const away = Math.hypot(...Array.from({ length: dimension - 1 }, (_, i) => at[i] - centre[i]));

@@ -5,19 +5,20 @@ import { type Account, BodyPanel } from "./body_panel";
 import { Colouring, type Way, ways } from "./colourings";
 import { onTheme, themed } from "./colours";
 import { ContactPanel } from "./contact_panel";
-import { draggable, dragPlots, element, make, offerPaces, onClick, showGoing } from "./element";
+import { draggable, dragPlots, element, make, offerPaces, onClick, paces, showGoing, simulationPaces } from "./element";
 import type { Head } from "./head";
+import { inDegrees } from "./instrument_view";
 import { type Key, Keys } from "./keys";
 import { type Drawn, marksOf, showLegend } from "./legend";
 import { factsOf, offerPictures, type Scenery } from "./picture";
 import { largest } from "./pile_layers";
 import { Plots } from "./plots";
 import { PointerTools } from "./pointer_tools";
+import { poseValues } from "./pose";
 import { near } from "./sides";
 import { Stage } from "./stage";
 import { type Changed, Timeline } from "./timeline";
 
-const paces = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 const fastest = 16; // at which is played what was simulated as fast as possible
 
 /// What a simulation that is still going on does with the controls.
@@ -68,7 +69,7 @@ export class Player {
   private led = false;
   private clock = 0;
   private time = 0;
-  /// Rows of the plots and time [s] that the address asks for, as long as there are no frames of that time.
+  /// Rows of the plots and time [s] that stand in the address, as long as there are no frames of that time.
   private wantedPlots: string | null = null;
   private wantedTime: number | null = null;
 
@@ -145,6 +146,7 @@ export class Player {
     element("status").textContent = head.damage;
     element("history").hidden = true;
     this.stage.setRun(this.timeline);
+    this.accompany(); // no body is chosen
     this.tools.setShapes(head.shapes.map(({ name }) => name));
     this.showBody();
     this.showWarnings();
@@ -244,7 +246,7 @@ export class Player {
       { key: "f", does: "reset the camera", action: () => this.resetCamera() },
       { key: "d", does: "fold or unfold the panels", action: () => this.foldDock() },
       { key: "Escape", name: "Esc", does: "choose no body", action: () => this.select(-1) },
-      { key: "r", does: this.simulation ? "restart" : "first frame", action: () => (this.simulation ? this.simulation.restart() : this.seek(0)) },
+      { key: "r", does: this.steered() ? "restart" : "first frame", action: () => (this.steered() ? this.simulation!.restart() : this.seek(0)) },
     ];
     if (!this.simulation) all.push({ key: "l", does: "loop", action: () => element("loop").click() });
     if (this.steered())
@@ -285,10 +287,10 @@ export class Player {
   }
 
   /// A record or a simulation that has ended: plays or pauses. A simulation that goes on: runs or pauses it where its
-  /// newest frame is shown, else plays up to there.
+  /// newest frame is shown, else plays up to there. One that takes no commands: its newest frame is no longer followed.
   toggle(): void {
     if (this.playing) this.pause();
-    else if (this.simulation && this.following && !this.simulation.ended()) this.simulation.toggle();
+    else if (this.simulation && this.following && !this.simulation.ended()) this.steered() ? this.simulation.toggle() : this.seek(this.timeline.shown);
     else this.play();
   }
 
@@ -446,7 +448,7 @@ export class Player {
   /// Slope and error as measured, beside what they should be.
   private showMeasured(): void {
     const { state } = this.timeline;
-    const degrees = (angle: number): string => `${((180 * angle) / Math.PI).toFixed(1)}\u00B0`;
+    const degrees = (angle: number): string => `${inDegrees(angle).toFixed(1)}\u00B0`;
     const lines: string[] = [];
     const pile = largest(state.piles);
     element("layers").parentElement!.hidden = !pile;
@@ -554,7 +556,7 @@ export class Player {
   private places(): Float64Array {
     const { dimension } = this.head;
     const { state, drawn } = this.timeline;
-    const components = dimension === 2 ? 3 : 7;
+    const components = poseValues(dimension);
     return Float64Array.from({ length: dimension * state.bodies }, (_, i) => {
       const body = Math.floor(i / dimension);
       return state.removed[body] !== 0 ? NaN : drawn.pose[components * body + (i % dimension)];
@@ -575,7 +577,7 @@ export class Player {
 
   /// The run takes commands.
   steer(): void {
-    offerPaces(element<HTMLSelectElement>("rate"), [...paces, 64, 0]);
+    offerPaces(element<HTMLSelectElement>("rate"), simulationPaces);
     this.contacts.steer((wanted) => this.command({ do: "contacts", value: wanted }));
     this.offerContacts();
   }

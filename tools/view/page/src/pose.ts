@@ -2,6 +2,9 @@
 
 import { Matrix4, Quaternion, Vector3 } from "./vendor";
 
+/// Numbers of a pose.
+export const poseValues = (dimension: number): number => (dimension === 2 ? 3 : 7);
+
 /// Of a pose in m and rad: x, z, angle or x, y, z, quaternion w, x, y, z.
 export function matrixOf(pose: ArrayLike<number>): Matrix4 {
   if (pose.length === 3) return new Matrix4().makeRotationZ(pose[2]).setPosition(pose[0], pose[1], 0);

@@ -5,7 +5,7 @@ import { Enclosed } from "./enclosed";
 import { boundsOf, type Head, type Point } from "./head";
 import type { Contact } from "./contacts";
 import { ContactMarks, type ContactWay } from "./contact_marks";
-import { Instances, outlined, type Veil } from "./instances";
+import { discard, Instances, outlined, type Veil } from "./instances";
 import { InstrumentView } from "./instrument_view";
 import { LayerView } from "./layer_view";
 import { matrixOf } from "./pose";
@@ -159,7 +159,7 @@ export class Stage {
   private surroundAlone(): void {
     const [low, high] = this.wholeBox();
     const inScene = (corner: Vector3): Point => corner.toArray().slice(0, this.head.dimension);
-    this.surroundings.group.removeFromParent();
+    this.surroundings.dispose();
     this.surroundings = new Surroundings(this.head, [inScene(low), inScene(high)]);
     this.surroundings.placeSun(low, high);
     this.scene.add(this.surroundings.group);
@@ -292,14 +292,14 @@ export class Stage {
 
   /// The run whose frames are shown. Its head must be of the same scene's dimension.
   setRun(timeline: Timeline): void {
-    for (const shape of [...this.shapes, ...this.images]) shape.mesh.removeFromParent();
+    for (const shape of [...this.shapes, ...this.images]) shape.dispose();
     this.shapes.length = this.images.length = this.mesh.length = this.place.length = 0;
     this.timeline = timeline;
     this.head = timeline.head;
     this.box = this.boxOf(this.head);
     this.scene.background = colour(this.head.colours.paper);
     this.surround();
-    for (const part of [this.contactMarks.group, this.layers.lines, this.instruments.lines]) part.removeFromParent();
+    for (const part of [this.contactMarks.group, this.layers.lines, this.instruments.lines]) discard(part);
     this.contactMarks = new ContactMarks(this.head);
     this.layers = new LayerView(this.head);
     this.instruments = new InstrumentView(this.head);

@@ -2,7 +2,7 @@
 
 import { colour } from "./colours";
 import { type Box, boundsOf, type Head } from "./head";
-import { Instances, outlined } from "./instances";
+import { discard, Instances, outlined } from "./instances";
 import { matrixOf } from "./pose";
 import { niceLength } from "./scale";
 import { geometryOf } from "./shapes";
@@ -53,6 +53,13 @@ export class Surroundings {
     }
     this.addSides();
     if (head.ground.present) head.dimension === 2 ? this.addGroundLine() : this.addGroundPlane();
+  }
+
+  /// Takes all out of the scene and frees what the graphics card holds of it.
+  dispose(): void {
+    this.sun?.dispose();
+    for (const obstacle of this.obstacles) obstacle.dispose();
+    discard(this.group);
   }
 
   private addObstacles(): void {

@@ -3,7 +3,7 @@
 import { causes } from "./causes";
 import type { Head } from "./head";
 import type { Layouts } from "./messages";
-import { mixedPose } from "./pose";
+import { mixedPose, poseValues } from "./pose";
 import { near } from "./sides";
 import { type Instruments, type Moment, type Pile, type SceneEvent, type SleepEvent, State, type Warning } from "./moments";
 
@@ -148,7 +148,7 @@ export class Timeline {
     const { before, state } = this;
     if (!before || body >= before.bodies || before.removed[body] !== 0 || state.asleep[body] !== 0) return null;
     const { dimension, dt, sides } = this.head;
-    const at = (dimension === 2 ? 3 : 7) * body;
+    const at = poseValues(dimension) * body;
     const [from, to] = [before, state].map(({ pose }) => Array.from(pose.subarray(at, at + dimension)));
     const way = Math.hypot(...near(sides, to, from).map((value, axis) => value - from[axis]));
     return way / Math.max(dt, (state.step - before.step) * dt);
@@ -196,7 +196,7 @@ export class Timeline {
     const share = Math.min(1, (step - state.step) / Math.max(1e-9, next.step - state.step));
     const between = state.copy();
     const { dimension, sides } = this.head;
-    const width = dimension === 2 ? 3 : 7;
+    const width = poseValues(dimension);
     for (let at = 0; at < between.pose.length; at += width) {
       const [from, to] = [state, next].map(({ pose }) => pose.subarray(at, at + width));
       to.set(near(sides, Array.from(to.subarray(0, dimension)), from));
@@ -208,8 +208,7 @@ export class Timeline {
 
   /// What happened until the frame shown, and its text.
   happenedSoFar(): SceneEvent[] {
-    const now = this.state.step * this.head.dt;
-    return this.happened.filter(({ time }) => time < now - 1e-6);
+    return this.happened.filter(({ step }) => step <= this.state.step);
   }
 
   textOf({ number }: SceneEvent): string {

@@ -33,7 +33,7 @@ export {
   Vector3,
   WebGLRenderer,
 } from "three";
-export type { Camera, Material } from "three";
+export type { Camera, Material, Object3D } from "three";
 export { ConvexHull } from "three/addons/math/ConvexHull.js";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";
 export { default as uPlot } from "uplot";
