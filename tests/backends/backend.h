@@ -1,12 +1,14 @@
 #pragma once
 // The engines of this build as types, so that one suite runs on each of them.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <string_view>
 
 #include "common/math/angle.h"
+#include "common/policy/observer.h"
 #include "common/shape/catalogue.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"
@@ -62,16 +64,23 @@ struct OwnSolver {
 #if defined(TALUS_BOX2D) && defined(TALUS_BULLET) && defined(__SANITIZE_ADDRESS__)
 // The others run the same code but for the packages' own, and would take three times as long to compile and run.
 using Backends = ::testing::Types<Box2d, Bullet>;
+using PlanarBackends = ::testing::Types<Box2d>;
+using BulletBackends = ::testing::Types<Bullet>;
 using SmallStepsBackends = Backends;
 #elif defined(TALUS_BOX2D) && defined(TALUS_BULLET)
 using Backends =
     ::testing::Types<Box2d, Bullet, BulletPlanar, OwnSolver<Box2d>, OwnSolver<Bullet>, OwnSolver<BulletPlanar>>;
+using PlanarBackends = ::testing::Types<Box2d, BulletPlanar, OwnSolver<Box2d>, OwnSolver<BulletPlanar>>;
+using BulletBackends = ::testing::Types<Bullet, BulletPlanar, OwnSolver<Bullet>, OwnSolver<BulletPlanar>>;
 using SmallStepsBackends = ::testing::Types<Box2d, Bullet, BulletPlanar>;
 #elif defined(TALUS_BOX2D)
 using Backends = ::testing::Types<Box2d, OwnSolver<Box2d>>;
+using PlanarBackends = Backends;
 using SmallStepsBackends = ::testing::Types<Box2d>;
 #else
 using Backends = ::testing::Types<Bullet, BulletPlanar, OwnSolver<Bullet>, OwnSolver<BulletPlanar>>;
+using PlanarBackends = ::testing::Types<BulletPlanar, OwnSolver<BulletPlanar>>;
+using BulletBackends = Backends;
 using SmallStepsBackends = ::testing::Types<Bullet, BulletPlanar>;
 #endif
 
@@ -92,6 +101,23 @@ Simulation<Backend::dim> simulation_on(Scene<Backend::dim> scene) {
     scene.policy.adaptive.rings = 0;
   }
   return Simulation<Backend::dim>(scene, Backend::make(scene.world), make_policy(scene));
+}
+
+/// With an observer a simulation looks for faults, see Simulation::warnings().
+template <int Dim>
+struct Watcher final : Observer<Dim> {
+  void on_frame(const Frame<Dim>& /*frame*/) override {}
+};
+
+template <int Dim>
+void run_until(Simulation<Dim>& simulation, double time) {
+  while (simulation.time() < time - 1e-9) simulation.step();
+}
+
+/// A vector as a scene file has it; in 3D y is 0.
+template <int Dim>
+std::string vector_text(double x, double z) {
+  return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, 0, {}]", x, z);
 }
 
 /// How often in a step a backend adds gravity to the velocity.

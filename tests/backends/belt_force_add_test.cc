@@ -15,10 +15,6 @@ constexpr double friction = 0.5;
 constexpr double gravity = 9.81;
 
 template <int Dim>
-std::string point(double x, double z) {
-  return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, 0, {}]", x, z);
-}
-template <int Dim>
 std::string box(double x, double z) {
   return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, 1, {}]", x, z);
 }
@@ -38,23 +34,14 @@ std::string on_belt(double speed, const std::string& more = "") {
   return fmt::format(
       "body = [{{position = {}}}]\n[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\nfriction = {}\n"
       "motion = {{kind = \"belt\", surface_velocity = {}{}}}\n",
-      point<Dim>(0.0, 0.751), box<Dim>(40.0, 0.5), point<Dim>(0.0, 0.25), friction, point<Dim>(speed, 0.0), more);
+      vector_text<Dim>(0.0, 0.751), box<Dim>(40.0, 0.5), vector_text<Dim>(0.0, 0.25), friction,
+      vector_text<Dim>(speed, 0.0), more);
 }
-
-/// With an observer a simulation looks for faults.
-template <int Dim>
-struct Watching final : Observer<Dim> {
-  void on_frame(const Frame<Dim>& /*frame*/) override {}
-};
 
 template <typename Backend>
 class OnEachEngine : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
-  static void run_until(Simulation<dimension>& simulation, double time) {
-    while (simulation.time() < time - 1e-9) simulation.step();
-  }
   static Vec<dimension> place(const Simulation<dimension>& simulation) {
     return simulation.world().states().pose[0].position;
   }
@@ -73,12 +60,12 @@ TYPED_TEST(Belt, DragsABoxByFrictionUpToItsOwnSpeed) {
   constexpr double belt = 2.0;
   for (const char* policy : {"full", "adaptive"}) {
     SCOPED_TRACE(policy);
-    auto simulation = TestFixture::simulation(scene_of<dim>(on_belt<dim>(belt, ", start = 1"), policy));
-    TestFixture::run_until(simulation, 1.0);
+    auto simulation = simulation_on<TypeParam>(scene_of<dim>(on_belt<dim>(belt, ", start = 1"), policy));
+    run_until(simulation, 1.0);
     EXPECT_NEAR(TestFixture::place(simulation)[0], 0.0, 0.005);
-    TestFixture::run_until(simulation, 1.2);
+    run_until(simulation, 1.2);
     EXPECT_NEAR(TestFixture::speed(simulation), friction * gravity * 0.2, 0.1);
-    TestFixture::run_until(simulation, 4.0);
+    run_until(simulation, 4.0);
     EXPECT_NEAR(TestFixture::speed(simulation), belt, 0.05);
     EXPECT_NEAR(TestFixture::place(simulation)[0], 3.0 * belt - belt * belt / (2.0 * friction * gravity), 0.05);
     EXPECT_EQ(simulation.world().obstacle_pose(0).position,
@@ -88,31 +75,32 @@ TYPED_TEST(Belt, DragsABoxByFrictionUpToItsOwnSpeed) {
 
 TYPED_TEST(Belt, LetsItsBodySleepBeforeItRunsAndAfter) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(scene_of<dim>(on_belt<dim>(1.0, ", start = 3, end = 5")));
-  TestFixture::run_until(simulation, 3.0);
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(on_belt<dim>(1.0, ", start = 3, end = 5")));
+  run_until(simulation, 3.0);
   EXPECT_TRUE(simulation.world().awake().empty());
-  TestFixture::run_until(simulation, 4.9);
+  run_until(simulation, 4.9);
   EXPECT_EQ(simulation.world().awake().size(), 1U);
-  TestFixture::run_until(simulation, 8.0);
+  run_until(simulation, 8.0);
   EXPECT_TRUE(simulation.world().awake().empty());
 }
 
 TYPED_TEST(Belt, DoesNotPushWhatStandsAtItsEnd) {
   constexpr int dim = TypeParam::dim;
   std::string text = on_belt<dim>(2.0);
-  text.replace(text.find(point<dim>(0.0, 0.751)), point<dim>(0.0, 0.751).size(), point<dim>(20.502, 0.251));
-  auto simulation = TestFixture::simulation(scene_of<dim>(text, "full"));
-  TestFixture::run_until(simulation, 2.0);
+  text.replace(text.find(vector_text<dim>(0.0, 0.751)), vector_text<dim>(0.0, 0.751).size(),
+               vector_text<dim>(20.502, 0.251));
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(text, "full"));
+  run_until(simulation, 2.0);
   EXPECT_NEAR(TestFixture::place(simulation)[0], 20.502, 0.01);
 }
 
 TYPED_TEST(Belt, CreatesNoEnergyInTheAccount) {
   constexpr int dim = TypeParam::dim;
   const Scene<dim> scene = scene_of<dim>(on_belt<dim>(5.0), "full");
-  auto simulation = TestFixture::simulation(scene);
-  Watching<dim> watching;
-  simulation.add_observer(watching);
-  TestFixture::run_until(simulation, 3.0);
+  auto simulation = simulation_on<TypeParam>(scene);
+  Watcher<dim> watcher;
+  simulation.add_observer(watcher);
+  run_until(simulation, 3.0);
   EXPECT_GT(TestFixture::speed(simulation), 4.9);
   EXPECT_TRUE(simulation.warnings().empty());
 }
@@ -124,15 +112,15 @@ TYPED_TEST_SUITE(Force, SmallStepsBackends, BackendName);
 template <int Dim>
 std::string pushed(double share_of_weight, const std::string& more = "") {
   const double mass =
-      scene_of<Dim>(fmt::format("body = [{{position = {}}}]\n", point<Dim>(0.0, 0.251))).world.shapes[0].mass;
+      scene_of<Dim>(fmt::format("body = [{{position = {}}}]\n", vector_text<Dim>(0.0, 0.251))).world.shapes[0].mass;
   return fmt::format("body = [{{position = {}}}]\n[[event]]\ntime = 2\ndo = \"force\"\nforce = {}\n{}",
-                     point<Dim>(0.0, 0.251), point<Dim>(share_of_weight * mass * gravity, 0.0), more);
+                     vector_text<Dim>(0.0, 0.251), vector_text<Dim>(share_of_weight * mass * gravity, 0.0), more);
 }
 
 TYPED_TEST(Force, BelowTheLimitOfFrictionMovesNothing) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(scene_of<dim>(pushed<dim>(0.9 * friction)));
-  TestFixture::run_until(simulation, 5.0);
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(pushed<dim>(0.9 * friction)));
+  run_until(simulation, 5.0);
   EXPECT_NEAR(TestFixture::place(simulation)[0], 0.0, 0.01);
 }
 
@@ -143,7 +131,7 @@ TYPED_TEST(Force, ActsForItsTimeToTheStep) {
     Scene<dim> scene = scene_of<dim>(pushed<dim>(1.0, "seconds = 0.1\n"));
     scene.bodies[0].def.pose.position[dim - 1] = 50.0;
     scene.events[0].time = first * scene.world.dt;
-    auto simulation = TestFixture::simulation(scene);
+    auto simulation = simulation_on<TypeParam>(scene);
     for (int step = 0; step < first + 20; ++step) simulation.step();
     EXPECT_NEAR(simulation.world().states().velocity[0][0], 0.1 * gravity, 1e-3) << first;
   }
@@ -153,22 +141,22 @@ TYPED_TEST(Force, ActsForItsTimeToTheStep) {
 // Friction is right to 3 % on the engines, which is 5 % of the difference.
 TYPED_TEST(Force, AboveItAcceleratesForItsTime) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(scene_of<dim>(pushed<dim>(friction + 0.3, "seconds = 1\n")));
-  TestFixture::run_until(simulation, 3.0);
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(pushed<dim>(friction + 0.3, "seconds = 1\n")));
+  run_until(simulation, 3.0);
   const double speed = 0.3 * gravity;
   EXPECT_NEAR(TestFixture::place(simulation)[0], 0.5 * speed, 0.05 * speed);
   EXPECT_NEAR(TestFixture::speed(simulation), speed, 0.05 * speed);
-  TestFixture::run_until(simulation, 6.0);
+  run_until(simulation, 6.0);
   EXPECT_NEAR(TestFixture::place(simulation)[0], 0.5 * speed + speed * speed / (2.0 * friction * gravity), 0.2);
   EXPECT_TRUE(simulation.world().awake().empty());
 }
 
 TYPED_TEST(Force, CreatesNoEnergyInTheAccount) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(scene_of<dim>(pushed<dim>(3.0), "full"));
-  Watching<dim> watching;
-  simulation.add_observer(watching);
-  TestFixture::run_until(simulation, 4.0);
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(pushed<dim>(3.0), "full"));
+  Watcher<dim> watcher;
+  simulation.add_observer(watcher);
+  run_until(simulation, 4.0);
   EXPECT_GT(TestFixture::speed(simulation), 20.0);
   EXPECT_TRUE(simulation.warnings().empty());
 }
@@ -197,23 +185,25 @@ TYPED_TEST(Force, EndsWithTheBodyAndWithItsSleep) {
 // Two boxes are pressed against both sides of a third with twice what their friction needs to hold it.
 TYPED_TEST(Force, OfAGripperHoldsABodyInTheAir) {
   constexpr int dim = TypeParam::dim;
-  const Scene<dim> one = scene_of<dim>(fmt::format("body = [{{position = {}}}]\n", point<dim>(0.0, 5.0)));
+  const Scene<dim> one = scene_of<dim>(fmt::format("body = [{{position = {}}}]\n", vector_text<dim>(0.0, 5.0)));
   const double press = 2.0 * one.world.shapes[0].mass * gravity / (2.0 * friction);
   const std::string jaw = "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\n";
   std::string text =
       fmt::format("shape.jaw = {{kind = \"box\", size = {}, friction = {}}}\n", box<dim>(0.5, 0.5), friction);
   for (const double x : {0.0, -0.751, 0.751})
-    text += fmt::format("[[body]]\nshape = \"{}\"\nposition = {}\n", x == 0.0 ? "box" : "jaw", point<dim>(x, 5.251));
+    text +=
+        fmt::format("[[body]]\nshape = \"{}\"\nposition = {}\n", x == 0.0 ? "box" : "jaw", vector_text<dim>(x, 5.251));
   // The jaws stand on columns, the body in the middle on a lid that is taken away.
   for (const double x : {-0.86, 0.86})
-    text += fmt::vformat(jaw, fmt::make_format_args(box<dim>(0.6, 5.0), point<dim>(x, 2.5)));
-  text += fmt::vformat(jaw, fmt::make_format_args(box<dim>(0.9, 0.5), point<dim>(0.0, 4.75))) + "name = \"lid\"\n";
+    text += fmt::vformat(jaw, fmt::make_format_args(box<dim>(0.6, 5.0), vector_text<dim>(x, 2.5)));
+  text +=
+      fmt::vformat(jaw, fmt::make_format_args(box<dim>(0.9, 0.5), vector_text<dim>(0.0, 4.75))) + "name = \"lid\"\n";
   for (const int body : {1, 2})
     text += fmt::format("[[event]]\ntime = 0\ndo = \"force\"\nbody = {}\nforce = {}\n", body,
-                        point<dim>(body == 1 ? press : -press, 0.0));
+                        vector_text<dim>(body == 1 ? press : -press, 0.0));
   text += "[[event]]\ntime = 2\ndo = \"remove\"\nobstacle = \"lid\"\n";
-  auto simulation = TestFixture::simulation(scene_of<dim>(text));
-  TestFixture::run_until(simulation, 4.0);
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(text));
+  run_until(simulation, 4.0);
   EXPECT_NEAR(height<dim>(TestFixture::place(simulation)), 5.25, 0.02);
 }
 
@@ -227,14 +217,14 @@ TYPED_TEST(Adding, OfAnObstacleByAnEventStopsWhatFallsLater) {
       "source = [{{count = 2, rate = 0.5, position = {}, spread = {}, {}}}]\n"
       "[[obstacle]]\nname = \"lid\"\nkind = \"box\"\nsize = {}\nposition = {}\n"
       "[[event]]\ntime = 1.9\ndo = \"add\"\nobstacle = \"lid\"\n",
-      point<dim>(0.0, 4.0), dim == 2 ? "[0, 0]" : "[0, 0, 0]",
-      dim == 2 ? "angle_deg = 0" : "angle_deg = 0, axis = [0, 0, 1]", box<dim>(5.0, 0.5), point<dim>(0.0, 2.0));
+      vector_text<dim>(0.0, 4.0), dim == 2 ? "[0, 0]" : "[0, 0, 0]",
+      dim == 2 ? "angle_deg = 0" : "angle_deg = 0, axis = [0, 0, 1]", box<dim>(5.0, 0.5), vector_text<dim>(0.0, 2.0));
   for (const char* policy : {"full", "adaptive"}) {
     SCOPED_TRACE(policy);
-    auto simulation = TestFixture::simulation(scene_of<dim>(text, policy));
-    TestFixture::run_until(simulation, 1.5);
+    auto simulation = simulation_on<TypeParam>(scene_of<dim>(text, policy));
+    run_until(simulation, 1.5);
     EXPECT_FALSE(simulation.world().has_obstacle(0));
-    TestFixture::run_until(simulation, 6.0);
+    run_until(simulation, 6.0);
     EXPECT_TRUE(simulation.world().has_obstacle(0));
     EXPECT_NEAR(height<dim>(simulation.world().states().pose[0].position), 0.25, 0.03);
     EXPECT_NEAR(height<dim>(simulation.world().states().pose[1].position), 2.5, 0.03);
@@ -246,10 +236,10 @@ TYPED_TEST(Adding, OfABodyOnceTheWorldRestsEndsTheRunAfterIt) {
   const std::string text = fmt::format(
       "body = [{{position = {}}}]\nsource = [{{count = 1, position = {}}}]\n"
       "[[event]]\nwhen = \"rest\"\ndo = \"add\"\nsource = 0\n",
-      point<dim>(0.0, 0.251), point<dim>(3.0, 4.0));
+      vector_text<dim>(0.0, 0.251), vector_text<dim>(3.0, 4.0));
   auto scene = scene_of<dim>(text);
   scene.run.until = until_rest;
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   while (!simulation.finished() && simulation.time() < 60.0) simulation.step();
   EXPECT_TRUE(simulation.at_rest());
   ASSERT_EQ(simulation.world().states().size(), 2);

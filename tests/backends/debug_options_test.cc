@@ -1,6 +1,7 @@
 // Work that a step leaves out changes nothing when a debug option puts it back.
 
 #include <array>
+#include <span>
 #include <utility>
 
 #include "common/simulation/simulation.h"
@@ -10,15 +11,18 @@
 namespace talus::debug_options_test {
 namespace {
 
-constexpr std::array<std::pair<bool DebugOptions::*, const char*>, 7> options_of_the_same_bits = {{
-    {&DebugOptions::step_when_idle, "step_when_idle"},
-    {&DebugOptions::keep_sleepers, "keep_sleepers"},
-    {&DebugOptions::recount_sleepers, "recount_sleepers"},
-    {&DebugOptions::gather_contacts, "gather_contacts"},
-    {&DebugOptions::collide_in_flight, "collide_in_flight"},
-    {&DebugOptions::bullet_compounds, "bullet_compounds"},
-    {&DebugOptions::visit_separate_pairs, "visit_separate_pairs"},
-}};
+using Option = std::pair<bool DebugOptions::*, const char*>;
+constexpr std::array options_of_the_same_bits = {
+    Option{&DebugOptions::step_when_idle, "step_when_idle"},
+    Option{&DebugOptions::keep_sleepers, "keep_sleepers"},
+    Option{&DebugOptions::recount_sleepers, "recount_sleepers"},
+    Option{&DebugOptions::gather_contacts, "gather_contacts"},
+};
+constexpr std::array options_of_bullet = {
+    Option{&DebugOptions::collide_in_flight, "collide_in_flight"},
+    Option{&DebugOptions::bullet_compounds, "bullet_compounds"},
+    Option{&DebugOptions::visit_separate_pairs, "visit_separate_pairs"},
+};
 
 /// What a run of a scene was like.
 struct Outcome {
@@ -66,32 +70,23 @@ class DebugOptionsTest : public BackendTest<Backend> {
     watch.outcome.hash = state_hash(simulation.world().states());
     return watch.outcome;
   }
+
+  static void expect_same_bits(std::span<const Option> options) {
+    for (const char* policy : {"full", "engine", "paper", "adaptive"}) {
+      if (!has_policy<Backend>(policy)) continue;
+      Scene<dimension> scene = two_strings(policy);
+      const Outcome without = run(scene);
+      for (const auto& [option, name] : options) {
+        scene.world.debug = {};
+        scene.world.debug.*option = true;
+        EXPECT_EQ(run(scene), without) << policy << " with " << name;
+      }
+    }
+  }
 };
 TYPED_TEST_SUITE(DebugOptionsTest, Backends, BackendName);
 
-TYPED_TEST(DebugOptionsTest, PutBackWorkWithoutAChangeOfTheBits) {
-  for (const char* policy : {"full", "engine", "paper", "adaptive"}) {
-    if (!has_policy<TypeParam>(policy)) continue;
-    Scene<TypeParam::dim> scene = this->two_strings(policy);
-    const Outcome without = this->run(scene);
-    for (const auto& [option, name] : options_of_the_same_bits) {
-      scene.world.debug = {};
-      scene.world.debug.*option = true;
-      EXPECT_EQ(this->run(scene), without) << policy << " with " << name;
-    }
-  }
-}
-
-TYPED_TEST(DebugOptionsTest, ABouncingBodyHitsTheGroundAsIfItCollidedInFlight) {
-  Scene<TypeParam::dim> scene = this->two_strings("full");
-  for (Shape<TypeParam::dim>& shape : scene.world.shapes) shape.material.restitution = 0.8;
-  scene.world.ground.material.restitution = 0.8;
-  scene.sources[0].count = 4;
-  scene.sources[0].spin_spread = 5.0;
-  const Outcome without = this->run(scene);
-  scene.world.debug.collide_in_flight = true;
-  EXPECT_EQ(this->run(scene), without);
-}
+TYPED_TEST(DebugOptionsTest, PutBackWorkWithoutAChangeOfTheBits) { this->expect_same_bits(options_of_the_same_bits); }
 
 TYPED_TEST(DebugOptionsTest, TheTestSceneRestsInBetweenAndWakes) {
   const Outcome outcome = this->run(this->two_strings("adaptive"));
@@ -112,6 +107,25 @@ TYPED_TEST(DebugOptionsTest, SlowBodiesWithoutContinuousCollisionDoNotSinkIn) {
     }
   }
 }
+
+#ifdef TALUS_BULLET
+template <typename Backend>
+class BulletDebugOptions : public DebugOptionsTest<Backend> {};
+TYPED_TEST_SUITE(BulletDebugOptions, BulletBackends, BackendName);
+
+TYPED_TEST(BulletDebugOptions, PutBackWorkWithoutAChangeOfTheBits) { this->expect_same_bits(options_of_bullet); }
+
+TYPED_TEST(BulletDebugOptions, ABouncingBodyHitsTheGroundAsIfItCollidedInFlight) {
+  Scene<TypeParam::dim> scene = this->two_strings("full");
+  for (Shape<TypeParam::dim>& shape : scene.world.shapes) shape.material.restitution = 0.8;
+  scene.world.ground.material.restitution = 0.8;
+  scene.sources[0].count = 4;
+  scene.sources[0].spin_spread = 5.0;
+  const Outcome without = this->run(scene);
+  scene.world.debug.collide_in_flight = true;
+  EXPECT_EQ(this->run(scene), without);
+}
+#endif
 
 }  // namespace
 }  // namespace talus::debug_options_test

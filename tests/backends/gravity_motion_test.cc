@@ -47,7 +47,6 @@ template <typename Backend>
 class GravityMotion : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   /// Where the box is, in x, once gravity is tilted by this angle [degrees].
   static double place_at(Simulation<dimension>& simulation, double angle) {
     while (simulation.time() < 1.0 + angle / tilt_speed - 1e-9) simulation.step();
@@ -61,7 +60,7 @@ TYPED_TEST(GravityMotion, LetsABoxSlideOnceTheTiltPassesTheFrictionAngle) {
   for (const char* policy : {"full", "adaptive", "paper", "engine"}) {
     if (!has_policy<TypeParam>(policy)) continue;
     SCOPED_TRACE(policy);
-    auto simulation = TestFixture::simulation(tilting<TypeParam::dim>(policy));
+    auto simulation = simulation_on<TypeParam>(tilting<TypeParam::dim>(policy));
     EXPECT_NEAR(TestFixture::place_at(simulation, friction_angle - 1.0), 0.0, 0.01);
     const double way = slide_to(friction_angle + 5.0);
     EXPECT_NEAR(TestFixture::place_at(simulation, friction_angle + 5.0), way, 0.1 * way);
@@ -70,7 +69,7 @@ TYPED_TEST(GravityMotion, LetsABoxSlideOnceTheTiltPassesTheFrictionAngle) {
 
 TYPED_TEST(GravityMotion, LetsASleeperSlideWhereTheTiltIsSlow) {
   constexpr double slow = 0.5;  // [degrees/s]
-  auto simulation = TestFixture::simulation(tilting<TypeParam::dim>("adaptive", slow));
+  auto simulation = simulation_on<TypeParam>(tilting<TypeParam::dim>("adaptive", slow));
   const auto run_to = [&](double angle) {
     while (simulation.time() < 1.0 + angle / slow) simulation.step();
     return simulation.world().states().pose[0].position.x();
@@ -81,7 +80,7 @@ TYPED_TEST(GravityMotion, LetsASleeperSlideWhereTheTiltIsSlow) {
 
 /// A tilt of 2.8 degrees wakes all at each of 0.57 degrees, and a check may follow in the new gravity.
 TYPED_TEST(GravityMotion, WakesSleepersOnlyNowAndThen) {
-  auto simulation = TestFixture::simulation(tilting<TypeParam::dim>("adaptive", 0.2));
+  auto simulation = simulation_on<TypeParam>(tilting<TypeParam::dim>("adaptive", 0.2));
   int asleep = 0;
   int steps = 0;
   int woken = 0;
@@ -100,8 +99,8 @@ TYPED_TEST(GravityMotion, WakesSleepersOnlyNowAndThen) {
 }
 
 TYPED_TEST(GravityMotion, GivesTheSameBitsEachTime) {
-  auto one = TestFixture::simulation(tilting<TypeParam::dim>("adaptive"));
-  auto other = TestFixture::simulation(tilting<TypeParam::dim>("adaptive"));
+  auto one = simulation_on<TypeParam>(tilting<TypeParam::dim>("adaptive"));
+  auto other = simulation_on<TypeParam>(tilting<TypeParam::dim>("adaptive"));
   EXPECT_EQ(TestFixture::place_at(one, 35.0), TestFixture::place_at(other, 35.0));
 }
 

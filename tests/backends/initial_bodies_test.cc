@@ -12,7 +12,7 @@ namespace talus::initial_bodies_test {
 namespace {
 
 template <int Dim>
-struct Nothing final : Observer<Dim> {
+struct EventCounter final : Observer<Dim> {
   void on_frame(const Frame<Dim>& frame) override { events += std::ssize(frame.events); }
   std::int64_t events = 0;
 };
@@ -33,7 +33,6 @@ template <typename Backend>
 class InitialBodies : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
 };
 
 TYPED_TEST_SUITE(InitialBodies, Backends, BackendName);
@@ -44,8 +43,8 @@ TYPED_TEST(InitialBodies, OfAWallStandWhereTheyWerePut) {
     if (!has_policy<TypeParam>(policy)) continue;
     SCOPED_TRACE(policy);
     const Scene<dim> scene = wall<dim>("", policy);
-    auto simulation = TestFixture::simulation(scene);
-    Nothing<dim> observer;
+    auto simulation = simulation_on<TypeParam>(scene);
+    EventCounter<dim> observer;
     simulation.add_observer(observer);
     for (int i = 0; i < 180; ++i) simulation.step();
     simulation.end("finished");
@@ -62,8 +61,8 @@ TYPED_TEST(InitialBodies, OfAWallStandWhereTheyWerePut) {
 TYPED_TEST(InitialBodies, ThatAreAsleepCostNothingUntilSomethingHitsThem) {
   constexpr int dim = TypeParam::dim;
   Scene<dim> scene = wall<dim>("asleep = true", "adaptive");
-  auto still = TestFixture::simulation(scene);
-  Nothing<dim> observer;
+  auto still = simulation_on<TypeParam>(scene);
+  EventCounter<dim> observer;
   still.add_observer(observer);
   for (int i = 0; i < 30; ++i) still.step();
   EXPECT_TRUE(still.world().awake().empty());
@@ -72,7 +71,7 @@ TYPED_TEST(InitialBodies, ThatAreAsleepCostNothingUntilSomethingHitsThem) {
   ball.pose.position = Vec<dim>::Unit(0) * -8.0 + up<dim>(1.0);
   ball.velocity[0] = 30.0;
   scene.bodies.push_back({ball, false});
-  auto hit = TestFixture::simulation(scene);
+  auto hit = simulation_on<TypeParam>(scene);
   std::size_t most_awake = 0;
   for (int i = 0; i < 60; ++i) {
     hit.step();
@@ -83,7 +82,7 @@ TYPED_TEST(InitialBodies, ThatAreAsleepCostNothingUntilSomethingHitsThem) {
 
 TYPED_TEST(InitialBodies, AreAwakeUnderPoliciesThatPutNoneToSleep) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(wall<dim>("asleep = true", "full"));
+  auto simulation = simulation_on<TypeParam>(wall<dim>("asleep = true", "full"));
   simulation.step();
   EXPECT_EQ(simulation.world().awake().size(), simulation.world().states().shape.size());
 }
@@ -91,7 +90,7 @@ TYPED_TEST(InitialBodies, AreAwakeUnderPoliciesThatPutNoneToSleep) {
 TYPED_TEST(InitialBodies, GiveTheSameBitsInEachRun) {
   constexpr int dim = TypeParam::dim;
   const auto hash = [] {
-    auto simulation = TestFixture::simulation(wall<dim>("", "adaptive"));
+    auto simulation = simulation_on<TypeParam>(wall<dim>("", "adaptive"));
     for (int i = 0; i < 60; ++i) simulation.step();
     return state_hash(simulation.world().states());
   };
@@ -105,7 +104,7 @@ TYPED_TEST(InitialBodies, OfAGridOfOneRotationMayTouch) {
       "grid = {}\nspacing = {}\nangle_deg = 0\n{}\n",
       dim, dim == 2 ? "[0.7, 0.3]" : "[0.7, 0.3, 0.3]", dim == 2 ? 30 : 60, dim == 2 ? "[10, 3]" : "[5, 4, 3]",
       dim == 2 ? "[0.7, 0.3]" : "[0.7, 0.3, 0.3]", dim == 2 ? "" : "axis = [0, 0, 1]");
-  auto simulation = TestFixture::simulation(std::get<Scene<dim>>(parse_scene(text, "text")));
+  auto simulation = simulation_on<TypeParam>(std::get<Scene<dim>>(parse_scene(text, "text")));
   simulation.step();
   EXPECT_TRUE(simulation.emitter().finished());
 }

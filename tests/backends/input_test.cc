@@ -46,11 +46,14 @@ TYPED_TEST(BadInput, InAWorldIsRefused) {
   for (const double bad : {nan, -0.5, 1.5}) refused([&](auto& world) { world.ground.material.restitution = bad; });
 }
 
-TYPED_TEST(BadInput, OfASpeedBeyondTheEnginesReachIsRefusedOrSimulated) {
+TYPED_TEST(BadInput, IsASpeedBeyondTheEnginesReachAndNoneWithinIt) {
   constexpr int dim = TypeParam::dim;
   auto world = TypeParam::make(this->description());
+  const Vec<dim> beyond = 1.01 * fastest_speed<dim>(world->dt()) * Vec<dim>::Unit(0);
+  EXPECT_THROW(world->add(this->at(up<dim>(50.0), 1, beyond)), std::invalid_argument);
   // 100 m/s is within what every engine can do at 60 steps a second: 1.7 m a step.
   const BodyIndex fast = world->add(this->at(up<dim>(50.0), 1, 100.0 * Vec<dim>::Unit(0)));
+  EXPECT_THROW(world->set_velocity(fast, beyond, Spin<dim>::Zero()), std::invalid_argument);
   this->run(*world, 0.5);
   EXPECT_NEAR(this->pose(*world, fast).position[0], 50.0, 0.1);
 }

@@ -58,12 +58,6 @@ std::vector<Block> manual_scenes() {
   return scenes;
 }
 
-/// What a run watches its states for is checked while somebody observes it.
-template <int Dim>
-struct Watched final : Observer<Dim> {
-  void on_frame(const Frame<Dim>& /*frame*/) override {}
-};
-
 template <typename Backend>
 class ManualScenes : public ::testing::Test {};
 
@@ -80,7 +74,7 @@ TYPED_TEST(ManualScenes, DropAllTheirBodiesBeforeTheirEndWithoutAWarning) {
     if (scene == nullptr) continue;
     EXPECT_EQ(warnings(*scene), std::vector<std::string>());
     auto simulation = simulation_on<TypeParam>(*scene);
-    Watched<dim> observer;
+    Watcher<dim> observer;
     simulation.add_observer(observer);
     while (!simulation.finished()) simulation.step();
     for (const Warning& warning : simulation.warnings()) ADD_FAILURE() << account(warning);

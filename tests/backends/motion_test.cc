@@ -37,6 +37,7 @@ TYPED_TEST(Motion, OfAFreeBodyKeepsItsSpin) {
   const Vec<dim> axis = this->pose(*world, index).rotation * Vec<dim>::Unit(0);
   const Vec<dim> expected = tilted<dim>(1.0) * Vec<dim>::Unit(0);
   EXPECT_LT((axis - expected).norm(), 1e-3);
+  EXPECT_NEAR((world->states().spin[index] - body.spin).norm(), 0.0, 1e-5);
 }
 
 TYPED_TEST(Motion, OfARestingBoxIsNone) {

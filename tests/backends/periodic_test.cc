@@ -18,11 +18,6 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-template <int Dim>
-std::string point(double x, double z) {
-  return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, 0, {}]", x, z);
-}
-
 /// A world of 10 m from -5 to 5; in 3D of 8 m from -4 to 4 along y too.
 template <int Dim>
 Scene<Dim> scene_of(const std::string& world, const std::string& rest, const std::string& policy = "full") {
@@ -41,20 +36,10 @@ std::string box(const std::string& more = "") {
                      Dim == 2 ? "[1, 0.5]" : "[1, 1, 0.5]", more);
 }
 
-/// With an observer a simulation looks for faults.
-template <int Dim>
-struct Watching final : Observer<Dim> {
-  void on_frame(const Frame<Dim>& /*frame*/) override {}
-};
-
 template <typename Backend>
 class Sides : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
-  static void run_until(Simulation<dimension>& simulation, double time) {
-    while (simulation.time() < time - 1e-9) simulation.step();
-  }
   static const BodyStates<dimension>& states(const Simulation<dimension>& simulation) {
     return simulation.world().states();
   }
@@ -67,10 +52,10 @@ TYPED_TEST(Sides, LetTwoBallsCollideThroughThem) {
   std::string text =
       "ground.present = false\nshape.ball = {kind = \"ball\", radius = 0.5, friction = 0, restitution = 1}\n";
   for (const double side : {-1.0, 1.0})
-    text += fmt::format("[[body]]\nposition = {}\nvelocity = {}\n", point<dim>(2.0 * side, 0.0),
-                        point<dim>(4.0 * side, 0.0));
-  auto simulation = TestFixture::simulation(scene_of<dim>(", gravity = 0", text));
-  TestFixture::run_until(simulation, 1.0);  // they have met 0.625 s after the start, 4.5 m from the middle
+    text += fmt::format("[[body]]\nposition = {}\nvelocity = {}\n", vector_text<dim>(2.0 * side, 0.0),
+                        vector_text<dim>(4.0 * side, 0.0));
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(", gravity = 0", text));
+  run_until(simulation, 1.0);  // they have met 0.625 s after the start, 4.5 m from the middle
   const auto& states = TestFixture::states(simulation);
   for (const int body : {0, 1}) {
     const double side = body == 0 ? -1.0 : 1.0;
@@ -83,13 +68,13 @@ TYPED_TEST(Sides, LetTwoBallsCollideThroughThem) {
 TYPED_TEST(Sides, LetASlidingBoxGoOnAndCreateNoEnergy) {
   constexpr int dim = TypeParam::dim;
   const double angle = 35.0 * std::numbers::pi / 180.0;
-  auto simulation = TestFixture::simulation(
-      scene_of<dim>(fmt::format(", gravity = {}", point<dim>(gravity * std::sin(angle), -gravity * std::cos(angle))),
-                    "ground.friction = 0.5\n" + box<dim>() + "[[body]]\nposition = " + point<dim>(0.0, 0.251) + "\n"));
-  Watching<dim> watching;
-  simulation.add_observer(watching);
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(
+      fmt::format(", gravity = {}", vector_text<dim>(gravity * std::sin(angle), -gravity * std::cos(angle))),
+      "ground.friction = 0.5\n" + box<dim>() + "[[body]]\nposition = " + vector_text<dim>(0.0, 0.251) + "\n"));
+  Watcher<dim> watcher;
+  simulation.add_observer(watcher);
   constexpr double time = 6.0;
-  TestFixture::run_until(simulation, time);
+  run_until(simulation, time);
   const double acceleration = gravity * (std::sin(angle) - 0.5 * std::cos(angle));
   EXPECT_NEAR(TestFixture::states(simulation).velocity[0][0], acceleration * time, 0.03 * acceleration * time);
   // On planar Bullet a fast box runs 1.5 cm deep, in an open world too.
@@ -106,15 +91,15 @@ TYPED_TEST(Sides, CarryABridgeAcrossThemAwakeAndAsleep) {
     SCOPED_TRACE(policy);
     std::string text = "ground.friction = 0.5\n" + box<dim>();
     for (const auto& [x, z] : {std::pair(4.3, 0.251), std::pair(-4.3, 0.251), std::pair(-4.99, 0.753)})
-      text += fmt::format("[[body]]\nposition = {}\n", point<dim>(x, z));
+      text += fmt::format("[[body]]\nposition = {}\n", vector_text<dim>(x, z));
     text += fmt::format("[[source]]\nposition = {}\nstart = 4\ncount = 1\nspread = {}\nspin_spread = 0\n{}\n",
-                        point<dim>(5.0, 1.5), dim == 2 ? "[0, 0]" : "[0, 0, 0]",
+                        vector_text<dim>(5.0, 1.5), dim == 2 ? "[0, 0]" : "[0, 0, 0]",
                         dim == 2 ? "angle_deg = 0" : "angle_deg = 0\naxis = [0, 0, 1]");
-    auto simulation = TestFixture::simulation(scene_of<dim>("", text, policy));
-    TestFixture::run_until(simulation, 3.9);
+    auto simulation = simulation_on<TypeParam>(scene_of<dim>("", text, policy));
+    run_until(simulation, 3.9);
     EXPECT_EQ(simulation.world().awake().empty(), std::string(policy) == "adaptive");
     EXPECT_NEAR(TestFixture::states(simulation).pose[2].position[dim - 1], 0.75, 0.01);
-    TestFixture::run_until(simulation, 12.0);
+    run_until(simulation, 12.0);
     ASSERT_EQ(TestFixture::states(simulation).size(), 4);
     EXPECT_NEAR(TestFixture::states(simulation).pose[3].position[dim - 1], 1.25, 0.01);
     EXPECT_EQ(simulation.world().awake().empty(), std::string(policy) == "adaptive");
@@ -126,9 +111,9 @@ TYPED_TEST(Sides, AreKnownToTheMeasureOfSupport) {
   constexpr int dim = TypeParam::dim;
   std::string text = "ground.friction = 0.5\n" + box<dim>();
   for (const auto& [x, z] : {std::pair(4.3, 0.251), std::pair(-4.99, 0.753)})
-    text += fmt::format("[[body]]\nposition = {}\n", point<dim>(x, z));
+    text += fmt::format("[[body]]\nposition = {}\n", vector_text<dim>(x, z));
   const Scene<dim> scene = scene_of<dim>("", text);
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   simulation.step();
   BodyStates<dim> states = TestFixture::states(simulation);
   states.asleep.assign(2, 1);
@@ -143,9 +128,9 @@ TYPED_TEST(Sides, RepeatObstacles) {
   const std::string text =
       "ground.present = false\n" + box<dim>() +
       fmt::format("[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\n[[body]]\nposition = {}\n",
-                  dim == 2 ? "[2, 1]" : "[2, 2, 1]", point<dim>(5.0, 0.0), point<dim>(-4.5, 1.0));
-  auto simulation = TestFixture::simulation(scene_of<dim>("", text, "adaptive"));
-  TestFixture::run_until(simulation, 3.0);
+                  dim == 2 ? "[2, 1]" : "[2, 2, 1]", vector_text<dim>(5.0, 0.0), vector_text<dim>(-4.5, 1.0));
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>("", text, "adaptive"));
+  run_until(simulation, 3.0);
   EXPECT_NEAR(TestFixture::states(simulation).pose[0].position[dim - 1], 0.75, 0.01);
   EXPECT_TRUE(simulation.world().awake().empty());
 }
@@ -153,8 +138,8 @@ TYPED_TEST(Sides, RepeatObstacles) {
 // A box 1 m wide at x = -4.9, which is at 5.1 too, reaches 0.4 m to the left of the sides.
 TYPED_TEST(Sides, ShareTheVolumeOfABodyBetweenRegions) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(
-      scene_of<dim>("", box<dim>() + "ground.friction = 0.5\n[[body]]\nposition = " + point<dim>(-4.9, 0.251) + "\n"));
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(
+      "", box<dim>() + "ground.friction = 0.5\n[[body]]\nposition = " + vector_text<dim>(-4.9, 0.251) + "\n"));
   simulation.step();
   const auto volume = [&](double from, double to) {
     Vec<dim> low = Vec<dim>::Constant(-2.0);
@@ -172,9 +157,9 @@ TYPED_TEST(Sides, ShareTheVolumeOfABodyBetweenRegions) {
 // the sides three times.
 TYPED_TEST(Sides, LetAGateCountOnceARound) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(scene_of<dim>(
-      ", gravity = 0", "ground.present = false\n" + ball<dim> + "[[body]]\nposition = " + point<dim>(2.5, 0.0) +
-                           "\nvelocity = " + point<dim>(5.0, 0.0) + "\n"));
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>(
+      ", gravity = 0", "ground.present = false\n" + ball<dim> + "[[body]]\nposition = " + vector_text<dim>(2.5, 0.0) +
+                           "\nvelocity = " + vector_text<dim>(5.0, 0.0) + "\n"));
   for (const auto& [place, count] : {std::pair(0.0, 2), std::pair(5.0, 3)}) {
     GateParams<dim> gate{.name = "gate"};
     gate.normal = Vec<dim>::Unit(0);
@@ -223,14 +208,14 @@ TYPED_TEST(Sides, PassOnThatASupportIsGone) {
       fmt::format(
           "[[obstacle]]\nname = \"table\"\nkind = \"box\"\nsize = {}\nposition = {}\n[[body]]\nposition = {}\n"
           "[[event]]\ntime = 4\ndo = \"remove\"\nobstacle = \"table\"\n",
-          dim == 2 ? "[1, 1]" : "[1, 1, 1]", point<dim>(4.7, 0.501), point<dim>(-4.99, 1.252));
+          dim == 2 ? "[1, 1]" : "[1, 1, 1]", vector_text<dim>(4.7, 0.501), vector_text<dim>(-4.99, 1.252));
   const Scene<dim> scene = scene_of<dim>("", text, "adaptive");
   EXPECT_GT(scene.policy.adaptive.rings, 0);
-  auto simulation = TestFixture::simulation(scene);
-  TestFixture::run_until(simulation, 3.9);
+  auto simulation = simulation_on<TypeParam>(scene);
+  run_until(simulation, 3.9);
   EXPECT_TRUE(simulation.world().awake().empty());
   EXPECT_NEAR(TestFixture::states(simulation).pose[0].position[dim - 1], 1.25, 0.01);
-  TestFixture::run_until(simulation, 8.0);
+  run_until(simulation, 8.0);
   EXPECT_NEAR(TestFixture::states(simulation).pose[0].position[dim - 1], 0.25, 0.01);
 }
 
@@ -239,13 +224,13 @@ TYPED_TEST(Sides, PassOnTheWeightOfWhatSleeps) {
   constexpr int dim = TypeParam::dim;
   std::string text = "ground.friction = 0.5\n" + box<dim>() + "policy.adaptive.rings = 2\n";
   for (const auto& [x, z] : {std::pair(4.3, 0.251), std::pair(-4.3, 0.251), std::pair(-4.99, 0.753)})
-    text += fmt::format("[[body]]\nposition = {}\n", point<dim>(x, z));
+    text += fmt::format("[[body]]\nposition = {}\n", vector_text<dim>(x, z));
   text += fmt::format("[[source]]\nposition = {}\nstart = 4\ncount = 1\nspread = {}\nspin_spread = 0\n{}\n",
-                      point<dim>(5.0, 1.5), dim == 2 ? "[0, 0]" : "[0, 0, 0]",
+                      vector_text<dim>(5.0, 1.5), dim == 2 ? "[0, 0]" : "[0, 0, 0]",
                       dim == 2 ? "angle_deg = 0" : "angle_deg = 0\naxis = [0, 0, 1]");
-  auto simulation = TestFixture::simulation(scene_of<dim>("", text, "adaptive"));
+  auto simulation = simulation_on<TypeParam>(scene_of<dim>("", text, "adaptive"));
   for (const auto& [time, bodies] : {std::pair(3.9, 3), std::pair(10.0, 4)}) {
-    TestFixture::run_until(simulation, time);
+    run_until(simulation, time);
     ASSERT_TRUE(simulation.world().awake().empty());
     std::vector<Contact<dim>> contacts;
     simulation.world().sleeping_contacts(ground_index, contacts);

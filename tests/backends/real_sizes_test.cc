@@ -46,7 +46,6 @@ template <typename Backend>
 class RealSizes : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   static void run(Simulation<dimension>& simulation, double time) {
     while (simulation.time() < time - 1e-9) simulation.step();
   }
@@ -61,8 +60,8 @@ TYPED_TEST(RealSizes, GiveTheSameBitsAsTheSameSceneInMetres) {
     SCOPED_TRACE(policy);
     const Scene<dim> of_grains = pour<dim>(1.0 / 1024.0, 1.0 / 32.0, policy);
     EXPECT_EQ(of_grains.world.units.power, 5);
-    auto large = TestFixture::simulation(pour<dim>(1.0, 1.0, policy));
-    auto small = TestFixture::simulation(of_grains);
+    auto large = simulation_on<TypeParam>(pour<dim>(1.0, 1.0, policy));
+    auto small = simulation_on<TypeParam>(of_grains);
     for (int step = 0; step < 600; ++step) {
       large.step();
       small.step();
@@ -83,7 +82,7 @@ TYPED_TEST(RealSizes, GiveTheSameBitsAsTheSameSceneInMetres) {
 // z = z0 - g t^2 / 2, by steps dt: g dt t / 2 more.
 TYPED_TEST(RealSizes, FallAsFastAsBodiesDo) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(read<dim>(fmt::format(
+  auto simulation = simulation_on<TypeParam>(read<dim>(fmt::format(
       "shape.grain = {{kind = \"ball\", radius = 0.0005}}\nbody = [{{position = {}}}]\n", at_height<dim>(0.05))));
   TestFixture::run(simulation, 0.05);
   const double dt = simulation.world().dt();
@@ -109,7 +108,7 @@ TYPED_TEST(RealSizes, RestAtHalfTheirHeight) {
   };
   for (const Case& each : cases) {
     SCOPED_TRACE(each.shape);
-    auto simulation = TestFixture::simulation(read<dim>(
+    auto simulation = simulation_on<TypeParam>(read<dim>(
         fmt::format("shape.it = {{{}}}\nbody = [{{position = {}}}]\n", each.shape, at_height<dim>(2.0 * each.half))));
     TestFixture::run(simulation, each.time);
     EXPECT_NEAR(height<dim>(simulation.world().states().pose[0].position), each.half, 0.07 * each.half);

@@ -43,8 +43,6 @@ class RingTest : public BackendTest<Backend> {
                     "text"));
   }
 
-  static Simulation<dim> simulation(const Scene<dim>& scene) { return simulation_on<Backend>(scene); }
-
   using BackendTest<Backend>::run;
   static void run(Simulation<dim>& simulation, double seconds) {
     for (auto steps = std::llround(60.0 * seconds); steps > 0; --steps) simulation.step();
@@ -82,7 +80,7 @@ TYPED_TEST(RingTest, ABallThatRunsIntoASleepingOnePassesItsMomentumOnInThatStep)
 // engine finds their contact: such contacts start deep, and shake the heap for 20 s.
 TYPED_TEST(RingTest, AHeapOfBallsComesToRest) {
   for (int seed = 1; seed <= 4; ++seed) {
-    auto simulation = TestFixture::simulation(TestFixture::scene(fmt::format(
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
         "seed = {}\nshape.ball = {{kind = \"ball\", radius = 0.5, friction = 0.5, rolling_friction = 0.02}}\n"
         "obstacle = [{{kind = \"container\", inner_size = {}}}]\npile = [{{}}]\n"
         "source = [{{count = 60, rate = 20, position = {}, velocity = {}, spread = {}}}]\n",
@@ -128,7 +126,7 @@ TYPED_TEST(RingTest, BodiesThatWakeCarryTheLoadThatCameInTheirSleepFromTheFirstS
 }
 
 TYPED_TEST(RingTest, AWallThatSleepsFromTheStartFallsWhenItsLowestRowIsRemoved) {
-  auto simulation = TestFixture::simulation(TestFixture::scene(
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(
       fmt::format("run = {{frames = 600}}\nshape.cube = {{kind = \"box\", size = {}, friction = 0.5}}\n"
                   "body = [{{position = {}, repeat = {}, step = {}, asleep = true}}]\n",
                   TestFixture::vector(1, 1, 1), TestFixture::vector(0, 0.5),
@@ -144,7 +142,7 @@ TYPED_TEST(RingTest, AWallThatSleepsFromTheStartFallsWhenItsLowestRowIsRemoved) 
 }
 
 TYPED_TEST(RingTest, APileAtRestHasNoBodyInTheRing) {
-  auto simulation = TestFixture::simulation(TestFixture::scene(
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(
       "run = {frames = 2400}\nshape.L = {kind = \"L\"}\nsource = [{count = 40, rate = 6.6}]\npile = [{}]\n"));
   TestFixture::run(simulation, 35.0);
   EXPECT_EQ(simulation.world().states().size(), 40);
@@ -154,7 +152,7 @@ TYPED_TEST(RingTest, APileAtRestHasNoBodyInTheRing) {
 
 TYPED_TEST(RingTest, ASlowPlatformCarriesAStackOfSleepers) {
   // 10 mm/s for 20 s.
-  auto simulation = TestFixture::simulation(TestFixture::scene(fmt::format(
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
       "run = {{frames = 3000}}\nground.height = -10\nshape.cube = {{kind = \"box\", size = {}, friction = 0.6}}\n"
       "body = [{{position = {}, repeat = {}, step = {}}}]\n"
       "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\nfriction = 0.6\n"
@@ -174,7 +172,7 @@ TYPED_TEST(RingTest, ARowThatASlowPusherMovesNeverHasTwiceTheEnergyOfItsSpeed) {
   // Four cubes, a hundredth of their size apart, at 10 mm/s for each metre of it. In its sleep one comes to the next.
   constexpr double speed = 0.01;
   for (const double size : {1.0, 4.0}) {
-    auto simulation = TestFixture::simulation(TestFixture::scene(fmt::format(
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
         "run = {{frames = 6000}}\nworld.gravity = {}\nshape.cube = {{kind = \"box\", size = {}, friction = 0.5}}\n"
         "body = [{{position = {}, repeat = {}, step = {}}}]\n"
         "[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\n"
@@ -211,7 +209,7 @@ TYPED_TEST(RingTest, DominoesThatGrowByTwoFifthsAllFall) {
     place += 0.47 * height;
     height *= 1.4;
   }
-  auto simulation = TestFixture::simulation(TestFixture::scene("run = {frames = 600}\n" + shapes + bodies));
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene("run = {frames = 600}\n" + shapes + bodies));
   TestFixture::run(simulation, 8.0);
   height = 1.0;
   for (BodyIndex body = 0; body < 5; ++body) {
@@ -226,7 +224,7 @@ TYPED_TEST(RingTest, ARunIsTheSameBitsAgain) {
       "run = {frames = 600}\nshape.L = {kind = \"L\"}\nsource = [{count = 30, rate = 6.6}]\npile = [{}]\n");
   std::array<std::vector<Vec<TypeParam::dim>>, 2> ends;
   for (auto& end : ends) {
-    auto simulation = TestFixture::simulation(scene);
+    auto simulation = simulation_on<TypeParam>(scene);
     TestFixture::run(simulation, 6.0);
     for (const auto& pose : simulation.world().states().pose) end.push_back(pose.position);
   }

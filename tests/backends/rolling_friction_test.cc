@@ -11,11 +11,6 @@
 namespace talus::rolling_friction_test {
 namespace {
 
-template <int Dim>
-std::string at(double x, double height) {
-  return Dim == 2 ? fmt::format("[{}, {}]", x, height) : fmt::format("[{}, 0, {}]", x, height);
-}
-
 /// A ball of radius 0.5 m on the ground with this rolling friction and what `rest` adds.
 template <int Dim>
 Scene<Dim> ball(double rolling_friction, const std::string& policy, const std::string& rest) {
@@ -33,7 +28,7 @@ class RollingFriction : public ::testing::Test {
   /// After so many seconds.
   static Simulation<dimension> run(const Scene<dimension>& scene, double seconds) {
     auto simulation = simulation_on<Backend>(scene);
-    while (simulation.time() < seconds) simulation.step();
+    run_until(simulation, seconds);
     return simulation;
   }
 };
@@ -49,8 +44,8 @@ TYPED_TEST(RollingFriction, StopsABallAfterTheDistanceOfTheClosedForm) {
     const double speed = 2.0;
     const double spin = speed / 0.5;  // clockwise
     const std::string body =
-        fmt::format("body = [{{position = {}, velocity = {}, spin = {}}}]", at<dim>(0, 0.5), at<dim>(speed, 0),
-                    dim == 2 ? fmt::format("{}", -spin) : fmt::format("[0, {}, 0]", spin));
+        fmt::format("body = [{{position = {}, velocity = {}, spin = {}}}]", vector_text<dim>(0, 0.5),
+                    vector_text<dim>(speed, 0), dim == 2 ? fmt::format("{}", -spin) : fmt::format("[0, {}, 0]", spin));
     const double share = dim == 2 ? 0.5 : 0.4;
     const double distance = speed * speed * (1.0 + share) / (2.0 * coefficient * 9.81);
     const double time = 2.0 * distance / speed;
@@ -65,9 +60,11 @@ TYPED_TEST(RollingFriction, HoldsABallOnASlopeUpToItsTangent) {
   constexpr int dim = TypeParam::dim;
   for (const double degrees : {5.0, 7.0}) {  // atan(0.1) is 5.7 degrees
     SCOPED_TRACE(degrees);
-    const std::string gravity = at<dim>(9.81 * std::sin(in_radians(degrees)), -9.81 * std::cos(in_radians(degrees)));
+    const std::string gravity =
+        vector_text<dim>(9.81 * std::sin(in_radians(degrees)), -9.81 * std::cos(in_radians(degrees)));
     const auto simulation = TestFixture::run(
-        ball<dim>(0.1, "full", fmt::format("world.gravity = {}\nbody = [{{position = {}}}]", gravity, at<dim>(0, 0.5))),
+        ball<dim>(0.1, "full",
+                  fmt::format("world.gravity = {}\nbody = [{{position = {}}}]", gravity, vector_text<dim>(0, 0.5))),
         5.0);
     const double way = simulation.world().states().pose[0].position[0];
     if (degrees < 5.7)
@@ -82,7 +79,7 @@ TYPED_TEST(RollingFriction, LetsAHeapOfBallsComeToRestUnderEachPolicy) {
   const std::string heap = fmt::format(
       "run = {{until = \"rest\", frames = 1500}}\n"
       "source = [{{count = 40, position = {}, velocity = {}}}]\npile = [{{}}]",
-      at<dim>(0, 10), at<dim>(0, -8));
+      vector_text<dim>(0, 10), vector_text<dim>(0, -8));
   for (const char* policy : {"full", "adaptive"}) {
     SCOPED_TRACE(policy);
     const Scene<dim> scene = ball<dim>(0.2, policy, heap);
@@ -100,9 +97,12 @@ TYPED_TEST(RollingFriction, OfBodiesWithFlatSidesCreatesNoEnergy) {
         fmt::format("title = \"L\"\ndimension = {}\nseed = {}\npolicy.kind = \"full\"\n"
                     "shape.L = {{kind = \"L\", friction = 3.6, rolling_friction = 3}}\nground.friction = 3.6\n"
                     "source = [{{count = 60, rate = 6.6, position = {}, velocity = {}}}]\n",
-                    dim, seed, at<dim>(0, 8), at<dim>(0, -10)),
+                    dim, seed, vector_text<dim>(0, 8), vector_text<dim>(0, -10)),
         "text"));
-    const auto simulation = TestFixture::run(scene, 12.0);
+    auto simulation = simulation_on<TypeParam>(scene);
+    Watcher<dim> watcher;
+    simulation.add_observer(watcher);
+    run_until(simulation, 12.0);
     for (const Warning& warning : simulation.warnings()) ADD_FAILURE() << "seed " << seed << ": " << account(warning);
   }
 }
@@ -111,7 +111,7 @@ TYPED_TEST(RollingFriction, OfASleepingBallIsThatOfAnAwakeOne) {
   constexpr int dim = TypeParam::dim;
   const std::string heap =
       fmt::format("run = {{frames = 900}}\nsource = [{{count = 30, position = {}, velocity = {}}}]\npile = [{{}}]",
-                  at<dim>(0, 10), at<dim>(0, -8));
+                  vector_text<dim>(0, 10), vector_text<dim>(0, -8));
   auto simulation = TestFixture::run(ball<dim>(0.1, "adaptive", heap), 25.0);
   EXPECT_LT(simulation.world().awake().size(), 3U);
   simulation.thaw_all();

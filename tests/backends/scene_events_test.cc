@@ -9,11 +9,6 @@
 namespace talus::scene_events_test {
 namespace {
 
-template <int Dim>
-std::string at(double x, double height) {
-  return Dim == 2 ? fmt::format("[{}, {}]", x, height) : fmt::format("[{}, 0, {}]", x, height);
-}
-
 /// Three cubes on each other on a platform whose upper side is at a height of 2 m, and these events.
 template <int Dim>
 Scene<Dim> stack(const std::string& events, const std::string& policy = "adaptive") {
@@ -23,8 +18,8 @@ Scene<Dim> stack(const std::string& events, const std::string& policy = "adaptiv
       "pile = [{{alpha_deg = 30}}]\n"
       "[[body]]\nposition = {}\nrepeat = {}\nstep = {}\n"
       "[[obstacle]]\nname = \"platform\"\nkind = \"box\"\nsize = {}\nposition = {}\n{}",
-      Dim, policy, Dim == 2 ? "[1, 1]" : "[1, 1, 1]", at<Dim>(0, 2.5), Dim == 2 ? "[1, 3]" : "[1, 1, 3]", at<Dim>(0, 1),
-      Dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", at<Dim>(0, 1.75), events);
+      Dim, policy, Dim == 2 ? "[1, 1]" : "[1, 1, 1]", vector_text<Dim>(0, 2.5), Dim == 2 ? "[1, 3]" : "[1, 1, 3]",
+      vector_text<Dim>(0, 1), Dim == 2 ? "[6, 0.5]" : "[6, 6, 0.5]", vector_text<Dim>(0, 1.75), events);
   return std::get<Scene<Dim>>(parse_scene(text, "text"));
 }
 
@@ -32,10 +27,6 @@ template <typename Backend>
 class SceneEvents : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
-  static void run_until(Simulation<dimension>& simulation, double time) {
-    while (simulation.time() < time - 1e-9) simulation.step();
-  }
   static void run(Simulation<dimension>& simulation) {
     while (!simulation.finished()) simulation.step();
   }
@@ -51,7 +42,7 @@ TYPED_TEST(SceneEvents, RemoveAnObstacleAtRestAndWhatLayOnItFalls) {
   for (const char* policy : {"full", "engine", "paper", "adaptive"}) {
     if (!has_policy<TypeParam>(policy)) continue;
     SCOPED_TRACE(policy);
-    auto simulation = TestFixture::simulation(
+    auto simulation = simulation_on<TypeParam>(
         stack<dim>("[[event]]\nwhen = \"rest\"\ndo = \"remove\"\nobstacle = \"platform\"\n", policy));
     TestFixture::run(simulation);
     ASSERT_EQ(simulation.done_events().size(), 1U);
@@ -64,8 +55,8 @@ TYPED_TEST(SceneEvents, RemoveAnObstacleAtRestAndWhatLayOnItFalls) {
 
 TYPED_TEST(SceneEvents, RemoveBodiesByNumberAndThoseAboveFall) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(stack<dim>("[[event]]\ntime = 3\ndo = \"remove\"\nbody = 0\n"));
-  TestFixture::run_until(simulation, 3.0);
+  auto simulation = simulation_on<TypeParam>(stack<dim>("[[event]]\ntime = 3\ndo = \"remove\"\nbody = 0\n"));
+  run_until(simulation, 3.0);
   EXPECT_TRUE(simulation.world().awake().empty());
   TestFixture::run(simulation);
   EXPECT_EQ(simulation.world().states().removed[0], 1);
@@ -77,7 +68,7 @@ TYPED_TEST(SceneEvents, MeanBodiesWithinABox) {
   constexpr int dim = TypeParam::dim;
   const std::string box =
       fmt::format("box = [{}, {}]", dim == 2 ? "[-1, 4]" : "[-1, -1, 4]", dim == 2 ? "[1, 9]" : "[1, 1, 9]");
-  auto simulation = TestFixture::simulation(stack<dim>("[[event]]\ntime = 1\ndo = \"remove\"\n" + box + "\n"));
+  auto simulation = simulation_on<TypeParam>(stack<dim>("[[event]]\ntime = 1\ndo = \"remove\"\n" + box + "\n"));
   TestFixture::run(simulation);
   EXPECT_EQ(simulation.world().states().removed, (std::vector<std::uint8_t>{0, 0, 1}));
 }
@@ -85,19 +76,23 @@ TYPED_TEST(SceneEvents, MeanBodiesWithinABox) {
 TYPED_TEST(SceneEvents, KickASleeper) {
   constexpr int dim = TypeParam::dim;
   const std::string kick =
-      fmt::format("[[event]]\ntime = 3\ndo = \"kick\"\nbody = [2]\nvelocity = {}\n", at<dim>(0, 4));
-  auto simulation = TestFixture::simulation(stack<dim>(kick));
-  TestFixture::run_until(simulation, 3.3);
+      fmt::format("[[event]]\ntime = 3\ndo = \"kick\"\nbody = [2]\nvelocity = {}\n", vector_text<dim>(0, 4));
+  auto simulation = simulation_on<TypeParam>(stack<dim>(kick));
+  run_until(simulation, 3.0);
+  ASSERT_TRUE(simulation.world().awake().empty());
+  run_until(simulation, 3.3);
   EXPECT_NEAR(TestFixture::height_of(simulation, 2), 4.5 + 4 * 0.3 - 0.5 * 9.81 * 0.09, 0.1);
   EXPECT_NEAR(TestFixture::height_of(simulation, 1), 3.5, 0.05);
 }
 
 TYPED_TEST(SceneEvents, ChangeGravityForAllBodies) {
   constexpr int dim = TypeParam::dim;
-  const std::string event = fmt::format("[[event]]\ntime = 3\ndo = \"gravity\"\ngravity = {}\n", at<dim>(0, 2));
-  auto simulation = TestFixture::simulation(stack<dim>(event));
-  TestFixture::run_until(simulation, 4.0);
-  EXPECT_NEAR(TestFixture::height_of(simulation, 2), 4.5 + 0.5 * 2.0, 0.1);
+  const std::string event =
+      fmt::format("[[event]]\ntime = 3\ndo = \"gravity\"\ngravity = {}\n", vector_text<dim>(0, 2));
+  auto simulation = simulation_on<TypeParam>(stack<dim>(event));
+  run_until(simulation, 4.0);
+  for (const BodyIndex body : {0, 1, 2})
+    EXPECT_NEAR(TestFixture::height_of(simulation, body), 2.5 + body + 0.5 * 2.0, 0.1) << body;
 }
 
 TYPED_TEST(SceneEvents, WaitForALayerToBeDense) {
@@ -106,10 +101,10 @@ TYPED_TEST(SceneEvents, WaitForALayerToBeDense) {
       "[[source]]\nposition = {}\ncount = 40\nrate = 5\nvelocity = {}\n"
       "[[event]]\nwhen = \"layer_density\"\ndensity = 0.3\ndo = \"wake\"\n"
       "[[event]]\nwhen = \"layer_density\"\ndensity = 900\ndo = \"wake\"\n",
-      at<dim>(20, 12), at<dim>(0, -10));
+      vector_text<dim>(20, 12), vector_text<dim>(0, -10));
   for (const char* policy : {"full", "adaptive"}) {
     SCOPED_TRACE(policy);
-    auto simulation = TestFixture::simulation(stack<dim>(more, policy));
+    auto simulation = simulation_on<TypeParam>(stack<dim>(more, policy));
     double densest_before = 0.0;
     while (simulation.done_events().empty() && simulation.time() < 12.0) {
       densest_before = 0.0;
@@ -126,14 +121,14 @@ TYPED_TEST(SceneEvents, WaitForALayerToBeDense) {
 TYPED_TEST(SceneEvents, SwitchThePolicyAndBack) {
   constexpr int dim = TypeParam::dim;
   auto simulation =
-      TestFixture::simulation(stack<dim>("[[event]]\ntime = 2\ndo = \"policy\"\npolicy = \"adaptive\"\n"
-                                         "[[event]]\ntime = 5\ndo = \"policy\"\npolicy = \"full\"\n",
-                                         "full"));
-  TestFixture::run_until(simulation, 2.0);
+      simulation_on<TypeParam>(stack<dim>("[[event]]\ntime = 2\ndo = \"policy\"\npolicy = \"adaptive\"\n"
+                                          "[[event]]\ntime = 5\ndo = \"policy\"\npolicy = \"full\"\n",
+                                          "full"));
+  run_until(simulation, 2.0);
   EXPECT_EQ(simulation.world().awake().size(), 3U);
-  TestFixture::run_until(simulation, 5.0);
+  run_until(simulation, 5.0);
   EXPECT_TRUE(simulation.world().awake().empty());
-  TestFixture::run_until(simulation, 6.0);
+  run_until(simulation, 6.0);
   EXPECT_EQ(simulation.world().awake().size(), 3U);
 }
 
@@ -143,15 +138,15 @@ TYPED_TEST(SceneEvents, ChangeTheRateOfASource) {
       stack<dim>("").toml + fmt::format(
                                 "[[source]]\nposition = {}\nvelocity = {}\ncount = 10\nrate = 0.01\n"
                                 "[[event]]\nbodies = 4\ndo = \"rate\"\nrate = 5\n",
-                                at<dim>(-20, 20), at<dim>(0, -12));
-  auto simulation = TestFixture::simulation(std::get<Scene<dim>>(parse_scene(text, "text")));
-  TestFixture::run_until(simulation, 4.0);
+                                vector_text<dim>(-20, 20), vector_text<dim>(0, -12));
+  auto simulation = simulation_on<TypeParam>(std::get<Scene<dim>>(parse_scene(text, "text")));
+  run_until(simulation, 4.0);
   EXPECT_EQ(simulation.emitter().emitted(), 13);
 }
 
 TYPED_TEST(SceneEvents, WaitForOneRestEach) {
   constexpr int dim = TypeParam::dim;
-  auto simulation = TestFixture::simulation(
+  auto simulation = simulation_on<TypeParam>(
       stack<dim>("[[event]]\nwhen = \"rest\"\ndo = \"wake\"\n[[event]]\nwhen = \"rest\"\ndo = \"picture\"\n"));
   TestFixture::run(simulation);
   ASSERT_EQ(simulation.done_events().size(), 2U);

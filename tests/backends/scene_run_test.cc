@@ -25,8 +25,6 @@ class SceneRun : public ::testing::Test {
   static constexpr int dimension = Backend::dim;
 
   static std::string ending() { return dimension == 2 ? "_2d.toml" : "_3d.toml"; }
-
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
 };
 
 TYPED_TEST_SUITE(SceneRun, SmallStepsBackends, BackendName);
@@ -38,7 +36,7 @@ TYPED_TEST(SceneRun, DropsWhatIsDueAndKeepsItAboveTheGround) {
     if (!entry.path().string().ends_with(TestFixture::ending())) continue;
     SCOPED_TRACE(entry.path());
     const auto scene = std::get<Scene<dim>>(read_scene(entry.path()));
-    auto simulation = TestFixture::simulation(scene);
+    auto simulation = simulation_on<TypeParam>(scene);
     while (simulation.time() < 70.0 / 60.0) simulation.step();
     double due = 0.0;
     for (const Source<dim>& source : scene.sources)
@@ -61,7 +59,7 @@ TYPED_TEST(SceneRun, APileWithoutAPlaceBeginsWhereTheFirstBodyTouchesDown) {
   scene.piles = {PileParams<dim>{}};
   scene.sources.resize(1);
   scene.sources[0].position[0] = 3.0;
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   while (simulation.piles().piles().empty() && simulation.frame().step < 600) simulation.step();
   ASSERT_EQ(simulation.piles().piles().size(), 1U);
   const Vec<dim>& centre = simulation.piles().piles().front().centre;
@@ -78,7 +76,7 @@ TYPED_TEST(SceneRun, APileWithoutASlopeFindsItsOwn) {
   const std::vector<Override> few = {{"source[0].count=150"}};
   auto scene = std::get<Scene<dim>>(read_scene(scene_folder / ("drop_in_a_pile" + TestFixture::ending()), few));
   scene.piles[0].alpha.reset();
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   while (!simulation.emitter().finished()) simulation.step();
   for (int i = 0; i < 300; ++i) simulation.step();
   const std::vector<PlacedBody<dim>> bodies = placed_bodies<dim>(scene.world.shapes, simulation.world().states());
@@ -97,7 +95,7 @@ TYPED_TEST(SceneRun, KeepsRingsInTheirBox) {
   const fs::path file = scene_folder / ("rings_in_a_box" + TestFixture::ending());
   const auto scene = std::get<Scene<dim>>(read_scene(file, few));
   const Boundary<dim>& box = *scene.piles.at(0).boundary;
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   while (simulation.time() < 400.0 / 60.0) simulation.step();
   const BodyStates<dim>& states = simulation.world().states();
   ASSERT_EQ(states.size(), 50);
@@ -122,7 +120,7 @@ TYPED_TEST(SceneRun, KeepsBallsInWallsBuiltAroundAPile) {
       dim, flat ? "[5, 6]" : "[5, 5, 6]", flat ? "[0.5, -8]" : "[0.5, 0.3, -8]", flat ? "[5, 2]" : "[5, 5, 2]",
       flat ? "kind = \"box\"\nsize = [6]" : "kind = \"cylinder\"\nradius = 1.5");
   const auto scene = std::get<Scene<dim>>(parse_scene(text, "text"));
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   for (int i = 0; i < 480; ++i) simulation.step();
   const std::vector<Pose<dim>>& poses = simulation.world().states().pose;
   ASSERT_EQ(poses.size(), 30u);
@@ -142,7 +140,7 @@ TYPED_TEST(SceneRun, ASpoutDoesNotClimbOnWhatItHasJustDropped) {
       "title = \"A spout that swings\"\ndimension = {}\nshape.box = {{kind = \"box\", size = {}}}\n[[source]]\n"
       "count = 60\nrate = 15\nposition = {}\nsweep = {}\nsweep_period = 2\nride_above = 1.5\n",
       dim, flat ? "[0.3, 0.3]" : "[0.3, 0.3, 0.3]", flat ? "[0, 1.5]" : "[0, 0, 1.5]", flat ? "[3, 0]" : "[3, 0, 0]");
-  auto simulation = TestFixture::simulation(std::get<Scene<dim>>(parse_scene(text, "text")));
+  auto simulation = simulation_on<TypeParam>(std::get<Scene<dim>>(parse_scene(text, "text")));
   double highest = 0.0;
   while (!simulation.emitter().finished() && simulation.frame().step < 600) {
     simulation.step();
@@ -158,7 +156,7 @@ TYPED_TEST(SceneRun, DropsAGridAtOnce) {
   constexpr int dim = TypeParam::dim;
   const fs::path file = scene_folder / ("bunny_matrices_45" + TestFixture::ending());
   const auto scene = std::get<Scene<dim>>(read_scene(file));
-  auto simulation = TestFixture::simulation(scene);
+  auto simulation = simulation_on<TypeParam>(scene);
   const int grid = dim == 2 ? 100 : 108;
   const double period = grid / scene.sources[0].rate;
   simulation.step();

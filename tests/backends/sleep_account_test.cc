@@ -12,11 +12,6 @@
 namespace talus::sleep_account_test {
 namespace {
 
-template <int Dim>
-std::string at(double x, double height) {
-  return Dim == 2 ? fmt::format("[{}, {}]", x, height) : fmt::format("[{}, 0, {}]", x, height);
-}
-
 /// Sixteen cubes of 1 m side by side on the ground, from x = -8.25 m to 8.25 m, and what `rest` adds.
 template <int Dim>
 Scene<Dim> row(const std::string& rest = "", const std::string& policy = "adaptive") {
@@ -24,7 +19,7 @@ Scene<Dim> row(const std::string& rest = "", const std::string& policy = "adapti
       "title = \"Row\"\ndimension = {}\npolicy.kind = \"{}\"\nrun = {{frames = 9000}}\npile = [{{alpha_deg = 30}}]\n"
       "shape.cube = {{kind = \"box\", size = {}, friction = 0.8}}\n"
       "[[body]]\nposition = {}\nrepeat = {}\nstep = {}\n{}",
-      Dim, policy, Dim == 2 ? "[1, 1]" : "[1, 1, 1]", at<Dim>(0, 0.5), Dim == 2 ? "[16, 1]" : "[16, 1, 1]",
+      Dim, policy, Dim == 2 ? "[1, 1]" : "[1, 1, 1]", vector_text<Dim>(0, 0.5), Dim == 2 ? "[16, 1]" : "[16, 1, 1]",
       Dim == 2 ? "[1.1, 1]" : "[1.1, 1, 1]", rest);
   return std::get<Scene<Dim>>(parse_scene(text, "text"));
 }
@@ -39,7 +34,8 @@ std::string obstacles() {
       "[[event]]\ntime = 5\ndo = \"remove\"\nobstacle = \"platform\"\n"
       "[[event]]\ntime = 7\ndo = \"policy\"\npolicy = \"paper\"\n"
       "[[event]]\ntime = 8\ndo = \"policy\"\npolicy = \"adaptive\"\n",
-      Dim == 2 ? "[1, 1]" : "[1, 1, 1]", at<Dim>(-9.45, 0.5), at<Dim>(0, 0), at<Dim>(0.5, 0), at<Dim>(40, 0.5));
+      Dim == 2 ? "[1, 1]" : "[1, 1, 1]", vector_text<Dim>(-9.45, 0.5), vector_text<Dim>(0, 0), vector_text<Dim>(0.5, 0),
+      vector_text<Dim>(40, 0.5));
 }
 
 template <int Dim>
@@ -51,7 +47,6 @@ template <typename Backend>
 class SleepAccount : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static Simulation<dimension> simulation(const Scene<dimension>& scene) { return simulation_on<Backend>(scene); }
   /// Steps; returns how many bodies checks woke.
   static int steps(Simulation<dimension>& simulation, int count) {
     int woken = 0;
@@ -65,7 +60,7 @@ class SleepAccount : public ::testing::Test {
   /// Bodies that checks wake in a row that was disturbed again and again, once a second row lies on it.
   template <typename Disturb>
   static int checked_after(Disturb disturb) {
-    auto simulation = SleepAccount::simulation(row<dimension>("[policy.adaptive]\nrings = 0\n"));
+    auto simulation = simulation_on<Backend>(row<dimension>("[policy.adaptive]\nrings = 0\n"));
     steps(simulation, 300);
     for (int i = 0; i < 30; ++i) disturb(simulation);
     steps(simulation, 120);
@@ -161,19 +156,14 @@ void expect_agreement(const Frame<Dim>& frame, const std::vector<std::uint8_t>& 
   EXPECT_TRUE(frame.piles.counts_match(states));
 }
 
-struct Nobody final : Observer<2>, Observer<3> {
-  void on_frame(const Frame<2>&) override {}
-  void on_frame(const Frame<3>&) override {}
-};
-
 TYPED_TEST(SleepAccount, OfPolicyAndEventsEqualsARecountWhateverIsDone) {
   constexpr int dim = TypeParam::dim;
   const std::string tilting = "[world.gravity_motion]\nkind = \"turn\"\nspeed_deg = 3\n";
-  const std::string sources = fmt::format("[[source]]\ncount = 20\nrate = 4\nposition = {}\n", at<dim>(6, 8));
+  const std::string sources = fmt::format("[[source]]\ncount = 20\nrate = 4\nposition = {}\n", vector_text<dim>(6, 8));
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
     const bool by_plan = seed % 2 == 0 && dim == 2;
-    auto run = TestFixture::simulation(row<dim>(sources + obstacles<dim>() + (by_plan ? tilting : "")));
+    auto run = simulation_on<TypeParam>(row<dim>(sources + obstacles<dim>() + (by_plan ? tilting : "")));
     std::mt19937_64 random(seed);
     std::vector<std::uint8_t> asleep;
     for (int step = 0; step < 720 && !::testing::Test::HasFailure(); ++step) {
@@ -187,9 +177,9 @@ TYPED_TEST(SleepAccount, OfPolicyAndEventsEqualsARecountWhateverIsDone) {
 
 TYPED_TEST(SleepAccount, TellsEachWakingOnceWhereTheEngineHasItsOwnRule) {
   constexpr int dim = TypeParam::dim;
-  auto run = TestFixture::simulation(row<dim>("", "engine"));
-  Nobody nobody;
-  run.add_observer(nobody);
+  auto run = simulation_on<TypeParam>(row<dim>("", "engine"));
+  Watcher<dim> watcher;
+  run.add_observer(watcher);
   std::vector<std::uint8_t> asleep;
   std::size_t events = 0;
   for (int step = 0; step < 600 && !::testing::Test::HasFailure(); ++step) {
@@ -206,9 +196,9 @@ TYPED_TEST(SleepAccount, TellsEachWakingOnceWhereTheEngineHasItsOwnRule) {
 TYPED_TEST(SleepAccount, AllBodiesSleepInWhateverGravityComes) {
   constexpr int dim = TypeParam::dim;
   const std::string wall = fmt::format("[[obstacle]]\nkind = \"box\"\nsize = {}\nposition = {}\n",
-                                       dim == 2 ? "[1, 80]" : "[1, 80, 80]", at<dim>(-10.25, 0));
+                                       dim == 2 ? "[1, 80]" : "[1, 80, 80]", vector_text<dim>(-10.25, 0));
   const auto all_sleep_in = [&](const Vec<dim>& gravity) {
-    auto run = TestFixture::simulation(row<dim>(wall));
+    auto run = simulation_on<TypeParam>(row<dim>(wall));
     TestFixture::steps(run, 300);
     EXPECT_TRUE(run.world().awake().empty()) << "before";
     run.do_event({.action = EventAction::gravity, .gravity = gravity});

@@ -17,6 +17,7 @@ template <typename Backend>
 class SlopeControl : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
+  static inline Watcher<dimension> watcher;  // of all simulations, which are returned
 
   static Scene<dimension> shipped(const std::string& name, int seed) {
     const std::string file = name + (dimension == 2 ? "_2d.toml" : "_3d.toml");
@@ -40,6 +41,7 @@ class SlopeControl : public ::testing::Test {
   /// Fifteen seconds after the pour.
   static Simulation<dimension> poured(const Scene<dimension>& scene) {
     auto simulation = simulation_on<Backend>(scene);
+    simulation.add_observer(watcher);
     while (!simulation.emitter().finished()) simulation.step();
     run_on(simulation, 15.0);
     for (const Warning& warning : simulation.warnings()) ADD_FAILURE() << account(warning);

@@ -19,7 +19,7 @@ namespace {
 
 /// As the tools have one; with it the run is watched for bodies that get past others.
 template <int Dim>
-struct Watcher final : Observer<Dim> {
+struct WarningList final : Observer<Dim> {
   void on_frame(const Frame<Dim>& frame) override {
     warnings.clear();
     for (const Warning& warning : frame.warnings) warnings.push_back(account(warning));
@@ -54,7 +54,7 @@ class ThreadsTest : public BackendTest<Backend> {
                     plane ? "[60, 1]" : "[10, 10, 1]", plane ? "[1.6, 0]" : "[1.6, 1.6, 0]"),
         "text"));
     auto simulation = simulation_on<Backend>(scene);
-    Watcher<dim> watcher;
+    WarningList<dim> watcher;
     simulation.add_observer(watcher);
     Outcome outcome;
     for (int step = 0; step < 90; ++step) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/pile/pile_fields.h"
+#include "common/scene/instrument_fields.h"
 #include "common/scene/policy_fields.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_fields.h"
@@ -27,15 +28,6 @@ std::string numbers(const Pose<Dim>& pose) {
   return numbers(pose.position) + " turned" + numbers(pose.rotation.toRotationMatrix());
 }
 
-template <int Dim>
-std::string description(const Shape<Dim>& shape) {
-  std::string text =
-      fmt::format("{}: density {} friction {} restitution {} mass {} inertia{} bounds{}{}\n", shape.name,
-                  shape.material.density, shape.material.friction, shape.material.restitution, shape.mass,
-                  numbers(shape.inertia), numbers(shape.bounds.min()), numbers(shape.bounds.max()));
-  return text;
-}
-
 /// All fields of a struct by name.
 template <typename S>
 std::string description(const S& params, std::type_identity_t<Fields<S>> fields) {
@@ -48,6 +40,13 @@ std::string description(const S& params, std::type_identity_t<Fields<S>> fields)
     std::visit(add, value_of(params, field));
   }
   return text;
+}
+
+template <int Dim>
+std::string description(const Shape<Dim>& shape) {
+  return fmt::format("{}: mass {} inertia{} bounds{}{}\n", shape.name, shape.mass, numbers(shape.inertia),
+                     numbers(shape.bounds.min()), numbers(shape.bounds.max())) +
+         description(shape.material, surface_fields) + description(shape.material, body_material_fields);
 }
 
 template <int Dim>
@@ -84,13 +83,49 @@ std::string description(const InitialBody<Dim>& body) {
                      numbers(body.def.velocity), numbers(body.def.spin), body.asleep);
 }
 
+template <int Dim>
+std::string description(const Motion<Dim>& motion) {
+  std::string text = fmt::format("motion{} {} {}{} from {} to {} times {} angles {} axis{}", numbers(motion.amplitude),
+                                 motion.frequency, motion.speed, numbers(motion.belt), motion.start,
+                                 motion.end ? fmt::format("{}", *motion.end) : "its last step",
+                                 fmt::join(motion.times, " "), fmt::join(motion.angles, " "), numbers(motion.axis));
+  for (const Vec<Dim>& shift : motion.shifts) text += " shift" + numbers(shift);
+  return text + "\n";
+}
+
+template <int Dim>
+std::string description(const Event<Dim>& event) {
+  return fmt::format("event {} of {} obstacle {}\n", to_string(event.action), fmt::join(event.shapes, " "),
+                     event.obstacle.value_or(-1)) +
+         description(event, event_fields<Dim>);
+}
+
+template <int Dim>
+std::string description(const Instruments<Dim>& instruments) {
+  std::string text;
+  for (const GateParams<Dim>& gate : instruments.gates) text += "gate\n" + description(gate, gate_fields<Dim>);
+  for (const RegionParams<Dim>& region : instruments.regions)
+    text += "region\n" + description(region, region_fields<Dim>);
+  for (const LoadParams<Dim>& load : instruments.loads)
+    text += fmt::format("load on {} {}\n", load.on_ground, fmt::join(load.obstacles, " ")) +
+            description(load, load_fields<Dim>);
+  return text;
+}
+
 /// Everything but the TOML that it came from.
 template <int Dim>
 std::string description(const Scene<Dim>& scene) {
   std::string text = fmt::format("{}, {}D, seed {}\n", scene.title, Dim, scene.seed) + description(scene.world);
   for (const InitialBody<Dim>& body : scene.bodies) text += description(body);
   for (const Source<Dim>& source : scene.sources) text += description(source);
+  for (const Mover<Dim>& mover : scene.movers)
+    text += fmt::format("mover {} {}{} ", mover.first, mover.count, numbers(mover.pivot)) + description(mover.motion);
+  if (scene.gravity_motion) text += "gravity " + description(*scene.gravity_motion);
+  for (const ObstacleName& name : scene.obstacle_names)
+    text += fmt::format("obstacles {} {} {}\n", name.name, name.first, name.count);
+  for (const Event<Dim>& event : scene.events) text += description(event);
   for (const PileParams<Dim>& pile : scene.piles) text += description(pile);
+  text += description(scene.instruments) + scene.accuracy + "\n";
   return text + description(scene.policy, policy_fields) + description(scene.policy.paper, paper_fields) +
          description(scene.policy.adaptive, adaptive_fields) + description(scene.run, run_fields);
 }

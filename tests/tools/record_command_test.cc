@@ -61,14 +61,6 @@ TEST(CompareCommand, NamesTheStepOfTheFirstSleepDecisionAndTheDifferenceSoonAfte
   EXPECT_LT(json["motion"]["S"], 1.0);
 }
 
-TEST(CompareCommand, RefusesAFolderThatIsNoRun) {
-  const TemporaryFolder folder;
-  record(folder, "a", "");
-  const Outcome none = talus_command("compare " + (folder / "a") + " " + (folder / "b"));
-  EXPECT_EQ(none.exit_code, 2);
-  EXPECT_NE(none.err.find("must be a folder that `talus run` left"), std::string::npos) << none.err;
-}
-
 TEST(Options, AreRefusedWhereTheyAreNoSensibleNumber) {
   for (const char* value : {"inf", "nan", "-1", "1e300", "1e99999"}) {
     for (const char* option :

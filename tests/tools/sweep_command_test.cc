@@ -93,8 +93,10 @@ TEST_F(SweepCommand, SaysWhatCtrlCDoesStopsItsRunsAndGoesOnLater) {
                               " --set run.frames=100000 --set world.gravity=5,6,7,8 --policy full --set run.pace=1 "
                               "--jobs 2 --out " +
                               (folder_ / "sweep");
-  const Outcome outcome =
-      shell("\"$TALUS\" " + command + " & sweep=$!; sleep 1.5; kill -INT $sweep; wait $sweep; exit $?");
+  const Outcome outcome = shell("cd '" + folder_.path().string() + "'; \"$TALUS\" " + command +
+                                " & sweep=$!; for run in run_0000 run_0001; do "
+                                "until ls sweep/at_work/$run*/frames.csv 2>/dev/null >&2; do sleep 0.02; done; done; "
+                                "kill -INT $sweep; wait $sweep; exit $?");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.err.find("interrupted: no run begins any more"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("4 runs, 0 finished, 0 failed"), std::string::npos) << outcome.out;

@@ -138,7 +138,8 @@ TEST(ViewCommand, SaysThatAPortIsTaken) {
   const Outcome outcome =
       shell("cd '" + folder.path().string() +
             "'\n"
-            "\"$TALUS\" view drop_in_a_pile_2d --seconds 3 > address &\n"
+            "\"$TALUS\" view drop_in_a_pile_2d --seconds 60 > address &\n"  // killed below
+
             "for i in $(seq 50); do grep -q token address && break; sleep 0.1; done\n"
             "port=$(sed 's/.*:\\([0-9]*\\).*/\\1/' address)\n"
             "\"$TALUS\" view drop_in_a_pile_2d --seconds 1 --port $port; code=$?\nkill $!; wait; exit $code");
