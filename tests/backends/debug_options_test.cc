@@ -18,11 +18,6 @@ constexpr std::array options_of_the_same_bits = {
     Option{&DebugOptions::recount_sleepers, "recount_sleepers"},
     Option{&DebugOptions::gather_contacts, "gather_contacts"},
 };
-constexpr std::array options_of_bullet = {
-    Option{&DebugOptions::collide_in_flight, "collide_in_flight"},
-    Option{&DebugOptions::bullet_compounds, "bullet_compounds"},
-    Option{&DebugOptions::visit_separate_pairs, "visit_separate_pairs"},
-};
 
 /// What a run of a scene was like.
 struct Outcome {
@@ -109,6 +104,12 @@ TYPED_TEST(DebugOptionsTest, SlowBodiesWithoutContinuousCollisionDoNotSinkIn) {
 }
 
 #ifdef TALUS_BULLET
+constexpr std::array options_of_bullet = {
+    Option{&DebugOptions::collide_in_flight, "collide_in_flight"},
+    Option{&DebugOptions::bullet_compounds, "bullet_compounds"},
+    Option{&DebugOptions::visit_separate_pairs, "visit_separate_pairs"},
+};
+
 template <typename Backend>
 class BulletDebugOptions : public DebugOptionsTest<Backend> {};
 TYPED_TEST_SUITE(BulletDebugOptions, BulletBackends, BackendName);
