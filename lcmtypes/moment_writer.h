@@ -87,7 +87,7 @@ class MomentWriter {
     std::size_t messages = 0;
   };
   Sent bodies(const Frame<Dim>& frame, std::span<const BodyIndex> more = {});
-  /// A key frame: poses of all bodies in the world, in how many messages.
+  /// Sends a key frame, the poses of all bodies in the world. Returns the number of its messages.
   std::size_t all_bodies(const Frame<Dim>& frame);
   /// Whether bodies have left the world since the last key frame: only a key frame says which are left.
   bool owes_key_frame() const { return removed_; }

@@ -56,8 +56,8 @@ class WarmStart {
     float place[3] = {};      // on the owner, in its axes [m]
     float normal[3] = {};     // from the partner to the owner, in the world's axes
     float distance = 0;       // between the two surfaces [m], negative where they overlap
-    float impulse = 0;        // [N s]
-    float friction[3] = {};   // impulse on the owner, in the world's axes [N s]
+    float impulse = 0;        // along the normal [N s]
+    float friction[3] = {};   // friction impulse on the owner, in the world's axes [N s]
     std::int16_t piece = -1;  // number within the owner's shape; -1 where the shape is a single piece
     std::int16_t partners_piece = -1;
     PointMark mark;

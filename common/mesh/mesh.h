@@ -20,7 +20,7 @@ Moments<3> moments(const Mesh& mesh);
 /// FNV-1a over the bits of corners and triangles: equal hashes mean equal meshes.
 std::uint64_t content_hash(const Mesh& mesh);
 
-/// Throws std::invalid_argument on a corner that is not finite.
+/// The axis-aligned box around all corners. Throws std::invalid_argument on a corner that is not finite.
 Box<3> bounds_of(const Mesh& mesh);
 
 /// Mends what is harmless: merges corners closer than about a millionth of the mesh's length, drops triangles that are

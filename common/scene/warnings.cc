@@ -139,7 +139,7 @@ void warn_of_unused_settings(const SolverParams& solver, Lines& lines) {
   }
 }
 
-/// Settings of rules that have no effect with rings, and of rings without them.
+/// Warns of settings without effect: those of the rules where rings are on, those of the rings where they are off.
 void warn_of_unused_rules(const AdaptiveParams& params, Lines& lines) {
   const AdaptiveParams usual;
   const auto warn = [&](bool changed, std::string_view name) {

@@ -28,16 +28,21 @@ const SleeperOptions& checked(const SleeperOptions& options) {
   return options;
 }
 
+/// Whether all of it is finite and, in 3D, the quaternion of length 1.
+template <int Dim>
+bool proper(const Pose<Dim>& pose) {
+  constexpr double unit_within = 1e-3;  // single precision rounds
+  if constexpr (Dim == 2)
+    return pose.position.allFinite() && std::isfinite(pose.rotation.angle());
+  else
+    return pose.position.allFinite() && std::abs(pose.rotation.norm() - 1.0) < unit_within;
+}
+
+constexpr std::string_view pose_rule = "must be finite, with a quaternion of length 1";
+
 template <int Dim>
 void check_pose(const Pose<Dim>& pose) {
-  require(pose.position.allFinite(), "pose", pose.position.norm(), "must be finite");
-  if constexpr (Dim == 2) {
-    require(std::isfinite(pose.rotation.angle()), "angle of a pose", pose.rotation.angle(), "must be finite");
-  } else {
-    constexpr double unit_within = 1e-3;  // single precision rounds
-    const double norm = pose.rotation.norm();
-    require(std::abs(norm - 1.0) < unit_within, "norm of the quaternion of a pose", norm, "must be 1");
-  }
+  require(proper<Dim>(pose), "pose", pose.position.norm(), pose_rule);
 }
 
 template <int Dim>
@@ -217,9 +222,8 @@ template <int Dim>
 void PileSleeper<Dim>::check_state(const GivenStep<Dim>& step, std::size_t i) const {
   const Handle handle = step.bodies[i];
   const Entry& entry = handles_.at(handle, "bodies");
-  check_pose<Dim>(step.poses[i]);
-  if (!step.velocities[i].allFinite() || !step.spins[i].allFinite())
-    require(false, fmt::format("velocity of body {}", handle.slot), step.velocities[i].norm(), "must be finite");
+  if (!proper<Dim>(step.poses[i]) || !step.velocities[i].allFinite() || !step.spins[i].allFinite())
+    require(false, fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), pose_rule);
   if (entry.role == BodyRole::kinematic || world().states().asleep[entry.number] == 0) return;
   const double reach = 0.5 * world().shape_of(entry.number).extent;
   const Pose<Dim>& slept = world().states().pose[entry.number];

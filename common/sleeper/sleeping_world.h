@@ -83,8 +83,8 @@ class SleepingWorld {
   std::vector<std::uint8_t> near_sleep_;   // [body] after the last decision
   TypicalBody typical_{.bounding_volume = 0.0, .extent = 0.0, .mass = 0.0};
   int typical_count_ = 0;        // bodies that might sleep when it was last looked for
-  int came_ = 0;                 // since then, of bodies that may sleep
-  int left_ = 0;                 // the same
+  int came_ = 0;                 // bodies that may sleep, added since then
+  int left_ = 0;                 // bodies that could sleep, removed since then
   int count_ = 0;                // bodies now
   std::optional<double> floor_;  // where a body first touched what is no body, or the lowest point of those saved [m]
   std::unique_ptr<SleepControl<Dim>> control_;

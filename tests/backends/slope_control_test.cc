@@ -17,7 +17,7 @@ template <typename Backend>
 class SlopeControl : public ::testing::Test {
  protected:
   static constexpr int dimension = Backend::dim;
-  static inline Watcher<dimension> watcher;  // of all simulations, which are returned
+  static inline Watcher<dimension> watcher;  // outlives the simulations that poured() returns
 
   static Scene<dimension> shipped(const std::string& name, int seed) {
     const std::string file = name + (dimension == 2 ? "_2d.toml" : "_3d.toml");

@@ -86,7 +86,7 @@ TEST(SceneShapes, OfAStoneAreTheHullOfItsCorners) {
     for (const Shape<2>& shape : stones<2>(seed, ", roughness = 0.9")) {
       const auto& corners = std::get<HullPiece<2>>(shape.pieces.at(0)).corners;
       const std::size_t count = corners.size();
-      // An edge that cuts off a corner of the seven would leave the origin of the stone outside.
+      // The corners lie all around the origin, so their hull contains it.
       for (std::size_t i = 0; i < count; ++i) {
         const Vec2 edge = corners[(i + 1) % count] - corners[i];
         const Vec2 origin = shape.reference - corners[i];

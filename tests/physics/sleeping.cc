@@ -301,7 +301,7 @@ void add_pours(std::vector<PhysicsCase>& cases) {
   const auto add = [&](std::string name, std::string setup, const PourWith& params) {
     PhysicsCase each = sleeping(std::move(name), std::move(setup), {none_floats, no_warning});
     each.policies = {"paper"};
-    if (params.tau == PourWith{}.tau) each.policies.emplace_back("adaptive");  // it has no tau
+    if (params.tau == PourWith{}.tau) each.policies.emplace_back("adaptive");  // adaptive has no tau
     cases.push_back(measured(each, params));
   };
   for (const double alpha : {1.0, 89.0})

@@ -79,7 +79,7 @@ class EventWatch final : public Observer<Dim> {
   bool prints_;
 };
 
-/// Of bodies of a metre: a slow creep [m/s].
+/// Bodies of an avalanche are quiet below this speed, in a scene with bodies of about a metre [m/s].
 constexpr double quiet_speed = 0.05;
 
 }  // namespace

@@ -14,8 +14,8 @@
 namespace talus {
 namespace {
 
-/// Processor time of a step [s], mean over all but the first, in which the engine allocates. Runs that end once they
-/// rest are of different length.
+/// Mean processor time of a step [s], without the first step, in which the engine allocates. A mean and no sum: runs
+/// that end once all bodies rest have different numbers of steps.
 template <int Dim>
 double seconds_of(const Scene<Dim>& scene, const std::string& backend) {
   Simulation<Dim> simulation(scene, make_world<Dim>(backend, scene.world), make_policy(scene));

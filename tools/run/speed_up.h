@@ -15,10 +15,10 @@ struct SpeedUpParams {
   double most_seconds = 10.0;  // of wall time, after which no round beyond the least begins
 };
 
-/// Processor time of this thread for a step, mean over a run; each number a round.
+/// Mean processor time of a step on this thread, in each round.
 struct SpeedUp {
-  std::vector<double> own;    // [s]
-  std::vector<double> other;  // [s]
+  std::vector<double> own;    // of the scene under its own policy [s]
+  std::vector<double> other;  // under the policy that it is compared with [s]
   std::vector<double> ratios() const;
 };
 

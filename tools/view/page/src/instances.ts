@@ -45,9 +45,7 @@ export class Instances {
       this.mesh.instanceColor!.array.set(old.instanceColor!.array);
       this.sleeping.array.set(asleep.array);
       old.parent?.add(this.mesh);
-      old.removeFromParent();
-      old.dispose();
-      old.geometry.dispose();
+      discard(old);
     }
     this.bodies.push(body);
     this.mesh.count = this.bodies.length;
@@ -71,11 +69,8 @@ export class Instances {
     return moved;
   }
 
-  /// Takes the mesh out of the scene and frees what the graphics card holds of it.
   dispose(): void {
-    this.mesh.removeFromParent();
-    this.mesh.dispose();
-    this.mesh.geometry.dispose();
+    discard(this.mesh);
   }
 
   clear(): void {
@@ -100,7 +95,7 @@ export class Instances {
   }
 }
 
-/// Takes a part out of the scene and frees what the graphics card holds of its geometry.
+/// Takes a part out of the scene and frees what the graphics card holds of it, but for its materials.
 export function discard(part: Object3D): void {
   part.removeFromParent();
   part.traverse((one) => {

@@ -58,7 +58,6 @@ export class Surroundings {
   /// Takes all out of the scene and frees what the graphics card holds of it.
   dispose(): void {
     this.sun?.dispose();
-    for (const obstacle of this.obstacles) obstacle.dispose();
     discard(this.group);
   }
 
