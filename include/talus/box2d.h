@@ -114,9 +114,9 @@ class Box2dImpulses {
 ///     sleeper.add_all();
 ///     for (;;) { sleeper.before_step(); world.Step(dt, 8, 3); sleeper.after_step(dt); }
 ///
-/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body do
-/// nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count for nothing. The world
-/// must outlive this object, which wakes all bodies when it ends.
+/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body and
+/// joints that it gets do nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count
+/// for nothing. The world must outlive this object, which wakes all bodies when it ends.
 class Box2dSleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.

@@ -25,11 +25,11 @@ namespace talus {
 ///     sleeper.add_all(bodies);
 ///     for (;;) { sleeper.before_step(); b2World_Step(world, dt, 4); sleeper.after_step(dt, 4); }
 ///
-/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body do
-/// nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count for nothing. A change of
-/// type ends the contacts of a body and begins them again without impulses: Box2D reports it as events, and a woken
-/// heap sinks by a two-thousandth of its height. The world must outlive this object, which wakes all bodies when it
-/// ends.
+/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body and
+/// joints that it gets do nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count
+/// for nothing. A change of type ends the contacts of a body and begins them again without impulses: Box2D reports it
+/// as events, and a woken heap sinks by a thousandth of its height. The world must outlive this object, which wakes
+/// all bodies when it ends.
 class Box2dV3Sleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.

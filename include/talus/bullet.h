@@ -27,8 +27,9 @@ namespace talus {
 ///     for (;;) { sleeper.before_step(); world.stepSimulation(dt, 0); sleeper.after_step(dt); }
 ///
 /// With substeps of Bullet, call both functions from the two internal tick callbacks. Forces on a sleeping body do
-/// nothing: call wake() first. Bodies with constraints never sleep, but wake others. Contacts of objects without
-/// contact response count for nothing. The world and its bodies must outlive this object, which wakes all when it ends.
+/// nothing: call wake() first. Bodies with constraints that are enabled never sleep, but wake others. Contacts of
+/// objects without contact response count for nothing. The world and its bodies must outlive this object, which wakes
+/// all when it ends.
 class BulletSleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.
@@ -44,7 +45,7 @@ class BulletSleeper {
     require(body.getWorldArrayIndex() >= 0, "body", "in no world", "must be in the world before it is watched");
     require(!never_moves(body), "body", "static", "must be dynamic or kinematic");
     require(!handles_.contains(&body), "body", "watched", "must not be watched already");
-    const BodyRole role = body.isKinematicObject() ? BodyRole::kinematic : free_role(body);
+    const BodyRole role = body.isKinematicObject() ? BodyRole::kinematic : BodyRole::sleeps;
     BodyTraits<3> told = traits(body);
     if (observed_) told.pieces = pieces_of(body);
     const Handle handle = core_.add(told, pose(body), role);
@@ -57,13 +58,14 @@ class BulletSleeper {
   /// Watches all dynamic and kinematic bodies that are not watched yet. Returns how many of them never sleep since they
   /// have constraints.
   int add_all() {
-    int kept_awake = 0;
+    std::vector<Handle> added;
     for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
       btRigidBody* body = btRigidBody::upcast(world_.getCollisionObjectArray()[i]);
-      if (body == nullptr || never_moves(*body) || handles_.contains(body)) continue;
-      kept_awake += core_.role(add(*body)) == BodyRole::stays_awake ? 1 : 0;
+      if (body != nullptr && !never_moves(*body) && !handles_.contains(body)) added.push_back(add(*body));
     }
-    return kept_awake;
+    follow_constraints();
+    const auto stays_awake = [&](Handle one) { return core_.role(one) == BodyRole::stays_awake; };
+    return static_cast<int>(std::ranges::count_if(added, stays_awake));
   }
   /// Before an object is taken out of the world, watched or not: what sleeps near it wakes.
   void about_to_remove(btCollisionObject& object) {
@@ -81,6 +83,7 @@ class BulletSleeper {
   void before_step() {
     if (!enabled_) return;
     carry_out(core_.set_gravity(from_bullet(world_.getGravity())));
+    follow_constraints();
     all_contacts_ = core_.needs_all_contacts();
     if (!all_contacts_) return;  // the speeds are those at which bodies meet sleeping ones
     for (const Handle handle : core_.followed()) {
@@ -184,9 +187,6 @@ class BulletSleeper {
   /// Kinematic bodies often count as static too.
   static bool never_moves(const btCollisionObject& object) {
     return object.isStaticObject() && !object.isKinematicObject();
-  }
-  static BodyRole free_role(const btRigidBody& body) {
-    return body.getNumConstraintRefs() > 0 ? BodyRole::stays_awake : BodyRole::sleeps;
   }
 
   static Pose<3> pose(const btTransform& at) {
@@ -296,7 +296,6 @@ class BulletSleeper {
   bool read_bodies() {
     bool contacts = all_contacts_;
     for (const Handle handle : core_.followed()) {
-      follow_role(handle);
       read_state(handle);
       if (!all_contacts_) contacts |= entries_[handle.slot].needs_contacts = core_.needs_contacts(handle);
     }
@@ -307,11 +306,26 @@ class BulletSleeper {
 #endif
     return contacts;
   }
-  /// A body may have got its first constraint, or have lost its last one.
-  void follow_role(Handle handle) {
-    const btRigidBody& body = *entries_[handle.slot].body;
-    if (!body.isKinematicObject() && core_.role(handle) != free_role(body))
-      carry_out(core_.set_role(handle, free_role(body)));
+  /// Bodies may have got their first constraint, or have lost their last one. From the world's list: a body's own has
+  /// only constraints that switch off the collision of their bodies. One that broke holds nothing.
+  void follow_constraints() {
+    std::vector<Handle> held;
+    for (int i = 0; i < world_.getNumConstraints(); ++i) {
+      const btTypedConstraint& constraint = *world_.getConstraint(i);
+      if (!constraint.isEnabled()) continue;
+      for (const btRigidBody* body : {&constraint.getRigidBodyA(), &constraint.getRigidBodyB()}) {
+        const Handle handle = find(*body);
+        if (handle != Handle{} && core_.role(handle) != BodyRole::kinematic) held.push_back(handle);
+      }
+    }
+    std::ranges::sort(held);
+    held.erase(std::unique(held.begin(), held.end()), held.end());
+    for (const Handle handle : held_)
+      if (core_.has(handle) && !std::ranges::binary_search(held, handle))
+        carry_out(core_.set_role(handle, BodyRole::sleeps));
+    for (const Handle handle : held)
+      if (core_.role(handle) == BodyRole::sleeps) carry_out(core_.set_role(handle, BodyRole::stays_awake));
+    held_ = std::move(held);
   }
   void read_state(Handle handle) {
     const btRigidBody& body = *entries_[handle.slot].body;
@@ -417,6 +431,7 @@ class BulletSleeper {
   bool all_contacts_ = true;  // are needed in this step
   bool observed_ = false;
   PileSleeper<3> core_;
+  std::vector<Handle> held_;  // by constraints, in order
   std::unordered_map<const btCollisionObject*, Handle> handles_;
   std::vector<Known> known_;    // [place in Bullet's list]
   std::vector<Entry> entries_;  // [slot]

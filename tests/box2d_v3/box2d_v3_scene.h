@@ -72,6 +72,10 @@ class SleepingBox2dV3Scene : public Box2dV3Scene {
     b2DestroyBody(body.id);
     bodies.remove_if([&](const Body& one) { return &one == &body; });
   }
+  void take_away_ground() {
+    sleeper->about_to_remove(ground);
+    b2DestroyBody(ground);
+  }
   void put(Body& body, const Vec2& at) {
     b2Body_SetTransform(body.id, to_box2d(at), b2Body_GetRotation(body.id));
     sleeper->moved(body.id);
@@ -80,6 +84,16 @@ class SleepingBox2dV3Scene : public Box2dV3Scene {
     sleeper->wake(body.id);
     b2Body_SetLinearVelocity(body.id, to_box2d(velocity));
   }
+  /// Holds a body where it is, until released.
+  b2JointId hold(const Body& body) {
+    b2MouseJointDef def = b2DefaultMouseJointDef();
+    def.bodyIdA = ground;
+    def.bodyIdB = body.id;
+    def.target = b2Body_GetPosition(body.id);
+    def.maxForce = 100.0F;
+    return b2CreateMouseJoint(world, &def);
+  }
+  void release(b2JointId joint) { b2DestroyJoint(joint); }
   void set_gravity(const Vec2& gravity) { b2World_SetGravity(world, to_box2d(gravity)); }
   /// A kinematic block.
   Body& add_lift(const Vec2& size, const Vec2& at) {

@@ -57,6 +57,7 @@ class SleepingBox2dScene : public Box2dScene {
     sleeper->about_to_remove(body);
     world.DestroyBody(&body);
   }
+  void take_away_ground() { take_away(*ground); }
   void put(Body& body, const Vec2& at) {
     body.SetTransform(to_box2d(at), body.GetAngle());
     sleeper->moved(body);
@@ -65,6 +66,16 @@ class SleepingBox2dScene : public Box2dScene {
     sleeper->wake(body);
     body.SetLinearVelocity(to_box2d(velocity));
   }
+  /// Holds a body where it is, until released.
+  b2Joint* hold(Body& body) {
+    b2MouseJointDef def;
+    def.bodyA = ground;
+    def.bodyB = &body;
+    def.target = body.GetPosition();
+    def.maxForce = 100.0F;
+    return world.CreateJoint(&def);
+  }
+  void release(b2Joint* joint) { world.DestroyJoint(joint); }
   void set_gravity(const Vec2& gravity) { world.SetGravity(to_box2d(gravity)); }
   /// A kinematic block.
   Body& add_lift(const Vec2& size, const Vec2& at) {

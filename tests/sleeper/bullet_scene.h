@@ -79,6 +79,7 @@ class SleepingBulletScene : public BulletScene {
     sleeper->about_to_remove(body);
     remove(body);
   }
+  void take_away_ground() { take_away(*ground); }
   void put(Body& body, const Vec3& at) {
     body.setWorldTransform(btTransform(body.getWorldTransform().getBasis(), to_bullet(at)));
     sleeper->moved(body);
@@ -86,6 +87,16 @@ class SleepingBulletScene : public BulletScene {
   void push(Body& body, const Vec3& velocity) {
     sleeper->wake(body);
     body.setLinearVelocity(to_bullet(velocity));
+  }
+  /// Holds a body where it is, until released.
+  auto hold(Body& body) {
+    auto joint = std::make_unique<btPoint2PointConstraint>(body, btVector3(0, 0, 0));
+    world.addConstraint(joint.get());
+    return joint;
+  }
+  void release(const std::unique_ptr<btPoint2PointConstraint>& joint) {
+    world.removeConstraint(joint.get());
+    joint->getRigidBodyA().activate();  // Bullet leaves it asleep although nothing holds it any more
   }
   void set_gravity(const Vec3& gravity) { world.setGravity(to_bullet(gravity)); }
   /// A kinematic block.
