@@ -40,11 +40,11 @@ class Box2dImpulses {
   /// From PreSolve of a contact that has just begun.
   void apply(b2Contact& contact) {
     const auto found = saved_.find(key_of(contact));
-    if (found == saved_.end()) return;
+    if (found == saved_.end() || found->second.bodies != bodies_of(contact)) return;
     b2Manifold& manifold = *contact.GetManifold();
     for (int i = 0; i < manifold.pointCount; ++i) {
       b2ManifoldPoint& point = manifold.points[i];
-      for (const Point& saved : found->second) {
+      for (const Point& saved : found->second.points) {
         if (saved.feature != point.id.key) continue;
         point.normalImpulse = saved.normal;
         point.tangentImpulse = saved.tangent;
@@ -54,14 +54,15 @@ class Box2dImpulses {
   /// After a step: what has not begun again by now will not, except between sleeping bodies, which have no contacts.
   void end_step() {
     for (const Key& key : waiting_)
-      if (saved_.contains(key) && (!is_static(key.a) || !is_static(key.b))) erase(key);
+      if (const auto found = saved_.find(key); found != saved_.end() && !sleeps(found->second)) erase(key);
     waiting_.clear();
   }
 
  private:
+  /// Addresses alone: the program may have destroyed a fixture.
   struct Key {
-    b2Fixture* a = nullptr;
-    b2Fixture* b = nullptr;
+    const b2Fixture* a = nullptr;
+    const b2Fixture* b = nullptr;
     int child_a = 0;
     int child_b = 0;
     auto operator<=>(const Key&) const = default;
@@ -73,35 +74,45 @@ class Box2dImpulses {
     float normal = 0.0F;   // [N s]
     float tangent = 0.0F;  // [N s]
   };
+  using Bodies = std::array<const b2Body*, 2>;
+  struct Contact {
+    Bodies bodies;
+    std::array<Point, b2_maxManifoldPoints> points;
+  };
 
   /// Fixtures keep their order in contacts as long as they exist.
   static Key key_of(b2Contact& contact) {
     return {contact.GetFixtureA(), contact.GetFixtureB(), contact.GetChildIndexA(), contact.GetChildIndexB()};
   }
-  static bool is_static(b2Fixture* fixture) { return fixture->GetBody()->GetType() == b2_staticBody; }
+  static Bodies bodies_of(b2Contact& contact) {
+    return {contact.GetFixtureA()->GetBody(), contact.GetFixtureB()->GetBody()};
+  }
+  static bool sleeps(const Contact& saved) {
+    return std::ranges::all_of(saved.bodies, [](const b2Body* body) { return body->GetType() == b2_staticBody; });
+  }
 
   void save(b2Contact& contact) {
     if (!contact.IsTouching()) return;
     const Key key = key_of(contact);
-    std::array<Point, b2_maxManifoldPoints> points;
+    Contact kept{.bodies = bodies_of(contact), .points = {}};
     const b2Manifold& manifold = *contact.GetManifold();
     for (int i = 0; i < manifold.pointCount; ++i)
-      points[i] = {manifold.points[i].id.key, manifold.points[i].normalImpulse, manifold.points[i].tangentImpulse};
+      kept.points[i] = {manifold.points[i].id.key, manifold.points[i].normalImpulse, manifold.points[i].tangentImpulse};
     waiting_.push_back(key);
-    if (!saved_.insert_or_assign(key, points).second) return;
-    of_body_[key.a->GetBody()].push_back(key);
-    of_body_[key.b->GetBody()].push_back(key);
+    if (saved_.contains(key)) erase(key);
+    saved_[key] = kept;
+    for (const b2Body* body : kept.bodies) of_body_[body].push_back(key);
   }
   void erase(const Key& key) {
-    saved_.erase(key);
-    for (const b2Body* body : {key.a->GetBody(), key.b->GetBody()}) {
+    for (const b2Body* body : saved_.at(key).bodies) {
       const auto found = of_body_.find(body);
       std::erase(found->second, key);
       if (found->second.empty()) of_body_.erase(found);
     }
+    saved_.erase(key);
   }
 
-  std::map<Key, std::array<Point, b2_maxManifoldPoints>> saved_;  // looked up only, so no address reaches a result
+  std::map<Key, Contact> saved_;  // looked up only, so no address reaches a result
   std::unordered_map<const b2Body*, std::vector<Key>> of_body_;
   std::vector<Key> waiting_;  // to begin again in the next step
 };
@@ -200,7 +211,7 @@ class Box2dSleeper {
   void wake(b2Body& body) { carry_out(core_.wake(handle(body))); }
   /// Wakes all watched bodies.
   void wake_all() { carry_out(core_.wake_all()); }
-  /// Wakes what sleeps by a body that is not watched, such as a static one that is about to move or has moved.
+  /// Wakes what sleeps by a body, such as a static one that is about to move, has moved or is about to lose a fixture.
   void wake_near(b2Body& body) {
     for (b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
       carry_out(core_.wake_near(bounds(*fixture, body.GetTransform())));
@@ -438,7 +449,8 @@ class Box2dSleeper {
     return other < handle && std::ranges::binary_search(contacts_of_, other);
   }
   void read_contact(b2Contact& contact) {
-    if (!contact.IsTouching() || contact.GetFixtureA()->IsSensor() || contact.GetFixtureB()->IsSensor()) return;
+    const bool solved = contact.IsTouching() && contact.IsEnabled();  // the program's listener may disable it
+    if (!solved || contact.GetFixtureA()->IsSensor() || contact.GetFixtureB()->IsSensor()) return;
     const b2Body& a = *contact.GetFixtureA()->GetBody();
     const b2Body& b = *contact.GetFixtureB()->GetBody();
     const Handle first = find(a);

@@ -64,6 +64,45 @@ TEST(Box2dSleeper, PassesContactsOnToTheListenerOfTheProgram) {
   EXPECT_EQ(scene.world.GetContactManager().m_contactListener, &second);
 }
 
+/// The impulses of a sleeping box name the fixtures that it touched.
+TEST(Box2dSleeper, LetsABoxFallWhenTheFixtureBelowItIsDestroyed) {
+  SleepingBox2dScene scene;
+  b2Body& shelf = scene.add_box({4, 1}, {0, 3}, b2_staticBody);
+  b2Body& box = scene.drop({{0, 3.8}, Rotation<2>::Identity()});
+  scene.run(240);
+  ASSERT_TRUE(scene.sleeper->asleep(box));
+  scene.sleeper->wake_near(shelf);
+  shelf.DestroyFixture(shelf.GetFixtureList());
+  scene.run(240);
+  EXPECT_NEAR(scene.place(box).y(), 0.3, 0.02);
+  EXPECT_TRUE(scene.sleeper->asleep(box));
+}
+
+/// The listener of a program lets two boxes pass through each other, as those of platforms that are solid from above.
+TEST(Box2dSleeper, LeavesOutContactsThatTheProgramDisables) {
+  struct Ghosts : b2ContactListener {
+    const b2Body* ground = nullptr;
+    void PreSolve(b2Contact* contact, const b2Manifold*) override {
+      if (contact->GetFixtureA()->GetBody() != ground && contact->GetFixtureB()->GetBody() != ground)
+        contact->SetEnabled(false);
+    }
+  };
+  Ghosts ghosts;
+  SleepingBox2dScene scene;
+  ghosts.ground = scene.ground;
+  scene.world.SetContactListener(&ghosts);
+  b2Body& box = scene.drop({{0, 0.3}, Rotation<2>::Identity()});
+  b2Body& other = scene.drop({{3, 0.3}, Rotation<2>::Identity()});
+  scene.run(240);
+  ASSERT_TRUE(scene.sleeper->asleep(box));
+  scene.push(other, {-8.0, 0.0});
+  for (int i = 0; i < 120; ++i) {
+    scene.step();
+    EXPECT_TRUE(scene.sleeper->asleep(box)) << scene.place(other).x();
+  }
+  EXPECT_LT(scene.place(other).x(), -2.0);
+}
+
 TEST(Box2dSleeper, RefusesWhatItCannotWatch) {
   SleepingBox2dScene scene;
   EXPECT_THROW(scene.sleeper->add(*scene.ground), InvalidValue);
