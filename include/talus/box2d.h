@@ -149,7 +149,7 @@ class Box2dSleeper {
     const BodyRole role = body.GetType() == b2_kinematicBody ? BodyRole::kinematic : free_role(body);
     BodyTraits<2> told = traits(body);
     if (observed_) told.pieces = pieces_of(body, from_box2d(body.GetLocalCenter()));
-    const Handle handle = core_.add(told, pose(body), role);
+    const Handle handle = core_.add(told, pose({.body = &body}), role);
     if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
     entries_[handle.slot] = {.body = &body, .slept_alone = body.IsSleepingAllowed()};
     handles_[&body] = handle;
@@ -217,7 +217,7 @@ class Box2dSleeper {
       carry_out(core_.wake_near(bounds(*fixture, body.GetTransform())));
   }
   /// After the program has put a body elsewhere.
-  void moved(b2Body& body) { carry_out(core_.moved(handle(body), pose(body))); }
+  void moved(b2Body& body) { carry_out(core_.moved(handle(body), pose(entry(handle(body))))); }
 
   /// Whether a body has been added.
   bool watches(const b2Body& body) const { return handles_.contains(&body); }
@@ -230,10 +230,7 @@ class Box2dSleeper {
     return found->second;
   }
   /// Throws InvalidValue on a handle of no watched body.
-  b2Body& body(Handle handle) const {
-    require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
-    return *entries_[handle.slot].body;
-  }
+  b2Body& body(Handle handle) const { return *entry(handle).body; }
   /// Bodies that are watched; kinematic ones count.
   int size() const { return core_.size(); }
   /// Bodies that are watched and awake, without kinematic ones.
@@ -255,7 +252,7 @@ class Box2dSleeper {
   /// Once the bodies are in their saved places: those that slept sleep again, all others wake.
   void restore(const std::vector<SavedSleep>& saved) {
     std::vector<Pose<2>> poses;
-    for (const SavedSleep& one : saved) poses.push_back(pose(body(one.body)));
+    for (const SavedSleep& one : saved) poses.push_back(pose(entry(one.body)));
     carry_out(core_.restore(saved, poses));
   }
 
@@ -265,7 +262,7 @@ class Box2dSleeper {
     b2Body* body = nullptr;
     b2Vec2 velocity = b2Vec2_zero;
     float spin = 0.0F;
-    b2MassData mass = {};
+    b2MassData mass = {0.0F, b2Vec2_zero, 0.0F};
     bool slept_alone = true;  // Box2D was allowed to put it to sleep
   };
 
@@ -320,7 +317,18 @@ class Box2dSleeper {
 
   static Vec2 from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
   static b2Vec2 to_box2d(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }
-  static Pose<2> pose(const b2Body& body) { return {from_box2d(body.GetWorldCenter()), Rotation<2>(body.GetAngle())}; }
+  /// Throws InvalidValue on a handle of no watched body.
+  const Entry& entry(Handle handle) const {
+    require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
+    return entries_[handle.slot];
+  }
+  /// Of the centre of mass. A sleeping body is static, and static bodies have that at their origin.
+  static Pose<2> pose(const Entry& entry) {
+    const b2Body& body = *entry.body;
+    const bool sleeps = body.GetType() == b2_staticBody;
+    const b2Vec2 centre = sleeps ? body.GetWorldPoint(entry.mass.center) : body.GetWorldCenter();
+    return {from_box2d(centre), Rotation<2>(body.GetAngle())};
+  }
   static BodyRole free_role(const b2Body& body) {
     return body.GetJointList() != nullptr ? BodyRole::stays_awake : BodyRole::sleeps;
   }
@@ -364,7 +372,6 @@ class Box2dSleeper {
       if (!fixture->IsSensor()) add_pieces(*fixture, centre, pieces);
     return pieces;
   }
-  /// A sleeping body is static, and static bodies have their centre of mass at their origin.
   void show_pieces(const Entry& entry) {
     const Handle shown = handle(*entry.body);
     core_.set_pieces(shown, pieces_of(*entry.body, from_box2d(core_.asleep(shown) ? entry.mass.center
@@ -432,7 +439,8 @@ class Box2dSleeper {
   }
   void read_state(Handle handle) {
     const b2Body& body = *entries_[handle.slot].body;
-    buffer_.add(handle, pose(body), from_box2d(body.GetLinearVelocity()), Spin<2>(body.GetAngularVelocity()));
+    buffer_.add(handle, pose(entries_[handle.slot]), from_box2d(body.GetLinearVelocity()),
+                Spin<2>(body.GetAngularVelocity()));
   }
 
   void read_contacts() {

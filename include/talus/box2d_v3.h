@@ -50,7 +50,7 @@ class Box2dV3Sleeper {
     const BodyRole role = is_kinematic(body) ? BodyRole::kinematic : free_role(body);
     BodyTraits<2> told = traits(body);
     if (observed_) told.pieces = pieces_of(body, from_box2d(b2Body_GetLocalCenterOfMass(body)));
-    const Handle handle = core_.add(told, pose(body), role);
+    const Handle handle = core_.add(told, pose({.body = body}), role);
     if (entries_.size() <= handle.slot) entries_.resize(handle.slot + 1);
     entries_[handle.slot] = {.body = body, .slept_alone = b2Body_IsSleepEnabled(body)};
     const auto number = static_cast<std::size_t>(body.index1);
@@ -105,7 +105,7 @@ class Box2dV3Sleeper {
     carry_out(core_.wake_near({from_box2d(box.lowerBound), from_box2d(box.upperBound)}));
   }
   /// After the program has put a body elsewhere.
-  void moved(b2BodyId body) { carry_out(core_.moved(handle(body), pose(body))); }
+  void moved(b2BodyId body) { carry_out(core_.moved(handle(body), pose(entry(handle(body))))); }
 
   /// Whether a body has been added.
   bool watches(b2BodyId body) const { return find(body) != Handle{}; }
@@ -117,10 +117,7 @@ class Box2dV3Sleeper {
     return find(body);
   }
   /// The body of a handle. Throws InvalidValue on one that names none.
-  b2BodyId body(Handle handle) const {
-    require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
-    return entries_[handle.slot].body;
-  }
+  b2BodyId body(Handle handle) const { return entry(handle).body; }
   /// Bodies that are watched; kinematic ones count.
   int size() const { return core_.size(); }
   /// Bodies that are watched and awake, without kinematic ones.
@@ -145,7 +142,7 @@ class Box2dV3Sleeper {
   /// Once the bodies are in their saved places: those that slept sleep again, all others wake.
   void restore(const std::vector<SavedSleep>& saved) {
     std::vector<Pose<2>> poses;
-    for (const SavedSleep& one : saved) poses.push_back(pose(body(one.body)));
+    for (const SavedSleep& one : saved) poses.push_back(pose(entry(one.body)));
     carry_out(core_.restore(saved, poses));
   }
 
@@ -165,8 +162,17 @@ class Box2dV3Sleeper {
 
   static Vec2 from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
   static b2Vec2 to_box2d(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }
-  static Pose<2> pose(b2BodyId body) {
-    return {from_box2d(b2Body_GetWorldCenterOfMass(body)), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(body)))};
+  /// Throws InvalidValue on a handle of no watched body.
+  const Entry& entry(Handle handle) const {
+    require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
+    return entries_[handle.slot];
+  }
+  /// Of the centre of mass. A sleeping body is static, and static bodies have that at their origin.
+  static Pose<2> pose(const Entry& entry) {
+    const bool sleeps = b2Body_GetType(entry.body) == b2_staticBody;
+    const b2Vec2 centre =
+        sleeps ? b2Body_GetWorldPoint(entry.body, entry.mass.center) : b2Body_GetWorldCenterOfMass(entry.body);
+    return {from_box2d(centre), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(entry.body)))};
   }
   static bool is_kinematic(b2BodyId body) { return b2Body_GetType(body) == b2_kinematicBody; }
   static BodyRole free_role(b2BodyId body) {
@@ -234,7 +240,6 @@ class Box2dV3Sleeper {
       if (!b2Shape_IsSensor(shape)) add_pieces(shape, centre, pieces);
     return pieces;
   }
-  /// A sleeping body is static, and static bodies have their centre of mass at their origin.
   void show_pieces(const Entry& entry) {
     const Handle shown = find(entry.body);
     core_.set_pieces(shown,
@@ -288,7 +293,7 @@ class Box2dV3Sleeper {
   }
   void read_state(Handle handle) {
     const b2BodyId body = entries_[handle.slot].body;
-    buffer_.add(handle, pose(body), from_box2d(b2Body_GetLinearVelocity(body)),
+    buffer_.add(handle, pose(entries_[handle.slot]), from_box2d(b2Body_GetLinearVelocity(body)),
                 Spin<2>(b2Body_GetAngularVelocity(body)));
   }
 

@@ -112,6 +112,27 @@ TEST_F(SleepingBox2dV3Stack, IsSeenWithItsTrueShapesAndTheStaticBodiesThatAreNam
   EXPECT_LT(last.places[4].y(), 2.9);
 }
 
+/// Its polygon lies beside its origin.
+TEST(Box2dV3Sleeper, ShowsASleepingBodyAtItsCentreOfMassAlsoOnceItIsLoaded) {
+  SleepingBox2dV3Scene scene;
+  b2BodyDef def = b2DefaultBodyDef();
+  def.type = b2_dynamicBody;
+  const b2BodyId body = b2CreateBody(scene.world, &def);
+  const b2ShapeDef shape = b2DefaultShapeDef();
+  const b2Polygon box = b2MakeOffsetBox(0.5F, 0.3F, {1.0F, 0.3F}, b2Rot_identity);
+  b2CreatePolygonShape(body, &shape, &box);
+  scene.watch(body);
+  Seen::Last last;
+  scene.sleeper->observe(std::make_unique<Seen>(last));
+  scene.run(200);
+  ASSERT_TRUE(scene.sleeper->asleep(body));
+  EXPECT_NEAR(last.places.at(0).x(), 1.0, 1e-3);
+  scene.sleeper->restore(scene.sleeper->snapshot());
+  scene.run(1);
+  ASSERT_TRUE(scene.sleeper->asleep(body));
+  EXPECT_NEAR(last.places.at(0).x(), 1.0, 1e-3);
+}
+
 TEST(Box2dV3Sleeper, ChangesNoBitWhenItIsOff) {
   SleepingBox2dV3Scene with({.enabled = false});
   Box2dV3Scene without;

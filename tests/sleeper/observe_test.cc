@@ -115,6 +115,25 @@ TEST_F(AnObservedWorld, HasStaticAndKinematicBodiesAsObstaclesWhereTheyAre) {
   EXPECT_NEAR(moving->pose.position.y(), 1.1, 1e-3);
 }
 
+/// Its fixture lies beside its origin.
+TEST_F(AnObservedWorld, HasASleepingBodyAtItsCentreOfMassAlsoOnceItIsLoaded) {
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  b2PolygonShape shape;
+  shape.SetAsBox(0.5F, 0.3F, {1.0F, 0.3F}, 0.0F);
+  b2Body& body = *scene.world.CreateBody(&def);
+  body.CreateFixture(&shape, 1000.0F);
+  scene.sleeper->add(body);
+  observe();
+  run(200);
+  ASSERT_TRUE(scene.sleeper->asleep(body));
+  EXPECT_NEAR(seen.poses.at(0).position.x(), 1.0, 1e-3);
+  scene.sleeper->restore(scene.sleeper->snapshot());
+  run(1);
+  ASSERT_TRUE(scene.sleeper->asleep(body));
+  EXPECT_NEAR(seen.poses.at(0).position.x(), 1.0, 1e-3);
+}
+
 TEST_F(AnObservedWorld, CountsTheBodiesThatLeave) {
   auto& box = scene.drop({Vec2(0, 3), Rotation<2>(0)});
   observe();
