@@ -521,7 +521,8 @@ void ContactSolver<Dim>::attract(float gravity, float dt) {
     if (points_[i].cohesion > 0.0F && points_[i].gap < cohesive_reach) cohesive_points_.push_back(i);
   std::ranges::stable_sort(cohesive_points_, {}, pair_of);  // those of a body of several pieces are not side by side
   for (std::span<const int> rest = cohesive_points_; !rest.empty();) {
-    const auto same = std::ranges::equal_range(rest, pair_of(rest[0]), {}, pair_of);
+    const auto end = std::ranges::upper_bound(rest, pair_of(rest[0]), {}, pair_of);
+    const std::span<const int> same = rest.first(static_cast<std::size_t>(end - rest.begin()));
     for (const int number : same) {
       ContactPoint<Dim>& point = points_[number];
       const float weight = gravity / std::max(bodies_[point.a].inverse_mass, bodies_[point.b].inverse_mass);
