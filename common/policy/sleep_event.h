@@ -20,6 +20,9 @@ enum class SleepCause : std::uint8_t {
   motion,        // with `adaptive` and rings, forces move it
 };
 
+/// The largest number of a cause.
+inline constexpr int last_cause = static_cast<int>(SleepCause::motion);
+
 std::string_view to_string(SleepCause cause);
 
 /// One body falling asleep or waking.

@@ -88,12 +88,12 @@ TEST(Decoder, RefusesAnotherType) {
 
 TEST(Decoder, AcceptsEachCauseOfASleepEventAndNoOther) {
   MessageEncoder encoder(1);
-  for (int cause = 0; cause <= static_cast<int>(SleepCause::motion); ++cause) {
+  for (int cause = 0; cause <= last_cause; ++cause) {
     talus_sleep message = to_sleep(std::vector<SleepEvent>{{.cause = static_cast<SleepCause>(cause)}}).front();
     EXPECT_EQ(fault_of<talus_sleep>(encoder.encode(message, {0, 1, 0.5}).bytes), "") << cause;
   }
   talus_sleep message = to_sleep(std::vector<SleepEvent>(1)).front();
-  message.cause[0] = static_cast<int>(SleepCause::motion) + 1;
+  message.cause[0] = last_cause + 1;
   EXPECT_EQ(fault_of<talus_sleep>(encoder.encode(message, {0, 1, 0.5}).bytes), "unknown cause");
 }
 

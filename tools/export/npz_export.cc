@@ -7,8 +7,6 @@
 namespace talus {
 namespace {
 
-constexpr int last_cause = static_cast<int>(SleepCause::motion);
-
 class NpzExport final : public Exporter {
  public:
   explicit NpzExport(const ExportInput& input)

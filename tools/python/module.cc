@@ -20,7 +20,7 @@ namespace {
 /// By number; an empty name where a number is unused.
 std::vector<std::string> cause_names() {
   std::vector<std::string> names;
-  for (int cause = 0; cause <= static_cast<int>(SleepCause::motion); ++cause) {
+  for (int cause = 0; cause <= last_cause; ++cause) {
     const std::string_view name = to_string(static_cast<SleepCause>(cause));
     names.emplace_back(name == "unknown" ? "" : name);
   }
