@@ -90,7 +90,7 @@ BrokenRule apply(toml::table& table, const Override& one, const std::string& ori
   // The parser of paths takes much for right, such as a bracket without its other half; its text then differs.
   if (equals == std::string::npos || equals == 0 || path.empty() || path.str() != written)
     return {.rule = "must be path=value, the path as in source[0].rate"};
-  if (path[0].key() == "include") return {.rule = "include must be given in the file"};
+  if (!is_index(path[0]) && path[0].key() == "include") return {.rule = "include must be given in the file"};
   toml::node* parent = &table;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (std::string rule = broken_rule(*parent, path[i]); !rule.empty()) return {.rule = std::move(rule)};

@@ -102,6 +102,8 @@ TEST(WrongOverride, OfAPathThatLeadsNowhereIsRefused) {
   EXPECT_EQ(error_of("source.rate=3"),
             "--set source.rate=3: \"rate\" follows an array: say which of it, as in source[0].rate");
   EXPECT_EQ(error_of("policy[0]=3"), "--set policy[0]=3: [0] follows what is no array");
+  EXPECT_EQ(error_of("[0].rate=3"), "--set [0].rate=3: [0] follows what is no array");
+  EXPECT_EQ(error_of("[0]=3"), "--set [0]=3: [0] follows what is no array");
   EXPECT_EQ(error_of("title.x=3"), "--set title.x=3: \"x\" follows what is no table");
 }
 
