@@ -38,11 +38,12 @@ bool proper(const Pose<Dim>& pose) {
     return pose.position.allFinite() && std::abs(pose.rotation.norm() - 1.0) < unit_within;
 }
 
-constexpr std::string_view pose_rule = "must be finite, with a quaternion of length 1";
+template <int Dim>
+constexpr std::string_view pose_rule = Dim == 2 ? "must be finite" : "must be finite, with a quaternion of length 1";
 
 template <int Dim>
 void check_pose(const Pose<Dim>& pose) {
-  require(proper<Dim>(pose), "pose", pose.position.norm(), pose_rule);
+  require(proper<Dim>(pose), "pose", pose.position.norm(), pose_rule<Dim>);
 }
 
 template <int Dim>
@@ -223,7 +224,7 @@ void PileSleeper<Dim>::check_state(const GivenStep<Dim>& step, std::size_t i) co
   const Handle handle = step.bodies[i];
   const Entry& entry = handles_.at(handle, "bodies");
   if (!proper<Dim>(step.poses[i]) || !step.velocities[i].allFinite() || !step.spins[i].allFinite())
-    require(false, fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), pose_rule);
+    require(false, fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), pose_rule<Dim>);
   if (entry.role == BodyRole::kinematic || world().states().asleep[entry.number] == 0) return;
   const double reach = 0.5 * world().shape_of(entry.number).extent;
   const Pose<Dim>& slept = world().states().pose[entry.number];

@@ -125,9 +125,9 @@ class Box2dImpulses {
 ///     sleeper.add_all();
 ///     for (;;) { sleeper.before_step(); world.Step(dt, 8, 3); sleeper.after_step(dt); }
 ///
-/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body and
-/// joints that it gets do nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count
-/// for nothing. The world must outlive this object, which wakes all bodies when it ends.
+/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. A force on a sleeping body and
+/// a joint that it gets have no effect until the program calls wake(). Bodies with joints never sleep, but wake others.
+/// Sensors count for nothing. The world must outlive this object, which wakes all bodies when it ends.
 class Box2dSleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.
@@ -229,7 +229,7 @@ class Box2dSleeper {
     require(found != handles_.end(), "body", "not watched", "must have been added");
     return found->second;
   }
-  /// Throws InvalidValue on a handle of no watched body.
+  /// Throws InvalidValue if no watched body has this handle.
   b2Body& body(Handle handle) const { return *entry(handle).body; }
   /// Bodies that are watched; kinematic ones count.
   int size() const { return core_.size(); }
@@ -317,7 +317,7 @@ class Box2dSleeper {
 
   static Vec2 from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
   static b2Vec2 to_box2d(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }
-  /// Throws InvalidValue on a handle of no watched body.
+  /// Throws InvalidValue if no watched body has this handle.
   const Entry& entry(Handle handle) const {
     require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
     return entries_[handle.slot];

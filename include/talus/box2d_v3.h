@@ -25,11 +25,11 @@ namespace talus {
 ///     sleeper.add_all(bodies);
 ///     for (;;) { sleeper.before_step(); b2World_Step(world, dt, 4); sleeper.after_step(dt, 4); }
 ///
-/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. Forces on a sleeping body and
-/// joints that it gets do nothing: call wake() first. Bodies with joints never sleep, but wake others. Sensors count
-/// for nothing. A change of type ends the contacts of a body and begins them again without impulses: Box2D reports it
-/// as events, and a woken heap sinks by a thousandth of its height. The world must outlive this object, which wakes
-/// all bodies when it ends.
+/// Box2D's own sleep is off for watched bodies, since it does not update their contacts. A force on a sleeping body and
+/// a joint that it gets have no effect until the program calls wake(). Bodies with joints never sleep, but wake others.
+/// Sensors count for nothing. A change of type ends the contacts of a body and begins them again without impulses:
+/// Box2D reports it as events, and a woken heap sinks by a thousandth of its height. The world must outlive this
+/// object, which wakes all bodies when it ends.
 class Box2dV3Sleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.
@@ -99,7 +99,7 @@ class Box2dV3Sleeper {
   void wake(b2BodyId body) { carry_out(core_.wake(handle(body))); }
   /// Wakes all watched bodies.
   void wake_all() { carry_out(core_.wake_all()); }
-  /// Wakes what sleeps by a body that is not watched, such as a static one that is about to move or has moved.
+  /// Wakes what sleeps by a body, such as a static one that is about to move, has moved or is about to lose a shape.
   void wake_near(b2BodyId body) {
     const b2AABB box = b2Body_ComputeAABB(body);
     carry_out(core_.wake_near({from_box2d(box.lowerBound), from_box2d(box.upperBound)}));
@@ -162,7 +162,7 @@ class Box2dV3Sleeper {
 
   static Vec2 from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
   static b2Vec2 to_box2d(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }
-  /// Throws InvalidValue on a handle of no watched body.
+  /// Throws InvalidValue if no watched body has this handle.
   const Entry& entry(Handle handle) const {
     require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
     return entries_[handle.slot];

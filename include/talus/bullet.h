@@ -126,7 +126,7 @@ class BulletSleeper {
     require(found != handles_.end(), "body", "not watched", "must have been added");
     return found->second;
   }
-  /// Throws InvalidValue on a handle of no watched body.
+  /// Throws InvalidValue if no watched body has this handle.
   btRigidBody& body(Handle handle) const {
     require(core_.has(handle), "body", handle.slot, "must be the handle of a body that is watched");
     return *entries_[handle.slot].body;
@@ -306,8 +306,8 @@ class BulletSleeper {
 #endif
     return contacts;
   }
-  /// Bodies may have got their first constraint, or have lost their last one. From the world's list: a body's own has
-  /// only constraints that switch off the collision of their bodies. One that broke holds nothing.
+  /// Keeps bodies awake as long as they have an enabled constraint. Reads the constraints of the world:
+  /// Bullet's list of a body has only those that switch off the collision between the two bodies that they join.
   void follow_constraints() {
     std::vector<Handle> held;
     for (int i = 0; i < world_.getNumConstraints(); ++i) {

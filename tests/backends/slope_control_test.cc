@@ -38,8 +38,8 @@ class SlopeControl : public ::testing::Test {
     while (simulation.time() < end) simulation.step();
   }
 
-  /// Fifteen seconds after the pour. Bodies that fall upon each other in a column and land at 16 m/s rebound a little:
-  /// in one of some fifty pours by just more than the tenth of the energy that is tolerated, which the run says.
+  /// Fifteen seconds after the pour. May warn of energy: in one of fifty pours bodies that land in a column at 16 m/s
+  /// rebound with a ninth of their kinetic energy, and the ledger tolerates a tenth.
   static Simulation<dimension> poured(const Scene<dimension>& scene) {
     auto simulation = simulation_on<Backend>(scene);
     simulation.add_observer(watcher);

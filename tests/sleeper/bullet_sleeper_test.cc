@@ -28,8 +28,8 @@ TEST_F(SleepingBulletStack, IsStaticToBulletUntilItWakes) {
   }
 }
 
-/// Manifolds keep their impulses, so woken cubes stand. The upper one moves by a tenth of a millimetre, as when Bullet
-/// itself has just stopped it.
+/// Bullet keeps the impulses of contacts while cubes sleep, so they stand when they wake. The top cube moves by 0.1 mm,
+/// as when Bullet itself has just stopped it.
 TEST(BulletSleeper, WakesCubesThatStandStill) {
   SleepingBulletScene scene;
   for (int i = 0; i < 4; ++i) scene.add_box({1, 1, 1}, {0, 0, 0.5 + i}, 1000);

@@ -1,5 +1,5 @@
 #pragma once
-// A stack of boxes that sleep in a program's own engine: what holds for every engine.
+// Tests of a stack of boxes that sleep in a program's own engine, the same for every engine.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ class SleepingStack : public ::testing::Test {
 
   SleepingStack() {
     for (int i = 0; i < 4; ++i) stack.push_back(&scene.drop(standing({0.0, (0.5 + i) * height()})));
-    // The stability check of the settled stack is over: nothing wakes any more by itself.
+    // Until after the stability check of the settled stack, so that no box wakes without a cause.
     scene.run(480);
   }
   static double height() { return box_size<dimension>()[dimension - 1]; }

@@ -15,7 +15,7 @@ struct SpeedUpParams {
   double most_seconds = 10.0;  // of wall time, after which no round beyond the least begins
 };
 
-/// Mean processor time of a step on this thread, in each round.
+/// Mean processor time of a step on the calling thread: one value for each round.
 struct SpeedUp {
   std::vector<double> own;    // of the scene under its own policy [s]
   std::vector<double> other;  // under the policy that it is compared with [s]
