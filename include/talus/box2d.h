@@ -127,7 +127,7 @@ class Box2dImpulses {
 ///
 /// Box2D's own sleep is off for watched bodies, since it does not update their contacts. A force on a sleeping body and
 /// a joint that it gets have no effect until the program calls wake(). Bodies with joints never sleep, but wake others.
-/// Sensors count for nothing. The world must outlive this object, which wakes all bodies when it ends.
+/// Sensors are ignored. The world must outlive this object, which wakes all bodies when it ends.
 class Box2dSleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.

@@ -27,7 +27,7 @@ namespace talus {
 ///
 /// Box2D's own sleep is off for watched bodies, since it does not update their contacts. A force on a sleeping body and
 /// a joint that it gets have no effect until the program calls wake(). Bodies with joints never sleep, but wake others.
-/// Sensors count for nothing. A change of type ends the contacts of a body and begins them again without impulses:
+/// Sensors are ignored. A change of type ends the contacts of a body and begins them again without impulses:
 /// Box2D reports it as events, and a woken heap sinks by a thousandth of its height. The world must outlive this
 /// object, which wakes all bodies when it ends.
 class Box2dV3Sleeper {

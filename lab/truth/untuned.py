@@ -9,7 +9,7 @@ import math
 import pathlib
 import random
 
-# Tables of shapes, and the greatest extent of a body [m]. Balls resist rolling, or no heap of them comes to rest.
+# Tables of shapes, and the greatest extent of a body [m]. Round ones resist rolling, or no heap of them comes to rest.
 SHAPES_2D = {
     "hexagon": ("{kind = 'hull', corners = [[0.7, 0], [0.35, 0.6], [-0.35, 0.6], [-0.7, 0], [-0.35, -0.6], [0.35, -0.6]]}", 1.4),
     "capsule": ("{kind = 'capsule', length = 1.8, radius = 0.3, rolling_friction = 0.1}", 1.8),
@@ -45,7 +45,7 @@ def obstacles(ground, friction, plane):
 
 
 def scene(draw, number, dimension):
-    """Name and text of a scene. Shapes, pours and grounds go round, so that all occur equally often."""
+    """Name and text of a scene. Shapes, pours and grounds take turns, so that each occurs equally often."""
     plane = dimension == 2
     shapes = SHAPES_2D if plane else SHAPES_3D
     shape = list(shapes)[number % 5]
@@ -61,7 +61,9 @@ def scene(draw, number, dimension):
     height = draw.uniform(4, 9) * extent
     speed = math.sqrt(2 * gravity * height)
     largest = extent * (1.5 if pour == "sizes" else 1.0)
+    # As many spouts side by side as clear the place of the next body in time.
     columns = max(1, math.ceil(rate * 2.2 * largest / speed)) if pour != "rain" else 8
+    # Of the highest point of the ground.
     above = 3.0 if ground == "shelf" else 2.5 if ground == "step" else 6.0 if ground == "trough" else 0.0
     across = 0.0
     source = [f"count = {count}", f"rate = {rate:.3f}"]
@@ -77,7 +79,7 @@ def scene(draw, number, dimension):
         source += ["spin_spread = 3"]
     place, velocity = ([0, height + above], [across, -speed]) if plane else ([0, 0, height + above], [across, 0, -speed])
     source += [f"position = {place}", f"velocity = {velocity}", f"ride_above = {height}"]
-    seconds = count / rate + 12 * math.sqrt(9.81 / gravity) * 1.5
+    seconds = count / rate + 18 * math.sqrt(9.81 / gravity)
     name = f"{dimension}d-{number:02}-{shape}-{pour}-{ground}"
     text = (f"title = '{name}'\ndimension = {dimension}\nworld.gravity = {gravity:.3f}\nground.friction = {ground_friction:.3f}\n\n"
             f"{obstacles(ground, ground_friction, plane)}\n"
