@@ -28,7 +28,7 @@ namespace talus {
 ///
 /// With substeps of Bullet, call both functions from the two internal tick callbacks. Forces on a sleeping body do
 /// nothing: call wake() first. Bodies with constraints that are enabled never sleep, but wake others. Contacts of
-/// objects without contact response count for nothing. The world and its bodies must outlive this object, which wakes
+/// objects without contact response are ignored. The world and its bodies must outlive this object, which wakes
 /// all when it ends.
 class BulletSleeper {
  public:
