@@ -184,6 +184,18 @@ TEST_F(Bench, GoesOnWithWhatIsNotMeasured) {
   }
 }
 
+TEST_F(Bench, MeasuresAgainWhatAFileHasNoWholeRowOf) {
+  const std::string arguments = "drop_in_a_pile_2d --policy full --seeds 4" + tiny;
+  rows(arguments);
+  const std::map<std::string, std::string> broken = {
+      {"00000", ""}, {"00001", "[1]"}, {"00002", R"({"end_hash": "0"})"}};
+  for (const auto& [name, text] : broken) std::ofstream(folder_.path() / "b" / "rows" / (name + ".json")) << text;
+  const Outcome status = talus_command("bench --status " + (folder_ / "b"));
+  EXPECT_NE(status.out.find("4 runs: 1 measured, 0 failed, 3 not measured"), std::string::npos) << status.err;
+  EXPECT_EQ(talus_command("bench --collect " + (folder_ / "b")).exit_code, 1);
+  for (const Row& row : rows(arguments)) EXPECT_EQ(row.at("failure"), "");
+}
+
 // The runs of a seed are one task, so that the times that are compared are of one machine.
 TEST_F(Bench, IsAListOfTasksForASchedulerWithTheSameBits) {
   const std::string arguments = "drop_in_a_pile_2d --policy full,adaptive --seeds 2" + tiny;

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 
 #include "common/text/file.h"
@@ -41,6 +40,18 @@ std::string text_of(const BenchOptions& options) {
 }
 
 fs::path row_file(const fs::path& folder, int number) { return folder / "rows" / fmt::format("{:05}.json", number); }
+
+/// The row of a case, as its file has it. A file without a whole row counts for none, so that the case is measured
+/// again.
+BenchRow kept_row(const fs::path& file, const BenchCase& bench_case) {
+  const std::string line = file_contents(file).value_or("");
+  try {
+    const std::string failure = Json::parse(line).value("failure", "");
+    return failure.empty() ? row_of(bench_case, line) : BenchRow{bench_case, {}, {}, {}, failure};
+  } catch (const Json::exception&) {
+    return {bench_case, {}, {}, {}, std::string(not_measured)};
+  }
+}
 
 }  // namespace
 
@@ -82,12 +93,7 @@ void keep_outcome(const fs::path& folder, int number, const TaskOutcome& outcome
 
 std::vector<BenchRow> kept_rows(const fs::path& folder, const std::vector<BenchCase>& cases) {
   std::vector<BenchRow> rows;
-  for (int i = 0; i < std::ssize(cases); ++i) {
-    const std::optional<std::string> line = file_contents(row_file(folder, i));
-    const Json json = Json::parse(line.value_or(""), nullptr, false);
-    const std::string failure = !line ? std::string(not_measured) : json.value("failure", "");
-    rows.push_back(failure.empty() ? row_of(cases[i], *line) : BenchRow{cases[i], {}, {}, {}, failure});
-  }
+  for (int i = 0; i < std::ssize(cases); ++i) rows.push_back(kept_row(row_file(folder, i), cases[i]));
   return rows;
 }
 
