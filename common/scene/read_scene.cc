@@ -336,6 +336,7 @@ AnyScene parse_scene(std::string_view text, std::string_view file_name, std::spa
         check_scene_text(scene.toml, "the scene with the values of --set");
         scene.folder = std::filesystem::path(file_name).parent_path();
         scene.referred = reading.diagnostics.referred;
+        scene.included.assign(diagnostics.included.begin(), diagnostics.included.end());
         scene.reader_warnings = reading.diagnostics.warnings;
       },
       reading.scene);

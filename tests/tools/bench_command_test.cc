@@ -196,6 +196,21 @@ TEST_F(Bench, MeasuresAgainWhatAFileHasNoWholeRowOf) {
   for (const Row& row : rows(arguments)) EXPECT_EQ(row.at("failure"), "");
 }
 
+TEST_F(Bench, GoesOnWithNoOtherFilesThanItsScenesWereReadFrom) {
+  const std::string scene = "title = \"A box\"\ndimension = 2\nshape.box = {kind = \"box\", size = [1, 1]}\n";
+  std::ofstream(folder_.path() / "base.toml") << scene << "body = [{shape = \"box\", position = [0, 0.5]}]\n";
+  std::ofstream(folder_.path() / "box.toml") << "include = \"base.toml\"\nrun.frames = 5\n";
+  const Outcome emitted =
+      talus_command("bench " + (folder_ / "box.toml") + " --policy full --seeds 1 --emit " + (folder_ / "b"));
+  ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
+  std::ofstream(folder_.path() / "base.toml", std::ios::app) << "# more\n";
+  for (const char* only : {"", " --only 0"}) {
+    const Outcome outcome = talus_command("bench --resume " + (folder_ / "b") + only);
+    EXPECT_EQ(outcome.exit_code, 2) << only;
+    EXPECT_NE(outcome.err.find("base.toml: must be as it was when the benchmark"), std::string::npos) << outcome.err;
+  }
+}
+
 // The runs of a seed are one task, so that the times that are compared are of one machine.
 TEST_F(Bench, IsAListOfTasksForASchedulerWithTheSameBits) {
   const std::string arguments = "drop_in_a_pile_2d --policy full,adaptive --seeds 2" + tiny;

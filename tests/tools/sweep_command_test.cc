@@ -171,6 +171,27 @@ TEST_F(SweepCommand, GoesOnWithNoOtherSceneThanItBegan) {
   EXPECT_NE(outcome.err.find("must be as it was when the sweep"), std::string::npos) << outcome.err;
 }
 
+TEST_F(SweepCommand, GoesOnWithNoOtherFilesThanItsScenesWereReadFrom) {
+  const fs::path folder = folder_.path();
+  fs::rename(folder / "scene.toml", folder / "base.toml");
+  std::ofstream(folder / "scene.toml")
+      << "include = \"base.toml\"\nshape.rock = {kind = \"mesh\", file = \"rock.obj\", longest_side = 1}\n";
+  std::ofstream(folder / "rock.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const Outcome begun = emit();
+  ASSERT_EQ(begun.exit_code, 0) << begun.err;
+  for (const char* name : {"base.toml", "rock.obj"}) {
+    const std::string before = contents(folder / name);
+    std::ofstream(folder / name, std::ios::app) << "# more\n";
+    const Outcome outcome = in_sweep("\"$TALUS\" sweep --resume . --only 0");
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.err.find(std::string(name) + ": must be as it was when the sweep"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(emit().exit_code, 2) << name;
+    std::ofstream(folder / name) << before;
+  }
+  EXPECT_EQ(in_sweep("\"$TALUS\" sweep --resume . --only 0").exit_code, 0);
+}
+
 TEST_F(SweepCommand, TakesItsPlanFromTheFolderAlone) {
   ASSERT_EQ(emit().exit_code, 0);
   const std::string folder = folder_ / "sweep";

@@ -123,8 +123,7 @@ int tell_status(const BenchOptions& options, const std::vector<BenchCase>& cases
 }
 
 /// Begins a benchmark, or goes on with it.
-int begin(const BenchOptions& options, const JobOptions& jobs) {
-  const std::vector<BenchCase> cases = bench_cases(options);
+int begin(const BenchOptions& options, const std::vector<BenchCase>& cases, const JobOptions& jobs) {
   begin_bench(options);
   const FolderLock lock(options.out, FolderLock::Kind::whole);
   require_no_jobs(options.out);
@@ -165,16 +164,20 @@ int bench(const BenchOptions& given, const JobOptions& jobs) {
     const std::vector<fs::path> files = files_of(options);
     options.scenes.clear();
     for (const fs::path& file : files) options.scenes.push_back(file.string());
-    return begin(options, jobs);
+    const std::vector<BenchCase> cases = bench_cases(options);
+    options.files = hashes_of(options, cases);
+    return begin(options, cases, jobs);
   }
   BenchOptions options = read_bench(!jobs.resume.empty()   ? jobs.resume
                                     : !jobs.status.empty() ? jobs.status
                                                            : jobs.collect);
   options.jobs = given.jobs;
+  for (std::size_t i = 0; !jobs.resume.empty() && i < options.scenes.size(); ++i)
+    require_unchanged(options.files.at(i), options.scenes[i], "the benchmark " + options.out.string());
   const std::vector<BenchCase> cases = bench_cases(options);
   if (!jobs.status.empty()) return tell_status(options, cases);
   if (!jobs.collect.empty()) return collect(options, cases);
-  return jobs.only ? do_round(options, cases, *jobs.only) : begin(options, jobs);
+  return jobs.only ? do_round(options, cases, *jobs.only) : begin(options, cases, jobs);
 }
 
 /// What a new benchmark is made of.

@@ -17,12 +17,10 @@ using Json = nlohmann::json;
 
 constexpr const char* bench_file = "bench.json";
 
-/// All but the folder and the jobs, which change no result. The texts of the scenes are part of what a benchmark is.
+/// All but the folder and the jobs, which change no result. The files of the scenes are part of what a benchmark is.
 Json json_of(const BenchOptions& options) {
-  Json texts = Json::array();
-  for (const std::string& scene : options.scenes) texts.push_back(file_contents(scene).value_or(""));
   return {{"scenes", options.scenes},
-          {"texts", texts},
+          {"files", options.files},
           {"preset", options.preset},
           {"policies", options.policies},
           {"settings", options.settings},
@@ -77,7 +75,8 @@ BenchOptions read_bench(const fs::path& folder) {
             .seeds = json.at("seeds"),
             .quick = json.at("quick"),
             .force = json.at("force"),
-            .extras = {json.at("drift"), json.at("motion_error"), json.at("frames")}};
+            .extras = {json.at("drift"), json.at("motion_error"), json.at("frames")},
+            .files = json.at("files")};
   } catch (const Json::exception&) {
     throw std::invalid_argument(fmt::format("{}: must be a folder that `talus bench` has made", folder.string()));
   }

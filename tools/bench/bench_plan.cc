@@ -176,6 +176,16 @@ std::vector<BenchCase> bench_cases(const BenchOptions& options) {
   return cases;
 }
 
+std::vector<FileHashes> hashes_of(const BenchOptions& options, const std::vector<BenchCase>& cases) {
+  std::vector<FileHashes> hashes;
+  for (const std::string& scene : options.scenes) {
+    hashes.emplace_back();
+    for (const BenchCase& each : cases)
+      if (each.scene == scene && each.seed == 1) add_file_hashes(hashes.back(), scene, load(each));
+  }
+  return hashes;
+}
+
 std::vector<BenchRound> rounds_of(const std::vector<BenchCase>& cases) {
   std::vector<BenchRound> rounds;
   for (int i = 0; i < std::ssize(cases); ++i) {

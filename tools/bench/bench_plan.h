@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/bench/bench_run.h"
+#include "tools/sweep/file_hashes.h"
 
 namespace talus {
 
@@ -23,6 +24,7 @@ struct BenchOptions {
   bool quick = false;
   bool force = false;
   BenchExtras extras;
+  std::vector<FileHashes> files;  // of each scene in all its cases
 };
 
 /// A table or figure of the paper.
@@ -42,6 +44,9 @@ std::vector<std::filesystem::path> files_of(const BenchOptions& options);
 /// `engine` and `reference`, combinations that differ in settings of a policy alone are one. Throws
 /// std::invalid_argument and SceneErrors where a run is not possible.
 std::vector<BenchCase> bench_cases(const BenchOptions& options);
+
+/// What BenchOptions::files must be for these cases.
+std::vector<FileHashes> hashes_of(const BenchOptions& options, const std::vector<BenchCase>& cases);
 
 /// Cases from `first` on that are compared with each other, and so are measured one after the other: those of a scene,
 /// an engine and a seed.

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "common/scene/read_scene.h"
-#include "common/text/file.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/job_options.h"
@@ -75,9 +74,11 @@ void check_run(const Sweep& sweep, const Scene<Dim>& scene) {
 }
 
 /// Each value must make a scene that can be read and lies in the engine's window: all errors before the first run.
-void check_runs(const Sweep& sweep) {
+/// Returns the files of these scenes.
+FileHashes checked_runs(const Sweep& sweep) {
   constexpr int told = 10'000;  // between two lines of progress
   const int size = sweep_size(sweep.axes);
+  FileHashes files;
   for (int i = 0; i < size; ++i) {
     if (i > 0 && i % told == 0) print_message("{} of {} scenes checked", i, size);
     std::vector<Override> overrides;
@@ -85,7 +86,9 @@ void check_runs(const Sweep& sweep) {
       overrides.push_back({std::move(setting)});
     const AnyScene read = read_scene(sweep.scene, overrides);
     std::visit([&](const auto& of_dimension) { check_run(sweep, of_dimension); }, read);
+    add_file_hashes(files, sweep.scene, read);
   }
+  return files;
 }
 
 int exit_code_of(const SweepOptions& options, const SweepCount& count) {
@@ -123,9 +126,8 @@ int begin_new(const SweepOptions& options) {
   if (options.plot) sweep.plot = *options.plot;
   sweep.folder = fs::absolute(options.jobs.emit.empty() ? options.jobs.out : options.jobs.emit).lexically_normal();
   sweep.scene = fs::absolute(find_scene(options.scene));
-  sweep.text = file_contents(sweep.scene).value_or("");
   sweep.axes = axes_of(options);
-  check_runs(sweep);
+  sweep.files = checked_runs(sweep);
   make_sweep_folder(sweep.folder);
   return begin(options, sweep);
 }

@@ -25,7 +25,7 @@ constexpr const char* failure_folder = "failed";
 
 nlohmann::json json_of(const Sweep& sweep) {
   nlohmann::json json = {{"file", sweep.scene.string()},
-                         {"text", sweep.text},
+                         {"files", sweep.files},
                          {"backend", sweep.backend},
                          {"force", sweep.force},
                          {"measure_drift", sweep.measure_drift},
@@ -110,7 +110,7 @@ Sweep read_sweep(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(stream);
     Sweep sweep{.folder = fs::absolute(folder).lexically_normal(),
                 .scene = json.at("file").get<std::string>(),
-                .text = json.at("text"),
+                .files = json.at("files"),
                 .backend = json.at("backend"),
                 .force = json.at("force"),
                 .measure_drift = json.at("measure_drift"),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/sweep/file_hashes.h"
 #include "tools/sweep/sweep_plan.h"
 
 namespace talus {
@@ -16,7 +17,7 @@ namespace talus {
 struct Sweep {
   std::filesystem::path folder;  // absolute
   std::filesystem::path scene;   // file, absolute
-  std::string text;              // of the scene file
+  FileHashes files;              // of the scenes of all runs
   std::string backend;           // empty: the dimension's first
   bool force = false;
   bool measure_drift = false;

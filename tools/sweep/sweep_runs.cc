@@ -6,9 +6,7 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <stdexcept>
 
-#include "common/text/file.h"
 #include "tools/output/output.h"
 #include "tools/pool/in_processes.h"
 #include "tools/run/interrupt.h"
@@ -126,9 +124,7 @@ std::vector<int> unfinished(const Sweep& sweep) {
 }
 
 SweepEnd do_runs(const Sweep& sweep, const std::vector<int>& numbers, int jobs) {
-  if (file_contents(sweep.scene) != sweep.text)
-    throw std::invalid_argument(
-        fmt::format("{}: must be as it was when the sweep {} began", sweep.scene.string(), sweep.folder.string()));
+  require_unchanged(sweep.files, sweep.scene, "the sweep " + sweep.folder.string());
   const auto settings = [&](int task) { return settings_of(sweep.axes, sweep_run(sweep.axes, numbers[task])); };
   int done = 0;
   SweepEnd end;
