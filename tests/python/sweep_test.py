@@ -27,6 +27,12 @@ def test_gives_each_combination_as_a_run_of_its_own_gives_it():
         assert run.result.warnings == alone.warnings
 
 
+@pytest.mark.parametrize("path, given", [("policy.kind", {"policy": "full"}), ("seed", {"seeds": 2})])
+def test_a_value_that_an_argument_gives_too_is_refused(path, given):
+    with pytest.raises(ValueError, match=f"{path}.*must be left out where {next(iter(given))}"):
+        talus.sweep("drop_in_a_pile_2d", {path: ["full"]}, set=SHORT, **given)
+
+
 def test_a_run_that_fails_has_its_error_and_costs_no_other():
     runs = talus.sweep("drop_in_a_pile_2d", {"run.frames": [5, -5, 10]})
     assert [run.result and run.result.step_count > 0 for run in runs] == [True, None, True]

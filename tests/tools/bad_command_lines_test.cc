@@ -186,8 +186,20 @@ TEST_F(BadCommandLine, OfBenchIsRefused) {
           {"bench drop_in_a_pile_2d --set seed=1,2 --out new", {"--set seed", "--seeds"}},
           {"bench drop_in_a_pile_2d --set policy.kind=full --out new", {"--set policy.kind", "--policy"}},
           {"bench drop_in_a_pile_2d --set run.frames=2 --set run.frames=3 --out new", {"run.frames", "once"}},
+          {"bench drop_in_a_pile_2d --set run.frames=2 --set 'run={frames=3}' --out new", {"--set run:", "run.frames"}},
+          {"bench drop_in_a_pile_2d --set 'policy={tau=0.3}' --out new", {"--set policy:", "--policy"}},
           {"bench drop_in_a_pile_2d --out ''", {"--out"}},
           {"bench drop_in_a_pile_2d --out text", {"--out", "text"}}});
+}
+
+TEST_F(BadCommandLine, OfSweepIsRefused) {
+  refuse(
+      {{"sweep drop_in_a_pile_2d --set run.frames=2 --set run.frames=3 --out new", {"--set run.frames", "once"}},
+       {"sweep drop_in_a_pile_2d --set run.frames=2,3 --set 'run={frames=4}' --out new", {"--set run:", "run.frames"}},
+       {"sweep drop_in_a_pile_2d --set 'run={frames=4}' --set run.frames=2,3 --out new",
+        {"--set run.frames:", "run is"}},
+       {"sweep drop_in_a_pile_2d --set 'policy={tau=0.3}' --policy full --out new",
+        {"--set policy.kind:", "policy is"}}});
 }
 
 #ifdef TALUS_BULLET

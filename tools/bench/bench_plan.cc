@@ -47,21 +47,20 @@ std::vector<std::string> policies_of(std::string_view preset) {
   return {"full", "paper", "adaptive", std::string(reference_policy)};
 }
 
-bool sets(const std::vector<SweepAxis>& axes, std::string_view path) {
-  return std::ranges::any_of(axes, [&](const SweepAxis& axis) { return axis.path == path; });
+bool sets(const std::vector<SweepAxis>& axes, const std::string& path) {
+  return std::ranges::any_of(axes, [&](const SweepAxis& axis) { return overlap(axis.path, path); });
 }
 
 std::vector<SweepAxis> axes_of(const BenchOptions& options) {
   std::vector<SweepAxis> axes;
   for (const std::string& setting : options.settings) {
-    SweepAxis axis = sweep_axis(setting);
-    if (axis.path == "seed" || axis.path == "policy.kind" || sets(axes, axis.path))
-      throw std::invalid_argument(fmt::format("--set {}: must be {}", axis.path,
-                                              axis.path == "seed"          ? "given by --seeds"
-                                              : axis.path == "policy.kind" ? "given by --policy"
-                                                                           : "given once"));
-    axes.push_back(std::move(axis));
+    axes.push_back(sweep_axis(setting));
+    const std::string& path = axes.back().path;
+    if (overlap(path, "seed")) throw std::invalid_argument(fmt::format("--set {}: must be given by --seeds", path));
+    if (overlap(path, "policy.kind"))
+      throw std::invalid_argument(fmt::format("--set {}: must leave policy.kind to --policy", path));
   }
+  require_apart(axes);
   if (options.preset == "table2" && !sets(axes, "policy.tau")) {
     axes.push_back({"policy.tau", {}});
     for (const paper::Threshold& threshold : paper::table_2)

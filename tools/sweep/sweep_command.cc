@@ -59,10 +59,7 @@ std::vector<SweepAxis> axes_of(const SweepOptions& options) {
   SweepAxis seeds{"seed", {}};
   for (int seed = 1; seed <= options.seeds; ++seed) seeds.values.push_back(fmt::format("{}", seed));
   if (options.seeds > 1) axes.push_back(seeds);
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (axes[i].path == axes[k].path)
-        throw std::invalid_argument(fmt::format("--set {}: must be given once", axes[i].path));
+  require_apart(axes);
   return axes;
 }
 

@@ -1,7 +1,9 @@
 #include "tools/sweep/sweep_plan.h"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -68,6 +70,22 @@ SweepAxis sweep_axis(const std::string& text) {
   for (const std::string& value : axis.values)
     if (value.empty()) throw std::invalid_argument(fmt::format("--set {}: must have no empty value", text));
   return axis;
+}
+
+bool overlap(const std::string& path, const std::string& other) {
+  const toml::path first(path);
+  const toml::path second(other);
+  if (first.empty() || second.empty()) return false;  // no paths, which the scene's reader refuses
+  const auto [of_first, of_second] = std::mismatch(first.begin(), first.end(), second.begin(), second.end());
+  return of_first == first.end() || of_second == second.end();
+}
+
+void require_apart(const std::vector<SweepAxis>& axes) {
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (overlap(axes[i].path, axes[k].path))
+        throw std::invalid_argument(
+            fmt::format("--set {}: must be given once, and {} is given, too", axes[i].path, axes[k].path));
 }
 
 int sweep_size(const std::vector<SweepAxis>& axes) {

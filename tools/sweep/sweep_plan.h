@@ -24,6 +24,12 @@ inline constexpr std::size_t most_sweep_runs = 100'000;
 /// quotes belong to a value. Throws std::invalid_argument with the text and the rule.
 SweepAxis sweep_axis(const std::string& text);
 
+/// Whether one of two paths of keys is the other, or begins with it, so that a value of one replaces that of the other.
+bool overlap(const std::string& path, const std::string& other);
+
+/// Throws std::invalid_argument where the paths of two axes overlap: runs would not have all values that they tell.
+void require_apart(const std::vector<SweepAxis>& axes);
+
 /// Number of all combinations. Throws std::invalid_argument where there are too many.
 int sweep_size(const std::vector<SweepAxis>& axes);
 

@@ -71,11 +71,14 @@ def sweep(
     values: lists of values by path, {"shape.L.friction": [0.2, 0.4]}. seeds: how many, from 1 on, or the seeds
     themselves; None: the scene's own. set: values of all runs. jobs: runs at a time, each in a process of its own; None:
     one for each core. progress: a function that is called with the number of runs done and of all, from 0 on.
-    policy and backend as in talus.run().
+    policy and backend as in talus.run(). ValueError: policy.kind or seed is in `values` and given as an argument, too.
 
     A run that fails has its error in the list and costs no other. Ctrl-C, as any error of `progress`, ends the sweep.
     """
     values = {path: list(choices) for path, choices in (values or {}).items()}
+    for path, argument, given in (("policy.kind", "policy", policy), ("seed", "seeds", seeds)):
+        if path in values and given is not None:
+            raise ValueError(f"values[{path!r}]: must be left out where {argument} = {given} is given")
     seeds = [None] if seeds is None else list(range(1, seeds + 1) if isinstance(seeds, int) else seeds)
     combinations = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
     plan = [(chosen, seed) for chosen in combinations for seed in seeds]
