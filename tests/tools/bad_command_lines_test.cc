@@ -187,6 +187,7 @@ TEST_F(BadCommandLine, OfBenchIsRefused) {
           {"bench drop_in_a_pile_2d --set policy.kind=full --out new", {"--set policy.kind", "--policy"}},
           {"bench drop_in_a_pile_2d --set run.frames=2 --set run.frames=3 --out new", {"run.frames", "once"}},
           {"bench drop_in_a_pile_2d --set run.frames=2 --set 'run={frames=3}' --out new", {"--set run:", "run.frames"}},
+          {"bench drop_in_a_pile_2d --set run.frames=5,5 --out new", {"run.frames=5,5", "no value twice"}},
           {"bench drop_in_a_pile_2d --set 'policy={tau=0.3}' --out new", {"--set policy:", "--policy"}},
           {"bench drop_in_a_pile_2d --out ''", {"--out"}},
           {"bench drop_in_a_pile_2d --out text", {"--out", "text"}}});
@@ -195,6 +196,8 @@ TEST_F(BadCommandLine, OfBenchIsRefused) {
 TEST_F(BadCommandLine, OfSweepIsRefused) {
   refuse(
       {{"sweep drop_in_a_pile_2d --set run.frames=2 --set run.frames=3 --out new", {"--set run.frames", "once"}},
+       {"sweep drop_in_a_pile_2d --set ground.friction=0.5,0.7,0.50 --out new", {"0.5,0.7,0.50", "no value twice"}},
+       {"sweep drop_in_a_pile_2d --set policy.kind=full,full --out new", {"policy.kind=full,full", "no value twice"}},
        {"sweep drop_in_a_pile_2d --set run.frames=2,3 --set 'run={frames=4}' --out new", {"--set run:", "run.frames"}},
        {"sweep drop_in_a_pile_2d --set 'run={frames=4}' --set run.frames=2,3 --out new",
         {"--set run.frames:", "run is"}},
