@@ -180,6 +180,24 @@ int bench(const BenchOptions& given, const JobOptions& jobs) {
   return jobs.only ? do_round(options, cases, *jobs.only) : begin(options, cases, jobs);
 }
 
+/// Names between commas. CLI11's own delimiter lets empty ones pass.
+CLI::Validator names_of(const std::vector<std::string>& known) {
+  const CLI::Validator is_known = CLI::IsMember(known);
+  return CLI::Validator(
+      [is_known](const std::string& text) {
+        std::string error;
+        for (const std::string& name : split_outside(text, ','))
+          if (error.empty()) error = is_known(name);
+        return error;
+      },
+      is_known.get_description());
+}
+
+/// The names in all values of an option.
+std::vector<std::string> split(const std::vector<std::string>& values) {
+  return values.empty() ? values : split_outside(fmt::format("{}", fmt::join(values, ",")), ',');
+}
+
 /// What a new benchmark is made of.
 std::vector<CLI::Option*> add_plan(CLI::App& command, BenchOptions& options) {
   std::vector<std::string> policies(policy_kinds.begin(), policy_kinds.end());
@@ -197,13 +215,11 @@ std::vector<CLI::Option*> add_plan(CLI::App& command, BenchOptions& options) {
                          "Scene files, or names of scenes that `talus list` shows; or published, and which"),
       command.add_option("--preset", options.preset, "What the paper has: " + about)->check(CLI::IsMember(presets)),
       command.add_option("-p,--policy", options.policies, "Policies, separated by commas; may be repeated")
-          ->delimiter(',')
-          ->check(CLI::IsMember(policies))
+          ->check(names_of(policies))
           ->allow_extra_args(false),
       command
           .add_option("-b,--backend", options.backends, "Engines, separated by commas; default: each dimension's first")
-          ->delimiter(',')
-          ->check(CLI::IsMember(engines))
+          ->check(names_of(engines))
           ->allow_extra_args(false),
       command
           .add_option("-s,--set", options.settings,
@@ -233,6 +249,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
     if (jobs->folders() == 0) jobs->out = "bench";
     check_job_options(*jobs, plan);
     options->out = jobs->emit.empty() ? jobs->out : jobs->emit;
+    options->policies = split(options->policies);
+    options->backends = split(options->backends);
     options->jobs = std::max(1, jobs->jobs);
     exit_code = bench(*options, *jobs);
   });

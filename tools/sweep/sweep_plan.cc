@@ -8,33 +8,11 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <string_view>
 
 namespace talus {
 namespace {
 
 constexpr double most_values = 10'000.0;
-
-std::vector<std::string> split_outside(std::string_view text, char separator) {
-  std::vector<std::string> parts(1);
-  int depth = 0;
-  char quote = '\0';
-  for (const char letter : text) {
-    if (quote != '\0')
-      quote = letter == quote ? '\0' : quote;
-    else if (letter == '"' || letter == '\'')
-      quote = letter;
-    else if (letter == '[' || letter == '{')
-      ++depth;
-    else if (letter == ']' || letter == '}')
-      --depth;
-    if (letter == separator && depth == 0 && quote == '\0')
-      parts.emplace_back();
-    else
-      parts.back() += letter;
-  }
-  return parts;
-}
 
 std::optional<double> number_of(const std::string& text) {
   double number = 0.0;
@@ -66,6 +44,27 @@ std::vector<std::string> range_values(const std::vector<std::string>& parts, con
 }
 
 }  // namespace
+
+std::vector<std::string> split_outside(std::string_view text, char separator) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  char quote = '\0';
+  for (const char letter : text) {
+    if (quote != '\0')
+      quote = letter == quote ? '\0' : quote;
+    else if (letter == '"' || letter == '\'')
+      quote = letter;
+    else if (letter == '[' || letter == '{')
+      ++depth;
+    else if (letter == ']' || letter == '}')
+      --depth;
+    if (letter == separator && depth == 0 && quote == '\0')
+      parts.emplace_back();
+    else
+      parts.back() += letter;
+  }
+  return parts;
+}
 
 SweepAxis sweep_axis(const std::string& text) {
   const std::size_t equals = text.find('=');

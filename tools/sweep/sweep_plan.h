@@ -2,6 +2,7 @@
 // The runs of a sweep: the product of all values.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace talus {
@@ -19,6 +20,9 @@ struct SweepRun {
 
 /// Most runs of a sweep.
 inline constexpr std::size_t most_sweep_runs = 100'000;
+
+/// Parts between separators, but for those within brackets and quotes. At least one; parts may be empty.
+std::vector<std::string> split_outside(std::string_view text, char separator);
 
 /// `PATH=LOW:HIGH:STEP`, both ends included, `PATH=A,B,C`, or `PATH=VALUE`. Commas and colons within brackets and
 /// quotes belong to a value. Throws std::invalid_argument with the text and the rule.
