@@ -60,8 +60,11 @@ TEST_F(SweepCommand, PrintsAnyNumberOfTheSummaryWithItsErrorOverTheSeeds) {
   const std::string table = file("sweep.csv");
   EXPECT_TRUE(table.substr(0, table.find('\n')).ends_with(",/bodies")) << table;
   EXPECT_NE(file("sweep.svg").find("/bodies"), std::string::npos);
-  const Outcome missing = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot /bodies/0");
-  EXPECT_NE(missing.err.find("no summary.json has a number /bodies/0"), std::string::npos) << missing.err;
+  for (const std::string key : {"/bodies/0", "/warnings/7", "/warnings/01", "/warnings/99999999999999999999"}) {
+    const Outcome missing = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot " + key);
+    EXPECT_EQ(missing.exit_code, 0) << key;
+    EXPECT_NE(missing.err.find("no summary.json has a number " + key + "\n"), std::string::npos) << missing.err;
+  }
   const Outcome unknown = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot body");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("must be a key of summary.json, as /gates/0/net, or one of bodies,"), std::string::npos)

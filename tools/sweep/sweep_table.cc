@@ -21,6 +21,15 @@ std::optional<double> number_in(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
+std::optional<double> number_at(const nlohmann::json& summary, const nlohmann::json::json_pointer& key) {
+  try {
+    const bool given = summary.contains(key) && summary.at(key).is_number();
+    return given ? std::optional(summary.at(key).get<double>()) : std::nullopt;
+  } catch (const nlohmann::json::out_of_range&) {
+    return std::nullopt;  // an index that no array can have
+  }
+}
+
 /// Names of all columns.
 std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes, const std::vector<SweepMeasure>& measures) {
   std::vector<std::string> columns = {"run"};
@@ -79,11 +88,8 @@ SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summar
                .numbers = {},
                .reason = summary.value("reason", ""),
                .end_hash = summary.value("end_hash", "")};
-  for (const SweepMeasure& measure : sweep_measures(plotted)) {
-    const nlohmann::json::json_pointer key{std::string(measure.key)};
-    const bool given = summary.contains(key) && summary.at(key).is_number();
-    row.numbers.push_back(given ? std::optional(summary.at(key).get<double>()) : std::nullopt);
-  }
+  for (const SweepMeasure& measure : sweep_measures(plotted))
+    row.numbers.push_back(number_at(summary, nlohmann::json::json_pointer(std::string(measure.key))));
   return row;
 }
 
