@@ -8,6 +8,7 @@
 
 #include "common/math/in_space.h"
 #include "common/math/require.h"
+#include "common/text/printable.h"
 
 namespace talus {
 namespace {
@@ -16,6 +17,8 @@ WorldLabel checked(const WorldLabel& label) {
   require(std::isfinite(label.dt) && label.dt > 0.0, "dt", label.dt, "must be finite and above 0");
   require(std::isfinite(label.frame_rate) && label.frame_rate > 0.0, "frame_rate", label.frame_rate,
           "must be finite and above 0");
+  for (const auto& [field, text] : {std::pair("name", &label.name), {"title", &label.title}, {"engine", &label.engine}})
+    require(text->find('\0') == std::string::npos, field, printable(*text), "must have no character 0");
   return label;
 }
 

@@ -18,8 +18,8 @@ struct WorldLabel {
   double frame_rate = 30.0;      // [1/s] > 0 frames of a record in a second of simulated time
 };
 
-/// For PileSleeper::observe(): writes the record of the world into a new file. Throws InvalidValue on a bad label and
-/// as RunRecorder does, within observe() already.
+/// For PileSleeper::observe(): writes the record of the world into a file, in place of one that is there. Throws
+/// InvalidValue on a bad label and as RunRecorder does, within observe() already.
 template <int Dim>
 std::unique_ptr<Observer<Dim>> record_world(const std::string& path, const WorldLabel& label = {},
                                             const RecorderParams& params = {});

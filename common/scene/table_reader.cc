@@ -341,7 +341,8 @@ bool TableReader::read_value(const toml::node& node, const std::string& name, co
     return read_choice(node, name, value, std::vector<std::string>(key.choices.begin(), key.choices.end()),
                        key.choice_of != nullptr);
   const auto* text = node.as_string();
-  if (text == nullptr || (*text)->empty() || (*text)->find_first_of("\n\r") != std::string::npos) {
+  if (text == nullptr || (*text)->empty() ||
+      (*text)->find_first_of(std::string_view("\n\r\0", 3)) != std::string::npos) {
     error_at(node, name, "must be a text on one line, in quotes, not empty");
     return false;
   }

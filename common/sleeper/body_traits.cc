@@ -26,8 +26,10 @@ void check_traits(const BodyTraits<Dim>& traits, bool kinematic) {
     check_piece<Dim>(traits.pieces[i], fmt::format("pieces[{}]", i));
   if (kinematic) return;
   require(std::isfinite(traits.mass) && traits.mass > 0.0, "mass", traits.mass, "must be finite and above 0");
-  require(traits.inertia.allFinite() && traits.inertia.determinant() > 0.0, "inertia", traits.inertia.determinant(),
-          "must be finite and have a determinant above 0");
+  const Inertia<Dim>& inertia = traits.inertia;
+  require(inertia.allFinite() && inertia.isApprox(inertia.transpose(), 1e-5) && inertia.llt().info() == Eigen::Success,
+          "inertia's determinant", inertia.determinant(),
+          "must be that of a finite, symmetric, positive definite matrix");
 }
 
 }  // namespace

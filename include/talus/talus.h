@@ -216,7 +216,8 @@ TALUS_API int talus_snapshot(talus_sleeper* sleeper, const struct talus_saved** 
 /// has that of saved[i]; its velocity means nothing. A program that has added its bodies again replaces their handles.
 TALUS_API int talus_restore(talus_sleeper* sleeper, const struct talus_saved* saved, const struct talus_state* states,
                             size_t count, struct talus_changes* changes);
-/// Records each step from now on in a new file, for `talus view`, `film`, `export` and `compare`. `label` may be null.
+/// Records each step from now on in a file, which is replaced, for `talus view`, `film`, `export` and `compare`.
+/// `label` may be null.
 TALUS_API int talus_record(talus_sleeper* sleeper, const char* path, const struct talus_label* label);
 /// Shows each step from now on to `talus monitor` and `talus view --live`. `label` may be null.
 TALUS_API int talus_publish(talus_sleeper* sleeper, const struct talus_label* label);

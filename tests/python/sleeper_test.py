@@ -237,6 +237,8 @@ def test_an_observed_sleeper_leaves_a_record_of_its_bodies(sleeper, tmp_path):
     assert len(record.steps) == 121  # each second step, and the start
     np.testing.assert_allclose(record.positions[-1], engine.position, atol=1e-5)
     assert record.asleep[-1].all()
+    with pytest.raises(ValueError, match="no character 0"):
+        sleeper.observe(tmp_path / "zero.lcm", name="a\0b")
     with pytest.raises(OSError):
         sleeper.observe(tmp_path / "no" / "folder.lcm")
     with pytest.raises(ValueError, match="enabled"):
@@ -315,6 +317,7 @@ def test_bad_input_is_an_error_with_field_and_value_and_changes_nothing():
         ("quaternion", lambda: sleeper.add([0, 0, 1, 0, 0, 0, 2], mass=1, radius=0.5)),
         ("mass", lambda: sleeper.add(pose, mass=-1, radius=0.5)),
         ("form", lambda: sleeper.add(pose, mass=1)),
+        ("inertia", lambda: sleeper.add(pose, mass=1, bounds=[[-1, -1, -1], [1, 1, 1]], inertia=(-1, -1, 1))),
         ("role = tired", lambda: sleeper.add(pose, mass=1, radius=0.5, role="tired")),
         ("dt = -1", lambda: sleeper.step(-1, *state)),
         ("velocities.shape", lambda: sleeper.step(DT, [ball], [pose], [[0, 0]], [[0, 0, 0]])),

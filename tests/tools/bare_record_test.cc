@@ -42,6 +42,15 @@ TEST_F(BareRecord, IsAllThatTheCommandsOnRecordsNeed) {
   EXPECT_NE(same.out.find("The same run, bit for bit"), std::string::npos) << same.out << same.err;
 }
 
+TEST_F(BareRecord, IsNotTheSameRunAsOneThatEndsEarlier) {
+  run("drop_in_a_pile_2d --set run.frames=30");
+  const std::string shorter = folder_ / "shorter";
+  ASSERT_EQ(talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=20 --out " + shorter).exit_code, 0);
+  const Outcome compared = talus_command("compare --twins 1 " + bare() + " " + shorter);
+  EXPECT_EQ(compared.out.find("The same run"), std::string::npos) << compared.out << compared.err;
+  EXPECT_NE(compared.out.find("the frames that both have are equal"), std::string::npos) << compared.out;
+}
+
 TEST_F(BareRecord, IsTakenFromTheSceneBesideItWhereItsOwnIsDamaged) {
   run("drop_in_a_pile_2d --set run.frames=30");
   std::string log = contents(bare());

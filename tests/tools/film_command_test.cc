@@ -103,6 +103,17 @@ TEST(FilmCommand, NamesAFileThatCannotBeWritten) {
   EXPECT_NE(film.err.find("a.mp4"), std::string::npos) << film.err;
 }
 
+TEST(FilmCommand, FailsOnAFullDisk) {
+  const TemporaryFolder folder;
+  const Outcome run =
+      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=10 --out " + (folder / "run"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const std::string file : {"a.gif", "a.webp"}) {
+    std::filesystem::create_symlink("/dev/full", folder.path() / file);
+    EXPECT_EQ(talus_command("film " + (folder / "run") + " --width 320 --out " + (folder / file)).exit_code, 1) << file;
+  }
+}
+
 TEST(FilmCommand, RefusesBadOptions) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& arguments, const std::string& said) {

@@ -120,6 +120,15 @@ TEST_F(LogCommand, RepairLeavesOutTheDamagedMessageOnly) {
   EXPECT_EQ(talus_command("replay " + (folder_ / "whole") + " --out " + (folder_ / "a.html")).exit_code, 0);
 }
 
+TEST_F(LogCommand, RepairCountsWhatIsDamagedAtTheEnd) {
+  const std::string whole = contents(folder_.path() / "run" / "run.lcm");
+  std::filesystem::create_directory(folder_.path() / "hurt");
+  std::ofstream(folder_.path() / "hurt" / "run.lcm", std::ios::binary) << whole.substr(0, whole.size() - 10);
+  const Outcome outcome = talus_command("info --repair " + (folder_ / "hurt") + " --out " + (folder_ / "whole"));
+  EXPECT_EQ(outcome.out.find(" 0 damaged bytes"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" in 1 places left out"), std::string::npos) << outcome.out;
+}
+
 /// An event as it stands in a log.
 std::string event(std::int64_t stamp, const std::string& channel, const std::string& data) {
   const auto bytes = [](std::uint64_t value, int size) {

@@ -20,25 +20,17 @@ namespace {
 constexpr const char* even_sides = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
 
 std::vector<std::string> arguments_of(const FilmFormat& format) {
-  std::vector<std::string> arguments = {"ffmpeg",
-                                        "-loglevel",
-                                        "error",
-                                        "-nostdin",
+  std::vector<std::string> arguments = {"ffmpeg",   "-loglevel",
+                                        "error",    "-nostdin",
                                         "-y",
-                                        "-f",
-                                        "rawvideo",
-                                        "-pix_fmt",
-                                        "bgra",
-                                        "-s",
-                                        fmt::format("{}x{}", format.width, format.height),
-                                        "-r",
-                                        fmt::format("{:.6f}", 1.0 / format.frame_time),
-                                        "-i",
-                                        "-",
-                                        "-fflags",
-                                        "+bitexact",
-                                        "-flags:v",
-                                        "+bitexact"};
+                                        "-xerror",  // or a full disk is no failure
+                                        "-f",       "rawvideo",
+                                        "-pix_fmt", "bgra",
+                                        "-s",       fmt::format("{}x{}", format.width, format.height),
+                                        "-r",       fmt::format("{:.6f}", 1.0 / format.frame_time),
+                                        "-i",       "-",
+                                        "-fflags",  "+bitexact",
+                                        "-flags:v", "+bitexact"};
   const auto add = [&](std::initializer_list<std::string> more) { arguments.insert(arguments.end(), more); };
   const std::string last_frame_held = fmt::format("tpad=stop_mode=clone:stop_duration={}", format.pause);
   if (format.file.extension() == ".mp4") {

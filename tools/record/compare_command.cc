@@ -197,7 +197,12 @@ bool within_floor(const Json& json) {
 std::string verdict_of(const Json& json) {
   const Json& settings = json["settings_that_differ"];
   const bool other_scene = std::ranges::any_of(settings, [](const Json& one) { return one["of_scene"].get<bool>(); });
-  if (json["first_difference"].is_null()) return "The same run, bit for bit.";
+  if (json["first_difference"].is_null()) {
+    const auto damaged = [](const Json& run) { return !run["damage"].get<std::string>().empty(); };
+    const bool same = !other_scene && json["first_other_sleep_decision"].is_null() && !damaged(json["a"]) &&
+                      !damaged(json["b"]) && json["a"]["steps"] == json["b"]["steps"];
+    return same ? "The same run, bit for bit." : "Different runs; the frames that both have are equal bit for bit.";
+  }
   const std::string words = shape_words(json);
   if (other_scene) return fmt::format("Piles of different scenes: {}.", words);
   if (json["floor"].is_null()) return fmt::format("{}; --twins 3 measures what is noise.", words);

@@ -117,8 +117,9 @@ void repair_log(const fs::path& file, const std::string& run, const fs::path& ou
   EventLog log((out / "run.lcm").string());
   ChosenEvents events(file, run);
   std::size_t copied = 0;
-  for (LogEvent event; copied < times.size() && events.next(event); ++copied) {
-    event.timestamp = times[copied].stamp;
+  for (LogEvent event; events.next(event);) {  // to the end: what is damaged there counts too
+    if (copied == times.size()) continue;
+    event.timestamp = times[copied++].stamp;
     log.write(event);
   }
   log.flush();

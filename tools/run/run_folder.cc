@@ -211,7 +211,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
   summary["piles"] = piles_json(simulation.piles());
   instruments.add_to(summary);
   summary["end_hash"] = fmt::format("{:016x}", state_hash(world.states()));
-  write_file(file, summary.dump(2) + '\n');
+  write_file(file, summary.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 template void write_summary(const fs::path&, const SummaryInput&, const Scene<2>&, const Simulation<2>&,

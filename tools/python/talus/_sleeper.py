@@ -193,8 +193,8 @@ class _PileSleeper:
         dt: float = 1 / 60,
         frame_rate: float = 30.0,
     ) -> None:
-        """Shows the bodies from now on. record: path of a new file, for talus.open(), `talus view` and `talus film`.
-        publish: to `talus monitor` and `talus view --live`. report(kind, body, value, text): called within the step()
+        """Shows the bodies from now on. record: path of a file, which is replaced, for talus.open(), `talus view` and
+        `talus film`. publish: to `talus monitor` and `talus view --live`. report(kind, body, value, text): called within the step()
         in which a kind of fault is first seen, "passed" (a body got through another one; value: its way in the step
         [m]), "overlap" (depth [extents]) or "outside_world" (coordinate [m]). What it raises the next step() raises,
         before that changes anything.
