@@ -157,8 +157,8 @@ inline constexpr auto run_fields = std::to_array<Field<RunParams>>({
     {place_of<&RunParams::contacts>,
      {.name = "contacts",
       .meaning = "whether frames have the contact points with their forces too: `talus view`, `film` and pictures draw "
-                 "force chains then. 45 bytes a point and frame, which make the record of a heap some five times as "
-                 "large"}},
+                 "force chains then. 45 bytes a point and frame, which make the record of a heap three to "
+                 "nine times as large"}},
     {place_of<&RunParams::threads>,
      {.name = "threads",
       .range = between(1.0, 64.0),

@@ -16,8 +16,7 @@ inline constexpr auto surface_fields = std::to_array<Field<Material>>({
     {place_of<&Material::restitution>,
      {.name = "restitution",
       .range = between(0.0, 1.0),
-      .meaning = "share of the approach speed given back. Above 0.99 impacts add energy, see "
-                 "[limits](#limits-of-the-engines)"}},
+      .meaning = "share of the approach speed given back. Above 0.99 impacts may add energy"}},
 });
 
 /// What only bodies have.
@@ -27,8 +26,8 @@ inline constexpr auto body_material_fields = std::to_array<Field<Material>>({
       .unit = "kg/m^3, in 2D kg/m^2",
       .range = above(0.0, 1e6),
       .meaning =
-          "only ratios matter to a pile: masses of a scene's shapes must be within a factor of 100, better 10, or "
-          "heavy bodies sink through light ones. Mass and inertia must be at least 1e-20 kg and kg m^2"}},
+          "only ratios matter to a pile: masses of a scene's shapes must be within a factor of 100, with the engines' "
+          "own solvers better 10. Mass and inertia must be at least 1e-20 kg and kg m^2"}},
     {place_of<&Material::rolling_friction>,
      {.name = "rolling_friction",
       .range = between(0.0, 10.0),

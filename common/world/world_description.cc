@@ -61,8 +61,7 @@ void check_masses(const std::vector<Shape<Dim>>& shapes) {
     require(heavy->mass <= largest_mass_ratio_of_all * light->mass,
             fmt::format("mass of shape '{}' over mass of shape '{}'", heavy->name, light->name),
             heavy->mass / light->mass,
-            fmt::format("must be at most {:g}, better 10: a heavy body sinks through light ones",
-                        largest_mass_ratio_of_all));
+            fmt::format("must be at most {:g}, with the engines' own solvers better 10", largest_mass_ratio_of_all));
   }
 }
 

@@ -67,11 +67,12 @@ inline constexpr auto world_fields = std::to_array<Field<WorldDescription<Dim>>>
       .unit = "1/s",
       .stored = Stored::as_inverse,
       .range = between(1.0, 1e5),
-      .further_rule = "from 30 on; for [small bodies](#small-and-large-bodies) more, for large ones fewer",
+      .further_rule =
+          "from 30 on, on planar Bullet 40, on Bullet 50; for [small bodies](#small-and-large-bodies) more, "
+          "for large ones fewer",
       .default_text = "by `accuracy`, 60 or more",
-      .meaning =
-          "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m, below by a third of a "
-          "metre; cost grows in proportion"}},
+      .meaning = "the time step is its inverse. At 30 bodies sink into each other by up to 0.2 m; cost grows in "
+                 "proportion"}},
     {place_of<&WorldDescription<Dim>::periodic_x>,
      {.name = "periodic_x",
       .type = "two numbers",

@@ -169,7 +169,7 @@ void print_estimate(const Simulation<Dim>& simulation, const std::optional<Drift
     return;
   }
   if (!drift) {
-    print_result("  no stability check yet: the error of the sleeping bodies is not known\n");
+    print_result("  the error of the sleeping bodies is not known\n");
     return;
   }
   print_result("  once woken, the sleeping bodies would move by some {:.2g} D ({:.0f} % of them checked)\n",
