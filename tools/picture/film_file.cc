@@ -20,10 +20,10 @@ namespace {
 constexpr const char* even_sides = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
 
 std::vector<std::string> arguments_of(const FilmFormat& format) {
+  // Without -xerror ffmpeg ends well on a full disk.
   std::vector<std::string> arguments = {"ffmpeg",   "-loglevel",
                                         "error",    "-nostdin",
-                                        "-y",
-                                        "-xerror",  // or a full disk is no failure
+                                        "-y",       "-xerror",
                                         "-f",       "rawvideo",
                                         "-pix_fmt", "bgra",
                                         "-s",       fmt::format("{}x{}", format.width, format.height),
