@@ -50,11 +50,11 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
     if (scene.bodies[i].asleep) asleep_at_start_.push_back(static_cast<BodyIndex>(i));
 }
 
-/// In the first step, before the engine moves the bodies.
+/// Before the events of time 0, which may wake them.
 template <int Dim>
-void Simulation<Dim>::freeze_initial_bodies() {
+void Simulation<Dim>::add_initial_bodies() {
+  emitter_.add_initial(*world_);
   sleep_.freeze(asleep_at_start_, SleepCause::user);
-  asleep_at_start_.clear();
 }
 
 template <int Dim>
@@ -62,11 +62,10 @@ void Simulation<Dim>::step() {
   Stopwatch watch;
   probed_drift_.reset();
   sleep_.start_step();
-  if (step_ == 0) emitter_.add_initial(*world_);
+  if (step_ == 0) add_initial_bodies();
   interventions_.do_due_events(intervened(), rested_, piles().piles());
   if (slope_control_.active()) sleep_.wake(slope_control_.update(*world_, piles(), step_), SleepCause::avalanche);
   emitter_.emit(*world_, time());
-  if (!asleep_at_start_.empty()) freeze_initial_bodies();
   if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
   interventions_.move(intervened());
@@ -90,7 +89,8 @@ void Simulation<Dim>::step() {
   sleep_.apply(step_);
   phases_.apply = watch.lap();
   if (rest_check_)
-    rested_ = rest_check_->update(*world_, step_) && emitter_.finished() && !interventions_.move_after(*world_, time());
+    rested_ =
+        rest_check_->update(*world_, step_) && emitter_.finished() && !interventions_.changes_after(*world_, time());
   at_rest_ = ends_at_rest_ && rested_ && !interventions_.clock().waits();
   show();
   phases_.observe = watching + watch.lap();

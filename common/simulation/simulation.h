@@ -86,7 +86,7 @@ class Simulation {
  private:
   bool needs_contacts() const;
   bool counts_piles() const;
-  void freeze_initial_bodies();
+  void add_initial_bodies();
   Intervened<Dim> intervened();
   bool watched() const { return !observers_.empty(); }
   void show();

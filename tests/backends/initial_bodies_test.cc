@@ -80,6 +80,19 @@ TYPED_TEST(InitialBodies, ThatAreAsleepCostNothingUntilSomethingHitsThem) {
   EXPECT_GT(most_awake, 4U);
 }
 
+TYPED_TEST(InitialBodies, ThatAreAsleepFollowTheEventsOfTheStart) {
+  constexpr int dim = TypeParam::dim;
+  const auto top = static_cast<BodyIndex>(wall<dim>("", "adaptive").bodies.size() - 1);
+  auto simulation = simulation_on<TypeParam>(
+      wall<dim>(fmt::format("asleep = true\n[[event]]\ntime = 0\ndo = \"kick\"\nbody = {}\nvelocity = {}\n"
+                            "[[event]]\ntime = 0\ndo = \"remove\"\nbody = {}",
+                            top, vector_text<dim>(0, 3), top - 1),
+                "adaptive"));
+  for (int i = 0; i < 6; ++i) simulation.step();
+  EXPECT_NEAR(height<dim>(simulation.world().states().velocity[top]), 3.0 - 0.1 * 9.81, 0.05);
+  EXPECT_EQ(simulation.world().states().removed[top - 1], 1);
+}
+
 TYPED_TEST(InitialBodies, AreAwakeUnderPoliciesThatPutNoneToSleep) {
   constexpr int dim = TypeParam::dim;
   auto simulation = simulation_on<TypeParam>(wall<dim>("asleep = true", "full"));
