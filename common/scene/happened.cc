@@ -66,12 +66,28 @@ WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEven
 }
 
 template <int Dim>
-bool still_moves(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
+PolicyParams policy_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
+  PolicyParams policy = scene.policy;
+  for (const DoneEvent& each : done) {
+    if (each.time > time) break;
+    const Event<Dim>& event = scene.events[each.number];
+    if (event.action == EventAction::policy) policy.kind = event.policy;
+  }
+  return policy;
+}
+
+template <int Dim>
+bool still_driven(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
   const std::vector<std::uint8_t> absent = absent_obstacles(scene, done, time);
   const auto moves = [&](const Mover<Dim>& mover) {
     return absent[mover.first] == 0 && mover.motion.moves_after(time);
   };
-  return std::ranges::any_of(scene.movers, moves) || (scene.gravity_motion && scene.gravity_motion->moves_after(time));
+  const auto pushes = [&](const DoneEvent& each) {
+    const Event<Dim>& event = scene.events[each.number];
+    return event.action == EventAction::force && (!event.seconds || each.time + *event.seconds > time);
+  };
+  return std::ranges::any_of(scene.movers, moves) || std::ranges::any_of(done, pushes) ||
+         (scene.gravity_motion && scene.gravity_motion->moves_after(time));
 }
 
 template std::vector<std::uint8_t> absent_obstacles(const Scene<2>&, std::span<const DoneEvent>, double);
@@ -80,7 +96,9 @@ template std::string event_text(const Scene<2>&, int);
 template std::string event_text(const Scene<3>&, int);
 template WorldDescription<2> world_at(const Scene<2>&, std::span<const DoneEvent>, double);
 template WorldDescription<3> world_at(const Scene<3>&, std::span<const DoneEvent>, double);
-template bool still_moves(const Scene<2>&, std::span<const DoneEvent>, double);
-template bool still_moves(const Scene<3>&, std::span<const DoneEvent>, double);
+template PolicyParams policy_at(const Scene<2>&, std::span<const DoneEvent>, double);
+template PolicyParams policy_at(const Scene<3>&, std::span<const DoneEvent>, double);
+template bool still_driven(const Scene<2>&, std::span<const DoneEvent>, double);
+template bool still_driven(const Scene<3>&, std::span<const DoneEvent>, double);
 
 }  // namespace talus

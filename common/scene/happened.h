@@ -24,8 +24,13 @@ std::vector<std::uint8_t> absent_obstacles(const Scene<Dim>& scene, std::span<co
 template <int Dim>
 WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
 
-/// Whether gravity, or an obstacle that events have left there, moves by plan after a time [s].
+/// The policy at a time [s], after events that happened by then.
 template <int Dim>
-bool still_moves(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
+PolicyParams policy_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
+
+/// Whether after a time [s] gravity, or an obstacle that events have left there, moves by plan, or the force of an
+/// event acts.
+template <int Dim>
+bool still_driven(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
 
 }  // namespace talus

@@ -84,8 +84,10 @@ bool Interventions<Dim>::must_stay_awake(const World<Dim>& world, BodyIndex body
 }
 
 template <int Dim>
-bool Interventions<Dim>::move_after(const World<Dim>& world, double time) const {
-  return obstacles_.moves_after(world, time) || (gravity_motion_ && gravity_motion_->moves_after(time));
+bool Interventions<Dim>::changes_after(const World<Dim>& world, double time) const {
+  const auto ends_later = [&](const TimedPush& push) { return push.end && *push.end > time; };
+  return obstacles_.moves_after(world, time) || (gravity_motion_ && gravity_motion_->moves_after(time)) ||
+         std::ranges::any_of(pushes_, ends_later);
 }
 
 /// Sleeping neighbours are woken: neither the loss of a support nor a slow push wakes a body by itself.

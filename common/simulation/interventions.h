@@ -63,8 +63,8 @@ class Interventions {
   bool must_stay_awake(const World<Dim>& world, BodyIndex body) const;
   /// Whether an obstacle moved in the last call of move().
   bool obstacles_moved() const { return obstacles_.any_moved(); }
-  /// Whether an obstacle or gravity moves by plan after a time [s].
-  bool move_after(const World<Dim>& world, double time) const;
+  /// Whether after a time [s] an obstacle or gravity moves by plan, or the force of an event ends.
+  bool changes_after(const World<Dim>& world, double time) const;
   const EventClock<Dim>& clock() const { return clock_; }
   /// Events of the scene so far, in the order in which they happened.
   std::span<const DoneEvent> done_events() const { return done_events_; }

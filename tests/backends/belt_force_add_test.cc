@@ -151,6 +151,16 @@ TYPED_TEST(Force, AboveItAcceleratesForItsTime) {
   EXPECT_TRUE(simulation.world().awake().empty());
 }
 
+TYPED_TEST(Force, OfSomeSecondsEndsBeforeARunEndsAtRest) {
+  constexpr int dim = TypeParam::dim;
+  Scene<dim> scene = scene_of<dim>(pushed<dim>(0.5 * friction, "seconds = 5\n"));
+  scene.run.until = until_rest;
+  auto simulation = simulation_on<TypeParam>(scene);
+  while (!simulation.finished()) simulation.step();
+  EXPECT_TRUE(simulation.at_rest());
+  EXPECT_GT(simulation.time(), 7.0);
+}
+
 TYPED_TEST(Force, CreatesNoEnergyInTheAccount) {
   constexpr int dim = TypeParam::dim;
   auto simulation = simulation_on<TypeParam>(scene_of<dim>(pushed<dim>(3.0), "full"));

@@ -30,16 +30,34 @@ TEST(SceneHappened, WorldHasObstaclesAndGravityAsEventsLeftThem) {
   EXPECT_DOUBLE_EQ(world_at<2>(scene, done, 4.1).gravity, 5.0);
 }
 
+TEST(SceneHappened, PolicyIsThatOfTheLastSwitch) {
+  Scene<2> scene = shelf();
+  scene.events[0] = {.action = EventAction::policy, .policy = "full"};
+  EXPECT_EQ(policy_at<2>(scene, std::vector<DoneEvent>{{0, 2.0}}, 1.9).kind, "adaptive");
+  EXPECT_EQ(policy_at<2>(scene, std::vector<DoneEvent>{{0, 2.0}}, 2.0).kind, "full");
+}
+
+TEST(SceneHappened, DrivesBodiesAsLongAsAForceActs) {
+  Scene<2> scene = shelf();
+  scene.movers.clear();
+  scene.events[0] = {.action = EventAction::force, .seconds = 1.0};
+  const std::vector<DoneEvent> done = {{0, 2.0}};
+  EXPECT_TRUE(still_driven<2>(scene, done, 2.9));
+  EXPECT_FALSE(still_driven<2>(scene, done, 3.0));
+  scene.events[0].seconds.reset();
+  EXPECT_TRUE(still_driven<2>(scene, done, 99.0));
+}
+
 TEST(SceneHappened, MovesUntilThePlansOfWhatIsLeftHaveEnded) {
-  EXPECT_TRUE(still_moves<2>(shelf(), {}, 3.9));
-  EXPECT_FALSE(still_moves<2>(shelf(), {}, 4.1));
+  EXPECT_TRUE(still_driven<2>(shelf(), {}, 3.9));
+  EXPECT_FALSE(still_driven<2>(shelf(), {}, 4.1));
   Scene<2> scene = shelf();
   scene.movers.front().first = 0;  // the shelf moves, and is removed at 2 s
   const std::vector<DoneEvent> done = {{0, 2.0}};
-  EXPECT_TRUE(still_moves<2>(scene, done, 1.9));
-  EXPECT_FALSE(still_moves<2>(scene, done, 2.1));
+  EXPECT_TRUE(still_driven<2>(scene, done, 1.9));
+  EXPECT_FALSE(still_driven<2>(scene, done, 2.1));
   scene.gravity_motion = Motion<2>{.speed = 1.0};
-  EXPECT_TRUE(still_moves<2>(scene, done, 2.1));
+  EXPECT_TRUE(still_driven<2>(scene, done, 2.1));
 }
 
 TEST(SceneHappened, EventsHaveATextOfAFewWords) {

@@ -92,16 +92,6 @@ TEST(DocumentedFiles, HaveAllColumnsOfSweepCsv) {
   expect_documented(columns, "sweep.csv");
 }
 
-TEST(DocumentedFiles, HaveAllColumnsOfAvalanchesCsv) {
-  const TemporaryFolder folder;
-  const Outcome outcome = talus_command(
-      "run drop_in_a_pile_2d --no-telemetry --policy paper --set run.frames=300 --set policy.tau=0.1 "
-      "--set policy.avalanche_density=0.5 --out " +
-      (folder / "run"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_documented(split(header_of(folder.path() / "run" / "avalanches.csv")), "avalanches.csv");
-}
-
 TEST(DocumentedFiles, GiveEachPhaseOfAStepTheMeaningOfItsDeclaration) {
   const std::string page = contents(std::string(TALUS_SOURCE_DIR) + "/docs/files.md");
   for (const Phase& phase : all_phases) {

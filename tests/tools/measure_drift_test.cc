@@ -190,6 +190,16 @@ TEST(MeasureDrift, IsRefusedBeforeTheRunWhereItCannotBeMeasured) {
   EXPECT_EQ(summary_in(folder)["measured"]["missing"], "");
 }
 
+TEST(MeasureDrift, GoesByThePolicyThatEventsLeft) {
+  const TemporaryFolder folder;
+  write_cubes(folder / "scene.toml", engines().front().dimension, {0.2}, "asleep = true",
+              "[[event]]\ntime = 0\ndo = \"policy\"\npolicy = \"paper\"\n");
+  const Outcome outcome = run(folder, "");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("sleeping bodies"), std::string::npos) << outcome.out;
+  EXPECT_EQ(summary_in(folder)["events"][0]["text"], "policy paper");
+}
+
 TEST(MeasureDrift, SaysSoWhereAnEventThatEndsTheMotionHasNotHappened) {
   const TemporaryFolder folder;
   const int dimension = engines().front().dimension;
@@ -197,10 +207,11 @@ TEST(MeasureDrift, SaysSoWhereAnEventThatEndsTheMotionHasNotHappened) {
               "[[obstacle]]\nkind = \"ball\"\nradius = 1\nposition = " +
                   std::string(dimension == 2 ? "[20, 5]" : "[20, 0, 5]") +
                   "\nname = \"mill\"\nmotion = {kind = \"turn\", speed_deg = 90}\n"
-                  "[[event]]\ntime = 60\ndo = \"remove\"\nobstacle = \"mill\"\n");
+                  "[[event]]\nwhen = \"rest\"\ndo = \"remove\"\nobstacle = \"mill\"\n");
   const Outcome outcome = run(folder, "--measure-drift");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(summary_in(folder)["measured"]["missing"], "an obstacle or gravity still moves by plan at the end");
+  EXPECT_EQ(summary_in(folder)["measured"]["missing"],
+            "an obstacle or gravity still moves by plan at the end, or the force of an event acts");
 }
 
 TEST(MeasureDrift, IsAColumnOfASweep) {

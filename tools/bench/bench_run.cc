@@ -49,12 +49,12 @@ std::vector<double> time_steps(Simulation<Dim>& simulation, const Scene<Dim>& sc
   return frames;
 }
 
-/// Mean distance over D that bodies move once all are woken. Nothing while a plan moves obstacles or gravity.
+/// Mean distance over D that bodies move once all are woken. Nothing where something still drives them.
 template <int Dim>
 double drift_after(const Simulation<Dim>& simulation, const Scene<Dim>& scene, const std::string& backend) {
   constexpr double in_flight = 1.0;  // [m/s]; faster bodies would count as displaced when they land
   const auto world = world_at<Dim>(scene, simulation.done_events(), simulation.time());
-  if (still_moves(scene, simulation.done_events(), simulation.time()) || world.gravity <= 0.0)
+  if (still_driven(scene, simulation.done_events(), simulation.time()) || world.gravity <= 0.0)
     return BenchNumbers::none;
   BodyStates<Dim> last = simulation.world().states();
   for (BodyIndex i = 0; i < last.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/happened.h"
 #include "tools/output/output.h"
 #include "tools/run/measured_drift.h"
 
@@ -29,7 +30,8 @@ template <int Dim>
 void add_probed_drift(const RunOptions& options, SummaryInput& summary, const Scene<Dim>& scene,
                       Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics,
                       const std::function<bool()>& stop) {
-  if (summary.reason != "finished" || scene.policy.tolerance().value_or(0.0) <= 0.0) return;
+  const PolicyParams policy = policy_at(scene, simulation.done_events(), simulation.time());
+  if (summary.reason != "finished" || policy.tolerance().value_or(0.0) <= 0.0) return;
   const double body_steps = statistics.mean_awake() * static_cast<double>(statistics.steps());
   try {
     summary.probe = probe_end_drift<Dim>(simulation, scene, summary.backend, probe_allowance(body_steps), stop);
@@ -48,7 +50,8 @@ void add_drift_warning(const RunOptions& options, SummaryInput& summary, const S
   if (!measured && !summary.probe) return;
   const auto warning =
       drift_warning(measured ? summary.measured->mean : summary.probe->least,
-                    measured ? summary.measured->bodies : summary.probe->bodies, scene.policy, simulation.frame().step);
+                    measured ? summary.measured->bodies : summary.probe->bodies,
+                    policy_at(scene, simulation.done_events(), simulation.time()), simulation.frame().step);
   if (!warning) return;
   if (!options.quiet) print_message("warning: {}", advice(*warning));
   summary.warnings.push_back(*warning);

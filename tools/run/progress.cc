@@ -40,7 +40,7 @@ void Progress<Dim>::write(const Frame<Dim>& frame) {
   const double step_ms = 1e3 * since_line_ / static_cast<double>(frame.step - line_step_);
   std::string line = fmt::format("step {}/{}  {:.0f} %  left {}  awake {}  asleep {}  {:.3f} ms a step", frame.step,
                                  steps_, 100.0 * done / static_cast<double>(steps_), as_time(left), awake,
-                                 bodies_present(frame.world) - static_cast<std::int64_t>(awake), step_ms);
+                                 bodies_asleep(frame.world), step_ms);
   if (terminal_) {
     line.resize(std::min(line.size(), static_cast<std::size_t>(terminal_width(STDERR_FILENO) - 1)));
     write_note("\r\x1b[K" + line);

@@ -9,6 +9,7 @@
 
 #include "common/measure/resting_shape.h"
 #include "common/scene/accuracy.h"
+#include "common/scene/happened.h"
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
 #include "common/text/file.h"
@@ -130,8 +131,10 @@ template <int Dim>
 Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
   Json list = Json::array();
   for (const DoneEvent& event : events)
-    list.push_back(
-        {{"number", event.number}, {"time_s", event.time}, {"do", to_string(scene.events[event.number].action)}});
+    list.push_back({{"number", event.number},
+                    {"time_s", event.time},
+                    {"do", to_string(scene.events[event.number].action)},
+                    {"text", event_text(scene, event.number)}});
   return list;
 }
 
@@ -194,7 +197,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
       {"bodies_lost", bodies_lost(world.states(), scene.world.ground, scene.world.units)},
       {"at_rest", simulation.at_rest()},
       {"events", events_json(scene, simulation.done_events())},
-      {"asleep_at_end", bodies_present(world) - static_cast<std::int64_t>(world.awake().size())},
+      {"asleep_at_end", bodies_asleep(world)},
       {"outside_window", outside_json(input.outside_window)},
       {"scene_warnings", input.scene_warnings},
       {"warnings", warnings_json(input.warnings)},

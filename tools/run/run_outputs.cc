@@ -7,12 +7,13 @@
 #include <cstdlib>
 
 #include "common/scene/accuracy.h"
+#include "common/scene/happened.h"
 #include "common/scene/write_scene.h"
 #include "common/simulation/state_hash.h"
 #include "common/text/printable.h"
 #include "tools/output/output.h"
 #include "tools/picture/terminal.h"
-#include "tools/run/csv_files.h"
+#include "tools/run/frames_csv.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/progress.h"
 #include "tools/run/version.h"
@@ -46,8 +47,9 @@ PictureInput<Dim> picture_of(const std::string& backend, const Scene<Dim>& scene
           .ground = scene.world.ground,
           .title = printable(scene.title),
           .caption = fmt::format("{}, policy {}, seed {}, after {:.4g} s: {} bodies, {} asleep",
-                                 solved_by(backend, scene.world.solver.kind), scene.policy.kind, scene.seed, frame.time,
-                                 bodies, bodies_present(world) - static_cast<std::int64_t>(world.awake().size())),
+                                 solved_by(backend, scene.world.solver.kind),
+                                 policy_at(scene, frame.done_events, frame.time).kind, scene.seed, frame.time, bodies,
+                                 bodies_asleep(world)),
           .sides = scene.world.periodic()};
 }
 
@@ -79,9 +81,6 @@ class EventWatch final : public Observer<Dim> {
   bool prints_;
 };
 
-/// Bodies of an avalanche are quiet below this speed, in a scene with bodies of about a metre [m/s].
-constexpr double quiet_speed = 0.05;
-
 }  // namespace
 
 template <int Dim>
@@ -94,11 +93,9 @@ template <int Dim>
 RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
-      avalanches_(scene.world.dt, quiet_speed / scene.world.units.speeds()),
       instruments_(scene, folder_) {
   write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
-  simulation.add_observer(avalanches_);
   if (!scene.instruments.empty()) simulation.add_observer(instruments_);
   contacts_.record(scene.run.contacts, simulation.world());
   if (scene.run.contacts) simulation.add_observer(contacts_);
@@ -140,7 +137,6 @@ void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scen
   picture.contacts = contacts_.of(simulation.world());
   with_picture.pixels_per_metre = draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture);
   write_summary(folder_ / "summary.json", with_picture, scene, simulation, statistics_, instruments_);
-  if (!avalanches_.records().empty()) write_avalanches(folder_ / "avalanches.csv", avalanches_.records());
 }
 
 template PictureInput<2> picture_input(const SummaryInput&, const Scene<2>&, const Simulation<2>&);
@@ -199,14 +195,14 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
                printable(scene.title), solved_by(summary.backend, scene.world.solver.kind), scene.policy.kind);
   print_result(
       "  {} bodies, {} asleep at the end; over {} steps {:.1f} awake in the mean, {:.1f} % of body-steps skipped\n",
-      bodies, bodies_present(world) - static_cast<std::int64_t>(world.awake().size()), statistics.steps(),
-      statistics.mean_awake(), 100.0 * statistics.work_skipped());
+      bodies, bodies_asleep(world), statistics.steps(), statistics.mean_awake(), 100.0 * statistics.work_skipped());
   print_result("  {}\n", accuracy_text(scene));
   print_result("  {:.3f} ms a step ({:.3f} over the last 100), {:.2f} s in all, {:.1f} times real time\n",
                statistics.mean_step_ms(), statistics.last_step_ms(), summary.wall_seconds,
                simulation.time() / summary.wall_seconds);
-  if (scene.policy.tolerance()) print_estimate(simulation, summary.probe, scene.policy.adaptive);
-  if (summary.measured) print_measured(*summary.measured, scene.policy.tolerance().value_or(0.0));
+  const PolicyParams policy = policy_at(scene, simulation.done_events(), simulation.time());
+  if (policy.tolerance()) print_estimate(simulation, summary.probe, policy.adaptive);
+  if (summary.measured) print_measured(*summary.measured, policy.tolerance().value_or(0.0));
   if (const RunOverlap overlap = simulation.frame().overlap; overlap.deepest > 0.0)
     print_result("  contacts overlap by at most {:.2g} D, {:.2g} % of them by more than {:g} D\n", overlap.deepest,
                  100.0 * overlap.share, overlap_limit);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "common/measure/avalanches.h"
 #include "common/measure/contact_forces.h"
 #include "common/simulation/simulation.h"
 #include "tools/picture/picture.h"
@@ -24,7 +23,7 @@ class RunOutputs {
   RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
              const std::string& backend, Simulation<Dim>& simulation);
 
-  /// After Simulation::end(): summary.json, avalanches.csv where there were any, pile.svg and pile.png.
+  /// After Simulation::end(): summary.json, pile.svg and pile.png.
   void finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const;
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -36,7 +35,6 @@ class RunOutputs {
 
   std::filesystem::path folder_;
   RunStatistics<Dim> statistics_;
-  AvalancheWatch<Dim> avalanches_;
   InstrumentWatch<Dim> instruments_;
   ContactForces<Dim> contacts_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;

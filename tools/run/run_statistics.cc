@@ -15,7 +15,7 @@ template <int Dim>
 void RunStatistics<Dim>::on_frame(const Frame<Dim>& frame) {
   ++steps_;
   awake_ += static_cast<std::int64_t>(frame.world.awake().size());
-  body_steps_ += frame.done_events.empty() ? frame.world.states().size() : bodies_present(frame.world);
+  body_steps_ += frame.world.states().size() - frame.world.removals();
   for (const SleepEvent& event : frame.events) ++(event.woke ? woken_ : slept_);
   const PhaseTimes& now = frame.phases;
   sum_ += now;

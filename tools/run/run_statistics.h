@@ -1,7 +1,6 @@
 #pragma once
 // What a run cost and what it left, for summary.json and the closing lines.
 
-#include <algorithm>
 #include <deque>
 
 #include "common/policy/observer.h"
@@ -9,10 +8,10 @@
 
 namespace talus {
 
-/// Bodies in the world, without those that events have removed. Costs O(all bodies).
+/// Sleeping bodies, without removed ones.
 template <int Dim>
-std::int64_t bodies_present(const World<Dim>& world) {
-  return std::ranges::count(world.states().removed, 0);
+std::int64_t bodies_asleep(const World<Dim>& world) {
+  return world.states().size() - world.removals() - std::ssize(world.awake());
 }
 
 /// Sums over the steps of a run.

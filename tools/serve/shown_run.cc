@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/measure/contact_forces.h"
+#include "common/scene/happened.h"
 #include "common/simulation/simulation.h"
 #include "common/text/printable.h"
 #include "lcmtypes/event_log.h"
@@ -111,7 +112,8 @@ class SimulatedScene final : public ShownRun {
   bool at_rest() const override { return simulation_.at_rest(); }
 
   void probe_drift(const std::function<bool()>& stop) override {
-    if (scene_.policy.tolerance().value_or(0.0) <= 0.0) return;
+    const PolicyParams policy = policy_at(scene_, simulation_.done_events(), simulation_.time());
+    if (policy.tolerance().value_or(0.0) <= 0.0) return;
     const auto probe = probe_end_drift<Dim>(simulation_, scene_, backend_, probe_allowance(steps_.body_steps()), stop);
     if (probe) simulation_.set_probed_drift(probe->expected());
   }

@@ -1,4 +1,4 @@
-#include "tools/run/csv_files.h"
+#include "tools/run/frames_csv.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "common/text/file.h"
 #include "common/world/energy.h"
 
 namespace talus {
@@ -48,14 +47,5 @@ void FramesCsv<Dim>::on_end(const Frame<Dim>&, std::string_view) {
 
 template class FramesCsv<2>;
 template class FramesCsv<3>;
-
-void write_avalanches(const std::filesystem::path& file, std::span<const Avalanche> avalanches) {
-  std::string table = "step,pile,layer,density,woken,seconds_until_quiet,mean_way_m,longest_way_m\n";
-  for (const Avalanche& a : avalanches) {
-    table += fmt::format("{},{},{},{:.4f},{},{},{:.6g},{:.6g}\n", a.step, a.pile, a.layer, a.density, a.woken,
-                         a.seconds < 0.0 ? "" : fmt::format("{:.4f}", a.seconds), a.mean_way, a.longest_way);
-  }
-  write_file(file, table);
-}
 
 }  // namespace talus

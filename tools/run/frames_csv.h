@@ -1,10 +1,8 @@
 #pragma once
-// frames.csv and avalanches.csv of a run.
+// frames.csv of a run.
 
 #include <filesystem>
-#include <span>
 
-#include "common/measure/avalanches.h"
 #include "common/policy/observer.h"
 #include "tools/output/csv.h"
 
@@ -22,8 +20,5 @@ class FramesCsv final : public Observer<Dim> {
  private:
   GrowingCsv file_;
 };
-
-/// Writes avalanches.csv, a row each. Throws std::runtime_error where it cannot.
-void write_avalanches(const std::filesystem::path& file, std::span<const Avalanche> avalanches);
 
 }  // namespace talus
