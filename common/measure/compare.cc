@@ -34,7 +34,7 @@ template <int Dim>
 std::optional<FirstDifference> first_difference(const Trajectory<Dim>& a, const Trajectory<Dim>& b) {
   for (int frame = 0; frame < std::min(a.frames(), b.frames()); ++frame) {
     for (BodyIndex i = 0; i < std::max(a.bodies(frame), b.bodies(frame)); ++i)
-      if (!a.same(frame, b, i)) return FirstDifference{frame, a.step(frame), i};
+      if (!a.same(frame, b, i)) return FirstDifference{a.step(frame), i};
   }
   return std::nullopt;
 }

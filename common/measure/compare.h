@@ -13,8 +13,7 @@ namespace talus {
 
 /// The first frame at which two runs are not the same bit for bit.
 struct FirstDifference {
-  int frame = 0;
-  std::int64_t step = 0;  // of the frame in the first run: the runs diverge between the frame before and this one
+  std::int64_t step = 0;  // of the first other frame, in the first run
   BodyIndex body = 0;     // the lowest that differs
 };
 

@@ -34,13 +34,11 @@ class Observation {
     double mass = 0.0;
     double before = 0.0;
     double after = 0.0;
-    int far = 0;
     for (std::size_t i = 0; i < start_.shape.size(); ++i) {
       if (start_.removed[i]) continue;
       const Vec<Dim>& from = start_.pose[i].position;
       const double displacement = (description_.periodic().near(states.pose[i].position, from) - from).norm();
       result_.displacements.push_back(displacement);
-      far += displacement > params.far * shape(i).extent;
       mass += shape(i).mass;
       before += shape(i).mass * (height<Dim>(start_.pose[i].position) - description_.ground.height);
       after += shape(i).mass * (height<Dim>(states.pose[i].position) - description_.ground.height);
@@ -50,7 +48,6 @@ class Observation {
     result_.mean = mean(result_.displacements);
     result_.p95 = quantile(result_.displacements, 0.95);
     result_.max = quantile(result_.displacements, 1.0);
-    result_.share_far = static_cast<double>(far) / result_.bodies;
     if (before > 0.0) result_.creep = (before - after) / before * 60.0 / params.duration;
     return result_;
   }
@@ -75,7 +72,6 @@ WakeTest wake_test(const WorldMaker<Dim>& make_world, const WorldDescription<Dim
                    const BodyStates<Dim>& states, const WakeTestParams& params) {
   require(params.duration > 0.0, "duration", params.duration, "must be > 0");
   require(params.energy_window > 0.0, "energy_window", params.energy_window, "must be > 0");
-  require(params.far > 0.0, "far", params.far, "must be > 0");
   require(description.gravity > 0.0, "gravity", description.gravity, "must be > 0, or nothing ever comes to rest");
   const std::unique_ptr<World<Dim>> world = rebuild(make_world, description, states, Sleepers::awake);
   Observation<Dim> observation(description, states);

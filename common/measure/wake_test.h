@@ -15,7 +15,6 @@ double wake_time(double gravity);
 struct WakeTestParams {
   double duration = 5.0;       // [s] > 0 simulated after waking; short: slow topples are not seen to the end
   double energy_window = 0.5;  // [s] > 0 in which the wake energy is measured
-  double far = 0.1;            // displacement, in D of the body, that counts as moved, > 0
   /// Called before each step; where it returns true the test ends there, and its result means nothing. Empty: never.
   std::function<bool()> stop = {};
 };
@@ -26,7 +25,6 @@ struct WakeTest {
   double mean = 0.0;                  // displacement over all bodies [m]
   double p95 = 0.0;                   // [m]
   double max = 0.0;                   // [m]
-  double share_far = 0.0;             // share of bodies displaced by more than `far` D
   double energy = 0.0;                // largest kinetic energy of one body over its m g D, in the window
   double energy_all = 0.0;            // largest sum of all kinetic energies over the sum of m g D, in the window
   double creep = 0.0;                 // height lost by the centre of mass per minute / its height above the ground

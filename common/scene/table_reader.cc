@@ -185,8 +185,10 @@ void TableReader::read_child(const toml::node& node, const Child& child, const B
   reader.path_ = field(child.name);
   reader.generic_path_ = below(generic_path_, child.generic_name);
   reader.head_ = below(head_, child.head_name);
-  reader.filled_ = diagnostics_.filled.size();
-  diagnostics_.filled.push_back({fmt::format(fmt::runtime(child.in_array ? "[[{}]]" : "[{}]"), reader.head_), {}});
+  if (diagnostics_.fills) {
+    reader.filled_ = diagnostics_.filled.size();
+    diagnostics_.filled.push_back({fmt::format(fmt::runtime(child.in_array ? "[[{}]]" : "[{}]"), reader.head_), {}});
+  }
   body(reader);
   reader.add_unknown_keys();
 }

@@ -52,7 +52,7 @@ class WatchedRun : public BackendTest<Backend> {
     scene.world.gravity = 0.0;
     scene.world.ground.present = false;
     Vec<dim> board = Vec<dim>::Ones();
-    board[0] = 0.1;
+    board[0] = dim == 2 ? 0.01 : 0.05;  // as thin as the engines allow: what is thicker stops all bodies on Box2D
     scene.world.shapes = {make_shape<dim>("ball", ball_pieces<dim>(0.15), {.density = 2000.0}),
                           make_shape<dim>("board", box_pieces<dim>(board), {})};
     scene.bodies.resize(boards + 1);
@@ -173,6 +173,7 @@ TYPED_TEST(WatchedRun, WarnsOfABodyThatIsPressedIntoWalls) {
 // body has got past another one.
 TYPED_TEST(WatchedRun, WarnsWhereAFastBodyGetsPastAnother) {
   constexpr int boards = 5;
+  int passed = 0;
   for (const double speed : {5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 80.0, 110.0}) {
     for (int phase = 0; phase < 10; ++phase) {
       Scene<TypeParam::dim> scene = TestFixture::row(boards, 2.0 + phase * speed / 600.0, speed);
@@ -182,10 +183,12 @@ TYPED_TEST(WatchedRun, WarnsWhereAFastBodyGetsPastAnother) {
       for (int step = 0; step < 60; ++step) simulation.step();
       const auto& poses = simulation.world().states().pose;
       if (std::ranges::is_sorted(poses, {}, [](const auto& pose) { return pose.position[0]; })) continue;
+      ++passed;
       EXPECT_TRUE(TestFixture::has({simulation.warnings().begin(), simulation.warnings().end()}, WarningKind::passed))
           << speed << " m/s, phase " << phase;
     }
   }
+  EXPECT_GT(passed, 0);
 }
 
 TYPED_TEST(WatchedRun, IsSilentWhereFastBodiesStopAtEachOther) {

@@ -11,13 +11,13 @@ interface Cause {
 export const causes: (Cause | null)[] = [
   { name: "score", slept: "its score of density, depth and speed is above the threshold", woke: "" },
   { name: "rest", slept: "it was at rest for long enough, and supported", woke: "" },
-  { name: "avalanche", slept: "", woke: "its pile has an overfull layer, or its part of the heap is too steep" },
+  { name: "avalanche", slept: "", woke: "its pile has an overfull layer, or its pile or a part of it is too steep" },
   { name: "momentum", slept: "", woke: "an impact on it or on its pile" },
   { name: "lost support", slept: "", woke: "its support moved away" },
   null,
   null,
   { name: "engine", slept: "the engine's own rule", woke: "the engine's own rule" },
   { name: "user", slept: "an event of the scene, or by hand", woke: "an event of the scene, gravity or an obstacle that moves, or by hand" },
-  { name: "check", slept: "the check of its region ended", woke: "its region is checked for stability" },
+  { name: "check", slept: "", woke: "its region is checked for stability" },
   { name: "motion", slept: "", woke: "forces move it" },
 ];
