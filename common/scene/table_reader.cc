@@ -46,8 +46,22 @@ TableReader::TableReader(const toml::table& table, int dimension, Location locat
 void TableReader::read_root(const toml::table& table, int dimension, Diagnostics& diagnostics, const Body& body) {
   TableReader reader(table, dimension, {diagnostics.file, 1, 1}, diagnostics);
   diagnostics.filled = {{}};
+  reader.check_keys(table);
+  if (!reader.ok()) return;  // what takes C strings would cut such a key
   body(reader);
   reader.add_unknown_keys();
+}
+
+void TableReader::check_keys(const toml::node& node) {
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& element : *array) check_keys(element);
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, child] : *table) {
+      if (key.str().find('\0') != std::string_view::npos)
+        error_at(child, key_text(key.str()), "must be a name without the character 0");
+      check_keys(child);
+    }
+  }
 }
 
 std::string TableReader::field(std::string_view key) const { return below(path_, key); }

@@ -145,6 +145,8 @@ class TableReader {
     bool in_array = false;
   };
   void read_child(const toml::node& node, const Child& child, const Body& body);
+  /// Adds an error for each key of the node and of all below it that has a character 0.
+  void check_keys(const toml::node& node);
   void add_unknown_keys();
   void error_at(const toml::node& node, std::string name, std::string rule, std::string suggestion = {});
   void error_at_table(std::string name, std::string rule);
