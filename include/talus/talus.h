@@ -170,7 +170,7 @@ typedef void (*talus_report)(const struct talus_warning* warning, void* context)
 
 /// The reason of the last refused call in this thread. It lives until the next one.
 TALUS_API const char* talus_message(void);
-/// Name of the cause of a talus_change.
+/// Name of the cause of a talus_change; "unknown" for a number that is none.
 TALUS_API const char* talus_cause_name(int cause);
 
 /// Options with gravity 9.81 m/s^2 along -z, in 2D along -y. talus_create() checks the dimension.

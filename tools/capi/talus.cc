@@ -315,7 +315,10 @@ using talus::capi::require_size;
 using talus::capi::require_there;
 
 const char* talus_message() { return talus::capi::last_message().c_str(); }
-const char* talus_cause_name(int cause) { return talus::to_string(static_cast<talus::SleepCause>(cause)).data(); }
+const char* talus_cause_name(int cause) {
+  const bool known = cause >= 0 && cause <= talus::last_cause;
+  return talus::to_string(static_cast<talus::SleepCause>(known ? cause : talus::last_cause + 1)).data();
+}
 
 talus_options talus_default_options(int dimension) {
   const talus::SleeperOptions defaults;
