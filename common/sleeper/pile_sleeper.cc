@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/math/require.h"
+#include "common/params/field.h"
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/near_bodies.h"
 #include "common/scene/policy_fields.h"
@@ -406,7 +407,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::moved(Handle handle, const Pose<Dim>&
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::set_gravity(const Vec<Dim>& gravity) {
   clear_changes();
-  require(gravity.allFinite(), "gravity", gravity.norm(), "must be finite");
+  require(gravity_range.holds(gravity.norm()), "gravity", gravity.norm(), gravity_range.rule());
   note(sleeping_.set_gravity(turn_.in(gravity)));
   return changes_;
 }

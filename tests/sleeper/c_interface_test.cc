@@ -160,6 +160,14 @@ TEST_P(CInterface, ReportsABodyThatGetsThroughAnother) {
   EXPECT_NEAR(seen.value, 4.0, 1e-12);
 }
 
+TEST_P(CInterface, TakesNoStrongerGravityThanAScene) {
+  for (const double most : {1e3, 1.001e3, 1e30, static_cast<double>(NAN)}) {
+    const double gravity[3] = {0.0, -most, 0.0};
+    EXPECT_EQ(talus_set_gravity(sleeper, gravity, &changes), most == 1e3 ? TALUS_OK : TALUS_BAD_VALUE) << most;
+  }
+  EXPECT_NE(std::string(talus_message()).find("gravity = nan: must be at least 0 and at most 1000"), std::string::npos);
+}
+
 TEST_P(CInterface, RefusesObserversThatCannotWork) {
   EXPECT_EQ(talus_watch(sleeper, nullptr, nullptr), TALUS_BAD_VALUE);
   EXPECT_EQ(talus_record(sleeper, nullptr, nullptr), TALUS_BAD_VALUE);
