@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <utility>
+
+#include "common/scene/toml_text.h"
 
 namespace talus {
 namespace {
@@ -20,24 +23,27 @@ void put_in(toml::table& table, toml::table& base) {
   }
 }
 
-/// The file that the table includes; empty, with an error, if that is none in or below its folder, or is read already.
-std::filesystem::path included_file(const toml::table& table, std::string_view scene, std::string_view of,
-                                    Diagnostics& diagnostics) {
+/// The file that the table includes. Throws SceneErrors if that is none in or below its folder, or is read already.
+std::filesystem::path included_file(const toml::table& table, std::string_view scene, const std::string& of,
+                                    const Diagnostics& diagnostics) {
   const toml::node& node = *table.get("include");
   const std::filesystem::path name(node.value_or(std::string()));
   const auto at = node.source().begin;
-  const auto refuse = [&](std::string rule) -> std::filesystem::path {
-    diagnostics.errors.push_back({std::string(of), static_cast<int>(at.line), static_cast<int>(at.column), "include",
-                                  name.string(), std::move(rule), ""});
-    return {};
+  const auto require = [&](bool holds, std::string rule) {
+    if (!holds)
+      throw SceneErrors({{of, static_cast<int>(at.line), static_cast<int>(at.column), "include", value_text(node),
+                          std::move(rule), ""}});
   };
   const bool inside = !name.empty() && name.is_relative() && std::ranges::count(name, "..") == 0;
-  if (!inside) return refuse("must be a file in or below the scene's folder");
+  require(inside, "must be a file in or below the scene's folder");
   std::filesystem::path file = std::filesystem::path(scene).parent_path() / name;
-  if (file == std::filesystem::path(scene) || diagnostics.included.contains(file.string()))
-    return refuse("must not lead back to a file that includes it");
-  if (std::ssize(diagnostics.included) >= most_includes)
-    return refuse(fmt::format("must end after {} files", most_includes));
+  require(file != std::filesystem::path(scene) && !diagnostics.included.contains(file.string()),
+          "must not lead back to a file that includes it");
+  require(std::ssize(diagnostics.included) < most_includes, fmt::format("must end after {} files", most_includes));
+  std::error_code unused;
+  require(name.string().find('\0') == std::string::npos && std::filesystem::is_regular_file(file, unused) &&
+              std::ifstream(file).good(),
+          "must be a regular file that can be read");
   return file;
 }
 
@@ -51,7 +57,6 @@ bool put_in_included(toml::table& table, std::string_view file_name, Diagnostics
     any = true;
     const std::filesystem::path file = included_file(table, file_name, of, diagnostics);
     table.erase("include");
-    if (file.empty()) break;
     of = file.string();
     diagnostics.included.insert(of);
     toml::table base = parse(file);
