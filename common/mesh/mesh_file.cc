@@ -173,8 +173,11 @@ void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std:
 }
 
 std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh) {
+  std::error_code unused;
+  require(!std::filesystem::exists(file, unused) || std::filesystem::is_regular_file(file, unused), "parts of mesh",
+          file.string(), "must be a regular file that can be read");
   const std::string expected = header(mesh) + '\n';
-  std::string found(expected.size(), '\0');  // no more than that: the file may be a device that never ends
+  std::string found(expected.size(), '\0');
   std::ifstream in(file, std::ios::binary);
   const bool readable = static_cast<bool>(in) && in.read(found.data(), static_cast<std::streamsize>(found.size()));
   const std::string command = "as `talus decompose` does";

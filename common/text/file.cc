@@ -10,10 +10,12 @@
 namespace talus {
 
 std::optional<std::string> file_contents(const std::filesystem::path& file) {
+  std::error_code unused;
+  if (!std::filesystem::is_regular_file(file, unused)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   std::ostringstream bytes;
-  bytes << in.rdbuf();  // sets badbit where the file is a folder
+  bytes << in.rdbuf();
   return bytes.bad() ? std::nullopt : std::optional(std::move(bytes).str());
 }
 

@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// All bytes of a file; none where it cannot be read. Not for what may be a device, whose bytes may have no end.
+/// All bytes of a file; none where it cannot be read or is no regular file, but a folder, a pipe or a device.
 std::optional<std::string> file_contents(const std::filesystem::path& file);
 
 /// Makes the file or replaces it. Throws std::runtime_error with its name where it cannot be written.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <functional>
@@ -160,6 +161,9 @@ TEST_F(MeshFile, RefusesPartsThatAreMissingOrMadeOfAnotherMesh) {
   expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "l.parts.obj");
   write_parts(parts_file(file_), repaired(soup(box)), arms());
   expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "must be made again");
+  std::filesystem::remove(parts_file(file_));
+  ASSERT_EQ(mkfifo(parts_file(file_).c_str(), 0600), 0);
+  expect_refused([&] { make_mesh_shape<3>("l", file_, params_, {}); }, "must be a regular file");
 }
 
 TEST_F(MeshFile, RefusesPartsThatDoNotFillTheMesh) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -84,6 +85,16 @@ TEST(SceneFiles, AreAlsoTheMeshesThatTheSceneNames) {
 }
 
 TEST(SceneFiles, OfASceneMadeByAProgramAreNone) { EXPECT_TRUE(scene_files(Scene<2>()).empty()); }
+
+TEST(SceneFiles, AreRegularFilesOnly) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "a.parts.obj").c_str(), 0600), 0);
+  Scene<2> scene;
+  scene.toml = "text";
+  scene.folder = folder.path();
+  scene.referred = {"a.parts.obj"};
+  EXPECT_THROW(scene_files(scene), std::invalid_argument);
+}
 
 TEST(SceneFiles, AreWrittenBelowTheFolderOnlyAndIntoOneThatCanBe) {
   const TemporaryFolder folder;
