@@ -193,9 +193,13 @@ CLI::Validator names_of(const std::vector<std::string>& known) {
       is_known.get_description());
 }
 
-/// The names in all values of an option.
-std::vector<std::string> split(const std::vector<std::string>& values) {
-  return values.empty() ? values : split_outside(fmt::format("{}", fmt::join(values, ",")), ',');
+/// The names in all values of an option, each there once.
+std::vector<std::string> split(std::string_view option, const std::vector<std::string>& values) {
+  if (values.empty()) return values;
+  const std::string text = fmt::format("{}", fmt::join(values, ","));
+  std::vector<std::string> names = split_outside(text, ',');
+  if (has_twins(names)) throw std::invalid_argument(fmt::format("{} {}: must have no value twice", option, text));
+  return names;
 }
 
 /// What a new benchmark is made of.
@@ -249,8 +253,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
     if (jobs->folders() == 0) jobs->out = "bench";
     check_job_options(*jobs, plan);
     options->out = jobs->emit.empty() ? jobs->out : jobs->emit;
-    options->policies = split(options->policies);
-    options->backends = split(options->backends);
+    options->policies = split("--policy", options->policies);
+    options->backends = split("--backend", options->backends);
     options->jobs = std::max(1, jobs->jobs);
     exit_code = bench(*options, *jobs);
   });

@@ -21,14 +21,6 @@ std::optional<double> number_of(const std::string& text) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
-/// Whether a value is there twice, as 0.5 and 0.50: runs of both would be the same.
-bool has_twins(std::vector<std::string> values) {
-  for (std::string& value : values)
-    if (const auto number = number_of(value)) value = fmt::format("{}", *number);
-  std::ranges::sort(values);
-  return std::ranges::adjacent_find(values) != values.end();
-}
-
 /// LOW, LOW + STEP, ... up to HIGH, rounded so that 0.2 + 0.2 + 0.2 is 0.6.
 std::vector<std::string> range_values(const std::vector<std::string>& parts, const std::string& text) {
   const auto low = number_of(parts[0]);
@@ -78,6 +70,13 @@ SweepAxis sweep_axis(const std::string& text) {
     if (value.empty()) throw std::invalid_argument(fmt::format("--set {}: must have no empty value", text));
   if (has_twins(axis.values)) throw std::invalid_argument(fmt::format("--set {}: must have no value twice", text));
   return axis;
+}
+
+bool has_twins(std::vector<std::string> values) {
+  for (std::string& value : values)
+    if (const auto number = number_of(value)) value = fmt::format("{}", *number);
+  std::ranges::sort(values);
+  return std::ranges::adjacent_find(values) != values.end();
 }
 
 bool overlap(const std::string& path, const std::string& other) {

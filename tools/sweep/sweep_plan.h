@@ -28,6 +28,9 @@ std::vector<std::string> split_outside(std::string_view text, char separator);
 /// quotes belong to a value. Throws std::invalid_argument with the text and the rule.
 SweepAxis sweep_axis(const std::string& text);
 
+/// Whether a value is there twice, as 0.5 and 0.50: runs of both would be the same.
+bool has_twins(std::vector<std::string> values);
+
 /// Whether one of two paths of keys is the other, or begins with it, so that a value of one replaces that of the other.
 bool overlap(const std::string& path, const std::string& other);
 
