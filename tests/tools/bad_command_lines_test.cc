@@ -30,7 +30,7 @@ class BadCommandLine : public ::testing::Test {
                                "; dimension=3d name=solid; " + run +
 #endif
                                R"(
-mkdir full empty; echo text >full/file; echo text >text; : >nothing.toml; echo 'title = 3' >wrong.toml
+mkdir full empty folder.csv folder.html folder.pvd folder.webp; echo text >full/file; echo text >text; : >nothing.toml; echo 'title = 3' >wrong.toml
 { printf 'title = "comb"\ndimension = 2\nshape.tooth = {kind = "polygon", corners = [[0, 0], [1, 0], [2, 1], [2, 2], [1, 3], [0, 3], [-1, 2], [-1, 1]]}\nshape.comb = {kind = "compound", parts = ['
 for i in $(seq 4 4 1840); do printf '{shape = "tooth", position = [%s, 0]},' "$i"; done
 printf ']}\n[[body]]\nshape = "comb"\nposition = [0, 1]\n'; } >comb.toml
@@ -242,6 +242,7 @@ TEST_F(BadCommandLine, OfFilmIsRefused) {
           {"film flat --out ''", {"--out"}},
           {"film no_run --out new.webp", {"no_run", "must be a folder that `talus run` left"}},
           {"film flat --out no/folder/new.webp", {"--out", "no/folder/new.webp"}},
+          {"film flat --out folder.webp", {"--out: folder.webp: must be a file, not a folder"}},
           {"film flat --out new.webp --from -1", {"--from", "-1", "must"}},
           {"film flat --out new.webp --from 1e9", {"--from", "1000000000", "must"}},
           {"film flat --out new.webp --from nan", {"--from", "nan", "must"}},
@@ -253,6 +254,12 @@ TEST_F(BadCommandLine, OfFilmIsRefused) {
           {"film flat --out new.webp --rate 0", {"--rate", "0", "must be"}},
           {"film flat --out new.webp --width 100", {"--width", "100", "must be"}},
           {"film flat --out new.webp --width 100000", {"--width", "100000", "must be"}}});
+}
+
+TEST_F(BadCommandLine, OfExportAndReplayIntoAFolderIsRefused) {
+  refuse({{"export flat --out folder.csv", {"--out: folder.csv: must be a file, not a folder"}},
+          {"export flat --out folder.pvd/", {"--out: folder.pvd/: must be a file, not a folder"}},
+          {"replay flat --out folder.html", {"--out: folder.html: must be a file, not a folder"}}});
 }
 
 TEST_F(BadCommandLine, OfMonitorIsRefused) {

@@ -19,13 +19,24 @@ inline CLI::Validator not_empty() {
   return {[](const std::string& text) { return std::string(text.empty() ? "must not be empty" : ""); }, ""};
 }
 
-/// For options with a file to write: its folder must be there.
+/// For names of files to write: their folder must be there.
 inline CLI::Validator in_a_folder() {
   return {[](const std::string& text) {
             const std::filesystem::path folder = std::filesystem::path(text).parent_path();
             std::error_code unused;
             const bool there = !text.empty() && (folder.empty() || std::filesystem::is_directory(folder, unused));
             return there ? std::string() : text + ": must be a file in a folder that exists";
+          },
+          ""};
+}
+
+/// For options with a file to write, which must be no folder.
+inline CLI::Validator file_to_write() {
+  return {[](const std::string& text) {
+            const std::string error = in_a_folder()(text);
+            std::error_code unused;
+            const bool folder = error.empty() && std::filesystem::is_directory(text, unused);
+            return folder ? text + ": must be a file, not a folder" : error;
           },
           ""};
 }

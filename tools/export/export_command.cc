@@ -140,7 +140,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
                    "may be repeated")
       ->required()
       ->allow_extra_args(false)
-      ->check(in_a_folder());
+      ->check(file_to_write());
   command->add_option("--from", options->from, "Simulated time from which on frames are written [s]")
       ->check(number_between(0.0, 1e9))
       ->capture_default_str();

@@ -207,7 +207,7 @@ void add_film_command(CLI::App& app, int& exit_code) {
       ->add_option("-o,--out", options->out,
                    "Film to write, overwritten if there: .webp, .mp4 or .gif, by the program ffmpeg")
       ->required()
-      ->check(in_a_folder());
+      ->check(file_to_write());
   command->add_option("--from", options->from, "Simulated time at which the film begins [s]")
       ->check(number_between(0.0, 1e9))
       ->capture_default_str();

@@ -41,7 +41,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->add_option("-o,--out", options->out,
                    "Page to write, .html, overwritten if there; a browser opens it without a net")
       ->required()
-      ->check(in_a_folder());
+      ->check(file_to_write());
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus replay runs/pour --out pour.html");
   command->callback([options, &exit_code] {
     write_replay(*options);
