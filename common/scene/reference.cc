@@ -192,11 +192,13 @@ std::string with_reference(std::string_view document) {
   const auto tables = key_tables();
   std::istringstream lines{std::string(document)};
   std::string result;
+  bool any = false;
   bool inside = false;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
     const bool begins = line.starts_with(keys_mark);
+    any = any || begins;
     if (begins == inside && (begins || line == end_mark))
       throw std::invalid_argument(fmt::format("line {}: {} must be one of a pair of marks", number, line));
     if (line == end_mark) inside = false;
@@ -210,6 +212,7 @@ std::string with_reference(std::string_view document) {
     result += "\n" + found->second + "\n";
   }
   if (inside) throw std::invalid_argument("the last mark has no <!-- end -->");
+  if (!any) throw std::invalid_argument("must have a mark, as <!-- keys: [run] -->");
   return result;
 }
 

@@ -142,8 +142,9 @@ TEST(Manual, HasTheTablesThatTheDeclarationsGive) {
       << "docs/scenes.md is not up to date; this command writes it: talus reference --update docs/scenes.md";
 }
 
-TEST(Manual, RefusesAMarkWithoutItsEndOrItsTable) {
+TEST(Manual, RefusesAMarkWithoutItsEndOrItsTableAndATextWithoutMarks) {
   EXPECT_EQ(with_reference("a\n<!-- keys: [run] -->\nold\n<!-- end -->\nb\n").find("old"), std::string::npos);
+  EXPECT_THROW(with_reference("a\n"), std::invalid_argument);
   EXPECT_THROW(with_reference("<!-- keys: [run] -->\n"), std::invalid_argument);
   EXPECT_THROW(with_reference("<!-- end -->\n"), std::invalid_argument);
   EXPECT_THROW(with_reference("<!-- keys: [runs] -->\n<!-- end -->\n"), std::invalid_argument);

@@ -81,6 +81,13 @@ TEST_F(BadCommandLine, OfTheCommandItselfIsRefused) {
           {"'run '", {"run "}}});
 }
 
+TEST_F(BadCommandLine, OfReferenceIsRefused) {
+  refuse({{"reference --update no_such.md", {"--update = no_such.md: must be a regular file that can be read"}},
+          {"reference --update full", {"--update = full: must be a regular file that can be read"}},
+          {"reference --update text", {"--update = text: must have a mark"}},
+          {"reference --update nothing.toml", {"--update = nothing.toml: must have a mark"}}});
+}
+
 TEST_F(BadCommandLine, OfRunWithoutASceneIsRefused) {
   refuse({{"run", {"scene"}},
           {"run ''", {"scene"}},

@@ -2,6 +2,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/math/require.h"
 #include "common/scene/reference.h"
 #include "common/text/file.h"
 #include "tools/commands/command_line_text.h"
@@ -17,9 +18,13 @@ void print_reference() {
 
 void update(const std::filesystem::path& file) {
   const std::optional<std::string> before = file_contents(file);
-  if (!before) throw std::invalid_argument(file.string() + ": must be a file that can be read");
-  const std::string after = with_reference(*before);
-  if (after != before) write_file(file, after);
+  require(before.has_value(), "--update", file.string(), "must be a regular file that can be read");
+  try {
+    const std::string after = with_reference(*before);
+    if (after != before) write_file(file, after);
+  } catch (const std::invalid_argument& error) {
+    throw InvalidValue("--update", file.string(), error.what());
+  }
 }
 
 }  // namespace
