@@ -35,6 +35,19 @@ def test_ends_with_the_hash_of_the_command(scene):
     assert run.hash() == subprocess.check_output(command, text=True).strip()
 
 
+def test_a_scene_is_taken_for_text_only_where_it_names_no_file(tmp_path):
+    folder = tmp_path / "rate=3"
+    folder.mkdir()
+    (folder / "scene.toml").write_text(ONE_BOX)
+    for scene in (folder / "scene.toml", str(folder / "scene.toml"), ONE_BOX):
+        assert talus.Simulation(scene).dimension == 2
+    with pytest.raises(ValueError, match="missing.toml: must be a file or the name"):
+        talus.Simulation(folder / "missing.toml")
+    line = 'title = "One", dimension = 2' + " " * 300
+    with pytest.raises(talus.SceneError, match="scene:1:"):
+        talus.Simulation(line)
+
+
 def test_poses_are_copies_that_also_go_into_out():
     run = talus.Simulation("drop_in_a_pile_3d")
     run.step(120)

@@ -282,8 +282,8 @@ class Run {
   std::optional<RunOutputs<Dim>> outputs_;
 };
 
-/// A text with a line end or a `=` is a scene itself, every other one names it.
-py::object open_run(const std::string& scene_text, const std::string& policy, std::optional<std::int64_t> seed,
+/// `is_text`: the scene is TOML text; else it is a path or a name.
+py::object open_run(const std::string& scene_text, bool is_text, const std::string& policy, std::optional<std::int64_t> seed,
                     const std::string& backend, const std::vector<std::string>& settings, bool warnings, bool contacts,
                     const std::string& out) {
   SceneChoice choice;
@@ -293,7 +293,6 @@ py::object open_run(const std::string& scene_text, const std::string& policy, st
   choice.backend = backend;
   choice.settings = settings;
   const std::vector<Override> overrides = overrides_of(choice);
-  const bool is_text = scene_text.find_first_of("\n=") != std::string::npos;
   const std::filesystem::path file = is_text ? "scene" : find_scene(scene_text);
   const AnyScene scene = is_text ? parse_scene(scene_text, "scene", overrides) : read_scene(file, overrides);
   return std::visit(

@@ -82,9 +82,10 @@ def run(
 ) -> Result:
     """Simulates a scene to its end, as `talus run` does with the same bits; returns a Result.
 
-    scene: path, name of a scene that `talus list` shows, or TOML text. set: values by path, as of `talus run --set`:
-    {"run.frames": 600}. out: run folder to write, new or empty, which talus.open() reads. progress: a function that is
-    called a few times a second with the steps done and those of the scene; the run may end before, at rest.
+    scene: path, name of a scene that `talus list` shows, or TOML text: a str with a line end, or with a `=` where
+    no such file exists. set: values by path, as of `talus run --set`: {"run.frames": 600}. out: run folder to write, new
+    or empty, which talus.open() reads. progress: a function that is called a few times a second with the steps done and
+    those of the scene; the run may end before, at rest.
 
     Other threads run meanwhile. Ctrl-C, as any error of `progress`, stops the run; a folder then has it up to there.
     SceneError: errors of the scene, all of them. ValueError: other bad input. NonFiniteState: the state of a body

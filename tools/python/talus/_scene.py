@@ -11,7 +11,7 @@ import numpy as np
 
 from ._talus import open_run
 
-#: A path, the name of a scene that `talus list` shows, or TOML text.
+#: A path, the name of a scene that `talus list` shows, or TOML text, as talus.run() tells them apart.
 Scene = Union[str, os.PathLike]
 #: Values of keys by path.
 Values = Mapping[str, Any]
@@ -26,13 +26,20 @@ def _toml(value):
     return json.dumps(value.item() if isinstance(value, np.generic) else value)
 
 
+def _is_text(scene):
+    """Whether a scene is TOML text, as the documentation of talus.run() has it."""
+    return isinstance(scene, str) and ("\n" in scene or ("=" in scene and not os.path.isfile(scene)))
+
+
 def _file_of(scene):
     """The file of a scene that comes with talus; else `scene` itself."""
     shipped = (folder / "share/talus/scenes" / f"{scene}.toml" for folder in Path(__file__).resolve().parents)
-    return str(scene) if "\n" in str(scene) else str(next(filter(Path.is_file, shipped), scene))
+    return str(next(filter(Path.is_file, shipped), scene))
 
 
 def open_scene(scene, policy, seed, backend, values, *, warnings=False, contacts=False, out=None):
     """The run of the extension module. values: of keys by path."""
     settings = [f"{path}={_toml(value)}" for path, value in (values or {}).items()]
-    return open_run(_file_of(scene), policy or "", seed, backend or "", settings, warnings, contacts, str(out or ""))
+    is_text = _is_text(scene)
+    file = scene if is_text else _file_of(scene)
+    return open_run(file, is_text, policy or "", seed, backend or "", settings, warnings, contacts, str(out or ""))

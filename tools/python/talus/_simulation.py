@@ -25,7 +25,7 @@ class Pile(NamedTuple):
 class Simulation:
     """A run of a scene, step by step.
 
-    scene: path, name of a scene that `talus list` shows, or TOML text. set: values by path, as of `talus run --set`.
+    scene, set: as of talus.run().
     contacts: whether contacts() is needed, which takes 5 to 15 % of a step.
     Errors of the scene raise SceneError with all of them. Arrays are copies, entry i belongs to body i.
     """
