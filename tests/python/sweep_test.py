@@ -33,6 +33,25 @@ def test_a_value_that_an_argument_gives_too_is_refused(path, given):
         talus.sweep("drop_in_a_pile_2d", {path: ["full"]}, set=SHORT, **given)
 
 
+@pytest.mark.parametrize(
+    "values, arguments, told",
+    [
+        ({"policy": [{"kind": "full"}]}, {"policy": "full"}, r"values\['policy'\]: must be left out where policy = full"),
+        ({"run.frames": [2, 3], "run": [{"frames": 4}]}, {}, r"values\['run'\]: must be given once, and 'run.frames'"),
+        ({"run.frames": [2, 3]}, {"set": SHORT}, r"values\['run.frames'\]: must be given once"),
+        ({"ground.friction": np.array([0.5, 0.7, 0.5])}, {}, "friction.*must have no value twice"),
+        ({"ground.friction": [1, 1.0]}, {}, "friction.*must have no value twice"),
+        ({"ground.friction": []}, {}, r"values\['ground.friction'\] = \[\]: must be one value or more"),
+        ({}, {"seeds": 0}, r"seeds = \[\]: must be one value or more"),
+        ({}, {"seeds": -1}, "seeds.*must be one value or more"),
+        ({}, {"seeds": [1, 2, 1]}, r"seeds = \[1, 2, 1\]: must have no value twice"),
+    ],
+)
+def test_what_would_be_run_twice_or_not_at_all_is_refused(values, arguments, told):
+    with pytest.raises(ValueError, match=told):
+        talus.sweep("drop_in_a_pile_2d", values, **arguments)
+
+
 def test_a_run_that_fails_has_its_error_and_costs_no_other():
     runs = talus.sweep("drop_in_a_pile_2d", {"run.frames": [5, -5, 10]})
     assert [run.result and run.result.step_count > 0 for run in runs] == [True, None, True]

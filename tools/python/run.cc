@@ -27,6 +27,7 @@
 #include "tools/run/make_simulation.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_outputs.h"
+#include "tools/sweep/sweep_plan.h"
 
 namespace py = pybind11;
 
@@ -344,6 +345,8 @@ void add_runs(py::module_& module) {
   add_run<2>(module, "Run2");
   add_run<3>(module, "Run3");
   module.def("open_run", &open_run);
+  module.def("overlap", &overlap);
+  module.def("has_twins", &has_twins);
 }
 
 }  // namespace talus

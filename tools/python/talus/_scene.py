@@ -17,12 +17,12 @@ Scene = Union[str, os.PathLike]
 Values = Mapping[str, Any]
 
 
-def _toml(value):
+def toml_text(value):
     """A Python value as TOML."""
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{json.dumps(key)} = {toml_text(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple, np.ndarray)):
-        return "[" + ", ".join(_toml(item) for item in value) + "]"
+        return "[" + ", ".join(toml_text(item) for item in value) + "]"
     return json.dumps(value.item() if isinstance(value, np.generic) else value)
 
 
@@ -39,7 +39,7 @@ def _file_of(scene):
 
 def open_scene(scene, policy, seed, backend, values, *, warnings=False, contacts=False, out=None):
     """The run of the extension module. values: of keys by path."""
-    settings = [f"{path}={_toml(value)}" for path, value in (values or {}).items()]
+    settings = [f"{path}={toml_text(value)}" for path, value in (values or {}).items()]
     is_text = _is_text(scene)
     file = scene if is_text else _file_of(scene)
     return open_run(file, is_text, policy or "", seed, backend or "", settings, warnings, contacts, str(out or ""))

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any, Callable, Iterable, Mapping
 
 from ._run import Result
-from ._scene import Scene, Values
+from ._scene import Scene, Values, toml_text
+from ._talus import has_twins, overlap
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,24 @@ class _Processes:
             process.kill()
 
 
+def _check(values, seeds, policy, settings):
+    """ValueError, as `talus sweep` refuses it: runs would not have all values that they tell, or be there twice."""
+    paths = [*values, *settings]
+    for path, argument, given in (("policy.kind", "policy", policy), ("seed", "seeds", seeds)):
+        for other in paths if given is not None else ():
+            if overlap(other, path):
+                raise ValueError(f"values[{other!r}]: must be left out where {argument} = {given} is given")
+    for path, other in itertools.combinations(paths, 2):
+        if overlap(path, other):
+            raise ValueError(f"values[{other!r}]: must be given once, and {path!r} is given, too")
+    of_seeds = {} if seeds is None else {"seeds": seeds}
+    for name, choices in ({f"values[{path!r}]": choices for path, choices in values.items()} | of_seeds).items():
+        if not choices:
+            raise ValueError(f"{name} = {choices}: must be one value or more")
+        if has_twins([toml_text(choice) for choice in choices]):
+            raise ValueError(f"{name} = {choices}: must have no value twice")
+
+
 def sweep(
     scene: Scene,
     values: Mapping[str, Iterable] | None = None,
@@ -71,17 +90,17 @@ def sweep(
     values: lists of values by path, {"shape.L.friction": [0.2, 0.4]}. seeds: how many, from 1 on, or the seeds
     themselves; None: the scene's own. set: values of all runs. jobs: runs at a time, each in a process of its own; None:
     one for each core. progress: a function that is called with the number of runs done and of all, from 0 on.
-    policy and backend as in talus.run(). ValueError: policy.kind or seed is in `values` and given as an argument, too.
+    policy and backend as in talus.run(). ValueError: a key is given twice, also by a table that has it or by policy or
+    seeds; a value or a seed is there twice, or none is.
 
     A run that fails has its error in the list and costs no other. Ctrl-C, as any error of `progress`, ends the sweep.
     """
     values = {path: list(choices) for path, choices in (values or {}).items()}
-    for path, argument, given in (("policy.kind", "policy", policy), ("seed", "seeds", seeds)):
-        if path in values and given is not None:
-            raise ValueError(f"values[{path!r}]: must be left out where {argument} = {given} is given")
-    seeds = [None] if seeds is None else list(range(1, seeds + 1) if isinstance(seeds, int) else seeds)
+    if seeds is not None:
+        seeds = list(range(1, seeds + 1) if isinstance(seeds, int) else seeds)
+    _check(values, seeds, policy, set or {})
     combinations = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
-    plan = [(chosen, seed) for chosen in combinations for seed in seeds]
+    plan = [(chosen, seed) for chosen in combinations for seed in seeds or [None]]
     processes = _Processes()
     outcomes = {}
     with ThreadPoolExecutor(jobs or len(os.sched_getaffinity(0))) as threads:
