@@ -171,6 +171,20 @@ void warn_of_settings(const Scene<Dim>& scene, Lines& lines) {
     lines.push_back(fmt::format("world.steps_per_second below {:g}: bodies sink visibly into each other", few_steps));
 }
 
+/// At 1 twelve balls in a box had up to 2.8 times their energy after a minute, at 0.99 less than before. With small
+/// steps the energy of one ball stays within 3 % of what it was, and that of many falls.
+template <int Dim>
+void warn_of_restitution(const WorldDescription<Dim>& world, Lines& lines) {
+  constexpr double lossless = 0.99;
+  for (const Shape<Dim>& shape : world.shapes)
+    if (shape.material.restitution > lossless && !world.solver.small_steps())
+      lines.push_back(
+          fmt::format("shape.{}.restitution = {:g}: above {:g} impacts add energy with the engines' own "
+                      "solvers, 8 to 180 % in a minute where this was measured; world.solver.kind = "
+                      "\"small_steps\" adds none",
+                      shape.name, shape.material.restitution, lossless));
+}
+
 /// Number of the [[obstacle]] that made the obstacles that move as one.
 template <int Dim>
 std::size_t table_of(const Scene<Dim>& scene, const Mover<Dim>& mover) {
@@ -225,6 +239,7 @@ std::vector<std::string> warnings(const Scene<Dim>& scene) {
   warn_of_sizes(scene.world, lines);
   warn_of_mixtures(scene, lines);
   warn_of_settings(scene, lines);
+  warn_of_restitution(scene.world, lines);
   warn_of_coarse_steps(scene, lines);
   warn_of_coarse_motion(scene, lines);
   return lines;
@@ -267,19 +282,6 @@ void warn_of_speeds(const Scene<Dim>& scene, const EngineTraits& engine, EngineL
   }
 }
 
-// From 0.99 downwards no engine gained energy; at 1 each does, whatever the restitution threshold.
-template <int Dim>
-void warn_of_restitution(const Scene<Dim>& scene, const EngineTraits& engine, EngineLines& lines) {
-  constexpr double lossless = 0.99;
-  for (const Shape<Dim>& shape : scene.world.shapes) {
-    if (shape.material.restitution > lossless) {
-      lines.push_back(fmt::format(
-          "shape.{}.restitution = {:g}: above {:g} impacts add energy, {:.0f} % in a minute where this was measured",
-          shape.name, shape.material.restitution, lossless, 100.0 * engine.restitution_gain));
-    }
-  }
-}
-
 template <int Dim>
 void warn_of_demand(const Scene<Dim>& scene, const EngineTraits& engine, EngineLines& lines) {
   constexpr double many = 20'000.0;
@@ -309,7 +311,6 @@ std::vector<std::string> engine_warnings(const Scene<Dim>& scene, const EngineTr
   EngineLines lines;
   warn_of_gravity(scene, engine, lines);
   warn_of_speeds(scene, engine, lines);
-  warn_of_restitution(scene, engine, lines);
   warn_of_demand(scene, engine, lines);
   return lines;
 }

@@ -16,7 +16,8 @@ inline constexpr auto surface_fields = std::to_array<Field<Material>>({
     {place_of<&Material::restitution>,
      {.name = "restitution",
       .range = between(0.0, 1.0),
-      .meaning = "share of the approach speed given back. Above 0.99 impacts may add energy"}},
+      .meaning =
+          "share of the approach speed given back. Above 0.99 impacts may add energy with the engines' own solvers"}},
 });
 
 /// What only bodies have.
