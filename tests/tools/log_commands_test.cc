@@ -120,6 +120,33 @@ TEST_F(LogCommand, RepairLeavesOutTheDamagedMessageOnly) {
   EXPECT_EQ(talus_command("replay " + (folder_ / "whole") + " --out " + (folder_ / "a.html")).exit_code, 0);
 }
 
+TEST_F(LogCommand, RepairWritesAllFilesOfTheSceneThatTheRecordHolds) {
+  const fs::path folder = folder_.path();
+  std::ofstream(folder / "rock.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  std::ofstream(folder / "scene.toml") << "title = \"Rocks\"\ndimension = 2\nrun.frames = 5\nsource = [{count = 2}]\n"
+                                          "shape.rock = {kind = \"mesh\", file = \"rock.obj\", longest_side = 1}\n";
+  ASSERT_EQ(talus_command("run " + (folder_ / "scene.toml") + " --no-telemetry --out " + (folder_ / "rocks")).exit_code,
+            0);
+  std::string log = contents(folder / "rocks" / "run.lcm");
+  const auto repair = [&](const std::string& copy) {
+    fs::create_directory(folder / "hurt");
+    std::ofstream(folder / "hurt" / "run.lcm", std::ios::binary) << log;
+    return talus_command("info --repair " + (folder_ / "hurt") + " --out " + (folder_ / copy));
+  };
+  const Outcome whole = repair("whole");
+  EXPECT_EQ(whole.err, "");
+  for (const char* name : {"rock.obj", "scene.toml"})
+    EXPECT_EQ(contents(folder / "whole" / name), contents(folder / "rocks" / name)) << name;
+  EXPECT_EQ(
+      talus_command("run " + (folder_ / "whole/scene.toml") + " --no-telemetry --out " + (folder_ / "again")).exit_code,
+      0);
+  log[log.find("v 0 1 0")] = 'w';
+  const Outcome hurt = repair("part");
+  EXPECT_EQ(hurt.exit_code, 0);
+  EXPECT_NE(hurt.err.find("the record does not hold all files of its scene"), std::string::npos) << hurt.err;
+  EXPECT_NE(hurt.err.find("rock.obj"), std::string::npos) << hurt.err;
+}
+
 TEST_F(LogCommand, RepairCountsWhatIsDamagedAtTheEnd) {
   const std::string whole = contents(folder_.path() / "run" / "run.lcm");
   std::filesystem::create_directory(folder_.path() / "hurt");

@@ -7,11 +7,16 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/scene/read_scene.h"
+#include "common/scene/write_scene.h"
 #include "common/text/printable.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/run_info.h"
+#include "lcmtypes/scene_message.h"
+#include "lcmtypes/wire.h"
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
+#include "tools/record/recorded_scene.h"
 
 namespace talus {
 namespace {
@@ -105,6 +110,20 @@ std::vector<EventTime> times_of(const fs::path& file, const std::string& run) {
   return times;
 }
 
+/// Writes the scene's files of a record into the folder of its copy, where the record lacks them the scene `beside` it,
+/// and tells what is missing then.
+void write_scene(const std::vector<SceneFile>& recorded, const fs::path& beside, const fs::path& out) {
+  if (!recorded.empty() && recorded.front().name == scene_file_name)
+    write_scene_files(recorded, out);
+  else if (fs::is_regular_file(beside))
+    fs::copy_file(beside, out / scene_file_name);
+  try {
+    fs::exists(out / scene_file_name) ? read_scene(out / scene_file_name) : scene_of_run(out);
+  } catch (const std::exception& error) {
+    print_message("the record does not hold all files of its scene: {}", error.what());
+  }
+}
+
 }  // namespace
 
 void repair_log(const fs::path& file, const std::string& run, const fs::path& out) {
@@ -112,8 +131,7 @@ void repair_log(const fs::path& file, const std::string& run, const fs::path& ou
   std::vector<EventTime> times = times_of(file, run);
   const std::int64_t mended = mend_stamps(times);
   fs::create_directories(out);
-  const fs::path scene = file.parent_path() / "scene.toml";
-  if (fs::is_regular_file(scene)) fs::copy_file(scene, out / "scene.toml");
+  SceneFilesReader scene;
   EventLog log((out / "run.lcm").string());
   ChosenEvents events(file, run);
   std::size_t copied = 0;
@@ -121,10 +139,14 @@ void repair_log(const fs::path& file, const std::string& run, const fs::path& ou
     if (copied == times.size()) continue;
     event.timestamp = times[copied++].stamp;
     log.write(event);
+    talus_lcm::talus_scene message;
+    if (event.channel == name_of(Channel::scene) && decode(event.data, message).empty()) scene.take(message);
   }
   log.flush();
   print_result("{}: {} whole messages; {} damaged bytes in {} places left out, {} stamps mended\n",
                printable(out.string()), copied, events.damage().bytes, events.damage().places, mended);
+  const bool of_run = std::ranges::any_of(times, [](const EventTime& time) { return time.own.has_value(); });
+  if (of_run) write_scene(scene.files(), file.parent_path() / scene_file_name, out);
 }
 
 }  // namespace talus
