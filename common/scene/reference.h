@@ -13,8 +13,8 @@ namespace talus {
 std::vector<std::pair<std::string, std::string>> key_tables();
 
 /// The document with new text between its pairs of marks. `<!-- keys: NAME -->` begins the table of that name
-/// and `<!-- end -->` ends it. Throws std::invalid_argument where there is none, and with the line of a mark that has no
-/// such name or no end.
+/// and `<!-- end -->` ends it. Throws std::invalid_argument where there is none, and with the line of a mark that has
+/// no such name or no end.
 std::string with_reference(std::string_view document);
 
 }  // namespace talus

@@ -65,7 +65,8 @@ class PileSleeper {
   const SleepChanges<Dim>& wake_near(const Box<Dim>& box);
   /// After the program has put a body elsewhere: it wakes, with the bodies near its old and its new place.
   const SleepChanges<Dim>& moved(Handle handle, const Pose<Dim>& to);
-  /// From the next step on [m/s^2], at most as strong as a scene's. If it differs from before by more than a hundredth, all bodies wake.
+  /// From the next step on [m/s^2], at most as strong as a scene's. If it differs from before by more than a hundredth,
+  /// all bodies wake.
   const SleepChanges<Dim>& set_gravity(const Vec<Dim>& gravity);
 
   /// Whether the handle names a body that is there.

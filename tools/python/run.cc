@@ -284,9 +284,9 @@ class Run {
 };
 
 /// `is_text`: the scene is TOML text; else it is a path or a name.
-py::object open_run(const std::string& scene_text, bool is_text, const std::string& policy, std::optional<std::int64_t> seed,
-                    const std::string& backend, const std::vector<std::string>& settings, bool warnings, bool contacts,
-                    const std::string& out) {
+py::object open_run(const std::string& scene_text, bool is_text, const std::string& policy,
+                    std::optional<std::int64_t> seed, const std::string& backend,
+                    const std::vector<std::string>& settings, bool warnings, bool contacts, const std::string& out) {
   SceneChoice choice;
   choice.scene = scene_text;
   choice.policy = policy;
