@@ -97,7 +97,7 @@ TEST(FilmCommand, NamesAFileThatCannotBeWritten) {
   const Outcome run =
       talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=10 --out " + (folder / "run"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  std::filesystem::create_directory(folder.path() / "a.mp4");
+  std::filesystem::create_symlink("/no/such/folder", folder.path() / "a.mp4");
   const Outcome film = talus_command("film " + (folder / "run") + " --width 320 --out " + (folder / "a.mp4"));
   EXPECT_EQ(film.exit_code, 1);
   EXPECT_NE(film.err.find("a.mp4"), std::string::npos) << film.err;
