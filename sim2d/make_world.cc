@@ -23,7 +23,6 @@ void check_for_box2d(const WorldDescription<2>& description) {
 EngineTraits box2d_traits() {
   return {.name = "box2d",
           .fastest_step = b2_maxTranslation,
-          .restitution_gain = 0.06,
           .awake_bytes = 1200.0,
           .sleeper_bytes = 700.0,
           .awake_seconds = 3e-6};

@@ -30,7 +30,6 @@ constexpr EngineTraits in_space = {
     .name = "bullet",
     .window = {.fewest_steps = 50.0, .fewest_iterations = 5, .largest_mass_ratio = 20.0, .longest_obstacle = 1000.0},
     .sinking_fall = 0.1,
-    .restitution_gain = 0.04,
     .awake_bytes = 8500.0,
     .sleeper_bytes = 1020.0,
     .awake_seconds = 7e-6};
@@ -38,7 +37,6 @@ constexpr EngineTraits in_the_plane = {
     .name = "bullet-planar",
     .window = {.fewest_steps = 40.0, .fewest_iterations = 5, .largest_mass_ratio = 20.0},
     .sinking_fall = 0.1,
-    .restitution_gain = 0.05,
     .awake_bytes = 6000.0,
     .sleeper_bytes = 1020.0,
     .awake_seconds = 4e-6};
