@@ -277,13 +277,13 @@ TEST(CheckCommand, RefusesWhatNoEngineOfTheDimensionRuns) {
   }
 }
 
-TEST(RunCommand, WarnsOfWhatItsEngineDoesBadly) {
+TEST(RunCommand, WarnsOfWhatIsTooMuchForItsEngine) {
   const TemporaryFolder folder;
   const Outcome outcome = talus_command(
       "run drop_in_a_pile_3d --no-telemetry --set run.frames=2 "
-      "--set shape.L.restitution=1 --out " +
+      "--policy full --set source[0].count=20000 --out " +
       (folder / "run"));
-  EXPECT_NE(outcome.err.find("warning: bullet: shape.L.restitution = 1"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: bullet: source: 20000 bodies awake at once"), std::string::npos) << outcome.err;
 }
 #endif
 
