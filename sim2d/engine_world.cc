@@ -77,7 +77,7 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
       continuous_(description),
       listener_(description, warm_start_, continuous_) {
   for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
-  if (description.solver.small_steps()) small_steps_.emplace(description);
+  if (description.solver.small_steps()) small_steps_.emplace(description, ring_);
   world_.SetAllowSleeping(description.engine_sleep);
   world_.SetAutoClearForces(false);  // there are none
   world_.SetContactListener(&listener_);
@@ -154,7 +154,7 @@ void EngineWorld::engine_remove(BodyIndex body) {
     world_.DestroyBody(at(body).body);
   at(body) = {};
   warm_start_.forget(body);
-  if (small_steps_) small_steps_->forget(body);
+  if (ring_) ring_->forget(body);
 }
 
 Pose<2> EngineWorld::engine_place(BodyIndex body, const Pose<2>& pose) {
@@ -169,11 +169,11 @@ void EngineWorld::engine_set_velocity(BodyIndex body, const Vec<2>& velocity, co
 }
 
 EngineTimes EngineWorld::engine_step() {
-  warm_start_.start_step(states().asleep, ring() == nullptr);
+  warm_start_.start_step(states().asleep, !ring_);
   const bool own = !small_steps_;
   listener_.start_step(own && !description().debug.sweep_slow_bodies && hosts_.hosts() > 0, own && records_contacts());
   if (!description().debug.step_when_idle && idle()) {
-    if (small_steps_) small_steps_->skip();
+    if (ring_) ring_->start();
     return {};
   }
   check_memory();
@@ -183,7 +183,7 @@ EngineTimes EngineWorld::engine_step() {
 }
 
 /// Whether nothing moves in the coming step.
-bool EngineWorld::idle() const { return awake().empty() && (ring() == nullptr || ring()->idle(moving_obstacles_)); }
+bool EngineWorld::idle() const { return awake().empty() && (!ring_ || ring_->idle(moving_obstacles_)); }
 
 EngineTimes EngineWorld::box2d_step() {
   find_new_contacts();
@@ -249,7 +249,7 @@ void EngineWorld::engine_remove_obstacle(int number) {
   world_.DestroyBody(obstacles_[number]);
   std::erase(moving_obstacles_, first_obstacle - number);
   obstacles_[number] = nullptr;
-  if (small_steps_) small_steps_->forget(first_obstacle - number);
+  if (ring_) ring_->forget(first_obstacle - number);
 }
 
 void EngineWorld::engine_restore_obstacle(int number) {
@@ -275,7 +275,7 @@ void EngineWorld::keep_contacts(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies)
     for (const b2ContactEdge* edge = at(body).body->GetContactList(); edge != nullptr; edge = edge->next)
       warm_start_.save(*edge->contact);
-  if (ring() == nullptr) return;
+  if (!ring_) return;
   find_new_contacts();
   stepped_.clear();
   for (const BodyIndex body : bodies) stepped_.push_back(at(body).body);
@@ -305,7 +305,7 @@ void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
   std::ranges::reverse(fixtures);  // see engine_freeze()
   for (b2Fixture* fixture : fixtures) hosts_.remove(fixture, template_of_body(owner_of(*fixture)));
   for (const BodyIndex body : bodies)
-    if (ring() != nullptr && ring()->has(body)) resume(body);
+    if (ring_ && ring_->has(body)) resume(body);
   create_thawed(bodies);
   proxies_moved_ = true;
 }

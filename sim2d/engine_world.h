@@ -50,14 +50,12 @@ class EngineWorld final : public RingWorld<2> {
   void engine_remove_obstacle(int number) override;
   void engine_restore_obstacle(int number) override;
   void engine_set_gravity(const Vec<2>& gravity) override { world_.SetGravity(to_engine(gravity)); }
-  void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
   void engine_share_among(const std::shared_ptr<Team>& team) override {
     if (small_steps_) small_steps_->share_among(team);
   }
 
   EngineTimes box2d_step();
   EngineTimes small_step();
-  const Ring<2>* ring() const override { return small_steps_ ? small_steps_->ring() : nullptr; }
   double impulse_unit() const override { return 1.0; }
   bool idle() const;
   void keep_contacts(std::span<const BodyIndex> bodies);

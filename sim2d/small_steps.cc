@@ -41,8 +41,9 @@ class FixtureFinder final : public b2QueryCallback {
 
 }  // namespace
 
-SmallSteps::SmallSteps(const WorldDescription<2>& description)
-    : params_{.sub_steps = description.solver.sub_steps,
+SmallSteps::SmallSteps(const WorldDescription<2>& description, std::optional<Ring<2>>& ring)
+    : ring_(ring),
+      params_{.sub_steps = description.solver.sub_steps,
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
       dt_(static_cast<float>(description.dt)),
       fast_(description),
@@ -109,11 +110,6 @@ bool SmallSteps::passes_unseen(b2World& world, const StepInput& input, std::span
     for (b2Body* body : bodies_at<b2Body>(slot, first_of_, bodies)) find_ahead(world, input, *body, false);
   return std::any_of(ahead_.begin() + known, ahead_.end(),
                      [&](const Ahead& each) { return fast_.passes(solver_, each.point); });
-}
-
-void SmallSteps::set_ring(const std::optional<SleepRing>& ring) {
-  ring_.reset();
-  if (ring) ring_.emplace(*ring);
 }
 
 void SmallSteps::freeze(b2World& world, const StepInput& input, std::span<const BodyIndex> bodies,
@@ -199,14 +195,6 @@ SolverBody<2> SmallSteps::thaw(BodyIndex body, WarmStart& warm) {
   }
   sort_rolling();
   return state;
-}
-
-void SmallSteps::skip() {
-  if (ring_) ring_->start();
-}
-
-void SmallSteps::forget(BodyIndex side) {
-  if (ring_) ring_->forget(side);
 }
 
 void SmallSteps::add_bodies(const StepInput& input, std::span<b2Body* const> bodies) {

@@ -38,7 +38,8 @@ struct StepInput {
 /// step. Sleepers are in the solver with their mass, see SolverBody.
 class SmallSteps {
  public:
-  explicit SmallSteps(const WorldDescription<2>& description);
+  /// `ring`: of the sleeping bodies, none where they feel nothing; outlives this.
+  SmallSteps(const WorldDescription<2>& description, std::optional<Ring<2>>& ring);
 
   /// Called in place of b2World::Step(), after Box2D has found all new pairs.
   EngineTimes step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
@@ -48,20 +49,11 @@ class SmallSteps {
     solver_.share_among(team);
   }
 
-  /// Whether sleepers feel forces, see Ring.
-  void set_ring(const std::optional<SleepRing>& ring);
-  /// Null without.
-  const Ring<2>* ring() const { return ring_ ? &*ring_ : nullptr; }
   /// With a ring: awake bodies fall asleep. To be called before their bodies in Box2D are destroyed, and after Box2D
   /// has found all new pairs.
   void freeze(b2World& world, const StepInput& input, std::span<const BodyIndex> bodies, std::span<b2Body* const> from);
   /// With a ring: a body wakes. Returns its velocity and its displacement; the impulses of its contacts go to `warm`.
   SolverBody<2> thaw(BodyIndex body, WarmStart& warm);
-  /// A body or an obstacle leaves the world.
-  void forget(BodyIndex side);
-
-  /// In place of a step in which nothing moves.
-  void skip();
 
   /// Appends the contacts of the last step, sorted by their bodies and pieces. Each is listed once: that of two awake
   /// bodies under the one with the lower index.
@@ -134,6 +126,7 @@ class SmallSteps {
   void sort_rolling();
   void move_bodies(const StepInput& input, std::span<b2Body* const> bodies) const;
 
+  std::optional<Ring<2>>& ring_;
   ContactSolverParams params_;
   float dt_;
   FastBodies<2> fast_;
@@ -141,7 +134,6 @@ class SmallSteps {
   ContactSolver<2> solver_;
   Collision collision_;
   std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
-  std::optional<Ring<2>> ring_;
   std::vector<Ahead> ahead_;
   std::vector<std::size_t> first_of_;       // by slot of an awake body, from 1 on: its number among the awake
   std::vector<float> obstacle_reaches_;     // by number: from the centre to any point of it at most [m]

@@ -42,9 +42,9 @@ btVector3 gravity_of(const WorldDescription<Dim>& description) {
 /// Null: Bullet's own solver is to be used.
 template <int Dim>
 std::unique_ptr<SmallSteps<Dim>> make_small_steps(const WorldDescription<Dim>& description,
-                                                  const BodyStates<Dim>& states) {
+                                                  const BodyStates<Dim>& states, std::optional<Ring<Dim>>& ring) {
   if (!description.solver.small_steps()) return nullptr;
-  return std::make_unique<SmallSteps<Dim>>(description, fastest_spin(description.dt), states);
+  return std::make_unique<SmallSteps<Dim>>(description, fastest_spin(description.dt), states, ring);
 }
 
 template <int Dim>
@@ -61,7 +61,7 @@ EngineWorld<Dim>::EngineWorld(const WorldDescription<Dim>& description)
     : RingWorld<Dim>(description, {fastest_speed<3>(description.dt), fastest_spin(description.dt)}),
       mass_scale_(mass_scale<Dim>(description.shapes)),
       engine_(gravity_of(description), description.solver, description.debug),
-      small_steps_(make_small_steps(description, this->states())) {
+      small_steps_(make_small_steps(description, this->states(), ring_)) {
   for (const Shape<Dim>& shape : description.shapes) {
     templates_.push_back(make_body_template(shape, mass_scale_));
     if (description.debug.sweep_slow_bodies) templates_.back().sweep_from = shortest_sweep;
@@ -142,7 +142,7 @@ Pose<Dim> EngineWorld<Dim>::engine_add(BodyIndex body, const BodyDef<Dim>& def) 
 template <int Dim>
 void EngineWorld<Dim>::engine_remove(BodyIndex body) {
   swap_.forget(body);
-  if (small_steps_) small_steps_->forget(body);
+  if (ring_) ring_->forget(body);
   engine_.broadphase.destroyProxy(at(body)->getBroadphaseHandle(), &engine_.dispatcher);
   const bool frozen = rigid_body(body) == nullptr;
   const auto leaving = std::move(at(body));  // outlives Bullet's lists of it
@@ -171,10 +171,18 @@ void EngineWorld<Dim>::engine_set_velocity(BodyIndex body, const Vec<Dim>& veloc
 }
 
 template <int Dim>
+bool EngineWorld<Dim>::idle() const {
+  if (!rigid_.empty() || !ring_) return rigid_.empty();
+  std::vector<BodyIndex> moving;
+  for (const btRigidBody* obstacle : moving_obstacles_) moving.push_back(obstacle->getUserIndex());
+  return ring_->idle(moving);
+}
+
+template <int Dim>
 EngineTimes EngineWorld<Dim>::engine_step() {
   if (this->records_contacts()) contacts_.note_motion(rigid_, moving_obstacles_);
   if (!this->description().debug.step_when_idle && idle()) {
-    if (small_steps_) small_steps_->skip();
+    if (ring_) ring_->start();
     // Upkeep of the broadphase's trees: their form decides the order of pairs, and so how a run continues after a thaw.
     engine_.broadphase.calculateOverlappingPairs(&engine_.dispatcher);
     return {};
@@ -222,7 +230,7 @@ void EngineWorld<Dim>::engine_remove_obstacle(int number) {
   btCollisionObject& object = obstacle(number);
   std::erase(moving_obstacles_, btRigidBody::upcast(&object));
   swap_.forget(first_obstacle - number);
-  if (small_steps_) small_steps_->forget(first_obstacle - number);
+  if (ring_) ring_->forget(first_obstacle - number);
   engine_.pairs.remove_pairs_of_obstacle(object.getBroadphaseHandle(), &engine_.dispatcher);
   engine_.broadphase.destroyProxy(object.getBroadphaseHandle(), &engine_.dispatcher);
   object.setBroadphaseHandle(nullptr);
@@ -261,7 +269,7 @@ void EngineWorld<Dim>::keep_contacts(std::span<const BodyIndex> bodies) {
 
 template <int Dim>
 void EngineWorld<Dim>::engine_freeze(std::span<const BodyIndex> bodies) {
-  if (ring() != nullptr) keep_contacts(bodies);
+  if (ring_) keep_contacts(bodies);
   for (const BodyIndex body : bodies) swap_.freeze(at(body), template_of_body(body));
   std::erase_if(listed_, [this](BodyIndex body) { return rigid_body(body) == nullptr; });
   update_lists();
@@ -272,7 +280,7 @@ void EngineWorld<Dim>::engine_thaw(std::span<const BodyIndex> bodies) {
   const auto before = static_cast<std::ptrdiff_t>(listed_.size());
   for (const BodyIndex body : bodies) {
     if (rigid_body(body) == nullptr) {
-      const bool moves = ring() != nullptr && ring()->has(body);
+      const bool moves = ring_ && ring_->has(body);
       btVector3 velocity;
       btVector3 spin;
       if (moves) {

@@ -26,6 +26,8 @@ class EngineWorld final : public RingWorld<Dim> {
   const Engine& engine() const { return engine_; }
 
  private:
+  using RingWorld<Dim>::ring_;
+
   Pose<Dim> engine_add(BodyIndex body, const BodyDef<Dim>& def) override;
   void engine_remove(BodyIndex body) override;
   EngineTimes engine_step() override;
@@ -42,7 +44,6 @@ class EngineWorld final : public RingWorld<Dim> {
   void engine_set_gravity(const Vec<Dim>& gravity) override;
   void engine_contacts(std::vector<Contact<Dim>>& contacts) const override;
   bool engine_awake(BodyIndex body) const override { return at(body)->isActive(); }
-  void engine_set_ring(const std::optional<SleepRing>& ring) override { small_steps_->set_ring(ring); }
   void engine_share_among(const std::shared_ptr<Team>& team) override {
     engine_.world.share_among(team);
     if (small_steps_) small_steps_->share_among(team);
@@ -50,9 +51,8 @@ class EngineWorld final : public RingWorld<Dim> {
 
   void use_small_steps();
   typename SmallSteps<Dim>::Actions actions();
-  const Ring<Dim>* ring() const override { return small_steps_ ? small_steps_->ring() : nullptr; }
   double impulse_unit() const override { return 1.0 / mass_scale_; }
-  bool idle() const { return rigid_.empty() && (!small_steps_ || small_steps_->idle(moving_obstacles_)); }
+  bool idle() const;
   void keep_contacts(std::span<const BodyIndex> bodies);
   void renew_kept_points();
   void resume(BodyIndex body, const btVector3& velocity, const btVector3& spin);

@@ -91,8 +91,9 @@ PointKey key_of(const btCollisionObject& a, const btCollisionObject& b) {
 
 template <int Dim>
 SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fastest_spin,
-                            const BodyStates<Dim>& states)
+                            const BodyStates<Dim>& states, std::optional<Ring<Dim>>& ring)
     : states_(states),
+      ring_(ring),
       params_{.sub_steps = description.solver.sub_steps,
               .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
       dt_(static_cast<float>(description.dt)),
@@ -511,25 +512,6 @@ void SmallSteps<Dim>::finish(std::span<btRigidBody* const> bodies) const {
 }
 
 template <int Dim>
-void SmallSteps<Dim>::set_ring(const std::optional<SleepRing>& ring) {
-  ring_.reset();
-  if (ring) ring_.emplace(*ring);
-}
-
-template <int Dim>
-bool SmallSteps<Dim>::idle(std::span<btRigidBody* const> moving) const {
-  if (!ring_) return true;
-  std::vector<BodyIndex> obstacles;
-  for (const btRigidBody* obstacle : moving) obstacles.push_back(obstacle->getUserIndex());
-  return ring_->idle(obstacles);
-}
-
-template <int Dim>
-void SmallSteps<Dim>::skip() {
-  if (ring_) ring_->start();
-}
-
-template <int Dim>
 void SmallSteps<Dim>::freeze(Engine& engine, std::span<btRigidBody* const> bodies) {
   for (btRigidBody* body : bodies)
     if (image_of(*body).sides == 0)
@@ -614,11 +596,6 @@ btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, std::span<con
   btTransformUtil::integrateTransform(object.getWorldTransform(), from_solver<Dim>(state.way),
                                       spin_from_solver<Dim>(state.turn), 1, place);
   return place;
-}
-
-template <int Dim>
-void SmallSteps<Dim>::forget(BodyIndex side) {
-  if (ring_) ring_->forget(side);
 }
 
 template class SmallSteps<2>;

@@ -28,8 +28,10 @@ namespace talus::bullet {
 template <int Dim>
 class SmallSteps {
  public:
-  /// `fastest_spin`: to which a body's is cut [rad/s]. `states`: of the world, which outlive this.
-  SmallSteps(const WorldDescription<Dim>& description, double fastest_spin, const BodyStates<Dim>& states);
+  /// `fastest_spin`: to which a body's is cut [rad/s]. `states`: of the world, `ring`: of its sleeping bodies, none
+  /// where they feel nothing; both outlive this.
+  SmallSteps(const WorldDescription<Dim>& description, double fastest_spin, const BodyStates<Dim>& states,
+             std::optional<Ring<Dim>>& ring);
 
   void share_among(const std::shared_ptr<Team>& team) { solver_.share_among(team); }
 
@@ -51,14 +53,6 @@ class SmallSteps {
   /// After they have moved: gives them the velocity at the end of the step.
   void finish(std::span<btRigidBody* const> bodies) const;
 
-  /// Whether sleepers feel forces, see Ring.
-  void set_ring(const std::optional<SleepRing>& ring);
-  /// Null without.
-  const Ring<Dim>* ring() const { return ring_ ? &*ring_ : nullptr; }
-  /// Whether nothing would be solved if nothing is awake.
-  bool idle(std::span<btRigidBody* const> moving) const;
-  /// In place of a step in which nothing moves.
-  void skip();
   /// With a ring, before their contacts go: awake bodies, in ascending order, fall asleep.
   void freeze(Engine& engine, std::span<btRigidBody* const> bodies);
   /// With a ring: the pose at which a body wakes. `waking`: all that wake with it, ascending. `renewed`: its contact
@@ -66,8 +60,6 @@ class SmallSteps {
   /// that Bullet has, where a neighbour that sleeps on has not moved.
   btTransform thaw(const btCollisionObject& object, std::span<const BodyIndex> waking, btVector3& velocity,
                    btVector3& spin, std::vector<WarmStart::Renewed>& renewed);
-  /// A body or an obstacle leaves the world.
-  void forget(BodyIndex side);
 
  private:
   /// A contact point that may begin within the step.
@@ -113,12 +105,12 @@ class SmallSteps {
   };
 
   const BodyStates<Dim>& states_;
+  std::optional<Ring<Dim>>& ring_;
   ContactSolverParams params_;
   float dt_;
   float fastest_spin_;      // [rad/s]
   float one_point_ = 0.0F;  // points of a planar pair that are nearer are one [m]
   ContactSolver<Dim> solver_;
-  std::optional<Ring<Dim>> ring_;
   FastBodies<Dim> fast_;
   PairResistance<Dim> resistance_;
   std::vector<Ahead> ahead_;                    // the first points of the solver
