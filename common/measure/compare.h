@@ -13,7 +13,7 @@ namespace talus {
 
 /// The first frame at which two runs are not the same bit for bit.
 struct FirstDifference {
-  std::int64_t step = 0;  // of the first other frame, in the first run
+  std::int64_t step = 0;  // of the first frame that differs, in the first run
   BodyIndex body = 0;     // the lowest that differs
 };
 

@@ -14,6 +14,7 @@
 #include "common/mesh/mesh.h"
 #include "common/mesh/obj_text.h"
 #include "common/shape/polygon.h"
+#include "common/text/file.h"
 
 namespace talus {
 namespace {
@@ -175,7 +176,7 @@ void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std:
 std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh) {
   std::error_code unused;
   require(!std::filesystem::exists(file, unused) || std::filesystem::is_regular_file(file, unused), "parts of mesh",
-          file.string(), "must be a regular file that can be read");
+          file.string(), readable_rule);
   const std::string expected = header(mesh) + '\n';
   std::string found(expected.size(), '\0');
   std::ifstream in(file, std::ios::binary);

@@ -28,8 +28,8 @@ WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEven
 template <int Dim>
 PolicyParams policy_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
 
-/// Whether after a time [s] gravity, or an obstacle that events have left there, moves by plan, or the force of an
-/// event acts.
+/// Whether bodies are still driven after a time [s]: gravity or an obstacle that is present moves by plan, or the force
+/// of an event acts.
 template <int Dim>
 bool still_driven(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time);
 

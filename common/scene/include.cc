@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/scene/toml_text.h"
+#include "common/text/file.h"
 
 namespace talus {
 namespace {
@@ -43,7 +44,7 @@ std::filesystem::path included_file(const toml::table& table, std::string_view s
   std::error_code unused;
   require(name.string().find('\0') == std::string::npos && std::filesystem::is_regular_file(file, unused) &&
               std::ifstream(file).good(),
-          "must be a regular file that can be read");
+          readable_rule);
   return file;
 }
 

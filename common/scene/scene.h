@@ -168,7 +168,7 @@ struct Scene {
   std::string toml;  // the file it was read from, `--set` values put in; empty for a scene made by a program
   std::filesystem::path folder;                 // of that file
   std::vector<std::filesystem::path> referred;  // files in or below it that `toml` names, relative to it
-  std::vector<std::filesystem::path> included;  // files whose values are in `toml`, beside that file's own
+  std::vector<std::filesystem::path> included;  // files that it includes; `toml` has their values
   std::vector<std::string> reader_warnings;     // of parts that do not fill their mesh
 
   /// Steps of dt in one frame of output.

@@ -181,7 +181,7 @@ void warn_of_restitution(const WorldDescription<Dim>& world, Lines& lines) {
       lines.push_back(
           fmt::format("shape.{}.restitution = {:g}: above {:g} impacts add energy with the engines' own "
                       "solvers, 8 to 180 % in a minute where this was measured; world.solver.kind = "
-                      "\"small_steps\" adds none",
+                      "\"small_steps\" adds 3 % at most",
                       shape.name, shape.material.restitution, lossless));
 }
 

@@ -20,7 +20,7 @@ std::vector<SceneFile> scene_files(const Scene<Dim>& scene) {
     const bool named_before = std::ranges::find(files, referred.string(), &SceneFile::name) != files.end();
     if (named_before || !fs::exists(file)) continue;  // in 2D a mesh may lack its parts, which are not used
     std::optional<std::string> text = file_contents(file);
-    require(text.has_value(), "file of the scene", file.string(), "must be a regular file that can be read");
+    require(text.has_value(), "file of the scene", file.string(), readable_rule);
     files.push_back({referred.string(), std::move(*text)});
   }
   return files;

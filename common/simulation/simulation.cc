@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/pile/pile_fields.h"
 #include "common/scene/scene_fields.h"
@@ -54,7 +55,7 @@ Simulation<Dim>::Simulation(const Scene<Dim>& scene, std::unique_ptr<World<Dim>>
 template <int Dim>
 void Simulation<Dim>::add_initial_bodies() {
   emitter_.add_initial(*world_);
-  sleep_.freeze(asleep_at_start_, SleepCause::user);
+  sleep_.freeze(std::exchange(asleep_at_start_, {}), SleepCause::user);
 }
 
 template <int Dim>

@@ -8,6 +8,9 @@
 
 namespace talus {
 
+/// What is required of a file that is read.
+inline constexpr const char* readable_rule = "must be a regular file that can be read";
+
 /// All bytes of a file; none where it cannot be read or is no regular file, but a folder, a pipe or a device.
 std::optional<std::string> file_contents(const std::filesystem::path& file);
 

@@ -7,7 +7,7 @@
 namespace talus {
 
 /// Largest ratio of masses of two bodies that check(WorldDescription) allows: beyond it a heavy body sinks through
-/// light ones in the engines' own solvers, with however many iterations.
+/// light ones in the engines' own solvers, at any number of iterations.
 inline constexpr double largest_mass_ratio_of_all = 100.0;
 
 /// The window in which an engine's results hold, from the runs of `talus stress` (docs/limits.md). Outside of it

@@ -52,7 +52,7 @@ class WatchedRun : public BackendTest<Backend> {
     scene.world.gravity = 0.0;
     scene.world.ground.present = false;
     Vec<dim> board = Vec<dim>::Ones();
-    board[0] = dim == 2 ? 0.01 : 0.05;  // as thin as the engines allow: what is thicker stops all bodies on Box2D
+    board[0] = dim == 2 ? 0.01 : 0.05;  // on Box2D thicker boards stop every ball; Bullet takes none below
     scene.world.shapes = {make_shape<dim>("ball", ball_pieces<dim>(0.15), {.density = 2000.0}),
                           make_shape<dim>("board", box_pieces<dim>(board), {})};
     scene.bodies.resize(boards + 1);

@@ -193,7 +193,7 @@ CLI::Validator names_of(const std::vector<std::string>& known) {
       is_known.get_description());
 }
 
-/// The names in all values of an option, each there once.
+/// All names in the values of an option. Throws std::invalid_argument where one is there twice.
 std::vector<std::string> split(std::string_view option, const std::vector<std::string>& values) {
   if (values.empty()) return values;
   const std::string text = fmt::format("{}", fmt::join(values, ","));

@@ -18,7 +18,7 @@ void print_reference() {
 
 void update(const std::filesystem::path& file) {
   const std::optional<std::string> before = file_contents(file);
-  require(before.has_value(), "--update", file.string(), "must be a regular file that can be read");
+  require(before.has_value(), "--update", file.string(), readable_rule);
   try {
     const std::string after = with_reference(*before);
     if (after != before) write_file(file, after);

@@ -14,13 +14,6 @@ namespace {
 
 constexpr double most_values = 10'000.0;
 
-std::optional<double> number_of(const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
-  return whole ? std::optional(number) : std::nullopt;
-}
-
 /// LOW, LOW + STEP, ... up to HIGH, rounded so that 0.2 + 0.2 + 0.2 is 0.6.
 std::vector<std::string> range_values(const std::vector<std::string>& parts, const std::string& text) {
   const auto low = number_of(parts[0]);
@@ -36,6 +29,13 @@ std::vector<std::string> range_values(const std::vector<std::string>& parts, con
 }
 
 }  // namespace
+
+std::optional<double> number_of(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+  return whole ? std::optional(number) : std::nullopt;
+}
 
 std::vector<std::string> split_outside(std::string_view text, char separator) {
   std::vector<std::string> parts(1);

@@ -1,6 +1,7 @@
 #pragma once
 // The runs of a sweep: the product of all values.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,14 +22,17 @@ struct SweepRun {
 /// Most runs of a sweep.
 inline constexpr std::size_t most_sweep_runs = 100'000;
 
-/// Parts between separators, but for those within brackets and quotes. At least one; parts may be empty.
+/// The number that a whole text is; none where it is no number.
+std::optional<double> number_of(std::string_view text);
+
+/// Splits a text at the separators outside of brackets and quotes. At least one part; parts may be empty.
 std::vector<std::string> split_outside(std::string_view text, char separator);
 
 /// `PATH=LOW:HIGH:STEP`, both ends included, `PATH=A,B,C`, or `PATH=VALUE`. Commas and colons within brackets and
 /// quotes belong to a value. Throws std::invalid_argument with the text and the rule.
 SweepAxis sweep_axis(const std::string& text);
 
-/// Whether a value is there twice, as 0.5 and 0.50: runs of both would be the same.
+/// Whether two values are equal, as texts or as numbers (0.5 and 0.50), so that their runs would be equal.
 bool has_twins(std::vector<std::string> values);
 
 /// Whether one of two paths of keys is the other, or begins with it, so that a value of one replaces that of the other.

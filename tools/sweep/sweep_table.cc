@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -14,12 +13,6 @@ namespace talus {
 namespace {
 
 constexpr std::size_t most_curves = 7;
-
-std::optional<double> number_in(const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
-}
 
 std::optional<double> number_at(const nlohmann::json& summary, const nlohmann::json::json_pointer& key) {
   try {
@@ -43,7 +36,7 @@ std::vector<std::string> columns_of(const std::vector<SweepAxis>& axes, const st
 std::optional<std::size_t> plotted_axis(const std::vector<SweepAxis>& axes) {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const bool numbers =
-        std::ranges::all_of(axes[i].values, [](const auto& value) { return number_in(value).has_value(); });
+        std::ranges::all_of(axes[i].values, [](const auto& value) { return number_of(value).has_value(); });
     if (numbers && axes[i].values.size() > 1 && axes[i].path != "seed") return i;
   }
   return std::nullopt;
@@ -118,7 +111,7 @@ void SweepTable::add(const SweepRow& row) {
       row.reason != "finished")
     return;
   const double y = *row.numbers[measure_];
-  Sample& sample = curves_[curve_of(axes_, row, along_)][along_ ? *number_in(row.values[*along_]) : 0.0];
+  Sample& sample = curves_[curve_of(axes_, row, along_)][along_ ? *number_of(row.values[*along_]) : 0.0];
   sample.sum += y;
   sample.squares += y * y;
   ++sample.count;

@@ -194,10 +194,10 @@ class _PileSleeper:
         frame_rate: float = 30.0,
     ) -> None:
         """Shows the bodies from now on. record: path of a file, which is replaced, for talus.open(), `talus view` and
-        `talus film`. publish: to `talus monitor` and `talus view --live`. report(kind, body, value, text): called within the step()
-        in which a kind of fault is first seen, "passed" (a body got through another one; value: its way in the step
-        [m]), "overlap" (depth [extents]) or "outside_world" (coordinate [m]). What it raises the next step() raises,
-        before that changes anything.
+        `talus film`. publish: to `talus monitor` and `talus view --live`. report(kind, body, value, text): called
+        within the step() in which a kind of fault is first seen, "passed" (a body got through another one; value: its
+        way in the step [m]), "overlap" (depth [extents]) or "outside_world" (coordinate [m]). What it raises the next
+        step() raises, before that changes anything.
 
         name, title, engine: what they are called there. dt: of the usual step [s], in which a record counts its time.
         frame_rate: frames of a record in a second of simulated time. Without an `enabled` sleeper: ValueError.

@@ -58,14 +58,14 @@ class _Processes:
 
 def _check(values, seeds, policy, settings):
     """ValueError, as `talus sweep` refuses it: runs would not have all values that they tell, or be there twice."""
-    paths = [*values, *settings]
+    paths = [("values", path) for path in values] + [("set", path) for path in settings]
     for path, argument, given in (("policy.kind", "policy", policy), ("seed", "seeds", seeds)):
-        for other in paths if given is not None else ():
+        for name, other in paths if given is not None else ():
             if overlap(other, path):
-                raise ValueError(f"values[{other!r}]: must be left out where {argument} = {given} is given")
-    for path, other in itertools.combinations(paths, 2):
+                raise ValueError(f"{name}[{other!r}]: must be left out where {argument} = {given} is given")
+    for (_, path), (name, other) in itertools.combinations(paths, 2):
         if overlap(path, other):
-            raise ValueError(f"values[{other!r}]: must be given once, and {path!r} is given, too")
+            raise ValueError(f"{name}[{other!r}]: must be given once, and {path!r} is given, too")
     of_seeds = {} if seeds is None else {"seeds": seeds}
     for name, choices in ({f"values[{path!r}]": choices for path, choices in values.items()} | of_seeds).items():
         if not choices:
