@@ -38,7 +38,7 @@ def test_a_value_that_an_argument_gives_too_is_refused(path, given):
     [
         ({"policy": [{"kind": "full"}]}, {"policy": "full"}, r"values\['policy'\]: must be left out where policy = full"),
         ({"run.frames": [2, 3], "run": [{"frames": 4}]}, {}, r"values\['run'\]: must be given once, and 'run.frames'"),
-        ({"run.frames": [2, 3]}, {"set": SHORT}, r"values\['run.frames'\]: must be given once"),
+        ({"run.frames": [2, 3]}, {"set": SHORT}, r"set\['run.frames'\]: must be given once"),
         ({"ground.friction": np.array([0.5, 0.7, 0.5])}, {}, "friction.*must have no value twice"),
         ({"ground.friction": [1, 1.0]}, {}, "friction.*must have no value twice"),
         ({"ground.friction": []}, {}, r"values\['ground.friction'\] = \[\]: must be one value or more"),
