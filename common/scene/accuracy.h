@@ -17,16 +17,17 @@ struct Accuracy {
   /// Of a heap's shape under `adaptive`, relative to a converged run, as calibrated over 60 scenes (docs/accuracy.md,
   /// "Levels").
   double error;
-  double step;       // largest way of a body in one step as it reaches the ground, over its thickness
-  int sub_steps;     // SolverParams::sub_steps
-  double tolerance;  // AdaptiveParams::tolerance [D]
-  int rings;         // AdaptiveParams::rings of a pour
+  double step;                   // largest way of a body in one step as it reaches the ground, over its thickness
+  std::array<int, 2> sub_steps;  // SolverParams::sub_steps in 2D and in 3D, where heaps are the higher the softer the
+                                 // contacts are (lab/notes/small_steps.md)
+  double tolerance;              // AdaptiveParams::tolerance [D]
+  int rings;                     // AdaptiveParams::rings of a pour
 };
 
 inline constexpr std::array<Accuracy, 3> accuracies = {{
-    {"fast", 0.2, 2.0, 4, 0.1, 0},
-    {"standard", 0.07, 1.0, usual_sub_steps, AdaptiveParams{}.tolerance, usual_rings},
-    {"fine", 0.03, 0.5, usual_sub_steps, 0.02, usual_rings},
+    {"fast", 0.2, 2.0, {4, 4}, 0.1, 0},
+    {"standard", 0.07, 1.0, {usual_sub_steps, usual_sub_steps}, AdaptiveParams{}.tolerance, usual_rings},
+    {"fine", 0.03, 0.5, {usual_sub_steps, 2 * usual_sub_steps}, 0.02, usual_rings},
 }};
 inline constexpr std::array<std::string_view, 3> accuracy_names = {accuracies[0].name, accuracies[1].name,
                                                                    accuracies[2].name};

@@ -195,8 +195,8 @@ inline constexpr auto scene_fields = std::to_array<Field<Scene<Dim>>>({
           "a level, or the relative error of a heap's shape that is accepted, which takes the fastest level within it: "
           "0.2, 0.07 or 0.03. It sets what the scene does not set itself: `world.steps_per_second` so that a body that "
           "arrives goes at "
-          "most 2, 1 or 0.5 times its thickness in a step; `sub_steps` 4, 8 or 8; the `tolerance` 0.1, 0.05 or "
-          "0.02; the `rings` of a pour 0, 2 or 2. [Accuracy](accuracy.md#levels) has errors and times"}},
+          "most 2, 1 or 0.5 times its thickness in a step; `sub_steps` 4, 8 or 8, in 3D 4, 8 or 16; the `tolerance` "
+          "0.1, 0.05 or 0.02; the `rings` of a pour 0, 2 or 2. [Accuracy](accuracy.md#levels) has errors and times"}},
     {{},
      {.name = "include",
       .type = "text",

@@ -24,6 +24,14 @@ Scene<3> plates(std::vector<Override> overrides) {
   return std::get<Scene<3>>(parse_scene(text, "text", overrides));
 }
 
+Scene<2> discs_at(std::string_view accuracy) {
+  const std::string text = fmt::format(
+      "title = \"Discs\"\ndimension = 2\naccuracy = \"{}\"\nshape.disc = {{kind = \"ball\", radius = 0.5}}\n"
+      "source = [{{count = 3, position = [0, 8]}}]\n",
+      accuracy);
+  return std::get<Scene<2>>(parse_scene(text, "text"));
+}
+
 double steps_of(const std::vector<Override>& overrides) { return 1.0 / plates(overrides).world.dt; }
 
 TEST(Accuracy, ChoosesTheStepByTheWayOfAnArrivingBodyOverItsThickness) {
@@ -79,7 +87,8 @@ TEST(Accuracy, LeavesWhatTheSceneSetsItself) {
 TEST(Accuracy, SetsSubStepsToleranceAndRingsOfItsLevel) {
   for (const Accuracy& level : accuracies) {
     const Scene<3> scene = plates({{fmt::format("accuracy={}", level.name)}});
-    EXPECT_EQ(scene.world.solver.sub_steps, level.sub_steps) << level.name;
+    EXPECT_EQ(scene.world.solver.sub_steps, level.sub_steps[1]) << level.name;
+    EXPECT_EQ(discs_at(level.name).world.solver.sub_steps, level.sub_steps[0]) << level.name;
     EXPECT_EQ(scene.policy.adaptive.tolerance, level.tolerance) << level.name;
     EXPECT_EQ(scene.policy.adaptive.rings, level.rings) << level.name;
   }
@@ -106,10 +115,11 @@ TEST(Accuracy, OfTheReferenceIsAQuarterOfTheThicknessWithWholeFrames) {
 TEST(Accuracy, HasTheNumbersOfItsLevelsInTheTextOfItsKey) {
   const auto& [fast, standard, fine] = accuracies;
   const std::string numbers = fmt::format(
-      "most {:g}, {:g} or {:g} times its thickness in a step; `sub_steps` {}, {} or {}; the `tolerance` "
-      "{:g}, {:g} or {:g}; the `rings` of a pour {}, {} or {}.",
-      fast.step, standard.step, fine.step, fast.sub_steps, standard.sub_steps, fine.sub_steps, fast.tolerance,
-      standard.tolerance, fine.tolerance, fast.rings, standard.rings, fine.rings);
+      "most {:g}, {:g} or {:g} times its thickness in a step; `sub_steps` {}, {} or {}, in 3D {}, {} or {}; the "
+      "`tolerance` {:g}, {:g} or {:g}; the `rings` of a pour {}, {} or {}.",
+      fast.step, standard.step, fine.step, fast.sub_steps[0], standard.sub_steps[0], fine.sub_steps[0],
+      fast.sub_steps[1], standard.sub_steps[1], fine.sub_steps[1], fast.tolerance, standard.tolerance, fine.tolerance,
+      fast.rings, standard.rings, fine.rings);
   const std::string errors = fmt::format("{:g}, {:g} or {:g}. It sets", fast.error, standard.error, fine.error);
   const auto tables = key_tables();
   const auto root = std::ranges::find(tables, "root", &std::pair<std::string, std::string>::first);
