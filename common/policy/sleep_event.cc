@@ -26,4 +26,10 @@ std::string_view to_string(SleepCause cause) {
   return "unknown";
 }
 
+std::vector<std::string> cause_names() {
+  std::vector<std::string> names;
+  for (int cause = 0; cause <= last_cause; ++cause) names.emplace_back(to_string(static_cast<SleepCause>(cause)));
+  return names;
+}
+
 }  // namespace talus

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/policy/frame.h"
+#include "common/policy/sleep_event.h"
 #include "tests/common/documented_names.h"
 #include "tests/process/process.h"
 #include "tools/bench/bench_run.h"
@@ -171,6 +172,17 @@ TEST(DocumentedFiles, HaveTheNumbersOfBenchmarksAsTheyAreDeclared) {
   for (const BenchColumn& column : bench_columns) {
     const std::string row = "| `" + std::string(column.name) + "` | " + std::string(column.meaning) + " |\n";
     EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
+}
+
+// The page explains a cause by its name.
+TEST(DocumentedFiles, AndThePageHaveEachCauseOfSleep) {
+  const std::string manual = contents(std::string(TALUS_SOURCE_DIR) + "/docs/record.md");
+  const std::string page = contents(std::string(TALUS_SOURCE_DIR) + "/tools/view/page/src/causes.ts");
+  for (const std::string& cause : cause_names()) {
+    EXPECT_NE(manual.find("\n| `" + cause + "` | "), std::string::npos) << cause;
+    const std::string key = cause.find(' ') == std::string::npos ? cause : '"' + cause + '"';
+    EXPECT_NE(page.find("\n  " + key + ": {"), std::string::npos) << cause;
   }
 }
 

@@ -47,8 +47,8 @@ struct Wave {
 /// The latest sleep events of each cause, so that a flood of one cause does not push out the others.
 class SleepHistory {
  public:
-  static constexpr std::size_t most_events = 200;         // kept for each kind
-  static constexpr std::size_t causes = last_cause + 1U;  // from 0 to last_cause, some unused
+  static constexpr std::size_t most_events = 200;  // kept for each kind
+  static constexpr std::size_t causes = last_cause + 1U;
 
   /// What happened to a body, and why.
   struct Kind {

@@ -17,16 +17,6 @@ namespace py = pybind11;
 namespace talus {
 namespace {
 
-/// By number; an empty name where a number is unused.
-std::vector<std::string> cause_names() {
-  std::vector<std::string> names;
-  for (int cause = 0; cause <= last_cause; ++cause) {
-    const std::string_view name = to_string(static_cast<SleepCause>(cause));
-    names.emplace_back(name == "unknown" ? "" : name);
-  }
-  return names;
-}
-
 /// An error of the operating system, with its number and what was done.
 void raise_os_error(std::exception_ptr thrown) {
   try {

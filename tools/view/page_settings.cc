@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/policy/sleep_event.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/layout.h"
 #include "tools/picture/picture_params.h"
@@ -87,6 +88,7 @@ Json page_settings() {
   return {{"format", talus_lcm::talus_run::FORMAT},
           {"version", version_text()},
           {"channels", channels_json()},
+          {"causes", cause_names()},
           {"colours", colours_json(params)},
           {"camera", {{"azimuth", params.azimuth}, {"elevation", params.elevation}}}};
 }

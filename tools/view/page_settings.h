@@ -6,7 +6,7 @@ namespace talus {
 
 /// What the browser page has before any message: {"format", "version" of talus, "channels": {name: {"fingerprint" in
 /// hexadecimal, "fields": [{"name", "type" of the LCM language, "count": number, or name of the field with it}]}},
-/// "colours" and "camera" of the pictures}. A type "message" has "fields" of its own.
+/// "causes" of sleep by number, "colours" and "camera" of the pictures}. A type "message" has "fields" of its own.
 nlohmann::ordered_json page_settings();
 
 }  // namespace talus

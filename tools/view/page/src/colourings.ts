@@ -86,18 +86,18 @@ export class Colouring {
 
   private byCause(): Coloured {
     const timeline = this.timeline();
-    const { state, head } = timeline;
+    const { state } = timeline;
     const plain = this.plain();
-    const causeOf = (body: number): number => {
+    const causeOf = (body: number): string => {
       const { event } = timeline.since(body);
-      return event && event.woke === (state.asleep[body] === 0) ? event.cause : -1;
+      return event && event.woke === (state.asleep[body] === 0) ? event.cause : "";
     };
-    const paint: Paint = (body) => head.colours.causes[causeOf(body)] ?? plain(body);
+    const paint: Paint = (body) => causes[causeOf(body)]?.colour ?? plain(body);
     const rows = new Map<string, Entry>();
     for (const body of this.present()) {
       const awake = state.asleep[body] === 0;
-      const cause = causes[causeOf(body)];
-      const text = cause ? `${awake ? "awake" : "asleep"}: ${cause.name}` : awake ? "awake since it appeared" : "asleep";
+      const cause = causeOf(body);
+      const text = cause !== "" ? `${awake ? "awake" : "asleep"}: ${cause}` : awake ? "awake since it appeared" : "asleep";
       const row = rows.get(text) ?? { colours: [paint(body)], count: 0, text };
       ++row.count!;
       rows.set(text, row);

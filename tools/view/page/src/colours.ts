@@ -6,8 +6,6 @@ import { Color, SRGBColorSpace } from "./vendor";
 export type Colours = Settings["colours"] & {
   /// Bars of a plot where bodies woke.
   woken: Rgb;
-  /// Of the causes of sleep, by their number; that of rest is the usual one of sleep.
-  causes: (Rgb | null)[];
 };
 
 export const colour = (rgb: Rgb): Color => new Color().setRGB(rgb[0], rgb[1], rgb[2], SRGBColorSpace);
@@ -37,8 +35,6 @@ export function onRamp(colours: Rgb[], share: number): Rgb {
   return mixed(colours[low], colours[low + 1], at - low);
 }
 
-const causes: (Rgb | null)[] = [[0.2, 0.42, 0.72], null, [0.85, 0.2, 0.15], [0.95, 0.5, 0.1], [0.75, 0.3, 0.75], null, null, [0.2, 0.58, 0.5], [0.95, 0.8, 0.2], [0.45, 0.7, 0.95], [0.85, 0.45, 0.6]];
-
 const themes = matchMedia("(prefers-color-scheme: dark)");
 
 /// Of a line or a text on the paper of the system's theme, from that on white.
@@ -46,7 +42,7 @@ export const onPaper = (rgb: Rgb): Rgb => (themes.matches ? mixed(rgb, [1, 1, 1]
 
 /// Those of the system's theme; `light`: as in the pictures of the program.
 export function themed(light: Settings["colours"]): Colours {
-  if (!themes.matches) return { ...light, woken: [0.7, 0.36, 0.06], causes };
+  if (!themes.matches) return { ...light, woken: [0.7, 0.36, 0.06] };
   return {
     ...light,
     paper: [0.075, 0.086, 0.106],
@@ -59,7 +55,6 @@ export function themed(light: Settings["colours"]): Colours {
     obstacle_outline: [0.6, 0.64, 0.7],
     ground: [0.6, 0.64, 0.7],
     woken: [1, 0.6, 0.25],
-    causes,
   };
 }
 

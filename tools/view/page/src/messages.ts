@@ -14,6 +14,8 @@ export interface Layouts {
   format: number;
   version: string;
   channels: Record<string, { fingerprint: string; fields: Field[] }>;
+  /// Names of the causes of sleep, by the number that TALUS_SLEEP has.
+  causes: string[];
 }
 
 /// Of one channel, with its fields by name.

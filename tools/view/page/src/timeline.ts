@@ -1,6 +1,5 @@
 // All frames of a run so far, and the one that is shown.
 
-import { causes } from "./causes";
 import type { Head } from "./head";
 import type { Layouts } from "./messages";
 import { mixedPose, poseValues } from "./pose";
@@ -9,8 +8,6 @@ import { type Instruments, type Moment, type Pile, type SceneEvent, type SleepEv
 
 /// Frames between two kept states: a step back costs at most as many moments.
 const keepEvery = 32;
-
-const avalanche = causes.findIndex((cause) => cause?.name === "avalanche");
 
 /// Bodies whose pose or sleep differs from the state shown before.
 export type Changed = number[] | "all";
@@ -104,7 +101,7 @@ export class Timeline {
     put(this.instruments, moment.instruments);
     count(this.newWarnings, this.takeWarnings(moment));
     count(this.woken, woken.length);
-    count(this.avalanches, woken.filter((event) => event.cause === avalanche).length);
+    count(this.avalanches, woken.filter((event) => event.cause === "avalanche").length);
   }
 
   /// How many kinds of warning are new.
