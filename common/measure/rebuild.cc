@@ -10,12 +10,6 @@ namespace {
 
 constexpr double reference_steps_per_second = 120.0;
 
-/// At most so long, with room for rounding.
-template <typename Vector>
-Vector limited(const Vector& vector, double most) {
-  return vector * std::min(1.0, (1.0 - 1e-12) * most / std::max(vector.norm(), 1e-9));
-}
-
 }  // namespace
 
 template <int Dim>

@@ -20,12 +20,12 @@ template <int Dim>
 std::unique_ptr<World<Dim>> rebuild(const WorldMaker<Dim>& make_world, const WorldDescription<Dim>& description,
                                     const BodyStates<Dim>& states, Sleepers sleepers);
 
-/// The description at settings that are taken for converged: no sleeping, 50 velocity and 20 position iterations, two
+/// The description at the settings of a reference: no sleeping, 50 velocity and 20 position iterations, two
 /// friction directions, steps of 1/120 s or the description's if shorter.
 template <int Dim>
 WorldDescription<Dim> reference_settings(WorldDescription<Dim> description);
 
-/// The scene for a converged run: policy `full`, reference_settings(), at least the usual sub-steps, and a time step in
+/// The scene of a reference: policy `full`, reference_settings(), at least the usual sub-steps, and a time step in
 /// which a body moves at most a quarter of its thickness as it reaches the ground.
 template <int Dim>
 Scene<Dim> reference_scene(Scene<Dim> scene);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/world/gravity_units.h"
 #include "common/world/world_description.h"
 
 namespace talus {
@@ -26,16 +27,13 @@ class GravityChange {
   }
   /// Whether bodies must stay awake at `time` [s].
   bool keeps_awake(double time) const {
-    const double unit = std::sqrt(extent_ / std::max(of_sleepers_.norm(), 1e-9));
-    const double since = woken_at_ ? time - *woken_at_ : longest;
-    return since < std::min(longest, awake_after_gravity * unit);
+    return woken_at_ && time - *woken_at_ < awake_after_gravity * time_unit(extent_, of_sleepers_.norm());
   }
 
  private:
   /// In sqrt(D/g): how long a body stays awake after gravity woke it. At an acceleration of a hundredth of it a body
   /// has then moved by 0.02 D and is so fast that it counts as moving.
   static constexpr double awake_after_gravity = 2.0;
-  static constexpr double longest = 10.0;  // [s]; with little gravity
 
   Vec<Dim> of_sleepers_;  // when all bodies were last woken for it [m/s^2]
   double extent_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/math/random.h"
 
@@ -49,6 +50,7 @@ void Emitter<Dim>::emit(World<Dim>& world, double time) {
       spout.drawn = false;
       ++spout.emitted;
       ++emitted_;
+      last_appearance_ = time;
     }
   }
 }
@@ -57,7 +59,12 @@ template <int Dim>
 void Emitter<Dim>::add_initial(World<Dim>& world) {
   for (const BodyDef<Dim>& body : initial_) world.add(body);
   emitted_ += static_cast<int>(initial_.size());
-  initial_.clear();
+}
+
+template <int Dim>
+int Emitter<Dim>::due_by(double time) const {
+  const auto add = [time](int sum, const Spout& spout) { return sum + spout.source.due_by(time); };
+  return std::accumulate(spouts_.begin(), spouts_.end(), static_cast<int>(initial_.size()), add);
 }
 
 template <int Dim>

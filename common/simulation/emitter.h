@@ -30,6 +30,11 @@ class Emitter {
   void set_rate(int source, double rate, double time);
   const Source<Dim>& source(int number) const { return spouts_[number].source; }
 
+  /// Bodies that were to appear until `time` [s], with those that are there from the start.
+  int due_by(double time) const;
+  /// When the last one appeared [s].
+  double last_appearance() const { return last_appearance_; }
+
   /// Whether all have appeared but for those of sources that wait for an event.
   bool finished() const { return emitted_ + waiting_ == total_; }
   int emitted() const { return emitted_; }
@@ -64,14 +69,15 @@ class Emitter {
   void ride(const World<Dim>& world, Spout& spout, double time);
   bool lies_on_something(const World<Dim>& world, BodyIndex body, const Box<Dim>& bounds);
 
-  std::vector<BodyDef<Dim>> initial_;  // still to be added
+  std::vector<BodyDef<Dim>> initial_;  // there from the start
   std::vector<Spout> spouts_;
   double ground_ = -std::numeric_limits<double>::infinity();  // [m]
   std::deque<Appearance> recent_;                             // that cannot be as fast yet as what is in flight
   std::vector<BodyIndex> near_;                               // scratch
   std::vector<BodyIndex> beneath_;                            // scratch
   int emitted_ = 0;
-  int obstacles_ = 0;  // of the description, present or removed
+  double last_appearance_ = 0.0;  // [s]
+  int obstacles_ = 0;             // of the description, present or removed
   int total_ = 0;
   int waiting_ = 0;  // bodies of sources that wait for an event
   std::int64_t waits_ = 0;

@@ -141,8 +141,7 @@ void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event
     case EventAction::kick:
       return kick(run, event);
     case EventAction::rate:
-      run.emitter.set_rate(event.source, event.rate, run.time);
-      return run.watchdog.note_source(event.source, run.emitter.source(event.source));
+      return run.emitter.set_rate(event.source, event.rate, run.time);
     case EventAction::policy:
       return run.switch_policy(event.policy);
     case EventAction::gravity:
@@ -162,10 +161,7 @@ void Interventions<Dim>::take_out_absent(const Scene<Dim>& scene, World<Dim>& wo
 
 template <int Dim>
 void Interventions<Dim>::add(const Intervened<Dim>& run, const Event<Dim>& event) const {
-  if (!event.obstacle) {
-    run.emitter.start(event.source, run.time);
-    return run.watchdog.note_source(event.source, run.emitter.source(event.source));
-  }
+  if (!event.obstacle) return run.emitter.start(event.source, run.time);
   for (const int number : obstacles_named(event)) {
     if (run.world.has_obstacle(number)) continue;
     const Pose<Dim> at = obstacles_.pose_at(run.world, number, run.time);
@@ -215,11 +211,10 @@ void Interventions<Dim>::kick(const Intervened<Dim>& run, const Event<Dim>& even
   run.wake(bodies, SleepCause::user);
   const BodyStates<Dim>& states = run.world.states();
   for (const BodyIndex body : bodies) {
-    Vec<Dim> velocity = states.velocity[body] + event.velocity;
-    Spin<Dim> spin = states.spin[body] + event.spin;
-    velocity *= std::min(1.0, fastest_speed<Dim>(dt_, run.world.units()) / std::max(velocity.norm(), 1e-9));
-    spin *= std::min(1.0, fastest_spin(dt_) / std::max(spin.norm(), 1e-9));
-    run.world.set_velocity(body, velocity, spin);
+    const Vec<Dim> velocity = states.velocity[body] + event.velocity;
+    const Spin<Dim> spin = states.spin[body] + event.spin;
+    run.world.set_velocity(body, limited(velocity, fastest_speed<Dim>(dt_, run.world.units())),
+                           limited(spin, fastest_spin(dt_)));
   }
 }
 

@@ -15,7 +15,6 @@
 #include "common/simulation/event_clock.h"
 #include "common/simulation/moving_obstacles.h"
 #include "common/simulation/pull.h"
-#include "common/simulation/watchdog.h"
 
 namespace talus {
 
@@ -24,7 +23,6 @@ template <int Dim>
 struct Intervened {
   World<Dim>& world;
   Emitter<Dim>& emitter;
-  Watchdog<Dim>& watchdog;
   double time = 0.0;  // [s]
   /// Wakes those of the bodies that sleep.
   std::function<void(std::span<const BodyIndex>, SleepCause)> wake;

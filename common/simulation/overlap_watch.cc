@@ -14,7 +14,7 @@ constexpr double least_depth = 0.005;         // [D]; what engines leave at any 
 
 template <int Dim>
 std::int64_t OverlapWatch<Dim>::period(double extent, double gravity, double dt) {
-  const double time = std::min(longest_period, std::sqrt(extent / std::max(gravity, 1e-3)));
+  const double time = std::min(longest_period, time_unit(extent, gravity));
   return std::max<std::int64_t>(shortest_period, std::llround(time / dt));
 }
 

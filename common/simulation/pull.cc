@@ -1,6 +1,5 @@
 #include "common/simulation/pull.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/shape/rigid_impulse.h"
@@ -29,11 +28,6 @@ Eigen::Matrix<double, Dim, Dim> inverse_mass_at(const Shape<Dim>& shape, const P
   return columns;
 }
 
-template <int Dim>
-Vec<Dim> at_most(const Vec<Dim>& vector, double length) {
-  return vector * std::min(1.0, length / std::max(vector.norm(), 1e-12));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -43,7 +37,7 @@ VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, doubl
   const Pose<Dim>& pose = states.pose[pull.body];
   VelocityChange<Dim> change{pull.body, states.velocity[pull.body], states.spin[pull.body]};
   const Vec<Dim> point = pose * pull.point;
-  const Vec<Dim> stretch = at_most<Dim>(point - pull.target, shape.extent);
+  const Vec<Dim> stretch = limited(Vec<Dim>(point - pull.target), shape.extent);
 
   const double gravity = world.gravity().norm();
   const double strength = pull_stiffness * (gravity > 0.0 ? gravity : 1.0);  // [m/s^2]
@@ -58,10 +52,10 @@ VelocityChange<Dim> pulled(const World<Dim>& world, const Pull<Dim>& pull, doubl
   const Vec<Dim> speed = velocity_at<Dim>(point - pose.position, change.velocity, change.spin);
   const Vec<Dim> impulse = -inverse_mass.inverse() * (speed + bias);
   // Twice the force of the spring stretched to the full leaves damping for a body that is struck.
-  apply_impulse<Dim>(shape, pose, point, at_most<Dim>(impulse, 2.0 * shape.mass * strength * dt), change.velocity,
+  apply_impulse<Dim>(shape, pose, point, limited(impulse, 2.0 * shape.mass * strength * dt), change.velocity,
                      change.spin);
-  change.velocity = at_most<Dim>(change.velocity, fastest_speed<Dim>(dt, world.units()));
-  change.spin *= std::min(1.0, fastest_spin(dt) / std::max(change.spin.norm(), 1e-12));
+  change.velocity = limited(change.velocity, fastest_speed<Dim>(dt, world.units()));
+  change.spin = limited(change.spin, fastest_spin(dt));
   return change;
 }
 

@@ -67,7 +67,6 @@ void Simulation<Dim>::step() {
   interventions_.do_due_events(intervened(), rested_, piles().piles());
   if (slope_control_.active()) sleep_.wake(slope_control_.update(*world_, piles(), step_), SleepCause::avalanche);
   emitter_.emit(*world_, time());
-  if (watched()) watchdog_.note_added(*world_, step_);
   phases_.emit = watch.lap();
   interventions_.move(intervened());
   world_->record_contacts(needs_contacts());
@@ -101,7 +100,6 @@ template <int Dim>
 Intervened<Dim> Simulation<Dim>::intervened() {
   return {.world = *world_,
           .emitter = emitter_,
-          .watchdog = watchdog_,
           .time = time(),
           .wake = [this](std::span<const BodyIndex> bodies, SleepCause cause) { sleep_.wake(bodies, cause); },
           .remove = [this](BodyIndex body) { sleep_.remove(body); },
@@ -133,7 +131,7 @@ void Simulation<Dim>::show() {
 
 template <int Dim>
 void Simulation<Dim>::end(std::string_view reason) {
-  if (watched()) watchdog_.finish(*world_, step_);
+  if (watched()) watchdog_.finish(emitter_, step_);
   const Frame<Dim> last = frame();
   for (Observer<Dim>* observer : observers_) observer->on_end(last, reason);
 }

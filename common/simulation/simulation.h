@@ -64,7 +64,7 @@ class Simulation {
             sleep_.events(),
             phases_,
             watchdog_.warnings(),
-            watchdog_.bodies_planned(),
+            emitter_.total(),
             &sleep_.policy(),
             interventions_.done_events(),
             interventions_.clock().due().size(),

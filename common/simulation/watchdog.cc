@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "common/scene/typical_body.h"
 #include "common/world/energy.h"
@@ -29,9 +28,7 @@ double farthest(const Vec<Dim>& place) {
 
 template <int Dim>
 Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
-    : sources_(scene.sources),
-      initial_bodies_(static_cast<int>(scene.bodies.size())),
-      ledger_(scene.world),
+    : ledger_(scene.world),
       overlap_(typical_body(scene).extent, scene.world.gravity, scene.world.dt),
       passing_(scene.world.shapes, scene.world.obstacles),
       lowest_(lowest_centre(scene.world.ground, scene.world.units)),
@@ -39,15 +36,7 @@ Watchdog<Dim>::Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits)
       ground_(scene.world.ground.height),
       dt_(scene.world.dt),
       speed_squared_(at_limit(limits.speed)),
-      spin_squared_(at_limit(limits.spin)),
-      bodies_planned_(static_cast<int>(scene.bodies_planned())) {}
-
-template <int Dim>
-void Watchdog<Dim>::note_added(const World<Dim>& world, std::int64_t step) {
-  if (world.states().size() == appeared_) return;
-  appeared_ = world.states().size();
-  last_appearance_ = step;
-}
+      spin_squared_(at_limit(limits.spin)) {}
 
 template <int Dim>
 void Watchdog<Dim>::start_step(const World<Dim>& world) {
@@ -109,22 +98,16 @@ void Watchdog<Dim>::check_energy(const World<Dim>& world, std::int64_t step) {
                  .value = ledger_.created()});
 }
 
-template <int Dim>
-int Watchdog<Dim>::due_by(double time) const {
-  const auto add = [time](int sum, const Source<Dim>& source) { return sum + source.due_by(time); };
-  return std::accumulate(sources_.begin(), sources_.end(), initial_bodies_, add);
-}
-
 /// A pour that the end of the run cuts short is late, not blocked: bodies are missed only when the last one was due
 /// long ago, or when one was due long ago and none has appeared since.
 template <int Dim>
-void Watchdog<Dim>::finish(const World<Dim>& world, std::int64_t step) {
-  const int appeared = world.states().size();
+void Watchdog<Dim>::finish(const Emitter<Dim>& emitter, std::int64_t step) {
+  const int appeared = emitter.emitted();
   const double last_emission = static_cast<double>(step - 1) * dt_;
-  const int due_long_ago = due_by(last_emission - patience);
-  const bool over = due_long_ago == bodies_planned_;
-  const bool stalled = due_long_ago > appeared && static_cast<double>(step - last_appearance_) * dt_ > patience;
-  const int missing = due_by(last_emission) - appeared;
+  const int due_long_ago = emitter.due_by(last_emission - patience);
+  const bool over = due_long_ago == emitter.total();
+  const bool stalled = due_long_ago > appeared && last_emission + dt_ - emitter.last_appearance() > patience;
+  const int missing = emitter.due_by(last_emission) - appeared;
   if (missing <= 0 || !(over || stalled)) return;
   warnings_.add(
       {.kind = WarningKind::not_appeared, .step = step, .bodies = missing, .value = static_cast<double>(missing)});

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "common/policy/sleep_event.h"
 #include "common/scene/scene.h"
+#include "common/simulation/emitter.h"
 #include "common/simulation/energy_ledger.h"
 #include "common/simulation/overlap_watch.h"
 #include "common/simulation/passing_watch.h"
@@ -19,9 +19,6 @@ class Watchdog {
  public:
   Watchdog(const Scene<Dim>& scene, const SpeedLimits& limits);
 
-  /// Bodies added since the last call, before the step that moves them; `step` counts the steps done.
-  void note_added(const World<Dim>& world, std::int64_t step);
-
   /// Whether the step that will be number `step` must record its contacts, besides each in which an obstacle moves.
   bool needs_contacts(std::int64_t step) const { return overlap_.due(step); }
 
@@ -30,29 +27,21 @@ class Watchdog {
   /// Just after it; `step` is its number.
   void end_step(const World<Dim>& world, std::int64_t step);
 
-  /// A source has another rate now.
-  void note_source(int number, const Source<Dim>& source) { sources_[number] = source; }
-
   /// After a step and the policy's decision. `events` are those of the step.
   void check(const World<Dim>& world, std::span<const SleepEvent> events, std::int64_t step);
 
   /// After the last step.
-  void finish(const World<Dim>& world, std::int64_t step);
+  void finish(const Emitter<Dim>& emitter, std::int64_t step);
 
   /// One of each kind that was seen, in the order of first sight.
   std::span<const Warning> warnings() const { return warnings_.all(); }
   const RunOverlap& overlap() const { return overlap_.overlap(); }
-  /// Bodies of the scene in all.
-  int bodies_planned() const { return bodies_planned_; }
 
  private:
-  int due_by(double time) const;
   void check_place(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
   void check_speed(const BodyStates<Dim>& states, BodyIndex body, std::int64_t step);
   void check_energy(const World<Dim>& world, std::int64_t step);
 
-  std::vector<Source<Dim>> sources_;
-  int initial_bodies_;  // in the world from the start
   EnergyLedger<Dim> ledger_;
   OverlapWatch<Dim> overlap_;
   PassingWatch<Dim> passing_;
@@ -62,9 +51,6 @@ class Watchdog {
   double dt_;             // [s]
   double speed_squared_;  // from here on a speed is at the limit
   double spin_squared_;
-  int bodies_planned_;
-  BodyIndex appeared_ = 0;
-  std::int64_t last_appearance_ = 0;  // [steps]
   WarningList warnings_;
 };
 

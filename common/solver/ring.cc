@@ -258,7 +258,7 @@ VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
 template <int Dim>
 void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) {
   const auto extent = static_cast<float>(params_.extent);
-  const auto unit = static_cast<float>(params_.speed_unit(gravity));
+  const auto unit = static_cast<float>(speed_unit(params_.extent, gravity));
   const float distance = wake_distance * extent;
   float still = static_cast<float>(params_.still_speed) * unit;
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);

@@ -11,7 +11,7 @@
 
 namespace talus {
 
-/// Number of a body: counted from 0 in the order of World::add, never used again.
+/// Number of a body: counted from 0 in the order of World::add. Never used again, but in the world of a sleeper.
 using BodyIndex = std::int32_t;
 
 /// The other side of a contact where it is no body: the ground, or obstacle k as `first_obstacle - k`.

@@ -322,12 +322,10 @@ class World {
   bool has_ring_ = false;
 };
 
-/// sqrt(D/g) [s], the time in which a body falls by D/2, of a body of `extent` D [m] in the world's present gravity:
-/// the unit of the times of rules. In less than a thousandth of the Earth's gravity it no longer grows, since there
-/// nothing slides.
+/// In the world's present gravity.
 template <int Dim>
 double time_unit(double extent, const World<Dim>& world) {
-  return std::sqrt(extent / std::max(world.gravity_size(), least_gravity));
+  return time_unit(extent, world.gravity_size());
 }
 
 /// Makes an empty world of some engine.

@@ -162,4 +162,11 @@ double fastest_speed(double dt, const UnitScale& units = {}) {
 /// btRigidBody's MAX_ANGVEL).
 inline double fastest_spin(double dt) { return std::numbers::pi / 2.0 / dt; }
 
+/// `vector`, shortened where it is longer than `most`: by rounding too, so that World takes the fastest velocity.
+template <typename Vector>
+Vector limited(const Vector& vector, double most) {
+  constexpr double rounding = 1e-12;
+  return vector * std::min(1.0, (1.0 - rounding) * most / std::max(vector.norm(), 1e-9));
+}
+
 }  // namespace talus

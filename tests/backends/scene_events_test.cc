@@ -85,6 +85,23 @@ TYPED_TEST(SceneEvents, KickASleeper) {
   EXPECT_NEAR(TestFixture::height_of(simulation, 1), 3.5, 0.05);
 }
 
+// By rounding a velocity that is cut to the fastest is longer than it in a fourth of all directions.
+TYPED_TEST(SceneEvents, KickABodyBeyondTheFastestSpeedAndSpinInAnyDirection) {
+  constexpr int dim = TypeParam::dim;
+  auto simulation = simulation_on<TypeParam>(stack<dim>(""));
+  const double fastest = fastest_speed<dim>(simulation.world().dt());
+  simulation.step();
+  for (int i = 1; i <= 40; ++i) {
+    Event<dim> kick{.action = EventAction::kick, .numbers = {2.0}};
+    kick.velocity = fastest * up<dim>(1.0) + 0.1 * i * fastest * Vec<dim>::Unit(0);
+    kick.spin.setConstant(i * fastest_spin(simulation.world().dt()));
+    simulation.do_event(kick);
+  }
+  const BodyStates<dim>& states = simulation.world().states();
+  EXPECT_NEAR(states.velocity[2].norm(), fastest, 1e-6 * fastest);
+  EXPECT_NEAR(states.spin[2].norm(), fastest_spin(simulation.world().dt()), 1e-6);
+}
+
 TYPED_TEST(SceneEvents, ChangeGravityForAllBodies) {
   constexpr int dim = TypeParam::dim;
   const std::string event =

@@ -3,7 +3,6 @@
 // where they stop. They do not collide.
 
 #include <memory>
-#include <stdexcept>
 
 #include "common/world/world.h"
 
@@ -35,8 +34,9 @@ class FallingWorld final : public World<Dim> {
   void engine_set_velocity(BodyIndex, const Vec<Dim>&, const Spin<Dim>&) override {}
   void engine_freeze(std::span<const BodyIndex>) override {}
   void engine_thaw(std::span<const BodyIndex>) override {}
-  void engine_query_box(const Box<Dim>&, std::vector<BodyIndex>&) const override {
-    throw std::logic_error("a falling world has no query");
+  void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& out) const override {
+    for (BodyIndex body = 0; body < this->states().size(); ++body)
+      if (this->states().removed[body] == 0 && this->bounds_of(body).intersects(box)) out.push_back(body);
   }
   void engine_contacts(std::vector<Contact<Dim>>&) const override {}
   bool engine_awake(BodyIndex) const override { return true; }

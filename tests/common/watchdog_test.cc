@@ -29,9 +29,7 @@ class Watch {
     BodyDef<2> body;
     body.pose.position = {x, height};
     body.velocity = velocity;
-    const BodyIndex index = world.add(body);
-    dog_.note_added(world, step_);
-    return index;
+    return world.add(body);
   }
   void step(int steps = 1) {
     for (int i = 0; i < steps; ++i) {
@@ -125,13 +123,13 @@ TEST(Watchdog, SeesABodyAtTheSpinLimit) {
   body.pose.position = {0.0, 5.0};
   body.spin[0] = -5.0;
   watch.world.add(body);
-  watch.dog().note_added(watch.world, 0);
   watch.step(1);
   ASSERT_EQ(watch.warnings().size(), 1U);
   EXPECT_EQ(watch.warnings()[0].kind, WarningKind::spin_limit);
 }
 
-/// Ten bodies are planned, two a second; one appears at once and one after `second` steps.
+/// Ten bodies are planned, two a second; one appears at once and one after `second` steps, each of which blocks the
+/// place of the next one. By hand come ten more.
 std::vector<Warning> warnings_of_a_pour(std::int64_t second, std::int64_t end) {
   Scene<2> planned = scene<2>();
   planned.sources.resize(1);
@@ -139,12 +137,14 @@ std::vector<Warning> warnings_of_a_pour(std::int64_t second, std::int64_t end) {
   planned.sources[0].rate = 2.0;
   Watchdog<2> dog(planned, {});
   FallingWorld<2> world(planned.world);
-  world.add({});
-  dog.note_added(world, 0);
-  world.add({});
-  dog.note_added(world, second);
-  dog.finish(world, end);
-  EXPECT_EQ(dog.bodies_planned(), 10);
+  Emitter<2> emitter(planned);
+  const Pose<2> aside{.position = Vec2(100.0, 0.0)};
+  emitter.emit(world, 0.0);
+  world.move(0, aside);
+  emitter.emit(world, static_cast<double>(second) * dt);
+  for (int i = 0; i < 10; ++i) world.add({.pose = aside});
+  EXPECT_EQ(emitter.emitted(), 2);
+  dog.finish(emitter, end);
   return {dog.warnings().begin(), dog.warnings().end()};
 }
 
@@ -168,8 +168,9 @@ TEST(Watchdog, IsSilentAboutBodiesThatAreNotYetDue) {
   planned.sources.resize(1);
   Watchdog<2> dog(planned, {});
   FallingWorld<2> world(planned.world);
-  world.add({});
-  dog.finish(world, 5);
+  Emitter<2> emitter(planned);
+  emitter.emit(world, 0.0);
+  dog.finish(emitter, 5);
   EXPECT_TRUE(dog.warnings().empty());
 }
 

@@ -144,7 +144,7 @@ template <int Dim>
 bool AdaptivePolicy<Dim>::is_fast(const RuleInput<Dim>& in, BodyIndex body) const {
   const double speed =
       in.states().velocity[body].norm() + bounding_radius(in.shape_of(body)) * in.states().spin[body].norm();
-  return speed > ring_->still_speed * ring_->speed_unit(in.world.gravity_size());
+  return speed > ring_->still_speed * speed_unit(ring_->extent, in.world.gravity_size());
 }
 
 /// [s]
