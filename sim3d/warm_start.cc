@@ -69,13 +69,12 @@ void WarmStart::keep(const Sides& sides, const SavedPoint& point) {
   *link = node;
 }
 
-void WarmStart::release(const Sides& sides, std::vector<SavedPoint>& out) {
-  const BodyIndex owner = sides.owner->getUserIndex();
+void WarmStart::release(BodyIndex owner, BodyIndex partner, std::vector<SavedPoint>& out) {
   if (std::ssize(first_) <= owner) return;
   for (std::int32_t* link = &first_[owner]; *link >= 0;) {
     const std::int32_t node = *link;
     const Node& here = nodes_[node];
-    if (here.point.partner == sides.partner->getUserIndex()) {
+    if (here.point.partner == partner) {
       out.push_back(here.point);
       *link = here.next;
       free_.push_back(node);
@@ -88,7 +87,7 @@ void WarmStart::release(const Sides& sides, std::vector<SavedPoint>& out) {
 void WarmStart::save(btBroadphasePair& pair) {
   if (pair.m_algorithm == nullptr) return;  // no step has passed since the pair came back: what was saved still holds
   const Sides sides(pair);
-  release(sides, saved_);  // what an earlier sleep left
+  release(sides.owner->getUserIndex(), sides.partner->getUserIndex(), saved_);  // what an earlier sleep left
   saved_.clear();
   manifolds_.resize(0);
   pair.m_algorithm->getAllContactManifolds(manifolds_);
@@ -151,16 +150,21 @@ void WarmStart::announce(btBroadphaseProxy& woken, const PairCache& pairs) {
   for (btBroadphaseProxy* partner : pairs.partners(&woken)) announced_.emplace_back(&woken, partner);
 }
 
-void WarmStart::forget(BodyIndex body) {
-  if (body >= 0 && body < std::ssize(first_)) {
-    std::int32_t& first = first_[body];
+/// Points with a body that is removed stay with their owners: its number is never used again. An obstacle may come
+/// back, at another place.
+void WarmStart::forget(BodyIndex side) {
+  if (side < 0) {
+    for (BodyIndex owner = 0; owner < std::ssize(first_); ++owner) release(owner, side, saved_);
+    saved_.clear();
+  } else if (side < std::ssize(first_)) {
+    std::int32_t& first = first_[side];
     while (first >= 0) {
       free_.push_back(first);
       first = nodes_[first].next;
     }
   }
-  std::erase_if(announced_, [body](const auto& pair) {
-    return object_of(pair.first).getUserIndex() == body || object_of(pair.second).getUserIndex() == body;
+  std::erase_if(announced_, [side](const auto& pair) {
+    return object_of(pair.first).getUserIndex() == side || object_of(pair.second).getUserIndex() == side;
   });
 }
 
@@ -177,7 +181,7 @@ void WarmStart::restore(PairCache& pairs, const btDispatcherInfo& info) {
 void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   const Sides sides(pair);
   saved_.clear();
-  release(sides, saved_);
+  release(sides.owner->getUserIndex(), sides.partner->getUserIndex(), saved_);
   if (saved_.empty()) return;
   // In the order of the pair, for which the algorithm was made.
   const btCollisionObjectWrapper first = whole(object_of(pair.m_pProxy0));

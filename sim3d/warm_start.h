@@ -48,7 +48,7 @@ class WarmStart {
   void restore(PairCache& pairs, const btDispatcherInfo& info);
 
   /// A body or an obstacle that leaves the world.
-  void forget(BodyIndex body);
+  void forget(BodyIndex side);
 
  private:
   struct SavedPoint {
@@ -69,7 +69,7 @@ class WarmStart {
   struct Sides;
   void keep(const Sides& sides, const SavedPoint& point);
   /// Takes out those between the two and appends them to `out`, in the order in which they were kept.
-  void release(const Sides& sides, std::vector<SavedPoint>& out);
+  void release(BodyIndex owner, BodyIndex partner, std::vector<SavedPoint>& out);
   void restore(btBroadphasePair& pair, const btDispatcherInfo& info);
   void open_manifolds(btCollisionAlgorithm& algorithm);
   static void put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold);

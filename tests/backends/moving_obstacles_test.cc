@@ -252,6 +252,21 @@ TYPED_TEST(MovingObstacle, OfSeveralPiecesHoldsABodyWhereItIsPutBack) {
   EXPECT_NEAR(low(), top(), 0.03);
 }
 
+TYPED_TEST(MovingObstacle, ThatComesBackLowerDoesNotHoldTheBodyThatSleptOnIt) {
+  constexpr int dim = TypeParam::dim;
+  const WorldDescription<dim> description = platform<dim>(path<dim>(1.0, 0.0)).world;
+  const auto world = TypeParam::make(description);
+  const Pose<dim> before = world->obstacle_pose(0);
+  const BodyIndex cube = world->add({.pose = {.position = up<dim>(2.5)}});
+  for (int i = 0; i < 120; ++i) world->step();
+  world->freeze(std::vector<BodyIndex>{cube});
+  world->remove_obstacle(0);
+  world->restore_obstacle(0, {.position = before.position - up<dim>(0.015)});
+  world->thaw(std::vector<BodyIndex>{cube});
+  world->step();
+  EXPECT_NEAR(height<dim>(world->states().velocity[cube]), -9.81 * world->dt(), 0.01);
+}
+
 TYPED_TEST(MovingObstacle, IsTheOnlyKindThatMoves) {
   constexpr int dim = TypeParam::dim;
   Scene<dim> scene = platform<dim>(path<dim>(1.0, 0.0));
