@@ -37,7 +37,6 @@ ContinuousCollision::ContinuousCollision(const WorldDescription<2>& description)
     sizes_.push_back(
         {.reach = static_cast<float>(reach_of(shape)), .slow = static_cast<float>(width / 2.0 / description.dt)});
     any_.reach = std::max(any_.reach, sizes_.back().reach);
-    longest_ = std::max(longest_, static_cast<float>(shape.extent));
   }
   if (description.shapes.empty()) return;
   any_.slow = static_cast<float>(thinnest / 2.0 / description.dt);
@@ -147,7 +146,7 @@ void ContinuousCollision::search_sleepers(const b2Body& body, bool search) {
 }
 
 bool ContinuousCollision::is_slow(const b2Body& body) const {
-  return body.GetLinearVelocity().Length() + longest_ * std::abs(body.GetAngularVelocity()) <= slow_;
+  return body.GetLinearVelocity().Length() + any_.reach * std::abs(body.GetAngularVelocity()) <= slow_;
 }
 
 bool ContinuousCollision::ShouldCollide(b2Fixture* a, b2Fixture* b) {

@@ -72,7 +72,6 @@ class ContinuousCollision final : public b2ContactFilter {
   Size restless_size_;       // a body that is not fast with this one has a quarter of the speed of a fast one at most
   Size any_;                 // a body that is not fast with this one is not fast with its own
   float slow_ = 0.0F;        // [m/s], of any point of a body: slower ones do not get through a sleeper
-  float longest_ = 0.0F;     // from a body's centre to any point of it at most, over all shapes [m]
   float dt_ = 0.0F;          // [s]
   std::vector<b2Body*> swept_;
   bool stepping_ = false;

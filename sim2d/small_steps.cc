@@ -184,7 +184,10 @@ SolverBody<2> SmallSteps::thaw(BodyIndex body, WarmStart& warm) {
     const Tag b{pair.b};
     SavedContact saved{std::min(a, b), std::max(a, b), {}};
     const float rolling = released_[i].contact.rolling_impulse[0];
-    if (rolling != 0.0F) rolling_.push_back({saved.low, saved.high, b > a ? rolling : -rolling});
+    if (rolling != 0.0F) {
+      const Rolling kept{saved.low, saved.high, b > a ? rolling : -rolling};
+      rolling_.insert(std::ranges::upper_bound(rolling_, kept.pair(), {}, &Rolling::pair), kept);
+    }
     for (int k = 0; k < b2_maxManifoldPoints && i < released_.size() && released_[i].key.a == pair.a &&
                     released_[i].key.b == pair.b;
          ++k, ++i) {
@@ -193,7 +196,6 @@ SolverBody<2> SmallSteps::thaw(BodyIndex body, WarmStart& warm) {
     }
     warm.save(saved);
   }
-  sort_rolling();
   return state;
 }
 
@@ -332,9 +334,9 @@ VecF<2> SmallSteps::shift_of(BodyIndex side, const VecF<2>& arm) const {
 void SmallSteps::add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const {
   const Tag a = tag_of(*pair.a);
   const Tag b = tag_of(*pair.b);
-  const auto key = [](const Rolling& each) { return std::tuple(each.low, each.high); };
-  const auto found = std::ranges::lower_bound(rolling_, std::tuple(std::min(a, b), std::max(a, b)), {}, key);
-  if (found != rolling_.end() && key(*found) == std::tuple(std::min(a, b), std::max(a, b)))
+  const std::pair<Tag, Tag> sought = std::minmax(a, b);
+  const auto found = std::ranges::lower_bound(rolling_, sought, {}, &Rolling::pair);
+  if (found != rolling_.end() && found->pair() == sought)
     point.rolling_impulse[0] = b == found->high ? found->impulse : -found->impulse;
 }
 
@@ -453,11 +455,7 @@ void SmallSteps::write_impulses() {
       rolling_.push_back({std::min(source.a, source.b), std::max(source.a, source.b),
                           source.b > source.a ? point.rolling_impulse[0] : -point.rolling_impulse[0]});
   }
-  sort_rolling();
-}
-
-void SmallSteps::sort_rolling() {
-  std::ranges::sort(rolling_, {}, [](const Rolling& each) { return std::tuple(each.low, each.high); });
+  std::ranges::sort(rolling_, {}, &Rolling::pair);
 }
 
 /// Box2D's own limits of a step hold.

@@ -80,6 +80,7 @@ class SmallSteps {
     Tag low{};
     Tag high{};
     float impulse = 0.0F;  // on the owner of `high` [N m s]
+    std::pair<Tag, Tag> pair() const { return {low, high}; }
   };
   struct Fixtures {
     b2Fixture* a = nullptr;
@@ -123,7 +124,6 @@ class SmallSteps {
   void add_ahead(Tag a, Tag b, ContactPoint<2> point, const b2Body& body_b);
   VecF<2> shift_of(BodyIndex side, const VecF<2>& arm) const;
   void write_impulses();
-  void sort_rolling();
   void move_bodies(const StepInput& input, std::span<b2Body* const> bodies) const;
 
   std::optional<Ring<2>>& ring_;

@@ -229,7 +229,7 @@ double packing_of_heap(std::span<const PlacedBody<Dim>> bodies, const AngleOfRep
     const double radius = (horizontal<Dim>(body.centre) - grid.centre).norm();
     if (above >= 0.0 && above < slope.apex && radius <= slope.foot * (1.0 - above / slope.apex)) solid += body.volume;
   }
-  return solid / Profile<Dim>::slice_volume(slope.foot, 0.0, slope.apex);
+  return solid / tip_volume<Dim>(Profile<Dim>::base_area(slope.foot), slope.apex);
 }
 
 }  // namespace

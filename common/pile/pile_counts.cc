@@ -13,7 +13,7 @@ CountedAs<Dim> counted_as(const Pile<Dim>& pile, const BodyStates<Dim>& states, 
   if (now.layer < 0) return now;
   for (std::size_t axis = 0; axis < now.at.size(); ++axis) {
     const double steps = position[static_cast<Eigen::Index>(axis)] * CountedAs<Dim>::steps_per_metre;
-    now.at[axis] = static_cast<std::int32_t>(std::lround(steps));
+    now.at[axis] = std::llround(steps);
   }
   return now;
 }

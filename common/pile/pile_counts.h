@@ -13,12 +13,12 @@ namespace talus {
 /// How a body counts in one pile.
 template <int Dim>
 struct CountedAs {
-  /// Steps of a position per metre: 15 micrometres, and 1e4 m still fits 32 bits.
+  /// Steps of a position per metre: 15 micrometres.
   static constexpr double steps_per_metre = 65536.0;
 
   std::int16_t layer = -1;  // -1: in no layer, does not count
   bool asleep = false;
-  std::array<std::int32_t, Dim - 1> at{};  // horizontal position in steps: sums of integers are exact in any order
+  std::array<std::int64_t, Dim - 1> at{};  // horizontal position in steps: sums of integers are exact in any order
 };
 
 /// `body`, at its present place, in `pile`.

@@ -1,5 +1,6 @@
 #include "common/pile/pile_set.h"
 
+#include <algorithm>
 #include <cassert>
 #include <numbers>
 
@@ -23,14 +24,31 @@ constexpr double min_slope_change = std::numbers::pi / 180.0;  // [rad]; less is
 }  // namespace
 
 template <int Dim>
-PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body) : body_(body) {
-  for (const PileParams<Dim>& pile : params) {
-    needs_contacts_ = needs_contacts_ || !pile.count_flying.value_or(true) || !pile.alpha || pile.control_slope;
+PileSet<Dim>::PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body, bool count_flying)
+    : body_(body), count_flying_(count_flying) {
+  for (const PileParams<Dim>& pile : params)
     if (pile.at)
       add_pile(pile, *pile.at);
     else
       unplaced_.push_back(pile);
-  }
+}
+
+template <int Dim>
+void PileSet<Dim>::count_flying(bool flying, const BodyStates<Dim>& states) {
+  if (flying == count_flying_) return;
+  count_flying_ = flying;
+  recount_all(states);
+}
+
+template <int Dim>
+bool PileSet<Dim>::needs_contacts() const {
+  return std::ranges::any_of(records_, [this](const Record& each) { return needs_contacts(each.params); }) ||
+         std::ranges::any_of(unplaced_, [this](const PileParams<Dim>& each) { return needs_contacts(each); });
+}
+
+template <int Dim>
+bool PileSet<Dim>::needs_contacts(const PileParams<Dim>& params) const {
+  return !counts_flying(params) || !params.alpha || params.control_slope;
 }
 
 template <int Dim>
@@ -107,7 +125,7 @@ void PileSet<Dim>::grow(std::size_t pile, const BodyStates<Dim>& states) {
 template <int Dim>
 CountedAs<Dim> PileSet<Dim>::counted_now(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const {
   if (states.removed[body] != 0) return {};
-  if (!has_touched(body) && !records_[pile].params.count_flying.value_or(true)) return {};
+  if (!has_touched(body) && !counts_flying(records_[pile].params)) return {};
   return counted_as(piles_[pile], states, body);
 }
 

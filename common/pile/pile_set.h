@@ -16,7 +16,11 @@ namespace talus {
 template <int Dim>
 class PileSet {
  public:
-  PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body);
+  /// `count_flying`: of piles that do not say it themselves.
+  PileSet(std::vector<PileParams<Dim>> params, const TypicalBody& body, bool count_flying = true);
+
+  /// Another value for the piles that do not say it themselves; recounts them.
+  void count_flying(bool flying, const BodyStates<Dim>& states);
 
   /// The piles that have a place. The others get theirs by place().
   std::span<const Pile<Dim>> piles() const { return piles_; }
@@ -28,7 +32,7 @@ class PileSet {
   void place(const Vec<Dim>& landing, const BodyStates<Dim>& states);
 
   /// Whether note_contacts() must be called before update(): some pile counts only bodies that have touched something.
-  bool needs_contacts() const { return needs_contacts_; }
+  bool needs_contacts() const;
   /// Notes which bodies have touched something.
   void note_contacts(std::span<const Contact<Dim>> contacts, const BodyStates<Dim>& states);
 
@@ -68,6 +72,8 @@ class PileSet {
   };
 
   void add_pile(const PileParams<Dim>& params, const Vec<Dim>& centre);
+  bool counts_flying(const PileParams<Dim>& params) const { return params.count_flying.value_or(count_flying_); }
+  bool needs_contacts(const PileParams<Dim>& params) const;
   CountedAs<Dim> counted_now(std::size_t pile, const BodyStates<Dim>& states, BodyIndex body) const;
   void recount(std::size_t pile, const BodyStates<Dim>& states);
   void replace(std::size_t pile, Pile<Dim> structure, const BodyStates<Dim>& states);
@@ -84,7 +90,7 @@ class PileSet {
   std::vector<Pile<Dim>> piles_;
   std::vector<Record> records_;         // beside piles_
   std::int64_t since_slow_update_ = 0;  // calls of update()
-  bool needs_contacts_ = false;
+  bool count_flying_;
   std::vector<std::uint8_t> has_touched_;  // [body] something; kept only where a pile needs contacts
 };
 

@@ -21,10 +21,6 @@ struct Profile<3> {
   }
   /// Area of the base.
   static double base_area(double radius) { return std::numbers::pi * radius * radius; }
-  /// Volume of the frustum of height `rise` between a lower and an upper radius.
-  static double slice_volume(double lower, double upper, double rise) {
-    return std::numbers::pi / 3.0 * rise * (lower * lower + lower * upper + upper * upper);
-  }
 };
 
 /// Wedge, equation (1)'s twin with areas: N v_obj = r^2 tan(alpha).
@@ -33,7 +29,6 @@ struct Profile<2> {
   static double base_radius(double volume, double alpha) { return std::sqrt(volume / std::tan(alpha)); }
   /// Length of the base.
   static double base_area(double radius) { return 2.0 * radius; }
-  static double slice_volume(double lower, double upper, double rise) { return rise * (lower + upper); }
 };
 
 /// Volume of what tapers evenly from a base of area `base` to a point at height `rise`: cone, pyramid, wedge.

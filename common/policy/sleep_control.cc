@@ -4,23 +4,13 @@
 #include <cassert>
 
 namespace talus {
-namespace {
-
-template <int Dim>
-std::vector<PileParams<Dim>> piles_as_counted(std::vector<PileParams<Dim>> piles, const SleepPolicy<Dim>& policy) {
-  for (PileParams<Dim>& pile : piles)
-    if (!pile.count_flying) pile.count_flying = policy.counts_flying();
-  return piles;
-}
-
-}  // namespace
 
 template <int Dim>
 SleepControl<Dim>::SleepControl(World<Dim>& world, std::unique_ptr<SleepPolicy<Dim>> policy,
                                 std::vector<PileParams<Dim>> piles, const TypicalBody& typical, bool engine_sleep)
     : world_(world),
       policy_(std::move(policy)),
-      piles_(piles_as_counted(std::move(piles), *policy_), typical),
+      piles_(std::move(piles), typical, policy_->counts_flying()),
       engine_sleep_(engine_sleep) {
   world_.set_ring(policy_->ring());
 }
@@ -166,6 +156,7 @@ template <int Dim>
 void SleepControl<Dim>::switch_policy(std::unique_ptr<SleepPolicy<Dim>> policy) {
   wake_all(SleepCause::user);
   policy_ = std::move(policy);
+  piles_.count_flying(policy_->counts_flying(), world_.states());
   world_.set_ring(policy_->ring());
 }
 

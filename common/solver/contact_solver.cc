@@ -35,9 +35,10 @@ constexpr int first_passes = 2;         // of the first sub-step, in which conta
 constexpr int bounce_passes = 4;
 constexpr int deep_passes = 3;
 constexpr float cohesive_reach = 0.01F;  // gap over which bodies attract each other [m]
-constexpr float deepest = 0.04F;    // largest overlap that acts on the spring [m]: that of a hundred times a body's
-                                    // weight. Two that press on a body from both sides would else grow without end
-constexpr float deep_share = 0.2F;  // of a deep overlap, moved apart in each of them
+constexpr float deepest = 0.04F;       // largest overlap that acts on the spring [m]: that of a hundred times a body's
+                                       // weight. Two that press on a body from both sides would else grow without end
+constexpr float deep_overlap = 0.01F;  // beyond this and that of the load it is moved apart without giving velocity [m]
+constexpr float deep_share = 0.2F;     // of a deep overlap, moved apart in each of them
 
 float inverse(float x) { return x > 0.0F ? 1.0F / x : 0.0F; }
 
@@ -165,7 +166,7 @@ struct ContactSolver<Dim>::Work {
   void for_sets(Turn turn, const Share& regions_of_member, const Function& work);
   void run(Pass pass, const Set& set) {
     kernel({velocity.data(), moved.data(), free.data(), sets.blocks().data() + set.first_block, set.blocks,
-            lanes.data(), rolling.data(), 1.0F / h, params.deep, deepest, carry},
+            lanes.data(), rolling.data(), 1.0F / h, deep_overlap, deepest, carry},
            pass);
   }
   void run(Pass pass, Team& team, const Share& regions_of_member);
@@ -212,7 +213,7 @@ void ContactSolver<Dim>::Work::fill_blocks(int number) {
       PointBlock<Dim>& to = lanes[block.first_point + k];
       const float stiffness = fill_point(group.first + k, to, group.lane, of_contact);
       block.bounces = block.bounces || to.bounce.v[group.lane] < 0.0F;
-      if (points[group.first + k].gap < -params.deep && stiffness > 0.0F)
+      if (points[group.first + k].gap < -deep_overlap && stiffness > 0.0F)
         deep[number].push_back(
             {index, group.first + k, to.gain.v[group.lane], std::min(to.impulse.v[group.lane] / stiffness, deepest)});
     }
@@ -431,7 +432,7 @@ void ContactSolver<Dim>::Work::push_deep() {
           return linear_of<Dim>(of) + turned(angular_of<Dim>(of), arm);
         };
         const float gap = point.gap + n.dot(way(b, point.arm_b) - way(a, point.arm_a));
-        const float excess = -(gap + params.deep + at.sag);
+        const float excess = -(gap + deep_overlap + at.sag);
         if (excess <= 0.0F) continue;
         const VecF<Dim> push = at.gain * deep_share * excess * n;
         const auto shift = [&](int slot, Quad* to, const VecF<Dim>& arm, float sign) {

@@ -60,7 +60,6 @@ struct ContactPoint {
 struct ContactSolverParams {
   int sub_steps = 8;
   float restitution_threshold = 0.5F;  // slower approaches do not bounce [m/s]
-  float deep = 0.01F;  // overlap beyond this and that of the load is moved apart without giving velocity [m]
 };
 
 /// Which version of the solver's inner loops: all give the same bits.

@@ -57,7 +57,9 @@ TEST(WedgeProfile, FollowsEquationOnesTwin) {
 TEST(PileLayer, HoldsTheVolumeOfItsFrustum) {
   const Pile<3> pile = make_pile<3>(Vec3::Zero(), in_radians(45.0), 1000.0, body);
   const Layer& layer = pile.layers[1];
-  const double frustum = Profile<3>::slice_volume(layer.radius, pile.layers[2].radius, layer.top - layer.bottom);
+  const double upper = pile.layers[2].radius;
+  const double squares = layer.radius * layer.radius + layer.radius * upper + upper * upper;
+  const double frustum = std::numbers::pi / 3.0 * (layer.top - layer.bottom) * squares;
   EXPECT_NEAR(layer.volume, frustum, 1e-12 * frustum);
 }
 

@@ -339,7 +339,10 @@ void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region,
       held_[body] = 1;
     }
   }
-  if (!check.members.empty()) checks_.push_back(std::move(check));
+  if (check.members.empty()) return;
+  checks_.push_back(std::move(check));
+  under_check_.insert(region.columns.begin(),
+                      region.columns.end());  // the next region of this step may overlap this one
 }
 
 template class StabilityChecks<2>;
