@@ -1,5 +1,6 @@
 """Runs of the Python package against the command's own."""
 
+import json
 import os
 import signal
 import subprocess
@@ -159,6 +160,14 @@ def test_a_pile_counts_the_bodies_in_its_layers():
     assert (pile.layers["sleeping"] <= pile.layers["count"]).all()
     np.testing.assert_allclose(pile.layers["bottom"][1:], pile.layers["top"][:-1])
     assert pile.layers["capacity"].sum() == pytest.approx(pile.structure_size, abs=1e-6 * pile.structure_size)
+
+
+def test_any_text_is_taken_as_it_is(tmp_path):
+    for title in ("\N{PILE OF POO} \"quoted\" \\ \x7f", "Häufen"):
+        result = talus.run("drop_in_a_pile_2d", set={"title": title, "run.frames": 1}, out=tmp_path / str(len(title)))
+        assert json.loads((result.folder / "summary.json").read_text())["title"].startswith(title[:4])
+    with pytest.raises(TypeError, match="None"):
+        talus.Simulation("drop_in_a_pile_2d", set={"title": None})
 
 
 def test_a_bad_value_is_an_error_with_field_and_value():

@@ -321,6 +321,8 @@ def test_bad_input_is_an_error_with_field_and_value_and_changes_nothing():
         ("role = tired", lambda: sleeper.add(pose, mass=1, radius=0.5, role="tired")),
         ("dt = -1", lambda: sleeper.step(-1, *state)),
         ("velocities.shape", lambda: sleeper.step(DT, [ball], [pose], [[0, 0]], [[0, 0, 0]])),
+        ("spins.shape", lambda: sleeper.step(DT, [ball], [pose], [[0, 0, 0]], [[0], [0], [0]])),
+        ("spins", lambda: sleeper.step(DT, [ball], [pose], [[0, 0, 0]], [0, 0, 0])),
         ("see followed", lambda: sleeper.step(DT, [], np.empty((0, 7)), np.empty((0, 3)), np.empty((0, 3)))),
         ("contact.a", lambda: sleeper.step(DT, *state, wrong)),
         ("body", lambda: sleeper.remove(ball + 1)),

@@ -136,6 +136,9 @@ TEST(DriftProbe, OfEachRunUnderAdaptiveTellsTheDriftAndWarnsAboveTheTolerance) {
     EXPECT_EQ(summary["warnings"][0]["kind"], "drift");
     EXPECT_EQ(summary["warnings"][0]["value"], estimate["least_D"]) << "what has been seen is certain";
     EXPECT_NE(outcome.out.find("would move by some 0.1"), std::string::npos) << outcome.out;
+    const std::string hash = std::string(" --hash -b ") + engine.name;
+    EXPECT_EQ(talus_command("run " + (folder / "scene.toml") + hash + " --strict").exit_code, 1) << "without a folder";
+    EXPECT_EQ(talus_command("run " + (folder / "scene.toml") + hash).exit_code, 0);
   }
 }
 

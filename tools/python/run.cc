@@ -272,7 +272,8 @@ class Run {
       }
       return failure != nullptr;
     };
-    finish_run<Dim>(options_, scene_, simulation_, *outputs_, stop, summary_);
+    finish_run<Dim>(options_, scene_, simulation_, outputs_->statistics(), stop, summary_);
+    outputs_->finish(summary_, scene_, simulation_);
   }
 
   Scene<Dim> scene_;

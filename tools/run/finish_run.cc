@@ -30,12 +30,10 @@ template <int Dim>
 void add_probed_drift(const RunOptions& options, SummaryInput& summary, const Scene<Dim>& scene,
                       Simulation<Dim>& simulation, const RunStatistics<Dim>& statistics,
                       const std::function<bool()>& stop) {
-  const PolicyParams policy = policy_at(scene, simulation.done_events(), simulation.time());
-  if (summary.reason != "finished" || policy.tolerance().value_or(0.0) <= 0.0) return;
+  if (summary.reason != "finished") return;
   const double body_steps = statistics.mean_awake() * static_cast<double>(statistics.steps());
   try {
-    summary.probe = probe_end_drift<Dim>(simulation, scene, summary.backend, probe_allowance(body_steps), stop);
-    if (summary.probe) simulation.set_probed_drift(summary.probe->expected());
+    summary.probe = probe_end_drift<Dim>(simulation, scene, summary.backend, body_steps, stop);
   } catch (const std::exception& error) {  // of the copy: the run itself is whole
     summary.scene_warnings.push_back(fmt::format("no drift probe: {}", error.what()));
     if (!options.quiet) print_message("warning: {}", summary.scene_warnings.back());
@@ -61,18 +59,17 @@ void add_drift_warning(const RunOptions& options, SummaryInput& summary, const S
 
 template <int Dim>
 void finish_run(const RunOptions& options, const Scene<Dim>& scene, Simulation<Dim>& simulation,
-                const RunOutputs<Dim>& outputs, const std::function<bool()>& stop, SummaryInput& summary) {
-  if (options.probe_drift) add_probed_drift(options, summary, scene, simulation, outputs.statistics(), stop);
+                const RunStatistics<Dim>& statistics, const std::function<bool()>& stop, SummaryInput& summary) {
+  if (options.probe_drift) add_probed_drift(options, summary, scene, simulation, statistics, stop);
   simulation.end(summary.reason);
   summary.warnings.assign(simulation.warnings().begin(), simulation.warnings().end());
   if (options.measure_drift) add_measured_drift(summary, scene, simulation, stop);
   add_drift_warning(options, summary, scene, simulation);
-  outputs.finish(summary, scene, simulation);
 }
 
-template void finish_run(const RunOptions&, const Scene<2>&, Simulation<2>&, const RunOutputs<2>&,
+template void finish_run(const RunOptions&, const Scene<2>&, Simulation<2>&, const RunStatistics<2>&,
                          const std::function<bool()>&, SummaryInput&);
-template void finish_run(const RunOptions&, const Scene<3>&, Simulation<3>&, const RunOutputs<3>&,
+template void finish_run(const RunOptions&, const Scene<3>&, Simulation<3>&, const RunStatistics<3>&,
                          const std::function<bool()>&, SummaryInput&);
 
 }  // namespace talus

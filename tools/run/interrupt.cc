@@ -16,7 +16,6 @@ void on_signal(int signal) {
 }  // namespace
 
 Interrupt::Interrupt() {
-  interrupt_requested = 0;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
@@ -26,6 +25,7 @@ Interrupt::~Interrupt() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   if (std::signal(SIGHUP, SIG_DFL) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  interrupt_requested = 0;
 }
 
 // NOLINTNEXTLINE(readability-convert-member-functions-to-static): for a live object only

@@ -86,16 +86,14 @@ std::vector<double> of_sleepers(const WakeTest& test, const BodyStates<Dim>& sta
   return asleep;
 }
 
-double probe_allowance(double body_steps) {
-  constexpr double share = 0.25;
-  constexpr double no_matter = 2e4;
-  return std::max(share * body_steps, no_matter);
-}
-
 template <int Dim>
-std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, const Scene<Dim>& scene,
+std::optional<DriftProbe> probe_end_drift(Simulation<Dim>& simulation, const Scene<Dim>& scene,
                                           const std::string& backend, double body_steps,
                                           const std::function<bool()>& stop) {
+  constexpr double share = 0.25;
+  constexpr double no_matter = 2e4;  // body-steps
+  const PolicyParams policy = policy_at(scene, simulation.done_events(), simulation.time());
+  if (policy.tolerance().value_or(0.0) <= 0.0) return std::nullopt;
   if (!obstruction<Dim>(scene, simulation.done_events(), simulation.time()).empty()) return std::nullopt;
   const BodyStates<Dim> last = within_world(simulation.world().states(), simulation.world().units());
   const WorldDescription<Dim> world = world_at(scene, simulation.done_events(), simulation.time());
@@ -106,10 +104,12 @@ std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, con
   const DriftProbeParams params{.extent = extent,
                                 .unit = std::sqrt(extent / world.gravity),
                                 .duration = wake_time(world.gravity),
-                                .body_steps = body_steps,
+                                .body_steps = std::max(share * body_steps, no_matter),
                                 .stop = stop};
   const DriftProbe probe = probe_drift<Dim>(world_maker<Dim>(backend), judging_settings(world), last, sleepers, params);
-  return probe.bodies > 0 ? std::optional(probe) : std::nullopt;
+  if (probe.bodies == 0) return std::nullopt;
+  simulation.set_probed_drift(probe.expected());
+  return probe;
 }
 
 std::optional<Warning> drift_warning(double mean, int bodies, const PolicyParams& policy, std::int64_t step) {
@@ -128,9 +128,9 @@ template MeasuredDrift measure_drift(const Simulation<2>&, const Scene<2>&, cons
                                      const std::function<bool()>&);
 template MeasuredDrift measure_drift(const Simulation<3>&, const Scene<3>&, const std::string&,
                                      const std::function<bool()>&);
-template std::optional<DriftProbe> probe_end_drift(const Simulation<2>&, const Scene<2>&, const std::string&, double,
+template std::optional<DriftProbe> probe_end_drift(Simulation<2>&, const Scene<2>&, const std::string&, double,
                                                    const std::function<bool()>&);
-template std::optional<DriftProbe> probe_end_drift(const Simulation<3>&, const Scene<3>&, const std::string&, double,
+template std::optional<DriftProbe> probe_end_drift(Simulation<3>&, const Scene<3>&, const std::string&, double,
                                                    const std::function<bool()>&);
 
 }  // namespace talus

@@ -42,14 +42,11 @@ MeasuredDrift measure_drift(const Simulation<Dim>& simulation, const Scene<Dim>&
 template <int Dim>
 std::vector<double> of_sleepers(const WakeTest& test, const BodyStates<Dim>& states);
 
-/// What the probe at the end of a run may take: a quarter of the body-steps that the run took, or as many as are no
-/// matter.
-double probe_allowance(double body_steps);
-
-/// Begins as measure_drift() does and ends as soon as the result shows. None where drift cannot be measured, no body
-/// sleeps, `stop` returns true, or the shortest probe takes more than `body_steps` (of DriftProbeParams).
+/// Begins as measure_drift() does, ends as soon as the result shows, and tells the simulation. May take a quarter of
+/// the `body_steps` of the run, or as many as are no matter. None where the policy has no tolerance, drift cannot be
+/// measured, no body sleeps, `stop` returns true, or the shortest probe takes more than that.
 template <int Dim>
-std::optional<DriftProbe> probe_end_drift(const Simulation<Dim>& simulation, const Scene<Dim>& scene,
+std::optional<DriftProbe> probe_end_drift(Simulation<Dim>& simulation, const Scene<Dim>& scene,
                                           const std::string& backend, double body_steps,
                                           const std::function<bool()>& stop);
 

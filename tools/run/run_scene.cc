@@ -72,15 +72,24 @@ int print_hash(const Simulation<Dim>& simulation, const std::string& reason, boo
   return exit_code_of(reason, warned);
 }
 
+/// Without `strict` nothing watches the run.
 template <int Dim>
-int hash_run(const Scene<Dim>& scene, const std::string& backend, bool strict, bool warned) {
+int hash_run(const RunOptions& options, const Scene<Dim>& scene, const std::string& backend, bool warned) {
   const Interrupt interrupt;
   Simulation<Dim> simulation = make_simulation(scene, backend);
   WarningPrinter<Dim> printer;
-  if (strict) simulation.add_observer(printer);
+  RunStatistics<Dim> statistics;
+  if (options.strict) {
+    simulation.add_observer(printer);
+    simulation.add_observer(statistics);
+  }
   const std::string reason = advance(simulation, interrupt, scene.run.pace);
-  simulation.end(reason);
-  return print_hash(simulation, reason, strict && (warned || !simulation.warnings().empty()));
+  SummaryInput summary{.scene_name = {}, .backend = backend, .reason = reason};
+  if (options.strict)
+    finish_run<Dim>(
+        options, scene, simulation, statistics, [&interrupt] { return interrupt.requested(); }, summary);
+  warned = warned || !summary.scene_warnings.empty() || !summary.warnings.empty();
+  return print_hash(simulation, reason, options.strict && warned);
 }
 
 /// Runs, records and prints the result.
@@ -100,7 +109,8 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
                        .outside_window = outside,
                        .scene_warnings = scene_warnings};
   finish_run<Dim>(
-      options, scene, simulation, outputs, [&interrupt] { return interrupt.requested(); }, summary);
+      options, scene, simulation, outputs.statistics(), [&interrupt] { return interrupt.requested(); }, summary);
+  outputs.finish(summary, scene, simulation);
   const bool warned = !outside.empty() || !summary.scene_warnings.empty() || !summary.warnings.empty();
   if (options.hash_only) return print_hash(simulation, reason, options.strict && warned);
   print_run(summary, scene, simulation, outputs);
@@ -147,7 +157,7 @@ int run_scene(const RunOptions& options) {
         const std::vector<std::string> of_scene = scene_warnings(of_dimension, backend);
         if (!options.hash_only || options.strict) print_scene_warnings(outside, of_scene);
         if (options.hash_only && options.out.empty())
-          return hash_run(of_dimension, backend, options.strict, !outside.empty() || !of_scene.empty());
+          return hash_run(options, of_dimension, backend, !outside.empty() || !of_scene.empty());
         const int exit_code = record_run(options, file.stem().string(), backend, of_dimension, outside, of_scene);
         if (!other || exit_code != exit_codes::success) return exit_code;
         return tell_speed_up(of_dimension, std::get<Scene<Dim>>(*other), backend);

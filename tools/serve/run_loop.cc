@@ -11,6 +11,7 @@
 
 #include "common/world/stopwatch.h"
 #include "common/world/world.h"
+#include "tools/output/json_text.h"
 #include "tools/output/output.h"
 
 namespace talus {
@@ -21,8 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr auto note_interval = std::chrono::milliseconds(500);
 constexpr auto shortest_idle = std::chrono::milliseconds(10);  // in which a state is worth showing
 constexpr auto longest_lag = std::chrono::milliseconds(250);   // that a slow run makes up for
-
-std::string text_of(const Json& message) { return message.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
 Json error_of(const std::string& text) { return Json::array({{{"line", 0}, {"column", 0}, {"text", text}}}); }
 
@@ -68,12 +67,14 @@ void RunLoop::change(const std::function<void()>& what) {
 void RunLoop::greet(int page) {
   change([&] {
     if (!std::exchange(greeted_, true)) running_ = true;
-    hub_.reply(page, text_of({{"kind", "scene"}, {"text", text_}}));
+    hub_.reply(page, json_text({{"kind", "scene"}, {"text", text_}}));
   });
 }
 
 void RunLoop::leave(int page) {
-  if (pulling_ == page) queue_by_hand(page, read_hand_command({{"do", "release"}}));
+  queue_by_hand(page, [this, page, release = read_hand_command({{"do", "release"}})](ShownRun& run) {
+    return pulling_ == page ? release(run) : std::string();
+  });
 }
 
 void RunLoop::command(int page, const std::string& text) {
@@ -84,9 +85,12 @@ void RunLoop::command(int page, const std::string& text) {
   }
   const std::string what = command["do"].get<std::string>();
   try {
-    if (what == "pull") pulling_ = page;
     if (is_hand_command(what))
-      queue_by_hand(page, read_hand_command(command));
+      queue_by_hand(page, [this, page, what, act = read_hand_command(command)](ShownRun& run) {
+        const std::string wrong = act(run);
+        if (what == "pull" && wrong.empty()) pulling_ = page;
+        return wrong;
+      });
     else
       obey(page, what, command);
   } catch (const std::invalid_argument& error) {
@@ -159,7 +163,7 @@ void RunLoop::do_by_hand() {
 /// Sends a page the present state as a scene file.
 std::string RunLoop::save(int page, const ShownRun& run) {
   try {
-    hub_.reply(page, text_of({{"kind", "saved"}, {"name", file_.stem().string()}, {"text", run.saved()}}));
+    hub_.reply(page, json_text({{"kind", "saved"}, {"name", file_.stem().string()}, {"text", run.saved()}}));
     return {};
   } catch (const std::invalid_argument& error) {
     return fmt::format("save: {}", error.what());
@@ -198,7 +202,7 @@ void RunLoop::start_scene(int page, const std::string& text, const std::string& 
 }
 
 void RunLoop::reply_errors(int page, const Json& errors, bool of_text) {
-  hub_.reply(page, text_of({{"kind", "errors"}, {"of_text", of_text}, {"errors", errors}}));
+  hub_.reply(page, json_text({{"kind", "errors"}, {"of_text", of_text}, {"errors", errors}}));
 }
 
 void RunLoop::work() {
@@ -338,18 +342,18 @@ void RunLoop::note_speed() {
 }
 
 std::string RunLoop::status() const {
-  return text_of({{"kind", "status"},
-                  {"running", running_},
-                  {"finished", finished_},
-                  {"at_rest", at_rest_},
-                  {"reason", reason_},
-                  {"pace", pace_},
-                  {"policy", policy_.empty() ? policy_of(scene_) : policy_},
-                  {"policies", policy_kinds},
-                  {"step", steps_of_run_},
-                  {"ms_per_step", ms_per_step_},
-                  {"mean_ms_per_step", mean_ms_per_step_},
-                  {"real_time_factor", real_time_factor_}});
+  return json_text({{"kind", "status"},
+                    {"running", running_},
+                    {"finished", finished_},
+                    {"at_rest", at_rest_},
+                    {"reason", reason_},
+                    {"pace", pace_},
+                    {"policy", policy_.empty() ? policy_of(scene_) : policy_},
+                    {"policies", policy_kinds},
+                    {"step", steps_of_run_},
+                    {"ms_per_step", ms_per_step_},
+                    {"mean_ms_per_step", mean_ms_per_step_},
+                    {"real_time_factor", real_time_factor_}});
 }
 
 }  // namespace talus

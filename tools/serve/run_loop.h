@@ -1,7 +1,6 @@
 #pragma once
 // A simulation that pages steer.
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -98,6 +97,7 @@ class RunLoop {
   double seconds_in_steps_ = 0.0;  // since then
   std::int64_t steps_of_run_ = 0;
   double seconds_of_run_ = 0.0;  // in its steps
+  int pulling_ = -1;             // page that pulled last
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
@@ -110,7 +110,6 @@ class RunLoop {
   bool running_ = false;
   int single_steps_ = 0;
   std::vector<ByHand> by_hand_;
-  std::atomic<int> pulling_ = -1;  // page that pulled last
   double pace_;
   bool finished_ = false;
   bool at_rest_ = false;  // finished since the world came to rest

@@ -112,14 +112,10 @@ class SimulatedScene final : public ShownRun {
   bool at_rest() const override { return simulation_.at_rest(); }
 
   void probe_drift(const std::function<bool()>& stop) override {
-    const PolicyParams policy = policy_at(scene_, simulation_.done_events(), simulation_.time());
-    if (policy.tolerance().value_or(0.0) <= 0.0) return;
-    const auto probe = probe_end_drift<Dim>(simulation_, scene_, backend_, probe_allowance(steps_.body_steps()), stop);
-    if (probe) simulation_.set_probed_drift(probe->expected());
+    probe_end_drift<Dim>(simulation_, scene_, backend_, steps_.body_steps(), stop);
   }
 
-  std::int64_t step_number() const override { return simulation_.frame().step; }
-  bool is_output() const override { return step_number() % scene_.steps_per_frame() == 0; }
+  bool is_output() const override { return simulation_.frame().step % scene_.steps_per_frame() == 0; }
   double dt() const override { return scene_.world.dt; }
   std::string beginning() const override {
     const Box<Dim> box = box_of(scene_);

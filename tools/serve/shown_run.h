@@ -26,8 +26,6 @@ class ShownRun {
   /// Of a run that has finished: looks how far its sleeping bodies would move, as `talus run` does; later frames have
   /// the result. Ends without one where `stop` returns true.
   virtual void probe_drift(const std::function<bool()>& stop) = 0;
-  /// Steps done.
-  virtual std::int64_t step_number() const = 0;
   /// Whether the present state is a frame of output of the scene.
   virtual bool is_output() const = 0;
   /// Length of a step [s].

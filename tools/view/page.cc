@@ -12,6 +12,7 @@
 
 #include "common/scene/reference.h"
 #include "common/text/base64.h"
+#include "tools/output/json_text.h"
 #include "tools/run/data_folder.h"
 #include "tools/view/page_settings.h"
 
@@ -45,7 +46,7 @@ void put(std::string& page, std::string_view mark, const std::string& text) {
 
 /// JSON that ends no script, whatever texts are in it.
 std::string in_script(const nlohmann::ordered_json& data) {
-  std::string text = data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  std::string text = json_text(data);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
   return text;
 }

@@ -18,12 +18,18 @@ Values = Mapping[str, Any]
 
 
 def toml_text(value):
-    """A Python value as TOML."""
+    """A Python value as TOML. Raises TypeError for what has none, as None."""
+    if isinstance(value, np.generic):
+        value = value.item()
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{json.dumps(key)} = {toml_text(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{toml_text(str(key))} = {toml_text(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(toml_text(item) for item in value) + "]"
-    return json.dumps(value.item() if isinstance(value, np.generic) else value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, (int, float)):
+        return repr(value).lower()
+    raise TypeError(f"{value!r}: must be a number, a text, true or false, a list or a dict")
 
 
 def _is_text(scene):

@@ -158,7 +158,8 @@ class _PileSleeper:
             contacts = np.zeros(0, self.contact_dtype)
         elif getattr(contacts, "dtype", None) != self.contact_dtype:
             raise TypeError(f"contacts: must be an array of contact_dtype, {self.contact_dtype}")
-        spins = np.reshape(spins, (len(bodies), 1 if self.dimension == 2 else 3))
+        if self.dimension == 2 and np.ndim(spins) == 1:
+            spins = np.reshape(spins, (-1, 1))
         return _changes(self._sleeper.step(dt, bodies, poses, velocities, spins, contacts))
 
     def wake(self, body: int) -> Changes:
