@@ -144,11 +144,12 @@ TEST(Accuracy, HasAnErrorWhereTheSceneSetsNoPartOfItsLevel) {
 }
 
 TEST(Accuracy, IsTold) {
-  EXPECT_EQ(accuracy_text(plates({})),
-            "accuracy standard, error of a poured heap's shape 7 %: 120 steps a second of 8 sub-steps, bodies arrive "
-            "at 18.8 m/s and "
-            "go 0.52 times their "
-            "thickness in a step, tolerance 0.05 D, 2 rings");
+  EXPECT_EQ(
+      accuracy_text(plates({})),
+      "accuracy standard, typical error of a poured heap's shape 7 %: 120 steps a second of 8 sub-steps, bodies arrive "
+      "at 18.8 m/s and "
+      "go 0.52 times their "
+      "thickness in a step, tolerance 0.05 D, 2 rings");
 }
 
 }  // namespace

@@ -130,6 +130,41 @@ print("good")
   EXPECT_EQ(read.out, "good\n") << read.err;
 }
 
+TEST(ExportCommand, WritesAllSleepEventsOfTheChosenTimeHoweverFewFramesItTakes) {
+  const TemporaryFolder folder;
+  record(folder);
+  ASSERT_EQ(export_run(folder, fmt::format("--out {} --from 2 --to 3.7 --every 1000", folder / "a.npz")).exit_code, 0);
+  const Outcome read = python(folder, R"(
+import csv, numpy
+run = numpy.load("a.npz")
+assert len(run["step"]) == 1
+events = 0
+for row in csv.DictReader(open("run/frames.csv")):
+    if 120 <= int(row["step"]) <= 222: events += int(row["woken"]) + int(row["slept"])
+assert events > 10 and len(run["event_step"]) == events, (events, len(run["event_step"]))
+print("good")
+)");
+  EXPECT_EQ(read.out, "good\n") << read.err;
+}
+
+// As the record of a run that was killed.
+TEST(ExportCommand, WritesTheSleepEventsAfterTheLastWholeFrame) {
+  const TemporaryFolder folder;
+  record(folder);
+  std::string log = contents(folder.path() / "run" / "run.lcm");
+  constexpr std::size_t header = 28;  // of a message in a log, before the name of its channel
+  const std::size_t sleep = log.find("TALUS_SLEEP", log.size() / 2);
+  const std::size_t end = log.find("TALUS_", sleep + 1);
+  std::ofstream(folder.path() / "run" / "run.lcm", std::ios::binary) << log.substr(0, end - header);
+  ASSERT_EQ(export_run(folder, "--out " + (folder / "a.npz")).exit_code, 0);
+  std::istringstream messages(talus_command("info --messages --channel TALUS_SLEEP " + (folder / "run")).out);
+  int events = 0;
+  for (std::string line; std::getline(messages, line);)
+    events += Json::parse(line)["message"]["event_count"].get<int>();
+  const Outcome read = python(folder, "import numpy\nprint(len(numpy.load('a.npz')['event_step']))\n");
+  EXPECT_EQ(read.out, fmt::format("{}\n", events)) << read.err;
+}
+
 TEST(ExportCommand, WritesMeshesAndSeriesThatVtkReads) {
   const TemporaryFolder folder;
   record(folder);

@@ -99,6 +99,16 @@ TEST_F(LogCommand, InfoPrintsEachMessageOfAChannelAsJson) {
   EXPECT_EQ(slept, Json::parse(contents(folder_.path() / "run" / "summary.json"))["slept_events"]);
 }
 
+TEST_F(LogCommand, InfoPrintsEachMessageWhateverTheStampOfTheFirst) {
+  std::string log = contents(folder_.path() / "run" / "run.lcm");
+  for (std::size_t i = 0; i < 8; ++i) log[12 + i] = static_cast<char>(i < 5 ? 0 : 100);  // 6.6 s
+  std::filesystem::create_directory(folder_.path() / "first");
+  std::ofstream(folder_.path() / "first" / "run.lcm", std::ios::binary) << log;
+  const std::string all = talus_command("info --messages " + (folder_ / "run")).out;
+  const std::string same = talus_command("info --messages " + (folder_ / "first")).out;
+  EXPECT_EQ(std::ranges::count(same, '\n'), std::ranges::count(all, '\n'));
+}
+
 TEST_F(LogCommand, InfoNamesTheChannelsWhereAChosenOneHasNoMessage) {
   const Outcome outcome = talus_command("info --messages --channel TALUS_SLEEPS " + (folder_ / "run"));
   EXPECT_EQ(outcome.exit_code, 0);

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr const char* footer =
     "The folder --out (bench) gets bench.csv with a row for each run, and plots; a benchmark that was stopped goes\n"
     "on when it is started again. On slurm an array of jobs does the runs, those with one scene, engine and seed on\n"
-    "one machine, and a job after it collects. `reference` is full at settings that are taken for converged; without\n"
+    "one machine, and a job after it collects. `reference` is full in shorter steps (docs/accuracy.md); without\n"
     "it in --policy no error of shape is known. Each run gives the bits of `talus run SCENE --policy POLICY\n"
     "--set seed=SEED --set run.until=frames` with the settings of its row.\n"
     "Exit code: 0 all runs finished, 1 some failed (bench.csv says how), 2 bad input.\n"
@@ -124,9 +124,10 @@ int tell_status(const BenchOptions& options, const std::vector<BenchCase>& cases
 
 /// Begins a benchmark, or goes on with it.
 int begin(const BenchOptions& options, const std::vector<BenchCase>& cases, const JobOptions& jobs) {
-  begin_bench(options);
+  make_bench_folder(options.out);
   const FolderLock lock(options.out, FolderLock::Kind::whole);
   require_no_jobs(options.out);
+  begin_bench(options);
   const std::vector<int> numbers = unmeasured(options, cases);
   std::vector<Task> tasks;
   const std::vector<BenchRound> rounds = rounds_of(cases);
@@ -144,8 +145,9 @@ int begin(const BenchOptions& options, const std::vector<BenchCase>& cases, cons
 
 /// The experiments have settings and measures of their own.
 void check_published(const BenchOptions& options) {
-  if (!options.preset.empty() || !options.settings.empty() || options.extras.drift || options.extras.motion_error)
-    throw std::invalid_argument("--preset, --set, --drift, --motion-error: must be left out with published");
+  if (!options.preset.empty() || !options.settings.empty() || options.quick || options.extras.drift ||
+      options.extras.motion_error)
+    throw std::invalid_argument("--preset, --set, --quick, --drift, --motion-error: must be left out with published");
 }
 
 int published(const BenchOptions& options, const JobOptions& jobs) {

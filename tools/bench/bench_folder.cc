@@ -39,6 +39,11 @@ std::string text_of(const BenchOptions& options) {
 
 fs::path row_file(const fs::path& folder, int number) { return folder / "rows" / fmt::format("{:05}.json", number); }
 
+std::invalid_argument other_bench(const fs::path& folder) {
+  return std::invalid_argument(
+      fmt::format("--out {}: must be new, empty, or of the same benchmark of the same scenes", folder.string()));
+}
+
 /// The row of a case, as its file has it. A file without a whole row counts for none, so that the case is measured
 /// again.
 BenchRow kept_row(const fs::path& file, const BenchCase& bench_case) {
@@ -53,12 +58,16 @@ BenchRow kept_row(const fs::path& file, const BenchCase& bench_case) {
 
 }  // namespace
 
+void make_bench_folder(const fs::path& folder) {
+  if (!fs::exists(folder / bench_file) && !is_new_folder(folder)) throw other_bench(folder);
+  fs::create_directories(folder);
+}
+
 void begin_bench(const BenchOptions& options) {
   const fs::path file = options.out / bench_file;
-  const bool same = file_contents(file) == text_of(options);
-  if (!same && !is_new_folder(options.out))
-    throw std::invalid_argument(
-        fmt::format("--out {}: must be new, empty, or of the same benchmark of the same scenes", options.out.string()));
+  Json before = Json::parse(file_contents(file).value_or(text_of(options)), nullptr, false);
+  if (before.is_object()) before["force"] = options.force;  // changes no result
+  if (before != json_of(options)) throw other_bench(options.out);
   fs::create_directories(options.out / "rows");
   write_file(file, text_of(options));
 }

@@ -9,8 +9,11 @@
 
 namespace talus {
 
-/// Makes options.out, where `options` are completed, and writes bench.json; or finds there the same benchmark, which
-/// then goes on. Throws std::invalid_argument where the folder has anything else.
+/// Makes the folder of a benchmark. Throws std::invalid_argument where it has anything else.
+void make_bench_folder(const std::filesystem::path& folder);
+
+/// Writes bench.json into options.out, where `options` are completed; or finds there the same benchmark, which then
+/// goes on. Throws std::invalid_argument where it is another one.
 void begin_bench(const BenchOptions& options);
 
 /// The completed options of the benchmark of a folder. Throws std::invalid_argument where it has none.

@@ -138,7 +138,7 @@ void do_published(std::vector<PublishedRun>& runs, const BenchOptions& options) 
 int bench_published(const BenchOptions& given) {
   BenchOptions options = given;
   if (options.policies.empty()) options.policies = {"full", "adaptive"};
-  if (options.seeds == 0) options.seeds = options.quick ? 2 : 4;
+  if (options.seeds == 0) options.seeds = 4;
   const std::vector<std::string> names(options.scenes.begin() + 1, options.scenes.end());
   const std::vector<Experiment> experiments =
       chosen(read_experiments(scene_folder() / published_word / "experiments.toml"), names);

@@ -22,7 +22,7 @@ class CsvExport final : public Exporter {
     out_.write(rows);
   }
 
-  void finish() override { out_.close(); }
+  void finish(std::span<const SleepEvent> /*later_events*/) override { out_.close(); }
 
  private:
   /// Poses with the digits of single precision, in which they are recorded.
@@ -59,7 +59,7 @@ class ContactsCsvExport final : public Exporter {
     out_.write(rows);
   }
 
-  void finish() override { out_.close(); }
+  void finish(std::span<const SleepEvent> /*later_events*/) override { out_.close(); }
 
  private:
   void append_vector(std::string& rows, const Vec3& vector) const {

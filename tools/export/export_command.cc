@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -50,31 +52,41 @@ Format format_of(const std::string& file) {
 class FrameChoice {
  public:
   explicit FrameChoice(const ExportOptions& options) : options_(options) {}
-  bool takes(double time) {
-    constexpr double rounding = 1e-9;
-    if (time < options_.from - rounding || time > options_.to + rounding) return false;
-    return number_++ % options_.every == 0;
-  }
+  bool has(double time) const { return time >= options_.from - rounding && time <= options_.to + rounding; }
+  bool takes(double time) { return has(time) && number_++ % options_.every == 0; }
 
  private:
+  static constexpr double rounding = 1e-9;  // of times [s]
+
   const ExportOptions& options_;
   int number_ = 0;
 };
 
+struct ChosenWalk {
+  WalkDamage damage;
+  std::vector<SleepEvent> later_events;  // after the last chosen moment
+};
+
 /// Visits the chosen moments, each with the sleep events since the one before.
 template <int Dim, class Visit>
-WalkDamage walk_chosen(const Scene<Dim>& scene, const ExportOptions& options, const Visit& visit) {
+ChosenWalk walk_chosen(const Scene<Dim>& scene, const ExportOptions& options, const Visit& visit) {
   LogReader log(record_file(options.run).string());
   FrameChoice choice(options);
   std::vector<SleepEvent> events;
+  const auto keep = [&](const std::vector<SleepEvent>& more) {
+    std::ranges::copy_if(more, std::back_inserter(events), [&](const SleepEvent& event) {
+      return choice.has(static_cast<double>(event.step) * scene.world.dt);
+    });
+  };
   const auto take = [&](const Moment& moment) {
-    events.insert(events.end(), moment.events.begin(), moment.events.end());
-    if (moment.time < options.from) events.clear();
+    keep(moment.events);
     if (!choice.takes(moment.time)) return;
     visit(moment, events);
     events.clear();
   };
-  return walk_record<Dim>(scene, log, options.run, take).damage;
+  const WalkResult walk = walk_record<Dim>(scene, log, options.run, take);
+  keep(walk.later_events);
+  return {walk.damage, events};
 }
 
 void report_damage(const WalkDamage& damage) {
@@ -88,9 +100,9 @@ void report_damage(const WalkDamage& damage) {
 template <int Dim>
 void export_as(const Format& format, const Scene<Dim>& scene, const ExportInput& input, const ExportOptions& options) {
   const auto exporter = format.make(input);
-  walk_chosen<Dim>(scene, options,
-                   [&](const Moment& moment, std::span<const SleepEvent> events) { exporter->add(moment, events); });
-  exporter->finish();
+  const ChosenWalk walk = walk_chosen<Dim>(
+      scene, options, [&](const Moment& moment, std::span<const SleepEvent> events) { exporter->add(moment, events); });
+  exporter->finish(walk.later_events);
   print_result("{}: {} frames, {} bodies, {:.0f} kB\n", printable(input.file.string()), input.frames, input.bodies,
                static_cast<double>(std::filesystem::file_size(input.file)) / 1e3);
 }
@@ -106,19 +118,20 @@ void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
   }
   ExportInput input = {.dimension = Dim, .shapes = {}, .file = {}};
   for (const Shape<Dim>& shape : scene.world.shapes) input.shapes.push_back({shape.name, polygons_in_space(shape)});
-  const WalkDamage damage =
+  const ChosenWalk walk =
       walk_chosen<Dim>(scene, options, [&](const Moment& moment, std::span<const SleepEvent> events) {
         ++input.frames;
         input.events += std::ssize(events);
         input.contacts += std::ssize(moment.contacts);
         input.bodies = moment.bodies.size();
       });
+  input.events += std::ssize(walk.later_events);
   if (input.frames == 0) {
     throw std::invalid_argument(
         fmt::format("--from = {:g}, --to = {:g}: must have a frame of {} in between ({} damaged bytes)", options.from,
-                    options.to, options.run, damage.bytes));
+                    options.to, options.run, walk.damage.bytes));
   }
-  report_damage(damage);
+  report_damage(walk.damage);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     input.file = options.out[i];
     export_as<Dim>(chosen[i], scene, input, options);
@@ -141,7 +154,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
       ->required()
       ->allow_extra_args(false)
       ->check(file_to_write());
-  command->add_option("--from", options->from, "Simulated time from which on frames are written [s]")
+  command->add_option("--from", options->from, "Simulated time from which on frames and sleep events are written [s]")
       ->check(number_between(0.0, 1e9))
       ->capture_default_str();
   command->add_option("--to", options->to, "Simulated time up to which they are [s]; default: the run's end")

@@ -38,7 +38,8 @@ class Exporter {
   virtual ~Exporter() = default;
   /// `events` are those since the moment before.
   virtual void add(const Moment& moment, std::span<const SleepEvent> events) = 0;
-  virtual void finish() = 0;
+  /// `later_events`: after the last moment.
+  virtual void finish(std::span<const SleepEvent> later_events) = 0;
 };
 
 /// A row for each body and moment.

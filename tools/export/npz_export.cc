@@ -67,7 +67,8 @@ class NpzExport final : public Exporter {
     for (const ContactForce<3>& contact : moment.contacts) add(moment.step, contact);
   }
 
-  void finish() override {
+  void finish(std::span<const SleepEvent> later_events) override {
+    for (const SleepEvent& event : later_events) add(event);
     for (const std::int32_t shape : shapes_) put(shape_, shape);
     file_.finish();
   }
@@ -124,9 +125,7 @@ class NpzExport final : public Exporter {
     std::vector<std::string> names;
     for (const ExportShape& shape : shapes) names.push_back(shape.name);
     declare_names("shape_name", names);
-    std::vector<std::string> causes;
-    for (int cause = 0; cause <= last_cause; ++cause) causes.emplace_back(to_string(static_cast<SleepCause>(cause)));
-    declare_names("cause_name", causes);
+    declare_names("cause_name", cause_names());
   }
 
   /// The surfaces of all shapes as triangles.

@@ -95,7 +95,7 @@ class VtpExport final : public Exporter {
                            xml_text(folder_.filename().string()), name);
   }
 
-  void finish() override {
+  void finish(std::span<const SleepEvent> /*later_events*/) override {
     write_whole(file_, fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
                                    "<Collection>\n{}</Collection>\n</VTKFile>\n",
                                    series_));

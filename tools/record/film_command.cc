@@ -41,6 +41,8 @@ struct FilmOptions {
 void check(const FilmOptions& options) {
   require(options.to < 0.0 || options.to >= options.from, "--to", options.to, "must be --from or later");
   require(is_film_file(options.out), "--out", options.out, "must end in .webp, .mp4 or .gif");
+  require(options.quality == FilmOptions().quality || options.out.ends_with(".webp"), "--quality", options.quality,
+          "must stand with a WebP film");
 }
 
 /// The bodies of a recorded frame; velocities are zero.

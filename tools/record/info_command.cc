@@ -56,9 +56,10 @@ void add_info_command(CLI::App& app, int& exit_code) {
                    "Only messages of this channel, as TALUS_SLEEP; may be repeated")
       ->check(not_empty())
       ->needs(messages);
-  command->add_option("--from", options->choice.from, "Time from which on messages are printed [s after the first]")
+  command
+      ->add_option("--from", options->choice.from,
+                   "Time from which on messages are printed [s after the first]; default: all")
       ->check(number_between(0.0, 1e9))
-      ->capture_default_str()
       ->needs(messages);
   command->add_option("--to", options->choice.to, "Time up to which they are [s after the first]; default: the end")
       ->check(number_between(0.0, 1e9))

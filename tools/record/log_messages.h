@@ -10,7 +10,8 @@ namespace talus {
 /// Which messages of a log are wanted.
 struct MessageChoice {
   std::vector<std::string> channels;  // empty: all
-  double from = 0.0;                  // [s] after the first stamp of the log; in a record the simulated time
+  /// [s] after the first stamp of the log; in a record the simulated time. Stamps of a damaged record may be earlier.
+  double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
 };
 

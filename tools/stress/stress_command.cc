@@ -76,7 +76,9 @@ std::vector<PhysicsTask> chosen_tasks(const StressOptions& options) {
     return !(named || in_group) || !is_chosen(options.backends, task.cell.backend) ||
            !is_chosen(options.policies, task.cell.policy);
   });
-  if (tasks.empty()) throw std::invalid_argument("stress: no case runs on the engines and policies that were chosen");
+  if (tasks.empty())
+    throw std::invalid_argument(
+        "stress: no case runs on the engines and policies that were chosen; slow ones only by name or with --long");
   return with_solvers(tasks, options);
 }
 
