@@ -92,7 +92,7 @@ std::string accuracy_text(const Scene<Dim>& scene) {
   const WorldDescription<Dim>& world = scene.world;
   std::string text = fmt::format("accuracy {}", scene.accuracy);
   if (const auto error = calibrated_error(scene))
-    text += fmt::format(", error of a poured heap's shape {:g} %", 100.0 * *error);
+    text += fmt::format(", typical error of a poured heap's shape {:g} %", 100.0 * *error);
   text += fmt::format(": {:.6g} steps a second", 1.0 / world.dt);
   if (world.solver.small_steps()) text += fmt::format(" of {} sub-steps", world.solver.sub_steps);
   if (const auto coarsest = coarsest_arrival(scene))

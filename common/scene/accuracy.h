@@ -14,7 +14,7 @@ namespace talus {
 /// One level of accuracy.
 struct Accuracy {
   std::string_view name;
-  /// Of a heap's shape under `adaptive`, relative to a converged run, as calibrated over 60 scenes (docs/accuracy.md,
+  /// Of a heap's shape under `adaptive`, relative to the reference, root mean square over 60 scenes (docs/accuracy.md,
   /// "Levels").
   double error;
   double step;                   // largest way of a body in one step as it reaches the ground, over its thickness

@@ -15,11 +15,12 @@ inline constexpr auto adaptive_fields = std::to_array<Field<AdaptiveParams>>({
       .unit = "D",
       .range = between(0.0, 10.0),
       .default_text = "by `accuracy`",
-      .meaning = "mean distance that sleeping bodies may still move when all of them wake; a run warns where it "
-                 "estimates more. Below 0.05 both rest distances shrink in proportion. With `rings = 0` each region "
-                 "is checked for it when it comes to rest; one that moves and is steeper than its friction holds, "
-                 "when 10 times this share of it is unchecked. Large: heaps come to rest too steep; small: checks "
-                 "take long and more is awake; 0: no checks"}},
+      .meaning =
+          "mean distance that sleeping bodies may still move when all of them wake; a run warns where it "
+          "estimates more. Below 0.05 both rest distances shrink in proportion. With `rings = 0` each region "
+          "is checked for it when it comes to rest; one that moves and is steeper than its friction holds, "
+          "when 10 times this share of it is unchecked. There, large: heaps come to rest too steep; small: checks "
+          "take long and more is awake; 0: no checks"}},
     {place_of<&AdaptiveParams::rest_distance>,
      {.name = "rest_distance",
       .unit = "D",

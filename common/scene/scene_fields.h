@@ -192,7 +192,8 @@ inline constexpr auto scene_fields = std::to_array<Field<Scene<Dim>>>({
       .choices = accuracy_names,
       .choice_of = level_within,
       .meaning =
-          "a level, or the relative error of a heap's shape that is accepted, which takes the fastest level within it: "
+          "a level, or the typical relative error of a heap's shape that is accepted, which takes the fastest level "
+          "within it: "
           "0.2, 0.07 or 0.03. It sets what the scene does not set itself: `world.steps_per_second` so that a body that "
           "arrives goes at "
           "most 2, 1 or 0.5 times its thickness in a step; `sub_steps` 4, 8 or 8, in 3D 4, 8 or 16; the `tolerance` "
