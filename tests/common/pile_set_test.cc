@@ -257,6 +257,35 @@ TEST(PileSet, CountsABodyInFlightOnlyWhereThePileSaysSo) {
   }
 }
 
+TEST(PileSet, CountsBodiesInFlightAsAnotherPolicyDoesOnceItIsSwitched) {
+  Bodies<2> bodies;
+  PileParams<2> params;
+  params.alpha = 0.7;
+  params.at = Vec2::Zero();
+  PileParams<2> with_its_own = params;
+  with_its_own.count_flying = true;
+  PileSet<2> piles({params, with_its_own}, body, false);
+  bodies.add(Vec2(0.0, 0.3));
+  piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(counts(piles).front(), 0);
+  piles.count_flying(true, bodies.states);
+  EXPECT_EQ(counts(piles).front(), 1);
+  EXPECT_FALSE(piles.needs_contacts());
+  piles.count_flying(false, bodies.states);
+  EXPECT_EQ(counts(piles).front(), 0);
+  EXPECT_EQ(piles.piles()[1].layers.front().count, 1);
+  EXPECT_TRUE(piles.needs_contacts());
+}
+
+TEST(PileSet, KeepsTheMeanPlaceOfBodiesFarFromTheOrigin) {
+  Bodies<2> bodies;
+  PileSet<2> piles = pile_at<2>(Vec2(50'000.0, 0.0));
+  for (int i = 0; i < 3; ++i) bodies.add(Vec2(50'000.0 + 0.25 * i, 0.3));
+  for (int step = 0; step < 200; ++step) piles.update(bodies.states, bodies.awake(), dt);
+  EXPECT_EQ(counts(piles).front(), 3) << "the centre drifts to that of the bodies";
+  EXPECT_NEAR(piles.piles().front().centre.x(), 50'000.25, 0.26);
+}
+
 // A body that is asleep from the start is not awake when another one first touches it.
 TEST(PileSet, CountsASleepingBodyOnceAnotherOneTouchesIt) {
   Bodies<2> bodies;

@@ -182,6 +182,7 @@ TEST_F(Bench, GoesOnWithWhatIsNotMeasured) {
     EXPECT_EQ(second[i].at("end_hash"), first[i].at("end_hash"));
     if (i != 2) EXPECT_EQ(second[i].at("seconds"), first[i].at("seconds"));
   }
+  EXPECT_EQ(rows(arguments + " --force").size(), 4U) << "changes no result";
 }
 
 TEST_F(Bench, MeasuresAgainWhatAFileHasNoWholeRowOf) {

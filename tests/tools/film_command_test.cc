@@ -124,6 +124,7 @@ TEST(FilmCommand, RefusesBadOptions) {
   refused("--out a.webp", "must be a folder that `talus run` left");
   refused("--out a.avi", "must end in .webp, .mp4 or .gif");
   refused("--out a.webp --quality 101", "--quality");
+  refused("--out a.gif --quality 50", "--quality");
   refused("--out a.webp --speed nan", "--speed");
   refused("--out a.webp --rate 500", "--rate");
   refused("--out a.webp --from 5 --to 3", "--to");

@@ -200,7 +200,9 @@ TEST_F(SweepCommand, TakesItsPlanFromTheFolderAlone) {
   const std::string folder = folder_ / "sweep";
   for (const std::string& line :
        {"--resume " + folder + " --seeds 3", "--status " + folder + " --collect " + folder, "--out " + folder,
-        "--resume " + folder + " --only 4", "--resume " + folder + " --chunk 3", "--collect " + (folder_ / "none")})
+        "--resume " + folder + " --only 4", "--resume " + folder + " --chunk 3", "--status " + folder + " --jobs 2",
+        "--collect " + folder + " --on slurm", "--status " + folder + " --sbatch=-x",
+        "--collect " + (folder_ / "none")})
     EXPECT_EQ(talus_command("sweep " + line).exit_code, 2) << line;
 }
 
