@@ -1,8 +1,6 @@
 #pragma once
 // What a change of gravity does to sleeping bodies.
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "common/world/gravity_units.h"

@@ -166,7 +166,8 @@ inline double fastest_spin(double dt) { return std::numbers::pi / 2.0 / dt; }
 template <typename Vector>
 Vector limited(const Vector& vector, double most) {
   constexpr double rounding = 1e-12;
-  return vector * std::min(1.0, (1.0 - rounding) * most / std::max(vector.norm(), 1e-9));
+  const double length = vector.norm();
+  return length > most * (1.0 - rounding) ? Vector(vector * (most * (1.0 - rounding) / length)) : vector;
 }
 
 }  // namespace talus

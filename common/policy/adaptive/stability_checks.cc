@@ -341,8 +341,8 @@ void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region,
   }
   if (check.members.empty()) return;
   checks_.push_back(std::move(check));
-  under_check_.insert(region.columns.begin(),
-                      region.columns.end());  // the next region of this step may overlap this one
+  // The next region of this step may overlap this one.
+  under_check_.insert(region.columns.begin(), region.columns.end());
 }
 
 template class StabilityChecks<2>;
