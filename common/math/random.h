@@ -1,12 +1,24 @@
 #pragma once
 // Random numbers that are the same on every compiler: the standard pins its generators, not its distributions.
 
+#include <cstdint>
 #include <numbers>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "common/math/vector.h"
 
 namespace talus {
+
+/// A generator of its own for each seed and row of numbers below 2^32.
+inline std::mt19937_64 generator_of(std::uint64_t seed, std::span<const std::uint64_t> numbers) {
+  std::vector<std::uint64_t> parts = {seed};
+  parts.insert(parts.end(), numbers.begin(), numbers.end());
+  if (const std::uint64_t high = seed >> 32U; high != 0) parts.push_back(high);  // std::seed_seq takes 32 bits of each
+  std::seed_seq sequence(parts.begin(), parts.end());
+  return std::mt19937_64(sequence);
+}
 
 /// Uniform in [0, 1), from the upper 53 bits of one draw.
 inline double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }

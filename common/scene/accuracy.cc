@@ -70,7 +70,7 @@ template <int Dim>
 void apply_accuracy(Scene<Dim>& scene, const SetByScene& set) {
   const Accuracy& level = level_of(scene);
   if (!set.steps) scene.world.dt = 1.0 / fitting_steps_per_second(scene, level.step);
-  if (!set.sub_steps) scene.world.solver.sub_steps = level.sub_steps[Dim - 2];
+  if (!set.sub_steps && scene.world.solver.small_steps()) scene.world.solver.sub_steps = level.sub_steps[Dim - 2];
   if (!set.tolerance) scene.policy.adaptive.tolerance = level.tolerance;
   if (!set.rings) scene.policy.adaptive.rings = usual_rings_of(scene, level);
 }

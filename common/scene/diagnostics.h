@@ -61,6 +61,7 @@ struct Diagnostics {
   std::vector<FilledTable> filled = {};  // the file with the defaults of the keys that it does not give
   std::vector<std::filesystem::path> referred = {};  // files that it names, as it names them
   std::vector<std::string> warnings = {};            // of what is allowed but seldom meant, each with its place
+  std::vector<std::function<void()>> later = {};     // checks that wait until the whole scene is read
   std::size_t suggestion_budget = 2'000'000;         // pairs of letters that may still be compared to suggest names
 };
 

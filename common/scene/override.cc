@@ -84,6 +84,7 @@ toml::node& enter(toml::node& parent, const toml::path_component& part, const st
 
 // The rule that the override breaks; without a rule if it was applied.
 BrokenRule apply(toml::table& table, const Override& one, const std::string& origin) {
+  if (!is_utf8(one.text)) return {.rule = "must be UTF-8"};
   const std::size_t equals = one.text.find('=');
   const std::string_view written = std::string_view(one.text).substr(0, equals);
   const toml::path path(written);

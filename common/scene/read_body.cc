@@ -97,7 +97,7 @@ void check_limits(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, c
   for (const BodyDef<Dim>& body : bodies) places.extend(body.pose.position);
   BodyDef<Dim> farthest = bodies.front();
   farthest.pose.position = places.min().cwiseAbs().cwiseMax(places.max().cwiseAbs());
-  table.check([&] { check(farthest, world); });
+  table.check_later([=, &world](TableReader& complete) { complete.check([&] { check(farthest, world); }); });
 }
 
 /// Reports the deepest overlap of the first bodies that overlap more than is allowed: bodies that are all in one place

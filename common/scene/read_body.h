@@ -94,8 +94,9 @@ inline constexpr auto body_fields = std::to_array<Field<BodyParams<Dim>>>({
       .unit = "m",
       .range = between(0.0, 10.0),
       .default_text = "0.005, for [small bodies](#small-and-large-bodies) less",
-      .meaning = "deepest overlap allowed. In a pile taken from a run, contacts are deeper than a body that is placed "
-                 "by hand may be: from much overlap an engine throws bodies apart"}},
+      .meaning =
+          "deepest overlap allowed; less than the default counts as that. In a pile taken from a run contacts are "
+          "deeper than placed bodies may be: much overlap throws bodies apart"}},
 });
 
 /// One `[[body]]`: appends its bodies to the scene, fixed ones to the obstacles. Where

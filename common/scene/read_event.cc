@@ -102,9 +102,11 @@ void check_event(TableReader& table, const Scene<Dim>& scene, const Event<Dim>& 
     table.error("do", "must not be policy where policy.kind is engine, whose sleeping is part of its world");
   if (event.action == EventAction::gravity && scene.gravity_motion)
     table.error("do", "must not be gravity where world.gravity_motion is given");
-  const double fastest = fastest_speed<Dim>(scene.world.dt, scene.world.units);
-  if (event.action == EventAction::kick && event.velocity.norm() > fastest)
-    table.error("velocity", fmt::format("must be at most {:.6g} m/s", fastest));
+  if (event.action != EventAction::kick) return;
+  table.check_later([speed = event.velocity.norm(), &world = scene.world](TableReader& complete) {
+    const double fastest = fastest_speed<Dim>(world.dt, world.units);
+    if (speed > fastest) complete.error("velocity", fmt::format("must be at most {:.6g} m/s", fastest));
+  });
 }
 
 /// Bodies and obstacles are added once, and what an event adds is not there before.

@@ -51,14 +51,20 @@ void check_motion(TableReader& table, const Motion<Dim>& motion, const Vec<Dim>&
   if (motion.end && *motion.end <= motion.start) table.error("end", "must be after start");
   if (!table.ok()) return;
   const double speed = motion.fastest_shift() + reach * motion.fastest_turn() + motion.belt.norm();
-  const double fastest = fastest_speed<Dim>(world.dt, world.units);
-  if (speed > fastest) table.error("", fmt::format("must move at most at {:.4g} m/s, here {:.4g}", fastest, speed));
-  if (motion.fastest_turn() > fastest_spin(world.dt))
-    table.error("", fmt::format("must turn by at most {:.4g} rad/s, a quarter turn a step", fastest_spin(world.dt)));
+  const double turn = motion.fastest_turn();
   double farthest = motion.amplitude.norm();
   for (const Vec<Dim>& shift : motion.shifts) farthest = std::max(farthest, shift.norm());
-  if (position.norm() + reach + farthest > farthest_place(world.units))
-    table.error("", fmt::format("must stay within {:g} m of the origin", farthest_place(world.units)));
+  farthest += position.norm() + reach;
+  table.check_later([=, &world](TableReader& complete) {
+    const double fastest = fastest_speed<Dim>(world.dt, world.units);
+    if (speed > fastest)
+      complete.error("", fmt::format("must move at most at {:.4g} m/s, here {:.4g}", fastest, speed));
+    if (turn > fastest_spin(world.dt))
+      complete.error("",
+                     fmt::format("must turn by at most {:.4g} rad/s, a quarter turn a step", fastest_spin(world.dt)));
+    if (farthest > farthest_place(world.units))
+      complete.error("", fmt::format("must stay within {:g} m of the origin", farthest_place(world.units)));
+  });
 }
 
 }  // namespace

@@ -137,9 +137,13 @@ void read_obstacle(TableReader& table, Scene<Dim>& scene) {
       alone.obstacles = read_container(table, pose, material);
     else if (const auto shapes = read_shape<Dim>(table, kind, table.path(), material, scene.seed); !shapes.empty())
       alone.obstacles = {{shapes.front(), pose_of_centre(shapes.front(), pose)}};
-    // Here, so that the error has its place in the file.
-    for (std::size_t i = 0; i < alone.obstacles.size(); ++i)
-      check(alone.obstacles[i], scene.world.units, fmt::format("world.obstacles[{}]", i));
+  });
+  // With its place in the file, which check(WorldDescription) has not.
+  table.check_later([obstacles = alone.obstacles, &units = scene.world.units](TableReader& complete) {
+    complete.check([&] {
+      for (std::size_t i = 0; i < obstacles.size(); ++i)
+        check(obstacles[i], units, fmt::format("world.obstacles[{}]", i));
+    });
   });
   if (table.has("motion")) read_mover(table, pose.position, alone.obstacles, scene);
   std::vector<Obstacle<Dim>>& obstacles = scene.world.obstacles;

@@ -79,8 +79,11 @@ void read_shapes(TableReader& root, ShapeNames& names, Scene<Dim>& scene) {
   std::vector<Shape<Dim>>& shapes = scene.world.shapes;
   BodyShapes<Dim> all(root, scene.seed);
   std::map<std::string, std::vector<Shape<Dim>>> read;
-  const bool well_formed = root.named_tables(
-      "shape", [&](const std::string& name, TableReader& table) { read[name] = all.read(name, table); });
+  const bool well_formed = root.named_tables("shape", [&](const std::string& name, TableReader& table) {
+    if (name.find(size_mark) != std::string::npos || name.find(variant_mark) != std::string::npos)
+      table.error("", fmt::format("NAME must have neither {} nor {}", size_mark, variant_mark));
+    read[name] = all.read(name, table);
+  });
   std::vector<std::string> named = root.texts_in_tables("source", "shape");
   for (std::string& name : root.texts_in_tables("body", "shape")) named.push_back(std::move(name));
   for (const std::string& name : root.names_of_tables("shape")) {
@@ -241,10 +244,9 @@ Scene<Dim> read_root(TableReader& root) {
   read_shapes(root, shapes, scene);
   root.table("world", [&](TableReader& table) { read_world(table, scene, named); });
   root.table("ground", [&](TableReader& table) { read_ground(table, scene.world.ground); });
-  fit_units(scene.world, named);
   root.tables("obstacle", [&](TableReader& table) { read_obstacle(table, scene); });
   read_sources(root, shapes, scene);
-  fit_units(scene.world, named);  // sources may have smaller ones
+  fit_units(scene.world, named);  // by all shapes, those of sources included
   root.tables("pile", [&](TableReader& table) { scene.piles.push_back(read_pile(table, scene.world)); });
   root.table("policy", [&](TableReader& table) { read_policy(table, scene, named); });
   read_events(root, shapes, scene);
@@ -252,6 +254,7 @@ Scene<Dim> read_root(TableReader& root) {
   check_solver(root, scene);
   read_instruments(root, scene);
   root.table("run", [&](TableReader& table) { read_run(table, scene, named.of_accuracy, root.ok()); });
+  root.make_later_checks();
   check_world(root, scene.world);
   return scene;
 }

@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "common/math/random.h"
 #include "common/mesh/mesh_file.h"
 #include "common/mesh/parts_volume.h"
 #include "common/scene/accuracy.h"
@@ -85,10 +86,9 @@ std::vector<Shape<Dim>> read_stones(TableReader& table, const std::string& name,
   table.read_fields(params, stone_fields);
   std::vector<Shape<Dim>> stones;
   for (int variant = 0; table.ok() && variant < params.variants; ++variant) {
-    std::vector<std::uint64_t> seeds = {seed, static_cast<std::uint64_t>(variant)};
-    seeds.insert(seeds.end(), name.begin(), name.end());
-    std::seed_seq sequence(seeds.begin(), seeds.end());
-    std::mt19937_64 random(sequence);
+    std::vector<std::uint64_t> numbers = {static_cast<std::uint64_t>(variant)};
+    numbers.insert(numbers.end(), name.begin(), name.end());
+    std::mt19937_64 random = generator_of(seed, numbers);
     stones.push_back(make_shape<Dim>(name_of_variant(name, variant), stone_pieces<Dim>(params, random), material));
   }
   return stones;

@@ -59,7 +59,9 @@ void check_scale(TableReader& table, const ScaleParams& params) {
   if (given != 1) table.error("", "must have one of uniform, lognormal and factors");
   if (table.has("uniform") && table.ok() && (params.uniform.size() != 2 || params.uniform[0] >= params.uniform[1]))
     table.error("uniform", "must be two factors, the smaller first");
-  if (table.has("shares") && params.shares.size() != params.factors.size())
+  if (table.has("factors")) table.forbid("classes", "means nothing beside factors");
+  if (given == 1 && !table.has("factors")) table.forbid("shares", "means nothing without factors");
+  if (table.has("factors") && table.has("shares") && params.shares.size() != params.factors.size())
     table.error("shares", "must be as many as factors");
 }
 
@@ -109,13 +111,15 @@ template <int Dim>
 void check_bodies(TableReader& table, const Source<Dim>& source, const WorldDescription<Dim>& world) {
   BodyDef<Dim> farthest;
   farthest.pose.position = source.position.cwiseAbs() + source.spread + source.sweep.cwiseAbs() + source.grid_extent();
-  check_body(table, "position", farthest, world);
   BodyDef<Dim> fastest;
   fastest.velocity = source.velocity.cwiseAbs() + source.velocity_spread;
-  check_body(table, "velocity", fastest, world);
   BodyDef<Dim> spinning;
   spinning.spin.setConstant(source.spin_spread);
-  check_body(table, "spin_spread", spinning, world);
+  table.check_later([=, &world](TableReader& complete) {
+    check_body(complete, "position", farthest, world);
+    check_body(complete, "velocity", fastest, world);
+    check_body(complete, "spin_spread", spinning, world);
+  });
 }
 
 /// No body may appear in the ground, which would push it out.

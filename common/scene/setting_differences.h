@@ -15,11 +15,12 @@ struct SettingDifference {
   bool operator==(const SettingDifference&) const = default;
 };
 
-/// Of two scenes' TOML texts, in the order of their paths. Throws toml::parse_error.
+/// Of two scenes' TOML texts, in the order of their paths; a default that is written out is none. Throws
+/// toml::parse_error.
 std::vector<SettingDifference> setting_differences(std::string_view toml_a, std::string_view toml_b);
 
-/// Whether a difference makes two runs runs of different scenes: all but the title, the policy, and the number of
-/// frames do.
+/// Whether a difference makes two runs runs of different scenes: all but the title, the policy, and what of `[run]`
+/// changes no step do.
 bool is_of_scene(const SettingDifference& difference);
 
 }  // namespace talus

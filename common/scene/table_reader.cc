@@ -189,6 +189,19 @@ void TableReader::check(const std::function<void()>& body, std::string_view key)
   }
 }
 
+void TableReader::check_later(const Body& check) {
+  diagnostics_.later.push_back([&table = table_, &diagnostics = diagnostics_, dimension = dimension_,
+                                location = location_, path = path_, check] {
+    TableReader reader(table, dimension, location, diagnostics);
+    reader.path_ = path;
+    check(reader);
+  });
+}
+
+void TableReader::make_later_checks() const {
+  for (const auto& check : std::exchange(diagnostics_.later, {})) check();
+}
+
 void TableReader::read_child(const toml::node& node, const Child& child, const Body& body) {
   const toml::table* table = node.as_table();
   if (table == nullptr) {
@@ -208,7 +221,7 @@ void TableReader::read_child(const toml::node& node, const Child& child, const B
 }
 
 void TableReader::table(std::string_view key, const Body& body) {
-  const toml::table absent;
+  static const toml::table absent;
   const toml::node* node = find(key);
   const std::string name(key);
   read_child(node == nullptr ? absent : *node, {name, name, name}, body);

@@ -77,6 +77,10 @@ class TableReader {
   /// Runs `body` and adds an error if it throws std::invalid_argument: at `key` if it is given, else at the key that
   /// the field of an InvalidValue ends with if the table has it, else at the table.
   void check(const std::function<void()>& body, std::string_view key = {});
+  /// Runs `check` on this table once the whole scene is read: the units of the engine and the step follow from all of
+  /// it.
+  void check_later(const Body& check);
+  void make_later_checks() const;
   /// Adds a warning about the whole table, with its place in the file.
   void warn(std::string_view warning);
   /// The value of a key in the text with all defaults, where read() has not the right one.

@@ -1,6 +1,7 @@
 #include "common/simulation/emitter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -21,8 +22,7 @@ Emitter<Dim>::Emitter(const Scene<Dim>& scene)
   if (scene.world.ground.present) ground_ = scene.world.ground.height;
   std::uint64_t number = 0;
   for (const Source<Dim>& source : scene.sources) {
-    std::seed_seq seed{scene.seed, number++};
-    spouts_.push_back({.source = source, .random = std::mt19937_64(seed)});
+    spouts_.push_back({.source = source, .random = generator_of(scene.seed, std::array{number++})});
     if (source.waits_for_event) waiting_ += source.count;
   }
 }

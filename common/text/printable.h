@@ -7,6 +7,8 @@
 
 namespace talus {
 
+bool is_utf8(std::string_view text);
+
 /// `text` as valid UTF-8 without control characters: each byte that is not UTF-8, each control character (C0, DEL, C1)
 /// and each character that changes the direction or the line of a text becomes `?`. Nothing left of it can move a
 /// cursor, change a colour, or hide a word.

@@ -56,6 +56,10 @@ TEST(Override, GivenLastWins) { EXPECT_EQ(with({{"policy.tau=0.4"}, {"policy.tau
 
 TEST(Override, MayGiveAWholeTable) { EXPECT_EQ(with({{"run={frames=3, frame_rate=60}"}}).run.frames, 3); }
 
+TEST(WrongOverride, ThatIsNotUtf8IsRefused) {
+  EXPECT_NE(error_of("title=\xFF\xFE").find("must be UTF-8"), std::string::npos);
+}
+
 TEST(WrongOverride, IsNamedInItsError) {
   EXPECT_EQ(error_of("policy.tau=2"), "--set policy.tau=2: policy.tau = 2: must be at least 0 and below 1");
   EXPECT_EQ(error_of("source[0].rate=fast"), "--set source[0].rate=fast: source[0].rate = \"fast\": must be a number");

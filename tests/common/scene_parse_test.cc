@@ -176,5 +176,62 @@ TEST(Source, SpreadsByTheRadiusOfItsLargestBodyAlongAxesWithOneRow) {
   EXPECT_EQ(full(balls + "[[source]]\nspread = [0, 0, 0]\n").sources[0].spread, Vec3::Zero());
 }
 
+std::string error_of(const std::string& text) {
+  try {
+    parse_scene(text, "scene");
+  } catch (const SceneErrors& errors) {
+    return errors.what();
+  }
+  return "no error";
+}
+
+// The step of the accuracy lets bodies be faster than that of 1/60 s.
+TEST(SceneLimits, AreThoseOfTheStepThatTheAccuracyChooses) {
+  const std::string fast =
+      "title = \"Fast\"\ndimension = 2\nground.present = false\nshape.disc = {kind = \"ball\", radius = 0.5}\n"
+      "source = [{position = [0, 5], velocity = [0, -130]}]\n"
+      "event = [{time = 1, do = \"kick\", velocity = [130, 0]}]\n"
+      "obstacle = [{kind = \"box\", size = [1, 1], position = [50, 0], motion = {kind = \"belt\", surface_velocity = "
+      "[130, 0]}}]\n";
+  EXPECT_EQ(error_of(fast + "world.steps_per_second = 240\nrun.frame_rate = 30\n"), "no error");
+  const std::string error = error_of(fast + "world.steps_per_second = 60\n");
+  for (const char* field : {"source[0].velocity", "event[0].velocity", "obstacle[0].motion"})
+    EXPECT_NE(error.find(field), std::string::npos) << error;
+}
+
+// The smallest bodies of a scene decide how much larger the engine has it: how far bodies may be follows from them.
+TEST(SceneLimits, AreThoseOfTheUnitsThatTheSmallestBodyNeeds) {
+  const std::string text =
+      "title = \"Small\"\ndimension = 3\nground.present = false\nshape.ball = {kind = \"ball\", radius = 0.06}\n"
+      "source = [{position = [0, 0, 2000], scale = {factors = [0.5]}}]\n"
+      "obstacle = [{kind = \"box\", size = [1, 1, 1], position = [3000, 0, 0]}]\n";
+  const std::string error = error_of(text);
+  EXPECT_NE(error.find("scene:5:23: source[0].position"), std::string::npos) << error;
+  EXPECT_NE(error.find("scene:6:"), std::string::npos) << error;
+}
+
+TEST(SceneShapes, HaveNamesWithoutTheMarksOfSizesAndVariants) {
+  for (const char* name : {"h*b", "disc#2"})
+    EXPECT_NE(error_of(std::string("title = \"Names\"\ndimension = 2\nbody = [{position = [0, 5]}]\nshape.\"") + name +
+                       "\" = {kind = \"ball\", radius = 0.5}\n")
+                  .find("NAME must have neither * nor #"),
+              std::string::npos)
+        << name;
+}
+
+TEST(SceneSeed, CountsBeyond32Bits) {
+  const auto stone = [](const char* seed) {
+    return std::get<Scene<2>>(
+               parse_scene("title = \"Stone\"\ndimension = 2\nshape.stone = {kind = \"stone\", size = 1}\n"
+                           "body = [{position = [0, 5]}]\nseed = " +
+                               std::string(seed) + "\n",
+                           "scene"))
+        .world.shapes.front()
+        .mass;
+  };
+  EXPECT_NE(stone("1"), stone("4294967297"));
+  EXPECT_EQ(stone("1"), stone("1"));
+}
+
 }  // namespace
 }  // namespace talus::scene_parse_test

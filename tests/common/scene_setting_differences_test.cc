@@ -30,11 +30,22 @@ position = [0.0, 6.0]
 
 TEST(SettingDifferences, TakesAWholeNumberForTheSameWithOrWithoutAPoint) {
   EXPECT_TRUE(setting_differences("x = 30", "x = 30.0").empty());
+  EXPECT_TRUE(setting_differences("x = [0, 8]", "x = [0.0, 8.0]").empty());
+  EXPECT_TRUE(setting_differences("x = 0x1E", "x = 30").empty());
   EXPECT_EQ(setting_differences("x = 30", "x = 31.0").size(), 1U);
+  EXPECT_EQ(setting_differences("x = [0, 8]", "x = [0, 8, 1]").size(), 1U);
+}
+
+TEST(SettingDifferences, TakeADefaultThatIsWrittenOutForNone) {
+  const std::string scene =
+      "title = \"A disc\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\nbody = [{position = [0, 9]}]\n";
+  EXPECT_TRUE(setting_differences(scene, scene + "seed = 1\naccuracy = \"standard\"\n").empty());
+  EXPECT_EQ(setting_differences(scene, scene + "seed = 2\n").size(), 1U);
 }
 
 TEST(SettingDifferences, CountPolicyTitleAndLengthAsTheSameScene) {
-  for (const char* path : {"title", "run.frames", "policy.kind", "policy.tau"})
+  for (const char* path :
+       {"title", "run.frames", "run.threads", "run.pace", "run.contacts", "policy.kind", "policy.tau"})
     EXPECT_FALSE(is_of_scene({path, "1", "2"})) << path;
   for (const char* path : {"seed", "source[0].count", "world.gravity", "run.frame_rate"})
     EXPECT_TRUE(is_of_scene({path, "1", "2"})) << path;

@@ -143,6 +143,10 @@ TEST(SceneSizes, ThatMakeNoDistributionAreRefused) {
             "source[0].scale: must have one of uniform, lognormal and factors");
   EXPECT_EQ(error_of(fmt::format(fmt::runtime(discs), "factors = [1, 2], shares = [1]")),
             "source[0].scale.shares: must be as many as factors");
+  EXPECT_EQ(error_of(fmt::format(fmt::runtime(discs), "factors = [1, 2], classes = 5")),
+            "source[0].scale.classes: means nothing beside factors");
+  EXPECT_EQ(error_of(fmt::format(fmt::runtime(discs), "uniform = [1, 2], shares = [1]")),
+            "source[0].scale.shares: means nothing without factors");
 }
 
 TEST(SceneGravity, MayBeAVector) {

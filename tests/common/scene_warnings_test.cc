@@ -101,6 +101,7 @@ TEST(Warnings, TellOfSettingsOfTheOtherSolver) {
              "world.solver.velocity_iterations has no effect");
   expect_one(warnings_with({own, {"world.solver.sub_steps=4"}}), "world.solver.sub_steps has no effect");
   EXPECT_EQ(warnings_with({own, {"world.solver.velocity_iterations=50"}}), "");
+  EXPECT_EQ(warnings_with({own, {"accuracy=fast"}}), "") << "its sub-steps are of the other solver";
   EXPECT_EQ(warnings_with({{"world.solver.sub_steps=4"}}), "");
 }
 
