@@ -249,6 +249,7 @@ void EngineWorld::engine_remove_obstacle(int number) {
   world_.DestroyBody(obstacles_[number]);
   std::erase(moving_obstacles_, first_obstacle - number);
   obstacles_[number] = nullptr;
+  warm_start_.forget(first_obstacle - number);
   if (ring_) ring_->forget(first_obstacle - number);
 }
 

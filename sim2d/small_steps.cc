@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "common/solver/solved_contact.h"
 #include "common/world/stopwatch.h"

@@ -6,6 +6,7 @@
 #include <compare>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/solver/contact_solver.h"

@@ -8,6 +8,10 @@ namespace {
 
 bool before(const SavedContact& a, const SavedContact& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); }
 
+bool is_with(const SavedContact& contact, BodyIndex side) {
+  return owner_of(contact.low) == side || owner_of(contact.high) == side;
+}
+
 std::array<Tag, 2> sorted_tags(b2Contact& contact) {
   const Tag a = tag_of(*contact.GetFixtureA());
   const Tag b = tag_of(*contact.GetFixtureB());
@@ -86,10 +90,28 @@ void SavedContacts::release(BodyIndex body, std::vector<SavedContact>& out) {
   }
 }
 
-void WarmStart::forget(BodyIndex body) {
-  sleeping_.release(body, waiting_);
-  std::erase_if(waiting_,
-                [body](const SavedContact& c) { return owner_of(c.low) == body || owner_of(c.high) == body; });
+void SavedContacts::drop(BodyIndex obstacle) {
+  for (BodyIndex body = 0; body < std::ssize(first_); ++body) {
+    for (std::int32_t* link = &first_[body]; *link >= 0;) {
+      const std::int32_t node = *link;
+      std::int32_t& next = next_of(node, body);
+      if (is_with(nodes_[node].contact, obstacle)) {
+        *link = next;
+        free_.push_back(node);
+      } else {
+        link = &next;
+      }
+    }
+  }
+}
+
+/// An obstacle may come back, at another place.
+void WarmStart::forget(BodyIndex side) {
+  if (side < 0)
+    sleeping_.drop(side);
+  else
+    sleeping_.release(side, waiting_);
+  std::erase_if(waiting_, [side](const SavedContact& contact) { return is_with(contact, side); });
 }
 
 void WarmStart::start_step(std::span<const std::uint8_t> asleep, bool keeps) {

@@ -38,6 +38,8 @@ class SavedContacts {
   void keep(const SavedContact& contact);
   /// Removes all contacts of a body and appends them to `out`.
   void release(BodyIndex body, std::vector<SavedContact>& out);
+  /// Removes all contacts with an obstacle. Costs O(contacts).
+  void drop(BodyIndex obstacle);
 
  private:
   struct Node {
@@ -58,7 +60,8 @@ class WarmStart {
   void save(b2Contact& contact);
   void save(const SavedContact& contact) { waiting_.push_back(contact); }
   void wake(BodyIndex body) { sleeping_.release(body, waiting_); }
-  void forget(BodyIndex body);
+  /// A body or an obstacle that leaves the world.
+  void forget(BodyIndex side);
 
   /// Before a step: contacts between sleepers are put away where `keeps` says so, the others made ready to be found.
   void start_step(std::span<const std::uint8_t> asleep, bool keeps);

@@ -99,7 +99,7 @@ bool GateCounter<Dim>::covers(const Vec<Dim>& point) const {
 
 template <int Dim>
 void GateCounter<Dim>::watch_for_jam(const World<Dim>& world, double time) {
-  const double limit = params_.jam_after * std::sqrt(extent_ / world.gravity_size());
+  const double limit = params_.jam_after * time_unit(extent_, world);
   if (time < next_look_) return;
   next_look_ = time + limit / looks;
   if (!any_before(world)) {

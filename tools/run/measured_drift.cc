@@ -102,7 +102,7 @@ std::optional<DriftProbe> probe_end_drift(Simulation<Dim>& simulation, const Sce
     if (last.removed[body] != 0) sleepers[body] = 0;
   const double extent = simulation.piles().typical_body().extent;
   const DriftProbeParams params{.extent = extent,
-                                .unit = std::sqrt(extent / world.gravity),
+                                .unit = time_unit(extent, world.gravity),
                                 .duration = wake_time(world.gravity),
                                 .body_steps = std::max(share * body_steps, no_matter),
                                 .stop = stop};

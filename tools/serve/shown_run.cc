@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/measure/contact_forces.h"
-#include "common/scene/happened.h"
 #include "common/simulation/simulation.h"
 #include "common/text/printable.h"
 #include "lcmtypes/event_log.h"
