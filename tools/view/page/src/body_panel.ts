@@ -77,7 +77,7 @@ export class BodyPanel {
     const lines = [`Body ${body}, shape ${head.shapes[state.shape[body]]?.name ?? ""}`];
     if (state.removed[body] !== 0) return [...lines, "removed"];
     lines.push(`${awake ? "Awake" : "Asleep"} ${event ? since : `${since}, when it appeared`}`);
-    if (event) lines.push(`Cause: ${event.cause} (${causes[event.cause][event.woke ? "woke" : "slept"]})`);
+    if (event) lines.push(`Cause: ${event.cause} (${causes[event.cause]?.[event.woke ? "woke" : "slept"] ?? ""})`);
     if (event && event.score > 0) {
       const threshold = head.score_threshold >= 0 && event.cause === "score" ? `, threshold ${digits(head.score_threshold)}` : "";
       lines.push(`Score ${digits(event.score)} when it fell asleep${threshold}`);

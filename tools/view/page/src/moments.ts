@@ -311,7 +311,7 @@ export class MomentReader {
   }
 
   private takeSleep({ step, body, pile, layer, woke, cause, score }: SleepMessage): void {
-    body.forEach((each, i) => this.news.events.push({ step, body: each, pile: pile[i], layer: layer[i], woke: woke[i] === 1, cause: this.layouts.causes[cause[i]], score: score[i] }));
+    body.forEach((each, i) => this.news.events.push({ step, body: each, pile: pile[i], layer: layer[i], woke: woke[i] === 1, cause: this.layouts.causes[cause[i]] ?? "unknown", score: score[i] }));
   }
 
   private takeBodies(message: Message, header: PartMessage): Moment | null {
