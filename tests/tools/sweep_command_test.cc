@@ -202,7 +202,7 @@ TEST_F(SweepCommand, TakesItsPlanFromTheFolderAlone) {
        {"--resume " + folder + " --seeds 3", "--status " + folder + " --collect " + folder, "--out " + folder,
         "--resume " + folder + " --only 4", "--resume " + folder + " --chunk 3", "--status " + folder + " --jobs 2",
         "--collect " + folder + " --on slurm", "--status " + folder + " --sbatch=-x",
-        "--collect " + (folder_ / "none")})
+        "--resume " + folder + " --only 0 --chunk 3", "--collect " + (folder_ / "none")})
     EXPECT_EQ(talus_command("sweep " + line).exit_code, 2) << line;
 }
 

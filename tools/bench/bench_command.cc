@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr const char* footer =
     "The folder --out (bench) gets bench.csv with a row for each run, and plots; a benchmark that was stopped goes\n"
     "on when it is started again. On slurm an array of jobs does the runs, those with one scene, engine and seed on\n"
-    "one machine, and a job after it collects. `reference` is full in shorter steps (docs/accuracy.md); without\n"
+    "one machine, and a job after it collects. `reference` is full at finer settings (docs/accuracy.md); without\n"
     "it in --policy no error of shape is known. Each run gives the bits of `talus run SCENE --policy POLICY\n"
     "--set seed=SEED --set run.until=frames` with the settings of its row.\n"
     "Exit code: 0 all runs finished, 1 some failed (bench.csv says how), 2 bad input.\n"
@@ -232,7 +232,9 @@ std::vector<CLI::Option*> add_plan(CLI::App& command, BenchOptions& options) {
                       "Values of a key of the scenes: PATH=LOW:HIGH:STEP or PATH=A,B,C; may be repeated")
           ->type_name("PATH=VALUES")
           ->allow_extra_args(false),
-      command.add_option("--seeds", options.seeds, "Runs of each case, with the seeds from 1 on (3, quick: 2)")
+      command
+          .add_option("--seeds", options.seeds,
+                      "Runs of each case, with the seeds from 1 on (3; with --quick 2, published 4)")
           ->check(whole_number(1, 1000)),
       command.add_flag("-q,--quick", options.quick, "Half of each scene's frames, fewer scenes of table1"),
       command.add_flag("-f,--force", options.force, "Run outside of the window in which results hold too"),

@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// In the place of a policy: full in shorter steps, reference_scene().
+/// In the place of a policy: full at finer settings, reference_scene().
 inline constexpr std::string_view reference_policy = "reference";
 
 struct BenchCase {

@@ -56,10 +56,11 @@ void check_job_options(const JobOptions& options, const std::vector<CLI::Option*
     if (!options.is_new() && option->count() > 0)
       throw std::invalid_argument(fmt::format(
           "{}: must be left out with --resume, --status and --collect, whose folder has it", option->get_name()));
+  const bool for_array = options.on != JobOptions().on || options.tasks.chunk > 0 || !options.tasks.sbatch.empty();
   const bool idle = !options.status.empty() || !options.collect.empty();
-  if (idle &&
-      (options.jobs > 0 || options.on != JobOptions().on || options.tasks.chunk > 0 || !options.tasks.sbatch.empty()))
+  if (idle && (options.jobs > 0 || for_array))
     throw std::invalid_argument("--jobs, --on, --chunk, --sbatch: must be left out with --status and --collect");
+  if (options.only && for_array) throw std::invalid_argument("--on, --chunk, --sbatch: must be left out with --only");
   if (!options.listed() && (options.tasks.chunk > 0 || !options.tasks.sbatch.empty()))
     throw std::invalid_argument("--chunk, --sbatch: must stand with --on slurm or --emit");
   if (options.listed() && options.jobs > 0)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double most_values = 10'000.0;
 
-/// LOW, LOW + STEP, ... up to HIGH, rounded so that 0.2 + 0.2 + 0.2 is 0.6.
+/// LOW, LOW + STEP, ... up to HIGH, rounded so that 0.2 + 0.2 + 0.2 is 0.6; whole numbers are exact.
 std::vector<std::string> range_values(const std::vector<std::string>& parts, const std::string& text) {
   const auto low = number_of(parts[0]);
   const auto high = number_of(parts[1]);
@@ -24,7 +24,9 @@ std::vector<std::string> range_values(const std::vector<std::string>& parts, con
         "--set {}: must be LOW:HIGH:STEP, three numbers, with at most {:g} steps upwards", text, most_values));
   std::vector<std::string> values;
   const int count = static_cast<int>(std::floor((*high - *low) / *step + 1e-9)) + 1;
-  for (int i = 0; i < count; ++i) values.push_back(fmt::format("{:.12g}", *low + i * *step));
+  const bool whole = *low == std::floor(*low) && *step == std::floor(*step) && std::abs(*low) + *high < 0x1p53;
+  for (int i = 0; i < count; ++i)
+    values.push_back(fmt::format(fmt::runtime(whole ? "{:.0f}" : "{:.12g}"), *low + i * *step));
   return values;
 }
 
