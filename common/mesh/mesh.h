@@ -22,6 +22,7 @@ std::uint64_t content_hash(const Mesh& mesh);
 
 /// The axis-aligned box around all corners. Throws std::invalid_argument on a corner that is not finite.
 Box<3> bounds_of(const Mesh& mesh);
+inline double longest_side(const Mesh& mesh) { return bounds_of(mesh).sizes().maxCoeff(); }
 
 /// Mends what is harmless: merges corners closer than about a millionth of the mesh's length, drops triangles that are
 /// then without area or there twice, drops corners that no triangle uses, and turns every connected part so that its

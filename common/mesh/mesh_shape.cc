@@ -12,8 +12,6 @@
 namespace talus {
 namespace {
 
-double longest_side(const Mesh& mesh) { return bounds_of(mesh).sizes().maxCoeff(); }
-
 Mesh scaled(Mesh mesh, double factor, bool y_up) {
   for (Vec3& corner : mesh.corners) corner = factor * (y_up ? Vec3(corner.x(), -corner.z(), corner.y()) : corner);
   return mesh;

@@ -237,7 +237,7 @@ TEST(Picture, NamesTheFileThatCannotBeWritten) {
     draw_pile<2>("/nowhere/a.svg", "/nowhere/a.png", sample.input());
     FAIL() << "no error";
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "cannot write /nowhere/a.svg");
+    EXPECT_STREQ(error.what(), "/nowhere/a.svg: cannot be written: No such file or directory");
   }
 }
 

@@ -14,8 +14,9 @@ Plot sample() {
   plot.title = "A 'quoted' title & <more>";
   plot.x_label = "time [s]";
   plot.y_label = "awake bodies";
-  plot.series = {{"one", {0.0, 1.0, 2.0}, {3.0, 1.0, 2.0}, {2.5, 0.5, 1.5}, {3.5, 1.5, 2.5}, SeriesStyle::points},
-                 {"two", {0.0, 1.0, 2.0}, {1.0, 2.0, 4.0}}};
+  plot.series = {
+      {"one", {0.0, 1.0, 2.0}, {3.0, 1.0, 2.0}, {2.5, 0.5, 1.5}, {3.5, 1.5, 2.5}, SeriesStyle::line_and_points},
+      {"two", {0.0, 1.0, 2.0}, {1.0, 2.0, 4.0}}};
   return plot;
 }
 

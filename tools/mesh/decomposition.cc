@@ -17,12 +17,6 @@ namespace {
 
 constexpr double convexity_tolerance = 1e-3;  // share by which the hull's volume may differ from a convex mesh's
 
-double longest_side(const Mesh& mesh) {
-  Box<3> bounds;
-  for (const Vec3& corner : mesh.corners) bounds.extend(corner);
-  return bounds.sizes().maxCoeff();
-}
-
 std::vector<Mesh> without_thin(const std::vector<Mesh>& parts, double least_width) {
   std::vector<Mesh> thick;
   for (const Mesh& part : parts)

@@ -163,8 +163,9 @@ void draw_help(const Area& area) {
        "f           filter of events: all, woke, slept, then each cause", "a           all alerts",
        "up, down    scroll a list", "space       hold the screen; the monitor goes on listening",
        "escape      back to the overview", "",
-       "A bar of a layer is its density: bodies over capacity, | marks 1. It has the",
-       "colour of sleeping bodies where at least half of its bodies sleep.",
+       "A bar of a layer is its density: bodies over capacity. | marks the density above",
+       "which the pile wakes, under other policies than paper 1. A bar has the colour of",
+       "sleeping bodies where at least half of its bodies sleep.",
        "lost: messages that this monitor missed; bad: those that it could not decode."},
       0, Style::plain, area);
 }

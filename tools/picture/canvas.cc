@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -96,13 +95,6 @@ std::vector<std::string> wrapped(const std::string& text, double width, const Te
     lines.push_back(line);
   }
   return lines;
-}
-
-void write_file(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file << bytes;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path.string());
 }
 
 namespace {

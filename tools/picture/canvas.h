@@ -4,7 +4,6 @@
 #include <cairo.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -52,8 +51,5 @@ std::vector<std::uint32_t> pixels_of(int width, int height, const Painter& paint
 
 /// Text broken between words into lines of at most `width` [px], and at each '\n'. A longer word stays whole.
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style);
-
-/// Writes or replaces a file. Throws std::runtime_error naming it if it cannot be written.
-void write_file(const std::filesystem::path& path, const std::string& bytes);
 
 }  // namespace talus

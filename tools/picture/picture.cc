@@ -1,5 +1,6 @@
 #include "tools/picture/picture.h"
 
+#include "common/text/file.h"
 #include "tools/picture/canvas.h"
 #include "tools/picture/layers.h"
 #include "tools/picture/page.h"

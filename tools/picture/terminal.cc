@@ -11,10 +11,8 @@
 namespace talus {
 namespace {
 
-Dot dot_of(const BodyStates<2>& states, std::size_t body) {
-  return states.asleep[body] != 0 ? Dot::asleep : Dot::awake;
-}
-Dot dot_of(const BodyStates<3>& states, std::size_t body) {
+template <int Dim>
+Dot dot_of(const BodyStates<Dim>& states, std::size_t body) {
   return states.asleep[body] != 0 ? Dot::asleep : Dot::awake;
 }
 

@@ -169,15 +169,14 @@ std::string data_of(const Series& series, std::size_t number) {
 }
 
 std::string curve_of(const Series& series, std::size_t number) {
-  static constexpr std::array<const char*, 4> styles = {"lines", "points", "linespoints", "steps"};
+  static constexpr std::array<const char*, 2> styles = {"lines", "linespoints"};
   const std::string style = fmt::format("linecolor '{0}' linewidth 2 pointtype {1} pointsize 0.7",
                                         palette[number % palette.size()], point_types[number % point_types.size()]);
-  std::string curve =
-      fmt::format("$series{} using 1:2 with {} {} title {}", number, styles[static_cast<std::size_t>(series.style)],
-                  series.style == SeriesStyle::line || series.style == SeriesStyle::steps
-                      ? fmt::format("linecolor '{}' linewidth 2", palette[number % palette.size()])
-                      : style,
-                  quoted(series.name));
+  std::string curve = fmt::format(
+      "$series{} using 1:2 with {} {} title {}", number, styles[static_cast<std::size_t>(series.style)],
+      series.style == SeriesStyle::line ? fmt::format("linecolor '{}' linewidth 2", palette[number % palette.size()])
+                                        : style,
+      quoted(series.name));
   if (!series.low.empty()) curve += fmt::format(", $series{} using 1:2:3:4 with yerrorbars {} notitle", number, style);
   return curve;
 }

@@ -6,7 +6,7 @@
 
 namespace talus {
 
-enum class SeriesStyle { line, points, line_and_points, steps };
+enum class SeriesStyle { line, line_and_points };
 
 /// One curve. Coordinates are finite; with a logarithmic axis those on it are above zero.
 struct Series {
