@@ -161,6 +161,17 @@ TEST_F(StabilityChecksTest, WakeTheColumnsAroundAndNoneFarther) {
   EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{checked, fresh}));
 }
 
+// Each region is a column with those around it: both have the column between them, whose body is settled.
+TEST_F(StabilityChecksTest, OfRegionsThatShareAColumnBeginOneAfterTheOther) {
+  put_to_sleep({add(6.0)});
+  steps(sample_time + check_time);
+  put_to_sleep({0});
+  put_to_sleep({add(2.0), add(10.0)});
+  EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{1, 0}));
+  EXPECT_FALSE(checks_.holds(2));
+  EXPECT_EQ(steps(check_time + sample_time), std::vector<BodyIndex>{2});
+}
+
 TEST_F(StabilityChecksTest, WaitWhileABodyMovesOnTheRegion) {
   put_to_sleep({add(1.0)});
   const BodyIndex rolling = add(1.0, 1.5);

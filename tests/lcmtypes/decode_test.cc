@@ -150,7 +150,7 @@ TEST(Decoder, SurvivesAVersionOfAnyLengthInARunOfAnotherFormat) {
     Bytes bytes = samples<2>().front().bytes;
     for (std::size_t i = 0; i < 4; ++i)
       bytes[header_bytes + 4 + i] = static_cast<std::uint8_t>(length >> (8 * (3 - i)));
-    set_format(bytes, 2);
+    set_format(bytes, 7);
     ASSERT_TRUE(other_format(bytes));
     EXPECT_LT(other_format(bytes)->version.size(), bytes.size());
   }

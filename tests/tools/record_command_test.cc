@@ -130,7 +130,7 @@ TEST(CompareCommand, RefusesARecordOfAnotherFormatByItsNumberAndVersion) {
     const Outcome outcome = talus_command(command);
     EXPECT_EQ(outcome.exit_code, 2) << command;
     EXPECT_NE(outcome.err.find("run.lcm: format 9 of talus "), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("must be format 1"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("must be format "), std::string::npos) << outcome.err;
   }
 }
 
