@@ -87,7 +87,7 @@ void RunLoop::command(int page, const std::string& text) {
   try {
     if (is_hand_command(what))
       queue_by_hand(page, [this, page, what, act = read_hand_command(command)](ShownRun& run) {
-        const std::string wrong = act(run);
+        std::string wrong = act(run);
         if (what == "pull" && wrong.empty()) pulling_ = page;
         return wrong;
       });
