@@ -189,7 +189,7 @@ test("layers are named where there are piles, and those that a message has no ro
 test("a page refuses messages of another version, with both versions", async () => {
   const html = readFileSync(flat.url, "utf8");
   const other = join(folder, "other.html");
-  writeFileSync(other, html.replace(/("TALUS_RUN":\{"fingerprint":")[0-9a-f]{16}/, "$10123456789abcdef").replace('{"format":1,"version":"', '{"format":7,"version":"9.9'));
+  writeFileSync(other, html.replace(/("TALUS_RUN":\{"fingerprint":")[0-9a-f]{16}/, "$10123456789abcdef").replace(/\{"format":\d+,"version":"/, '{"format":7,"version":"9.9'));
   const page = await openPage(pathToFileURL(other), { talus: false });
   await page.waitForFunction(() => document.getElementById("status").textContent !== "");
   assert.match(await page.textContent("#status"), /^cannot be shown: format \d+ of talus [\d.]+.*; this page reads format 7 of talus 9\.9/);
