@@ -87,7 +87,8 @@ void WarmStart::release(BodyIndex owner, BodyIndex partner, std::vector<SavedPoi
 void WarmStart::save(btBroadphasePair& pair) {
   if (pair.m_algorithm == nullptr) return;  // no step has passed since the pair came back: what was saved still holds
   const Sides sides(pair);
-  release(sides.owner->getUserIndex(), sides.partner->getUserIndex(), saved_);  // what an earlier sleep left
+  release(sides.owner->getUserIndex(), sides.partner->getUserIndex(),
+          saved_);  // points of an earlier sleep are replaced
   saved_.clear();
   manifolds_.resize(0);
   pair.m_algorithm->getAllContactManifolds(manifolds_);

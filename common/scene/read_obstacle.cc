@@ -138,7 +138,7 @@ void read_obstacle(TableReader& table, Scene<Dim>& scene) {
     else if (const auto shapes = read_shape<Dim>(table, kind, table.path(), material, scene.seed); !shapes.empty())
       alone.obstacles = {{shapes.front(), pose_of_centre(shapes.front(), pose)}};
   });
-  // With its place in the file, which check(WorldDescription) has not.
+  // Here the error has its place in the file; check(WorldDescription) gives none.
   table.check_later([obstacles = alone.obstacles, &units = scene.world.units](TableReader& complete) {
     complete.check([&] {
       for (std::size_t i = 0; i < obstacles.size(); ++i)

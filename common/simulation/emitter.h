@@ -32,7 +32,7 @@ class Emitter {
 
   /// Bodies that were to appear until `time` [s], with those that are there from the start.
   int due_by(double time) const;
-  /// When the last one appeared [s].
+  /// Time at which the last body of a source appeared [s]; 0 before.
   double last_appearance() const { return last_appearance_; }
 
   /// Whether all have appeared but for those of sources that wait for an event.

@@ -161,7 +161,7 @@ TEST_F(StabilityChecksTest, WakeTheColumnsAroundAndNoneFarther) {
   EXPECT_EQ(steps(sample_time), (std::vector<BodyIndex>{checked, fresh}));
 }
 
-// Each region is a column with those around it: both have the column between them, whose body is settled.
+// The regions of bodies 1 and 2 overlap in the column between them, whose body is settled.
 TEST_F(StabilityChecksTest, OfRegionsThatShareAColumnBeginOneAfterTheOther) {
   put_to_sleep({add(6.0)});
   steps(sample_time + check_time);

@@ -1,5 +1,5 @@
 #pragma once
-// Of the paper's own tables what is compared (Hsu and Keyser 2010, section 4.2).
+// The columns of the paper's tables that benchmarks are compared with (Hsu and Keyser 2010, section 4.2).
 
 #include <array>
 #include <string_view>

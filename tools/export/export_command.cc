@@ -56,7 +56,7 @@ class FrameChoice {
   bool takes(double time) { return has(time) && number_++ % options_.every == 0; }
 
  private:
-  static constexpr double rounding = 1e-9;  // of times [s]
+  static constexpr double rounding = 1e-9;  // by which equal times may differ [s]
 
   const ExportOptions& options_;
   int number_ = 0;
@@ -64,7 +64,7 @@ class FrameChoice {
 
 struct ChosenWalk {
   WalkDamage damage;
-  std::vector<SleepEvent> later_events;  // after the last chosen moment
+  std::vector<SleepEvent> later_events;  // of the chosen time, after its last exported moment
 };
 
 /// Visits the chosen moments, each with the sleep events since the one before.

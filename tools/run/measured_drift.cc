@@ -91,7 +91,7 @@ std::optional<DriftProbe> probe_end_drift(Simulation<Dim>& simulation, const Sce
                                           const std::string& backend, double body_steps,
                                           const std::function<bool()>& stop) {
   constexpr double share = 0.25;
-  constexpr double no_matter = 2e4;  // body-steps
+  constexpr double always_allowed = 2e4;  // body-steps
   const PolicyParams policy = policy_at(scene, simulation.done_events(), simulation.time());
   if (policy.tolerance().value_or(0.0) <= 0.0) return std::nullopt;
   if (!obstruction<Dim>(scene, simulation.done_events(), simulation.time()).empty()) return std::nullopt;
@@ -104,7 +104,7 @@ std::optional<DriftProbe> probe_end_drift(Simulation<Dim>& simulation, const Sce
   const DriftProbeParams params{.extent = extent,
                                 .unit = time_unit(extent, world.gravity),
                                 .duration = wake_time(world.gravity),
-                                .body_steps = std::max(share * body_steps, no_matter),
+                                .body_steps = std::max(share * body_steps, always_allowed),
                                 .stop = stop};
   const DriftProbe probe = probe_drift<Dim>(world_maker<Dim>(backend), judging_settings(world), last, sleepers, params);
   if (probe.bodies == 0) return std::nullopt;

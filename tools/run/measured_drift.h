@@ -42,9 +42,9 @@ MeasuredDrift measure_drift(const Simulation<Dim>& simulation, const Scene<Dim>&
 template <int Dim>
 std::vector<double> of_sleepers(const WakeTest& test, const BodyStates<Dim>& states);
 
-/// Begins as measure_drift() does, ends as soon as the result shows, and tells the simulation. May take a quarter of
-/// the `body_steps` of the run, or as many as are no matter. None where the policy has no tolerance, drift cannot be
-/// measured, no body sleeps, `stop` returns true, or the shortest probe takes more than that.
+/// Estimates the drift at the end of a run: as measure_drift(), but shorter, and gives the simulation the result. Costs
+/// at most a quarter of the `body_steps` that the run took, or 20,000 of them where that is more. None where the policy
+/// has no tolerance, drift cannot be measured, no body sleeps, `stop` returns true, or the shortest probe costs more.
 template <int Dim>
 std::optional<DriftProbe> probe_end_drift(Simulation<Dim>& simulation, const Scene<Dim>& scene,
                                           const std::string& backend, double body_steps,

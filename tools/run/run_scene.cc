@@ -72,7 +72,7 @@ int print_hash(const Simulation<Dim>& simulation, const std::string& reason, boo
   return exit_code_of(reason, warned);
 }
 
-/// Without `strict` nothing watches the run.
+/// Only with --strict are there observers, which cost time, and so warnings.
 template <int Dim>
 int hash_run(const RunOptions& options, const Scene<Dim>& scene, const std::string& backend, bool warned) {
   const Interrupt interrupt;
