@@ -90,14 +90,20 @@ void check_params(TableReader& table, const BodyParams<Dim>& params) {
   }
 }
 
-/// Places, velocity and spin, which all bodies share.
+/// Places, by which bodies are searched for overlaps, and velocity and spin, which all bodies share: their limits
+/// follow from the step.
 template <int Dim>
 void check_limits(TableReader& table, const std::vector<BodyDef<Dim>>& bodies, const WorldDescription<Dim>& world) {
   Box<Dim> places;
   for (const BodyDef<Dim>& body : bodies) places.extend(body.pose.position);
   BodyDef<Dim> farthest = bodies.front();
   farthest.pose.position = places.min().cwiseAbs().cwiseMax(places.max().cwiseAbs());
-  table.check_later([=, &world](TableReader& complete) { complete.check([&] { check(farthest, world); }); });
+  farthest.velocity.setZero();
+  farthest.spin.setZero();
+  table.check([&] { check(farthest, world); });
+  BodyDef<Dim> fastest = bodies.front();
+  fastest.pose = {};
+  table.check_later([=, &world](TableReader& complete) { complete.check([&] { check(fastest, world); }); });
 }
 
 /// Reports the deepest overlap of the first bodies that overlap more than is allowed: bodies that are all in one place
