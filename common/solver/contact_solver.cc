@@ -182,6 +182,7 @@ struct ContactSolver<Dim>::Work {
   Sets sets;
   std::array<bool, Sets::most> bounces{};               // by set
   std::array<std::vector<DeepPoint>, Sets::most> deep;  // by set
+  std::vector<std::array<VecF<Dim>, Dim - 1>> tangents;  // of each point
   std::vector<PointBlock<Dim>> lanes;
   std::vector<RollingBlock<Dim>> rolling;
   std::vector<Quad> velocity;
@@ -236,9 +237,8 @@ float ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int 
   const SolverBody<Dim>& a = bodies[point.a];
   const SolverBody<Dim>& b = bodies[point.b];
   const VecF<Dim>& n = point.normal;
-  const auto tangents = tangents_of(n);
   put(to.normal, n, lane);
-  put(to.tangent, tangents[0], lane);
+  put(to.tangent, tangents[number][0], lane);
   put(to.arm_a, point.arm_a, lane);
   put(to.arm_b, point.arm_b, lane);
   to.gap.v[lane] = point.gap;
@@ -251,7 +251,7 @@ float ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int 
   to.soft_gain.v[lane] = gain * (stiff / (1.0F + stiff));
   to.soft_keep.v[lane] = 1.0F / (1.0F + stiff);
   float slip = 0.0F;  // by a unit impulse, mean of both directions
-  for (const VecF<Dim>& tangent : tangents) {
+  for (const VecF<Dim>& tangent : tangents[number]) {
     if (a.moves) slip += yield<Dim>(a, point.arm_a, tangent) / static_cast<float>(Dim - 1);
     if (b.moves) slip += yield<Dim>(b, point.arm_b, tangent) / static_cast<float>(Dim - 1);
   }
@@ -266,7 +266,7 @@ float ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int 
   const float share = 1.0F / static_cast<float>(params.sub_steps);
   to.impulse.v[lane] = to.before.v[lane] = share * point.pressing_impulse();
   for (int i = 0; i < Dim - 1; ++i)
-    to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] = share * point.friction_impulse.dot(tangents[i]);
+    to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] = share * point.friction_impulse.dot(tangents[number][i]);
   return gain * stiff * of_contact.rate;
 }
 
@@ -299,11 +299,13 @@ void ContactSolver<Dim>::Work::load_bodies() {
     if (!body.moves) return;
     add_to<Dim>(&free[quads * sets.place(slot)], body.inverse_mass * impulse, body.inverse_inertia * twist);
   };
+  tangents.clear();
   for (const ContactPoint<Dim>& point : points) {
+    tangents.push_back(tangents_of(point.normal));
     if (point.normal_impulse == 0.0F) continue;
     // Friction lies in the plane of contact, as it was loaded.
     VecF<Dim> impulse = share * point.pressing_impulse() * point.normal;
-    for (const VecF<Dim>& tangent : tangents_of(point.normal))
+    for (const VecF<Dim>& tangent : tangents.back())
       impulse += share * point.friction_impulse.dot(tangent) * tangent;
     push(point.a, -impulse, -torque(point.arm_a, impulse));
     push(point.b, impulse, torque(point.arm_b, impulse));
@@ -477,16 +479,15 @@ void ContactSolver<Dim>::Work::read_points(const Share& share) {
     for (int i = 0; i < group.count; ++i) {
       ContactPoint<Dim>& point = points[group.first + i];
       const PointBlock<Dim>& from = lanes[block.first_point + i];
-      const auto tangents = tangents_of(point.normal);
       const bool bounced = from.bounce.v[lane] < 0.0F && from.highest.v[lane] > 0.0F;
       const float kept = bounced ? 0.0F : times;
       point.normal_sum = from.sum.v[lane] - point.attraction;
       point.normal_impulse = bounced ? 0.0F : times * from.impulse.v[lane] - point.attraction;
-      point.friction_sum = from.tangent_sum[0].v[lane] * tangents[0];
-      point.friction_impulse = kept * from.tangent_impulse[0].v[lane] * tangents[0];
+      point.friction_sum = from.tangent_sum[0].v[lane] * tangents[group.first + i][0];
+      point.friction_impulse = kept * from.tangent_impulse[0].v[lane] * tangents[group.first + i][0];
       if constexpr (Dim == 3) {
-        point.friction_sum += from.tangent_sum[1].v[lane] * tangents[1];
-        point.friction_impulse += kept * from.tangent_impulse[1].v[lane] * tangents[1];
+        point.friction_sum += from.tangent_sum[1].v[lane] * tangents[group.first + i][1];
+        point.friction_impulse += kept * from.tangent_impulse[1].v[lane] * tangents[group.first + i][1];
       }
     }
     ContactPoint<Dim>& first = points[group.first];
