@@ -5,8 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 
 #include "talus_lcm/layouts.h"
 
@@ -48,56 +51,27 @@ inline std::optional<Channel> channel_named(std::string_view name) {
   return static_cast<Channel>(found - channel_names.begin());
 }
 
+/// What each channel carries, in their order.
+using ChannelMessages =
+    std::tuple<talus_lcm::talus_run, talus_lcm::talus_piles, talus_lcm::talus_sleep, talus_lcm::talus_stats,
+               talus_lcm::talus_bodies, talus_lcm::talus_shapes, talus_lcm::talus_event, talus_lcm::talus_obstacles,
+               talus_lcm::talus_scene, talus_lcm::talus_instruments, talus_lcm::talus_contacts>;
+static_assert(std::tuple_size_v<ChannelMessages> == channel_names.size());
+
 template <class Message>
-inline constexpr Channel channel_of = Channel::run;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_piles> = Channel::piles;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_sleep> = Channel::sleep;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_stats> = Channel::stats;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_bodies> = Channel::bodies;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_shapes> = Channel::shapes;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_event> = Channel::events;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_obstacles> = Channel::obstacles;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_scene> = Channel::scene;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_instruments> = Channel::instruments;
-template <>
-inline constexpr Channel channel_of<talus_lcm::talus_contacts> = Channel::contacts;
+inline constexpr Channel channel_of = []<class... Each>(const std::tuple<Each...>*) {
+  constexpr std::array same = {std::is_same_v<Message, Each>...};
+  constexpr auto place = std::find(same.begin(), same.end(), true) - same.begin();
+  static_assert(place < std::ssize(same), "carried by no channel");
+  return static_cast<Channel>(place);
+}(static_cast<const ChannelMessages*>(nullptr));
 
 /// Calls `use` with a default message of the type that the channel carries.
 template <class Use>
 void with_message_of(Channel channel, const Use& use) {
-  switch (channel) {
-    case Channel::run:
-      return use(talus_lcm::talus_run{});
-    case Channel::piles:
-      return use(talus_lcm::talus_piles{});
-    case Channel::sleep:
-      return use(talus_lcm::talus_sleep{});
-    case Channel::stats:
-      return use(talus_lcm::talus_stats{});
-    case Channel::bodies:
-      return use(talus_lcm::talus_bodies{});
-    case Channel::shapes:
-      return use(talus_lcm::talus_shapes{});
-    case Channel::events:
-      return use(talus_lcm::talus_event{});
-    case Channel::obstacles:
-      return use(talus_lcm::talus_obstacles{});
-    case Channel::scene:
-      return use(talus_lcm::talus_scene{});
-    case Channel::instruments:
-      return use(talus_lcm::talus_instruments{});
-    case Channel::contacts:
-      return use(talus_lcm::talus_contacts{});
-  }
+  [&]<class... Each>(const std::tuple<Each...>*) {
+    ((channel == channel_of<Each> ? use(Each{}) : void()), ...);
+  }(static_cast<const ChannelMessages*>(nullptr));
 }
 
 /// The channels that each run sends and records on.

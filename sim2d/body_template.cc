@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim2d/conversions.h"
+#include "sim2d/tag.h"
 
 namespace talus::box2d {
 
@@ -14,19 +15,6 @@ b2FixtureDef fixture_of(const Material& material, const SolverParams& solver) {
   fixture.restitution = static_cast<float>(material.restitution);
   fixture.restitutionThreshold = static_cast<float>(solver.restitution_threshold);
   return fixture;
-}
-
-bool restitutions_differ(const WorldDescription<2>& description) {
-  std::vector<double> all;
-  if (description.ground.present) all.push_back(description.ground.material.restitution);
-  for (const auto& obstacle : description.obstacles) all.push_back(obstacle.shape.material.restitution);
-  for (const auto& shape : description.shapes) all.push_back(shape.material.restitution);
-  return std::ranges::adjacent_find(all, std::ranges::not_equal_to{}) != all.end();
-}
-
-void mix_restitution(b2Contact& contact) {
-  contact.SetRestitution(static_cast<float>(
-      pair_restitution(contact.GetFixtureA()->GetRestitution(), contact.GetFixtureB()->GetRestitution())));
 }
 
 namespace {
@@ -108,6 +96,17 @@ EnginePiece moved(const EnginePiece& piece, const b2Transform& pose) {
     polygon.m_centroid = b2Mul(pose, polygon.m_centroid);
   }
   return copy;
+}
+
+b2Fixture* attach(b2Body& body, b2FixtureDef as, std::span<const EnginePiece> pieces, BodyIndex owner) {
+  b2Fixture* last = nullptr;
+  int number = 0;
+  for (const EnginePiece& piece : pieces) {
+    as.shape = &base(piece);
+    as.userData = to_user_data(make_tag(owner, number++));
+    last = body.CreateFixture(&as);
+  }
+  return last;
 }
 
 BodyTemplate make_body_template(const Shape<2>& shape, const SolverParams& solver) {

@@ -3,10 +3,12 @@
 
 #include <box2d/box2d.h>
 
+#include <span>
 #include <variant>
 #include <vector>
 
 #include "common/shape/shape.h"
+#include "common/world/body.h"
 #include "common/world/world_description.h"
 
 namespace talus::box2d {
@@ -14,12 +16,6 @@ namespace talus::box2d {
 /// Friction and restitution of a fixture; density 0, since a body's mass is set as a whole. Box2D mixes friction by the
 /// geometric mean, as we do.
 b2FixtureDef fixture_of(const Material& material, const SolverParams& solver);
-
-/// Whether restitutions differ, so that Box2D's rule (the larger wins) must be replaced contact by contact.
-bool restitutions_differ(const WorldDescription<2>& description);
-
-/// Sets the geometric mean of both restitutions on a contact; it stays until the contact ends.
-void mix_restitution(b2Contact& contact);
 
 /// A convex piece in Box2D.
 using EnginePiece = std::variant<b2CircleShape, b2PolygonShape>;
@@ -37,6 +33,10 @@ std::vector<EnginePiece> engine_pieces(const Shape<2>& shape, const SolverParams
 
 /// The same piece after the motion `pose`. Corners keep their order.
 EnginePiece moved(const EnginePiece& piece, const b2Transform& pose);
+
+/// Gives a body the pieces, with tags of the owner. `as` has all else of the fixtures. Returns the last; the others
+/// follow by GetNext().
+b2Fixture* attach(b2Body& body, b2FixtureDef as, std::span<const EnginePiece> pieces, BodyIndex owner);
 
 /// All that a body of one Shape needs from it; made once and shared by its bodies.
 struct BodyTemplate {

@@ -14,12 +14,10 @@ float skin_of(const b2Fixture& fixture) { return fixture.GetType() == b2Shape::e
 
 }  // namespace
 
-ContactListener::ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start,
-                                 ContinuousCollision& continuous)
-    : warm_start_(&warm_start), continuous_(&continuous), mix_restitutions_(restitutions_differ(description)) {}
-
+/// In place of Box2D's rule, by which the larger restitution holds. It stays until the contact ends.
 void ContactListener::BeginContact(b2Contact* contact) {
-  if (mix_restitutions_) mix_restitution(*contact);
+  contact->SetRestitution(static_cast<float>(
+      pair_restitution(contact->GetFixtureA()->GetRestitution(), contact->GetFixtureB()->GetRestitution())));
 }
 
 void ContactListener::PreSolve(b2Contact* contact, const b2Manifold* before) {

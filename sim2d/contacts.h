@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/world/body.h"
-#include "common/world/world_description.h"
 #include "sim2d/contact_records.h"
 #include "sim2d/continuous.h"
 #include "sim2d/warm_start.h"
@@ -20,7 +19,8 @@ namespace talus::box2d {
 /// gets: speeds before the solver, and the impulses of impacts that continuous collision finds after it.
 class ContactListener final : public b2ContactListener {
  public:
-  ContactListener(const WorldDescription<2>& description, const WarmStart& warm_start, ContinuousCollision& continuous);
+  ContactListener(const WarmStart& warm_start, ContinuousCollision& continuous)
+      : warm_start_(&warm_start), continuous_(&continuous) {}
 
   void BeginContact(b2Contact* contact) override;
   void PreSolve(b2Contact* contact, const b2Manifold* before) override;
@@ -45,7 +45,6 @@ class ContactListener final : public b2ContactListener {
 
   const WarmStart* warm_start_;
   ContinuousCollision* continuous_;
-  bool mix_restitutions_;
   bool sleepers_ = false;
   bool recording_ = false;
   ContactRecords records_;

@@ -75,7 +75,7 @@ EngineWorld::EngineWorld(const WorldDescription<2>& description)
       world_(to_engine(description.gravity_vector())),
       hosts_(world_, sleepers_in_a_host(description)),
       continuous_(description),
-      listener_(description, warm_start_, continuous_) {
+      listener_(warm_start_, continuous_) {
   for (const Shape<2>& shape : description.shapes) templates_.push_back(make_body_template(shape, description.solver));
   if (description.solver.small_steps()) small_steps_.emplace(description, ring_);
   world_.SetAllowSleeping(description.engine_sleep);
@@ -107,12 +107,7 @@ b2Body* EngineWorld::make_obstacle(int number) {
   b2Body* body = world_.CreateBody(&fixed);
   b2FixtureDef fixture = fixture_of(obstacle.shape.material, description().solver);
   fixture.filter = filter_of_fixed();
-  int part = 0;
-  for (const EnginePiece& piece : engine_pieces(obstacle.shape, description().solver)) {
-    fixture.shape = &base(piece);
-    fixture.userData = to_user_data(make_tag(first_obstacle - number, part++));
-    body->CreateFixture(&fixture);
-  }
+  attach(*body, fixture, engine_pieces(obstacle.shape, description().solver), first_obstacle - number);
   return body;
 }
 
@@ -136,12 +131,7 @@ b2Body* EngineWorld::create(BodyIndex index, int shape, const Pose<2>& pose, int
   b2Body* body = world_.CreateBody(&def);
   b2FixtureDef fixture = from.material;
   fixture.filter = filter_of(sides);
-  int number = 0;
-  for (const EnginePiece& piece : from.pieces) {
-    fixture.shape = &base(piece);
-    fixture.userData = to_user_data(make_tag(index, number++));
-    body->CreateFixture(&fixture);
-  }
+  attach(*body, fixture, from.pieces, index);
   body->SetMassData(&from.mass);
   return body;
 }
@@ -299,9 +289,8 @@ void EngineWorld::engine_thaw(std::span<const BodyIndex> bodies) {
     if (at(body).body != nullptr) at(body).body->SetAwake(true);  // asleep by the engine's own rule
   }
   std::vector<b2Fixture*> fixtures = fixtures_of(bodies);
-  hosts_.for_each_contact(fixtures, [this](b2Contact& contact, BodyIndex owner) {
-    if (states().asleep[owner] == 0) warm_start_.save(contact);
-  });
+  for (const auto& [contact, owner] : hosts_.contacts_around(fixtures))
+    if (states().asleep[owner] == 0) warm_start_.save(*contact);
   find_new_contacts();
   std::ranges::reverse(fixtures);  // see engine_freeze()
   for (b2Fixture* fixture : fixtures) hosts_.remove(fixture, template_of_body(owner_of(*fixture)));

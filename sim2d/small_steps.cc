@@ -42,8 +42,7 @@ class FixtureFinder final : public b2QueryCallback {
 
 SmallSteps::SmallSteps(const WorldDescription<2>& description, std::optional<Ring<2>>& ring)
     : ring_(ring),
-      params_{.sub_steps = description.solver.sub_steps,
-              .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
+      params_(description.solver),
       dt_(static_cast<float>(description.dt)),
       fast_(description),
       resistance_(description.shapes) {

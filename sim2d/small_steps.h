@@ -128,7 +128,7 @@ class SmallSteps {
   void move_bodies(const StepInput& input, std::span<b2Body* const> bodies) const;
 
   std::optional<Ring<2>>& ring_;
-  ContactSolverParams params_;
+  SolverParams params_;
   float dt_;
   FastBodies<2> fast_;
   PairResistance<2> resistance_;

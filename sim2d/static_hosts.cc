@@ -1,5 +1,7 @@
 #include "sim2d/static_hosts.h"
 
+#include <algorithm>
+
 namespace talus::box2d {
 
 std::size_t StaticHosts::open_host() {
@@ -27,15 +29,9 @@ b2Fixture* StaticHosts::add(BodyIndex body, const BodyTemplate& from, const b2Tr
   ++host.frozen;
   b2FixtureDef fixture = from.material;
   fixture.filter = filter;
-  b2Fixture* last = nullptr;
-  int number = 0;
-  for (const EnginePiece& own : from.pieces) {
-    const EnginePiece piece = moved(own, pose);
-    fixture.shape = &base(piece);
-    fixture.userData = to_user_data(make_tag(body, number++));
-    last = host.body->CreateFixture(&fixture);
-  }
-  return last;
+  std::vector<EnginePiece> pieces;
+  for (const EnginePiece& piece : from.pieces) pieces.push_back(moved(piece, pose));
+  return attach(*host.body, fixture, pieces, body);
 }
 
 void StaticHosts::remove(b2Fixture* first, const BodyTemplate& from) {
@@ -54,6 +50,22 @@ void StaticHosts::remove(b2Fixture* first, const BodyTemplate& from) {
   }
   if (host.frozen == capacity_) open_.push_back(slot);
   --host.frozen;
+}
+
+std::vector<std::pair<b2Contact*, BodyIndex>> StaticHosts::contacts_around(
+    std::span<b2Fixture* const> fixtures) const {
+  std::vector<std::size_t> slots;
+  for (b2Fixture* fixture : fixtures) slots.push_back(slot_of(*fixture->GetBody()));
+  std::ranges::sort(slots);
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  std::vector<std::pair<b2Contact*, BodyIndex>> found;
+  for (const std::size_t slot : slots)
+    for (b2ContactEdge* edge = hosts_[slot].body->GetContactList(); edge != nullptr; edge = edge->next) {
+      b2Fixture& a = *edge->contact->GetFixtureA();
+      b2Fixture& b = *edge->contact->GetFixtureB();
+      found.emplace_back(edge->contact, owner_of(a.GetBody() == hosts_[slot].body ? a : b));
+    }
+  return found;
 }
 
 }  // namespace talus::box2d

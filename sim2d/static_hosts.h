@@ -4,8 +4,8 @@
 
 #include <box2d/box2d.h>
 
-#include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim2d/body_template.h"
@@ -25,10 +25,8 @@ class StaticHosts {
   /// Removes the fixtures that add() returned.
   void remove(b2Fixture* first, const BodyTemplate& from);
 
-  /// Calls visit(contact, frozen body) for every touching contact of the static bodies (hosts) to which these fixtures
-  /// are attached; each host is visited once.
-  template <typename Visit>
-  void for_each_contact(std::span<b2Fixture* const> fixtures, Visit visit);
+  /// The contacts of the hosts to which these fixtures are attached, host by host, with the frozen body of each.
+  std::vector<std::pair<b2Contact*, BodyIndex>> contacts_around(std::span<b2Fixture* const> fixtures) const;
 
   int hosts() const { return static_cast<int>(hosts_.size() - vacant_.size()); }
 
@@ -46,20 +44,5 @@ class StaticHosts {
   std::vector<std::size_t> vacant_;  // slots without a body
   std::vector<std::size_t> open_;    // slots with room; may name hosts that have been filled or dropped since
 };
-
-template <typename Visit>
-void StaticHosts::for_each_contact(std::span<b2Fixture* const> fixtures, Visit visit) {
-  std::vector<std::size_t> slots;
-  for (b2Fixture* fixture : fixtures) slots.push_back(slot_of(*fixture->GetBody()));
-  std::ranges::sort(slots);
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-  for (const std::size_t slot : slots) {
-    for (b2ContactEdge* edge = hosts_[slot].body->GetContactList(); edge != nullptr; edge = edge->next) {
-      b2Fixture& a = *edge->contact->GetFixtureA();
-      b2Fixture& b = *edge->contact->GetFixtureB();
-      visit(*edge->contact, owner_of(a.GetBody() == hosts_[slot].body ? a : b));
-    }
-  }
-}
 
 }  // namespace talus::box2d

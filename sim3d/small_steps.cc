@@ -94,8 +94,7 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
                             const BodyStates<Dim>& states, std::optional<Ring<Dim>>& ring)
     : states_(states),
       ring_(ring),
-      params_{.sub_steps = description.solver.sub_steps,
-              .restitution_threshold = static_cast<float>(description.solver.restitution_threshold)},
+      params_(description.solver),
       dt_(static_cast<float>(description.dt)),
       fastest_spin_(static_cast<float>(fastest_spin)),
       fast_(description),

@@ -106,7 +106,7 @@ class SmallSteps {
 
   const BodyStates<Dim>& states_;
   std::optional<Ring<Dim>>& ring_;
-  ContactSolverParams params_;
+  SolverParams params_;
   float dt_;
   float fastest_spin_;      // [rad/s]
   float one_point_ = 0.0F;  // points of a planar pair that are nearer are one [m]

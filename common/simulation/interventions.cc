@@ -56,7 +56,7 @@ void Interventions<Dim>::do_due_events(const Intervened<Dim>& run, bool at_rest,
 template <int Dim>
 void Interventions<Dim>::move(const Intervened<Dim>& run) {
   time_ = run.time;
-  run.wake(obstacles_.move(run.world, run.time), SleepCause::lost_support);
+  run.sleep.wake(obstacles_.move(run.world, run.time), SleepCause::lost_support);
   if (gravity_motion_) change_gravity(run);
   held_awake_.clear();
   if (pull_) pull_body(run);
@@ -74,7 +74,7 @@ void Interventions<Dim>::change_gravity(const Intervened<Dim>& run) {
 template <int Dim>
 void Interventions<Dim>::wake_for_gravity(const Intervened<Dim>& run) {
   gravity_change_.note_wake(run.world.gravity(), run.time);
-  run.wake(all_bodies(run.world), SleepCause::user);
+  run.sleep.wake(all_bodies(run.world), SleepCause::user);
 }
 
 template <int Dim>
@@ -99,7 +99,7 @@ void Interventions<Dim>::pull_body(const Intervened<Dim>& run) {
     return;
   }
   held_awake_ = bodies_near<Dim>(run.world, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
-  run.wake(held_awake_, SleepCause::user);
+  run.sleep.wake(held_awake_, SleepCause::user);
   const VelocityChange<Dim> change = pulled(run.world, *pull_, dt_);
   run.world.set_velocity(body, change.velocity, change.spin);
 }
@@ -111,7 +111,7 @@ void Interventions<Dim>::push_bodies(const Intervened<Dim>& run) {
   });
   for (const TimedPush& each : pushes_) {
     const BodyIndex body = each.push.body;
-    if (run.world.states().asleep[body] != 0) run.wake({&body, 1}, SleepCause::user);
+    if (run.world.states().asleep[body] != 0) run.sleep.wake({&body, 1}, SleepCause::user);
     run.world.push(body, each.push.force);
     held_awake_.insert(std::ranges::upper_bound(held_awake_, body), body);
   }
@@ -137,7 +137,8 @@ void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event
       }
       return;
     case EventAction::wake:
-      return run.wake(bodies_meant(run.world, event), SleepCause::user);
+      run.sleep.wake(bodies_meant(run.world, event), SleepCause::user);
+      return;
     case EventAction::kick:
       return kick(run, event);
     case EventAction::rate:
@@ -166,7 +167,7 @@ void Interventions<Dim>::add(const Intervened<Dim>& run, const Event<Dim>& event
     if (run.world.has_obstacle(number)) continue;
     const Pose<Dim> at = obstacles_.pose_at(run.world, number, run.time);
     run.world.restore_obstacle(number, at);
-    run.wake(bodies_near<Dim>(run.world, bounds_at(run.world.obstacle_shape(number), at), 0.0), SleepCause::user);
+    run.sleep.wake(bodies_near<Dim>(run.world, bounds_at(run.world.obstacle_shape(number), at), 0.0), SleepCause::user);
   }
 }
 
@@ -183,8 +184,8 @@ void Interventions<Dim>::remove(const Intervened<Dim>& run, BodyIndex body) cons
   run.world.require_present(body);
   const std::vector<BodyIndex> near =
       sleepers_by(run.world, body, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
-  run.remove(body);
-  run.wake(near, SleepCause::lost_support);
+  run.sleep.remove(body);
+  run.sleep.wake(near, SleepCause::lost_support);
 }
 
 /// Those near a body or an obstacle, which is about to go, but for those that will feel it.
@@ -201,14 +202,14 @@ void Interventions<Dim>::cut_obstacle(const Intervened<Dim>& run, int number) co
   const Box<Dim> bounds = bounds_at(run.world.obstacle_shape(number), run.world.obstacle_pose(number));
   const std::vector<BodyIndex> near = sleepers_by(run.world, first_obstacle - number, bounds, waking_reach * extent_);
   run.world.remove_obstacle(number);
-  run.wake(near, SleepCause::lost_support);
+  run.sleep.wake(near, SleepCause::lost_support);
 }
 
 /// The sum may be no faster than the engine allows.
 template <int Dim>
 void Interventions<Dim>::kick(const Intervened<Dim>& run, const Event<Dim>& event) const {
   const std::vector<BodyIndex> bodies = bodies_meant(run.world, event);
-  run.wake(bodies, SleepCause::user);
+  run.sleep.wake(bodies, SleepCause::user);
   const BodyStates<Dim>& states = run.world.states();
   for (const BodyIndex body : bodies) {
     const Vec<Dim> velocity = states.velocity[body] + event.velocity;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/policy/gravity_change.h"
-#include "common/policy/sleep_policy.h"
+#include "common/policy/sleep_control.h"
 #include "common/scene/happened.h"
 #include "common/scene/scene.h"
 #include "common/simulation/emitter.h"
@@ -23,11 +23,8 @@ template <int Dim>
 struct Intervened {
   World<Dim>& world;
   Emitter<Dim>& emitter;
+  SleepControl<Dim>& sleep;
   double time = 0.0;  // [s]
-  /// Wakes those of the bodies that sleep.
-  std::function<void(std::span<const BodyIndex>, SleepCause)> wake;
-  /// Takes a body out of the world.
-  std::function<void(BodyIndex)> remove;
   /// Another policy from now on.
   std::function<void(const std::string&)> switch_policy;
 };

@@ -100,9 +100,8 @@ template <int Dim>
 Intervened<Dim> Simulation<Dim>::intervened() {
   return {.world = *world_,
           .emitter = emitter_,
+          .sleep = sleep_,
           .time = time(),
-          .wake = [this](std::span<const BodyIndex> bodies, SleepCause cause) { sleep_.wake(bodies, cause); },
-          .remove = [this](BodyIndex body) { sleep_.remove(body); },
           .switch_policy = [this](const std::string& kind) { sleep_.switch_policy(make_policy_(kind)); }};
 }
 

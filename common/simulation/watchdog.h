@@ -54,7 +54,7 @@ class Watchdog {
   WarningList warnings_;
 };
 
-/// Bodies in the world with the centre below the ground or outside the world's 10,000 m. Costs O(all bodies).
+/// Bodies in the world with the centre below the ground or outside of the range of positions. Costs O(all bodies).
 template <int Dim>
 int bodies_lost(const BodyStates<Dim>& states, const Ground& ground, const UnitScale& units = {});
 

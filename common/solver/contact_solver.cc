@@ -176,7 +176,7 @@ struct ContactSolver<Dim>::Work {
   // Given.
   std::span<SolverBody<Dim>> bodies;
   std::span<ContactPoint<Dim>> points;
-  ContactSolverParams params;
+  SolverParams params;
   float h = 0.0F;  // length of a sub-step [s]
   // Made from it.
   Sets sets;
@@ -261,7 +261,7 @@ float ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int 
     return body.velocity + turned(body.spin, arm);
   };
   point.approach_speed = n.dot(velocity_at(a, point.arm_a) - velocity_at(b, point.arm_b));
-  if (point.restitution > 0.0F && point.approach_speed > params.restitution_threshold)
+  if (point.restitution > 0.0F && point.approach_speed > static_cast<float>(params.restitution_threshold))
     to.bounce.v[lane] = -point.restitution * point.approach_speed;
   const float share = 1.0F / static_cast<float>(params.sub_steps);
   to.impulse.v[lane] = to.before.v[lane] = share * point.pressing_impulse();
@@ -544,7 +544,7 @@ void ContactSolver<Dim>::pull(int slot, const VecF<Dim>& arm, const VecF<Dim>& f
 }
 
 template <int Dim>
-void ContactSolver<Dim>::solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt) {
+void ContactSolver<Dim>::solve(const SolverParams& params, const VecF<Dim>& gravity, float dt) {
   Work& work = *work_;
   if (cohesive_) attract(gravity.norm(), dt);
   work.bodies = bodies_;

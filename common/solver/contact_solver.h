@@ -9,6 +9,7 @@
 #include "common/math/vector.h"
 #include "common/solver/solver_body.h"
 #include "common/world/team.h"
+#include "common/world/world_description.h"
 
 namespace talus {
 
@@ -56,12 +57,6 @@ struct ContactPoint {
   float approach_speed = 0.0F;                 // before the step [m/s]
 };
 
-/// What the steps of one world have in common.
-struct ContactSolverParams {
-  int sub_steps = 8;
-  float restitution_threshold = 0.5F;  // slower approaches do not bounce [m/s]
-};
-
 /// Which version of the solver's inner loops: all give the same bits.
 enum class SolverLanes { plain, sse2, avx2 };
 /// The versions that this build and this processor have, the fastest last.
@@ -104,7 +99,7 @@ class ContactSolver {
   void push(int slot, const VecF<Dim>& acceleration) { pushes_.push_back({slot, acceleration, SpinF<Dim>::Zero()}); }
 
   /// Advances velocities by `dt` [s] under `gravity` [m/s^2]. The caller moves the bodies by `way` and `turn`.
-  void solve(const ContactSolverParams& params, const VecF<Dim>& gravity, float dt);
+  void solve(const SolverParams& params, const VecF<Dim>& gravity, float dt);
   /// From now on, threads share steps of many bodies; the bits stay the same.
   void share_among(const std::shared_ptr<Team>& team) { team_ = team; }
 

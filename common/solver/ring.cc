@@ -5,8 +5,8 @@
 namespace talus {
 namespace {
 
-/// A sleeping body wakes when a point of it has moved farther than this since it fell asleep [D]: less than what counts
-/// as rest.
+/// A sleeping body wakes when a point of it has moved farther than this since it fell asleep [D]: as far as one at rest
+/// may move.
 constexpr float wake_distance = 0.01F;
 /// Or is faster than this, at which it would rise by that distance [sqrt(g D)].
 constexpr float wake_speed = 0.14F;

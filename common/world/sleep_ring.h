@@ -1,7 +1,5 @@
 #pragma once
 
-#include "common/world/gravity_units.h"
-
 namespace talus {
 
 /// Which sleeping bodies take part in the contact solve, and what wakes them. See Ring.

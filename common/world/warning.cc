@@ -18,7 +18,7 @@ std::string finding(const Warning& warning) {
     case WarningKind::below_ground:
       return fmt::format("the centre is {:.3g} m below the ground", warning.value);
     case WarningKind::outside_world:
-      return fmt::format("a coordinate is {:.6g} m, outside the world's 10,000 m", warning.value);
+      return fmt::format("a coordinate is {:.6g} m, outside of the range of positions", warning.value);
     case WarningKind::energy:
       return fmt::format("{:.3g} J more than sources, gravity and policy gave", warning.value);
     case WarningKind::speed_limit:

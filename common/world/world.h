@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/world/body.h"
+#include "common/world/gravity_units.h"
 #include "common/world/sleep_ring.h"
 #include "common/world/team.h"
 #include "common/world/world_description.h"

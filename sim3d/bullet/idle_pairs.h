@@ -28,12 +28,10 @@ struct IdleMark {
     return {static_cast<std::int32_t>(bits >> 32), static_cast<std::int32_t>((bits & 0xffffffff) >> 1)};
   }
 
-  /// Both slots must exist. Where a pointer is too short for two slots, no pair is idle.
+  /// Both slots must exist.
   void set(btBroadphasePair& pair) const {
-    if constexpr (sizeof(void*) == 8) {
-      const std::uint64_t bits = (static_cast<std::uint64_t>(first) << 32) | (static_cast<std::uint64_t>(second) << 1);
-      pair.m_internalInfo1 = reinterpret_cast<void*>(static_cast<std::uintptr_t>(bits | 1));
-    }
+    const std::uint64_t bits = (static_cast<std::uint64_t>(first) << 32) | (static_cast<std::uint64_t>(second) << 1);
+    pair.m_internalInfo1 = reinterpret_cast<void*>(bits | 1);
   }
 
  private:

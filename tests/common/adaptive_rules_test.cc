@@ -20,16 +20,6 @@
 namespace talus::adaptive_rules_test {
 namespace {
 
-TEST(WakeList, IsAscendingAndKeepsTheFirstCauseOfABody) {
-  WakeList wakes;
-  wakes.add(7, {.cause = SleepCause::momentum, .before_impact = true});
-  wakes.add(3, {.cause = SleepCause::lost_support});
-  wakes.add(7, {.cause = SleepCause::avalanche});
-  EXPECT_EQ(bodies_in(wakes), (std::vector<BodyIndex>{3, 7}));
-  EXPECT_EQ(std::next(wakes.begin())->second.cause, SleepCause::momentum);
-  EXPECT_TRUE(std::next(wakes.begin())->second.before_impact);
-}
-
 TEST(RuleOutput, HasOneVelocityForEachBodyWhichBeginsWithItsOwn) {
   StillWorld<3> world = cubes_at({Vec3::Zero(), Vec3::UnitX()});
   world.set_velocity(0, Vec3::UnitZ(), Vec3::UnitY());

@@ -60,7 +60,7 @@ std::vector<VecF<Dim>> feet() {
 template <int Dim>
 class Tower {
  public:
-  Tower(const std::vector<float>& masses, SolverLanes lanes, const ContactSolverParams& params = {})
+  Tower(const std::vector<float>& masses, SolverLanes lanes, const SolverParams& params = {})
       : params_(params), solver_(lanes) {
     for (std::size_t i = 0; i < masses.size(); ++i)
       things_.push_back(
@@ -119,7 +119,7 @@ class Tower {
     }
   }
 
-  ContactSolverParams params_;
+  SolverParams params_;
   ContactSolver<Dim> solver_;
   std::vector<Thing<Dim>> things_;
   std::map<std::size_t, ContactPoint<Dim>> kept_;

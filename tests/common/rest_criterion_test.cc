@@ -76,7 +76,7 @@ TEST_F(RestCriterionTest, DoesNotMarkABodyThatWokeBeforeAnImpact) {
   world_.freeze(first_);
   update(2);
   WakeList wakes;
-  wakes.add(0, {.cause = SleepCause::momentum, .before_impact = true});
+  wakes.try_emplace(0, Wake{.cause = SleepCause::momentum, .before_impact = true});
   rest_.expect_motion(wakes);
   world_.thaw(first_);
   update(3);

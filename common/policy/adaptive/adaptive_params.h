@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "common/math/angle.h"
+#include "common/world/sleep_ring.h"
 
 namespace talus {
 
 /// Rings of a scene that names none, under small steps (lab/notes/ring.md).
-inline constexpr int usual_rings = 2;
+inline constexpr int usual_rings = SleepRing{}.rings;
 
 /// Parameters of the policy `adaptive`. Lengths are in D, the typical body's extent, and times in sqrt(D/g), the time
 /// in which a body falls by D/2, so that they hold at any scale and in any gravity. adaptive_fields has the unit, range
@@ -27,7 +28,7 @@ struct AdaptiveParams {
   double avalanche_growth = 1.15;
   double avalanche_angle = in_radians(25.0);
   int rings = 0;
-  double ring_still_speed = 0.01;
+  double ring_still_speed = SleepRing{}.still_speed;
 
   /// Factor of the rest distances: a tolerance below the default is kept while a pour goes on, too, when there are few
   /// checks (lab/notes/tolerance_in_a_pour.md). 1 without a tolerance.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/policy/paper_policy.h"
+#include "common/world/gravity_units.h"
 
 namespace talus {
 namespace {
@@ -67,7 +68,7 @@ template <int Dim>
 void AdaptivePolicy<Dim>::find_wakes(const RuleInput<Dim>& in) {
   if (ring_) {
     for (const BodyIndex body : in.world.stirred())
-      output_.wakes.add(body, {.cause = SleepCause::motion, .before_impact = true});
+      output_.wakes.try_emplace(body, Wake{.cause = SleepCause::motion, .before_impact = true});
     return;
   }
   impacts_ahead_.update(in, output_);

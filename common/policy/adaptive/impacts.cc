@@ -38,7 +38,7 @@ void Impacts<Dim>::update(const RuleInput<Dim>& in, const RestCriterion<Dim>& re
   for (const ContactImpulse& contact : impulses_) {
     const Impact impact = evaluate(in, rest, contact);
     if (!(impact.speed > wake_speed)) continue;
-    out.wakes.add(contact.sleeper, {.cause = SleepCause::momentum});
+    out.wakes.try_emplace(contact.sleeper, Wake{.cause = SleepCause::momentum});
     change_velocity<Dim>(in, contact.awake, contact.point, (impact.share - 1.0) * impact.impulse, out);
     change_velocity<Dim>(in, contact.sleeper, contact.point, -impact.share * impact.impulse, out);
   }

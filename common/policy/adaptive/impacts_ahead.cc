@@ -101,7 +101,7 @@ void ImpactsAhead<Dim>::wake_path(const RuleInput<Dim>& in, BodyIndex body, Rule
     const std::optional<Vec<Dim>> direction = direction_aside(in, body, other);
     if (!direction || pushes_[body].dot(*direction) <= 0.0) continue;
     // Of two equal bodies the one that is hit gets half of the speed.
-    if (0.5 * speed_towards<Dim>(in, body, *direction) > wake_speed_) out.wakes.add(other, before_impact);
+    if (0.5 * speed_towards<Dim>(in, body, *direction) > wake_speed_) out.wakes.try_emplace(other, before_impact);
   }
 }
 
@@ -127,7 +127,7 @@ void ImpactsAhead<Dim>::wake_driven(const RuleInput<Dim>& in, BodyIndex body, Ru
   }
   for (const BodyIndex other : woken_) {
     reached_[other] = 0;
-    out.wakes.add(other, before_impact);
+    out.wakes.try_emplace(other, before_impact);
   }
 }
 

@@ -45,7 +45,7 @@ void LocalAvalanches<Dim>::check_column(const RuleInput<Dim>& in, const Cell& ce
   columns_[cell].note_check(neighbourhood_[cell].bodies.size());
   if (mostly_awake() || !is_steep(in.piles, cell)) return;
   for (const auto& [place, stack] : neighbourhood_) {
-    for (const BodyIndex body : stack.bodies) out.wakes.add(body, {.cause = SleepCause::avalanche});
+    for (const BodyIndex body : stack.bodies) out.wakes.try_emplace(body, Wake{.cause = SleepCause::avalanche});
     columns_[place].note_check(stack.bodies.size());
   }
 }

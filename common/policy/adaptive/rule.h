@@ -46,22 +46,8 @@ struct Wake {
   bool before_impact = false;  // the impact is still to come: the body is expected to move
 };
 
-/// The bodies to wake after a step, ascending, each once.
-class WakeList {
- public:
-  /// Adds a sleeping body. One that is in the list keeps its first entry.
-  void add(BodyIndex body, const Wake& wake) { wakes_.try_emplace(body, wake); }
-  void clear() { wakes_.clear(); }
-
-  bool empty() const { return wakes_.empty(); }
-  std::size_t size() const { return wakes_.size(); }
-  /// Pairs of body and Wake.
-  auto begin() const { return wakes_.begin(); }
-  auto end() const { return wakes_.end(); }
-
- private:
-  std::map<BodyIndex, Wake> wakes_;
-};
+/// The sleeping bodies to wake after a step. Filled by try_emplace(): the first entry of a body stays.
+using WakeList = std::map<BodyIndex, Wake>;
 
 /// What the rules change after a step. Each rule adds to what the rules before it have put in.
 template <int Dim>

@@ -11,6 +11,13 @@ typename SleepLedger<Dim>::Count SleepLedger<Dim>::count(const Column& column) c
 }
 
 template <int Dim>
+void SleepLedger<Dim>::Count::add(Standing standing, int one) {
+  sleeping += one;
+  if (standing != Standing::settled) unchecked += one;
+  if (standing == Standing::fresh) fresh = std::max(0, fresh + one);
+}
+
+template <int Dim>
 bool SleepLedger<Dim>::settled(BodyIndex body) const {
   return body < std::ssize(sleepers_) && sleepers_[body] && sleepers_[body]->standing == Standing::settled;
 }
@@ -20,27 +27,19 @@ void SleepLedger<Dim>::put_in(BodyIndex body, const Vec<Dim>& position, Standing
   if (std::ssize(sleepers_) <= body) sleepers_.resize(body + 1);
   if (sleepers_[body]) return;
   const Sleeper& sleeper = sleepers_[body].emplace(Sleeper{columns_.cell_of(position), standing});
-  Count& count = counts_[sleeper.column];
-  ++count.sleeping;
-  const int waits = standing == Standing::settled ? 0 : 1;
-  count.unchecked += waits;
-  unchecked_ += waits;
-  count.fresh += standing == Standing::fresh ? 1 : 0;
+  counts_[sleeper.column].add(standing, 1);
+  if (standing != Standing::settled) ++unchecked_;
 }
 
 template <int Dim>
 void SleepLedger<Dim>::take_out(BodyIndex body) {
   if (std::ssize(sleepers_) <= body || !sleepers_[body]) return;
   const auto entry = counts_.find(sleepers_[body]->column);
-  Count& count = entry->second;
   const Standing standing = sleepers_[body]->standing;
   sleepers_[body].reset();
-  --count.sleeping;
-  const int waits = standing == Standing::settled ? 0 : 1;
-  count.unchecked -= waits;
-  unchecked_ -= waits;
-  if (standing == Standing::fresh) count.fresh = std::max(0, count.fresh - 1);
-  if (count.sleeping == 0) counts_.erase(entry);
+  entry->second.add(standing, -1);
+  if (standing != Standing::settled) --unchecked_;
+  if (entry->second.sleeping == 0) counts_.erase(entry);
 }
 
 template <int Dim>
@@ -59,12 +58,8 @@ bool SleepLedger<Dim>::matches(const BodyStates<Dim>& states) const {
     if (!sleeps) continue;
     const Column column = columns_.cell_of(states.pose[body].position);
     if (column != sleepers_[body]->column) return false;
-    Count& count = recount[column];
-    ++count.sleeping;
-    const int waits = sleepers_[body]->standing == Standing::settled ? 0 : 1;
-    count.unchecked += waits;
-    unchecked += waits;
-    count.fresh += sleepers_[body]->standing == Standing::fresh ? 1 : 0;
+    recount[column].add(sleepers_[body]->standing, 1);
+    if (sleepers_[body]->standing != Standing::settled) ++unchecked;
   }
   return unchecked == unchecked_ && std::ranges::equal(recount, counts_, [](const auto& counted, const auto& kept) {
            return counted.first == kept.first && counted.second.sleeping == kept.second.sleeping &&

@@ -31,7 +31,8 @@ class SleepLedger {
     int unchecked = 0;  // of these, the ones that wait for a check
     int fresh = 0;      // of these, the ones that no check has seen there, less those of before the last settle()
 
-    bool operator==(const Count&) const = default;
+    /// One body more (1) or less (-1). Those that settle() no longer counts do not come back as less.
+    void add(Standing standing, int one);
   };
 
   /// `width` of a column [m] > 0.

@@ -334,7 +334,7 @@ void StabilityChecks<Dim>::begin(const RuleInput<Dim>& in, const Region& region,
       if (columns_.cell_of(pose.position) != column) continue;
       const bool slept = in.asleep(body);
       if (!slept && contact_[body] == 0) continue;
-      if (slept) out.wakes.add(body, {.cause = SleepCause::check});
+      if (slept) out.wakes.try_emplace(body, Wake{.cause = SleepCause::check});
       check.members.push_back({.body = body, .sample = pose, .slept = slept ? std::optional(pose) : std::nullopt});
       held_[body] = 1;
     }
