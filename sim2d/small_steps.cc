@@ -67,7 +67,9 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
     Stopwatch solve;
     solver_.solve(params_, to_solver(world.GetGravity()), dt_);
     solving += solve.lap();
-    if (round == most_solves || !passes_unseen(world, input, bodies)) break;
+    if (round == most_solves) break;
+    const bool struck = ring_ && ring_->widen(solver_, world.GetGravity().Length());
+    if (!passes_unseen(world, input, bodies) && !struck) break;
     if (ring_) ring_->start_again();
   }
   if (ring_) ring_->read(solver_, world.GetGravity().Length(), dt_);

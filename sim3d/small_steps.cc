@@ -121,7 +121,8 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
     if (ring_) ring_->extend(solver_, obstacle_slots_);
     solver_.solve(params_, to_solver<Dim>(actions.gravity), dt_);
     const std::size_t solved = ahead_.size();
-    const bool again = round < most_solves && passes_unseen(engine, bodies);
+    bool again = round < most_solves && passes_unseen(engine, bodies);
+    again = (round < most_solves && ring_ && ring_->widen(solver_, actions.gravity.length())) || again;
     for (btCollisionObject* other : others_) other->setCompanionId(-1);
     others_.clear();
     if (!again) {

@@ -9,18 +9,22 @@ namespace {
 /// may move.
 constexpr float wake_distance = 0.01F;
 /// Or is faster than this, at which it would rise by that distance [sqrt(g D)].
-constexpr float wake_speed = 0.14F;
+constexpr float wake_share = 0.14F;
 /// Or has come to rest in the ring farther than this from where it fell asleep [D]: the engine's pose must be updated.
 constexpr float settle_distance = 0.002F;
 /// While obstacles move, bodies that are faster than this share of the slowest count as moving: else what a slow one
 /// carries would be held back by what has not begun to move.
 constexpr float obstacle_share = 0.3F;
-/// Once nothing awake touches sleeping bodies, one is solved again if the forces on it have changed by more than this
-/// since its last solve [its weight].
+/// A body beyond the ring is solved if the forces on it have changed by more than this since its last solve [its
+/// weight].
 constexpr float balance = 0.01F;
 /// Steps for which a body stays in the ring that does not reach it any more. Without, the ring's border moves to and
 /// fro, and each move changes forces.
 constexpr int hold_steps = 20;
+/// Factor of the contacts by which the ring goes on from what an impact strikes, from one solve of a step to the next.
+constexpr int widening = 4;
+/// Of them at most: then an impact has passed through every heap.
+constexpr int widest = 1 << 12;
 
 }  // namespace
 
@@ -116,6 +120,8 @@ void Ring<Dim>::start() {
     if (has(body)) --sleepers_[body].hold;
   stirred_.clear();
   last_touched_.swap(touched_);
+  struck_.clear();
+  beyond_struck_ = params_.rings;
   start_again();
 }
 
@@ -124,10 +130,11 @@ void Ring<Dim>::start_again() {
   for (const BodyIndex body : border_) sleepers_[body].slot = 0;
   for (const BodyIndex body : members_) {
     sleepers_[body].slot = 0;
-    sleepers_[body].depth = -1;
+    sleepers_[body].left = -1;
   }
   border_.clear();
   members_.clear();
+  entered_.clear();
   touched_.clear();
   slowest_obstacle_ = 0.0F;
 }
@@ -135,37 +142,37 @@ void Ring<Dim>::start_again() {
 template <int Dim>
 int Ring<Dim>::join(BodyIndex body, ContactSolver<Dim>& solver) {
   if (sleepers_[body].slot == 0) touched_.push_back(body);
-  enter(body, 1, solver);
+  enter(body, params_.rings - 1, solver);
   return sleepers_[body].slot;
 }
 
 template <int Dim>
-void Ring<Dim>::enter(BodyIndex body, int depth, ContactSolver<Dim>& solver) {
+void Ring<Dim>::enter(BodyIndex body, int left, ContactSolver<Dim>& solver) {
   if (!has(body)) return;
   Sleeper& sleeper = sleepers_[body];
-  if (sleeper.depth >= 0) {
-    sleeper.depth = std::min(sleeper.depth, depth);
-    return;
+  if (sleeper.left < 0) {
+    sleeper.slot = solver.add(sleeper.body);
+    members_.push_back(body);
   }
-  sleeper.depth = depth;
-  sleeper.slot = solver.add(sleeper.body);
-  members_.push_back(body);
+  if (left <= sleeper.left) return;
+  sleeper.left = left;
+  if (left > 0) entered_.push_back(body);
 }
 
 template <int Dim>
-void Ring<Dim>::enter_partners(BodyIndex side, int depth, ContactSolver<Dim>& solver) {
+void Ring<Dim>::enter_partners(BodyIndex side, int left, ContactSolver<Dim>& solver) {
   for (const int number : contacts_.of(side)) {
     const SleepingPoint<Dim>& point = contacts_[number];
     const BodyIndex partner = point.a == side ? point.b : point.a;
-    if (partner >= 0) enter(partner, depth, solver);
+    if (partner >= 0) enter(partner, left, solver);
   }
 }
 
 template <int Dim>
 void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle_slots) {
-  for (const BodyIndex body : moving_) enter(body, 0, solver);
-  for (const BodyIndex body : moving_)
-    if (has(body)) enter_partners(body, 1, solver);
+  const int rings = params_.rings;
+  for (const BodyIndex body : struck_) enter(body, beyond_struck_, solver);
+  for (const BodyIndex body : moving_) enter(body, rings, solver);
   for (std::size_t i = 0; i < obstacle_slots.size(); ++i) {
     const BodyIndex obstacle = first_obstacle - static_cast<BodyIndex>(i);
     if (obstacle_slots[i] == 0 || contacts_.of(obstacle).empty()) continue;
@@ -173,16 +180,12 @@ void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle
     const float speed = state.velocity.norm() + static_cast<float>(params_.extent) * state.spin.norm();
     if (speed == 0.0F) continue;
     slowest_obstacle_ = slowest_obstacle_ > 0.0F ? std::min(slowest_obstacle_, speed) : speed;
-    enter_partners(obstacle, 1, solver);
+    enter_partners(obstacle, rings - 1, solver);
   }
-  for (const BodyIndex body : disturbed_) enter(body, 1, solver);
-  for (const BodyIndex body : last_touched_) enter(body, 1, solver);
-  std::size_t next = 0;  // breadth first: the list grows meanwhile
-  while (next < members_.size()) {
-    const BodyIndex body = members_[next++];
-    const int depth = sleepers_[body].depth;
-    if (depth > 0 && depth < params_.rings) enter_partners(body, depth + 1, solver);
-  }
+  for (const BodyIndex body : disturbed_) enter(body, rings - 1, solver);
+  for (const BodyIndex body : last_touched_) enter(body, rings - 1, solver);
+  for (std::size_t next = 0; next < entered_.size(); ++next)  // the list grows meanwhile
+    enter_partners(entered_[next], sleepers_[entered_[next]].left - 1, solver);
   hold_back(solver);
   first_point_ = solver.points().size();
   points_.clear();
@@ -196,15 +199,14 @@ void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
   for (const BodyIndex body : members_) sleepers_[body].hold = hold_steps;
   const bool reached = !members_.empty();
   for (const BodyIndex body : before_)
-    if (reached && has(body) && sleepers_[body].depth < 0 && sleepers_[body].hold >= 0)
-      enter(body, params_.rings, solver);
+    if (reached && has(body) && sleepers_[body].left < 0 && sleepers_[body].hold >= 0) enter(body, 0, solver);
 }
 
 /// Bodies that were solved in the step before, but not in this one, come to rest where they are.
 template <int Dim>
 void Ring<Dim>::let_go() {
   for (const BodyIndex body : before_) {
-    if (!has(body) || sleepers_[body].depth >= 0) continue;
+    if (!has(body) || sleepers_[body].left >= 0) continue;
     Sleeper& sleeper = sleepers_[body];
     sleeper.body.velocity.setZero();
     sleeper.body.spin.setZero();
@@ -239,6 +241,7 @@ int Ring<Dim>::slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<con
     immovable.velocity.setZero();
     immovable.spin.setZero();
     sleeper.slot = solver.add(immovable);
+    sleeper.struck.setZero();
     border_.push_back(side);
   }
   return sleeper.slot;
@@ -255,12 +258,38 @@ VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
   return sleepers_[body].body.way_of(arm);
 }
 
+/// [m/s]
+template <int Dim>
+float Ring<Dim>::wake_speed(float gravity) const {
+  return wake_share * static_cast<float>(speed_unit(params_.extent, gravity));
+}
+
+template <int Dim>
+bool Ring<Dim>::widen(const ContactSolver<Dim>& solver, float gravity) {
+  if (beyond_struck_ >= widest) return false;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const ContactPoint<Dim>& solved = solver.points()[first_point_ + i];
+    const SleepingPoint<Dim>& kept = contacts_[points_[i]];
+    const VecF<Dim> more = (solved.normal_sum - kept.contact.normal_impulse) * solved.normal + solved.friction_sum -
+                           kept.contact.friction_impulse;
+    if (kept.a >= 0 && sleepers_[kept.a].left < 0) sleepers_[kept.a].struck -= more;
+    if (kept.b >= 0 && sleepers_[kept.b].left < 0) sleepers_[kept.b].struck += more;
+  }
+  const std::size_t known = struck_.size();
+  for (const BodyIndex body : border_)
+    if (sleepers_[body].body.inverse_mass * sleepers_[body].struck.norm() > wake_speed(gravity))
+      struck_.push_back(body);
+  if (struck_.size() == known) return false;
+  beyond_struck_ *= widening;
+  return true;
+}
+
 template <int Dim>
 void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) {
   const auto extent = static_cast<float>(params_.extent);
-  const auto unit = static_cast<float>(speed_unit(params_.extent, gravity));
   const float distance = wake_distance * extent;
-  float still = static_cast<float>(params_.still_speed) * unit;
+  const float fast = wake_speed(gravity);
+  float still = static_cast<float>(params_.still_speed * speed_unit(params_.extent, gravity));
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);
   let_go();
   moving_.clear();
@@ -273,12 +302,12 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) 
     sleeper.body.way += solved.way;
     sleeper.body.turn += solved.turn;
     const float speed = solved.velocity.norm() + sleeper.reach * solved.spin.norm();
-    if (speed > wake_speed * unit || far_of(sleeper) > distance) stirred_.push_back(body);
+    if (speed > fast || far_of(sleeper) > distance) stirred_.push_back(body);
     if (speed > still) moving_.push_back(body);
   }
   read_points(solver, distance);
   for (const BodyIndex body : members_) sleepers_[body].unsolved.setZero();
-  if (touched_.empty() && last_touched_.empty()) disturb_unbalanced(balance * gravity * dt);
+  disturb_unbalanced(balance * gravity * dt);
   std::ranges::sort(stirred_);
   stirred_.erase(std::unique(stirred_.begin(), stirred_.end()), stirred_.end());
 }
@@ -307,7 +336,7 @@ void Ring<Dim>::add_unsolved(const SleepingPoint<Dim>& before, const ContactPoin
   };
   const VecF<Dim> more = impulse(solved) - impulse(before.contact);
   for (const BodyIndex side : {before.a, before.b}) {
-    if (side < 0 || sleepers_[side].depth >= 0) continue;
+    if (side < 0 || sleepers_[side].left >= 0) continue;
     VecF<Dim>& unsolved = sleepers_[side].unsolved;
     if (listed_[side] == 0) unsolved_.push_back(side);
     listed_[side] = 1;

@@ -12,14 +12,14 @@ namespace talus {
 
 /// The sleeping bodies that take part in the contact solve: those that touch an awake body or a moving obstacle, and
 /// those up to SleepRing::rings contacts away. They are solved with their mass, the contact points of when they fell
-/// asleep and the impulses that held them. So an impact passes on in the same step, a load or a friction force reaches
-/// the next ring in the next step, and the loss of a support acts at once. The engine does not move them: each keeps
+/// asleep and the impulses that held them. So an impact passes on in the same step, as far as it moves bodies; a load
+/// or a friction force reaches the next ring in the next step, and the loss of a support acts at once. The engine does
+/// not move them: each keeps
 /// the velocity and the displacement that the solve gives it here, and is to wake when they are too large. A sleeping
 /// body that has itself become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
 ///
-/// Bodies beyond are immovable. Once no awake body touches a sleeping one, sleeping bodies are solved again if the
-/// forces on them have changed since their last solve, until all forces balance. Where nothing moves the ring is empty
-/// and costs nothing.
+/// Bodies beyond are immovable. If the forces on one have changed since its last solve, it is solved in the next step,
+/// until all forces balance. Where nothing moves the ring is empty and costs nothing.
 template <int Dim>
 class Ring {
  public:
@@ -54,6 +54,9 @@ class Ring {
   void start();
   /// In place of start() when the same step is solved again.
   void start_again();
+  /// After the solve under `gravity` [m/s^2]: whether an impact has reached bodies that were immovable in it. Solved
+  /// again, the step has these and more around them in the ring.
+  bool widen(const ContactSolver<Dim>& solver, float gravity);
   /// The slot of a body that sleeps here and touches one that is awake.
   int join(BodyIndex body, ContactSolver<Dim>& solver);
   /// Adds the other bodies of the ring, and the contact points between sleeping bodies. To be called after all awake
@@ -74,19 +77,21 @@ class Ring {
     SolverBody<Dim> body;  // `way` and `turn`: since it fell asleep
     float reach = 0.0F;
     bool asleep = false;
-    int depth = -1;                          // contacts between it and what moves; -1: not reached in this step
+    int left = -1;                           // contacts by which the ring goes on from it; -1: not in the ring
     int slot = 0;                            // 0: not in the solver in this step
     int hold = 0;                            // steps for which it stays once it is not reached any more; below 0: none
     VecF<Dim> unsolved = VecF<Dim>::Zero();  // impulses of its points, less those when it was last solved [N s]
+    VecF<Dim> struck = VecF<Dim>::Zero();    // the same of an immovable one, over the whole of this step [N s]
   };
 
-  void enter(BodyIndex body, int depth, ContactSolver<Dim>& solver);
-  void enter_partners(BodyIndex side, int depth, ContactSolver<Dim>& solver);
+  void enter(BodyIndex body, int left, ContactSolver<Dim>& solver);
+  void enter_partners(BodyIndex side, int left, ContactSolver<Dim>& solver);
   void hold_back(ContactSolver<Dim>& solver);
   void let_go();
   void add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   int slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   static float far_of(const Sleeper& sleeper);
+  float wake_speed(float gravity) const;
   Contact<Dim> contact_of(const SleepingPoint<Dim>& point, BodyIndex side, const BodyStates<Dim>& states,
                           double impulse_unit) const;
   void read_points(const ContactSolver<Dim>& solver, float distance);
@@ -98,10 +103,13 @@ class Ring {
   std::vector<Sleeper> sleepers_;   // by body
   std::vector<BodyIndex> members_;  // of the ring in this step
   std::vector<BodyIndex> before_;   // in the step before, and those that have fallen asleep since
+  std::vector<BodyIndex> entered_;  // those from which the ring goes on, in the order in which it reached them
   std::vector<BodyIndex> border_;   // immovable bodies in the solver in this step
   std::vector<BodyIndex> touched_;  // by awake bodies in this step
   std::vector<BodyIndex> last_touched_;
   std::vector<BodyIndex> disturbed_;  // have lost a point since the last step, or are unbalanced
+  std::vector<BodyIndex> struck_;     // by an impact in this step, when they were immovable
+  int beyond_struck_ = 0;             // contacts by which the ring goes on from those
   std::vector<BodyIndex> unsolved_;   // bodies that may have an `unsolved` impulse, each once
   std::vector<std::uint8_t> listed_;  // [body] whether it is in unsolved_
   std::vector<BodyIndex> moving_;     // sleepers that count as moving
