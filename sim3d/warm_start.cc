@@ -42,6 +42,21 @@ class PieceRecorder final : public btManifoldResult {
   std::vector<Entry> entries_;
 };
 
+/// The normal towards the owner, among the first `found` points, that is nearest to a kept one: both bodies may have
+/// turned since, and the points of a face have one normal. `first`: the owner is the manifold's first body.
+btVector3 normal_like(const btVector3& kept, const btPersistentManifold& manifold, int found, bool first) {
+  btVector3 nearest = kept;
+  btScalar most = 0;
+  for (int i = 0; i < found; ++i) {
+    const btVector3& on_second = manifold.getContactPoint(i).m_normalWorldOnB;
+    const btVector3 normal = first ? on_second : -on_second;
+    if (normal.dot(kept) <= most) continue;
+    most = normal.dot(kept);
+    nearest = normal;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 /// The two sides of a pair.
@@ -98,7 +113,8 @@ void WarmStart::save(btBroadphasePair& pair) {
       const btManifoldPoint& point = manifolds_[m]->getContactPoint(i);
       if (point.m_appliedImpulse > 0) {
         const btVector3& place = first ? point.m_localPointA : point.m_localPointB;
-        const btVector3 normal = first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
+        const btVector3 normal =
+            (first ? point.m_normalWorldOnB : -point.m_normalWorldOnB) * sides.owner->getWorldTransform().getBasis();
         const btVector3 on_first = friction_impulse(point);
         const btVector3 friction = first ? on_first : -on_first;
         keep(sides, {sides.partner->getUserIndex(),
@@ -193,10 +209,12 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   open_manifolds(*pair.m_algorithm);
   pair.m_algorithm->processCollision(&first, &second, info, &recorder);
   for (const PieceRecorder::Entry& entry : recorder.finish()) {
+    const int found = entry.manifold->getNumContacts();
+    if (found == 0) continue;  // what has moved in its sleep may lie apart
     for (const SavedPoint& point : saved_) {
       if (point.piece == (owner_first ? entry.piece0 : entry.piece1) &&
           point.partners_piece == (owner_first ? entry.piece1 : entry.piece0)) {
-        put_back(point, sides, *entry.manifold);
+        put_back(point, sides, *entry.manifold, found);
       }
     }
   }
@@ -209,13 +227,15 @@ void WarmStart::open_manifolds(btCollisionAlgorithm& algorithm) {
   algorithm.getAllContactManifolds(manifolds_);
 }
 
-void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold) {
+void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold, int found) {
   const btVector3 local(saved.place[0], saved.place[1], saved.place[2]);
-  const btVector3 normal(saved.normal[0], saved.normal[1], saved.normal[2]);
+  const bool first = manifold.getBody0() == sides.owner;
+  const btVector3 normal =
+      normal_like(sides.owner->getWorldTransform().getBasis() * btVector3(saved.normal[0], saved.normal[1], saved.normal[2]),
+                  manifold, found, first);
   const btVector3 on_owner = sides.owner->getWorldTransform() * local;
   const btVector3 on_partner = on_owner - normal * saved.distance;
   const btVector3 partner_local = sides.partner->getWorldTransform().invXform(on_partner);
-  const bool first = manifold.getBody0() == sides.owner;
   btManifoldPoint point(first ? local : partner_local, first ? partner_local : local, first ? normal : -normal,
                         saved.distance);
   point.m_positionWorldOnA = first ? on_owner : on_partner;

@@ -54,7 +54,7 @@ class WarmStart {
   struct SavedPoint {
     BodyIndex partner = 0;
     float place[3] = {};      // on the owner, in its axes [m]
-    float normal[3] = {};     // from the partner to the owner, in the world's axes
+    float normal[3] = {};     // from the partner to the owner, in the owner's axes
     float distance = 0;       // between the two surfaces [m], negative where they overlap
     float impulse = 0;        // along the normal [N s]
     float friction[3] = {};   // friction impulse on the owner, in the world's axes [N s]
@@ -72,7 +72,8 @@ class WarmStart {
   void release(BodyIndex owner, BodyIndex partner, std::vector<SavedPoint>& out);
   void restore(btBroadphasePair& pair, const btDispatcherInfo& info);
   void open_manifolds(btCollisionAlgorithm& algorithm);
-  static void put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold);
+  /// `found`: points of the manifold that the collision detection has found, which are its first.
+  static void put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold, int found);
 
   std::deque<Node> nodes_;  // grows without copies and spare room
   std::vector<std::int32_t> free_;

@@ -25,6 +25,9 @@ constexpr int hold_steps = 20;
 constexpr int widening = 4;
 /// Of them at most: then an impact has passed through every heap.
 constexpr int widest = 1 << 12;
+/// A body that has fallen asleep is solved for this time in any case [sqrt(D/g)]: at a turning point, or as it begins to
+/// slide, it was at rest only for a moment, and has become faster than what is still by then.
+constexpr float trial_time = 3.0F;
 
 }  // namespace
 
@@ -193,13 +196,23 @@ void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle
   for (const int number : points_) added_[number] = 0;
 }
 
-/// Keeps those of the step before that are no longer reached for a while. Where nothing moves none is kept.
+/// Keeps those of the step before that are no longer reached for a while. Where nothing moves none is kept but those
+/// that have just fallen asleep.
 template <int Dim>
 void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
   for (const BodyIndex body : members_) sleepers_[body].hold = hold_steps;
   const bool reached = !members_.empty();
   for (const BodyIndex body : before_)
-    if (reached && has(body) && sleepers_[body].left < 0 && sleepers_[body].hold >= 0) enter(body, 0, solver);
+    if (has(body) && sleepers_[body].left < 0 && ((reached && sleepers_[body].hold >= 0) || is_on_trial(body)))
+      enter(body, 0, solver);
+}
+
+/// One that carries nothing yet has been put to sleep by the user.
+template <int Dim>
+bool Ring<Dim>::is_on_trial(BodyIndex body) const {
+  return sleepers_[body].tried < trial_time && std::ranges::any_of(contacts_.of(body), [this](int number) {
+           return contacts_[number].contact.normal_impulse > 0.0F;
+         });
 }
 
 /// Bodies that were solved in the step before, but not in this one, come to rest where they are.
@@ -288,6 +301,7 @@ template <int Dim>
 void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) {
   const auto extent = static_cast<float>(params_.extent);
   const float distance = wake_distance * extent;
+  const float tried = dt / static_cast<float>(time_unit(params_.extent, gravity));
   const float fast = wake_speed(gravity);
   float still = static_cast<float>(params_.still_speed * speed_unit(params_.extent, gravity));
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);
@@ -301,6 +315,7 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) 
     sleeper.body.spin = solved.spin;
     sleeper.body.way += solved.way;
     sleeper.body.turn += solved.turn;
+    sleeper.tried += tried;
     const float speed = solved.velocity.norm() + sleeper.reach * solved.spin.norm();
     if (speed > fast || far_of(sleeper) > distance) stirred_.push_back(body);
     if (speed > still) moving_.push_back(body);

@@ -80,6 +80,7 @@ class Ring {
     int left = -1;                           // contacts by which the ring goes on from it; -1: not in the ring
     int slot = 0;                            // 0: not in the solver in this step
     int hold = 0;                            // steps for which it stays once it is not reached any more; below 0: none
+    float tried = 0.0F;                      // time in which it was solved since it fell asleep [sqrt(D/g)]
     VecF<Dim> unsolved = VecF<Dim>::Zero();  // impulses of its points, less those when it was last solved [N s]
     VecF<Dim> struck = VecF<Dim>::Zero();    // the same of an immovable one, over the whole of this step [N s]
   };
@@ -87,6 +88,7 @@ class Ring {
   void enter(BodyIndex body, int left, ContactSolver<Dim>& solver);
   void enter_partners(BodyIndex side, int left, ContactSolver<Dim>& solver);
   void hold_back(ContactSolver<Dim>& solver);
+  bool is_on_trial(BodyIndex body) const;
   void let_go();
   void add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   int slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);

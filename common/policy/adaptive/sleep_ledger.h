@@ -33,6 +33,7 @@ class SleepLedger {
 
     /// One body more (1) or less (-1). Those that settle() no longer counts do not come back as less.
     void add(Standing standing, int one);
+    bool operator==(const Count&) const = default;
   };
 
   /// `width` of a column [m] > 0.
