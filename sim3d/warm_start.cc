@@ -42,6 +42,20 @@ class PieceRecorder final : public btManifoldResult {
   std::vector<Entry> entries_;
 };
 
+/// The nearest of the points without an impulse; -1: none. `first`: the owner is the manifold's first body.
+int unloaded_near(const btVector3& on_owner, const btPersistentManifold& manifold, bool first) {
+  int nearest = -1;
+  btScalar least = BT_LARGE_FLOAT;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
+    const btScalar apart = (first ? point.m_positionWorldOnA : point.m_positionWorldOnB).distance2(on_owner);
+    if (point.m_appliedImpulse > 0 || apart >= least) continue;
+    least = apart;
+    nearest = i;
+  }
+  return nearest;
+}
+
 /// The normal towards the owner, among the first `found` points, that is nearest to a kept one: both bodies may have
 /// turned since, and the points of a face have one normal. `first`: the owner is the manifold's first body.
 btVector3 normal_like(const btVector3& kept, const btPersistentManifold& manifold, int found, bool first) {
@@ -244,7 +258,9 @@ void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersiste
   point.m_combinedRestitution = btManifoldResult::calculateCombinedRestitution(sides.owner, sides.partner);
   point.m_index0 = first ? saved.piece : saved.partners_piece;
   point.m_index1 = first ? saved.partners_piece : saved.piece;
-  const int known = manifold.getCacheEntry(point);
+  int known = manifold.getCacheEntry(point);
+  // Of a face's many corners Bullet keeps four, perhaps others than before.
+  if (known < 0 && manifold.getNumContacts() == MANIFOLD_CACHE_SIZE) known = unloaded_near(on_owner, manifold, first);
   btManifoldPoint& target = manifold.getContactPoint(known >= 0 ? known : manifold.addManifoldPoint(point));
   target.m_appliedImpulse = saved.impulse;
   if (saved.mark.step != 0) set_mark(target, {saved.mark.step, saved.mark.entry + (first ? 0 : 1)});

@@ -61,7 +61,8 @@ void EnergyLedger<Dim>::add(const World<Dim>& world, const Before& before) {
   lift_ += shape.mass * (world.gravity_size() * shape.extent + 0.5 * slow * slow);
 }
 
-/// Sleeping bodies that feel forces pass on to awake ones what an obstacle does to them.
+/// Sleeping bodies that feel forces pass on to awake ones what an obstacle does to them. Where it lowers them they lose
+/// energy, which is in no sum here.
 template <int Dim>
 double EnergyLedger<Dim>::work_of_obstacles(const World<Dim>& world) {
   double work = 0.0;
@@ -69,8 +70,9 @@ double EnergyLedger<Dim>::work_of_obstacles(const World<Dim>& world) {
     for (const Contact<Dim>& contact : world.contacts()) work += work_of(world, contact);
   sleeping_.clear();
   for (const ObstacleBefore& before : obstacles_) world.sleeping_contacts(first_obstacle - before.number, sleeping_);
-  for (const Contact<Dim>& contact : sleeping_) work += work_of(world, contact);
-  return work;
+  double on_sleepers = 0.0;
+  for (const Contact<Dim>& contact : sleeping_) on_sleepers += work_of(world, contact);
+  return work + std::max(0.0, on_sleepers);
 }
 
 template <int Dim>

@@ -20,7 +20,9 @@ class PeriodicWorld final : public World<Dim> {
       : World<Dim>(description, inner->speed_limits()),
         inner_(std::move(inner)),
         shifts_(this->periodic().shifts(0)),
-        obstacle_shifts_(this->periodic().shifts(-1)) {}
+        obstacle_shifts_(this->periodic().shifts(-1)) {
+    for (const Shape<Dim>& shape : description.shapes) reach_ = std::max(reach_, bounding_radius(shape));
+  }
 
  private:
   int images() const { return static_cast<int>(shifts_.size()); }
@@ -151,13 +153,14 @@ class PeriodicWorld final : public World<Dim> {
   int engine_solved_sleepers() const override { return inner_->solved_sleepers(); }
   void engine_share_among(const std::shared_ptr<Team>& team) override { inner_->share_among(team); }
 
-  /// Images are behind the upper sides: what reaches below a lower side is searched for behind the upper one.
+  /// Images are behind the upper sides: what reaches below a lower side, or where a body may that lies inside of the
+  /// upper one, is searched for behind the upper one.
   void engine_query_box(const Box<Dim>& box, std::vector<BodyIndex>& found) const override {
     const Periodic<Dim>& sides = this->periodic();
     const auto before = static_cast<std::ptrdiff_t>(found.size());
     for (const Vec<Dim>& shift : shifts_) {
       const auto reaches_below = [&](int axis) {
-        return box.min()[axis] < sides.low[axis] + at_side * sides.period[axis];
+        return box.min()[axis] < sides.low[axis] + at_side * sides.period[axis] + reach_;
       };
       bool needed = true;
       for (int axis = 0; axis < Dim; ++axis) needed = needed && (shift[axis] == 0.0 || reaches_below(axis));
@@ -184,6 +187,7 @@ class PeriodicWorld final : public World<Dim> {
   bool engine_awake(BodyIndex body) const override { return inner_->states().asleep[inner(body)] == 0; }
 
   std::unique_ptr<World<Dim>> inner_;
+  double reach_ = 0.0;                     // of any body, from its centre [m]
   std::vector<Vec<Dim>> shifts_;           // to the images of a body
   std::vector<Vec<Dim>> obstacle_shifts_;  // to those of an obstacle
   std::vector<BodyIndex> stirred_;         // see World::stirred()

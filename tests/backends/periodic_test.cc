@@ -201,6 +201,24 @@ TYPED_TEST(Sides, AreAsGoodForSmallBodies) {
 }
 
 // An obstacle at one side carries a box at the other one. It is taken away while the box sleeps.
+TYPED_TEST(Sides, LetABoxBeFoundWhereItSticksOutThroughThem) {
+  constexpr int dim = TypeParam::dim;
+  for (const double side : {-1.0, 1.0}) {
+    auto simulation = simulation_on<TypeParam>(
+        scene_of<dim>("", box<dim>() + "[[body]]\nposition = " + vector_text<dim>(4.9 * side, 0.25) + "\n"));
+    simulation.step();
+    const auto at = [&](double x) {
+      Vec<dim> place = up<dim>(0.25);
+      place[0] = x;
+      std::vector<BodyIndex> found;
+      simulation.world().query_box({place - Vec<dim>::Constant(0.05), place + Vec<dim>::Constant(0.05)}, found);
+      return !found.empty();
+    };
+    EXPECT_TRUE(at(-4.7 * side)) << "it goes on for 0.4 m behind the other side";
+    EXPECT_FALSE(at(-4.0 * side));
+  }
+}
+
 TYPED_TEST(Sides, PassOnThatASupportIsGone) {
   constexpr int dim = TypeParam::dim;
   const std::string text =

@@ -51,7 +51,7 @@ class RingTest : public BackendTest<Backend> {
 
 TYPED_TEST_SUITE(RingTest, SmallStepsBackends, BackendName);
 
-TYPED_TEST(RingTest, ABallThatRunsIntoASleepingOnePassesItsMomentumOnInThatStep) {
+TYPED_TEST(RingTest, ABallThatRunsIntoARowOfSleepersPassesItsMomentumOnInThatStep) {
   auto description = TestFixture::description();
   description.gravity = 0.0;
   auto world = TestFixture::world_with_ring(description);
@@ -59,20 +59,20 @@ TYPED_TEST(RingTest, ABallThatRunsIntoASleepingOnePassesItsMomentumOnInThatStep)
     return Vec<TypeParam::dim>(x * Vec<TypeParam::dim>::Unit(0) + up<TypeParam::dim>(5.0));
   };
   world->add(TestFixture::at(away(0.0), 1, 2.0 * Vec<TypeParam::dim>::Unit(0)));
-  world->add(TestFixture::at(away(1.2), 1));
-  world->add(TestFixture::at(away(2.2), 1));
+  const std::vector<BodyIndex> row = {1, 2, 3, 4, 5};
+  for (const BodyIndex body : row) world->add(TestFixture::at(away(0.2 + body), 1));
   world->step();
-  world->freeze(std::vector<BodyIndex>{1, 2});
+  world->freeze(row);
   double before = 2.0;
   for (int step = 0; step < 30 && world->stirred().empty(); ++step) {
     before = world->states().velocity[0][0];
     world->step();
   }
   const std::vector<BodyIndex> stirred(world->stirred().begin(), world->stirred().end());
-  EXPECT_EQ(stirred, (std::vector<BodyIndex>{1, 2}));
+  EXPECT_EQ(stirred, row);
   world->thaw(stirred);
   double after = 0.0;
-  for (BodyIndex body = 0; body < 3; ++body) after += world->states().velocity[body][0];
+  for (BodyIndex body = 0; body < 6; ++body) after += world->states().velocity[body][0];
   EXPECT_NEAR(after, before, 1e-5) << "all weigh the same; single precision";
 }
 
@@ -91,6 +91,128 @@ TYPED_TEST(RingTest, AHeapOfBallsComesToRest) {
     EXPECT_EQ(simulation.world().states().size(), 60);
     EXPECT_EQ(simulation.world().awake().size(), 0U) << "seed " << seed;
   }
+}
+
+// Four times as far as the ring goes.
+TYPED_TEST(RingTest, ABoxThatHitsARowOfSleepersThrowsItAsFarAsARowThatIsAwake) {
+  std::array<double, 2> moved{};
+  for (const int full : {0, 1}) {
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+        "policy.kind = \"{}\"\nrun = {{frames = 300}}\nground = {{friction = 0.1}}\n"
+        "shape.box = {{kind = \"box\", size = {}, friction = 0.1}}\n"
+        "body = [{{position = {}, velocity = {}}}, {{position = {}, repeat = {}, step = {}, asleep = true}}]\n",
+        full == 1 ? "full" : "adaptive", TestFixture::vector(1, 1, 1), TestFixture::vector(-2.5, 0.5),
+        TestFixture::vector(6, 0), TestFixture::vector(0, 0.5), TypeParam::dim == 2 ? "[8, 1]" : "[8, 1, 1]",
+        TestFixture::vector(1, 0))));
+    TestFixture::run(simulation, 4.0);
+    for (BodyIndex body = 1; body < 9; ++body)
+      moved[full] += simulation.world().states().pose[body].position[0] - (body - 1);
+  }
+  EXPECT_GT(moved[1], 1.0);
+  EXPECT_NEAR(moved[0], moved[1], 0.1 * moved[1]) << "boxes collide in another order once they differ by a bit";
+}
+
+TYPED_TEST(RingTest, AForceOnTheFirstOfARowOfSleepersMovesAllOfThem) {
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+      "run = {{frames = 300}}\nground = {{friction = 0.5}}\nshape.box = {{kind = \"box\", size = {}, friction = 0.5, "
+      "density = 1000}}\nbody = [{{position = {}, repeat = {}, step = {}}}]\n"
+      "event = [{{time = 2, do = \"force\", body = 0, force = {}}}]\n",
+      TestFixture::vector(1, 1, 1), TestFixture::vector(0, 0.5), TypeParam::dim == 2 ? "[10, 1]" : "[10, 1, 1]",
+      TestFixture::vector(1, 0), TestFixture::vector(12 * 0.5 * 9810, 0))));
+  TestFixture::run(simulation, 2.0);
+  EXPECT_TRUE(simulation.world().awake().empty());
+  TestFixture::run(simulation, 3.0);
+  // Ten boxes of 1 t, with two tenths of their friction too much: 0.981 m/s^2 for 3 s.
+  EXPECT_NEAR(simulation.world().states().pose[9].position[0] - 9.0, 4.41, 0.15);
+}
+
+TYPED_TEST(RingTest, AWeightTipsASeesawOnWhichTheOtherEndSleeps) {
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+      "run = {{frames = 300}}\nground = {{height = -3}}\nshape.plank = {{kind = \"box\", size = {}, friction = 0.8}}\n"
+      "shape.weight = {{kind = \"box\", size = {}, friction = 0.8}}\n"
+      "body = [{{shape = \"plank\", position = {}}}, {{shape = \"weight\", position = {}}}, {{shape = \"weight\", "
+      "position = {}}}]\nsource = [{{count = 1, start = 4, position = {}, spread = {}, angle_deg = 0{}, shape = "
+      "\"weight\"}}]\nobstacle = [{{kind = \"box\", size = {}, position = {}, friction = 0.8}}]\n",
+      TestFixture::vector(8, 0.4, 0.5), TestFixture::vector(0.8, 0.8, 0.8), TestFixture::vector(0, 1.2),
+      TestFixture::vector(-3, 1.8), TestFixture::vector(3, 1.8), TestFixture::vector(3, 3), TestFixture::vector(0, 0),
+      TypeParam::dim == 2 ? "" : ", axis = [0, 0, 1]", TestFixture::vector(0.6, 1, 2), TestFixture::vector(0, 0.5))));
+  TestFixture::run(simulation, 3.9);
+  EXPECT_TRUE(simulation.world().awake().empty());
+  TestFixture::run(simulation, 4.0);
+  EXPECT_LT(talus::height<TypeParam::dim>(simulation.world().states().pose[2].position), 0.5) << "it lay at 1.8 m";
+}
+
+// On slopes; the ground is level, and gravity is not.
+TYPED_TEST(RingTest, ABallThatTurnsBackOnASlopeRollsDown) {
+  for (const double slope : {in_radians(1.5), in_radians(3.5)}) {
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+        "run = {{frames = 400}}\nworld.gravity = {}\nshape.ball = {{kind = \"ball\", radius = 0.5, friction = 0.5}}\n"
+        "body = [{{position = {}, velocity = {}, spin = {}}}]\n",
+        TestFixture::vector(-9.81 * std::sin(slope), -9.81 * std::cos(slope)), TestFixture::vector(0, 0.5),
+        TestFixture::vector(1, 0), TypeParam::dim == 2 ? "-2" : "[0, 2, 0]")));
+    TestFixture::run(simulation, 10.0);
+    // It rolls: an inertia of 1/2 (2D) and 2/5 m r^2.
+    const double acceleration = 9.81 * std::sin(slope) / (TypeParam::dim == 2 ? 1.5 : 1.4);
+    const double to = 10.0 - 0.5 * acceleration * 100.0;
+    EXPECT_NEAR(simulation.world().states().pose[0].position[0], to, 0.2) << "it lands a little at the start";
+  }
+}
+
+TYPED_TEST(RingTest, ABoxOnASlopeSlidesFromTheAngleOfFrictionOn) {
+  for (const double degrees : {26.0, 27.0, 27.5}) {
+    const double slope = in_radians(degrees);
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+        "run = {{frames = 400}}\nworld.gravity = {}\nground = {{friction = 0.5}}\n"
+        "shape.box = {{kind = \"box\", size = {}, friction = 0.5}}\nbody = [{{position = {}}}]\n",
+        TestFixture::vector(-9.81 * std::sin(slope), -9.81 * std::cos(slope)), TestFixture::vector(1, 1, 1),
+        TestFixture::vector(0, 0.5))));
+    std::array<double, 3> at{};
+    for (double& place : at) {
+      TestFixture::run(simulation, 1.5);
+      place = simulation.world().states().pose[0].position[0];
+    }
+    const double acceleration = std::max(0.0, 9.81 * (std::sin(slope) - 0.5 * std::cos(slope)));
+    EXPECT_NEAR(at[0] - 2.0 * at[1] + at[2], -acceleration * 1.5 * 1.5, 0.01) << degrees;
+  }
+}
+
+TYPED_TEST(RingTest, ABoxOnAPlateThatTurnsSlowlySlidesAtTheAngleOfFriction) {
+  for (const double place : {0.0, 1.0}) {
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+        "run = {{frames = 2000}}\nground = {{height = -30}}\nshape.box = {{kind = \"box\", size = {}, friction = 0.5}}\n"
+        "body = [{{position = {}}}]\nobstacle = [{{kind = \"box\", size = {}, position = {}, friction = 0.5, "
+        "motion = {{kind = \"turn\", speed_deg = 0.5, start = 2{}}}}}]\n",
+        TestFixture::vector(1, 1, 1), TestFixture::vector(place, 1), TestFixture::vector(30, 1, 10),
+        TestFixture::vector(0, 0), TypeParam::dim == 2 ? "" : ", axis = [0, -1, 0]")));
+    const auto along_plate = [&](double angle) {
+      const Vec<TypeParam::dim>& at = simulation.world().states().pose[0].position;
+      return at[0] * std::cos(angle) + talus::height<TypeParam::dim>(at) * std::sin(angle);
+    };
+    TestFixture::run(simulation, 2.0);
+    const double from = along_plate(0.0);
+    TestFixture::run(simulation, 52.0);
+    EXPECT_NEAR(along_plate(in_radians(26.0)), from, 0.05) << "at 26 degrees, 0.6 below the angle";
+    TestFixture::run(simulation, 5.0);
+    EXPECT_LT(along_plate(in_radians(28.5)), from - 0.5) << "at 28.5 degrees";
+  }
+}
+
+TYPED_TEST(RingTest, ASleepingPlankStaysOnTheBallThatLiftsIt) {
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+      "run = {{frames = 3000}}\nground = {{friction = 1}}\n"
+      "shape.plank = {{kind = \"box\", size = {}, friction = 0.5, density = 2000}}\nbody = [{{position = {}}}]\n"
+      "obstacle = [{{kind = \"box\", size = {}, position = {}, friction = 1}}, {{kind = \"ball\", radius = 0.5, "
+      "position = {}, friction = 0, motion = {{kind = \"path\", times = [4, 74], shifts = [{}, {}]}}}}]\n",
+      TestFixture::vector(10, 0.4, 2), TestFixture::vector(0, 0.2), TestFixture::vector(1, 3, 3),
+      TestFixture::vector(-5.51, -1.2), TestFixture::vector(4, -0.51), TestFixture::vector(0, 0),
+      TestFixture::vector(0, 5.5))));
+  TestFixture::run(simulation, 80.0);
+  EXPECT_TRUE(simulation.world().awake().empty());
+  const Pose<TypeParam::dim>& plank = simulation.world().states().pose[0];
+  Vec<TypeParam::dim> ball = up<TypeParam::dim>(4.99);
+  ball[0] = 4.0;
+  const Vec<TypeParam::dim> in_plank = plank.rotation.inverse() * Vec<TypeParam::dim>(ball - plank.position);
+  EXPECT_NEAR(talus::height<TypeParam::dim>(in_plank), -0.7, 0.04) << "half of its thickness and the ball's radius";
 }
 
 TYPED_TEST(RingTest, ABodyWakesWhenItsSupportVanishes) {
@@ -166,6 +288,20 @@ TYPED_TEST(RingTest, ASlowPlatformCarriesAStackOfSleepers) {
   TestFixture::run(simulation, 22.0);
   for (BodyIndex body = 0; body < 3; ++body)
     EXPECT_NEAR(simulation.world().states().pose[body].position[0] - from[body], 0.2, 0.002) << "cube " << body;
+}
+
+TYPED_TEST(RingTest, ALiftThatLowersSleepersIsNotTakenForASourceOfEnergy) {
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+      "run = {{frames = 1000}}\nground.height = -10\nshape.cube = {{kind = \"box\", size = {}, friction = 0.6}}\n"
+      "body = [{{position = {}, repeat = {}, step = {}}}]\nobstacle = [{{kind = \"box\", size = {}, position = {}, "
+      "motion = {{kind = \"path\", times = [5, 25], shifts = [{}, {}]}}}}]\n",
+      TestFixture::vector(1, 1, 1), TestFixture::vector(0, 0.75), TypeParam::dim == 2 ? "[1, 3]" : "[1, 1, 3]",
+      TestFixture::vector(1, 1), TestFixture::vector(4, 0.5, 4), TestFixture::vector(0, 0), TestFixture::vector(0, 0),
+      TestFixture::vector(0, -0.4))));
+  Watcher<TypeParam::dim> watcher;  // without one nothing is checked
+  simulation.add_observer(watcher);
+  TestFixture::run(simulation, 27.0);
+  EXPECT_TRUE(simulation.warnings().empty());
 }
 
 TYPED_TEST(RingTest, ARowThatASlowPusherMovesNeverHasTwiceTheEnergyOfItsSpeed) {
