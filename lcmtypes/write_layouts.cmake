@@ -63,6 +63,8 @@ foreach(file IN LISTS TYPES)
   endif()
 endforeach()
 
+# The code of lcm-gen compares pointers in a way that ISO C++ does not have.
+set(includes "#pragma GCC diagnostic push\n#pragma GCC diagnostic ignored \"-Wpedantic\"\n${includes}#pragma GCC diagnostic pop\n")
 file(WRITE ${OUTPUT} "// Made by write_layouts.cmake from the .lcm files.\n#pragma once\n\n${includes}\n"
      "#include \"lcmtypes/layout.h\"\n\nnamespace talus {\n\n${nested_layouts}${channel_layouts}"
      "}  // namespace talus\n\n/// Uses a macro of one argument with each type that is sent by itself.\n"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/math/require.h"
+#include "common/math/require_finite.h"
 #include "common/shape/convex_hull.h"
 #include "common/shape/polygon.h"
 
@@ -54,12 +54,6 @@ std::vector<Vec<Dim>> corners_of(const BoxPiece<Dim>& box) {
   return corners;
 }
 
-template <int Dim>
-void require_finite(const Vec<Dim>& point, const std::string& field) {
-  for (int axis = 0; axis < Dim; ++axis)
-    require(std::isfinite(point[axis]), fmt::format("{}[{}]", field, axis), point[axis], "must be finite");
-}
-
 void require_length(double length, const std::string& field) {
   require(std::isfinite(length) && length > 0.0, field, length, "must be finite and above 0 m");
 }
@@ -83,7 +77,7 @@ void check_corners(const std::vector<Vec3>& corners, const std::string& field) {
 
 template <int Dim>
 void check_kind(const BoxPiece<Dim>& box, const std::string& field) {
-  require_finite<Dim>(box.pose.position, field + ".position");
+  require_finite(box.pose.position, field + ".position");
   check_rotation<Dim>(box.pose.rotation, field + ".rotation");
   for (int axis = 0; axis < Dim; ++axis) require_length(box.half[axis], fmt::format("{}.half[{}]", field, axis));
 }
@@ -91,7 +85,7 @@ void check_kind(const BoxPiece<Dim>& box, const std::string& field) {
 template <int Dim>
 void check_kind(const HullPiece<Dim>& hull, const std::string& field) {
   for (std::size_t i = 0; i < hull.corners.size(); ++i)
-    require_finite<Dim>(hull.corners[i], fmt::format("{}.corners[{}]", field, i));
+    require_finite(hull.corners[i], fmt::format("{}.corners[{}]", field, i));
   if (!hull.round()) {
     require(hull.radius == 0.0, field + ".radius", hull.radius, "must be 0: only one or two corners have a radius");
     check_corners(hull.corners, field + ".corners");

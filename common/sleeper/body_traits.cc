@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/math/require.h"
+#include "common/math/require_finite.h"
 
 namespace talus {
 namespace {
@@ -17,6 +18,8 @@ Box<Dim> centred_box(const Vec<Dim>& size) {
 
 template <int Dim>
 void check_traits(const BodyTraits<Dim>& traits, bool kinematic) {
+  require_finite(traits.bounds.min(), "bounds.low");
+  require_finite(traits.bounds.max(), "bounds.high");
   const Vec<Dim> size = traits.bounds.max() - traits.bounds.min();
   require(size.allFinite() && size.minCoeff() > 0.0, "bounds size", size.minCoeff(),
           "must be finite and above 0 on every axis");
@@ -25,11 +28,17 @@ void check_traits(const BodyTraits<Dim>& traits, bool kinematic) {
   for (std::size_t i = 0; i < traits.pieces.size(); ++i)
     check_piece<Dim>(traits.pieces[i], fmt::format("pieces[{}]", i));
   if (kinematic) return;
+  for (int axis = 0; axis < Dim; ++axis) {
+    require(traits.bounds.min()[axis] <= 0.0, fmt::format("bounds.low[{}]", axis), traits.bounds.min()[axis],
+            "must be at most 0, since the centre of mass is the origin");
+    require(traits.bounds.max()[axis] >= 0.0, fmt::format("bounds.high[{}]", axis), traits.bounds.max()[axis],
+            "must be at least 0, since the centre of mass is the origin");
+  }
   require(std::isfinite(traits.mass) && traits.mass > 0.0, "mass", traits.mass, "must be finite and above 0");
   const Inertia<Dim>& inertia = traits.inertia;
-  require(inertia.allFinite() && inertia.isApprox(inertia.transpose(), 1e-5) && inertia.llt().info() == Eigen::Success,
-          "inertia's determinant", inertia.determinant(),
-          "must be that of a finite, symmetric, positive definite matrix");
+  require_finite(inertia, "inertia");
+  require(inertia.isApprox(inertia.transpose(), 1e-5) && inertia.llt().info() == Eigen::Success,
+          "inertia's determinant", inertia.determinant(), "must be that of a symmetric, positive definite matrix");
 }
 
 }  // namespace

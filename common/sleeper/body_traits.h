@@ -11,7 +11,7 @@ template <int Dim>
 struct BodyTraits {
   double mass = 0.0;                            // [kg] > 0; of a kinematic body it means nothing
   Inertia<Dim> inertia = Inertia<Dim>::Zero();  // about the centre of mass, in the body's own axes [kg m^2]
-  Box<Dim> bounds = {};                         // in the body's own axes, around the centre of mass [m]
+  Box<Dim> bounds = {};                         // in the body's own axes, around the centre of mass: 0 lies in it [m]
   double friction = 0.5;                        // of its surface against one like it
   std::vector<Piece<Dim>> pieces = {};          // convex, in the same axes; empty: the box of `bounds`
 

@@ -16,7 +16,7 @@ struct GivenContact {
   Handle a;
   Handle b;                                      // the default: something that never moves
   Vec<Dim> point = Vec<Dim>::Zero();             // [m]
-  Vec<Dim> normal = Vec<Dim>::Zero();            // unit, from b to a
+  Vec<Dim> normal = Vec<Dim>::Zero();            // unit, from b to a; with the wrong sign, nothing sleeps
   double normal_impulse = 0.0;                   // [N s] over the step, >= 0
   Vec<Dim> friction_impulse = Vec<Dim>::Zero();  // [N s] over the step, on a
   double approach_speed = 0.0;                   // [m/s] at which the two came together before the step, >= 0

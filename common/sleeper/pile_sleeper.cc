@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/math/require.h"
+#include "common/math/require_finite.h"
 #include "common/params/field.h"
 #include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/near_bodies.h"
@@ -20,7 +21,9 @@ namespace {
 /// In D: how far a sleeping body may be from where it fell asleep. Single precision rounds.
 constexpr double stays_within = 1e-3;
 
-const SleeperOptions& checked(const SleeperOptions& options) {
+template <int Dim>
+const SleeperOptions& checked(const Vec<Dim>& gravity, const SleeperOptions& options) {
+  require_finite(gravity, "gravity");
   check_fields(options.adaptive, adaptive_fields, "adaptive");
   require(options.adaptive.rings == 0, "adaptive.rings", options.adaptive.rings,
           "must be 0: the foreign engine solves the contacts");
@@ -29,41 +32,51 @@ const SleeperOptions& checked(const SleeperOptions& options) {
   return options;
 }
 
-/// Whether all of it is finite and, in 3D, the quaternion of length 1.
+/// Quaternions and normals that were rounded to single precision pass.
+constexpr double unit_within = 1e-3;
+constexpr double normal_within = 1e-2;
+
+template <int Dim>
+void check_pose(const Pose<Dim>& pose, std::string_view field = "pose") {
+  require_finite(pose.position, fmt::format("{}.position", field));
+  if constexpr (Dim == 2)
+    require(std::isfinite(pose.rotation.angle()), fmt::format("{}.rotation", field), pose.rotation.angle(),
+            "must be finite");
+  else
+    require(std::abs(pose.rotation.norm() - 1.0) < unit_within, fmt::format("{}.rotation length", field),
+            pose.rotation.norm(), "must be 1, as of each unit quaternion");
+}
+
+/// Whether check_pose() takes it, at less cost.
 template <int Dim>
 bool proper(const Pose<Dim>& pose) {
-  constexpr double unit_within = 1e-3;  // single precision rounds
   if constexpr (Dim == 2)
     return pose.position.allFinite() && std::isfinite(pose.rotation.angle());
   else
     return pose.position.allFinite() && std::abs(pose.rotation.norm() - 1.0) < unit_within;
 }
 
+/// Whether check_contact() takes it, at less cost.
 template <int Dim>
-constexpr std::string_view pose_rule = Dim == 2 ? "must be finite" : "must be finite, with a quaternion of length 1";
-
-template <int Dim>
-void check_pose(const Pose<Dim>& pose) {
-  require(proper<Dim>(pose), "pose", pose.position.norm(), pose_rule<Dim>);
-}
-
-template <int Dim>
-bool finite(const GivenContact<Dim>& contact) {
+bool proper(const GivenContact<Dim>& contact) {
   // A sum is finite only if its terms are.
-  const Vec<Dim> sum = contact.point + contact.normal + contact.friction_impulse;
-  return std::isfinite(sum.sum() + contact.normal_impulse + contact.approach_speed + contact.depth);
+  const Vec<Dim> sum = contact.point + contact.friction_impulse;
+  return std::isfinite(sum.sum() + contact.normal_impulse + contact.approach_speed + contact.depth) &&
+         contact.normal_impulse >= 0.0 && contact.approach_speed >= 0.0 &&
+         std::abs(contact.normal.norm() - 1.0) < normal_within;
 }
 
 }  // namespace
 
 template <int Dim>
 PileSleeper<Dim>::PileSleeper(const Vec<Dim>& gravity, const SleeperOptions& options)
-    : enabled_(checked(options).enabled),
+    : enabled_(checked<Dim>(gravity, options).enabled),
       turn_(options.up.value_or(up_against<Dim>(gravity))),
       sleeping_(turn_.in(gravity), options) {}
 
 template <int Dim>
 Handle PileSleeper<Dim>::add(const BodyTraits<Dim>& traits, const Pose<Dim>& pose, BodyRole role) {
+  require_no_report();
   check_pose<Dim>(pose);
   const bool kinematic = role == BodyRole::kinematic;
   const Shape<Dim> shape = shape_with(traits, kinematic);
@@ -123,7 +136,7 @@ std::span<const Handle> PileSleeper<Dim>::followed() {
   followed_.clear();
   if (!enabled_) return followed_;
   followed_ = kinematic_handles_;
-  for (const BodyIndex body : world().awake()) followed_.push_back(handle_of(body));
+  for (const BodyIndex body : world().awake()) followed_.push_back(handle_of_[body]);
   return followed_;
 }
 
@@ -146,7 +159,7 @@ const SleepChanges<Dim>& PileSleeper<Dim>::after_step(const GivenStep<Dim>& step
   note(decision.freeze);
   for (const VelocityChange<Dim>& change : decision.velocities)
     changes_.velocities.push_back(
-        {handle_of(change.body), turn_.out(change.velocity), turn_.spin_out(change.spin), SleepCause::momentum});
+        {handle_of_[change.body], turn_.out(change.velocity), turn_.spin_out(change.spin), SleepCause::momentum});
   if (!observers_.empty()) show_step();
   return changes_;
 }
@@ -210,13 +223,31 @@ void PileSleeper<Dim>::check_step(const GivenStep<Dim>& step) {
   const auto require_given = [this](Handle handle) {
     require(given_[handle.slot] == steps_, "bodies", handle.slot, "must be among the bodies given: see followed()");
   };
-  for (const BodyIndex body : world().awake()) require_given(handle_of(body));
+  for (const BodyIndex body : world().awake()) require_given(handle_of_[body]);
   for (const Handle handle : kinematic_handles_) require_given(handle);
-  for (const GivenContact<Dim>& contact : step.contacts) {
+  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
+    const GivenContact<Dim>& contact = step.contacts[i];
     handles_.at(contact.a, "contact.a");
     if (contact.b != Handle{}) handles_.at(contact.b, "contact.b");
-    require(finite<Dim>(contact), "contact of body", contact.a.slot, "must be finite");
+    if (!proper<Dim>(contact)) check_contact(contact, i);
   }
+}
+
+template <int Dim>
+void PileSleeper<Dim>::check_contact(const GivenContact<Dim>& contact, std::size_t i) const {
+  const std::string field = fmt::format("contacts[{}]", i);
+  const auto require_positive = [&](double value, std::string_view of) {
+    require(std::isfinite(value) && value >= 0.0, fmt::format("{}.{}", field, of), value,
+            "must be finite and at least 0");
+  };
+  require_finite(contact.point, field + ".point");
+  require_finite(contact.normal, field + ".normal");
+  require(std::abs(contact.normal.norm() - 1.0) < normal_within, field + ".normal length", contact.normal.norm(),
+          "must be 1; the normal points from b to a");
+  require_positive(contact.normal_impulse, "normal_impulse");
+  require_finite(contact.friction_impulse, field + ".friction_impulse");
+  require_positive(contact.approach_speed, "approach_speed");
+  require(std::isfinite(contact.depth), field + ".depth", contact.depth, "must be finite");
 }
 
 /// A sleeping body that was moved without moved() would hang where it is.
@@ -224,8 +255,9 @@ template <int Dim>
 void PileSleeper<Dim>::check_state(const GivenStep<Dim>& step, std::size_t i) const {
   const Handle handle = step.bodies[i];
   const Entry& entry = handles_.at(handle, "bodies");
-  if (!proper<Dim>(step.poses[i]) || !step.velocities[i].allFinite() || !step.spins[i].allFinite())
-    require(false, fmt::format("state of body {}", handle.slot), step.poses[i].position.norm(), pose_rule<Dim>);
+  if (!proper<Dim>(step.poses[i])) check_pose<Dim>(step.poses[i], fmt::format("poses[{}]", i));
+  if (!step.velocities[i].allFinite()) require_finite(step.velocities[i], fmt::format("velocities[{}]", i));
+  if (!step.spins[i].allFinite()) require_finite(step.spins[i], fmt::format("spins[{}]", i));
   if (entry.role == BodyRole::kinematic || world().states().asleep[entry.number] == 0) return;
   const double reach = 0.5 * world().shape_of(entry.number).extent;
   const Pose<Dim>& slept = world().states().pose[entry.number];
@@ -281,13 +313,19 @@ void PileSleeper<Dim>::take_contacts(const GivenStep<Dim>& step) {
 template <int Dim>
 void PileSleeper<Dim>::note(const Events& events) {
   for (const SleepEvent& event : events)
-    (event.woke ? changes_.thaw : changes_.freeze).push_back({handle_of(event.body), event.cause});
+    (event.woke ? changes_.thaw : changes_.freeze).push_back({handle_of_[event.body], event.cause});
   if (!observers_.empty()) events_.insert(events_.end(), events.begin(), events.end());
+}
+
+/// A call by an observer would change what is being shown, the observers themselves or the changes of the step.
+template <int Dim>
+void PileSleeper<Dim>::require_no_report() const {
+  require(!telling_, "call", "by an observer", "must come after the step");
 }
 
 template <int Dim>
 void PileSleeper<Dim>::clear_changes() {
-  require(!telling_, "call", "by an observer", "must come after the step, whose changes it would lose");
+  require_no_report();
   changes_.thaw.clear();
   changes_.velocities.clear();
   changes_.freeze.clear();
@@ -301,13 +339,22 @@ bool PileSleeper<Dim>::needs_all_contacts() const {
 
 template <int Dim>
 void PileSleeper<Dim>::observe(std::unique_ptr<Observer<Dim>> observer) {
+  require_no_report();
   require(enabled_, "enabled", "false", "must be true: without it a sleeper is given no states to show");
-  observer->on_frame(sleeping_.frame({}, {}));
+  telling_ = true;
+  try {
+    observer->on_frame(sleeping_.frame({}, {}));
+  } catch (...) {
+    telling_ = false;
+    throw;
+  }
+  telling_ = false;
   observers_.push_back(std::move(observer));
 }
 
 template <int Dim>
 void PileSleeper<Dim>::set_pieces(Handle handle, const std::vector<Piece<Dim>>& pieces) {
+  require_no_report();
   const Entry& entry = handles_.at(handle, "body");
   for (const Piece<Dim>& piece : pieces) check_piece<Dim>(piece, "piece");
   if (pieces.empty()) return;
@@ -322,6 +369,7 @@ void PileSleeper<Dim>::set_pieces(Handle handle, const std::vector<Piece<Dim>>& 
 
 template <int Dim>
 void PileSleeper<Dim>::add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose) {
+  require_no_report();
   check_pose<Dim>(pose);
   BodyTraits<Dim> traits{.pieces = pieces};
   traits.bounds.setEmpty();
@@ -332,6 +380,7 @@ void PileSleeper<Dim>::add_static(const std::vector<Piece<Dim>>& pieces, const P
 
 template <int Dim>
 void PileSleeper<Dim>::end_observers(std::string_view reason) {
+  require_no_report();
   tell([&](Observer<Dim>& observer) { observer.on_end(sleeping_.frame({}, warnings()), reason); });
   observers_.clear();
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
@@ -344,6 +393,13 @@ PileSleeper<Dim>::~PileSleeper() {
   } catch (...) {  // such as a full disk; a destructor must not throw
     return;
   }
+}
+
+template <int Dim>
+Handle PileSleeper<Dim>::handle_of(BodyIndex body) const {
+  const bool known = body >= 0 && body < std::ssize(handle_of_) && handles_.has(handle_of_[body]);
+  require(known, "body", body, "must be the number of a body that is there and not kinematic");
+  return handle_of_[body];
 }
 
 template <int Dim>
@@ -377,7 +433,8 @@ const SleepChanges<Dim>& PileSleeper<Dim>::wake_all() {
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::wake_near(const Box<Dim>& box) {
   clear_changes();
-  require(box.min().allFinite() && box.max().allFinite(), "box", "not finite", "must have finite corners");
+  require_finite(box.min(), "box.low");
+  require_finite(box.max(), "box.high");
   if (box.isEmpty()) return changes_;
   Box<Dim> turned;
   turned.extend(turn_.in(box.min()));
@@ -407,7 +464,8 @@ const SleepChanges<Dim>& PileSleeper<Dim>::moved(Handle handle, const Pose<Dim>&
 template <int Dim>
 const SleepChanges<Dim>& PileSleeper<Dim>::set_gravity(const Vec<Dim>& gravity) {
   clear_changes();
-  require(gravity_range.holds(gravity.norm()), "gravity", gravity.norm(), gravity_range.rule());
+  require_finite(gravity, "gravity");
+  require(gravity_range.holds(gravity.stableNorm()), "gravity", gravity.stableNorm(), gravity_range.rule());
   note(sleeping_.set_gravity(turn_.in(gravity)));
   return changes_;
 }
@@ -429,11 +487,16 @@ const SleepChanges<Dim>& PileSleeper<Dim>::restore(std::span<const SavedSleep> s
                                                    std::span<const Pose<Dim>> poses) {
   clear_changes();
   require(saved.size() == poses.size(), "poses", static_cast<double>(poses.size()), "must be as many as saved bodies");
+  given_.resize(handles_.entries().size(), 0);
+  ++steps_;
   for (std::size_t i = 0; i < saved.size(); ++i) {
     const Entry& entry = handles_.at(saved[i].body, "saved body");
     require(!saved[i].asleep || entry.role == BodyRole::sleeps, "saved body", saved[i].body.slot,
             "must have the role of bodies that sleep, since it slept");
-    check_pose<Dim>(poses[i]);
+    std::int64_t& given = given_[saved[i].body.slot];
+    require(given != steps_, "saved body", saved[i].body.slot, "must be there once");
+    given = steps_;
+    check_pose<Dim>(poses[i], fmt::format("poses[{}]", i));
   }
   note(sleeping_.wake_all());
   std::vector<BodyIndex> settled;

@@ -26,7 +26,8 @@ namespace talus {
 ///
 /// Every function that returns SleepChanges has already counted them as done: the caller carries them out in its engine
 /// before anything else, and they are valid until the next call. All arguments are in the program's axes. Bad input
-/// throws InvalidValue and changes nothing. Costs follow the awake bodies, memory the most bodies there were at once.
+/// throws InvalidValue and changes nothing, and so does any call by an observer that would change something. Costs
+/// follow the awake bodies, memory the most bodies there were at once.
 template <int Dim>
 class PileSleeper {
  public:
@@ -77,18 +78,20 @@ class PileSleeper {
   int awake() const { return static_cast<int>(world().awake().size()); }
 
   /// From now on `observer` sees each step: a record, the live view, a watch for faults. Numbers of bodies are those of
-  /// handle_of(), axes those of talus, with the last one up. Throws InvalidValue without SleeperOptions::enabled, and
-  /// what the observer throws.
+  /// handle_of(), axes those of talus, with the last one up. Throws InvalidValue without SleeperOptions::enabled and
+  /// within a report of an observer, and what the observer throws.
   void observe(std::unique_ptr<Observer<Dim>> observer);
   /// The shape that observers see of a body, in the axes of its traits; empty: they see its box still. Decisions need
   /// the box alone. Throws InvalidValue as a piece's check does.
   void set_pieces(Handle handle, const std::vector<Piece<Dim>>& pieces);
   /// Something that never moves and that observers see, such as a floor. Throws InvalidValue as a piece's check does.
   void add_static(const std::vector<Piece<Dim>>& pieces, const Pose<Dim>& pose);
-  /// Ends the observers; else the destructor does. Throws what the first of them throws, once all have ended.
+  /// Ends the observers; else the destructor does. Throws what the first of them throws, once all have ended, and
+  /// InvalidValue within a report of an observer.
   void end_observers(std::string_view reason = "finished");
-  /// The body of this number in frames, records and warnings: one that is there and not kinematic.
-  Handle handle_of(BodyIndex body) const { return handle_of_[body]; }
+  /// The body that has this number in frames, records and warnings. Numbers of removed bodies are used again. Throws
+  /// InvalidValue if no body that is there has it; kinematic ones have none.
+  Handle handle_of(BodyIndex body) const;
 
   /// Of every body that is not kinematic, in the order of their slots.
   std::vector<SavedSleep> snapshot() const;
@@ -105,6 +108,7 @@ class PileSleeper {
 
   void check_step(const GivenStep<Dim>& step);
   void check_state(const GivenStep<Dim>& step, std::size_t i) const;
+  void check_contact(const GivenContact<Dim>& contact, std::size_t i) const;
   void take_states(const GivenStep<Dim>& step);
   void take_contacts(const GivenStep<Dim>& step);
   BodyIndex side(Handle handle) const;
@@ -114,6 +118,7 @@ class PileSleeper {
   std::span<const Warning> warnings() const;
   void show_step();
   void tell(const std::function<void(Observer<Dim>&)>& call);
+  void require_no_report() const;
   void clear_changes();
   void wake_reached();
 
@@ -128,7 +133,7 @@ class PileSleeper {
   std::vector<Contact<Dim>> contacts_;  // of the step, as given
   std::vector<BodyIndex> reached_;      // scratch
   std::vector<std::uint8_t> follows_;   // [body] whether it touches a kinematic body that moves
-  std::vector<std::int64_t> given_;     // [slot] number of the last step that had it
+  std::vector<std::int64_t> given_;     // [slot] number of the last step or restore() that had it
   std::int64_t steps_ = 0;
   SleepChanges<Dim> changes_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;

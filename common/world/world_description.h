@@ -167,6 +167,7 @@ template <typename Vector>
 Vector limited(const Vector& vector, double most) {
   constexpr double rounding = 1e-12;
   const double length = vector.norm();
+  if (!std::isfinite(length)) return vector.stableNormalized() * (most * (1.0 - rounding));  // its square overflows
   return length > most * (1.0 - rounding) ? Vector(vector * (most * (1.0 - rounding) / length)) : vector;
 }
 

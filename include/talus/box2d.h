@@ -127,7 +127,8 @@ class Box2dImpulses {
 ///
 /// Box2D's own sleep is off for watched bodies, since it does not update their contacts. A force on a sleeping body and
 /// a joint that it gets have no effect until the program calls wake(). Bodies with joints never sleep, but wake others.
-/// Sensors are ignored. The world must outlive this object, which wakes all bodies when it ends.
+/// Sensors are ignored. A world has one sleeper that is on: a second one throws InvalidValue in before_step(). The
+/// world must outlive this object, which wakes all bodies when it ends.
 class Box2dSleeper {
  public:
   /// Throws InvalidValue on an option outside of its range.
@@ -142,10 +143,12 @@ class Box2dSleeper {
     if (world_.GetContactManager().m_contactListener == &listener_) world_.SetContactListener(listener_.next);
   }
 
-  /// Watches a body with its fixtures. Throws InvalidValue on a static one and on one that is watched.
+  /// Watches a body with its fixtures. Throws InvalidValue on a static one, on one without a solid fixture and on one
+  /// that is watched.
   Handle add(b2Body& body) {
     require(body.GetType() != b2_staticBody, "body", "static", "must be dynamic or kinematic");
     require(!handles_.contains(&body), "body", "watched", "must not be watched already");
+    require(is_solid(body), "body", "without a solid fixture", "must have a fixture that is no sensor");
     const BodyRole role = body.GetType() == b2_kinematicBody ? BodyRole::kinematic : free_role(body);
     BodyTraits<2> told = traits(body);
     if (observed_) told.pieces = pieces_of(body, from_box2d(body.GetLocalCenter()));
@@ -156,12 +159,12 @@ class Box2dSleeper {
     if (enabled_ && role != BodyRole::kinematic) body.SetSleepingAllowed(false);
     return handle;
   }
-  /// Watches all dynamic and kinematic bodies that are not watched yet. Returns how many of them never sleep since they
-  /// have joints.
+  /// Watches all dynamic and kinematic bodies that are not watched yet, but none without a solid fixture. Returns how
+  /// many of them never sleep since they have joints.
   int add_all() {
     int kept_awake = 0;
     for (b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext())
-      if (body->GetType() != b2_staticBody && !handles_.contains(body))
+      if (body->GetType() != b2_staticBody && !handles_.contains(body) && is_solid(*body))
         kept_awake += core_.role(add(*body)) == BodyRole::stays_awake ? 1 : 0;
     return kept_awake;
   }
@@ -387,7 +390,12 @@ class Box2dSleeper {
     }
   }
 
-  /// A body that cannot turn has no inertia.
+  static bool is_solid(const b2Body& body) {
+    const b2Fixture* fixture = body.GetFixtureList();
+    while (fixture != nullptr && fixture->IsSensor()) fixture = fixture->GetNext();
+    return fixture != nullptr;
+  }
+  /// A body that cannot turn has no inertia. The program may have put the centre of mass outside of the fixtures.
   static BodyTraits<2> traits(const b2Body& body) {
     b2Transform own;
     own.SetIdentity();
@@ -400,6 +408,7 @@ class Box2dSleeper {
       traits.friction = fixture->GetFriction();
     }
     traits.bounds.translate(-centre);
+    if (body.GetType() == b2_dynamicBody) traits.bounds.extend(Vec2(Vec2::Zero()));
     const double inertia = body.GetInertia() - traits.mass * centre.squaredNorm();
     traits.inertia(0, 0) = inertia > 0.0 ? inertia : traits.locked_inertia();
     return traits;
@@ -409,6 +418,8 @@ class Box2dSleeper {
   void listen() {
     b2ContactListener* now = world_.GetContactManager().m_contactListener;
     if (now == &listener_) return;
+    require(dynamic_cast<Listener*>(now) == nullptr, "world", "watched",
+            "must have no other sleeper: each calls the other");
     listener_.next = now;
     world_.SetContactListener(&listener_);
   }

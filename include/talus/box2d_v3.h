@@ -43,10 +43,12 @@ class Box2dV3Sleeper {
       if (enabled_ && B2_IS_NON_NULL(entry.body)) b2Body_EnableSleep(entry.body, entry.slept_alone);
   }
 
-  /// Watches a body with its shapes. Throws InvalidValue on a static one and on one that is watched.
+  /// Watches a body with its shapes. Throws InvalidValue on a static one, on one without a solid shape and on one that
+  /// is watched.
   Handle add(b2BodyId body) {
     require(b2Body_GetType(body) != b2_staticBody, "body", "static", "must be dynamic or kinematic");
     require(!watches(body), "body", "watched", "must not be watched already");
+    require(is_solid(body), "body", "without a solid shape", "must have a shape that is no sensor");
     const BodyRole role = is_kinematic(body) ? BodyRole::kinematic : free_role(body);
     BodyTraits<2> told = traits(body);
     if (observed_) told.pieces = pieces_of(body, from_box2d(b2Body_GetLocalCenterOfMass(body)));
@@ -59,12 +61,12 @@ class Box2dV3Sleeper {
     if (enabled_ && role != BodyRole::kinematic) b2Body_EnableSleep(body, false);
     return handle;
   }
-  /// Watches those of the bodies that are dynamic or kinematic and not watched yet: Box2D has no list of all. Returns
-  /// how many of them never sleep since they have joints.
+  /// Watches those of the bodies that are dynamic or kinematic and not watched yet, but none without a solid shape:
+  /// Box2D has no list of all. Returns how many of them never sleep since they have joints.
   int add_all(std::span<const b2BodyId> bodies) {
     int kept_awake = 0;
     for (const b2BodyId body : bodies)
-      if (b2Body_GetType(body) != b2_staticBody && !watches(body))
+      if (b2Body_GetType(body) != b2_staticBody && !watches(body) && is_solid(body))
         kept_awake += core_.role(add(body)) == BodyRole::stays_awake ? 1 : 0;
     return kept_awake;
   }
@@ -253,7 +255,10 @@ class Box2dV3Sleeper {
                        {from_box2d(b2Body_GetPosition(body)), Rotation<2>(b2Rot_GetAngle(b2Body_GetRotation(body)))});
   }
 
-  /// A body that cannot turn has no inertia.
+  static bool is_solid(b2BodyId body) {
+    return !std::ranges::all_of(shapes_of(body), [](b2ShapeId shape) { return b2Shape_IsSensor(shape); });
+  }
+  /// A body that cannot turn has no inertia. The program may have put the centre of mass outside of the shapes.
   static BodyTraits<2> traits(b2BodyId body) {
     const Vec2 centre = from_box2d(b2Body_GetLocalCenterOfMass(body));
     BodyTraits<2> traits{.mass = b2Body_GetMass(body)};
@@ -264,6 +269,7 @@ class Box2dV3Sleeper {
       traits.friction = b2Shape_GetFriction(shape);
     }
     traits.bounds.translate(-centre);
+    if (!is_kinematic(body)) traits.bounds.extend(Vec2(Vec2::Zero()));
     const double inertia = b2Body_IsFixedRotation(body) ? 0.0 : b2Body_GetRotationalInertia(body);
     traits.inertia(0, 0) = inertia > 0.0 ? inertia : traits.locked_inertia();
     return traits;

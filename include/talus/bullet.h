@@ -39,12 +39,13 @@ class BulletSleeper {
   BulletSleeper& operator=(const BulletSleeper&) = delete;
   ~BulletSleeper() { wake_all(); }
 
-  /// Watches a body of the world, dynamic or kinematic. Throws InvalidValue on a static one, on one that is in no world
-  /// and on one that is watched.
+  /// Watches a body of the world, dynamic or kinematic. Throws InvalidValue on a static one, on one that is in no
+  /// world, on one whose shape is empty and on one that is watched.
   Handle add(btRigidBody& body) {
     require(body.getWorldArrayIndex() >= 0, "body", "in no world", "must be in the world before it is watched");
     require(!never_moves(body), "body", "static", "must be dynamic or kinematic");
     require(!handles_.contains(&body), "body", "watched", "must not be watched already");
+    require(is_solid(body), "body", "without a solid shape", "must have a shape that is not empty");
     const BodyRole role = body.isKinematicObject() ? BodyRole::kinematic : BodyRole::sleeps;
     BodyTraits<3> told = traits(body);
     if (observed_) told.pieces = pieces_of(body);
@@ -55,13 +56,14 @@ class BulletSleeper {
     remember(body, handle);
     return handle;
   }
-  /// Watches all dynamic and kinematic bodies that are not watched yet. Returns how many of them never sleep since they
-  /// have constraints.
+  /// Watches all dynamic and kinematic bodies that are not watched yet, but none whose shape is empty. Returns how many
+  /// of them never sleep since they have constraints.
   int add_all() {
     std::vector<Handle> added;
     for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
       btRigidBody* body = btRigidBody::upcast(world_.getCollisionObjectArray()[i]);
-      if (body != nullptr && !never_moves(*body) && !handles_.contains(body)) added.push_back(add(*body));
+      if (body != nullptr && !never_moves(*body) && !handles_.contains(body) && is_solid(*body))
+        added.push_back(add(*body));
     }
     follow_constraints();
     const auto stays_awake = [&](Handle one) { return core_.role(one) == BodyRole::stays_awake; };
@@ -79,15 +81,18 @@ class BulletSleeper {
     entries_[handle.slot] = {};
   }
 
-  /// Call it directly before each step of Bullet.
+  /// Call it directly before each step of Bullet. Throws InvalidValue if a body that is watched and awake is in no
+  /// world any more.
   void before_step() {
     if (!enabled_) return;
     carry_out(core_.set_gravity(from_bullet(world_.getGravity())));
     follow_constraints();
     all_contacts_ = core_.needs_all_contacts();
-    if (!all_contacts_) return;  // the speeds are those at which bodies meet sleeping ones
     for (const Handle handle : core_.followed()) {
       Entry& entry = entries_[handle.slot];
+      require(entry.body->getWorldArrayIndex() >= 0, "body", handle.slot,
+              "must be in the world: call about_to_remove() before it is taken out");
+      if (!all_contacts_) continue;  // the speeds are those at which bodies meet sleeping ones
       entry.velocity = entry.body->getLinearVelocity();
       entry.spin = entry.body->getAngularVelocity();
     }
@@ -259,12 +264,22 @@ class BulletSleeper {
     }
   }
 
-  /// An axis about which a body cannot turn has no inverse inertia.
-  static BodyTraits<3> traits(const btRigidBody& body) {
+  /// In the axes of the body.
+  static Box<3> bounds(const btRigidBody& body) {
     btVector3 low;
     btVector3 high;
     body.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
-    BodyTraits<3> traits{.mass = body.getMass(), .bounds = {from_bullet(low), from_bullet(high)}};
+    return {from_bullet(low), from_bullet(high)};
+  }
+  /// A compound without children is a point.
+  static bool is_solid(const btRigidBody& body) {
+    return body.getCollisionShape()->getShapeType() != EMPTY_SHAPE_PROXYTYPE && bounds(body).sizes().minCoeff() > 0.0;
+  }
+  /// An axis about which a body cannot turn has no inverse inertia. The program may have put the centre of mass outside
+  /// of the shape.
+  static BodyTraits<3> traits(const btRigidBody& body) {
+    BodyTraits<3> traits{.mass = body.getMass(), .bounds = bounds(body)};
+    if (!body.isKinematicObject()) traits.bounds.extend(Vec3(Vec3::Zero()));
     for (int axis = 0; axis < 3; ++axis) {
       const btScalar inverse = body.getInvInertiaDiagLocal()[axis];
       traits.inertia(axis, axis) = inverse > 0 ? 1.0 / inverse : traits.locked_inertia();
@@ -284,11 +299,12 @@ class BulletSleeper {
   }
   /// The default for an object that is not watched. Places in Bullet's list change when objects are removed.
   Handle find(const btCollisionObject& object) {
+    const bool in_world = object.getWorldArrayIndex() >= 0;  // a constraint may name one that is not
     const auto place = static_cast<std::size_t>(object.getWorldArrayIndex());
     if (place < known_.size() && known_[place].object == &object) return known_[place].handle;
     const auto found = handles_.find(&object);
     const Handle handle = found == handles_.end() ? Handle{} : found->second;
-    if (found != handles_.end()) remember(object, handle);
+    if (found != handles_.end() && in_world) remember(object, handle);
     return handle;
   }
 
@@ -368,7 +384,7 @@ class BulletSleeper {
            .b = swap ? first : second,
            .point = from_bullet(where),
            .normal = sign * from_bullet(point.m_normalWorldOnB),
-           .normal_impulse = point.m_appliedImpulse,
+           .normal_impulse = std::max(0.0, static_cast<double>(point.m_appliedImpulse)),
            .friction_impulse = sign * from_bullet(friction),
            .approach_speed = std::max(0.0, static_cast<double>(point.m_normalWorldOnB.dot(approach))),
            .depth = -point.getDistance()});

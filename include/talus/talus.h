@@ -1,8 +1,8 @@
 /// @file
 /// Sleep body by body for any physics engine, in C: what common/sleeper/pile_sleeper.h is in C++, with its rules.
 ///
-/// Lengths in m, masses in kg, times in s, in the program's own axes. In 2D the third number of a vector and of a spin
-/// means nothing, but the third of `spin` is the angular velocity, and `rotation[0]` is the angle in radians.
+/// Lengths in m, masses in kg, times in s, in the program's own axes. In 2D the third number of a vector means nothing;
+/// of `spin` only the third counts, the angular velocity, and `rotation[0]` is the angle in radians.
 /// The structs with a member `size` begin with it, and the program sets it: {.size = sizeof(struct talus_options)}.
 /// Every function that returns an int returns TALUS_OK or another talus_result, and then talus_message() has the
 /// reason; a refused call changes nothing. A sleeper is used by one thread at a time.
@@ -78,8 +78,8 @@ struct talus_body {
   int role;            ///< enum talus_role
   double mass;         ///< [kg]; of a kinematic body it means nothing
   double inertia[9];   ///< about the centre of mass, in the body's axes, row by row [kg m^2]; in 2D the first number
-  double low[3];       ///< lower corner of its box in the body's axes, around the centre of mass [m]
-  double high[3];      ///< upper corner
+  double low[3];       ///< lower corner of its box in the body's axes, around the centre of mass, at most 0 [m]
+  double high[3];      ///< upper corner, at least 0
   double friction;     ///< against a body like it
   double position[3];  ///< of the centre of mass [m]
   double rotation[4];  ///< unit quaternion x, y, z, w
@@ -101,8 +101,8 @@ struct talus_contact {
   talus_handle a;              ///< a body
   talus_handle b;              ///< what it touches, or 0
   double point[3];             ///< [m]
-  double normal[3];            ///< unit, from b to a
-  double normal_impulse;       ///< over the step [N s]
+  double normal[3];            ///< unit, from b to a; with the wrong sign, nothing sleeps
+  double normal_impulse;       ///< over the step, >= 0 [N s]
   double friction_impulse[3];  ///< over the step, on a [N s]
   double approach_speed;       ///< before the step, >= 0 [m/s]
   double depth;                ///< positive where they overlap [m]
@@ -163,7 +163,7 @@ struct talus_warning {
   const char* kind;   ///< "passed", "overlap" or "outside_world"
   talus_handle body;  ///< the first that shows it
   double value;       ///< way in the step [m], depth in extents, coordinate [m]
-  const char* text;   ///< one line
+  const char* text;   ///< one line, with numbers of bodies: talus_handle_of()
 };
 /// Called with the `context` given to talus_watch(). The warning lives until it returns.
 typedef void (*talus_report)(const struct talus_warning* warning, void* context);
@@ -217,12 +217,13 @@ TALUS_API int talus_snapshot(talus_sleeper* sleeper, const struct talus_saved** 
 TALUS_API int talus_restore(talus_sleeper* sleeper, const struct talus_saved* saved, const struct talus_state* states,
                             size_t count, struct talus_changes* changes);
 /// Records each step from now on in a file, which is replaced, for `talus view`, `film`, `export` and `compare`.
-/// `label` may be null.
+/// Its bodies have numbers: talus_handle_of(). `label` may be null.
 TALUS_API int talus_record(talus_sleeper* sleeper, const char* path, const struct talus_label* label);
 /// Shows each step from now on to `talus monitor` and `talus view --live`. `label` may be null.
 TALUS_API int talus_publish(talus_sleeper* sleeper, const struct talus_label* label);
 /// Calls `report` within the step in which a kind of fault is seen for the first time: bodies that pass through each
-/// other, overlap deeply or leave the range of positions.
+/// other, overlap deeply or leave the range of positions. Within it the sleeper refuses all that would change
+/// something.
 TALUS_API int talus_watch(talus_sleeper* sleeper, talus_report report, void* context);
 /// What observers see of a body, in its axes; of body 0: one more thing that never moves, in the world's axes.
 /// Decisions take the body's box alone.
@@ -232,6 +233,10 @@ TALUS_API int talus_end_observers(talus_sleeper* sleeper);
 
 /// Writes 1 to `asleep` if a body sleeps, else 0.
 TALUS_API int talus_asleep(const talus_sleeper* sleeper, talus_handle body, int* asleep);
+
+/// Writes the handle of the body that has this number in records and warnings to `body`. TALUS_BAD_VALUE: no body that
+/// is there has it; kinematic ones have none. Numbers of removed bodies are used again.
+TALUS_API int talus_handle_of(const talus_sleeper* sleeper, int number, talus_handle* body);
 
 #ifdef __cplusplus
 }

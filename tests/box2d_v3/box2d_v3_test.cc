@@ -72,6 +72,20 @@ TEST(Box2dV3Sleeper, RefusesWhatItCannotWatch) {
   EXPECT_THROW(scene.sleeper->add(b2CreateBody(scene.world, &def)), InvalidValue);  // without shapes
 }
 
+TEST(Box2dV3Sleeper, LeavesOutBodiesWithoutASolidShape) {
+  SleepingBox2dV3Scene scene;
+  b2BodyDef def = b2DefaultBodyDef();
+  def.type = b2_dynamicBody;
+  const std::array bodies = {b2CreateBody(scene.world, &def), b2CreateBody(scene.world, &def)};
+  b2ShapeDef sensor = b2DefaultShapeDef();
+  sensor.isSensor = true;
+  const b2Circle circle = {{0.0F, 0.0F}, 0.5F};
+  b2CreateCircleShape(bodies[1], &sensor, &circle);
+  EXPECT_EQ(scene.sleeper->add_all(bodies), 0);
+  EXPECT_EQ(scene.sleeper->size(), 0);
+  for (const b2BodyId body : bodies) EXPECT_THROW(scene.sleeper->add(body), InvalidValue);
+}
+
 /// What observers see.
 class Seen final : public Observer<2> {
  public:

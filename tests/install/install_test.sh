@@ -75,13 +75,13 @@ c_library) # C with CMake and without; the library has the functions of talus.h 
   others=$(nm -D --defined-only "$library" | awk '$3 !~ /^(talus_|TALUS_0)/')
   [[ -z $others ]] || fail "also exported: $others"
   ;;
-headers) # each compiles alone
+headers) # each compiles alone and without a warning
   use_pkg_config_of_tree
   modules=$(cd "$PKG_CONFIG_PATH" && printf '%s\n' *.pc | sed 's/\.pc$//')
   for header in "$tree"/include/talus/*.h; do
     [[ $header == */box2d_v3.h ]] && continue # needs another Box2D than the others
     echo "#include <talus/$(basename "$header")>" |
-      g++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ - $(pkg-config --cflags $modules) ||
+      g++ -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c++ - $(pkg-config --cflags $modules) ||
       fail "${header##*/} does not compile alone"
   done
   ;;

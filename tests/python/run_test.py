@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,6 +32,15 @@ def test_leaves_the_record_of_the_command_and_its_last_frame_is_the_result(scene
     np.testing.assert_array_equal(record.shapes, result.shapes)
     assert record.shape_names == result.shape_names
     assert (record.seed, record.times[-1]) == (result.seed, result.time)
+
+
+def test_paths_that_are_no_utf_8_are_paths(tmp_path):
+    odd = Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff"))
+    text = (Path(COMMAND).resolve().parents[1] / "share/talus/scenes/drop_in_a_pile_2d.toml").read_text()
+    odd.with_suffix(".toml").write_text(text)
+    result = talus.run(odd.with_suffix(".toml"), set=SHORT, out=odd)
+    assert result.folder == odd
+    assert len(talus.open(odd).steps) == 60
 
 
 def test_gives_the_same_bits_with_and_without_a_folder(tmp_path):

@@ -1,7 +1,9 @@
 """Runs of the Python package against the command's own."""
 
+import copy
 import json
 import os
+import pickle
 import signal
 import subprocess
 import threading
@@ -49,6 +51,16 @@ def test_a_scene_is_taken_for_text_only_where_it_names_no_file(tmp_path):
         talus.Simulation(line)
 
 
+def test_a_file_goes_before_the_scene_of_its_name_as_for_the_command(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "drop_in_a_pile_2d").write_text(ONE_BOX)
+    command = [COMMAND, "run", "drop_in_a_pile_2d", "--set", "run.frames=3", "--hash"]
+    run = talus.Simulation("drop_in_a_pile_2d", set={"run.frames": 3})
+    run.step(10**6)
+    assert len(run.poses()) == 1
+    assert run.hash() == subprocess.check_output(command, text=True).strip()
+
+
 def test_poses_are_copies_that_also_go_into_out():
     run = talus.Simulation("drop_in_a_pile_3d")
     run.step(120)
@@ -72,8 +84,11 @@ def test_a_removed_body_is_no_longer_present():
     run.remove(0)
     assert not run.present()[0]
     assert run.present()[1:].all()
-    for body in (0, -1, 10**6):
+    for body in (0, -1, 10**6, 2**40, np.int64(2**40), -(2**70)):
         with pytest.raises(ValueError, match="body"):
+            run.remove(body)
+    for body in (True, np.True_, 1.0):
+        with pytest.raises(TypeError):
             run.remove(body)
 
 
@@ -131,6 +146,43 @@ def test_bodies_by_number_are_woken():
         run.wake([0, 1000])
 
 
+def test_a_mask_names_the_bodies_that_it_has():
+    run = talus.Simulation("drop_in_a_pile_2d")
+    run.step(400)
+    asleep = run.asleep()
+    woken = asleep & (np.arange(len(asleep)) % 2 == 0)
+    assert 0 < woken.sum() < asleep.sum()
+    run.wake(woken)
+    np.testing.assert_array_equal(run.asleep(), asleep & ~woken)
+    before = run.velocities()
+    run.kick(woken, [0.0, 1.0])
+    np.testing.assert_allclose(run.velocities() - before, np.outer(woken, [0.0, 1.0]), atol=1e-6)
+    run.wake(np.zeros(len(asleep), bool))
+    with pytest.raises(ValueError, match="bodies.shape"):
+        run.wake(woken[1:])
+    for lone in (True, np.True_, np.array(True)):
+        with pytest.raises(TypeError, match="mask"):
+            run.wake(lone)
+    for number in (2**40, -(2**70)):
+        with pytest.raises(ValueError, match="body"):
+            run.kick([0, number], [0.0, 1.0])
+
+
+def test_a_kick_of_any_strength_is_cut_to_the_fastest_speed():
+    run = talus.Simulation(ONE_BOX)
+    run.step()
+    fastest = []
+    for speed in (1e100, 1e200, 1e308):
+        run.kick(0, [speed, 0.0])
+        fastest.append(run.velocities()[0, 0])
+    assert fastest[0] > 10
+    np.testing.assert_allclose(fastest, fastest[0])
+    for field, velocity, spin in (("velocity[1] = nan", [0, np.nan], None), ("spin[0] = inf", [0, 0], [np.inf])):
+        with pytest.raises(ValueError) as caught:
+            run.kick(0, velocity, spin)
+        assert str(caught.value).startswith(field)
+
+
 def test_a_kicked_box_wakes_and_flies_as_thrown():
     run = talus.Simulation(ONE_BOX)
     run.step(300)
@@ -170,6 +222,20 @@ def test_any_text_is_taken_as_it_is(tmp_path):
         talus.Simulation("drop_in_a_pile_2d", set={"title": None})
 
 
+def test_arrays_of_one_number_are_numbers():
+    for frames in (np.array(7), np.int64(7)):
+        run = talus.Simulation("drop_in_a_pile_2d", set={"run.frames": frames})
+        run.step(100)
+        assert run.finished
+
+
+def test_a_run_is_not_copied():
+    run = talus.Simulation(ONE_BOX)
+    for call in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match="a simulation cannot be copied"):
+            call(run)
+
+
 def test_a_bad_value_is_an_error_with_field_and_value():
     with pytest.raises(talus.SceneError, match="run.frames = -5"):
         talus.Simulation("drop_in_a_pile_2d", set={"run.frames": -5})
@@ -200,6 +266,25 @@ def test_other_threads_run_during_a_step():
     done.set()
     thread.join()
     assert during > 1000
+
+
+def test_a_call_while_another_thread_steps_is_refused():
+    run = talus.Simulation("drop_in_a_pile_3d", policy="full", set={"run.frames": 10**6})
+    thread = threading.Thread(target=run.step, args=[1000])
+    thread.start()
+    refused = 0
+    calls = (run.step, run.poses, run.hash, run.wake, lambda: run.kick(0, [0, 0, 1]), lambda: run.time)
+    while thread.is_alive():
+        for call in calls:
+            try:
+                call()
+            except RuntimeError as error:
+                refused += "a step is under way in another thread" in str(error)
+    thread.join()
+    assert refused >= len(calls)
+    before = run.step_count
+    run.step()
+    assert run.step_count == before + 1
 
 
 def test_ctrl_c_stops_a_step_and_the_run_can_go_on():

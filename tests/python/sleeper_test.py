@@ -1,6 +1,12 @@
 """A sleeper in an engine of balls that is written in NumPy."""
 
 
+import copy
+import gc
+import os
+import weakref
+from pathlib import Path
+
 import numpy as np
 import pytest
 import talus
@@ -259,6 +265,78 @@ def test_a_body_that_gets_through_another_is_reported(sleeper):
     assert "body" in reports[0][3]
 
 
+def test_a_report_cannot_change_the_sleeper_that_runs_it(sleeper, tmp_path):
+    engine = Balls(sleeper)
+    ball = engine.add(at(engine.dimension, 0.0, 5.0))
+    pose = engine.pose(engine.position[0])
+    refused = []
+
+    def report(kind, body, value, text):
+        for call in (
+            sleeper.end_observers,
+            lambda: sleeper.observe(tmp_path / "inner.lcm"),
+            lambda: sleeper.add(pose, mass=1, radius=1),
+            lambda: sleeper.remove(ball),
+            sleeper.wake_all,
+        ):
+            with pytest.raises(ValueError, match="call = by an observer: must come after the step"):
+                call()
+            refused.append(call)
+
+    sleeper.observe(report=report)
+    engine.position[0] = at(engine.dimension, 1e9, 5.0)
+    engine.step(2)
+    assert len(refused) == 5
+    sleeper.observe(report=report)  # of what is there already
+    assert len(refused) == 10
+    assert len(sleeper) == 1
+    sleeper.end_observers()
+
+
+def test_numbers_of_records_and_reports_name_bodies(sleeper):
+    engine = Balls(sleeper)
+    engine.add(at(engine.dimension, 0.0, 5.0), role="kinematic")
+    handles = [engine.add(at(engine.dimension, 3.0 * k, 5.0)) for k in (1, 2)]
+    assert [sleeper.handle_of(number) for number in (0, 1)] == handles
+    engine.remove(handles[0])
+    for none in (0, 2, -1):
+        with pytest.raises(ValueError, match=f"body = {none}: must be the number of a body that is there"):
+            sleeper.handle_of(none)
+    later = engine.add(at(engine.dimension, 9.0, 5.0))
+    assert sleeper.handle_of(0) == later
+
+
+def test_a_sleeper_ends_though_its_report_refers_to_it(sleeper):
+    def watched():
+        own = type(sleeper)()
+        own.observe(report=lambda *warning: own.wake_all())
+        return weakref.ref(own)
+
+    ended = watched()
+    gc.collect()
+    assert ended() is None
+
+
+def test_a_block_ends_the_observers(tmp_path):
+    path = Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff.lcm"))  # no UTF-8
+    with talus.PileSleeper2D() as sleeper:
+        sleeper.observe(path)
+        tower(sleeper)
+    assert talus.open(path).reason == "finished"
+
+
+def test_a_sleeper_is_not_copied(sleeper):
+    for call in (copy.copy, copy.deepcopy):
+        with pytest.raises(TypeError, match="a sleeper cannot be copied"):
+            call(sleeper)
+
+
+def test_empty_lists_are_a_step_without_bodies(sleeper):
+    for empty in ([], np.empty((0, 5)), np.empty(0, np.float32)):
+        assert sleeper.step(DT, empty, empty, empty, empty, []) == ([], [], [])
+    assert sleeper.restore(sleeper.snapshot(), []) == ([], [], [])
+
+
 def test_what_a_report_raises_comes_out_of_the_next_step(sleeper):
     def stop(kind, body, value, text):
         raise InterruptedError(text)
@@ -334,4 +412,60 @@ def test_bad_input_is_an_error_with_field_and_value_and_changes_nothing():
     with pytest.raises(TypeError, match="contact_dtype"):
         sleeper.step(DT, *state, np.zeros((1, 3)))
     assert len(sleeper) == 1
+    for number in (ball + 1, -1, 2**63, -(2**70)):
+        assert number not in sleeper
     sleeper.step(DT, *state)
+
+
+def test_the_first_number_that_is_out_of_range_is_named():
+    sleeper = talus.PileSleeper3D()
+    pose = np.array([0, 0, 1, 0, 0, 0, 1.0])
+    ball = sleeper.add(pose, mass=1, radius=0.5)
+    nan, inf = np.nan, np.inf
+
+    def add(low, high, inertia=(1, 1, 1)):
+        sleeper.add(pose, mass=1, bounds=[low, high], inertia=inertia)
+
+    def step(poses=pose, velocity=(0, 0, 0), spin=(0, 0, 0), **contact):
+        contacts = np.zeros(1, sleeper.contact_dtype)
+        contacts["a"] = ball
+        contacts["normal"] = (0, 0, 1)
+        for name, value in contact.items():
+            contacts[name] = value
+        sleeper.step(DT, [ball], [poses], [velocity], [spin], contacts)
+
+    for message, call in (
+        ("pose.position[1] = nan", lambda: sleeper.add([0, nan, 0, 0, 0, 0, 1], mass=1, radius=1)),
+        ("pose.rotation length = 2", lambda: sleeper.moved(ball, [0, 0, 0, 0, 0, 0, 2])),
+        ("bounds.low[2] = nan", lambda: add([-1, -1, nan], [1, 1, 1])),
+        ("bounds.high[0] = inf", lambda: add([-1, -1, -1], [inf, 1, 1])),
+        ("bounds.low[1] = 0.5: must be at most 0", lambda: add([-1, 0.5, -1], [1, 1, 1])),
+        ("bounds.high[2] = -0.5: must be at least 0", lambda: add([-1, -1, -1], [1, 1, -0.5])),
+        ("inertia[4] = inf", lambda: add([-1, -1, -1], [1, 1, 1], (1, inf, 1))),
+        ("gravity[2] = nan", lambda: talus.PileSleeper3D([0, 0, nan])),
+        ("gravity[0] = -inf", lambda: sleeper.set_gravity([-inf, 0, 0])),
+        ("box.high[1] = nan", lambda: sleeper.wake_near([0, 0, 0], [1, nan, 1])),
+        ("poses[0].position[0] = inf", lambda: step(poses=[inf, 0, 0, 0, 0, 0, 1])),
+        ("velocities[0][2] = nan", lambda: step(velocity=(0, 0, nan))),
+        ("spins[0][1] = inf", lambda: step(spin=(0, inf, 0))),
+        ("contacts[0].point[1] = nan", lambda: step(point=(0, nan, 0))),
+        ("contacts[0].normal[2] = nan", lambda: step(normal=(0, 0, nan))),
+        ("contacts[0].normal length = 0", lambda: step(normal=(0, 0, 0))),
+        ("contacts[0].normal length = 2", lambda: step(normal=(0, 0, 2))),
+        ("contacts[0].normal_impulse = -1", lambda: step(normal_impulse=-1)),
+        ("contacts[0].friction_impulse[0] = nan", lambda: step(friction_impulse=(nan, 0, 0))),
+        ("contacts[0].approach_speed = -0.5", lambda: step(approach_speed=-0.5)),
+        ("contacts[0].depth = nan", lambda: step(depth=nan)),
+    ):
+        with pytest.raises(ValueError) as caught:
+            call()
+        assert str(caught.value).startswith(message)
+    step(normal=(0, 0, 1.005), depth=-0.01)
+
+
+def test_a_body_is_restored_once():
+    sleeper = tower(talus.PileSleeper3D()).sleeper
+    twice = sleeper.snapshot()[[0, 1, 0]]
+    with pytest.raises(ValueError, match="must be there once"):
+        sleeper.restore(twice, np.tile([0, 0, 0, 0, 0, 0, 1.0], (3, 1)))
+    assert sleeper.awake == 0

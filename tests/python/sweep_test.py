@@ -27,6 +27,21 @@ def test_gives_each_combination_as_a_run_of_its_own_gives_it():
         assert run.result.warnings == alone.warnings
 
 
+def test_takes_its_modules_from_no_other_folder(tmp_path, monkeypatch):
+    (tmp_path / "pickle.py").write_text("raise SystemExit(3)")
+    monkeypatch.chdir(tmp_path)
+    (run,) = talus.sweep("drop_in_a_pile_2d", set=SHORT)
+    assert run.error is None
+
+
+def test_takes_numpys_whole_numbers_and_refuses_jobs_that_are_none():
+    runs = talus.sweep("drop_in_a_pile_2d", seeds=np.int64(2), set=SHORT)
+    assert [run.seed for run in runs] == [1, 2]
+    for jobs in (0, -1):
+        with pytest.raises(ValueError, match=f"jobs = {jobs}: must be at least 1"):
+            talus.sweep("drop_in_a_pile_2d", set=SHORT, jobs=jobs)
+
+
 @pytest.mark.parametrize("path, given", [("policy.kind", {"policy": "full"}), ("seed", {"seeds": 2})])
 def test_a_value_that_an_argument_gives_too_is_refused(path, given):
     with pytest.raises(ValueError, match=f"{path}.*must be left out where {next(iter(given))}"):

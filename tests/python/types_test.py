@@ -23,6 +23,7 @@ def test_all_that_is_public_has_a_docstring_and_types_that_resolve():
     for name, thing in public():
         names.add(name)
         assert inspect.getdoc(thing), name
+        assert thing.__doc__, f"{name}: has no text of its own"
         call = thing.fget if isinstance(thing, property) else thing
         if not inspect.isfunction(call):
             continue

@@ -114,6 +114,34 @@ TEST(Box2dSleeper, RefusesWhatItCannotWatch) {
   EXPECT_THROW(scene.sleeper->add(*scene.world.CreateBody(&def)), InvalidValue);  // without fixtures
 }
 
+TEST(Box2dSleeper, LeavesOutBodiesWithoutASolidFixture) {
+  SleepingBox2dScene scene;
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  b2CircleShape shape;
+  shape.m_radius = 0.5F;
+  b2FixtureDef sensor;
+  sensor.shape = &shape;
+  sensor.isSensor = true;
+  b2Body& ghost = *scene.world.CreateBody(&def);
+  ghost.CreateFixture(&sensor);
+  scene.add_box({1, 1}, {0, 5}, b2_dynamicBody);
+  EXPECT_EQ(scene.sleeper->add_all(), 0);
+  EXPECT_EQ(scene.sleeper->size(), 1);
+  EXPECT_THROW(scene.sleeper->add(ghost), InvalidValue);
+}
+
+/// A sleeper that takes the place of another one is none that is there with it.
+TEST(Box2dSleeper, IsTheOnlyOneOfItsWorld) {
+  SleepingBox2dScene scene;
+  scene.step();
+  auto second = std::make_unique<Box2dSleeper>(scene.world);
+  EXPECT_THROW(second->before_step(), InvalidValue);
+  scene.step();
+  scene.sleeper.reset();
+  second->before_step();
+}
+
 TEST(Box2dSleeper, ChangesNoBitWhenItIsOff) {
   SleepingBox2dScene with({.enabled = false});
   Box2dScene without;

@@ -92,6 +92,57 @@ TEST(BulletSleeper, RefusesWhatItCannotWatch) {
   EXPECT_THROW(BulletSleeper(scene.world, {.adaptive = {.rings = 1}}), InvalidValue);
 }
 
+/// A constraint still names the body, as when a program takes the two out in this order.
+TEST(BulletSleeper, RefusesAStepWithABodyThatLeftTheWorldUnannounced) {
+  SleepingBulletScene scene;
+  btRigidBody& box = scene.add_box({1, 1, 1}, {0, 0, 5}, 1000);
+  btRigidBody& other = scene.add_box({1, 1, 1}, {5, 0, 5}, 1000);
+  scene.sleeper->add_all();
+  btPoint2PointConstraint joint(box, other, btVector3(2.5, 0, 0), btVector3(-2.5, 0, 0));
+  scene.world.addConstraint(&joint);
+  scene.step();
+  scene.world.removeRigidBody(&box);
+  EXPECT_THROW(scene.sleeper->before_step(), InvalidValue);
+  scene.world.removeConstraint(&joint);
+  scene.sleeper->about_to_remove(box);
+  scene.step();
+  EXPECT_EQ(scene.sleeper->size(), 1);
+}
+
+TEST(BulletSleeper, LeavesOutBodiesWithoutASolidShape) {
+  SleepingBulletScene scene;
+  btCompoundShape nothing;
+  btEmptyShape empty;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+  for (btCollisionShape* shape : {static_cast<btCollisionShape*>(&nothing), static_cast<btCollisionShape*>(&empty)}) {
+    bodies.push_back(std::make_unique<btRigidBody>(btScalar(1), nullptr, shape, btVector3(1, 1, 1)));
+    scene.world.addRigidBody(bodies.back().get());
+  }
+  scene.add_box({1, 1, 1}, {0, 0, 1}, 10);
+  EXPECT_EQ(scene.sleeper->add_all(), 0);
+  EXPECT_EQ(scene.sleeper->size(), 1);
+  for (const auto& body : bodies) {
+    EXPECT_THROW(scene.sleeper->add(*body), InvalidValue);
+    scene.world.removeRigidBody(body.get());
+  }
+}
+
+/// A child beside the origin alone.
+TEST(BulletSleeper, PutsABodyToSleepWhoseCentreOfMassLiesOutsideOfItsShape) {
+  SleepingBulletScene scene;
+  btBoxShape foot({2, 2, btScalar(0.5)});
+  btCompoundShape shape;
+  shape.addChildShape(btTransform(btQuaternion::getIdentity(), {0, 0, -2}), &foot);
+  btRigidBody body(btScalar(1000), nullptr, &shape, btVector3(1000, 1000, 1000));
+  body.setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, 0, btScalar(2.5)}));
+  scene.world.addRigidBody(&body);
+  scene.sleeper->add_all();
+  scene.run(480);
+  EXPECT_TRUE(scene.sleeper->asleep(body));
+  scene.sleeper->about_to_remove(body);
+  scene.world.removeRigidBody(&body);
+}
+
 /// A lift with a box on it rests, rises, rests and sinks; the box follows within its skin.
 TEST(BulletSleeper, CarriesASleeperOnAPlatform) {
   SleepingBulletScene scene;

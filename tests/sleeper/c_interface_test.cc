@@ -160,8 +160,39 @@ TEST_P(CInterface, ReportsABodyThatGetsThroughAnother) {
   EXPECT_NEAR(seen.value, 4.0, 1e-12);
 }
 
+TEST_P(CInterface, NamesTheBodyOfANumber) {
+  const talus_handle bodies[] = {add_box(), add_box()};
+  talus_handle named = 0;
+  for (int number = 0; number < 2; ++number) {
+    ASSERT_EQ(talus_handle_of(sleeper, number, &named), TALUS_OK) << talus_message();
+    EXPECT_EQ(named, bodies[number]);
+  }
+  ASSERT_EQ(talus_remove(sleeper, bodies[1], &changes), TALUS_OK);
+  for (const int none : {-1, 1, 2}) EXPECT_EQ(talus_handle_of(sleeper, none, &named), TALUS_BAD_VALUE) << none;
+  EXPECT_NE(std::string(talus_message()).find("body = 2: must be the number of a body that is there"),
+            std::string::npos);
+  const talus_handle later = add_box();
+  ASSERT_EQ(talus_handle_of(sleeper, 1, &named), TALUS_OK);
+  EXPECT_EQ(named, later);
+}
+
+/// What a body far away gives in its first step.
+TEST_P(CInterface, TellsOfAnExceptionOfAReportThatIsNone) {
+  ASSERT_EQ(talus_watch(
+                sleeper, [](const talus_warning*, void*) { throw 1; }, nullptr),
+            TALUS_OK);
+  const talus_handle body = add_box();
+  talus_state state{};
+  state.position[0] = 1e9;
+  if (GetParam() == 3) state.rotation[3] = 1.0;
+  const talus_step step = {sizeof step, 0.1, 1, &body, &state, 0, nullptr};
+  ASSERT_EQ(talus_after_step(sleeper, &step, &changes), TALUS_OK) << talus_message();
+  EXPECT_EQ(talus_after_step(sleeper, &step, &changes), TALUS_FAILED);
+  EXPECT_STREQ(talus_message(), "unknown exception");
+}
+
 TEST_P(CInterface, TakesNoStrongerGravityThanAScene) {
-  for (const double most : {1e3, static_cast<double>(NAN), 1e30, 1001.0}) {
+  for (const double most : {1e3, 1e200, static_cast<double>(NAN), 1e30, 1001.0}) {
     const double gravity[3] = {0.0, -most, 0.0};
     EXPECT_EQ(talus_set_gravity(sleeper, gravity, &changes), most == 1e3 ? TALUS_OK : TALUS_BAD_VALUE) << most;
   }

@@ -39,6 +39,7 @@ struct talus_sleeper {
   virtual const std::vector<talus_saved>& snapshot() = 0;
   virtual const talus_changes& restore(std::span<const talus_saved> saved, const talus_state* states) = 0;
   virtual bool asleep(talus_handle body) const = 0;
+  virtual talus_handle body_of(int number) const = 0;
   virtual void record(const char* path, const talus_label* label) = 0;
   virtual void publish(const talus_label* label) = 0;
   virtual void watch(talus_report report, void* context) = 0;
@@ -204,6 +205,7 @@ class Sleeper final : public talus_sleeper {
     return written(core_.restore(given, poses));
   }
   bool asleep(talus_handle body) const override { return core_.asleep(handle_of(body)); }
+  talus_handle body_of(int number) const override { return number_of(core_.handle_of(number)); }
 
 #ifdef TALUS_LCM
   void record(const char* path, const talus_label* label) override {
@@ -282,6 +284,9 @@ int guarded(const Act& act) {
     return TALUS_BAD_VALUE;
   } catch (const std::exception& error) {
     last_message() = error.what();
+    return TALUS_FAILED;
+  } catch (...) {  // of a report in C++
+    last_message() = "unknown exception";
     return TALUS_FAILED;
   }
 }
@@ -453,6 +458,14 @@ int talus_asleep(const talus_sleeper* sleeper, talus_handle body, int* asleep) {
     require_there(sleeper, "sleeper");
     require_there(asleep, "asleep");
     *asleep = sleeper->asleep(body) ? 1 : 0;
+  });
+}
+
+int talus_handle_of(const talus_sleeper* sleeper, int number, talus_handle* body) {
+  return guarded([&] {
+    require_there(sleeper, "sleeper");
+    require_there(body, "body");
+    *body = sleeper->body_of(number);
   });
 }
 

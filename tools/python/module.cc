@@ -42,8 +42,10 @@ std::vector<EventRow> event_rows(std::span<const SleepEvent> events) {
 
 PYBIND11_MODULE(_talus, module) {
   py::register_exception_translator(talus::raise_os_error);
-  py::register_exception<talus::SceneErrors>(module, "SceneError", PyExc_ValueError);
-  py::register_exception<talus::NonFiniteState>(module, "NonFiniteState", PyExc_RuntimeError);
+  py::register_exception<talus::SceneErrors>(module, "SceneError", PyExc_ValueError).attr("__doc__") =
+      "Errors of a scene, a line each with file, line, field, value and rule.";
+  py::register_exception<talus::NonFiniteState>(module, "NonFiniteState", PyExc_RuntimeError).attr("__doc__") =
+      "The state of a body became NaN or infinite; the message has step and body.";
   PYBIND11_NUMPY_DTYPE(talus::EventRow, step, body, woke, cause, pile, layer, score);
   module.attr("cause_names") = talus::cause_names();
   talus::add_runs(module);

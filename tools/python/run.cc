@@ -10,10 +10,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/math/require.h"
+#include "common/math/require_finite.h"
 #include "common/policy/observer.h"
 #include "common/scene/read_scene.h"
 #include "common/simulation/state_hash.h"
@@ -106,12 +109,13 @@ ContactRow<Dim> contact_row(const Contact<Dim>& contact) {
 template <class Vector>
 Vector vector_in(const std::vector<double>& values, std::string_view field) {
   const Eigen::Map<const Eigen::VectorXd> given(values.data(), std::ssize(values));
-  require(given.size() == Vector::RowsAtCompileTime && given.allFinite(), field, static_cast<double>(given.size()),
-          fmt::format("must be {} finite numbers", Vector::RowsAtCompileTime));
+  require(given.size() == Vector::RowsAtCompileTime, fmt::format("{}.size", field), static_cast<double>(given.size()),
+          fmt::format("must be {}", Vector::RowsAtCompileTime));
+  require_finite(given, field);
   return given;
 }
 
-/// A run as Python has it.
+/// A run as Python has it. Its members are called with the interpreter's lock held.
 template <int Dim>
 class Run {
  public:
@@ -129,6 +133,11 @@ class Run {
     outputs_.emplace(options_, scene_, name, backend, simulation_);
   }
 
+  /// Throws std::runtime_error while step() or run() go on without the lock.
+  void require_idle() const {
+    if (busy_) throw std::runtime_error("a step is under way in another thread");
+  }
+
   bool finished() const { return simulation_.finished(); }
   bool at_rest() const { return simulation_.at_rest(); }
   double time() const { return simulation_.time(); }
@@ -138,6 +147,7 @@ class Run {
   /// Without the interpreter's lock.
   void step(std::int64_t count) {
     Attention attention;
+    const Busy busy(busy_);
     const py::gil_scoped_release released;
     advance(count, attention);
   }
@@ -149,6 +159,7 @@ class Run {
     Attention attention = progress.is_none() ? Attention() : Attention(tell);
     std::exception_ptr failure;
     {
+      const Busy busy(busy_);
       const py::gil_scoped_release released;
       Stopwatch watch;
       failure = advance_to_end(attention);
@@ -169,7 +180,7 @@ class Run {
     return all;
   }
   std::uint64_t seed() const { return scene_.seed; }
-  std::string folder() const { return outputs_ ? outputs_->folder().string() : ""; }
+  py::bytes folder() const { return outputs_ ? outputs_->folder().string() : ""; }
   std::vector<std::string> shape_names() const {
     std::vector<std::string> names;
     for (const Shape<Dim>& shape : scene_.world.shapes) names.push_back(shape.name);
@@ -228,6 +239,18 @@ class Run {
   }
 
  private:
+  /// Sets the flag as long as it exists, which is until the lock is held again.
+  class Busy {
+   public:
+    explicit Busy(bool& flag) : flag_(flag) { flag_ = true; }
+    ~Busy() { flag_ = false; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+   private:
+    bool& flag_;
+  };
+
   const BodyStates<Dim>& states() const { return simulation_.world().states(); }
 
   /// As an event of the scene does, to these bodies alone.
@@ -282,10 +305,27 @@ class Run {
   RunOptions options_;  // of the outputs
   SummaryInput summary_;
   std::optional<RunOutputs<Dim>> outputs_;
+  bool busy_ = false;
 };
 
-/// `is_text`: the scene is TOML text; else it is a path or a name.
-py::object open_run(const std::string& scene_text, bool is_text, const std::string& policy,
+/// A member that throws where another thread is within step() or run().
+template <class Run, class Result, class... Arguments>
+auto idle(Result (Run::*member)(Arguments...)) {
+  return [member](Run& run, Arguments... arguments) -> Result {
+    run.require_idle();
+    return (run.*member)(std::forward<Arguments>(arguments)...);
+  };
+}
+template <class Run, class Result, class... Arguments>
+auto idle(Result (Run::*member)(Arguments...) const) {
+  return [member](const Run& run, Arguments... arguments) -> Result {
+    run.require_idle();
+    return (run.*member)(std::forward<Arguments>(arguments)...);
+  };
+}
+
+/// `is_text`: the scene is TOML text; else it is a path or the name of a scene in a folder.
+py::object open_run(const std::string& scene_text, bool is_text, const std::string& folder, const std::string& policy,
                     std::optional<std::int64_t> seed, const std::string& backend,
                     const std::vector<std::string>& settings, bool warnings, bool contacts, const std::string& out) {
   SceneChoice choice;
@@ -295,7 +335,7 @@ py::object open_run(const std::string& scene_text, bool is_text, const std::stri
   choice.backend = backend;
   choice.settings = settings;
   const std::vector<Override> overrides = overrides_of(choice);
-  const std::filesystem::path file = is_text ? "scene" : find_scene(scene_text);
+  const std::filesystem::path file = is_text ? "scene" : find_scene(scene_text, folder);
   const AnyScene scene = is_text ? parse_scene(scene_text, "scene", overrides) : read_scene(file, overrides);
   return std::visit(
       [&]<int Dim>(const Scene<Dim>& of_dimension) -> py::object {
@@ -312,31 +352,31 @@ void add_run(py::module_& module, const char* name) {
   using RunHere = Run<Dim>;
   py::class_<RunHere>(module, name)
       .def_property_readonly_static("dimension", [](const py::object&) { return Dim; })
-      .def_property_readonly("finished", &RunHere::finished)
-      .def_property_readonly("at_rest", &RunHere::at_rest)
-      .def_property_readonly("warnings", &RunHere::warnings)
-      .def_property_readonly("seed", &RunHere::seed)
-      .def_property_readonly("folder", &RunHere::folder)
-      .def_property_readonly("shape_names", &RunHere::shape_names)
-      .def_property_readonly("time", &RunHere::time)
-      .def_property_readonly("step_count", &RunHere::step_count)
-      .def("step", &RunHere::step)
-      .def("run", &RunHere::run)
-      .def("hash", &RunHere::hash)
-      .def("poses", &RunHere::poses)
-      .def("write_poses", &RunHere::write_poses, py::arg("out").noconvert())
-      .def("velocities", &RunHere::velocities)
-      .def("spins", &RunHere::spins)
-      .def("asleep", &RunHere::asleep)
-      .def("removed", &RunHere::removed)
-      .def("shapes", &RunHere::shapes)
-      .def("remove", &RunHere::remove)
-      .def("wake_all", &RunHere::wake_all)
-      .def("wake", &RunHere::wake)
-      .def("kick", &RunHere::kick)
-      .def("events", &RunHere::events)
-      .def("contacts", &RunHere::contacts)
-      .def("piles", &RunHere::piles);
+      .def_property_readonly("finished", idle(&RunHere::finished))
+      .def_property_readonly("at_rest", idle(&RunHere::at_rest))
+      .def_property_readonly("warnings", idle(&RunHere::warnings))
+      .def_property_readonly("seed", idle(&RunHere::seed))
+      .def_property_readonly("folder", idle(&RunHere::folder))
+      .def_property_readonly("shape_names", idle(&RunHere::shape_names))
+      .def_property_readonly("time", idle(&RunHere::time))
+      .def_property_readonly("step_count", idle(&RunHere::step_count))
+      .def("step", idle(&RunHere::step))
+      .def("run", idle(&RunHere::run))
+      .def("hash", idle(&RunHere::hash))
+      .def("poses", idle(&RunHere::poses))
+      .def("write_poses", idle(&RunHere::write_poses), py::arg("out").noconvert())
+      .def("velocities", idle(&RunHere::velocities))
+      .def("spins", idle(&RunHere::spins))
+      .def("asleep", idle(&RunHere::asleep))
+      .def("removed", idle(&RunHere::removed))
+      .def("shapes", idle(&RunHere::shapes))
+      .def("remove", idle(&RunHere::remove))
+      .def("wake_all", idle(&RunHere::wake_all))
+      .def("wake", idle(&RunHere::wake))
+      .def("kick", idle(&RunHere::kick))
+      .def("events", idle(&RunHere::events))
+      .def("contacts", idle(&RunHere::contacts))
+      .def("piles", idle(&RunHere::piles));
 }
 
 }  // namespace

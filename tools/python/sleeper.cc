@@ -176,6 +176,7 @@ class ArraySleeper {
   }
   void end_observers() { sleeper_.end_observers(); }
 
+  std::int64_t of_number(BodyIndex number) const { return whole(sleeper_.handle_of(number)); }
   bool has(std::int64_t body) const { return sleeper_.has(handle_of(body)); }
   bool asleep(std::int64_t body) const { return sleeper_.asleep(handle_of(body)); }
   int size() const { return sleeper_.size(); }
@@ -249,6 +250,7 @@ void add_sleeper(py::module_& module, const char* name) {
       .def("set_gravity", &Sleeper::set_gravity)
       .def("watch", &Sleeper::watch)
       .def("end_observers", &Sleeper::end_observers)
+      .def("handle_of", &Sleeper::of_number)
       .def("has", &Sleeper::has)
       .def("asleep", &Sleeper::asleep)
       .def("size", &Sleeper::size)

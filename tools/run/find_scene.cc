@@ -13,9 +13,8 @@ namespace fs = std::filesystem;
 
 fs::path scene_folder() { return data_folder("scenes"); }
 
-std::vector<fs::path> scene_files() {
+std::vector<fs::path> scene_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  const fs::path folder = scene_folder();
   if (!fs::is_directory(folder)) return files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
@@ -23,18 +22,18 @@ std::vector<fs::path> scene_files() {
   return files;
 }
 
-fs::path find_scene(const std::string& scene) {
+fs::path find_scene(const std::string& scene, const fs::path& folder) {
   std::error_code error;
   const fs::file_type type = fs::status(scene, error).type();
   if (type == fs::file_type::regular) return scene;
   if (type == fs::file_type::none)  // its folder cannot be read, its name is too long, ...
     throw std::invalid_argument(fmt::format("scene = {}: {}", scene, error.message()));
   std::vector<std::string> names;
-  for (const fs::path& file : scene_files()) {
+  for (const fs::path& file : scene_files(folder)) {
     if (file.stem() == scene) return file;
     names.push_back(file.stem());
   }
-  fs::path below = scene_folder() / (scene + ".toml");  // as public/hopper_2d
+  fs::path below = folder / (scene + ".toml");  // as public/hopper_2d
   if (fs::is_regular_file(below, error)) return below;
   const std::string nearest = nearest_name(scene, names);
   throw std::invalid_argument(fmt::format("scene = {}: must be a file or the name of a scene that `talus list` shows{}",

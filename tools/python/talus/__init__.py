@@ -4,7 +4,6 @@ Lengths are in metres, times in seconds, angles in radians. The last axis is up:
 where its centre of mass is. A pose is x, z, angle in 2D; in 3D x, y, z and a quaternion x, y, z, w, as of SciPy.
 """
 
-from ._bin_picking import BinPicking
 from ._record import Record, open
 from ._run import Result, run
 from ._simulation import Pile, Simulation
@@ -13,7 +12,6 @@ from ._sweep import SweepRun, sweep
 from ._talus import NonFiniteState, SceneError
 
 __all__ = [
-    "BinPicking",
     "Changes",
     "NonFiniteState",
     "Pile",

@@ -72,7 +72,7 @@ def open(path: str | os.PathLike) -> Record:
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
     if not hasattr(_talus, "read_record"):
         raise NotImplementedError("talus was built without LCM, and so without records")
-    fields = _talus.read_record(str(path))
+    fields = _talus.read_record(os.fsencode(path))
     record = Record(path=Path(path), **{**fields, "events": events_of(fields["events"])})
     if record.damage:
         warnings.warn(f"{path}: damaged: {record.damage}", RuntimeWarning, stacklevel=2)

@@ -66,7 +66,7 @@ def simulate(
         shapes=np.array(run.shapes(), dtype=int),
         shape_names=tuple(run.shape_names),
         warnings=tuple(run.warnings),
-        folder=Path(run.folder) if out else None,
+        folder=Path(os.fsdecode(run.folder)) if out else None,
     )
 
 

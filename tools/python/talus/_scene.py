@@ -19,7 +19,7 @@ Values = Mapping[str, Any]
 
 def toml_text(value):
     """A Python value as TOML. Raises TypeError for what has none, as None."""
-    if isinstance(value, np.generic):
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         value = value.item()
     if isinstance(value, dict):
         return "{" + ", ".join(f"{toml_text(str(key))} = {toml_text(item)}" for key, item in value.items()) + "}"
@@ -41,15 +41,16 @@ def _is_text(scene):
     return isinstance(scene, str) and ("\n" in scene or ("=" in scene and not os.path.isfile(scene)))
 
 
-def _file_of(scene):
-    """The file of a scene that comes with talus; else `scene` itself."""
-    shipped = (folder / "share/talus/scenes" / f"{scene}.toml" for folder in Path(__file__).resolve().parents)
-    return str(next(filter(Path.is_file, shipped), scene))
+def _scene_folder():
+    """The folder of the scenes that come with talus, of the build or of where it is installed."""
+    folders = (folder / "share/talus/scenes" for folder in Path(__file__).resolve().parents)
+    return next(filter(Path.is_dir, folders), "")
 
 
 def open_scene(scene, policy, seed, backend, values, *, warnings=False, contacts=False, out=None):
     """The run of the extension module. values: of keys by path."""
     settings = [f"{path}={toml_text(value)}" for path, value in (values or {}).items()]
     is_text = _is_text(scene)
-    file = scene if is_text else _file_of(scene)
-    return open_run(file, is_text, policy or "", seed, backend or "", settings, warnings, contacts, str(out or ""))
+    text = scene if is_text else os.fsencode(scene)
+    folder, out = os.fsencode(_scene_folder()), os.fsencode(out or "")
+    return open_run(text, is_text, folder, policy or "", seed, backend or "", settings, warnings, contacts, out)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import NamedTuple
 
 import numpy as np
@@ -22,12 +23,35 @@ class Pile(NamedTuple):
     layers: np.ndarray  #: bottom-up, structured: bottom, top, radius [m]; capacity [bodies]; count, sleeping
 
 
+def _numbers(bodies, count):
+    """Numbers of bodies, of `count`, for the extension module: of one, of several, or of those that a mask has."""
+    bodies = np.asarray(bodies)
+    if bodies.dtype == bool:
+        if bodies.ndim == 0:
+            raise TypeError(f"bodies = {bodies}: must be numbers of bodies or a mask of all")
+        if bodies.shape != (count,):
+            raise ValueError(f"bodies.shape = {bodies.shape}: must be ({count},), as of a mask of all bodies")
+        return np.flatnonzero(bodies).tolist()
+    return [_number(body) for body in np.atleast_1d(bodies).tolist()]
+
+
+def _number(body):
+    if isinstance(body, (bool, np.bool_)):
+        raise TypeError(f"body = {body}: must be the number of a body")
+    body = operator.index(body)
+    if not -(2**31) <= body < 2**31:
+        raise ValueError(f"body = {body}: must be the number of a body in the world")
+    return body
+
+
 class Simulation:
     """A run of a scene, step by step.
 
     scene, set: as of talus.run().
     contacts: whether contacts() is needed, which takes 5 to 15 % of a step.
-    Errors of the scene raise SceneError with all of them. Arrays are copies, entry i belongs to body i.
+    Errors of the scene raise SceneError with all of them. Arrays are copies, entry i belongs to body i. `bodies` are the
+    number of a body, several of them, or a mask: (n,) bool. While a thread is within step(), every call by another one
+    raises RuntimeError.
     """
 
     def __init__(
@@ -40,6 +64,9 @@ class Simulation:
         contacts: bool = False,
     ) -> None:
         self._run = open_scene(scene, policy, seed, backend, set, contacts=contacts)
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a simulation cannot be copied")
 
     def step(self, count: int = 1) -> None:
         """Does up to `count` steps, fewer where the run ends. Other threads run meanwhile, and Ctrl-C stops it.
@@ -105,22 +132,23 @@ class Simulation:
 
     def remove(self, body: int) -> None:
         """Removes a body. Sleeping bodies near it wake. ValueError on a number of no body in the world."""
-        self._run.remove(body)
+        self._run.remove(_number(body))
 
     def wake(self, bodies: ArrayLike | None = None) -> None:
         """Wakes these bodies, all without `bodies`. ValueError on a number of no body in the world."""
         if bodies is None:
             self._run.wake_all()
         else:
-            self._run.wake(np.atleast_1d(bodies).tolist())
+            self._run.wake(_numbers(bodies, len(self._run.shapes())))
 
     def kick(self, bodies: ArrayLike, velocity: ArrayLike, spin: ArrayLike | None = None) -> None:
         """Wakes these bodies and adds to their velocity, (dimension,) [m/s], and spin, (1,) or (3,) [rad/s].
 
         No body becomes faster than its engine allows. ValueError on a number of no body in the world.
         """
+        numbers = _numbers(bodies, len(self._run.shapes()))
         spin = [] if spin is None else np.atleast_1d(spin)
-        self._run.kick(np.atleast_1d(bodies).tolist(), np.atleast_1d(velocity), spin)
+        self._run.kick(numbers, np.atleast_1d(velocity), spin)
 
     def events(self) -> np.ndarray:
         """The bodies that fell asleep or woke in the last step: structured array, as Record.events."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import weakref
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -46,6 +47,11 @@ def _changes(lists):
         [VelocityChange(*change) for change in velocities],
         [SleepChange(*change) for change in freeze],
     )
+
+
+def _rows(values, width=None, dtype=float):
+    """The values; where they are empty, of whatever shape and type: no rows of this width."""
+    return values if np.size(values) else np.empty((0,) if width is None else (0, width), dtype)
 
 
 def _choice(name, value, choices):
@@ -92,6 +98,16 @@ class _PileSleeper:
             gravity = [0.0] * (self.dimension - 1) + [-9.81]
         up = None if up is None else _choice("up", up, _UP)
         self._sleeper = self._native(gravity, enabled, up, extent, tolerance)
+        self._reports = []
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a sleeper cannot be copied")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.end_observers()
 
     def add(
         self,
@@ -108,8 +124,8 @@ class _PileSleeper:
         """Adds a body, awake; returns its handle. Its form is one of these:
 
         size: (dimension,), of a box of uniform density; radius: of a ball, in 2D a disc; bounds: (2, dimension), lower
-        and upper corner of its box in its own axes, around the centre of mass, with its inertia about that, [kg m^2]:
-        a number in 2D, (3,) or (3, 3) in 3D. friction: of its surface against one like it. role: "sleeps";
+        and upper corner of its box in its own axes, which has the centre of mass, 0, in it, with its inertia about that,
+        [kg m^2]: a number in 2D, (3,) or (3, 3) in 3D. friction: of its surface against one like it. role: "sleeps";
         "stays_awake", as a body with a motor; "kinematic", which the program moves.
         """
         role = _choice("role", role, _ROLES)
@@ -148,18 +164,21 @@ class _PileSleeper:
         """One decision, after each step of the engine of dt [s]: Changes.
 
         bodies: (k,) handles, each of followed() once, in any order. poses: (k, 3) or (k, 7). velocities: (k, dimension),
-        of the centres of mass. spins: (k, 1) or (k,) in 2D, (k, 3) in 3D.
+        of the centres of mass. spins: (k, 1) or (k,) in 2D, (k, 3) in 3D. Without bodies: any that are empty.
         contacts: (c,) of contact_dtype, the contact points of these bodies, as in
         `contacts = numpy.zeros(c, sleeper.contact_dtype); contacts["a"] = ...`: handles `a` and `b`, b = 0 for what
-        never moves; `point`; `normal`, a unit vector from b to a; `normal_impulse` [N s] over the step; where known
-        `friction_impulse` on a, `approach_speed` [m/s] before the step and `depth` [m], positive where they overlap.
+        never moves; `point`; `normal`, a unit vector from b to a, with whose wrong sign nothing sleeps; `normal_impulse`
+        [N s] over the step, >= 0; where known `friction_impulse` on a, `approach_speed` [m/s] before the step, >= 0, and
+        `depth` [m], positive where they overlap.
         """
-        if contacts is None:
+        if contacts is None or np.size(contacts) == 0:
             contacts = np.zeros(0, self.contact_dtype)
         elif getattr(contacts, "dtype", None) != self.contact_dtype:
             raise TypeError(f"contacts: must be an array of contact_dtype, {self.contact_dtype}")
         if self.dimension == 2 and np.ndim(spins) == 1:
             spins = np.reshape(spins, (-1, 1))
+        bodies, poses, velocities = _rows(bodies, dtype=np.int64), self._poses(poses), _rows(velocities, self.dimension)
+        spins = _rows(spins, 1 if self.dimension == 2 else 3)
         return _changes(self._sleeper.step(dt, bodies, poses, velocities, spins, contacts))
 
     def wake(self, body: int) -> Changes:
@@ -196,9 +215,12 @@ class _PileSleeper:
     ) -> None:
         """Shows the bodies from now on. record: path of a file, which is replaced, for talus.open(), `talus view` and
         `talus film`. publish: to `talus monitor` and `talus view --live`. report(kind, body, value, text): called
-        within the step() in which a kind of fault is first seen, "passed" (a body got through another one; value: its
-        way in the step [m]), "overlap" (depth [extents]) or "outside_world" (coordinate [m]). What it raises the next
-        step() raises, before that changes anything.
+        within the observe() or step() in which a kind of fault is first seen, "passed" (a body got through another one;
+        value: its way in the step [m]), "overlap" (depth [extents]) or "outside_world" (coordinate [m]). What it raises
+        in a step() the next one raises, before that changes anything. Within it, calls that change the sleeper raise
+        ValueError.
+
+        Columns of a record and numbers in `text` are those of handle_of(), and are used again once a body is removed.
 
         name, title, engine: what they are called there. dt: of the usual step [s], in which a record counts its time.
         frame_rate: frames of a record in a second of simulated time. Without an `enabled` sleeper: ValueError.
@@ -206,14 +228,27 @@ class _PileSleeper:
         if record is not None or publish:
             if not hasattr(self._sleeper, "observe"):
                 raise NotImplementedError("talus was built without LCM, and so without record and live view")
-            path = None if record is None else os.fspath(record)
+            path = None if record is None else os.fsencode(record)
             self._sleeper.observe(path, publish, name, title, engine, dt, frame_rate)
         if report is not None:
-            self._sleeper.watch(report)
+            self._watch(report)
+
+    def _watch(self, report):
+        # The extension module holds no report: one that refers to its sleeper would keep it alive for ever.
+        sleeper, number = weakref.ref(self), len(self._reports)
+        self._reports.append(report)
+        self._sleeper.watch(lambda *warning: sleeper()._reports[number](*warning))
 
     def end_observers(self) -> None:
-        """Ends record and live view; else they end with the sleeper. OSError: the disk is full."""
+        """Ends record, live view and reports; else the end of a `with` block or of the sleeper does. OSError: the disk is
+        full."""
         self._sleeper.end_observers()
+        self._reports.clear()
+
+    def handle_of(self, number: int) -> int:
+        """Handle of the body in this column of a record, or with this number in a report's text. ValueError: no body that
+        is there has it; kinematic ones have none."""
+        return self._sleeper.handle_of(number)
 
     def asleep(self, body: int) -> bool:
         """Whether the body sleeps."""
@@ -221,7 +256,7 @@ class _PileSleeper:
 
     def __contains__(self, body: int) -> bool:
         """Whether the handle names a body that is there."""
-        return self._sleeper.has(body)
+        return -(2**63) <= body < 2**63 and self._sleeper.has(body)
 
     def __len__(self) -> int:
         """Number of bodies, the kinematic ones too."""
@@ -242,7 +277,10 @@ class _PileSleeper:
         Put the bodies in their saved places before. A program that has added its bodies again replaces their handles
         in saved["body"].
         """
-        return _changes(self._sleeper.restore(saved, poses))
+        return _changes(self._sleeper.restore(saved, self._poses(poses)))
+
+    def _poses(self, poses):
+        return _rows(poses, 3 if self.dimension == 2 else 7)
 
 
 class PileSleeper2D(_PileSleeper):

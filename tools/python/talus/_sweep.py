@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import numbers
 import os
 import pickle
 import subprocess
@@ -34,7 +35,8 @@ class _Processes:
         self._running = []
         self._stopped = False
         path = [str(Path(__file__).resolve().parents[1]), os.environ.get("PYTHONPATH", "")]
-        self._environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, path))}
+        # Safe: nothing is imported from the current folder.
+        self._environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, path)), "PYTHONSAFEPATH": "1"}
 
     def run(self, arguments):
         """(result, error) of talus.run() with these arguments."""
@@ -88,8 +90,8 @@ def sweep(
     """Simulates a scene with all combinations of values and seeds; returns a list of SweepRun, seeds side by side.
 
     values: lists of values by path, {"shape.L.friction": [0.2, 0.4]}. seeds: how many, from 1 on, or the seeds
-    themselves; None: the scene's own. set: values of all runs. jobs: runs at a time, each in a process of its own; None:
-    one for each core. progress: a function that is called with the number of runs done and of all, from 0 on.
+    themselves; None: the scene's own. set: values of all runs. jobs: runs at a time, each in a process of its own, from
+    1 on; None: one for each core. progress: a function that is called with the number of runs done and of all, from 0 on.
     policy and backend as in talus.run(). ValueError: a key is given twice, also by a table that has it or by policy or
     seeds; a value or a seed is there twice, or none is.
 
@@ -97,7 +99,9 @@ def sweep(
     """
     values = {path: list(choices) for path, choices in (values or {}).items()}
     if seeds is not None:
-        seeds = list(range(1, seeds + 1) if isinstance(seeds, int) else seeds)
+        seeds = list(range(1, seeds + 1) if isinstance(seeds, numbers.Integral) else seeds)
+    if jobs is not None and jobs < 1:
+        raise ValueError(f"jobs = {jobs}: must be at least 1")
     _check(values, seeds, policy, set or {})
     combinations = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
     plan = [(chosen, seed) for chosen in combinations for seed in seeds or [None]]
