@@ -32,6 +32,11 @@ inline btVector3 friction_of_step(const btManifoldPoint& point) {
   return point.m_lateralFrictionDir1 * point.m_contactMotion1 + point.m_lateralFrictionDir2 * point.m_contactMotion2;
 }
 
+/// Whether the collision detection has not found a point again since it was put back: in a field that only Bullet's own
+/// solver uses, and that begins anew when Bullet finds the point.
+inline void set_unconfirmed(btManifoldPoint& point) { point.m_contactERP = 1; }
+inline bool is_unconfirmed(const btManifoldPoint& point) { return point.m_contactERP != 0; }
+
 /// Which rolling impulse a point has: an entry of a list that small steps keep from one step to the next.
 struct PointMark {
   std::uint32_t step = 0;  // number of the step that made the list; 0: none

@@ -139,6 +139,7 @@ void WarmStart::save(btBroadphasePair& pair) {
                      {friction.x(), friction.y(), friction.z()},
                      static_cast<std::int16_t>(first ? point.m_index0 : point.m_index1),
                      static_cast<std::int16_t>(first ? point.m_index1 : point.m_index0),
+                     is_unconfirmed(point),
                      PointMark()});
       }
     }
@@ -224,8 +225,9 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   pair.m_algorithm->processCollision(&first, &second, info, &recorder);
   for (const PieceRecorder::Entry& entry : recorder.finish()) {
     const int found = entry.manifold->getNumContacts();
-    if (found == 0) continue;  // what has moved in its sleep may lie apart
     for (const SavedPoint& point : saved_) {
+      // What moves from sleep to sleep may lie apart by now.
+      if (found == 0 && point.unconfirmed) continue;
       if (point.piece == (owner_first ? entry.piece0 : entry.piece1) &&
           point.partners_piece == (owner_first ? entry.piece1 : entry.piece0)) {
         put_back(point, sides, *entry.manifold, found);
@@ -263,6 +265,7 @@ void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersiste
   if (known < 0 && manifold.getNumContacts() == MANIFOLD_CACHE_SIZE) known = unloaded_near(on_owner, manifold, first);
   btManifoldPoint& target = manifold.getContactPoint(known >= 0 ? known : manifold.addManifoldPoint(point));
   target.m_appliedImpulse = saved.impulse;
+  if (found == 0) set_unconfirmed(target);
   if (saved.mark.step != 0) set_mark(target, {saved.mark.step, saved.mark.entry + (first ? 0 : 1)});
   const btVector3 friction(saved.friction[0], saved.friction[1], saved.friction[2]);
   set_friction_impulse(target, first ? friction : -friction);
