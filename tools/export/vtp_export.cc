@@ -2,6 +2,7 @@
 
 #include "common/math/pose_values.h"
 #include "common/text/base64.h"
+#include "common/text/file.h"
 #include "tools/export/exporter.h"
 #include "tools/export/output_file.h"
 #include "tools/export/solid.h"
@@ -75,27 +76,46 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   out.close();
 }
 
+std::string frame_name(int frame) { return fmt::format("frame_{:06}.vtp", frame); }
+std::string shape_name(std::size_t shape) { return fmt::format("shape_{}.vtp", shape); }
+
 class VtpExport final : public Exporter {
  public:
-  explicit VtpExport(const ExportInput& input) : file_(input.file), folder_(input.file) {
+  explicit VtpExport(const ExportInput& input) : file_(input.file), folder_(input.file), shapes_(input.shapes.size()) {
     folder_.replace_extension();
     folder_ += "_vtp";
-    std::filesystem::create_directory(folder_);
-    for (std::size_t i = 0; i < input.shapes.size(); ++i)
-      write_whole(folder_ / fmt::format("shape_{}.vtp", i), mesh_file(input.shapes[i].polygons));
+    unfinished_ = unfinished_name(folder_);
+    std::filesystem::create_directory(unfinished_);
+    for (std::size_t i = 0; i < shapes_; ++i)
+      write_whole(unfinished_ / shape_name(i), mesh_file(input.shapes[i].polygons));
   }
+
+  ~VtpExport() override {
+    std::error_code left_there;
+    std::filesystem::remove_all(unfinished_, left_there);
+  }
+  VtpExport(const VtpExport&) = delete;
+  VtpExport& operator=(const VtpExport&) = delete;
 
   void add(const Moment& moment, std::span<const SleepEvent> /*events*/) override {
     PointArrays arrays;
     for (BodyIndex body = 0; body < moment.bodies.size(); ++body)
       if (moment.bodies.shows(body)) add_body(arrays, moment.bodies, body);
-    const std::string name = fmt::format("frame_{:06}.vtp", frames_++);
-    write_whole(folder_ / name, arrays.file());
+    const std::string name = frame_name(frames_++);
+    write_whole(unfinished_ / name, arrays.file());
     series_ += fmt::format("<DataSet timestep=\"{:.6f}\" file=\"{}/{}\"/>\n", moment.time,
                            xml_text(folder_.filename().string()), name);
   }
 
   void finish(std::span<const SleepEvent> /*later_events*/) override {
+    std::filesystem::create_directory(folder_);
+    for (const auto& entry : std::filesystem::directory_iterator(unfinished_))
+      std::filesystem::rename(entry.path(), folder_ / entry.path().filename());
+    // What a longer series had more, or one with more shapes.
+    for (int frame = frames_; std::filesystem::remove(folder_ / frame_name(frame)); ++frame) {
+    }
+    for (std::size_t shape = shapes_; std::filesystem::remove(folder_ / shape_name(shape)); ++shape) {
+    }
     write_whole(file_, fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
                                    "<Collection>\n{}</Collection>\n</VTKFile>\n",
                                    series_));
@@ -131,6 +151,8 @@ class VtpExport final : public Exporter {
 
   std::filesystem::path file_;
   std::filesystem::path folder_;
+  std::filesystem::path unfinished_;  // folder of what is written, until all is
+  std::size_t shapes_;
   std::string series_;
   int frames_ = 0;
 };

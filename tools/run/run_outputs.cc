@@ -16,6 +16,7 @@
 #include "tools/run/frames_csv.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/progress.h"
+#include "tools/run/run_files.h"
 #include "tools/run/version.h"
 #ifdef TALUS_LCM
 #include "lcmtypes/publisher.h"
@@ -99,11 +100,11 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
   if (!scene.instruments.empty()) simulation.add_observer(instruments_);
   contacts_.record(scene.run.contacts, simulation.world());
   if (scene.run.contacts) simulation.add_observer(contacts_);
-  add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
+  add(std::make_unique<FramesCsv<Dim>>(folder_ / run_files::frames), simulation);
 #ifdef TALUS_LCM
   RunInfo info = run_info(scene, scene_name, backend);
   info.version = version_text();
-  auto recorder = std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene);
+  auto recorder = std::make_unique<RunRecorder<Dim>>((folder_ / run_files::record).string(), info, scene);
   recorder->set_instruments(instruments_.meters());
   recorder->set_contacts(contacts_);
   add(std::move(recorder), simulation);
@@ -132,11 +133,15 @@ void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Di
 
 template <int Dim>
 void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
+  const auto write = [&](const SummaryInput& input) {
+    write_summary(folder_ / run_files::summary, input, scene, simulation, statistics_, instruments_);
+  };
+  write(summary);  // a disk that is full by the pictures leaves the numbers
   SummaryInput with_picture = summary;
   PictureInput<Dim> picture = picture_input(summary, scene, simulation);
   picture.contacts = contacts_.of(simulation.world());
-  with_picture.pixels_per_metre = draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture);
-  write_summary(folder_ / "summary.json", with_picture, scene, simulation, statistics_, instruments_);
+  with_picture.pixels_per_metre = draw_pile(folder_ / run_files::drawing, folder_ / run_files::picture, picture);
+  write(with_picture);
 }
 
 template PictureInput<2> picture_input(const SummaryInput&, const Scene<2>&, const Simulation<2>&);
