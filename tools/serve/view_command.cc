@@ -80,7 +80,8 @@ void serve(const ViewOptions& options, const ViewServer& server, const std::func
 }
 
 void serve(const ViewOptions& options, const ViewServer& server) {
-  serve(options, server, [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
+  serve(
+      options, server, [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
 }
 
 /// The page with two others in it, at /a/ and /b/.
@@ -141,9 +142,10 @@ void view_record(const ViewOptions& options) {
     throw std::invalid_argument(
         fmt::format("{} and {} are runs in 2D and in 3D: two runs side by side must be of one dimension",
                     options.choice.scene, options.other));
-  const PairTexts texts = {.of_runs = false,
-                           .ms_per_step = {ms_per_step_of(options.choice.scene), ms_per_step_of(options.other)},
-                           .differences = setting_differences(toml_of(a), toml_of(b))};
+  const PairTexts texts = {
+      .of_runs = false,
+      .ms_per_step = {ms_per_step_of(options.choice.scene), ms_per_step_of(options.other)},
+      .differences = setting_differences(scene_texts_of_run(options.choice.scene), scene_texts_of_run(options.other))};
   const ViewServer server(options.port,
                           {pair_page(texts), served("/a/", options.choice.scene), served("/b/", options.other)},
                           options.listen);
