@@ -117,6 +117,12 @@ TEST_F(LogCommand, InfoNamesTheChannelsWhereAChosenOneHasNoMessage) {
   EXPECT_NE(outcome.err.find("TALUS_SLEEP,"), std::string::npos) << outcome.err;
 }
 
+TEST_F(LogCommand, InfoRefusesAChannelThatIsNone) {
+  const Outcome outcome = talus_command("info --messages --channel NOPE " + (folder_ / "run"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("--channel = NOPE: must be a channel of the log"), std::string::npos) << outcome.err;
+}
+
 TEST_F(LogCommand, RepairLeavesOutTheDamagedMessageOnly) {
   hurt_a_copy();
   ASSERT_EQ(talus_command("info --repair " + (folder_ / "hurt") + " --out " + (folder_ / "whole")).exit_code, 0);
