@@ -239,8 +239,8 @@ TEST(ExportCommand, ThatFailsLeavesAnOlderFileAsItIsAndNoHalfOne) {
   std::ofstream(folder.path() / "a.html") << "older";
   const auto entries = [&] { return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()); };
   const auto before = entries();
-  for (const std::string line : {"export --out " + (folder / "a.npz"), "export --out " + (folder / "a.csv"),
-                                 "export --out " + (folder / "a.pvd"), "replay --out " + (folder / "a.html")})
+  for (const std::string& line : {"export --out " + (folder / "a.npz"), "export --out " + (folder / "a.csv"),
+                                  "export --out " + (folder / "a.pvd"), "replay --out " + (folder / "a.html")})
     EXPECT_EQ(shell("ulimit -f 4; \"$TALUS\" " + line + " " + (folder / "run")).exit_code, 1) << line;
   EXPECT_EQ(contents(folder / "a.npz"), "older");
   EXPECT_EQ(contents(folder / "a.html"), "older");

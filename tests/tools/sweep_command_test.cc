@@ -76,8 +76,9 @@ TEST_F(SweepCommand, PrintsAnyNumberOfTheSummaryWithItsErrorOverTheSeeds) {
   EXPECT_NE(file("sweep.svg").find("/bodies"), std::string::npos);
   for (const std::string key : {"/bodies/0", "/warnings/7", "/warnings/01", "/warnings/99999999999999999999"}) {
     const Outcome missing = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot " + key);
-    EXPECT_EQ(missing.exit_code, 0) << key;
-    EXPECT_NE(missing.err.find("no summary.json has a number " + key + "\n"), std::string::npos) << missing.err;
+    EXPECT_EQ(missing.exit_code, 1) << key;
+    EXPECT_NE(missing.err.find("--plot = " + key + ": no summary.json has such a number\n"), std::string::npos)
+        << missing.err;
   }
   const Outcome unknown = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot body");
   EXPECT_EQ(unknown.exit_code, 2);

@@ -21,6 +21,7 @@
 #include "tools/record/recorded_run.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
+#include "tools/run/run_files.h"
 #include "tools/run/run_options.h"
 #include "tools/serve/live_view.h"
 #include "tools/serve/open_browser.h"
@@ -121,7 +122,7 @@ void view_live(const ViewOptions& options) {
 
 /// Mean wall time of a step of a recorded run [ms]; 0: not known.
 double ms_per_step_of(const std::string& folder) {
-  std::ifstream in(std::filesystem::path(folder) / "summary.json");
+  std::ifstream in(std::filesystem::path(folder) / run_files::summary);
   const auto summary = nlohmann::json::parse(in, nullptr, false);
   const bool known = summary.is_object() && summary.contains("ms_per_step") && summary["ms_per_step"].is_number();
   return known ? summary["ms_per_step"].get<double>() : 0.0;

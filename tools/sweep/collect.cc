@@ -65,7 +65,7 @@ SweepCount collect(const Sweep& sweep) {
   });
   table.finish();
   count.lacks_plotted = count.finished > 0 && !plotted;
-  if (count.lacks_plotted) print_message("--plot = {}: no summary.json has a number there", printable(sweep.plot));
+  if (count.lacks_plotted) print_message("--plot = {}: no summary.json has such a number", printable(sweep.plot));
   for (const std::string& line : table.lines()) print_result("{}\n", line);
   const std::string no_plot = table.write_plot(sweep.folder / "sweep.svg", printable(title));
   if (!no_plot.empty()) print_message("no sweep.svg: {}", printable(no_plot));

@@ -13,6 +13,7 @@
 #include "common/text/file.h"
 #include "common/text/printable.h"
 #include "tools/pool/job_folder.h"
+#include "tools/run/run_files.h"
 
 namespace talus {
 namespace {
@@ -130,7 +131,7 @@ fs::path failure_file(const Sweep& sweep, int number) {
 }
 
 nlohmann::json summary_of(const fs::path& folder) {
-  std::ifstream stream(folder / "summary.json");
+  std::ifstream stream(folder / run_files::summary);
   auto summary = nlohmann::json::parse(stream, nullptr, false);
   return summary.is_object() ? summary : nlohmann::json::object();
 }
