@@ -111,6 +111,7 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
                        .scene_warnings = scene_warnings};
   finish_run<Dim>(
       options, scene, simulation, outputs.statistics(), [&interrupt] { return interrupt.requested(); }, summary);
+  for (std::string& line : outputs.event_hits().idle_lines()) summary.scene_warnings.push_back(std::move(line));
   std::exception_ptr unwritten;  // known only when hours are over, so the run's lines come first
   try {
     outputs.finish(summary, scene, simulation);
