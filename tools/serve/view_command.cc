@@ -81,8 +81,7 @@ void serve(const ViewOptions& options, const ViewServer& server, const std::func
 }
 
 void serve(const ViewOptions& options, const ViewServer& server) {
-  serve(
-      options, server, [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
+  serve(options, server, [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
 }
 
 /// The page with two others in it, at /a/ and /b/.

@@ -50,8 +50,7 @@ SweepCount walk(const Sweep& sweep, bool at_work, const std::function<void(int, 
 }  // namespace
 
 SweepCount count_runs(const Sweep& sweep) {
-  return walk(
-      sweep, true, [](int, const nlohmann::json&) {});
+  return walk(sweep, true, [](int, const nlohmann::json&) {});
 }
 
 SweepCount collect(const Sweep& sweep) {
