@@ -1,6 +1,7 @@
 #include "lcmtypes/bodies_message.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/math/pose_values.h"
 #include "lcmtypes/sequence_tracker.h"
@@ -91,7 +92,8 @@ void BodiesReader::set(const talus_bodies& message, std::size_t entry, MomentBod
   const std::size_t values = message.poses.size() / message.body.size();
   bodies.shape[body] = message.shape[entry];
   bodies.pose.set(body, std::span(message.poses).subspan(values * entry, values));
-  bodies.asleep[body] = message.asleep[entry] != 0 ? 1 : 0;
+  const std::uint8_t asleep = message.asleep[entry] != 0 ? 1 : 0;
+  if (std::exchange(bodies.asleep[body], asleep) != asleep) bodies.cause[body] = -1;  // until its event is told
   bodies.removed[body] = 0;
   bodies.unknown[body] = 0;
   seen_[body] = 1;

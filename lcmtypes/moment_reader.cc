@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "lcmtypes/contacts_message.h"
 #include "lcmtypes/piles_message.h"
@@ -117,7 +118,7 @@ void MomentReader::place_pile(std::size_t number, const talus_lcm::talus_pile& m
 bool MomentReader::take(const talus_sleep& message) {
   const std::int64_t lost_before = lost(Channel::sleep);
   if (count(message) == Age::duplicate) return false;
-  if (lost(Channel::sleep) > lost_before) bodies_.note_lost_events();
+  if (lost(Channel::sleep) > lost_before) note_lost_events();
   const std::vector<SleepEvent> events = events_of(message);
   for (const SleepEvent& event : events) {
     if (limits_.poses && event.body >= limits_.bodies)
@@ -128,10 +129,18 @@ bool MomentReader::take(const talus_sleep& message) {
   }
   if (later_events_.size() + events.size() > limits_.later_events) {
     later_events_.clear();
-    bodies_.note_lost_events();
+    note_lost_events();
   }
+  sure_events_ += events.size();
   later_events_.insert(later_events_.end(), events.begin(), events.end());
   return false;
+}
+
+/// The last events of all bodies are unknown.
+void MomentReader::note_lost_events() {
+  bodies_.note_lost_events();
+  events_lost_ = true;
+  sure_events_ = 0;
 }
 
 bool MomentReader::take(const talus_stats& message) {
@@ -157,10 +166,12 @@ bool MomentReader::take(const talus_bodies& message) {
   if (message.step != moment_.step) moment_.events.clear();
   moment_.events.insert(moment_.events.end(), later_events_.begin(), later_events_.end());
   later_events_.clear();
+  const std::span sure = std::span(moment_.events).last(std::exchange(sure_events_, 0));
   moment_.step = message.step;
   moment_.time = message.sim_time;
   place_contacts();
-  for (const SleepEvent& event : moment_.events)
+  if (std::exchange(events_lost_, false)) std::ranges::fill(moment_.bodies.cause, std::int8_t{-1});
+  for (const SleepEvent& event : sure)
     if (event.body < moment_.bodies.size()) moment_.bodies.cause[event.body] = static_cast<std::int8_t>(event.cause);
   return true;
 }

@@ -110,6 +110,7 @@ class MomentReader {
   void place_pile(std::size_t number, const talus_lcm::talus_pile& message);
   void place_obstacle(int obstacle, std::span<const float> values);
   void place_contacts();
+  void note_lost_events();
 
   MomentLimits limits_;
   Moment moment_;
@@ -118,6 +119,8 @@ class MomentReader {
   std::size_t layers_ = 0;  // of all piles
   std::int64_t piles_left_out_ = 0;
   std::vector<SleepEvent> later_events_;
+  std::size_t sure_events_ = 0;  // of these, after which none is lost
+  bool events_lost_ = false;     // since the moment
   std::optional<talus_lcm::talus_run> run_;
   std::optional<talus_lcm::talus_stats> stats_;
   Parts<talus_lcm::talus_instruments> instrument_parts_;

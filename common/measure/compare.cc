@@ -56,7 +56,7 @@ std::vector<double> extents_of(std::span<const Shape<Dim>> shapes) {
 
 template <int Dim>
 RunComparison<Dim> compare_runs(const Trajectory<Dim>& a, const Trajectory<Dim>& b, std::span<const Shape<Dim>> shapes,
-                                double gravity, const ProfileGrid<Dim>& grid) {
+                                double gravity, const ProfileGrid<Dim>& grid, double fastest) {
   check_comparable(a, b);
   RunComparison<Dim> result;
   result.frames = std::min(a.frames(), b.frames());
@@ -75,8 +75,8 @@ RunComparison<Dim> compare_runs(const Trajectory<Dim>& a, const Trajectory<Dim>&
   result.position_p95 = quantile(distances, 0.95) / extent;
   result.position_max = quantile(distances, 1.0) / extent;
 
-  const std::vector<PlacedBody<Dim>> bodies_a = placed_bodies(shapes, a, last);
-  const std::vector<PlacedBody<Dim>> bodies_b = placed_bodies(shapes, b, last);
+  const std::vector<PlacedBody<Dim>> bodies_a = placed_bodies(shapes, a, last, fastest);
+  const std::vector<PlacedBody<Dim>> bodies_b = placed_bodies(shapes, b, last, fastest);
   result.shape_a = shape_statistics<Dim>(bodies_a, grid);
   result.shape_b = shape_statistics<Dim>(bodies_b, grid);
   result.profile_rms = profile_difference(result.shape_a.profile, result.shape_b.profile) / extent;
@@ -94,8 +94,8 @@ template int last_common_frame(const Trajectory<3>&, const Trajectory<3>&);
 template std::vector<double> extents_of(std::span<const Shape<2>>);
 template std::vector<double> extents_of(std::span<const Shape<3>>);
 template RunComparison<2> compare_runs(const Trajectory<2>&, const Trajectory<2>&, std::span<const Shape<2>>, double,
-                                       const ProfileGrid<2>&);
+                                       const ProfileGrid<2>&, double);
 template RunComparison<3> compare_runs(const Trajectory<3>&, const Trajectory<3>&, std::span<const Shape<3>>, double,
-                                       const ProfileGrid<3>&);
+                                       const ProfileGrid<3>&, double);
 
 }  // namespace talus

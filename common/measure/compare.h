@@ -1,6 +1,7 @@
 #pragma once
 // All measures that compare two runs, in one plain struct for tools to print.
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,11 +45,13 @@ struct RunComparison {
   DistributionDistance r;    // of bodies' distances from the grid's centre [m]
 };
 
-/// `shapes` and `gravity` [m/s^2] are those of both runs' worlds; D is the mean over `shapes`' bodies in `a`. Throws
-/// std::invalid_argument where the runs' frames do not fall on the same times or they have none in common.
+/// `shapes` and `gravity` [m/s^2] are those of both runs' worlds; D is the mean over `shapes`' bodies in `a`; bodies
+/// faster than `fastest` [m/s] are no part of the shapes. Throws std::invalid_argument where the runs' frames do not
+/// fall on the same times or they have none in common.
 template <int Dim>
 RunComparison<Dim> compare_runs(const Trajectory<Dim>& a, const Trajectory<Dim>& b, std::span<const Shape<Dim>> shapes,
-                                double gravity, const ProfileGrid<Dim>& grid);
+                                double gravity, const ProfileGrid<Dim>& grid,
+                                double fastest = std::numeric_limits<double>::infinity());
 
 /// D [m] of each shape, as the measures take it.
 template <int Dim>

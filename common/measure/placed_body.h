@@ -24,9 +24,11 @@ template <int Dim>
 std::vector<PlacedBody<Dim>> placed_bodies(std::span<const Shape<Dim>> shapes, const BodyStates<Dim>& states,
                                            double fastest = std::numeric_limits<double>::infinity());
 
-/// The bodies present at a frame of a recorded run.
+/// The bodies present at a frame of a recorded run and, on their way from the frame before, not faster than `fastest`
+/// [m/s]. With a limit, a body that was not there yet still falls; where the frame before is lost, none does.
 template <int Dim>
-std::vector<PlacedBody<Dim>> placed_bodies(std::span<const Shape<Dim>> shapes, const Trajectory<Dim>& run, int frame);
+std::vector<PlacedBody<Dim>> placed_bodies(std::span<const Shape<Dim>> shapes, const Trajectory<Dim>& run, int frame,
+                                           double fastest = std::numeric_limits<double>::infinity());
 
 /// Horizontal distances of the bodies' centres from `centre` [m], and their heights [m].
 template <int Dim>

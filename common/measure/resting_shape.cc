@@ -4,8 +4,7 @@ namespace talus {
 
 template <int Dim>
 std::vector<PlacedBody<Dim>> resting_bodies(const Scene<Dim>& scene, const BodyStates<Dim>& states) {
-  const double fastest_at_rest = 1.0 / scene.world.units.speeds();  // [m/s]
-  return placed_bodies<Dim>(scene.world.shapes, states, fastest_at_rest);
+  return placed_bodies<Dim>(scene.world.shapes, states, fastest_at_rest(scene.world));
 }
 
 template <int Dim>

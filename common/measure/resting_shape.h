@@ -9,7 +9,13 @@
 
 namespace talus {
 
-/// Bodies in the world that move with at most 1 m/s: what still falls is no part of the pile.
+/// The speed up to which a body is part of the pile [m/s], 1 m/s in worlds of usual size: what still falls is none.
+template <int Dim>
+double fastest_at_rest(const WorldDescription<Dim>& world) {
+  return 1.0 / world.units.speeds();
+}
+
+/// Bodies in the world that are no faster.
 template <int Dim>
 std::vector<PlacedBody<Dim>> resting_bodies(const Scene<Dim>& scene, const BodyStates<Dim>& states);
 

@@ -133,7 +133,7 @@ Mesh mesh_of(const std::vector<Vec3>& corners, std::vector<std::array<int, 3>> t
   return mesh;
 }
 
-std::string header(const Mesh& mesh) { return fmt::format("# convex parts of mesh {:016x}", content_hash(mesh)); }
+std::string header(const Mesh& mesh) { return fmt::format("{}{:016x}", parts_mark, content_hash(mesh)); }
 
 }  // namespace
 
@@ -151,26 +151,21 @@ std::filesystem::path parts_file(const std::filesystem::path& mesh_file) {
   return result.replace_extension(".parts.obj");
 }
 
-void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std::vector<Mesh>& parts) {
-  // Under another name first, so that a failure leaves an older file as it is.
-  const std::filesystem::path unfinished = file.string() + ".unfinished";
-  std::ofstream out(unfinished);
-  out << header(mesh) << '\n';
+std::string parts_text(const Mesh& mesh, const std::vector<Mesh>& parts) {
+  std::string text = header(mesh) + '\n';
   int first = 1;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    out << fmt::format("o part_{}\n", i);
-    for (const Vec3& corner : parts[i].corners) out << fmt::format("v {} {} {}\n", corner.x(), corner.y(), corner.z());
+    text += fmt::format("o part_{}\n", i);
+    for (const Vec3& corner : parts[i].corners) text += fmt::format("v {} {} {}\n", corner.x(), corner.y(), corner.z());
     for (const auto& triangle : parts[i].triangles)
-      out << fmt::format("f {} {} {}\n", triangle[0] + first, triangle[1] + first, triangle[2] + first);
+      text += fmt::format("f {} {} {}\n", triangle[0] + first, triangle[1] + first, triangle[2] + first);
     first += static_cast<int>(parts[i].corners.size());
   }
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(unfinished, file, error);
-  if (!out || error) {
-    std::filesystem::remove(unfinished, error);
-    throw std::runtime_error("cannot write " + file.string());
-  }
+  return text;
+}
+
+void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std::vector<Mesh>& parts) {
+  write_file(file, parts_text(mesh, parts));
 }
 
 std::vector<Mesh> read_parts(const std::filesystem::path& file, const Mesh& mesh) {

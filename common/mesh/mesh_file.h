@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/math/vector.h"
@@ -23,8 +24,13 @@ Mesh read_mesh(const std::filesystem::path& file);
 /// Where the convex parts of a mesh file lie: bunny.obj has them in bunny.parts.obj.
 std::filesystem::path parts_file(const std::filesystem::path& mesh_file);
 
-/// Writes convex parts, one OBJ object each, and the hash of the mesh that they were made of. A file that
-/// stands there already is replaced only by a whole one. Throws std::runtime_error when it cannot be written.
+/// With what a file of parts begins.
+inline constexpr const char* parts_mark = "# convex parts of mesh ";
+
+/// Convex parts as a file has them: one OBJ object each, and the hash of the mesh that they were made of.
+std::string parts_text(const Mesh& mesh, const std::vector<Mesh>& parts);
+
+/// Writes that, or replaces a file as a whole. Throws std::runtime_error when it cannot be written.
 void write_parts(const std::filesystem::path& file, const Mesh& mesh, const std::vector<Mesh>& parts);
 
 /// Reads them back, each with its own corners. Throws std::invalid_argument when there is no such file, or when it was

@@ -58,7 +58,8 @@ struct MomentBodies {
   std::vector<std::uint8_t> asleep;
   std::vector<std::uint8_t> removed;
   std::vector<std::uint8_t> unknown;  // 1: its pose may be another one, since messages are missing
-  std::vector<std::int8_t> cause;     // why it last fell asleep or woke, as SleepCause; -1: it did neither yet
+  std::vector<std::int8_t>
+      cause;  // why it last fell asleep or woke, as SleepCause; -1: it did neither yet, or that is lost
 
   BodyIndex size() const { return static_cast<BodyIndex>(shape.size()); }
   /// Whether it is in the world, at a known pose.

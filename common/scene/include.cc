@@ -24,6 +24,21 @@ void put_in(toml::table& table, toml::table& base) {
   }
 }
 
+/// Puts `folder` before the names of files in or below it.
+void name_from_above(toml::node& node, const std::filesystem::path& folder) {
+  if (toml::array* array = node.as_array())
+    for (toml::node& each : *array) name_from_above(each, folder);
+  toml::table* table = node.as_table();
+  if (table == nullptr) return;
+  for (auto&& [key, value] : *table) {
+    toml::value<std::string>* name = key == "file" ? value.as_string() : nullptr;
+    if (name == nullptr)
+      name_from_above(value, folder);
+    else if (!name->get().empty())
+      name->get() = (folder / name->get()).string();
+  }
+}
+
 /// The file that the table includes. Throws SceneErrors if that is none in or below its folder, or is read already.
 std::filesystem::path included_file(const toml::table& table, std::string_view scene, const std::string& of,
                                     const Diagnostics& diagnostics) {
@@ -61,6 +76,7 @@ bool put_in_included(toml::table& table, std::string_view file_name, Diagnostics
     of = file.string();
     diagnostics.included.insert(of);
     toml::table base = parse(file);
+    name_from_above(base, file.parent_path().lexically_relative(std::filesystem::path(file_name).parent_path()));
     put_in(table, base);
   }
   return any;

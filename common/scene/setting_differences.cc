@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string_view>
 
-#include "common/scene/read_scene.h"
 #include "common/scene/toml_text.h"
 
 namespace talus {
@@ -31,15 +31,6 @@ Settings settings_of(std::string_view toml) {
   return settings;
 }
 
-/// What the scene has of keys that it does not give. Nothing where it cannot be read any more, as without its meshes.
-Settings defaults_of(std::string_view toml) {
-  try {
-    return settings_of(with_every_default(toml, "scene.toml"));
-  } catch (const SceneErrors&) {
-    return {};
-  }
-}
-
 /// Numbers that are equal may be written as 30, 30.0 and 0x1E.
 bool same_node(const toml::node& a, const toml::node& b) {
   if (a.is_integer() && b.is_integer()) return a.value<std::int64_t>() == b.value<std::int64_t>();
@@ -56,29 +47,23 @@ bool same_value(const std::string& a, const std::string& b) {
   return same_node(*toml::parse(key + " = " + a).get(key), *toml::parse(key + " = " + b).get(key));
 }
 
-std::string value_at(const Settings& settings, const Settings& defaults, const std::string& path) {
-  if (const auto given = settings.find(path); given != settings.end()) return given->second;
-  const auto usual = defaults.find(path);
-  return usual == defaults.end() ? "" : usual->second;
+/// What a scene gives, and what it has of the keys that it does not give.
+Settings all_settings_of(const SceneTexts& scene) {
+  Settings settings = settings_of(scene.toml);
+  settings.merge(settings_of(scene.every_default));
+  return settings;
 }
 
 }  // namespace
 
-std::vector<SettingDifference> setting_differences(std::string_view toml_a, std::string_view toml_b) {
-  const Settings settings_a = settings_of(toml_a);
-  const Settings settings_b = settings_of(toml_b);
-  const Settings defaults_a = defaults_of(toml_a);
-  const Settings defaults_b = defaults_of(toml_b);
-  std::map<std::string, SettingDifference> differences;
-  for (const auto& [path, value] : settings_a) differences[path] = {path, value, {}};
-  for (const auto& [path, value] : settings_b) {
-    differences[path].path = path;
-    differences[path].b = value;
-  }
+std::vector<SettingDifference> setting_differences(const SceneTexts& scene_a, const SceneTexts& scene_b) {
+  Settings all_a = all_settings_of(scene_a);
+  Settings all_b = all_settings_of(scene_b);
+  Settings given = settings_of(scene_a.toml);
+  given.merge(settings_of(scene_b.toml));
   std::vector<SettingDifference> list;
-  for (const auto& [path, difference] : differences)
-    if (!same_value(value_at(settings_a, defaults_a, path), value_at(settings_b, defaults_b, path)))
-      list.push_back(difference);
+  for (const auto& [path, unused] : given)
+    if (!same_value(all_a[path], all_b[path])) list.push_back({path, all_a[path], all_b[path]});
   return list;
 }
 

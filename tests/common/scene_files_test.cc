@@ -84,6 +84,17 @@ TEST(SceneFiles, AreAlsoTheMeshesThatTheSceneNames) {
   EXPECT_EQ(description(std::get<Scene<3>>(again)), description(std::get<Scene<3>>(scene)));
 }
 
+TEST(SceneFiles, OfAnIncludedSceneLieBesideThatOne) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "stock/shapes");
+  fs::copy(scenes / "shapes/bunny.obj", folder.path() / "stock/shapes/bunny.obj");
+  std::ofstream(folder.path() / "stock/base.toml")
+      << "dimension = 2\n[shape.bunny]\nkind = \"mesh\"\nfile = \"shapes/bunny.obj\"\n";
+  std::ofstream(folder.path() / "scene.toml") << "include = \"stock/base.toml\"\ntitle = \"A\"\n[[source]]\n";
+  const AnyScene scene = read_scene(folder.path() / "scene.toml");
+  EXPECT_EQ(written_and_read(scene), description(std::get<Scene<2>>(scene))) << "a run's folder has it too";
+}
+
 TEST(SceneFiles, OfASceneMadeByAProgramAreNone) { EXPECT_TRUE(scene_files(Scene<2>()).empty()); }
 
 TEST(SceneFiles, AreRegularFilesOnly) {

@@ -160,6 +160,16 @@ done)");
   EXPECT_NE(outcome.err.find("frames.csv"), outcome.err.rfind("frames.csv")) << "twice: " << outcome.err;
 }
 
+/// In the place of a picture is a folder, as if the disk took no more.
+TEST(DiskFault, APictureThatCannotBeWrittenCostsNoNumbers) {
+  const TemporaryFolder folder;
+  const Outcome outcome = shell_in(folder, long_run_begins + "mkdir run/pile.png; kill -INT $process; wait $process");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("pile.png"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("end hash"), std::string::npos) << outcome.out;
+  EXPECT_EQ(Json::parse(contents(folder.path() / "run" / "summary.json"))["reason"], "interrupted");
+}
+
 class MemoryFault : public ::testing::TestWithParam<const char*> {};
 
 /// Drops a grid of 3000 bodies at once in address spaces from the least in which the program starts to 38 MB above.

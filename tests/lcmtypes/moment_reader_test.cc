@@ -214,6 +214,19 @@ TEST(MomentReader, KeepsAPoseInDoubtThatALostFrameMayHaveChanged) {
   EXPECT_TRUE(reader.moment().bodies.shows(0));
 }
 
+// All fall asleep in step 4, wake in step 8 and fall asleep again in step 12: the second of these messages is lost.
+TEST(MomentReader, KnowsNoCauseOverAGapInTheSleepEvents) {
+  MomentReader reader(2, limits);
+  int sleep_messages = 0;
+  for (const LogEvent& event : recorded<2>(14)) {
+    if (event.channel == name_of(Channel::sleep) && ++sleep_messages == 2) continue;
+    if (!take(event, reader)) continue;
+    const Moment& moment = reader.moment();
+    if (moment.step == 6) EXPECT_NE(moment.bodies.cause[10], -1);
+    if (moment.step >= 8 && moment.step < 12) EXPECT_EQ(moment.bodies.cause[10], -1) << moment.step;
+  }
+}
+
 TEST(MomentReader, PutsObstaclesWhereTheyHaveMoved) {
   Scene<3> scene = still_scene<3>();
   scene.world.obstacles[0].moves = true;

@@ -33,6 +33,28 @@ TEST(DecomposeCommand, MakesThePartsThatASceneNeeds) {
   EXPECT_NEAR(bunny.bounds.sizes().maxCoeff(), 1.0, 0.1);
 }
 
+TEST(DecomposeCommand, ReplacesOtherPartsOfTheSameMeshOnlyByForce) {
+  const TemporaryFolder folder;
+  const fs::path parts = folder / "tetrahedron.parts.obj";
+  const auto write_mesh = [&](int height) {
+    std::ofstream(folder / "tetrahedron.obj")
+        << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 " << height << "\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  };
+  testing::internal::CaptureStdout();
+  write_mesh(1);
+  decompose(folder / "tetrahedron.obj");
+  const auto whole = fs::file_size(parts);
+  decompose(folder / "tetrahedron.obj");
+  std::ofstream(parts, std::ios::app) << "# by hand\n";
+  EXPECT_THROW(decompose(folder / "tetrahedron.obj"), std::invalid_argument);
+  EXPECT_EQ(fs::file_size(parts), whole + 10);
+  decompose((folder / "tetrahedron.obj") + " --force");
+  EXPECT_EQ(fs::file_size(parts), whole);
+  write_mesh(2);
+  EXPECT_NO_THROW(decompose(folder / "tetrahedron.obj")) << "the old parts are of no use any more";
+  testing::internal::GetCapturedStdout();
+}
+
 // Two shells that overlap: the mesh counts the overlap twice, its parts do not.
 TEST(DecomposeCommand, ThatFailsLeavesAnOlderFileOfPartsAsItIs) {
   const TemporaryFolder folder;

@@ -218,6 +218,9 @@ TEST_F(Bench, IsAListOfTasksForASchedulerWithTheSameBits) {
   const auto here = rows(arguments);
   const Outcome emitted = talus_command("bench " + arguments + " --emit " + (folder_ / "list"));
   EXPECT_NE(emitted.out.find("2 lines, 2 tasks of 1"), std::string::npos) << emitted.out << emitted.err;
+  const Outcome early = talus_command("bench --collect " + (folder_ / "list"));
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_NE(early.out.find("4 runs, 0 failed, 4 not measured"), std::string::npos) << early.out;
   const Outcome outcome =
       shell("cd " + folder_.path().string() + " && sh list/array.sh 0 && sh list/array.sh 1 && sh list/collect.sh");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -75,6 +75,22 @@ TEST_F(EventCommands, ARemovedBodyDoesNotCountAsAsleep) {
   EXPECT_EQ(summary["work_skipped"], 0.0);
 }
 
+TEST_F(EventCommands, TheSummaryHasTheNumberOfBodiesAndTheClosingLinesNameAnEventThatFoundNone) {
+  const std::string events =
+      " --set 'event=[{time = 0, do = \"wake\"}, {time = 1, do = \"remove\", body = [0, 1]},"
+      " {time = 1, do = \"kick\", velocity = [1, 0], box = [[90, 90], [91, 91]]}]'";
+  const Outcome outcome =
+      talus_command("run " + (folder_ / "scene.toml") + events + " --no-telemetry --out " + (folder_ / "hits"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json summary = Json::parse(contents(folder_.path() / "hits" / "summary.json"));
+  std::vector<std::string> texts;
+  for (const Json& event : summary["events"]) texts.push_back(event["text"]);
+  EXPECT_EQ(texts, std::vector<std::string>({"wake all bodies: 3", "remove some bodies: 2", "kick some bodies: 0"}));
+  const std::string line = "event[2], kick some bodies, found no body to act on";
+  EXPECT_EQ(summary["scene_warnings"], Json::array({line}));
+  EXPECT_NE(outcome.out.find("warning: " + line), std::string::npos) << outcome.out;
+}
+
 TEST_F(EventCommands, ARecordOfASceneWithoutEventsNamesNoSuchChannel) {
   std::ofstream(folder_.path() / "plain.toml")
       << "title = \"plain\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\nrun = {frames = 5}\n"

@@ -210,6 +210,54 @@ TEST(ExportCommand, LeavesOutWhatDamageHitAndSaysSo) {
   EXPECT_NE(outcome.err.find("the record is damaged"), std::string::npos) << outcome.err;
 }
 
+TEST(ExportCommand, RefusesToWriteOverTheRecordAndTheRunsOwnFiles) {
+  const TemporaryFolder folder;
+  record(folder);
+  const fs::path run = folder.path() / "run";
+  fs::create_symlink(run / "run.lcm", folder.path() / "link.csv");
+  fs::create_symlink(run / "run.lcm", folder.path() / "link.html");
+  fs::create_symlink(run / "run.lcm", folder.path() / "link.webp");
+  const std::string before = contents(run / "run.lcm") + contents(run / "frames.csv");
+  std::vector<std::string> lines = {"replay " + run.string() + " --out " + (folder / "link.html"),
+                                    "film " + run.string() + " --out " + (folder / "link.webp")};
+  for (const char* out : {"link.csv", "run/frames.csv", "run/gates.csv", "run/regions.csv", "run/loads.csv",
+                          "run/profiles.csv", "run/../run/frames.csv"})
+    lines.push_back("export " + run.string() + " --out " + (folder / out));
+  for (const std::string& line : lines) {
+    const Outcome outcome = talus_command(line);
+    EXPECT_EQ(outcome.exit_code, 2) << line;
+    EXPECT_NE(outcome.err.find("must be none of the files that a run left"), std::string::npos) << outcome.err;
+  }
+  EXPECT_TRUE(contents(run / "run.lcm") + contents(run / "frames.csv") == before);
+  EXPECT_EQ(export_run(folder, "--out " + (folder / "run/poses.csv")).exit_code, 0);
+}
+
+TEST(ExportCommand, ThatFailsLeavesAnOlderFileAsItIsAndNoHalfOne) {
+  const TemporaryFolder folder;
+  record(folder);
+  std::ofstream(folder.path() / "a.npz") << "older";
+  std::ofstream(folder.path() / "a.html") << "older";
+  const auto entries = [&] { return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()); };
+  const auto before = entries();
+  for (const std::string& line : {"export --out " + (folder / "a.npz"), "export --out " + (folder / "a.csv"),
+                                  "export --out " + (folder / "a.pvd"), "replay --out " + (folder / "a.html")})
+    EXPECT_EQ(shell("ulimit -f 4; \"$TALUS\" " + line + " " + (folder / "run")).exit_code, 1) << line;
+  EXPECT_EQ(contents(folder / "a.npz"), "older");
+  EXPECT_EQ(contents(folder / "a.html"), "older");
+  EXPECT_EQ(entries(), before);
+}
+
+TEST(ExportCommand, LeavesNoFramesOfALongerSeriesAndNothingElseAway) {
+  const TemporaryFolder folder;
+  record(folder);
+  ASSERT_EQ(export_run(folder, "--out " + (folder / "a.pvd") + " --every 30").exit_code, 0);
+  std::ofstream(folder.path() / "a_vtp" / "notes.txt") << "mine";
+  ASSERT_EQ(export_run(folder, "--out " + (folder / "a.pvd") + " --every 100").exit_code, 0);
+  Names names;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "a_vtp")) names.insert(entry.path().filename());
+  EXPECT_EQ(names, Names({"frame_000000.vtp", "frame_000001.vtp", "notes.txt", "shape_0.vtp"}));
+}
+
 TEST(ExportCommand, RefusesBadOptions) {
   const TemporaryFolder folder;
   record(folder);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <vector>
 
 #include "tests/process/process.h"
@@ -101,6 +102,19 @@ TEST(FilmCommand, NamesAFileThatCannotBeWritten) {
   const Outcome film = talus_command("film " + (folder / "run") + " --width 320 --out " + (folder / "a.mp4"));
   EXPECT_EQ(film.exit_code, 1);
   EXPECT_NE(film.err.find("a.mp4"), std::string::npos) << film.err;
+}
+
+TEST(FilmCommand, ThatFailsLeavesAnOlderFilmAsItIs) {
+  const TemporaryFolder folder;
+  const Outcome run =
+      talus_command("run drop_in_a_pile_2d --no-telemetry --set run.frames=10 --out " + (folder / "run"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::ofstream(folder / "a.webp") << "older";
+  const Outcome film =
+      shell("ulimit -f 1; \"$TALUS\" film " + (folder / "run") + " --width 320 --out " + (folder / "a.webp"));
+  EXPECT_EQ(film.exit_code, 1) << film.err;
+  EXPECT_EQ(contents(folder / "a.webp"), "older");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "the run and the film";
 }
 
 TEST(FilmCommand, FailsOnAFullDisk) {

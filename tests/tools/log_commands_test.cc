@@ -110,11 +110,18 @@ TEST_F(LogCommand, InfoPrintsEachMessageWhateverTheStampOfTheFirst) {
 }
 
 TEST_F(LogCommand, InfoNamesTheChannelsWhereAChosenOneHasNoMessage) {
-  const Outcome outcome = talus_command("info --messages --channel TALUS_SLEEPS " + (folder_ / "run"));
+  const Outcome outcome = talus_command("info --messages --channel TALUS_CONTACTS " + (folder_ / "run"));
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_NE(outcome.err.find("--channel TALUS_SLEEPS: no message in the log; its channels are"), std::string::npos);
+  EXPECT_NE(outcome.err.find("--channel TALUS_CONTACTS: no message in the log; its channels are"), std::string::npos);
   EXPECT_NE(outcome.err.find("TALUS_SLEEP,"), std::string::npos) << outcome.err;
+}
+
+TEST_F(LogCommand, InfoRefusesAChannelThatIsNone) {
+  const Outcome outcome = talus_command("info --messages --channel TALUS_SLEEPS " + (folder_ / "run"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("--channel = TALUS_SLEEPS: must be a channel of the log"), std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(LogCommand, RepairLeavesOutTheDamagedMessageOnly) {

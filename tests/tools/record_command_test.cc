@@ -48,6 +48,73 @@ TEST(CompareCommand, CallsARunPlayedTwiceEqualAndAllDistancesZero) {
   EXPECT_EQ(json["z"]["ks"], 0.0);
 }
 
+TEST(CompareCommand, KnowsTheDefaultsOfASceneWithMeshesInAnyFolder) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "rock.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  for (const auto& [name, more] : {std::pair("a", ""), {"b", "seed = 1\n"}}) {
+    std::ofstream(folder / name + ".toml")
+        << "title = \"Rocks\"\ndimension = 2\n"
+        << more << "shape.rock = {kind = \"mesh\", file = \"rock.obj\", longest_side = 1}\nsource = [{count = 2}]\n"
+        << "run = {frames = 30}\n";
+    const Outcome run = talus_command("run " + (folder / name) + ".toml --no-telemetry --out " + (folder / name));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  std::filesystem::remove(folder / "rock.obj");
+  const Json json = answer("compare " + (folder / "a") + " " + (folder / "b"));
+  EXPECT_EQ(json["settings_that_differ"], Json::array());
+}
+
+TEST(CompareCommand, LeavesBodiesThatFallOutOfTheShapes) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "scene.toml")
+      << "title = \"One lies, one falls\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\n"
+         "body = [{position = [0, 0.5]}, {position = [3, 40]}]\nrun = {frames = 30}\npolicy.kind = \"full\"\n";
+  const std::string run = folder / "run";
+  ASSERT_EQ(talus_command("run " + (folder / "scene.toml") + " --no-telemetry --out " + run).exit_code, 0);
+  const Json shape = answer("compare " + run + " " + run)["shape_a"];
+  EXPECT_NEAR(shape["centre_height_m"].get<double>(), 0.5, 0.05);
+  EXPECT_EQ(shape["centre_height_m"], Json::parse(contents(run + "/summary.json"))["shape"]["centre_height_m"]);
+}
+
+TEST(CompareCommand, SaysThatNoBodyRestsWhereAllFall) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "scene.toml")
+      << "title = \"One falls\"\ndimension = 2\nshape.disc = {kind = \"ball\", radius = 0.5}\n"
+         "body = [{position = [3, 40]}]\nrun = {frames = 30}\n";
+  const std::string run = folder / "run";
+  const std::string other = folder / "other";
+  ASSERT_EQ(talus_command("run " + (folder / "scene.toml") + " --no-telemetry --out " + run).exit_code, 0);
+  ASSERT_EQ(
+      talus_command("run " + (folder / "scene.toml") + " --no-telemetry --set body[0].position=[3,30] --out " + other)
+          .exit_code,
+      0);
+  const Json json = answer("compare " + run + " " + other + " --twins 1");
+  EXPECT_TRUE(json["shape_a"].is_null());
+  EXPECT_EQ(json["verdict"],
+            "Piles of different scenes: no shapes to compare: no body of either rests at the last "
+            "frame that both have.");
+  EXPECT_EQ(talus_command("compare " + run + " " + other).exit_code, 0);
+}
+
+TEST(CompareCommand, RefusesRunsWithoutABody) {
+  const TemporaryFolder folder;
+  record(folder, "a", "--set source[0].start=1000");
+  const Outcome outcome = talus_command("compare " + (folder / "a") + " " + (folder / "a"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("there is nothing to compare"), std::string::npos) << outcome.err;
+}
+
+TEST(CompareCommand, CallsADamagedRecordNoDifferentFromItself) {
+  const TemporaryFolder folder;
+  record(folder, "a", "");
+  std::string log = contents(folder / "a/run.lcm");
+  const std::size_t at = log.find("TALUS_BODIES", log.size() / 2) + 60;
+  log[at] = static_cast<char>(log[at] ^ 1);
+  std::ofstream(folder / "a/run.lcm", std::ios::binary) << log;
+  const Json json = answer("compare " + (folder / "a") + " " + (folder / "a"));
+  EXPECT_EQ(json["verdict"], "No difference in what both records have; damage has taken the rest.");
+}
+
 TEST(CompareCommand, NamesTheStepOfTheFirstSleepDecisionAndTheDifferenceSoonAfterIt) {
   const TemporaryFolder folder;
   record(folder, "full", "--policy full");
@@ -62,12 +129,10 @@ TEST(CompareCommand, NamesTheStepOfTheFirstSleepDecisionAndTheDifferenceSoonAfte
 }
 
 TEST(Options, AreRefusedWhereTheyAreNoSensibleNumber) {
-  for (const char* value : {"inf", "nan", "-1", "1e300", "1e99999"}) {
+  for (const char* value : {"inf", "nan", "-1", "1e300", "1e99999"})
     for (const char* option :
-         {"run drop_in_a_pile_2d --hash --telemetry-hz=", "monitor --seconds=", "monitor --interval="}) {
+         {"run drop_in_a_pile_2d --hash --telemetry-hz=", "monitor --seconds=", "monitor --interval="})
       EXPECT_EQ(talus_command(std::string(option) + value).exit_code, 2) << option << value;
-    }
-  }
 }
 
 TEST(CompareCommand, NamesTheSettingsInWhichTwoScenesDiffer) {

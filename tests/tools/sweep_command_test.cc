@@ -51,6 +51,20 @@ TEST_F(SweepCommand, RunsTheProductAndLeavesATableAndAPlot) {
   EXPECT_NE(file("sweep.svg").find("bars: standard error of the mean of 2 seeds"), std::string::npos);
 }
 
+TEST_F(SweepCommand, FailsWhereNoRunHasWhatIsPlottedAndSaysSoWithEachRun) {
+  const Outcome outcome = sweep(" --plot /nowhere/0");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("1 of 8: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("no number /nowhere/0 for --plot\n2 of 8: "), std::string::npos) << outcome.err;
+}
+
+TEST_F(SweepCommand, SaysWhyThereIsNoPlot) {
+  const Outcome outcome =
+      talus_command("sweep " + (folder_ / "scene.toml") + " --seeds 2 --out " + (folder_ / "sweep"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("no sweep.svg: no key but seed has several values"), std::string::npos) << outcome.err;
+}
+
 TEST_F(SweepCommand, PrintsAnyNumberOfTheSummaryWithItsErrorOverTheSeeds) {
   const Outcome outcome = sweep(" --plot /bodies");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -62,8 +76,9 @@ TEST_F(SweepCommand, PrintsAnyNumberOfTheSummaryWithItsErrorOverTheSeeds) {
   EXPECT_NE(file("sweep.svg").find("/bodies"), std::string::npos);
   for (const std::string key : {"/bodies/0", "/warnings/7", "/warnings/01", "/warnings/99999999999999999999"}) {
     const Outcome missing = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot " + key);
-    EXPECT_EQ(missing.exit_code, 0) << key;
-    EXPECT_NE(missing.err.find("no summary.json has a number " + key + "\n"), std::string::npos) << missing.err;
+    EXPECT_EQ(missing.exit_code, 1) << key;
+    EXPECT_NE(missing.err.find("--plot = " + key + ": no summary.json has such a number\n"), std::string::npos)
+        << missing.err;
   }
   const Outcome unknown = talus_command("sweep --collect " + (folder_ / "sweep") + " --plot body");
   EXPECT_EQ(unknown.exit_code, 2);
@@ -122,6 +137,8 @@ TEST_F(SweepCommand, EmitsAListWhoseLinesGiveTheBitsOfALocalSweep) {
   EXPECT_EQ(std::ranges::count(file("tasks.txt"), '\n'), 4);
   EXPECT_NE(file("array.sh").find("--array=0-1 "), std::string::npos) << file("array.sh");
   EXPECT_NE(file("array.sh").find("--time=5 --comment=\"a b\"\n"), std::string::npos) << file("array.sh");
+  for (const char* chunk : {"99", "2", "foo", "-1"})
+    EXPECT_EQ(in_sweep(std::string("sh array.sh ") + chunk).exit_code, 2) << chunk;
   EXPECT_EQ(in_sweep("sh array.sh 0 && ! [ -e run_0003 ] && sh array.sh 1 && sh collect.sh").exit_code, 0);
   const std::string local = "sweep " + (folder_ / "scene.toml") + " --set shape.disc.friction=0.2,0.6 --seeds 2 --out ";
   ASSERT_EQ(talus_command(local + (folder_ / "local")).exit_code, 0);

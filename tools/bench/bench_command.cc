@@ -76,11 +76,13 @@ int collect(const BenchOptions& options, const std::vector<BenchCase>& cases) {
   write_bench_csv(options.out / "bench.csv", rows);
   write_frames_csv(options.out / "frames.csv", rows);
   print_text(bench_summary(rows, options.preset));
-  const auto failed = std::ranges::count_if(rows, [](const BenchRow& row) { return !row.failure.empty(); });
+  const auto waiting = std::ranges::count(rows, not_measured, &BenchRow::failure);
+  const auto failed = std::ssize(rows) - std::ranges::count(rows, "", &BenchRow::failure) - waiting;
   const std::vector<std::string> plots = write_bench_plots(options.out, rows);
-  print_result("{} runs, {} failed: {}/bench.csv{}{}\n", rows.size(), failed, printable(options.out.string()),
+  print_result("{} runs, {} failed{}: {}/bench.csv{}{}\n", rows.size(), failed,
+               waiting > 0 ? fmt::format(", {} not measured", waiting) : "", printable(options.out.string()),
                plots.empty() ? "" : ", ", fmt::join(plots, ", "));
-  return failed == 0 ? exit_codes::success : exit_codes::failed;
+  return failed + waiting == 0 ? exit_codes::success : exit_codes::failed;
 }
 
 /// Of the cases, those without a row.

@@ -1,13 +1,12 @@
 #include "tools/bench/bench_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "common/text/file.h"
-#include "tools/pool/folder_lock.h"
+#include "tools/pool/job_folder.h"
 
 namespace talus {
 namespace {
@@ -16,6 +15,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr const char* bench_file = "bench.json";
+constexpr const char* same_bench = "the same benchmark of the same scenes";
 
 /// All but the folder and the jobs, which change no result. The files of the scenes are part of what a benchmark is.
 Json json_of(const BenchOptions& options) {
@@ -39,11 +39,6 @@ std::string text_of(const BenchOptions& options) {
 
 fs::path row_file(const fs::path& folder, int number) { return folder / "rows" / fmt::format("{:05}.json", number); }
 
-std::invalid_argument other_bench(const fs::path& folder) {
-  return std::invalid_argument(
-      fmt::format("--out {}: must be new, empty, or of the same benchmark of the same scenes", folder.string()));
-}
-
 /// The row of a case, as its file has it. A file without a whole row counts for none, so that the case is measured
 /// again.
 BenchRow kept_row(const fs::path& file, const BenchCase& bench_case) {
@@ -58,17 +53,14 @@ BenchRow kept_row(const fs::path& file, const BenchCase& bench_case) {
 
 }  // namespace
 
-void make_bench_folder(const fs::path& folder) {
-  if (!fs::exists(folder / bench_file) && !is_new_folder(folder)) throw other_bench(folder);
-  fs::create_directories(folder);
-}
+void make_bench_folder(const fs::path& folder) { make_job_folder(folder, bench_file, same_bench); }
 
 void begin_bench(const BenchOptions& options) {
   const fs::path file = options.out / bench_file;
   BenchOptions other_force = options;  // changes no result
   other_force.force = !options.force;
   const std::string before = file_contents(file).value_or(text_of(options));
-  if (before != text_of(options) && before != text_of(other_force)) throw other_bench(options.out);
+  if (before != text_of(options) && before != text_of(other_force)) throw other_job(options.out, same_bench);
   fs::create_directories(options.out / "rows");
   write_file(file, text_of(options));
 }
@@ -94,10 +86,8 @@ BenchOptions read_bench(const fs::path& folder) {
 
 void keep_outcome(const fs::path& folder, int number, const TaskOutcome& outcome) {
   const fs::path file = row_file(folder, number);
-  const fs::path part = fmt::format("{}.{}", file.string(), getpid());
   const Json failure = {{"failure", outcome.text}};
-  write_file(part, outcome.failed ? failure.dump(-1, ' ', false, Json::error_handler_t::replace) : outcome.text);
-  fs::rename(part, file);
+  write_file(file, outcome.failed ? failure.dump(-1, ' ', false, Json::error_handler_t::replace) : outcome.text);
 }
 
 std::vector<BenchRow> kept_rows(const fs::path& folder, const std::vector<BenchCase>& cases) {

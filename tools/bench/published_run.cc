@@ -11,6 +11,7 @@
 #include "common/world/stopwatch.h"
 #include "tools/bench/janssen.h"
 #include "tools/run/make_simulation.h"
+#include "tools/run/run_files.h"
 #include "tools/run/run_folder.h"
 
 namespace talus {
@@ -95,7 +96,7 @@ nlohmann::json run(const BenchCase& bench_case, const Scene<Dim>& scene, const s
   SummaryInput input{.scene_name = bench_case.scene_name(), .backend = bench_case.backend, .reason = "finished"};
   input.wall_seconds = watch.lap();
   simulation.end(input.reason);
-  const std::filesystem::path file = folder / "summary.json";
+  const std::filesystem::path file = folder / run_files::summary;
   write_summary(file, input, scene, simulation, statistics, instruments);
   nlohmann::json summary = nlohmann::json::parse(file_contents(file).value());
   const BodyStates<Dim>& states = simulation.world().states();

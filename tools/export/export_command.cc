@@ -112,6 +112,7 @@ void export_run(const ExportOptions& options, const Scene<Dim>& scene) {
   std::vector<Format> chosen;
   for (const std::string& file : options.out) {
     chosen.push_back(format_of(file));
+    refuse_own_file(options.run, file);
     if (chosen.back().make == make_contacts_csv_export && !scene.run.contacts)
       throw std::invalid_argument(
           fmt::format("--out = {}: {} has no contacts: must be of a run with run.contacts = true", file, options.run));

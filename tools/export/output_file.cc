@@ -5,7 +5,10 @@
 
 namespace talus {
 
-OutputFile::OutputFile(const std::filesystem::path& path) : path_(path), out_(path, std::ios::binary) { check(); }
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : path_(path), unfinished_(path), out_(unfinished_.path(), std::ios::binary) {
+  check();
+}
 
 void OutputFile::write(std::string_view bytes) {
   out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -20,6 +23,7 @@ void OutputFile::write_at(std::uint64_t offset, std::string_view bytes) {
 void OutputFile::close() {
   out_.close();
   check();
+  unfinished_.finish();
 }
 
 void OutputFile::check() {

@@ -8,10 +8,12 @@
 #include <string>
 #include <string_view>
 
+#include "common/text/file.h"
+
 namespace talus {
 
-/// A file being written, over one that is there. Each call throws std::system_error with the path where the disk is
-/// full or the file cannot be made.
+/// A file being written, which replaces one that is there when it is closed. Each call throws std::system_error with
+/// the path where the disk is full or the file cannot be made.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& path);
@@ -24,6 +26,7 @@ class OutputFile {
   void check();
 
   std::filesystem::path path_;
+  UnfinishedFile unfinished_;
   std::ofstream out_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "common/math/pose_values.h"
 #include "common/text/base64.h"
+#include "common/text/file.h"
 #include "tools/export/exporter.h"
 #include "tools/export/output_file.h"
 #include "tools/export/solid.h"
@@ -75,30 +76,65 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   out.close();
 }
 
+std::string frame_name(int frame) { return fmt::format("frame_{:06}.vtp", frame); }
+std::string shape_name(std::size_t shape) { return fmt::format("shape_{}.vtp", shape); }
+
+/// A new folder for files on their way into `folder`, which goes with this object.
+class UnfinishedFolder {
+ public:
+  explicit UnfinishedFolder(const std::filesystem::path& folder) : path_(unfinished_name(folder)) {
+    std::filesystem::create_directory(path_);
+  }
+  ~UnfinishedFolder() {
+    std::error_code left_there;
+    std::filesystem::remove_all(path_, left_there);
+  }
+  UnfinishedFolder(const UnfinishedFolder&) = delete;
+  UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Where the sets of points of a series lie: a.pvd has them in a_vtp.
+std::filesystem::path folder_of(std::filesystem::path file) {
+  file.replace_extension();
+  return file += "_vtp";
+}
+
 class VtpExport final : public Exporter {
  public:
-  explicit VtpExport(const ExportInput& input) : file_(input.file), folder_(input.file) {
-    folder_.replace_extension();
-    folder_ += "_vtp";
-    std::filesystem::create_directory(folder_);
-    for (std::size_t i = 0; i < input.shapes.size(); ++i)
-      write_whole(folder_ / fmt::format("shape_{}.vtp", i), mesh_file(input.shapes[i].polygons));
+  explicit VtpExport(const ExportInput& input)
+      : file_(input.file), folder_(folder_of(input.file)), unfinished_(folder_), shapes_(input.shapes.size()) {
+    for (std::size_t i = 0; i < shapes_; ++i)
+      write_whole(unfinished_.path() / shape_name(i), mesh_file(input.shapes[i].polygons));
   }
 
   void add(const Moment& moment, std::span<const SleepEvent> /*events*/) override {
     PointArrays arrays;
     for (BodyIndex body = 0; body < moment.bodies.size(); ++body)
       if (moment.bodies.shows(body)) add_body(arrays, moment.bodies, body);
-    const std::string name = fmt::format("frame_{:06}.vtp", frames_++);
-    write_whole(folder_ / name, arrays.file());
+    const std::string name = frame_name(frames_++);
+    write_whole(unfinished_.path() / name, arrays.file());
     series_ += fmt::format("<DataSet timestep=\"{:.6f}\" file=\"{}/{}\"/>\n", moment.time,
                            xml_text(folder_.filename().string()), name);
   }
 
   void finish(std::span<const SleepEvent> /*later_events*/) override {
-    write_whole(file_, fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
-                                   "<Collection>\n{}</Collection>\n</VTKFile>\n",
-                                   series_));
+    UnfinishedFile series(file_);
+    write_whole(series.path(), fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
+                                           "<Collection>\n{}</Collection>\n</VTKFile>\n",
+                                           series_));
+    std::filesystem::create_directory(folder_);
+    for (const auto& entry : std::filesystem::directory_iterator(unfinished_.path()))
+      std::filesystem::rename(entry.path(), folder_ / entry.path().filename());
+    // What a longer series had more, or one with more shapes.
+    for (int frame = frames_; std::filesystem::remove(folder_ / frame_name(frame)); ++frame) {
+    }
+    for (std::size_t shape = shapes_; std::filesystem::remove(folder_ / shape_name(shape)); ++shape) {
+    }
+    series.finish();
   }
 
  private:
@@ -131,6 +167,8 @@ class VtpExport final : public Exporter {
 
   std::filesystem::path file_;
   std::filesystem::path folder_;
+  UnfinishedFolder unfinished_;
+  std::size_t shapes_;
   std::string series_;
   int frames_ = 0;
 };

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 
+#include "common/math/require.h"
 #include "common/mesh/mesh.h"
 #include "common/mesh/mesh_file.h"
+#include "common/text/file.h"
 #include "tools/commands/commands.h"
 #include "tools/mesh/convex_parts.h"
 #include "tools/mesh/decomposition.h"
@@ -33,10 +36,21 @@ void print_report(const Mesh& mesh, const Decomposition& decomposition, const st
   print_result("{}\n", file.string());
 }
 
-void decompose(const std::filesystem::path& mesh_file, const ConvexPartsParams& params) {
+/// Parts of a mesh that has changed are of no use any more; others may have taken somebody's time.
+bool may_replace(const std::filesystem::path& file, const std::string& text) {
+  const std::optional<std::string> before = file_contents(file);
+  if (!before || *before == text) return true;
+  const auto head = [](const std::string& of) { return of.substr(0, of.find('\n')); };
+  return before->starts_with(parts_mark) && head(*before) != head(text);
+}
+
+void decompose(const std::filesystem::path& mesh_file, const ConvexPartsParams& params, bool force) {
   const Mesh mesh = repaired(read_mesh(mesh_file));
   const Decomposition decomposition = decomposed(mesh, params);
-  write_parts(parts_file(mesh_file), mesh, decomposition.parts);
+  const std::string text = parts_text(mesh, decomposition.parts);
+  require(force || may_replace(parts_file(mesh_file), text), "parts of mesh", parts_file(mesh_file).string(),
+          "must not be there with other content; --force replaces it");
+  write_file(parts_file(mesh_file), text);
   print_report(mesh, decomposition, parts_file(mesh_file));
 }
 
@@ -58,8 +72,10 @@ void add_decompose_command(CLI::App& app, int& exit_code) {
   command->add_option("--corners", params->corners, "Corners of a part at most, tried first")
       ->check(whole_number(4, most_part_corners))
       ->capture_default_str();
+  auto force = std::make_shared<bool>(false);
+  command->add_flag("-f,--force", *force, "Replace other parts of the same mesh");
   command->callback([=, &exit_code] {
-    decompose(*mesh, *params);
+    decompose(*mesh, *params, *force);
     exit_code = exit_codes::success;
   });
 }

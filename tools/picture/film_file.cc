@@ -19,7 +19,8 @@ namespace {
 /// H.264 of 4:2:0 has even sides only.
 constexpr const char* even_sides = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
 
-std::vector<std::string> arguments_of(const FilmFormat& format) {
+/// `file`: where to write.
+std::vector<std::string> arguments_of(const FilmFormat& format, const std::filesystem::path& file) {
   // Without -xerror ffmpeg ends well on a full disk.
   std::vector<std::string> arguments = {"ffmpeg",   "-loglevel",
                                         "error",    "-nostdin",
@@ -46,7 +47,7 @@ std::vector<std::string> arguments_of(const FilmFormat& format) {
     add({"-vf", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none"});
     add({"-loop", "0", "-final_delay", fmt::format("{}", std::lround(1e2 * format.pause))});
   }
-  add({"file:" + format.file.string()});
+  add({"file:" + file.string()});
   return arguments;
 }
 
@@ -57,10 +58,10 @@ bool is_film_file(const std::filesystem::path& file) {
   return ending == ".webp" || ending == ".mp4" || ending == ".gif";
 }
 
-FilmFile::FilmFile(const FilmFormat& format) {
+FilmFile::FilmFile(const FilmFormat& format) : file_(format.file) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  std::vector<std::string> arguments = arguments_of(format);
+  std::vector<std::string> arguments = arguments_of(format, file_.path());
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -94,6 +95,7 @@ void FilmFile::add(const FilmImage& image) {
 
 void FilmFile::finish() {
   if (end() != 0) fail();
+  file_.finish();
 }
 
 void FilmFile::fail() {

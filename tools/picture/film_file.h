@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "common/text/file.h"
 #include "tools/picture/film.h"
 
 namespace talus {
@@ -25,7 +26,8 @@ bool is_film_file(const std::filesystem::path& file);
 /// player shows). The same frames give the same bytes with the same version of ffmpeg.
 class FilmFile {
  public:
-  /// Opens the film for writing, over a file that is there. Throws std::runtime_error where ffmpeg does not start.
+  /// Opens the film for writing; finished, it replaces a file that is there. Throws std::runtime_error where ffmpeg
+  /// does not start.
   explicit FilmFile(const FilmFormat& format);
   ~FilmFile();
   FilmFile(const FilmFile&) = delete;
@@ -40,6 +42,7 @@ class FilmFile {
   [[noreturn]] void fail();
   int end();
 
+  UnfinishedFile file_;
   pid_t process_ = -1;
   int pipe_ = -1;
 };

@@ -20,7 +20,12 @@ constexpr std::string_view array_script = R"(#!/bin/sh
 # Does chunk N of tasks.txt, {chunk} lines, for index N of an array job: `sbatch array.sh`, or `sh array.sh N`.
 # With --cpus-per-task=K, K lines at a time.
 cd {folder} || exit
-first=$((${{1:-${{SLURM_ARRAY_TASK_ID:?}}}} * {chunk} + 1))
+n=${{1:-${{SLURM_ARRAY_TASK_ID:?}}}}
+if ! {{ [ "$n" -ge 0 ] && [ "$n" -le {last_task} ]; }} 2>/dev/null; then
+  echo "array.sh: N = $n: must be a whole number from 0 to {last_task}" >&2
+  exit 2
+fi
+first=$((n * {chunk} + 1))
 sed -n "$first,$((first + {more}))p" tasks.txt |
   xargs -d '\n' -n 1 -P "${{SLURM_CPUS_PER_TASK:-1}}" sh -c 'sh -c "$1" || exit 1' line
 )";

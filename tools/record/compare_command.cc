@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/measure/compare.h"
+#include "common/measure/resting_shape.h"
 #include "common/scene/setting_differences.h"
 #include "common/scene/typical_body.h"
 #include "common/text/printable.h"
@@ -61,10 +62,9 @@ Json motion_json(const MotionError& error) {
           {"turning", error.turning}};
 }
 
-template <int Dim>
-Json settings_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b) {
+Json settings_json(const std::vector<SettingDifference>& differences) {
   Json list = Json::array();
-  for (const SettingDifference& difference : setting_differences(a.scene.toml, b.scene.toml)) {
+  for (const SettingDifference& difference : differences) {
     list.push_back(
         {{"path", difference.path}, {"a", difference.a}, {"b", difference.b}, {"of_scene", is_of_scene(difference)}});
   }
@@ -79,11 +79,17 @@ void check_comparable_runs(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b)
         fmt::format("{} and {} are runs of different scenes, with {} and {} shapes: must be of the same shapes", a.name,
                     b.name, a.scene.world.shapes.size(), b.scene.world.shapes.size()));
   }
-  if (last_common_frame(a.frames, b.frames) >= 0) return;
-  throw std::invalid_argument(fmt::format("{} and {}: must have a frame of output in common", a.name, b.name));
+  const int last = last_common_frame(a.frames, b.frames);
+  if (last < 0)
+    throw std::invalid_argument(fmt::format("{} and {}: must have a frame of output in common", a.name, b.name));
+  if (a.frames.bodies(last) > 0 && b.frames.bodies(last) > 0) return;
+  throw std::invalid_argument(
+      fmt::format("{} and {}: must both have a body by step {}, the last that both tell: there "
+                  "is nothing to compare",
+                  a.name, b.name, a.frames.step(last)));
 }
 
-/// Two runs, with the shapes of their piles as JSON.
+/// Two runs, with the shapes of their piles as JSON; null where no body rests.
 template <int Dim>
 struct Compared {
   RunComparison<Dim> result;
@@ -98,19 +104,23 @@ Compared<Dim> compare_frames(const RecordedRun<Dim>& a, const Trajectory<Dim>& b
   const std::vector<Shape<Dim>>& shapes = a.scene.world.shapes;
   const int last = last_common_frame(a.frames, b);
   const double extent = typical_body(a.scene).extent;
-  const auto bodies = placed_bodies<Dim>(shapes, a.frames, last);
+  const double fastest = fastest_at_rest(a.scene.world);
+  const auto bodies = placed_bodies<Dim>(shapes, a.frames, last, fastest);
+  const auto bodies_b = placed_bodies<Dim>(shapes, b, last, fastest);
   const ProfileGrid<Dim> grid = grid_around<Dim>(bodies, a.scene.world.ground.height, extent);
   const double time = static_cast<double>(a.frames.step(last)) * a.frames.step_time();
-  Compared<Dim> both{compare_runs<Dim>(a.frames, b, shapes, a.scene.world.gravity, grid), {}, {}};
-  both.shape_a = shape_json<Dim>(bodies, both.result.shape_a, grid, world_at<Dim>(a.scene, a.done, time), extent);
-  both.shape_b = shape_json<Dim>(placed_bodies<Dim>(shapes, b, last), both.result.shape_b, grid,
-                                 world_at<Dim>(scene_b, done_b, time), extent);
+  Compared<Dim> both{compare_runs<Dim>(a.frames, b, shapes, a.scene.world.gravity, grid, fastest), {}, {}};
+  if (!bodies.empty())
+    both.shape_a = shape_json<Dim>(bodies, both.result.shape_a, grid, world_at<Dim>(a.scene, a.done, time), extent);
+  if (!bodies_b.empty())
+    both.shape_b = shape_json<Dim>(bodies_b, both.result.shape_b, grid, world_at<Dim>(scene_b, done_b, time), extent);
   return both;
 }
 
 /// B's numbers minus A's, by name; without the texts, and null where either has none.
 Json difference_of(const Json& a, const Json& b) {
-  Json difference;
+  Json difference = Json::object();
+  if (a.is_null()) return difference;
   for (const auto& [name, value] : b.items()) {
     if (name.ends_with("_reason")) continue;
     const bool both = value.is_number() && a[name].is_number();
@@ -123,15 +133,19 @@ Json difference_of(const Json& a, const Json& b) {
 template <int Dim>
 Json numbers_json(const Compared<Dim>& compared) {
   const RunComparison<Dim>& result = compared.result;
-  return {{"motion", motion_json(result.motion_mean)},
-          {"distance_D",
-           {{"mean_at_end", result.position_mean[result.last]},
-            {"p95_at_end", result.position_p95},
-            {"max_at_end", result.position_max}}},
-          {"shape", difference_of(compared.shape_a, compared.shape_b)},
-          {"profile_rms_D", result.profile_rms},
-          {"z", {{"ks", result.z.kolmogorov_smirnov}, {"w1_m", result.z.wasserstein}, {"energy_m", result.z.energy}}},
-          {"r", {{"ks", result.r.kolmogorov_smirnov}, {"w1_m", result.r.wasserstein}, {"energy_m", result.r.energy}}}};
+  Json json = {
+      {"motion", motion_json(result.motion_mean)},
+      {"distance_D",
+       {{"mean_at_end", result.position_mean[result.last]},
+        {"p95_at_end", result.position_p95},
+        {"max_at_end", result.position_max}}},
+      {"shape", difference_of(compared.shape_a, compared.shape_b)},
+      {"profile_rms_D", result.profile_rms},
+      {"z", {{"ks", result.z.kolmogorov_smirnov}, {"w1_m", result.z.wasserstein}, {"energy_m", result.z.energy}}},
+      {"r", {{"ks", result.r.kolmogorov_smirnov}, {"w1_m", result.r.wasserstein}, {"energy_m", result.r.energy}}}};
+  if (compared.shape_a.is_null() || compared.shape_b.is_null())
+    for (const char* of_shapes : {"profile_rms_D", "z", "r"}) json[of_shapes] = nullptr;
+  return json;
 }
 
 /// Run A again, moved by `shift` [m] along x at its source or at its first body.
@@ -170,9 +184,19 @@ Json floor_json(const RecordedRun<Dim>& a, int twins) {
   return floor;
 }
 
+/// Why the shapes cannot be compared; empty where they can.
+std::string shape_fault(const Json& json) {
+  const bool a = json["shape_a"].is_null();
+  const bool b = json["shape_b"].is_null();
+  if (!a && !b) return {};
+  return fmt::format("no shapes to compare: no body of {} rests at the last frame that both have",
+                     a && b ? "either" : (a ? "A" : "B"));
+}
+
 /// What B's shape differs from A's by, in percent of A's.
 std::string shape_words(const Json& json) {
-  std::string words;
+  std::string words = shape_fault(json);
+  if (!words.empty()) return words;
   const Json& floor = json["floor"];
   for (const auto& [key, name] : {std::pair("centre_height_m", "centre of mass"), {"r50_m", "r50"}, {"r95_m", "r95"}}) {
     const double of_a = json["shape_a"][key].get<double>();
@@ -185,8 +209,9 @@ std::string shape_words(const Json& json) {
   return words;
 }
 
-/// Whether the three lengths of the shape differ by no more than those of twins.
+/// Whether the shapes are there, and their three lengths differ by no more than those of twins.
 bool within_floor(const Json& json) {
+  if (!shape_fault(json).empty()) return false;
   const auto within = [&](const char* key) {
     const double difference = json["shape_b"][key].get<double>() - json["shape_a"][key].get<double>();
     return std::abs(difference) <= json["floor"]["shape"][key].get<double>();
@@ -199,9 +224,12 @@ std::string verdict_of(const Json& json) {
   const bool other_scene = std::ranges::any_of(settings, [](const Json& one) { return one["of_scene"].get<bool>(); });
   if (json["first_difference"].is_null()) {
     const auto damaged = [](const Json& run) { return !run["damage"].get<std::string>().empty(); };
-    const bool same = !other_scene && json["first_other_sleep_decision"].is_null() && !damaged(json["a"]) &&
-                      !damaged(json["b"]) && json["a"]["steps"] == json["b"]["steps"];
-    return same ? "The same run, bit for bit." : "Different runs; the frames that both have are equal bit for bit.";
+    const bool same =
+        !other_scene && json["first_other_sleep_decision"].is_null() && json["a"]["steps"] == json["b"]["steps"];
+    if (!same) return "Different runs; the frames that both have are equal bit for bit.";
+    return damaged(json["a"]) || damaged(json["b"])
+               ? "No difference in what both records have; damage has taken the rest."
+               : "The same run, bit for bit.";
   }
   const std::string words = shape_words(json);
   if (other_scene) return fmt::format("Piles of different scenes: {}.", words);
@@ -210,13 +238,14 @@ std::string verdict_of(const Json& json) {
 }
 
 template <int Dim>
-Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b, int twins) {
+Json comparison_json(const RecordedRun<Dim>& a, const RecordedRun<Dim>& b,
+                     const std::vector<SettingDifference>& settings, int twins) {
   check_comparable_runs(a, b);
   const Compared<Dim> compared = compare_frames<Dim>(a, b.frames, b.scene, b.done);
   const RunComparison<Dim>& result = compared.result;
   Json json = {{"a", head_json(a)},
                {"b", head_json(b)},
-               {"settings_that_differ", settings_json(a, b)},
+               {"settings_that_differ", settings_json(settings)},
                {"frames_compared", result.frames - result.left_out},
                {"frames_left_out", result.left_out}};
   json["first_difference"] = nullptr;
@@ -306,6 +335,7 @@ void print_motion(const Json& json) {
 }
 
 void print_shapes(const Json& json) {
+  if (!shape_fault(json).empty()) return;
   Table shape =
       numbers_table("\nShape at the last frame that both have", {{"measure"}, {"A", true}, {"B", true}}, json);
   for (const auto& [name, value] : json["shape_a"].items())
@@ -340,8 +370,11 @@ int compare(const std::string& folder_a, const std::string& folder_b, int twins,
   const AnyRecordedRun a = read_run(folder_a);
   const AnyRecordedRun b = read_run(folder_b);
   if (a.index() != b.index()) throw std::invalid_argument("a run in 2D and one in 3D: must be of one dimension");
+  const auto settings = setting_differences(scene_texts_of_run(folder_a), scene_texts_of_run(folder_b));
   const Json json = std::visit(
-      [&]<int Dim>(const RecordedRun<Dim>& one) { return comparison_json(one, std::get<RecordedRun<Dim>>(b), twins); },
+      [&]<int Dim>(const RecordedRun<Dim>& one) {
+        return comparison_json(one, std::get<RecordedRun<Dim>>(b), settings, twins);
+      },
       a);
   if (as_json)
     print_result("{}\n", json_text(json, 2));

@@ -17,6 +17,7 @@
 #include "tools/picture/film_file.h"
 #include "tools/picture/force_chains.h"
 #include "tools/picture/framing.h"
+#include "tools/record/record_file.h"
 #include "tools/record/recorded_run.h"
 
 namespace talus {
@@ -181,13 +182,12 @@ void film(const FilmOptions& options, const RecordedRun<Dim>& run) {
   std::optional<FilmFile> file;
   int taken = 0;
   in_order(cut.frames(), draw, [&](const FilmImage& image) {
-    if (!file) {
+    if (!file)
       file.emplace(FilmFormat{.file = options.out,
                               .width = image.width,
                               .height = image.height,
                               .frame_time = cut.frame_time,
                               .quality = options.quality});
-    }
     file->add(image);
     if (progress) write_note(fmt::format("\r{} of {} frames", ++taken, cut.frames()));
   });
@@ -230,6 +230,7 @@ void add_film_command(CLI::App& app, int& exit_code) {
   command->footer("Example:\n  talus run drop_in_a_pile_2d --out runs/pour\n  talus film runs/pour --out pour.webp");
   command->callback([options, &exit_code] {
     check(*options);
+    refuse_own_file(options->run, options->out);
     std::visit([&](const auto& run) { film(*options, run); }, read_run(options->run));
     exit_code = exit_codes::success;
   });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "tools/output/json_text.h"
 #include "tools/output/output.h"
@@ -21,11 +22,16 @@ bool is_wanted(const MessageChoice& choice, const LogEvent& event, std::int64_t 
   return time >= choice.from && time <= choice.to;
 }
 
-/// Not an error: a run without sleep events has no message on TALUS_SLEEP.
-void warn_of_silent_channels(const MessageChoice& choice, const std::set<std::string>& heard) {
+/// A run without sleep events has no message on TALUS_SLEEP, which is no error. Throws std::invalid_argument on a name
+/// that is neither of a run's channel nor of one in the log.
+void check_silent_channels(const MessageChoice& choice, const std::set<std::string>& heard) {
   for (const std::string& channel : choice.channels)
-    if (!heard.contains(channel))
+    if (!heard.contains(channel)) {
+      if (!channel_named(channel))
+        throw std::invalid_argument(
+            fmt::format("--channel = {}: must be a channel of the log, which has {}", channel, fmt::join(heard, ", ")));
       print_message("talus: --channel {}: no message in the log; its channels are {}", channel, fmt::join(heard, ", "));
+    }
 }
 
 }  // namespace
@@ -45,7 +51,7 @@ void print_messages(const std::filesystem::path& file, const MessageChoice& choi
   }
   if (!begin && log.damage().bytes > 0) throw no_event_log(file);
   if (log.damage().bytes > 0) print_message("{}: {} damaged bytes left out", file.string(), log.damage().bytes);
-  warn_of_silent_channels(choice, heard);
+  check_silent_channels(choice, heard);
 }
 
 }  // namespace talus

@@ -17,6 +17,7 @@
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
 #include "tools/record/recorded_scene.h"
+#include "tools/run/run_files.h"
 
 namespace talus {
 namespace {
@@ -132,7 +133,7 @@ void repair_log(const fs::path& file, const std::string& run, const fs::path& ou
   const std::int64_t mended = mend_stamps(times);
   fs::create_directories(out);
   SceneFilesReader scene;
-  EventLog log((out / "run.lcm").string());
+  EventLog log((out / run_files::record).string());
   ChosenEvents events(file, run);
   std::size_t copied = 0;
   for (LogEvent event; events.next(event);) {  // to the end: what is damaged there counts too

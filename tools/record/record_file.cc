@@ -12,6 +12,7 @@
 #include "lcmtypes/layout.h"
 #include "lcmtypes/run_info.h"
 #include "lcmtypes/run_message.h"
+#include "tools/run/run_files.h"
 
 namespace talus {
 namespace {
@@ -92,9 +93,22 @@ bool is_whole(const LogEvent& event) {
 
 std::filesystem::path record_file(const std::filesystem::path& run) {
   if (std::filesystem::is_regular_file(run)) return run;
-  if (std::filesystem::is_regular_file(run / "run.lcm")) return run / "run.lcm";
+  if (std::filesystem::is_regular_file(run / run_files::record)) return run / run_files::record;
   throw std::invalid_argument(
       fmt::format("{}: must be a folder that `talus run` left, or an LCM event log", run.string()));
+}
+
+void refuse_own_file(const std::filesystem::path& run, const std::string& out) {
+  namespace fs = std::filesystem;
+  std::error_code unused;
+  const fs::path record = record_file(run);
+  const fs::path target = fs::weakly_canonical(out, unused);  // what a link leads to
+  const bool in_run_folder = fs::exists(target.parent_path() / run_files::record, unused);
+  const bool own = fs::equivalent(out, record, unused) ||
+                   (in_run_folder && std::ranges::find(run_files::all, target.filename()) != run_files::all.end());
+  if (own)
+    throw std::invalid_argument(
+        fmt::format("--out = {}: must be none of the files that a run left in its folder", out));
 }
 
 std::invalid_argument no_event_log(const std::filesystem::path& file) {

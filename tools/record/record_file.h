@@ -13,6 +13,9 @@ namespace talus {
 /// The log of a run folder, or the path itself where it is a file. Throws std::invalid_argument where it is neither.
 std::filesystem::path record_file(const std::filesystem::path& run);
 
+/// Throws std::invalid_argument where `out`, by links too, is the record of `run` or what some run left in its folder.
+void refuse_own_file(const std::filesystem::path& run, const std::string& out);
+
 /// The error of a file that holds no event.
 std::invalid_argument no_event_log(const std::filesystem::path& file);
 

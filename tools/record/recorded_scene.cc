@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <type_traits>
 #include <vector>
 
 #include "common/scene/write_scene.h"
+#include "common/text/file.h"
 #include "common/text/printable.h"
 #include "lcmtypes/scene_message.h"
 #include "lcmtypes/shapes_message.h"
@@ -136,22 +139,43 @@ class ScratchFolder {
   std::string path_;
 };
 
-}  // namespace
-
-AnyScene scene_of_run(const fs::path& run) {
-  const fs::path file = record_file(run);
+/// What `read` makes of the text and the name of a record's scene file, beside which its meshes are; nothing of a run
+/// without a scene file.
+template <class Read>
+auto read_recorded(const fs::path& file, const Read& read)
+    -> std::optional<std::invoke_result_t<Read, const std::string&, const std::string&>> {
   const auto [files, announced] = recorded_files(file);
-  if (!announced) return ToldScene(file).scene();
-  if (files.size() == 1) return parse_scene(files.front().text, (file / scene_file_name).string());
+  if (!announced) return std::nullopt;
+  if (files.size() == 1) return read(files.front().text, (file / scene_file_name).string());
   if (files.empty()) {
     const fs::path beside = file.parent_path() / scene_file_name;
-    if (fs::is_regular_file(beside)) return read_scene(beside);
+    if (const auto text = file_contents(beside)) return read(*text, beside.string());
     throw std::invalid_argument(
         fmt::format("{}: must be a record that `talus run` wrote: no scene is in it or beside it", file.string()));
   }
   const ScratchFolder folder;
   write_scene_files(files, folder.path());
-  return read_scene(folder.path() / scene_file_name);
+  return read(files.front().text, (folder.path() / scene_file_name).string());
+}
+
+}  // namespace
+
+AnyScene scene_of_run(const fs::path& run) {
+  const fs::path file = record_file(run);
+  const auto scene =
+      read_recorded(file, [](const std::string& text, const std::string& name) { return parse_scene(text, name); });
+  return scene ? *scene : ToldScene(file).scene();
+}
+
+SceneTexts scene_texts_of_run(const fs::path& run) {
+  const auto read = [](const std::string& text, const std::string& name) -> SceneTexts {
+    try {
+      return {text, with_every_default(text, name)};
+    } catch (const SceneErrors&) {
+      return {text, ""};
+    }
+  };
+  return read_recorded(record_file(run), read).value_or(SceneTexts());
 }
 
 }  // namespace talus

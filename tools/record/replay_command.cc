@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
-#include <system_error>
 
 #include "common/math/require.h"
+#include "common/text/file.h"
 #include "common/text/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/validators.h"
 #include "tools/output/output.h"
+#include "tools/record/record_file.h"
 #include "tools/record/recorded_run.h"
 #include "tools/view/page.h"
 
@@ -22,10 +22,9 @@ struct ReplayOptions {
 
 void write_replay(const ReplayOptions& options) {
   require(options.out.ends_with(".html"), "--out", options.out, "must end in .html");
+  refuse_own_file(options.run, options.out);
   const std::string page = page_with(record_bytes(options.run), name_of_run(options.run));
-  std::ofstream out(options.out, std::ios::binary);
-  out << page << std::flush;
-  if (!out) throw std::system_error(errno, std::generic_category(), options.out);
+  write_file(options.out, page);
   print_result("{}: {:.0f} kB\n", printable(options.out), static_cast<double>(page.size()) / 1e3);
 }
 

@@ -8,6 +8,7 @@
 #include "common/math/angle.h"
 #include "common/text/printable.h"
 #include "tools/run/json_null.h"
+#include "tools/run/run_files.h"
 
 namespace talus {
 namespace {
@@ -141,13 +142,14 @@ InstrumentWatch<Dim>::InstrumentWatch(const Scene<Dim>& scene, const std::filesy
     : meters_(scene), dt_(scene.world.dt) {
   const Instruments<Dim>& instruments = scene.instruments;
   if (!instruments.gates.empty())
-    gates_csv_ = GrowingCsv(folder / "gates.csv", {"step", "time_s", "gate", "forward", "backward", "jammed"});
+    gates_csv_ = GrowingCsv(folder / run_files::gates, {"step", "time_s", "gate", "forward", "backward", "jammed"});
   if (!instruments.regions.empty())
-    regions_csv_ = GrowingCsv(folder / "regions.csv", {"step", "time_s", "region", "bodies", "packing", "solid_volume",
-                                                       "mean_speed_m_per_s", "kinetic_energy_J", "slope_deg"});
+    regions_csv_ =
+        GrowingCsv(folder / run_files::regions, {"step", "time_s", "region", "bodies", "packing", "solid_volume",
+                                                 "mean_speed_m_per_s", "kinetic_energy_J", "slope_deg"});
   if (std::ranges::any_of(instruments.loads, [](const LoadParams<Dim>& load) { return !load.heights.empty(); }))
-    profiles_csv_ = GrowingCsv(folder / "profiles.csv", profile_columns<Dim>());
-  if (!instruments.loads.empty()) loads_csv_ = GrowingCsv(folder / "loads.csv", load_columns<Dim>());
+    profiles_csv_ = GrowingCsv(folder / run_files::profiles, profile_columns<Dim>());
+  if (!instruments.loads.empty()) loads_csv_ = GrowingCsv(folder / run_files::loads, load_columns<Dim>());
 }
 
 template <int Dim>

@@ -16,6 +16,7 @@
 #include "tools/run/frames_csv.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/progress.h"
+#include "tools/run/run_files.h"
 #include "tools/run/version.h"
 #ifdef TALUS_LCM
 #include "lcmtypes/publisher.h"
@@ -58,13 +59,20 @@ template <int Dim>
 class EventWatch final : public Observer<Dim> {
  public:
   EventWatch(const Scene<Dim>& scene, std::string backend, std::filesystem::path folder,
-             const ContactForces<Dim>& contacts, bool prints)
-      : scene_(scene), backend_(std::move(backend)), folder_(std::move(folder)), contacts_(contacts), prints_(prints) {}
+             const ContactForces<Dim>& contacts, const EventHits<Dim>& hits, bool prints)
+      : scene_(scene),
+        backend_(std::move(backend)),
+        folder_(std::move(folder)),
+        contacts_(contacts),
+        hits_(hits),
+        prints_(prints) {}
 
   void on_frame(const Frame<Dim>& frame) override {
     for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
       const EventAction action = scene_.events[event.number].action;
-      if (prints_) print_message("event {} at {:.4g} s: {}", event.number, event.time, to_string(action));
+      if (prints_)
+        print_message("event {} at {:.4g} s: {}", event.number, event.time,
+                      printable(event_text(scene_, event.number, hits_.bodies())));
       if (action != EventAction::picture) continue;
       const std::string name = fmt::format("event_{}", event.number);
       PictureInput<Dim> picture = picture_of(backend_, scene_, frame);
@@ -78,6 +86,7 @@ class EventWatch final : public Observer<Dim> {
   std::string backend_;
   std::filesystem::path folder_;
   const ContactForces<Dim>& contacts_;
+  const EventHits<Dim>& hits_;
   bool prints_;
 };
 
@@ -93,17 +102,18 @@ template <int Dim>
 RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
-      instruments_(scene, folder_) {
+      instruments_(scene, folder_),
+      event_hits_(scene, simulation) {
   write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
   if (!scene.instruments.empty()) simulation.add_observer(instruments_);
   contacts_.record(scene.run.contacts, simulation.world());
   if (scene.run.contacts) simulation.add_observer(contacts_);
-  add(std::make_unique<FramesCsv<Dim>>(folder_ / "frames.csv"), simulation);
+  add(std::make_unique<FramesCsv<Dim>>(folder_ / run_files::frames), simulation);
 #ifdef TALUS_LCM
   RunInfo info = run_info(scene, scene_name, backend);
   info.version = version_text();
-  auto recorder = std::make_unique<RunRecorder<Dim>>((folder_ / "run.lcm").string(), info, scene);
+  auto recorder = std::make_unique<RunRecorder<Dim>>((folder_ / run_files::record).string(), info, scene);
   recorder->set_instruments(instruments_.meters());
   recorder->set_contacts(contacts_);
   add(std::move(recorder), simulation);
@@ -118,8 +128,11 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
     add(std::move(publisher), simulation);
   }
 #endif
-  if (!scene.events.empty())
-    add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, contacts_, !options.hash_only), simulation);
+  if (!scene.events.empty()) {
+    simulation.add_observer(event_hits_);
+    add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, contacts_, event_hits_, !options.hash_only),
+        simulation);
+  }
   if (!options.quiet) add(std::make_unique<WarningPrinter<Dim>>(), simulation);
   if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
 }
@@ -132,11 +145,16 @@ void RunOutputs<Dim>::add(std::unique_ptr<Observer<Dim>> observer, Simulation<Di
 
 template <int Dim>
 void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<Dim>& simulation) const {
+  const auto write = [&](const SummaryInput& input) {
+    write_summary(folder_ / run_files::summary, input, scene, simulation, statistics_, instruments_);
+  };
   SummaryInput with_picture = summary;
+  with_picture.event_bodies = event_hits_.bodies();
+  write(with_picture);  // a disk that is full by the pictures leaves the numbers
   PictureInput<Dim> picture = picture_input(summary, scene, simulation);
   picture.contacts = contacts_.of(simulation.world());
-  with_picture.pixels_per_metre = draw_pile(folder_ / "pile.svg", folder_ / "pile.png", picture);
-  write_summary(folder_ / "summary.json", with_picture, scene, simulation, statistics_, instruments_);
+  with_picture.pixels_per_metre = draw_pile(folder_ / run_files::drawing, folder_ / run_files::picture, picture);
+  write(with_picture);
 }
 
 template PictureInput<2> picture_input(const SummaryInput&, const Scene<2>&, const Simulation<2>&);
@@ -211,6 +229,7 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   for (const SceneError& each : summary.outside_window)
     print_result("  warning: {}{}\n", outside_prefix, printable(to_string(each)));
   for (const Warning& warning : summary.warnings) print_result("  warning: {}\n", account(warning));
+  for (const std::string& line : outputs.event_hits().idle_lines()) print_result("  warning: {}\n", printable(line));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
   if (summary.emit_waits > 0) {

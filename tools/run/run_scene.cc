@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <thread>
 
@@ -110,11 +111,21 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
                        .scene_warnings = scene_warnings};
   finish_run<Dim>(
       options, scene, simulation, outputs.statistics(), [&interrupt] { return interrupt.requested(); }, summary);
-  outputs.finish(summary, scene, simulation);
+  for (std::string& line : outputs.event_hits().idle_lines()) summary.scene_warnings.push_back(std::move(line));
+  std::exception_ptr unwritten;  // known only when hours are over, so the run's lines come first
+  try {
+    outputs.finish(summary, scene, simulation);
+  } catch (const std::exception&) {
+    unwritten = std::current_exception();
+  }
   const bool warned = !outside.empty() || !summary.scene_warnings.empty() || !summary.warnings.empty();
-  if (options.hash_only) return print_hash(simulation, reason, options.strict && warned);
-  print_run(summary, scene, simulation, outputs);
-  return exit_code_of(reason, options.strict && warned);
+  int exit_code = exit_code_of(reason, options.strict && warned);
+  if (options.hash_only)
+    exit_code = print_hash(simulation, reason, options.strict && warned);
+  else
+    print_run(summary, scene, simulation, outputs);
+  if (unwritten) std::rethrow_exception(unwritten);
+  return exit_code;
 }
 
 #ifdef TALUS_LCM

@@ -21,6 +21,7 @@
 #include "tools/record/recorded_run.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/interrupt.h"
+#include "tools/run/run_files.h"
 #include "tools/run/run_options.h"
 #include "tools/serve/live_view.h"
 #include "tools/serve/open_browser.h"
@@ -120,7 +121,7 @@ void view_live(const ViewOptions& options) {
 
 /// Mean wall time of a step of a recorded run [ms]; 0: not known.
 double ms_per_step_of(const std::string& folder) {
-  std::ifstream in(std::filesystem::path(folder) / "summary.json");
+  std::ifstream in(std::filesystem::path(folder) / run_files::summary);
   const auto summary = nlohmann::json::parse(in, nullptr, false);
   const bool known = summary.is_object() && summary.contains("ms_per_step") && summary["ms_per_step"].is_number();
   return known ? summary["ms_per_step"].get<double>() : 0.0;
@@ -141,9 +142,10 @@ void view_record(const ViewOptions& options) {
     throw std::invalid_argument(
         fmt::format("{} and {} are runs in 2D and in 3D: two runs side by side must be of one dimension",
                     options.choice.scene, options.other));
-  const PairTexts texts = {.of_runs = false,
-                           .ms_per_step = {ms_per_step_of(options.choice.scene), ms_per_step_of(options.other)},
-                           .differences = setting_differences(toml_of(a), toml_of(b))};
+  const PairTexts texts = {
+      .of_runs = false,
+      .ms_per_step = {ms_per_step_of(options.choice.scene), ms_per_step_of(options.other)},
+      .differences = setting_differences(scene_texts_of_run(options.choice.scene), scene_texts_of_run(options.other))};
   const ViewServer server(options.port,
                           {pair_page(texts), served("/a/", options.choice.scene), served("/b/", options.other)},
                           options.listen);

@@ -56,20 +56,21 @@ SweepCount count_runs(const Sweep& sweep) {
 SweepCount collect(const Sweep& sweep) {
   SweepTable table(sweep.folder / "sweep.csv", sweep.axes, sweep.plot);
   std::string title;
-  bool measured = false;
-  const SweepCount count = walk(sweep, false, [&](int number, const nlohmann::json& summary) {
+  bool plotted = false;
+  SweepCount count = walk(sweep, false, [&](int number, const nlohmann::json& summary) {
     title = summary.value("title", "");
-    const SweepRow row = sweep_row(number, sweep_run(sweep.axes, number), summary, sweep.plot);
-    measured = measured || row.numbers.back().has_value();
-    table.add(row);
+    plotted = plotted || has_plotted(summary, sweep.plot);
+    table.add(sweep_row(number, sweep_run(sweep.axes, number), summary, sweep.plot));
   });
   table.finish();
-  if (!measured && sweep.plot.starts_with('/')) print_message("no summary.json has a number {}", printable(sweep.plot));
+  count.lacks_plotted = count.finished > 0 && !plotted;
+  if (count.lacks_plotted) print_message("--plot = {}: no summary.json has such a number", printable(sweep.plot));
   for (const std::string& line : table.lines()) print_result("{}\n", line);
-  const bool plotted = table.write_plot(sweep.folder / "sweep.svg", printable(title));
+  const std::string no_plot = table.write_plot(sweep.folder / "sweep.svg", printable(title));
+  if (!no_plot.empty()) print_message("no sweep.svg: {}", printable(no_plot));
   print_result("{} runs, {} finished, {} failed{}: {}/sweep.csv{}\n", count.runs, count.finished, count.failed,
                count.with_warnings > 0 ? fmt::format(", {} with warnings", count.with_warnings) : "",
-               printable(sweep.folder.string()), plotted ? ", sweep.svg" : "");
+               printable(sweep.folder.string()), no_plot.empty() ? ", sweep.svg" : "");
   return count;
 }
 

@@ -11,6 +11,7 @@ struct SweepCount {
   int failed = 0;
   int begun = 0;
   int with_warnings = 0;
+  bool lacks_plotted = false;  // no finished run has the number to plot
   int waiting() const { return runs - finished - failed - begun; }
 };
 

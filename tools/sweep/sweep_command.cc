@@ -89,8 +89,9 @@ FileHashes checked_runs(const Sweep& sweep) {
 }
 
 int exit_code_of(const SweepOptions& options, const SweepCount& count) {
-  return count.finished == count.runs && !(options.strict && count.with_warnings > 0) ? exit_codes::success
-                                                                                      : exit_codes::failed;
+  return count.finished == count.runs && !count.lacks_plotted && !(options.strict && count.with_warnings > 0)
+             ? exit_codes::success
+             : exit_codes::failed;
 }
 
 int run_here(const SweepOptions& options, const Sweep& sweep) {

@@ -12,7 +12,8 @@
 
 #include "common/text/file.h"
 #include "common/text/printable.h"
-#include "tools/pool/folder_lock.h"
+#include "tools/pool/job_folder.h"
+#include "tools/run/run_files.h"
 
 namespace talus {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* sweep_file = "sweep.json";
+constexpr const char* same_sweep = "the same sweep of the same scene";
 constexpr const char* work_folder = "at_work";
 constexpr const char* failure_folder = "failed";
 
@@ -82,21 +84,13 @@ std::string last_lines(const std::string& text) {
   return printable(end);
 }
 
-std::invalid_argument other_sweep(const fs::path& folder) {
-  return std::invalid_argument(
-      fmt::format("--out {}: must be new, empty, or of the same sweep of the same scene", folder.string()));
-}
-
 }  // namespace
 
-void make_sweep_folder(const fs::path& folder) {
-  if (!fs::exists(folder / sweep_file) && !is_new_folder(folder)) throw other_sweep(folder);
-  fs::create_directories(folder);
-}
+void make_sweep_folder(const fs::path& folder) { make_job_folder(folder, sweep_file, same_sweep); }
 
 void begin_sweep(const Sweep& sweep) {
   if (fs::exists(sweep.folder / sweep_file) && identity(read_sweep(sweep.folder)) != identity(sweep))
-    throw other_sweep(sweep.folder);
+    throw other_job(sweep.folder, same_sweep);
   write_file(sweep.folder / sweep_file, text_of(sweep));
   fs::remove_all(sweep.folder / work_folder);
   fs::create_directories(sweep.folder / work_folder);
@@ -137,7 +131,7 @@ fs::path failure_file(const Sweep& sweep, int number) {
 }
 
 nlohmann::json summary_of(const fs::path& folder) {
-  std::ifstream stream(folder / "summary.json");
+  std::ifstream stream(folder / run_files::summary);
   auto summary = nlohmann::json::parse(stream, nullptr, false);
   return summary.is_object() ? summary : nlohmann::json::object();
 }

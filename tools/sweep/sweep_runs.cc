@@ -7,10 +7,12 @@
 
 #include <fstream>
 
+#include "common/text/printable.h"
 #include "tools/output/output.h"
 #include "tools/pool/in_processes.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/run_scene.h"
+#include "tools/sweep/sweep_table.h"
 
 namespace talus {
 namespace {
@@ -111,7 +113,9 @@ std::string settle(const Sweep& sweep, int number, const TaskOutcome& outcome, S
   if (outcome.failed && !killed) return ": failed " + reason;
   if (reason != "finished") return ": " + reason;
   const int warnings = warnings_of(summary);
-  return warnings == 0 ? "" : fmt::format(": {} {}", warnings, warnings == 1 ? "warning" : "warnings");
+  std::string word = warnings == 0 ? "" : fmt::format(": {} {}", warnings, warnings == 1 ? "warning" : "warnings");
+  if (!has_plotted(summary, sweep.plot)) word += fmt::format(": no number {} for --plot", printable(sweep.plot));
+  return word;
 }
 
 }  // namespace

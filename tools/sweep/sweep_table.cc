@@ -1,7 +1,6 @@
 #include "tools/sweep/sweep_table.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +85,11 @@ SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summar
   return row;
 }
 
+bool has_plotted(const nlohmann::json& summary, std::string_view plotted) {
+  return !plotted.starts_with('/') ||
+         number_at(summary, nlohmann::json::json_pointer(std::string(plotted))).has_value();
+}
+
 double SweepTable::Sample::standard_error() const {
   if (count < 2) return 0.0;
   return std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1)) / count);
@@ -93,11 +97,10 @@ double SweepTable::Sample::standard_error() const {
 
 SweepTable::SweepTable(const std::filesystem::path& file, std::vector<SweepAxis> axes, std::string_view plotted_measure)
     : file_(file),
-      part_(fmt::format("{}.{}", file.string(), getpid())),
       axes_(std::move(axes)),
       measures_(sweep_measures(plotted_measure)),
       along_(plotted_axis(axes_)),
-      csv_(part_, columns_of(axes_, measures_)) {
+      csv_(file_.path(), columns_of(axes_, measures_)) {
   measure_ = std::ranges::find(measures_, plotted_measure, &SweepMeasure::name) - measures_.begin();
 }
 
@@ -119,7 +122,7 @@ void SweepTable::add(const SweepRow& row) {
 
 void SweepTable::finish() {
   csv_.flush();
-  std::filesystem::rename(part_, file_);
+  file_.finish();
 }
 
 /// With bars where a point has several seeds.
@@ -136,8 +139,10 @@ Series SweepTable::series_of(const std::string& name, const Points& points) {
   return series;
 }
 
-bool SweepTable::write_plot(const std::filesystem::path& file, const std::string& title) const {
-  if (!along_ || curves_.empty() || curves_.size() > most_curves) return false;
+std::string SweepTable::write_plot(const std::filesystem::path& file, const std::string& title) const {
+  if (!along_) return "no key but seed has several values that are all numbers";
+  if (curves_.empty()) return fmt::format("no finished run has a number {}", measures_[measure_].name);
+  if (curves_.size() > most_curves) return fmt::format("it would have more than {} curves", most_curves);
   int most_seeds = 0;
   for (const auto& [name, points] : curves_)
     for (const auto& [x, sample] : points) most_seeds = std::max(most_seeds, sample.count);
@@ -149,7 +154,7 @@ bool SweepTable::write_plot(const std::filesystem::path& file, const std::string
             .series = {}};
   for (const auto& [name, points] : curves_) plot.series.push_back(series_of(name, points));
   write_file(file, svg_of(plot));
-  return true;
+  return {};
 }
 
 std::vector<std::string> SweepTable::lines() const {

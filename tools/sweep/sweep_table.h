@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/text/file.h"
 #include "tools/output/csv.h"
 #include "tools/plot/plot.h"
 #include "tools/sweep/sweep_plan.h"
@@ -37,6 +38,9 @@ struct SweepRow {
 /// The row of a run, from its summary.json.
 SweepRow sweep_row(int number, const SweepRun& run, const nlohmann::json& summary, std::string_view plotted);
 
+/// Whether a run's summary has what is plotted, where that is no column of all tables.
+bool has_plotted(const nlohmann::json& summary, std::string_view plotted);
+
 /// Takes the rows one by one into sweep.csv and into the sums that sweep.svg shows: memory does not grow with the rows.
 class SweepTable {
  public:
@@ -47,9 +51,9 @@ class SweepTable {
   void finish();
 
   /// Writes a plot of the measure over the first axis that has several numbers, a curve for each combination of the
-  /// other axes but `seed`, over whose values the mean is taken with its standard error. Returns false, and
-  /// writes nothing, where there is no such axis, or more than seven curves.
-  bool write_plot(const std::filesystem::path& file, const std::string& title) const;
+  /// other axes but `seed`, over whose values the mean is taken with its standard error. Writes
+  /// nothing and returns why where there is no such axis or number, or more than seven curves.
+  std::string write_plot(const std::filesystem::path& file, const std::string& title) const;
 
   /// Of each point with several seeds: the mean of the measure with its standard error.
   std::vector<std::string> lines() const;
@@ -67,8 +71,7 @@ class SweepTable {
 
   static Series series_of(const std::string& name, const Points& points);
 
-  std::filesystem::path file_;
-  std::filesystem::path part_;  // the table until it is whole
+  UnfinishedFile file_;
   std::vector<SweepAxis> axes_;
   std::vector<SweepMeasure> measures_;
   std::size_t measure_ = 0;
