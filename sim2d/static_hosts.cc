@@ -52,8 +52,7 @@ void StaticHosts::remove(b2Fixture* first, const BodyTemplate& from) {
   --host.frozen;
 }
 
-std::vector<std::pair<b2Contact*, BodyIndex>> StaticHosts::contacts_around(
-    std::span<b2Fixture* const> fixtures) const {
+std::vector<std::pair<b2Contact*, BodyIndex>> StaticHosts::contacts_around(std::span<b2Fixture* const> fixtures) const {
   std::vector<std::size_t> slots;
   for (b2Fixture* fixture : fixtures) slots.push_back(slot_of(*fixture->GetBody()));
   std::ranges::sort(slots);

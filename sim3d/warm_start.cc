@@ -246,9 +246,9 @@ void WarmStart::open_manifolds(btCollisionAlgorithm& algorithm) {
 void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold, int found) {
   const btVector3 local(saved.place[0], saved.place[1], saved.place[2]);
   const bool first = manifold.getBody0() == sides.owner;
-  const btVector3 normal =
-      normal_like(sides.owner->getWorldTransform().getBasis() * btVector3(saved.normal[0], saved.normal[1], saved.normal[2]),
-                  manifold, found, first);
+  const btVector3 normal = normal_like(
+      sides.owner->getWorldTransform().getBasis() * btVector3(saved.normal[0], saved.normal[1], saved.normal[2]),
+      manifold, found, first);
   const btVector3 on_owner = sides.owner->getWorldTransform() * local;
   const btVector3 on_partner = on_owner - normal * saved.distance;
   const btVector3 partner_local = sides.partner->getWorldTransform().invXform(on_partner);

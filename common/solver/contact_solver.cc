@@ -180,8 +180,8 @@ struct ContactSolver<Dim>::Work {
   float h = 0.0F;  // length of a sub-step [s]
   // Made from it.
   Sets sets;
-  std::array<bool, Sets::most> bounces{};               // by set
-  std::array<std::vector<DeepPoint>, Sets::most> deep;  // by set
+  std::array<bool, Sets::most> bounces{};                // by set
+  std::array<std::vector<DeepPoint>, Sets::most> deep;   // by set
   std::vector<std::array<VecF<Dim>, Dim - 1>> tangents;  // of each point
   std::vector<PointBlock<Dim>> lanes;
   std::vector<RollingBlock<Dim>> rolling;
@@ -266,7 +266,8 @@ float ContactSolver<Dim>::Work::fill_point(int number, PointBlock<Dim>& to, int 
   const float share = 1.0F / static_cast<float>(params.sub_steps);
   to.impulse.v[lane] = to.before.v[lane] = share * point.pressing_impulse();
   for (int i = 0; i < Dim - 1; ++i)
-    to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] = share * point.friction_impulse.dot(tangents[number][i]);
+    to.tangent_impulse[i].v[lane] = to.tangent_before[i].v[lane] =
+        share * point.friction_impulse.dot(tangents[number][i]);
   return gain * stiff * of_contact.rate;
 }
 
@@ -305,8 +306,7 @@ void ContactSolver<Dim>::Work::load_bodies() {
     if (point.normal_impulse == 0.0F) continue;
     // Friction lies in the plane of contact, as it was loaded.
     VecF<Dim> impulse = share * point.pressing_impulse() * point.normal;
-    for (const VecF<Dim>& tangent : tangents.back())
-      impulse += share * point.friction_impulse.dot(tangent) * tangent;
+    for (const VecF<Dim>& tangent : tangents.back()) impulse += share * point.friction_impulse.dot(tangent) * tangent;
     push(point.a, -impulse, -torque(point.arm_a, impulse));
     push(point.b, impulse, torque(point.arm_b, impulse));
   }

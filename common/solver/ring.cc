@@ -25,8 +25,8 @@ constexpr int hold_steps = 20;
 constexpr int widening = 4;
 /// Of them at most: then an impact has passed through every heap.
 constexpr int widest = 1 << 12;
-/// A body that has fallen asleep is solved for this time in any case [sqrt(D/g)]: at a turning point, or as it begins to
-/// slide, it was at rest only for a moment, and has become faster than what is still by then.
+/// A body that has fallen asleep is solved for this time in any case [sqrt(D/g)]: at a turning point, or as it begins
+/// to slide, it was at rest only for a moment, and has become faster than what is still by then.
 constexpr float trial_time = 3.0F;
 
 }  // namespace

@@ -161,11 +161,11 @@ TYPED_TEST(RingTest, ABallThatTurnsBackOnASlopeRollsDown) {
 TYPED_TEST(RingTest, ABoxOnASlopeSlidesFromTheAngleOfFrictionOn) {
   for (const double degrees : {26.0, 27.0, 27.5}) {
     const double slope = in_radians(degrees);
-    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
-        "run = {{frames = 400}}\nworld.gravity = {}\nground = {{friction = 0.5}}\n"
-        "shape.box = {{kind = \"box\", size = {}, friction = 0.5}}\nbody = [{{position = {}}}]\n",
-        TestFixture::vector(-9.81 * std::sin(slope), -9.81 * std::cos(slope)), TestFixture::vector(1, 1, 1),
-        TestFixture::vector(0, 0.5))));
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(
+        fmt::format("run = {{frames = 400}}\nworld.gravity = {}\nground = {{friction = 0.5}}\n"
+                    "shape.box = {{kind = \"box\", size = {}, friction = 0.5}}\nbody = [{{position = {}}}]\n",
+                    TestFixture::vector(-9.81 * std::sin(slope), -9.81 * std::cos(slope)), TestFixture::vector(1, 1, 1),
+                    TestFixture::vector(0, 0.5))));
     std::array<double, 3> at{};
     for (double& place : at) {
       TestFixture::run(simulation, 1.5);
@@ -179,7 +179,8 @@ TYPED_TEST(RingTest, ABoxOnASlopeSlidesFromTheAngleOfFrictionOn) {
 TYPED_TEST(RingTest, ABoxOnAPlateThatTurnsSlowlySlidesAtTheAngleOfFriction) {
   for (const double place : {0.0, 1.0}) {
     auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
-        "run = {{frames = 2000}}\nground = {{height = -30}}\nshape.box = {{kind = \"box\", size = {}, friction = 0.5}}\n"
+        "run = {{frames = 2000}}\nground = {{height = -30}}\nshape.box = {{kind = \"box\", size = {}, friction = "
+        "0.5}}\n"
         "body = [{{position = {}}}]\nobstacle = [{{kind = \"box\", size = {}, position = {}, friction = 0.5, "
         "motion = {{kind = \"turn\", speed_deg = 0.5, start = 2{}}}}}]\n",
         TestFixture::vector(1, 1, 1), TestFixture::vector(place, 1), TestFixture::vector(30, 1, 10),

@@ -25,7 +25,8 @@ void SupportLoss<Dim>::update(const RuleInput<Dim>& in, RuleOutput<Dim>& out) {
     for (const Support& support : supports_[supporter]) {
       if (!in.asleep(support.supported) || in.states().removed[support.supported] != 0) continue;
       const Vec<Dim> now = in.world.pose_near(supporter, support.point) * support.local;
-      if ((now - support.point).norm() > slack_) out.wakes.try_emplace(support.supported, Wake{.cause = SleepCause::lost_support});
+      if ((now - support.point).norm() > slack_)
+        out.wakes.try_emplace(support.supported, Wake{.cause = SleepCause::lost_support});
     }
   }
 }
