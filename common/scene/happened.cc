@@ -49,6 +49,22 @@ std::string event_text(const Scene<Dim>& scene, int number) {
 }
 
 template <int Dim>
+std::string event_text(const Scene<Dim>& scene, const DoneEvent& event) {
+  const std::string text = event_text(scene, event.number);
+  return event.bodies ? fmt::format("{}: {}", text, *event.bodies) : text;
+}
+
+template <int Dim>
+std::vector<std::string> idle_event_lines(const Scene<Dim>& scene, std::span<const DoneEvent> done) {
+  std::vector<std::string> lines;
+  for (const DoneEvent& event : done)
+    if (event.bodies == 0)
+      lines.push_back(
+          fmt::format("event[{}], {}, found no body to act on", event.number, event_text(scene, event.number)));
+  return lines;
+}
+
+template <int Dim>
 WorldDescription<Dim> world_at(const Scene<Dim>& scene, std::span<const DoneEvent> done, double time) {
   WorldDescription<Dim> world = scene.world;
   world.obstacles = obstacles_at(scene.world.obstacles, scene.movers, time);
@@ -94,6 +110,10 @@ template std::vector<std::uint8_t> absent_obstacles(const Scene<2>&, std::span<c
 template std::vector<std::uint8_t> absent_obstacles(const Scene<3>&, std::span<const DoneEvent>, double);
 template std::string event_text(const Scene<2>&, int);
 template std::string event_text(const Scene<3>&, int);
+template std::string event_text(const Scene<2>&, const DoneEvent&);
+template std::string event_text(const Scene<3>&, const DoneEvent&);
+template std::vector<std::string> idle_event_lines(const Scene<2>&, std::span<const DoneEvent>);
+template std::vector<std::string> idle_event_lines(const Scene<3>&, std::span<const DoneEvent>);
 template WorldDescription<2> world_at(const Scene<2>&, std::span<const DoneEvent>, double);
 template WorldDescription<3> world_at(const Scene<3>&, std::span<const DoneEvent>, double);
 template PolicyParams policy_at(const Scene<2>&, std::span<const DoneEvent>, double);

@@ -14,6 +14,12 @@ namespace talus {
 /// One line, as "remove obstacle gate" or "gravity [0, -5]".
 template <int Dim>
 std::string event_text(const Scene<Dim>& scene, int number);
+/// With the number of bodies on which it acted, as "kick some bodies: 3".
+template <int Dim>
+std::string event_text(const Scene<Dim>& scene, const DoneEvent& event);
+/// A line for each event that found no body to act on.
+template <int Dim>
+std::vector<std::string> idle_event_lines(const Scene<Dim>& scene, std::span<const DoneEvent> done);
 
 /// By obstacle: 1 if events that happened by a time [s] have removed it, or one that has not happened will add it.
 template <int Dim>

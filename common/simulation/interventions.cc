@@ -48,8 +48,8 @@ Interventions<Dim>::Interventions(const Scene<Dim>& scene)
 template <int Dim>
 void Interventions<Dim>::do_due_events(const Intervened<Dim>& run, bool at_rest, std::span<const Pile<Dim>> piles) {
   for (const int number : clock_.update(run.time, run.emitter.emitted(), at_rest, piles)) {
-    act(run, events_[number]);
-    done_events_.push_back({number, run.time});
+    const std::optional<int> bodies = act(run, events_[number]);
+    done_events_.push_back({number, run.time, bodies});
   }
 }
 
@@ -118,39 +118,49 @@ void Interventions<Dim>::push_bodies(const Intervened<Dim>& run) {
 }
 
 template <int Dim>
-void Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event) {
+std::optional<int> Interventions<Dim>::act(const Intervened<Dim>& run, const Event<Dim>& event) {
   switch (event.action) {
     case EventAction::remove:
-      if (event.obstacle) {
-        for (const int number : obstacles_named(event))
-          if (run.world.has_obstacle(number)) cut_obstacle(run, number);
-      } else {
-        for (const BodyIndex body : bodies_meant(run.world, event)) remove(run, body);
-      }
-      return;
-    case EventAction::add:
-      return add(run, event);
+      if (!event.obstacle) return act_on_bodies(run, event);
+      for (const int number : obstacles_named(event))
+        if (run.world.has_obstacle(number)) cut_obstacle(run, number);
+      break;
     case EventAction::force:
-      for (const BodyIndex body : bodies_meant(run.world, event)) {
-        const std::optional<double> end = event.seconds ? std::optional(run.time + *event.seconds) : std::nullopt;
-        pushes_.push_back({{body, event.force}, end});
-      }
-      return;
     case EventAction::wake:
-      run.sleep.wake(bodies_meant(run.world, event), SleepCause::user);
-      return;
     case EventAction::kick:
-      return kick(run, event);
+      return act_on_bodies(run, event);
+    case EventAction::add:
+      add(run, event);
+      break;
     case EventAction::rate:
-      return run.emitter.set_rate(event.source, event.rate, run.time);
+      run.emitter.set_rate(event.source, event.rate, run.time);
+      break;
     case EventAction::policy:
-      return run.switch_policy(event.policy);
+      run.switch_policy(event.policy);
+      break;
     case EventAction::gravity:
       run.world.set_gravity(event.gravity);
-      return wake_for_gravity(run);
+      wake_for_gravity(run);
+      break;
     case EventAction::picture:
-      return;
+      break;
   }
+  return std::nullopt;
+}
+
+template <int Dim>
+int Interventions<Dim>::act_on_bodies(const Intervened<Dim>& run, const Event<Dim>& event) {
+  const std::vector<BodyIndex> bodies = bodies_meant(run.world, event);
+  if (event.action == EventAction::wake) run.sleep.wake(bodies, SleepCause::user);
+  if (event.action == EventAction::kick) kick(run, event, bodies);
+  for (const BodyIndex body : bodies) {
+    if (event.action == EventAction::remove) remove(run, body);
+    if (event.action == EventAction::force) {
+      const std::optional<double> end = event.seconds ? std::optional(run.time + *event.seconds) : std::nullopt;
+      pushes_.push_back({{body, event.force}, end});
+    }
+  }
+  return static_cast<int>(bodies.size());
 }
 
 template <int Dim>
@@ -207,8 +217,8 @@ void Interventions<Dim>::cut_obstacle(const Intervened<Dim>& run, int number) co
 
 /// The sum may be no faster than the engine allows.
 template <int Dim>
-void Interventions<Dim>::kick(const Intervened<Dim>& run, const Event<Dim>& event) const {
-  const std::vector<BodyIndex> bodies = bodies_meant(run.world, event);
+void Interventions<Dim>::kick(const Intervened<Dim>& run, const Event<Dim>& event,
+                              std::span<const BodyIndex> bodies) const {
   run.sleep.wake(bodies, SleepCause::user);
   const BodyStates<Dim>& states = run.world.states();
   for (const BodyIndex body : bodies) {

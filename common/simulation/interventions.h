@@ -44,8 +44,9 @@ class Interventions {
   /// After that and after bodies were added: obstacles and gravity move on, and the pull acts.
   void move(const Intervened<Dim>& run);
 
-  /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present.
-  void act(const Intervened<Dim>& run, const Event<Dim>& event);
+  /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present. Returns on how
+  /// many bodies it acted, where it chooses bodies.
+  std::optional<int> act(const Intervened<Dim>& run, const Event<Dim>& event);
   /// Removes a body and wakes those near it, since it may have supported them.
   void remove(const Intervened<Dim>& run, BodyIndex body) const;
   /// Takes an obstacle away that is there, and wakes what sleeps near it.
@@ -76,7 +77,8 @@ class Interventions {
   void push_bodies(const Intervened<Dim>& run);
   void add(const Intervened<Dim>& run, const Event<Dim>& event) const;
   std::vector<int> obstacles_named(const Event<Dim>& event) const;
-  void kick(const Intervened<Dim>& run, const Event<Dim>& event) const;
+  void kick(const Intervened<Dim>& run, const Event<Dim>& event, std::span<const BodyIndex> bodies) const;
+  int act_on_bodies(const Intervened<Dim>& run, const Event<Dim>& event);
   static std::vector<BodyIndex> sleepers_by(const World<Dim>& world, BodyIndex side, const Box<Dim>& bounds,
                                             double reach);
 

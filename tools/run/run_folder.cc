@@ -128,13 +128,13 @@ Json piles_json(const PileSet<Dim>& piles) {
 }
 
 template <int Dim>
-Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events, const EventBodies& bodies) {
+Json events_json(const Scene<Dim>& scene, std::span<const DoneEvent> events) {
   Json list = Json::array();
   for (const DoneEvent& event : events)
     list.push_back({{"number", event.number},
                     {"time_s", event.time},
                     {"do", to_string(scene.events[event.number].action)},
-                    {"text", event_text(scene, event.number, bodies)}});
+                    {"text", event_text(scene, event)}});
   return list;
 }
 
@@ -196,7 +196,7 @@ void write_summary(const fs::path& file, const SummaryInput& input, const Scene<
       {"bodies_appeared", simulation.emitter().emitted()},
       {"bodies_lost", bodies_lost(world.states(), scene.world.ground, scene.world.units)},
       {"at_rest", simulation.at_rest()},
-      {"events", events_json(scene, simulation.done_events(), input.event_bodies)},
+      {"events", events_json(scene, simulation.done_events())},
       {"asleep_at_end", bodies_asleep(world)},
       {"outside_window", outside_json(input.outside_window)},
       {"scene_warnings", input.scene_warnings},

@@ -8,7 +8,6 @@
 
 #include "common/scene/diagnostics.h"
 #include "common/simulation/simulation.h"
-#include "tools/run/event_hits.h"
 #include "tools/run/instrument_watch.h"
 #include "tools/run/measured_drift.h"
 #include "tools/run/run_options.h"
@@ -33,7 +32,6 @@ struct SummaryInput {
   std::vector<std::string> scene_warnings = {};  // scene_warnings() of make_simulation.h
   std::optional<MeasuredDrift> measured = {};    // none: without --measure-drift
   std::optional<DriftProbe> probe = {};          // none: not made, or without a result
-  EventBodies event_bodies = {};                 // empty: not counted
   std::vector<Warning> warnings = {};            // of the run and of what was measured after it
 };
 

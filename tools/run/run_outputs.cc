@@ -59,12 +59,11 @@ template <int Dim>
 class EventWatch final : public Observer<Dim> {
  public:
   EventWatch(const Scene<Dim>& scene, std::string backend, std::filesystem::path folder,
-             const ContactForces<Dim>& contacts, const EventHits<Dim>& hits, bool prints)
+             const ContactForces<Dim>& contacts, bool prints)
       : scene_(scene),
         backend_(std::move(backend)),
         folder_(std::move(folder)),
         contacts_(contacts),
-        hits_(hits),
         prints_(prints) {}
 
   void on_frame(const Frame<Dim>& frame) override {
@@ -72,7 +71,7 @@ class EventWatch final : public Observer<Dim> {
       const EventAction action = scene_.events[event.number].action;
       if (prints_)
         print_message("event {} at {:.4g} s: {}", event.number, event.time,
-                      printable(event_text(scene_, event.number, hits_.bodies())));
+                      printable(event_text(scene_, event)));
       if (action != EventAction::picture) continue;
       const std::string name = fmt::format("event_{}", event.number);
       PictureInput<Dim> picture = picture_of(backend_, scene_, frame);
@@ -86,7 +85,6 @@ class EventWatch final : public Observer<Dim> {
   std::string backend_;
   std::filesystem::path folder_;
   const ContactForces<Dim>& contacts_;
-  const EventHits<Dim>& hits_;
   bool prints_;
 };
 
@@ -102,8 +100,7 @@ template <int Dim>
 RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, const std::string& scene_name,
                             const std::string& backend, Simulation<Dim>& simulation)
     : folder_(make_run_folder(options.out, fmt::format("{}-{}-{}", scene_name, backend, scene.policy.kind))),
-      instruments_(scene, folder_),
-      event_hits_(scene, simulation) {
+      instruments_(scene, folder_) {
   write_scene_files(scene_files(scene), folder_);
   simulation.add_observer(statistics_);
   if (!scene.instruments.empty()) simulation.add_observer(instruments_);
@@ -128,11 +125,8 @@ RunOutputs<Dim>::RunOutputs(const RunOptions& options, const Scene<Dim>& scene, 
     add(std::move(publisher), simulation);
   }
 #endif
-  if (!scene.events.empty()) {
-    simulation.add_observer(event_hits_);
-    add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, contacts_, event_hits_, !options.hash_only),
-        simulation);
-  }
+  if (!scene.events.empty())
+    add(std::make_unique<EventWatch<Dim>>(scene, backend, folder_, contacts_, !options.hash_only), simulation);
   if (!options.quiet) add(std::make_unique<WarningPrinter<Dim>>(), simulation);
   if (!options.hash_only) add(std::make_unique<Progress<Dim>>(scene.steps()), simulation);
 }
@@ -149,7 +143,6 @@ void RunOutputs<Dim>::finish(const SummaryInput& summary, const Scene<Dim>& scen
     write_summary(folder_ / run_files::summary, input, scene, simulation, statistics_, instruments_);
   };
   SummaryInput with_picture = summary;
-  with_picture.event_bodies = event_hits_.bodies();
   write(with_picture);  // a disk that is full by the pictures leaves the numbers
   PictureInput<Dim> picture = picture_input(summary, scene, simulation);
   picture.contacts = contacts_.of(simulation.world());
@@ -229,7 +222,8 @@ void print_run(const SummaryInput& summary, const Scene<Dim>& scene, Simulation<
   for (const SceneError& each : summary.outside_window)
     print_result("  warning: {}{}\n", outside_prefix, printable(to_string(each)));
   for (const Warning& warning : summary.warnings) print_result("  warning: {}\n", account(warning));
-  for (const std::string& line : outputs.event_hits().idle_lines()) print_result("  warning: {}\n", printable(line));
+  for (const std::string& line : idle_event_lines(scene, simulation.done_events()))
+    print_result("  warning: {}\n", printable(line));
   if (const Emitter<Dim>& emitter = simulation.emitter(); emitter.emitted() < emitter.total())
     print_result("  {} of {} bodies appeared before the end\n", emitter.emitted(), emitter.total());
   if (summary.emit_waits > 0) {

@@ -9,7 +9,6 @@
 #include "common/measure/contact_forces.h"
 #include "common/simulation/simulation.h"
 #include "tools/picture/picture.h"
-#include "tools/run/event_hits.h"
 #include "tools/run/instrument_watch.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_options.h"
@@ -30,7 +29,6 @@ class RunOutputs {
   const std::filesystem::path& folder() const { return folder_; }
   const RunStatistics<Dim>& statistics() const { return statistics_; }
   const InstrumentWatch<Dim>& instruments() const { return instruments_; }
-  const EventHits<Dim>& event_hits() const { return event_hits_; }
 
  private:
   void add(std::unique_ptr<Observer<Dim>> observer, Simulation<Dim>& simulation);
@@ -38,7 +36,6 @@ class RunOutputs {
   std::filesystem::path folder_;
   RunStatistics<Dim> statistics_;
   InstrumentWatch<Dim> instruments_;
-  EventHits<Dim> event_hits_;
   ContactForces<Dim> contacts_;
   std::vector<std::unique_ptr<Observer<Dim>>> observers_;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "common/scene/happened.h"
 #include "common/scene/read_scene.h"
 #include "common/scene/warnings.h"
 #include "common/simulation/make_policy.h"
@@ -111,7 +112,8 @@ int record_run(const RunOptions& options, const std::string& name, const std::st
                        .scene_warnings = scene_warnings};
   finish_run<Dim>(
       options, scene, simulation, outputs.statistics(), [&interrupt] { return interrupt.requested(); }, summary);
-  for (std::string& line : outputs.event_hits().idle_lines()) summary.scene_warnings.push_back(std::move(line));
+  for (std::string& line : idle_event_lines(scene, simulation.done_events()))
+    summary.scene_warnings.push_back(std::move(line));
   std::exception_ptr unwritten;  // known only when hours are over, so the run's lines come first
   try {
     outputs.finish(summary, scene, simulation);
