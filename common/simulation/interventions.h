@@ -44,8 +44,8 @@ class Interventions {
   /// After that and after bodies were added: obstacles and gravity move on, and the pull acts.
   void move(const Intervened<Dim>& run);
 
-  /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present. Returns on how
-  /// many bodies it acted, where it chooses bodies.
+  /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present. Returns on
+  /// how many bodies it acted, where it chooses bodies.
   std::optional<int> act(const Intervened<Dim>& run, const Event<Dim>& event);
   /// Removes a body and wakes those near it, since it may have supported them.
   void remove(const Intervened<Dim>& run, BodyIndex body) const;

@@ -60,18 +60,13 @@ class EventWatch final : public Observer<Dim> {
  public:
   EventWatch(const Scene<Dim>& scene, std::string backend, std::filesystem::path folder,
              const ContactForces<Dim>& contacts, bool prints)
-      : scene_(scene),
-        backend_(std::move(backend)),
-        folder_(std::move(folder)),
-        contacts_(contacts),
-        prints_(prints) {}
+      : scene_(scene), backend_(std::move(backend)), folder_(std::move(folder)), contacts_(contacts), prints_(prints) {}
 
   void on_frame(const Frame<Dim>& frame) override {
     for (const DoneEvent& event : frame.done_events.last(frame.done_now)) {
       const EventAction action = scene_.events[event.number].action;
       if (prints_)
-        print_message("event {} at {:.4g} s: {}", event.number, event.time,
-                      printable(event_text(scene_, event)));
+        print_message("event {} at {:.4g} s: {}", event.number, event.time, printable(event_text(scene_, event)));
       if (action != EventAction::picture) continue;
       const std::string name = fmt::format("event_{}", event.number);
       PictureInput<Dim> picture = picture_of(backend_, scene_, frame);
