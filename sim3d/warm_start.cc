@@ -246,9 +246,9 @@ void WarmStart::open_manifolds(btCollisionAlgorithm& algorithm) {
 void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersistentManifold& manifold, int found) {
   const btVector3 local(saved.place[0], saved.place[1], saved.place[2]);
   const bool first = manifold.getBody0() == sides.owner;
-  const btVector3 normal = normal_like(
-      sides.owner->getWorldTransform().getBasis() * btVector3(saved.normal[0], saved.normal[1], saved.normal[2]),
-      manifold, found, first);
+  btVector3 normal =
+      sides.owner->getWorldTransform().getBasis() * btVector3(saved.normal[0], saved.normal[1], saved.normal[2]);
+  if (saved.unconfirmed) normal = normal_like(normal, manifold, found, first);
   const btVector3 on_owner = sides.owner->getWorldTransform() * local;
   const btVector3 on_partner = on_owner - normal * saved.distance;
   const btVector3 partner_local = sides.partner->getWorldTransform().invXform(on_partner);
@@ -263,9 +263,10 @@ void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersiste
   int known = manifold.getCacheEntry(point);
   // Of a face's many corners Bullet keeps four, perhaps others than before.
   if (known < 0 && manifold.getNumContacts() == MANIFOLD_CACHE_SIZE) known = unloaded_near(on_owner, manifold, first);
-  btManifoldPoint& target = manifold.getContactPoint(known >= 0 ? known : manifold.addManifoldPoint(point));
+  const bool added = known < 0;
+  btManifoldPoint& target = manifold.getContactPoint(added ? manifold.addManifoldPoint(point) : known);
   target.m_appliedImpulse = saved.impulse;
-  if (found == 0) set_unconfirmed(target);
+  if (added) set_unconfirmed(target);
   if (saved.mark.step != 0) set_mark(target, {saved.mark.step, saved.mark.entry + (first ? 0 : 1)});
   const btVector3 friction(saved.friction[0], saved.friction[1], saved.friction[2]);
   set_friction_impulse(target, first ? friction : -friction);

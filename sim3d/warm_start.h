@@ -60,7 +60,7 @@ class WarmStart {
     float friction[3] = {};   // friction impulse on the owner, in the world's axes [N s]
     std::int16_t piece = -1;  // number within the owner's shape; -1 where the shape is a single piece
     std::int16_t partners_piece = -1;
-    bool unconfirmed = false;  // as it was put back in an earlier wake
+    bool unconfirmed = false;  // no detection has found it since an earlier wake
     PointMark mark;
   };
   struct Node {
