@@ -24,7 +24,7 @@ constexpr int hold_steps = 20;
 /// Factor of the contacts by which the ring goes on from what an impact strikes, from one solve of a step to the next.
 constexpr int widening = 4;
 /// Of them at most: then an impact has passed through every heap.
-constexpr int widest = 1 << 12;
+constexpr int widest_ring = 1 << 12;
 /// A body that has fallen asleep is solved for this time in any case [sqrt(D/g)]: at a turning point, or as it begins
 /// to slide, it was at rest only for a moment, and has become faster than what is still by then.
 constexpr float trial_time = 3.0F;
@@ -279,7 +279,7 @@ float Ring<Dim>::wake_speed(float gravity) const {
 
 template <int Dim>
 bool Ring<Dim>::widen(const ContactSolver<Dim>& solver, float gravity) {
-  if (beyond_struck_ >= widest) return false;
+  if (beyond_struck_ >= widest_ring) return false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint<Dim>& solved = solver.points()[first_point_ + i];
     const SleepingPoint<Dim>& kept = contacts_[points_[i]];
