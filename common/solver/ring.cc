@@ -187,8 +187,11 @@ void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle
   }
   for (const BodyIndex body : disturbed_) enter(body, rings - 1, solver);
   for (const BodyIndex body : last_touched_) enter(body, rings - 1, solver);
-  for (std::size_t next = 0; next < entered_.size(); ++next)  // the list grows meanwhile
-    enter_partners(entered_[next], sleepers_[entered_[next]].left - 1, solver);
+  std::size_t next = 0;  // the list grows meanwhile
+  while (next < entered_.size()) {
+    const BodyIndex body = entered_[next++];
+    enter_partners(body, sleepers_[body].left - 1, solver);
+  }
   hold_back(solver);
   first_point_ = solver.points().size();
   points_.clear();
@@ -303,7 +306,7 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) 
   const float distance = wake_distance * extent;
   const float tried = dt / static_cast<float>(time_unit(params_.extent, gravity));
   const float fast = wake_speed(gravity);
-  float still = static_cast<float>(params_.still_speed * speed_unit(params_.extent, gravity));
+  auto still = static_cast<float>(params_.still_speed * speed_unit(params_.extent, gravity));
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);
   let_go();
   moving_.clear();
