@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "lcmtypes/channels.h"
 #include "tools/output/json_text.h"
 #include "tools/output/output.h"
 #include "tools/record/record_file.h"
