@@ -242,13 +242,13 @@ class Run {
   /// Sets the flag as long as it exists, which is until the lock is held again.
   class Busy {
    public:
-    explicit Busy(bool& flag) : flag_(flag) { flag_ = true; }
-    ~Busy() { flag_ = false; }
+    explicit Busy(bool& flag) : flag_(&flag) { *flag_ = true; }
+    ~Busy() { *flag_ = false; }
     Busy(const Busy&) = delete;
     Busy& operator=(const Busy&) = delete;
 
    private:
-    bool& flag_;
+    bool* flag_;
   };
 
   const BodyStates<Dim>& states() const { return simulation_.world().states(); }
