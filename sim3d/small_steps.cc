@@ -121,8 +121,9 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
     if (ring_) ring_->extend(solver_, obstacle_slots_);
     solver_.solve(params_, to_solver<Dim>(actions.gravity), dt_);
     const std::size_t solved = ahead_.size();
-    bool again = round < most_solves && passes_unseen(engine, bodies);
-    again = (round < most_solves && ring_ && ring_->widen(solver_, actions.gravity.length())) || again;
+    const bool last = round == most_solves;
+    const bool struck = !last && ring_ && ring_->widen(solver_, actions.gravity.length());
+    const bool again = (!last && passes_unseen(engine, bodies)) || struck;
     for (btCollisionObject* other : others_) other->setCompanionId(-1);
     others_.clear();
     if (!again) {

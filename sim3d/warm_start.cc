@@ -116,8 +116,8 @@ void WarmStart::release(BodyIndex owner, BodyIndex partner, std::vector<SavedPoi
 void WarmStart::save(btBroadphasePair& pair) {
   if (pair.m_algorithm == nullptr) return;  // no step has passed since the pair came back: what was saved still holds
   const Sides sides(pair);
-  release(sides.owner->getUserIndex(), sides.partner->getUserIndex(),
-          saved_);  // points of an earlier sleep are replaced
+  // Points of an earlier sleep are replaced.
+  release(sides.owner->getUserIndex(), sides.partner->getUserIndex(), saved_);
   saved_.clear();
   manifolds_.resize(0);
   pair.m_algorithm->getAllContactManifolds(manifolds_);
@@ -226,7 +226,7 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
   for (const PieceRecorder::Entry& entry : recorder.finish()) {
     const int found = entry.manifold->getNumContacts();
     for (const SavedPoint& point : saved_) {
-      // What moves from sleep to sleep may lie apart by now.
+      // Bodies that move from sleep to sleep may lie apart by now.
       if (found == 0 && point.unconfirmed) continue;
       if (point.piece == (owner_first ? entry.piece0 : entry.piece1) &&
           point.partners_piece == (owner_first ? entry.piece1 : entry.piece0)) {

@@ -23,7 +23,7 @@ constexpr float balance = 0.01F;
 constexpr int hold_steps = 20;
 /// Factor of the contacts by which the ring goes on from what an impact strikes, from one solve of a step to the next.
 constexpr int widening = 4;
-/// Of them at most: then an impact has passed through every heap.
+/// Of these contacts at most: more than any heap has from one side to the other.
 constexpr int widest_ring = 1 << 12;
 /// A body that has fallen asleep is solved for this time in any case [sqrt(D/g)]: at a turning point, or as it begins
 /// to slide, it was at rest only for a moment, and has become faster than what is still by then.
@@ -282,7 +282,7 @@ float Ring<Dim>::wake_speed(float gravity) const {
 
 template <int Dim>
 bool Ring<Dim>::widen(const ContactSolver<Dim>& solver, float gravity) {
-  if (beyond_struck_ >= widest_ring) return false;
+  if (border_.empty() || beyond_struck_ >= widest_ring) return false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint<Dim>& solved = solver.points()[first_point_ + i];
     const SleepingPoint<Dim>& kept = contacts_[points_[i]];
@@ -292,9 +292,9 @@ bool Ring<Dim>::widen(const ContactSolver<Dim>& solver, float gravity) {
     if (kept.b >= 0 && sleepers_[kept.b].left < 0) sleepers_[kept.b].struck += more;
   }
   const std::size_t known = struck_.size();
+  const float fast = wake_speed(gravity);
   for (const BodyIndex body : border_)
-    if (sleepers_[body].body.inverse_mass * sleepers_[body].struck.norm() > wake_speed(gravity))
-      struck_.push_back(body);
+    if (sleepers_[body].body.inverse_mass * sleepers_[body].struck.norm() > fast) struck_.push_back(body);
   if (struck_.size() == known) return false;
   beyond_struck_ *= widening;
   return true;
