@@ -101,7 +101,7 @@ struct talus_contact {
   talus_handle a;              ///< a body
   talus_handle b;              ///< what it touches, or 0
   double point[3];             ///< [m]
-  double normal[3];            ///< unit, from b to a; with the wrong sign, nothing sleeps
+  double normal[3];            ///< unit, from b to a; if it points the other way, no body sleeps
   double normal_impulse;       ///< over the step, >= 0 [N s]
   double friction_impulse[3];  ///< over the step, on a [N s]
   double approach_speed;       ///< before the step, >= 0 [m/s]

@@ -5,7 +5,8 @@
 namespace talus::gravity_change_test {
 namespace {
 
-// A body of 1 m needs sqrt(D/g), half a second at 4 m/s^2, to fall by D/2; without weight 10 s, those of 0.01 m/s^2.
+// A body of 1 m falls by half of its extent in sqrt(D/g), half a second at 4 m/s^2. Less than 0.01 m/s^2 counts as
+// that, so without weight the time is 10 s.
 TEST(GravityChange, KeepsBodiesAwakeForTwiceTheTimeInWhichTheyFallByHalfTheirExtent) {
   GravityChange<2> change(Vec2(0.0, -9.81), 1.0);
   EXPECT_FALSE(change.keeps_awake(0.0)) << "nothing has changed";
