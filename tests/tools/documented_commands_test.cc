@@ -65,7 +65,7 @@ constexpr auto shortened = std::to_array<Shortened>({
      "talus bench drop_in_a_pile_2d --policy full,adaptive --set accuracy=fast --seeds 1 --set run.frames=20 --out "
      "fast"},
     {"talus bench drop_in_a_pile_2d drop_in_a_pile_3d --policy full,adaptive --set "
-     "world.solver.kind=engine,small_steps --seeds 8 --drift --out solvers",
+     "world.solver.kind=engine,small_steps --seeds 4 --drift --out solvers",
      "talus bench drop_in_a_pile_2d --policy full,adaptive --set world.solver.kind=engine,small_steps --seeds 1 --set "
      "run.frames=20 --drift --out solvers"},
     {"talus bench lab/truth/scenes/*.toml --policy adaptive,reference --set accuracy=fast,standard,fine --seeds 6 "
