@@ -136,15 +136,17 @@ b2Body* EngineWorld::create(BodyIndex index, int shape, const Pose<2>& pose, int
   return body;
 }
 
-void EngineWorld::engine_remove(BodyIndex body) {
+void EngineWorld::engine_remove(std::span<const BodyIndex> bodies) {
   find_new_contacts();
-  if (at(body).frozen != nullptr)
-    hosts_.remove(at(body).frozen, template_of_body(body));
-  else
-    world_.DestroyBody(at(body).body);
-  at(body) = {};
-  warm_start_.forget(body);
-  if (ring_) ring_->forget(body);
+  for (const BodyIndex body : bodies) {
+    if (at(body).frozen != nullptr)
+      hosts_.remove(at(body).frozen, template_of_body(body));
+    else
+      world_.DestroyBody(at(body).body);
+    at(body) = {};
+    warm_start_.forget(body);
+    if (ring_) ring_->forget(body);
+  }
 }
 
 Pose<2> EngineWorld::engine_place(BodyIndex body, const Pose<2>& pose) {

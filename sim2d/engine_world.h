@@ -35,7 +35,7 @@ class EngineWorld final : public RingWorld<2> {
   };
 
   Pose<2> engine_add(BodyIndex body, const BodyDef<2>& def) override;
-  void engine_remove(BodyIndex body) override;
+  void engine_remove(std::span<const BodyIndex> bodies) override;
   EngineTimes engine_step() override;
   std::optional<BodyIndex> engine_read(BodyStates<2>& states) override;
   Pose<2> engine_place(BodyIndex body, const Pose<2>& pose) override;

@@ -140,14 +140,16 @@ Pose<Dim> EngineWorld<Dim>::engine_add(BodyIndex body, const BodyDef<Dim>& def) 
 }
 
 template <int Dim>
-void EngineWorld<Dim>::engine_remove(BodyIndex body) {
-  swap_.forget(body);
-  if (ring_) ring_->forget(body);
-  engine_.broadphase.destroyProxy(at(body)->getBroadphaseHandle(), &engine_.dispatcher);
-  const bool frozen = rigid_body(body) == nullptr;
-  const auto leaving = std::move(at(body));  // outlives Bullet's lists of it
-  if (!frozen) std::erase(listed_, body);
-  if (!frozen || this->description().debug.keep_sleepers) update_lists();
+void EngineWorld<Dim>::engine_remove(std::span<const BodyIndex> bodies) {
+  std::vector<std::unique_ptr<btCollisionObject>> leaving;  // they outlive Bullet's lists of them
+  for (const BodyIndex body : bodies) {
+    swap_.forget(body);
+    if (ring_) ring_->forget(body);
+    engine_.broadphase.destroyProxy(at(body)->getBroadphaseHandle(), &engine_.dispatcher);
+    leaving.push_back(std::move(at(body)));
+  }
+  const bool were_listed = std::erase_if(listed_, [this](BodyIndex body) { return at(body) == nullptr; }) > 0;
+  if (were_listed || this->description().debug.keep_sleepers) update_lists();
 }
 
 template <int Dim>

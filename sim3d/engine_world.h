@@ -29,7 +29,7 @@ class EngineWorld final : public RingWorld<Dim> {
   using RingWorld<Dim>::ring_;
 
   Pose<Dim> engine_add(BodyIndex body, const BodyDef<Dim>& def) override;
-  void engine_remove(BodyIndex body) override;
+  void engine_remove(std::span<const BodyIndex> bodies) override;
   EngineTimes engine_step() override;
   std::optional<BodyIndex> engine_read(BodyStates<Dim>& states) override;
   Pose<Dim> engine_place(BodyIndex body, const Pose<Dim>& pose) override;

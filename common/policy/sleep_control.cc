@@ -137,13 +137,16 @@ std::vector<SleepEvent> SleepControl<Dim>::wake_all(SleepCause cause) {
   return wake(all, cause);
 }
 
-/// A sleeping one leaves the account of the policy as if it had woken.
+/// Sleeping ones leave the account of the policy as if they had woken.
 template <int Dim>
-void SleepControl<Dim>::remove(BodyIndex body) {
-  world_.remove(body);
-  piles_.recount_body(world_.states(), body);
-  if (world_.states().asleep[body] != 0)
-    policy_->note(world_, std::vector<SleepEvent>{{.body = body, .woke = true, .cause = SleepCause::user}});
+void SleepControl<Dim>::remove(std::span<const BodyIndex> bodies) {
+  world_.remove(bodies);
+  std::vector<SleepEvent> asleep;
+  for (const BodyIndex body : bodies) {
+    piles_.recount_body(world_.states(), body);
+    if (world_.states().asleep[body] != 0) asleep.push_back({.body = body, .woke = true, .cause = SleepCause::user});
+  }
+  policy_->note(world_, asleep);
 }
 
 template <int Dim>

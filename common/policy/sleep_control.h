@@ -45,8 +45,8 @@ class SleepControl {
   /// Wakes those of the bodies that sleep and are in the world. Returns what was done.
   std::vector<SleepEvent> wake(std::span<const BodyIndex> bodies, SleepCause cause);
   std::vector<SleepEvent> wake_all(SleepCause cause);
-  /// Takes a body out of the world.
-  void remove(BodyIndex body);
+  /// Takes bodies out of the world, each listed once.
+  void remove(std::span<const BodyIndex> bodies);
   /// As SleepPolicy::forget().
   void forget(BodyIndex body);
   /// A body has touched something before.

@@ -1,6 +1,7 @@
 #include "common/simulation/interventions.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "common/policy/near_bodies.h"
@@ -153,12 +154,10 @@ int Interventions<Dim>::act_on_bodies(const Intervened<Dim>& run, const Event<Di
   const std::vector<BodyIndex> bodies = bodies_meant(run.world, event);
   if (event.action == EventAction::wake) run.sleep.wake(bodies, SleepCause::user);
   if (event.action == EventAction::kick) kick(run, event, bodies);
-  for (const BodyIndex body : bodies) {
-    if (event.action == EventAction::remove) remove(run, body);
-    if (event.action == EventAction::force) {
-      const std::optional<double> end = event.seconds ? std::optional(run.time + *event.seconds) : std::nullopt;
-      pushes_.push_back({{body, event.force}, end});
-    }
+  if (event.action == EventAction::remove) remove(run, bodies);
+  if (event.action == EventAction::force) {
+    const std::optional<double> end = event.seconds ? std::optional(run.time + *event.seconds) : std::nullopt;
+    for (const BodyIndex body : bodies) pushes_.push_back({{body, event.force}, end});
   }
   return static_cast<int>(bodies.size());
 }
@@ -190,11 +189,14 @@ std::vector<int> Interventions<Dim>::obstacles_named(const Event<Dim>& event) co
 }
 
 template <int Dim>
-void Interventions<Dim>::remove(const Intervened<Dim>& run, BodyIndex body) const {
-  run.world.require_present(body);
-  const std::vector<BodyIndex> near =
-      sleepers_by(run.world, body, run.world.bounds_of(body), waking_reach * run.world.shape_of(body).extent);
-  run.sleep.remove(body);
+void Interventions<Dim>::remove(const Intervened<Dim>& run, std::span<const BodyIndex> bodies) const {
+  for (const BodyIndex body : bodies) run.world.require_present(body);
+  std::vector<BodyIndex> near;
+  for (const BodyIndex body : bodies) {
+    const double reach = waking_reach * run.world.shape_of(body).extent;
+    std::ranges::copy(sleepers_by(run.world, body, run.world.bounds_of(body), reach), std::back_inserter(near));
+  }
+  run.sleep.remove(bodies);
   run.sleep.wake(near, SleepCause::lost_support);
 }
 

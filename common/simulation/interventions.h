@@ -47,8 +47,8 @@ class Interventions {
   /// What an event of the scene does, at once. `event` must be as read_scene() allows, its bodies present. Returns on
   /// how many bodies it acted, where it chooses bodies.
   std::optional<int> act(const Intervened<Dim>& run, const Event<Dim>& event);
-  /// Removes a body and wakes those near it, since it may have supported them.
-  void remove(const Intervened<Dim>& run, BodyIndex body) const;
+  /// Removes bodies and wakes those near them, since they may have supported them.
+  void remove(const Intervened<Dim>& run, std::span<const BodyIndex> bodies) const;
   /// Takes an obstacle away that is there, and wakes what sleeps near it.
   void cut_obstacle(const Intervened<Dim>& run, int number) const;
   void pull(const Pull<Dim>& pull) { pull_ = pull; }

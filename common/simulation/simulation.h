@@ -43,7 +43,7 @@ class Simulation {
   /// By hand between steps: events carry the cause `user`. Sleeping bodies near a removed one wake, since it may have
   /// supported them.
   BodyIndex add(const BodyDef<Dim>& body) { return world_->add(body); }
-  void remove(BodyIndex body) { interventions_.remove(intervened(), body); }
+  void remove(BodyIndex body) { interventions_.remove(intervened(), {&body, 1}); }
   void thaw_all() { sleep_.wake_all(SleepCause::user); }
   /// Takes an obstacle away that is there, by its number in WorldDescription::obstacles. Sleeping bodies near it wake.
   void cut_obstacle(int number) { interventions_.cut_obstacle(intervened(), number); }

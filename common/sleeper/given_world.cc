@@ -70,10 +70,12 @@ void GivenWorld<Dim>::sort_for(double extent) {
 }
 
 template <int Dim>
-void GivenWorld<Dim>::engine_remove(BodyIndex body) {
-  columns_.take_out(body);
-  shapes_.release(this->states().shape[body]);
-  free_.push_back(body);
+void GivenWorld<Dim>::engine_remove(std::span<const BodyIndex> bodies) {
+  for (const BodyIndex body : bodies) {
+    columns_.take_out(body);
+    shapes_.release(this->states().shape[body]);
+    free_.push_back(body);
+  }
 }
 
 template <int Dim>

@@ -45,7 +45,7 @@ class GivenWorld final : public World<Dim> {
   int number_of(const Shape<Dim>& shape);
   // Not called: put() adds the bodies.
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
-  void engine_remove(BodyIndex body) override;
+  void engine_remove(std::span<const BodyIndex> bodies) override;
   void engine_remove_obstacle(int number) override { free_obstacles_.push_back(number); }
   EngineTimes engine_step() override { return {}; }
   std::optional<BodyIndex> engine_read(BodyStates<Dim>&) override { return std::nullopt; }  // give() has written them

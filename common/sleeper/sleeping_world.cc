@@ -49,7 +49,7 @@ void SleepingWorld<Dim>::remove(BodyIndex body) {
   --count_;
   if (stays_awake_[body] == 0) ++left_;
   if (control_)
-    control_->remove(body);
+    control_->remove({&body, 1});
   else
     world_.remove(body);
 }

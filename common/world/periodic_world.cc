@@ -35,9 +35,7 @@ class PeriodicWorld final : public World<Dim> {
       inner_->add({def.shape, image_of(pose, image), def.velocity, def.spin, Image{inner(body), image}});
     return inner_->states().pose[inner(body)];
   }
-  void engine_remove(BodyIndex body) override {
-    for (int image = 0; image < images(); ++image) inner_->remove(inner(body, image));
-  }
+  void engine_remove(std::span<const BodyIndex> bodies) override { inner_->remove(with_images(bodies)); }
 
   EngineTimes engine_step() override {
     inner_->record_contacts(this->records_contacts());

@@ -27,7 +27,7 @@ class ScaledWorld final : public World<Dim> {
     inner_->add({def.shape, inward(def.pose), times_ * def.velocity, def.spin / times_});
     return outward(inner_->states().pose[body]);
   }
-  void engine_remove(BodyIndex body) override { inner_->remove(body); }
+  void engine_remove(std::span<const BodyIndex> bodies) override { inner_->remove(bodies); }
 
   EngineTimes engine_step() override {
     const double forces = std::pow(lengths_, Dim);  // masses grow so, accelerations stay

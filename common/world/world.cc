@@ -67,14 +67,15 @@ void World<Dim>::put_obstacle(int number, const Obstacle<Dim>& obstacle) {
 }
 
 template <int Dim>
-void World<Dim>::remove(BodyIndex body) {
-  require_present(body);
+void World<Dim>::remove(std::span<const BodyIndex> bodies) {
+  choose(bodies);
+  if (chosen_.empty()) return;
   gather_contacts();
-  ++removals_;
-  states_.removed[body] = 1;
-  std::erase(awake_, body);
-  std::erase_if(pushes_, [body](const Push<Dim>& push) { return push.body == body; });
-  engine_remove(body);
+  removals_ += std::ssize(chosen_);
+  for (const BodyIndex body : chosen_) states_.removed[body] = 1;
+  std::erase_if(awake_, [this](BodyIndex body) { return states_.removed[body] != 0; });
+  std::erase_if(pushes_, [this](const Push<Dim>& push) { return states_.removed[push.body] != 0; });
+  engine_remove(chosen_);
   if (description_.engine_sleep) follow_engine_sleep();
 }
 
@@ -297,13 +298,17 @@ void World<Dim>::require_present(BodyIndex body) const {
 }
 
 template <int Dim>
-void World<Dim>::choose(std::span<const BodyIndex> bodies, bool asleep) {
+void World<Dim>::choose(std::span<const BodyIndex> bodies) {
   for (const BodyIndex body : bodies) require_present(body);
-  chosen_.clear();
-  std::ranges::copy_if(bodies, std::back_inserter(chosen_),
-                       [&](BodyIndex body) { return (states_.asleep[body] != 0) == asleep; });
+  chosen_.assign(bodies.begin(), bodies.end());
   std::ranges::sort(chosen_);
   chosen_.erase(std::unique(chosen_.begin(), chosen_.end()), chosen_.end());
+}
+
+template <int Dim>
+void World<Dim>::choose(std::span<const BodyIndex> bodies, bool asleep) {
+  choose(bodies);
+  std::erase_if(chosen_, [&](BodyIndex body) { return (states_.asleep[body] != 0) != asleep; });
 }
 
 template <int Dim>

@@ -69,8 +69,10 @@ class World {
   /// Adds an awake body and returns its index, the number of bodies added before.
   BodyIndex add(const BodyDef<Dim>& body);
 
-  /// Removes a body. Sleeping bodies that rested on it stay asleep; the caller decides whether to wake them.
-  void remove(BodyIndex body);
+  /// Removes bodies; one that is listed twice is removed once. Sleeping bodies that rested on them stay asleep; the
+  /// caller decides whether to wake them. Costs O(awake), however many they are.
+  void remove(std::span<const BodyIndex> bodies);
+  void remove(BodyIndex body) { remove({&body, 1}); }
 
   /// Advances by dt. Throws NonFiniteState if the state of a body is not finite afterwards; the states then stay as
   /// they were before the step, and each later call throws the same.
@@ -181,7 +183,7 @@ class World {
 
   /// Goes up when a shape or an obstacle is new or another one than before. Stays 0 in the engines of talus.
   std::int64_t form() const { return form_; }
-  /// Calls of remove() so far.
+  /// Bodies removed so far.
   std::int64_t removals() const { return removals_; }
 
   /// The shapes that BodyStates::shape counts.
@@ -236,7 +238,8 @@ class World {
 
   /// Makes body number `body`, before it is in states(). Returns its pose as the engine stores it.
   virtual Pose<Dim> engine_add(BodyIndex body, const BodyDef<Dim>& def) = 0;
-  virtual void engine_remove(BodyIndex body) = 0;
+  /// Ascending, each once, at least one.
+  virtual void engine_remove(std::span<const BodyIndex> bodies) = 0;
 
   /// Advances by dt; without the debug option `step_when_idle` and nothing awake, only does the upkeep that later steps
   /// need. Returns the times, without `read`.
@@ -293,7 +296,9 @@ class World {
 
   void place_obstacles();
   void require_obstacle(int number) const;
-  /// Those of `bodies` that are asleep, or those that are not: ascending, each once.
+  /// Fills chosen_: ascending, each once.
+  void choose(std::span<const BodyIndex> bodies);
+  /// Of these, those that are asleep, or those that are not.
   void choose(std::span<const BodyIndex> bodies, bool asleep);
   void read_step();
   void gather_contacts() const;

@@ -37,7 +37,7 @@ class ToyWorld final : public World<3> {
                         .radius = radius_[def.shape]});
     return def.pose;
   }
-  void engine_remove(BodyIndex) override {}  // it is in awake() no longer, so no step moves it
+  void engine_remove(std::span<const BodyIndex>) override {}  // not in awake() any more, so no step moves them
   void engine_set_velocity(BodyIndex body, const Vec3& velocity, const Spin<3>& spin) override {
     at(body).velocity = velocity;
     at(body).spin = spin;

@@ -1,5 +1,6 @@
 // What freezing and thawing promise, alike on every engine.
 
+#include "common/simulation/state_hash.h"
 #include "tests/backends/backend.h"
 
 namespace talus::freeze_test {
@@ -117,6 +118,28 @@ TYPED_TEST(FrozenBody, CanBeRemoved) {
   this->run(*world, 3.0);
   EXPECT_NEAR(this->height_of(*world, falling), 0.5, 0.02) << "through where the removed body was";
   EXPECT_EQ(world->states().removed[support], 1);
+}
+
+TYPED_TEST(FrozenBody, IsRemovedTogetherWithAwakeOnesAsOneAfterTheOther) {
+  constexpr int dim = TypeParam::dim;
+  const std::vector<BodyIndex> removed = {5, 1, 4, 5};
+  const auto hash_after = [&](bool at_once) {
+    auto world = TypeParam::make(this->description());
+    for (int i = 0; i < 8; ++i) world->add(this->at(up<dim>(0.6 + 1.1 * i)));
+    this->run(*world, 1.0);
+    for (const BodyIndex body : {0, 1, 5}) this->freeze(*world, body);
+    this->run(*world, 0.1);
+    if (at_once)
+      world->remove(removed);
+    else
+      for (const BodyIndex body : {1, 4, 5}) world->remove(body);
+    EXPECT_EQ(world->removals(), 3);
+    EXPECT_EQ(std::vector<BodyIndex>(world->awake().begin(), world->awake().end()),
+              (std::vector<BodyIndex>{2, 3, 6, 7}));
+    this->run(*world, 1.0);
+    return state_hash(world->states());
+  };
+  EXPECT_EQ(hash_after(true), hash_after(false));
 }
 
 TYPED_TEST(FrozenBody, SupportsAPileThatIsFrozenAndThawedAtRandomWithoutHarm) {

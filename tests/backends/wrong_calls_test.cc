@@ -73,6 +73,8 @@ TYPED_TEST(WrongCall, WithOneBadBodyAmongGoodOnesChangesNone) {
   const std::vector<BodyIndex> bodies = {0, 1, 2};
   EXPECT_EQ(this->error_of([&] { this->world->freeze(bodies); }), "body = 2: must not have been removed");
   EXPECT_EQ(this->error_of([&] { this->world->thaw(bodies); }), "body = 2: must not have been removed");
+  EXPECT_EQ(this->error_of([&] { this->world->remove(bodies); }), "body = 2: must not have been removed");
+  EXPECT_EQ(this->world->removals(), 1);
   EXPECT_FALSE(this->asleep(*this->world, 0));
   EXPECT_TRUE(this->asleep(*this->world, 1));
 }

@@ -18,7 +18,7 @@ class FallingWorld final : public World<Dim> {
 
  private:
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
-  void engine_remove(BodyIndex) override {}
+  void engine_remove(std::span<const BodyIndex>) override {}
   EngineTimes engine_step() override { return {}; }
   std::optional<BodyIndex> engine_read(BodyStates<Dim>& states) override {
     for (const BodyIndex body : this->awake()) {

@@ -22,7 +22,7 @@ class StillWorld final : public World<Dim> {
 
  private:
   Pose<Dim> engine_add(BodyIndex, const BodyDef<Dim>& def) override { return def.pose; }
-  void engine_remove(BodyIndex) override {}
+  void engine_remove(std::span<const BodyIndex>) override {}
   void engine_move_obstacle(int, const Pose<Dim>&, const Vec<Dim>&, const Spin<Dim>&) override {}
   void engine_set_gravity(const Vec<Dim>&) override {}
   EngineTimes engine_step() override { return {}; }
