@@ -10,10 +10,6 @@
 namespace talus {
 namespace {
 
-// Velocities stay below what the engines cut off, so that rounding cannot push one over the limit, which World refuses.
-constexpr double speed_margin = 0.95;      // of fastest_speed()
-constexpr double max_turn_per_step = 1.5;  // [rad]; fastest_spin() allows pi / 2 a step
-
 std::optional<SleepRing> ring_of(const AdaptiveParams& params, const TypicalBody& typical) {
   if (params.rings == 0) return std::nullopt;
   return SleepRing{.extent = typical.extent, .rings = params.rings, .still_speed = params.ring_still_speed};
@@ -105,11 +101,9 @@ void AdaptivePolicy<Dim>::forget(BodyIndex body) {
 
 template <int Dim>
 void AdaptivePolicy<Dim>::limit_velocities(const World<Dim>& world) {
-  const double max_speed = speed_margin * fastest_speed<Dim>(world.dt(), world.units());
-  const double max_spin = max_turn_per_step / world.dt();
   for (VelocityChange<Dim>& change : output_.velocities) {
-    change.velocity *= max_speed / std::max(change.velocity.norm(), max_speed);
-    change.spin *= max_spin / std::max(change.spin.norm(), max_spin);
+    change.velocity = limited(change.velocity, fastest_speed<Dim>(world.dt(), world.units()));
+    change.spin = limited(change.spin, fastest_spin(world.dt()));
   }
 }
 
