@@ -24,8 +24,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::atomic<bool> go_on = false;
-
 /// Publishes a run of so many steps and receives it.
 void receive_run(const DatagramSender& sender, int steps) {
   lcm::LCM lcm("memq://");
@@ -46,11 +44,10 @@ void receive_nothing(const DatagramSender&) {
 }
 
 /// What a monitor printed and returned.
-std::pair<std::string, int> watch(const MonitorParams& params, const ReceiverProcess::Body& body,
-                                  const std::atomic<bool>& stop = go_on) {
+std::pair<std::string, int> watch(const MonitorParams& params, const ReceiverProcess::Body& body, bool stop = false) {
   ReceiverProcess receiver(body);
   std::ostringstream out;
-  const int code = monitor(receiver, params, out, stop);
+  const int code = monitor(receiver, params, out, [stop] { return stop; });
   return {out.str(), code};
 }
 
@@ -99,10 +96,7 @@ TEST(Monitor, FailsOnRequestWhenItHeardNothing) {
   EXPECT_EQ(watch({.seconds = 0.1, .fail_on_loss = true}, receive_nothing).second, 1);
 }
 
-TEST(Monitor, StopsWhenAsked) {
-  const std::atomic<bool> stop = true;
-  EXPECT_EQ(watch({}, receive_nothing, stop).second, 0);
-}
+TEST(Monitor, StopsWhenAsked) { EXPECT_EQ(watch({}, receive_nothing, true).second, 0); }
 
 TEST(Monitor, RefusesBadParameters) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();

@@ -122,14 +122,15 @@ class Watch {
 
 }  // namespace
 
-int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream& out, const std::atomic<bool>& stop) {
+int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream& out,
+            const std::function<bool()>& stop) {
   check(params);
   Listener listener;
   Reporter reporter(listener, receiver, params, out);
   const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(params.interval));
   const auto begin = Clock::now();
   auto next_report = begin + interval;
-  while (!stop && out && !time_is_up(params, begin)) {
+  while (!stop() && out && !time_is_up(params, begin)) {
     hear_until(next_report, receiver, listener);
     if (Clock::now() < next_report) continue;
     reporter.report();
@@ -141,13 +142,13 @@ int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream
 }
 
 int watch_on_screen(ReceiverProcess& receiver, const MonitorParams& params, const std::string& address,
-                    std::unique_ptr<TerminalScreen> screen, std::ostream& out, const std::atomic<bool>& stop) {
+                    std::unique_ptr<TerminalScreen> screen, std::ostream& out, const std::function<bool()>& stop) {
   check(params);
   Listener listener;
   Watch watch(*screen, listener, receiver, address);
   const auto begin = Clock::now();
   auto next_update = begin;
-  for (bool goes_on = true; goes_on && !stop && !time_is_up(params, begin);) {
+  for (bool goes_on = true; goes_on && !stop() && !time_is_up(params, begin);) {
     hear_until(next_update, receiver, listener);
     if (Clock::now() < next_update) continue;
     goes_on = watch.update();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <atomic>
+#include <functional>
 #include <iosfwd>
 #include <limits>
 #include <memory>
@@ -24,11 +24,12 @@ struct MonitorParams {
 /// Shows what is heard on `address` until time is up, a key or `stop` ends it; a screen that can be drawn is drawn five
 /// times a second. At the end, once the screen is closed, prints a line per run to `out`. Else as below.
 int watch_on_screen(ReceiverProcess& receiver, const MonitorParams& params, const std::string& address,
-                    std::unique_ptr<TerminalScreen> screen, std::ostream& out, const std::atomic<bool>& stop);
+                    std::unique_ptr<TerminalScreen> screen, std::ostream& out, const std::function<bool()>& stop);
 
-/// Prints a line per interval and run to `out` until time is up or `stop` is set; runs that ended get one last line.
-/// Faults (see Faults) are printed in the interval in which they occur. Returns the exit code. Throws
+/// Prints a line per interval and run to `out` until time is up or `stop` returns true; runs that ended get one last
+/// line. Faults (see Faults) are printed in the interval in which they occur. Returns the exit code. Throws
 /// std::invalid_argument on bad parameters.
-int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream& out, const std::atomic<bool>& stop);
+int monitor(ReceiverProcess& receiver, const MonitorParams& params, std::ostream& out,
+            const std::function<bool()>& stop);
 
 }  // namespace talus

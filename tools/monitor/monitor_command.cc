@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <iostream>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
@@ -11,8 +10,8 @@
 #include "tools/monitor/monitor.h"
 #include "tools/monitor/receive.h"
 #include "tools/monitor/run_view.h"
-#include "tools/monitor/stop_signal.h"
 #include "tools/monitor/terminal_screen.h"
+#include "tools/output/interrupt.h"
 #include "tools/output/output.h"
 
 namespace talus {
@@ -29,10 +28,11 @@ int run_monitor(const MonitorParams& params, const std::string& url) {
     return exit_codes::failed;
   }
   ReceiverProcess receiver(receive_at(address));
-  const std::atomic<bool>& interrupted = stop_signal();
+  const Interrupt interrupt;
+  const auto stop = [&interrupt] { return interrupt.requested(); };
   std::unique_ptr<TerminalScreen> screen = params.json || params.plain ? nullptr : TerminalScreen::open();
-  if (!screen) return monitor(receiver, params, std::cout, interrupted);
-  return watch_on_screen(receiver, params, effective_url(url), std::move(screen), std::cout, interrupted);
+  if (!screen) return monitor(receiver, params, std::cout, stop);
+  return watch_on_screen(receiver, params, effective_url(url), std::move(screen), std::cout, stop);
 }
 
 }  // namespace

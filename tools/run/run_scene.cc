@@ -18,11 +18,11 @@
 #ifdef TALUS_LCM
 #include "lcmtypes/live_link.h"
 #endif
+#include "tools/output/interrupt.h"
 #include "tools/output/output.h"
 #include "tools/run/backends.h"
 #include "tools/run/find_scene.h"
 #include "tools/run/finish_run.h"
-#include "tools/run/interrupt.h"
 #include "tools/run/make_simulation.h"
 #include "tools/run/measured_drift.h"
 #include "tools/run/progress.h"

@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "common/text/printable.h"
+#include "tools/output/interrupt.h"
 #include "tools/output/output.h"
 #include "tools/pool/in_processes.h"
-#include "tools/run/interrupt.h"
 #include "tools/run/run_scene.h"
 #include "tools/sweep/sweep_table.h"
 

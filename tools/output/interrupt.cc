@@ -1,4 +1,4 @@
-#include "tools/run/interrupt.h"
+#include "tools/output/interrupt.h"
 
 #include <csignal>
 
