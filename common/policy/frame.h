@@ -11,7 +11,6 @@
 #include "common/pile/pile_set.h"
 #include "common/policy/sleep_event.h"
 #include "common/world/done_event.h"
-#include "common/world/run_overlap.h"
 #include "common/world/warning.h"
 #include "common/world/world.h"
 
@@ -55,6 +54,15 @@ inline PhaseTimes& operator+=(PhaseTimes& sum, const PhaseTimes& more) {
   for (const Phase& phase : all_phases) sum.*phase.time += more.*phase.time;
   return sum;
 }
+
+/// Depth from which on the overlap of a pair counts as a fault [D].
+inline constexpr double overlap_limit = 0.1;
+
+/// What a run has shown of overlap so far.
+struct RunOverlap {
+  double deepest = 0.0;  // overlap of a pair that lasted [D]
+  double share = 0.0;  // of the pairs in contact, over all samples: those whose overlap lasted at overlap_limit or more
+};
 
 template <int Dim>
 class SleepPolicy;

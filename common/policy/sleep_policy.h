@@ -3,10 +3,10 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/policy/frame.h"
-#include "common/policy/reading.h"
 
 namespace talus {
 
@@ -31,6 +31,15 @@ struct Decision {
 struct DriftEstimate {
   double drift = 0.0;          // mean distance that the sleeping bodies are expected to move once all are woken [m]
   double checked_share = 0.0;  // of the sleeping bodies, for which this was measured; for the others it is extrapolated
+};
+
+/// A number that a policy goes by for one body.
+struct Reading {
+  std::string_view name;
+  double value = 0.0;
+  std::optional<double> threshold;  // what `value` is compared with; none: it is only known
+  std::string_view unit;            // empty: a plain number
+  std::string_view effect;          // of a value above the threshold; of no threshold: what the value says
 };
 
 template <int Dim>

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "common/world/run_overlap.h"
-#include "common/world/world.h"
+#include "common/policy/frame.h"
 
 namespace talus {
 
