@@ -19,7 +19,8 @@ std::int64_t OverlapWatch<Dim>::period(double extent, double gravity, double dt)
 }
 
 template <int Dim>
-auto OverlapWatch<Dim>::sample(const World<Dim>& world) -> std::span<const Finding> {
+auto OverlapWatch<Dim>::sample(const World<Dim>& world, std::int64_t step) -> std::span<const Finding> {
+  next_ = step + period(extent_, world.gravity_size(), world.dt());
   findings_.clear();
   find_pairs(world);
   for (const Pair& before : last_) {

@@ -22,14 +22,15 @@ class OverlapWatch {
     double depth = 0.0;  // [D]
   };
 
-  /// `extent`: D [m]. `gravity` [m/s^2]. `dt` of a step [s].
-  OverlapWatch(double extent, double gravity, double dt) : period_(period(extent, gravity, dt)), extent_(extent) {}
+  /// `extent`: D [m]. `gravity` [m/s^2] and `dt` of a step [s] up to the first sample; `step`: number of the last one.
+  OverlapWatch(double extent, double gravity, double dt, std::int64_t step = 0)
+      : extent_(extent), next_(step + period(extent, gravity, dt)) {}
 
   /// Whether the step with this number is sampled, and so must record its contacts.
-  bool due(std::int64_t step) const { return step % period_ == 0; }
+  bool due(std::int64_t step) const { return step >= next_; }
 
-  /// After such a step. Valid until the next call.
-  std::span<const Finding> sample(const World<Dim>& world);
+  /// After such a step. The gravity that it finds decides when the next one is due. Valid until the next call.
+  std::span<const Finding> sample(const World<Dim>& world, std::int64_t step);
 
   const RunOverlap& overlap() const { return overlap_; }
 
@@ -45,8 +46,8 @@ class OverlapWatch {
   void find_pairs(const World<Dim>& world);
   double lasting_depth(const World<Dim>& world, const Pair& before) const;
 
-  std::int64_t period_;  // [steps]
-  double extent_;        // D [m]
+  double extent_;      // D [m]
+  std::int64_t next_;  // number of the next step that is sampled
   std::vector<Pair> last_;
   std::vector<Pair> now_;
   std::vector<Finding> findings_;

@@ -16,7 +16,8 @@ void SleeperWatch<Dim>::on_motion(const World<Dim>& world, double /*time*/) {
   ++step_;
   for (const auto& [body, way] : passing_->end_step(world)) warnings_.note(WarningKind::passed, body, step_, way);
   if (overlap_ && overlap_->due(step_))
-    for (const auto& [body, depth] : overlap_->sample(world)) warnings_.note(WarningKind::overlap, body, step_, depth);
+    for (const auto& [body, depth] : overlap_->sample(world, step_))
+      warnings_.note(WarningKind::overlap, body, step_, depth);
 }
 
 template <int Dim>
@@ -27,7 +28,7 @@ void SleeperWatch<Dim>::on_frame(const Frame<Dim>& frame) {
   }
   if (const double extent = frame.piles.typical_body().extent; extent != extent_) {
     extent_ = extent;
-    overlap_.emplace(extent, frame.world.gravity_size(), frame.world.dt());
+    overlap_.emplace(extent, frame.world.gravity_size(), frame.world.dt(), step_);
   }
   while (reported_ < warnings_.all().size()) {
     const Warning& warning = warnings_.all()[reported_++];

@@ -49,7 +49,8 @@ void Watchdog<Dim>::end_step(const World<Dim>& world, std::int64_t step) {
   ledger_.end_step(world);
   for (const auto& [body, way] : passing_.end_step(world)) warnings_.note(WarningKind::passed, body, step, way);
   if (!overlap_.due(step)) return;
-  for (const auto& [body, depth] : overlap_.sample(world)) warnings_.note(WarningKind::overlap, body, step, depth);
+  for (const auto& [body, depth] : overlap_.sample(world, step))
+    warnings_.note(WarningKind::overlap, body, step, depth);
 }
 
 template <int Dim>
