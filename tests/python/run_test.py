@@ -101,6 +101,23 @@ def test_a_warning_of_the_run_is_a_python_warning_and_nothing_is_printed(tmp_pat
     assert str(given[0].message) in result.warnings
 
 
+def test_warns_of_drift_with_and_without_a_folder(tmp_path):
+    hangs = """
+        title = "A cube that hangs at 0.2 D in its sleep"
+        dimension = 2
+        run = {frames = 4, frame_rate = 60}
+        [shape.cube]
+        kind = "box"
+        size = [1, 1]
+        [[body]]
+        position = [0, 0.783]
+        asleep = true
+    """
+    for out in (None, tmp_path / "run"):
+        with pytest.warns(RuntimeWarning, match="once woken, the sleeping bodies move by"):
+            assert len(talus.run(hangs, out=out).warnings) == 1
+
+
 def test_a_folder_that_is_not_empty_is_refused(tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(ValueError, match="nothing is overwritten"):

@@ -30,6 +30,7 @@
 #include "tools/run/make_simulation.h"
 #include "tools/run/run_options.h"
 #include "tools/run/run_outputs.h"
+#include "tools/run/run_statistics.h"
 #include "tools/sweep/sweep_plan.h"
 
 namespace py = pybind11;
@@ -44,16 +45,11 @@ struct Wanted {
   std::filesystem::path out;  // run folder; empty: none
 };
 
-/// Does nothing, but a run with an observer checks for what to warn of.
+/// Has each step record its contacts.
 template <int Dim>
-class Presence final : public Observer<Dim> {
- public:
-  explicit Presence(bool contacts) : contacts_(contacts) {}
-  bool needs_contacts() const override { return contacts_; }
+struct ContactsWanted final : Observer<Dim> {
+  bool needs_contacts() const override { return true; }
   void on_frame(const Frame<Dim>&) override {}
-
- private:
-  bool contacts_;
 };
 
 /// During work without the interpreter's lock: takes it every few milliseconds to see whether Ctrl-C was pressed, and
@@ -120,16 +116,17 @@ template <int Dim>
 class Run {
  public:
   Run(const Scene<Dim>& scene, const std::string& name, const std::string& backend, const Wanted& wanted)
-      : scene_(scene), simulation_(make_simulation(scene_, backend)), presence_(wanted.contacts) {
+      : scene_(scene), simulation_(make_simulation(scene_, backend)), wanted_(wanted) {
     summary_.scene_name = name;
     summary_.backend = backend;
     summary_.scene_warnings = scene_warnings(scene_, backend);
-    if (wanted.warnings || wanted.contacts) simulation_.add_observer(presence_);
+    if (wanted.contacts) simulation_.add_observer(contacts_wanted_);
+    if (wanted.warnings) simulation_.add_observer(statistics_);
+    options_.quiet = true;
     if (wanted.out.empty()) return;
     options_.out = wanted.out;
     options_.telemetry = false;
     options_.hash_only = true;
-    options_.quiet = true;
     outputs_.emplace(options_, scene_, name, backend, simulation_);
   }
 
@@ -175,7 +172,7 @@ class Run {
   std::vector<std::string> warnings() const {
     std::vector<std::string> all = summary_.scene_warnings;
     const std::span<const Warning> of_run =
-        outputs_ ? std::span<const Warning>(summary_.warnings) : simulation_.warnings();
+        summary_.reason.empty() ? simulation_.warnings() : std::span<const Warning>(summary_.warnings);
     for (const Warning& warning : of_run) all.push_back(advice(warning));
     return all;
   }
@@ -220,7 +217,7 @@ class Run {
   /// Of the last step.
   py::array_t<EventRow> events() const { return array_of(event_rows(simulation_.frame().events)); }
   py::array_t<ContactRow<Dim>> contacts() const {
-    require(presence_.needs_contacts(), "contacts", "False", "must be True when the simulation is made");
+    require(wanted_.contacts, "contacts", "False", "must be True when the simulation is made");
     std::vector<ContactRow<Dim>> rows;
     for (const Contact<Dim>& contact : simulation_.world().contacts()) rows.push_back(contact_row(contact));
     return array_of(std::move(rows));
@@ -285,7 +282,6 @@ class Run {
 
   void finish(std::exception_ptr& failure) {
     summary_.emit_waits = simulation_.emitter().waits();
-    if (!outputs_) return simulation_.end(summary_.reason);
     Attention attention;
     const auto stop = [&] {
       try {
@@ -295,13 +291,15 @@ class Run {
       }
       return failure != nullptr;
     };
-    finish_run<Dim>(options_, scene_, simulation_, outputs_->statistics(), stop, summary_);
-    outputs_->finish(summary_, scene_, simulation_);
+    finish_run<Dim>(options_, scene_, simulation_, statistics_, stop, summary_);
+    if (outputs_) outputs_->finish(summary_, scene_, simulation_);
   }
 
   Scene<Dim> scene_;
   Simulation<Dim> simulation_;
-  Presence<Dim> presence_;
+  Wanted wanted_;
+  ContactsWanted<Dim> contacts_wanted_;
+  RunStatistics<Dim> statistics_;
   RunOptions options_;  // of the outputs
   SummaryInput summary_;
   std::optional<RunOutputs<Dim>> outputs_;
