@@ -64,6 +64,20 @@ TYPED_TEST(SceneEvents, RemoveBodiesByNumberAndThoseAboveFall) {
   EXPECT_DOUBLE_EQ(simulation.done_events()[0].time, 3.0);
 }
 
+TYPED_TEST(SceneEvents, RemoveSeveralBodiesAndWakeNoneOfThem) {
+  constexpr int dim = TypeParam::dim;
+  auto simulation = simulation_on<TypeParam>(stack<dim>("[[event]]\ntime = 3\ndo = \"remove\"\nbody = [0, 1]\n"));
+  run_until(simulation, 3.0);
+  ASSERT_TRUE(simulation.world().awake().empty());
+  while (simulation.time() < 3.2) {
+    simulation.step();
+    for (const SleepEvent& event : simulation.frame().events) EXPECT_EQ(event.body, 2);
+  }
+  EXPECT_EQ(simulation.done_events()[0].bodies, 2);
+  EXPECT_EQ(std::vector<BodyIndex>(simulation.world().awake().begin(), simulation.world().awake().end()),
+            std::vector<BodyIndex>{2});
+}
+
 TYPED_TEST(SceneEvents, MeanBodiesWithinABox) {
   constexpr int dim = TypeParam::dim;
   const std::string box =
