@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/grid.h"
 #include "common/math/hash.h"
-#include "common/policy/adaptive/grid.h"
 #include "common/shape/convex_distance.h"
 
 namespace talus {

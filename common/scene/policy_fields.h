@@ -4,8 +4,8 @@
 #include <array>
 
 #include "common/params/field.h"
-#include "common/policy/adaptive/adaptive_params.h"
 #include "common/policy/paper_params.h"
+#include "common/policy/rest/adaptive_params.h"
 
 namespace talus {
 

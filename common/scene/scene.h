@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "common/pile/pile_params.h"
-#include "common/policy/adaptive/adaptive_params.h"
 #include "common/policy/paper_params.h"
+#include "common/policy/rest/adaptive_params.h"
 #include "common/scene/instruments.h"
 #include "common/world/motion.h"
 #include "common/world/world_description.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/rest/rest_criterion.h"
 #include "common/scene/typical_body.h"
 
 namespace talus {

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "common/policy/adaptive/grid.h"
+#include "common/math/grid.h"
 #include "common/world/body.h"
 
 namespace talus {

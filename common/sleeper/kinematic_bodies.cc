@@ -1,7 +1,7 @@
 #include "common/sleeper/kinematic_bodies.h"
 
-#include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/near_bodies.h"
+#include "common/policy/rest/rest_criterion.h"
 #include "common/shape/convex_distance.h"
 #include "common/shape/convex_piece.h"
 

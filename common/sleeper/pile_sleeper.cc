@@ -10,8 +10,8 @@
 #include "common/math/require.h"
 #include "common/math/require_finite.h"
 #include "common/params/field.h"
-#include "common/policy/adaptive/rest_criterion.h"
 #include "common/policy/near_bodies.h"
+#include "common/policy/rest/rest_criterion.h"
 #include "common/scene/policy_fields.h"
 #include "common/shape/convex_distance.h"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "common/policy/adaptive/adaptive_params.h"
+#include "common/policy/rest/adaptive_params.h"
 #include "common/sleeper/up_axis.h"
 
 namespace talus {

@@ -67,9 +67,11 @@ class SleepingWorld {
   bool needs_contacts(BodyIndex body) const;
 
   /// Whether a body sleeps and waits for no stability check.
-  bool settled(BodyIndex body) const { return policy_ != nullptr && policy_->sleepers().settled(body); }
+  bool settled(BodyIndex body) const { return policy_ != nullptr && policy_->rules()->sleepers().settled(body); }
   /// Whether a sleeping body rests on an awake one.
-  bool rests_on_awake(BodyIndex body) const { return policy_ != nullptr && policy_->rests_on_awake(world_, body); }
+  bool rests_on_awake(BodyIndex body) const {
+    return policy_ != nullptr && policy_->rules()->rests_on_awake(world_, body);
+  }
   /// D [m]; 0 before the first decision.
   double extent() const { return typical_.extent; }
 

@@ -2,7 +2,7 @@
 
 #include "common/math/angle.h"
 #include "common/measure/trajectory.h"
-#include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/rest/rest_criterion.h"
 #include "tests/backends/backend.h"
 
 namespace talus::rotation_test {

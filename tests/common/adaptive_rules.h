@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/policy/adaptive/rule.h"
+#include "common/policy/rest/rule.h"
 #include "tests/common/cubes.h"
 
 namespace talus {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "common/policy/adaptive/adaptive_policy.h"
-#include "common/policy/adaptive/impacts.h"
-#include "common/policy/adaptive/impacts_ahead.h"
 #include "common/policy/adaptive/support_criterion.h"
-#include "common/policy/adaptive/support_loss.h"
+#include "common/policy/wake_rules/impacts.h"
+#include "common/policy/wake_rules/impacts_ahead.h"
+#include "common/policy/wake_rules/support_loss.h"
 #include "common/shape/rigid_impulse.h"
 #include "common/simulation/make_policy.h"
 #include "common/simulation/simulation.h"

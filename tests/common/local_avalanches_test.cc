@@ -1,6 +1,6 @@
 // Where the policy `adaptive` lets heaps of sleeping bodies slide.
 
-#include "common/policy/adaptive/local_avalanches.h"
+#include "common/policy/wake_rules/local_avalanches.h"
 
 #include <gtest/gtest.h>
 

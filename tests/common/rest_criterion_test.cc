@@ -1,6 +1,6 @@
 // How long bodies have been at rest, and where.
 
-#include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/rest/rest_criterion.h"
 
 #include <gtest/gtest.h>
 

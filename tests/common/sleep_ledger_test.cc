@@ -1,6 +1,6 @@
 // The account of sleeping bodies that the policy `adaptive` keeps.
 
-#include "common/policy/adaptive/sleep_ledger.h"
+#include "common/policy/wake_rules/sleep_ledger.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // When the policy `adaptive` wakes a region to see whether it stays where it is.
 
-#include "common/policy/adaptive/stability_checks.h"
+#include "common/policy/wake_rules/stability_checks.h"
 
 #include <gtest/gtest.h>
 

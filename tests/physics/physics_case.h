@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/policy/adaptive/adaptive_params.h"
+#include "common/policy/rest/adaptive_params.h"
 #include "common/world/world_description.h"
 
 namespace talus {

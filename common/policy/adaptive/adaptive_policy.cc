@@ -1,7 +1,6 @@
 #include "common/policy/adaptive/adaptive_policy.h"
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
 
 #include "common/policy/paper_policy.h"
@@ -32,25 +31,18 @@ AdaptivePolicy<Dim>::AdaptivePolicy(const AdaptiveParams& params, const WorldDes
       extent_(typical.extent),
       ground_(world.ground.present ? world.ground.height : std::numeric_limits<double>::lowest()),
       rest_({params, typical, world}),
-      support_({params, typical, world}),
-      impacts_ahead_({params, typical, world}),
-      impacts_({params, typical, world}),
-      support_loss_({params, typical, world}),
-      avalanches_({params, typical, world}),
-      checks_({params, typical, world}),
-      sleepers_(params.avalanche_width * typical.extent) {}
+      support_({params, typical, world}) {
+  if (!ring_) rules_.emplace(RuleSetup<Dim>{params, typical, world});
+}
 
 template <int Dim>
 void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decision) {
-  assert(sleepers_.matches(frame.world.states()));
-  const bool nothing_to_wake = ring_ ? frame.world.stirred().empty() : !checks_.may_begin(sleepers_);
-  if (frame.world.awake().empty() && nothing_to_wake) return;
+  const bool may_wake = rules_ ? rules_->may_wake_any() : !frame.world.stirred().empty();
+  if (frame.world.awake().empty() && !may_wake) return;
   RuleInput<Dim> in{frame.world, {}, frame.piles.piles(), frame.step};
-  if (!ring_) in.contacts = in.world.contacts();
   output_.clear();
   rest_.update(in);
   find_wakes(in);
-  limit_velocities(in.world);
   for (const auto& [body, wake] : output_.wakes) {
     const Placement place = placement(frame, body);
     decision.thaw.push_back({.body = body, .pile = place.pile, .layer = place.layer, .cause = wake.cause});
@@ -61,50 +53,25 @@ void AdaptivePolicy<Dim>::decide(const Frame<Dim>& frame, Decision<Dim>& decisio
 }
 
 template <int Dim>
-void AdaptivePolicy<Dim>::find_wakes(const RuleInput<Dim>& in) {
-  if (ring_) {
-    for (const BodyIndex body : in.world.stirred())
-      output_.wakes.try_emplace(body, Wake{.cause = SleepCause::motion, .before_impact = true});
+void AdaptivePolicy<Dim>::find_wakes(RuleInput<Dim>& in) {
+  if (rules_) {
+    in.contacts = in.world.contacts();
+    rules_->update(in, rest_, output_);
     return;
   }
-  impacts_ahead_.update(in, output_);
-  impacts_.update(in, rest_, output_);
-  support_loss_.update(in, output_);
-  avalanches_.update(in, sleepers_, output_);
-  checks_.update(in, rest_, sleepers_, output_);
+  for (const BodyIndex body : in.world.stirred())
+    output_.wakes.try_emplace(body, Wake{.cause = SleepCause::motion, .before_impact = true});
 }
 
-/// A body that sleeps by the user's request was not put there by a rule: it makes no heap slide and waits for no check,
-/// as none does that feels forces.
 template <int Dim>
 void AdaptivePolicy<Dim>::note(const World<Dim>& world, std::span<const SleepEvent> events) {
-  for (const SleepEvent& event : events) {
-    if (event.woke) {
-      sleepers_.take_out(event.body);
-      support_loss_.note_awake(event.body);
-      continue;
-    }
-    const Vec<Dim>& position = world.states().pose[event.body].position;
-    const bool by_rule = !ring_ && event.cause != SleepCause::user;
-    sleepers_.put_in(event.body, position, by_rule ? checks_.note_asleep(world, event.body) : Standing::settled);
-    if (by_rule) avalanches_.note_asleep(position);
-  }
+  if (rules_) rules_->note(world, events);
 }
 
 template <int Dim>
 void AdaptivePolicy<Dim>::forget(BodyIndex body) {
   rest_.forget(body);
-  impacts_.forget(body);
-  support_loss_.forget(body);
-  checks_.forget(body);
-}
-
-template <int Dim>
-void AdaptivePolicy<Dim>::limit_velocities(const World<Dim>& world) {
-  for (VelocityChange<Dim>& change : output_.velocities) {
-    change.velocity = limited(change.velocity, fastest_speed<Dim>(world.dt(), world.units()));
-    change.spin = limited(change.spin, fastest_spin(world.dt()));
-  }
+  if (rules_) rules_->forget(body);
 }
 
 template <int Dim>
@@ -113,14 +80,14 @@ void AdaptivePolicy<Dim>::choose_sleepers(const Frame<Dim>& frame, RuleInput<Dim
   const RestTimes times = rest_times_in(in.world);
   for (const Rest& rest : rest_.references()) {
     const BodyIndex body = rest.body;
-    if (checks_.holds(body) || below_ground(in, body) || !rested_enough(frame, rest, times)) continue;
-    if (ring_ && is_fast(in, body)) continue;
+    if (below_ground(in, body) || !rested_enough(frame, rest, times)) continue;
+    if (rules_ ? rules_->holds(body) : is_fast(in, body)) continue;
     if (frame.may_sleep(body)) bodies_.push_back(body);
   }
   if (bodies_.empty()) return;
   in.contacts = in.world.contacts();
   support_.keep_supported(in, bodies_);
-  if (!ring_) support_loss_.note_falling_asleep(in, bodies_);
+  if (rules_) rules_->note_falling_asleep(in, bodies_);
   for (const BodyIndex body : bodies_) {
     const Placement place = placement(frame, body);
     decision.freeze.push_back(
@@ -181,12 +148,13 @@ template <int Dim>
 std::vector<Reading> AdaptivePolicy<Dim>::readings(const Frame<Dim>& frame, BodyIndex body) const {
   std::vector<Reading> readings;
   if (frame.world.states().asleep[body] != 0) {
-    if (const auto creep = checks_.expected_motion(body))
-      readings.push_back(
-          {"creep measured by the last check", *creep, checks_.tolerance(), "m", "the check would have gone on"});
+    const std::optional<double> creep = rules_ ? rules_->checks().expected_motion(body) : std::nullopt;
+    if (creep)
+      readings.push_back({"creep measured by the last check", *creep, rules_->checks().tolerance(), "m",
+                          "the check would have gone on"});
     return readings;
   }
-  if (checks_.holds(body)) readings.push_back({"held awake by a stability check", 1.0, std::nullopt, "", ""});
+  if (rules_ && rules_->holds(body)) readings.push_back({"held awake by a stability check", 1.0, std::nullopt, "", ""});
   if (!rest_.watches(body)) return readings;
   const bool unmoved = rest_.unmoved_since_wake(body);
   const RestTimes times = rest_times_in(frame.world);

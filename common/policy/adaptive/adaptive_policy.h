@@ -5,24 +5,18 @@
 #include <optional>
 #include <vector>
 
-#include "common/policy/adaptive/adaptive_params.h"
-#include "common/policy/adaptive/impacts.h"
-#include "common/policy/adaptive/impacts_ahead.h"
-#include "common/policy/adaptive/local_avalanches.h"
-#include "common/policy/adaptive/rest_criterion.h"
-#include "common/policy/adaptive/sleep_ledger.h"
-#include "common/policy/adaptive/stability_checks.h"
 #include "common/policy/adaptive/support_criterion.h"
-#include "common/policy/adaptive/support_loss.h"
+#include "common/policy/rest/adaptive_params.h"
+#include "common/policy/rest/rest_criterion.h"
 #include "common/policy/sleep_policy.h"
+#include "common/policy/wake_rules/wake_rules.h"
 
 namespace talus {
 
 /// Each body sleeps by itself, once it has been at rest for a while and is supported by ground, sleeping bodies or
 /// bodies that fall asleep with it. The time depends on its pile's density and on its closeness to the centre (section
-/// 3.3), and is short for a body that woke and did not move. A body wakes when an impact reaches it, when its support
-/// moves away, or when its heap is too steep; nothing else wakes it. With a ring it wakes when the contact solve moves
-/// it, and those rules are off.
+/// 3.3), and is short for a body that woke and did not move. A body wakes when the contact solve moves it, and without
+/// a ring by the WakeRules.
 template <int Dim>
 class AdaptivePolicy final : public SleepPolicy<Dim> {
  public:
@@ -37,19 +31,13 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   void note(const World<Dim>& world, std::span<const SleepEvent> events) override;
   void forget(BodyIndex body) override;
   std::optional<DriftEstimate> drift_estimate(const World<Dim>& world) const override {
-    return ring_ ? std::nullopt : checks_.drift_estimate(world);
+    return rules_ ? rules_->checks().drift_estimate(world) : std::nullopt;
   }
   /// Notes of each body that decide() found awake whether it may have rested long enough after the next step, if that
   /// is about as long as the last one.
   void note_near_sleep(const World<Dim>& world, std::vector<std::uint8_t>& near) const;
-  /// Whether stability checks are on. They take all contacts.
-  bool checks_stability() const { return checks_.tolerance() > 0.0; }
-  /// Whether a sleeping body rests on an awake one, and wakes once that moves away.
-  bool rests_on_awake(const World<Dim>& world, BodyIndex sleeper) const {
-    return support_loss_.watches(world, sleeper);
-  }
-  /// The bodies that sleep, by the calls of note().
-  const SleepLedger<Dim>& sleepers() const { return sleepers_; }
+  /// Null with a ring.
+  const WakeRules<Dim>* rules() const { return rules_ ? &*rules_ : nullptr; }
 
  private:
   using Rest = typename RestCriterion<Dim>::Reference;
@@ -68,8 +56,7 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
     double woken = 0.0;    // of a body that woke and did not move
   };
 
-  void find_wakes(const RuleInput<Dim>& in);
-  void limit_velocities(const World<Dim>& world);
+  void find_wakes(RuleInput<Dim>& in);
   void choose_sleepers(const Frame<Dim>& frame, RuleInput<Dim>& in, Decision<Dim>& decision);
   bool below_ground(const RuleInput<Dim>& in, BodyIndex body) const;
   bool is_fast(const RuleInput<Dim>& in, BodyIndex body) const;
@@ -78,18 +65,13 @@ class AdaptivePolicy final : public SleepPolicy<Dim> {
   bool rested_enough(const Frame<Dim>& frame, const Rest& rest, const RestTimes& times) const;
   Placement placement(const Frame<Dim>& frame, BodyIndex body) const;
 
-  std::optional<SleepRing> ring_;  // without it the rules below wake bodies
-  RestTimes rest_periods_;         // in sqrt(D/g)
-  double extent_;                  // D [m]
-  double ground_;                  // its height [m]; without ground the lowest number
+  std::optional<SleepRing> ring_;
+  std::optional<WakeRules<Dim>> rules_;  // without a ring
+  RestTimes rest_periods_;               // in sqrt(D/g)
+  double extent_;                        // D [m]
+  double ground_;                        // its height [m]; without ground the lowest number
   RestCriterion<Dim> rest_;
   SupportCriterion<Dim> support_;
-  ImpactsAhead<Dim> impacts_ahead_;
-  Impacts<Dim> impacts_;
-  SupportLoss<Dim> support_loss_;
-  LocalAvalanches<Dim> avalanches_;
-  StabilityChecks<Dim> checks_;
-  SleepLedger<Dim> sleepers_;
   RuleOutput<Dim> output_;         // scratch
   std::vector<BodyIndex> bodies_;  // scratch
 };

@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/sleep_ledger.h"
+#include "common/policy/wake_rules/sleep_ledger.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/stability_checks.h"
+#include "common/policy/wake_rules/stability_checks.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/support_loss.h"
+#include "common/policy/wake_rules/support_loss.h"
 
 #include <algorithm>
 #include <utility>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/pile/pile.h"
-#include "common/policy/adaptive/adaptive_params.h"
+#include "common/policy/rest/adaptive_params.h"
 #include "common/policy/sleep_policy.h"
 #include "common/world/world.h"
 

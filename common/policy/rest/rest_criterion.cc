@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/rest_criterion.h"
+#include "common/policy/rest/rest_criterion.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/impacts_ahead.h"
+#include "common/policy/wake_rules/impacts_ahead.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/impacts.h"
+#include "common/policy/wake_rules/impacts.h"
 
 #include <algorithm>
 #include <tuple>

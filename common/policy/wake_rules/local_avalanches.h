@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "common/policy/adaptive/rule.h"
-#include "common/policy/adaptive/sleep_ledger.h"
+#include "common/policy/rest/rule.h"
+#include "common/policy/wake_rules/sleep_ledger.h"
 
 namespace talus {
 

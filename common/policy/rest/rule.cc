@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/rule.h"
+#include "common/policy/rest/rule.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "common/policy/adaptive/rule.h"
+#include "common/policy/rest/rule.h"
 
 namespace talus {
 

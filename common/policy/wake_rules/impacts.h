@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "common/policy/adaptive/rest_criterion.h"
-#include "common/policy/adaptive/rule.h"
+#include "common/policy/rest/rest_criterion.h"
+#include "common/policy/rest/rule.h"
 
 namespace talus {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/policy/adaptive/grid.h"
+#include "common/math/grid.h"
 #include "common/world/body.h"
 
 namespace talus {

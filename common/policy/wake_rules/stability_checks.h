@@ -8,10 +8,10 @@
 #include <set>
 #include <vector>
 
-#include "common/policy/adaptive/grid.h"
-#include "common/policy/adaptive/rest_criterion.h"
-#include "common/policy/adaptive/rule.h"
-#include "common/policy/adaptive/sleep_ledger.h"
+#include "common/math/grid.h"
+#include "common/policy/rest/rest_criterion.h"
+#include "common/policy/rest/rule.h"
+#include "common/policy/wake_rules/sleep_ledger.h"
 
 namespace talus {
 

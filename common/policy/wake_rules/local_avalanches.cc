@@ -1,4 +1,4 @@
-#include "common/policy/adaptive/local_avalanches.h"
+#include "common/policy/wake_rules/local_avalanches.h"
 
 #include <algorithm>
 #include <cmath>
