@@ -1,5 +1,7 @@
 #include "sim3d/warm_start.h"
 
+#include <LinearMath/btAabbUtil2.h>
+
 #include "sim3d/bullet/idle_pairs.h"
 #include "sim3d/bullet/whole.h"
 
@@ -54,6 +56,16 @@ int unloaded_near(const btVector3& on_owner, const btPersistentManifold& manifol
     nearest = i;
   }
   return nearest;
+}
+
+/// Whether a point, in the shape's axes, is within the box around the shape. From sleep to sleep a body may slide over
+/// an edge of the other one.
+bool holds(const btCollisionShape& shape, const btVector3& point, btScalar margin) {
+  btVector3 low;
+  btVector3 high;
+  shape.getAabb(btTransform::getIdentity(), low, high);
+  const btVector3 wide(margin, margin, margin);
+  return TestPointAgainstAabb2(low - wide, high + wide, point);
 }
 
 /// The normal towards the owner, among the first `found` points, that is nearest to a kept one: both bodies may have
@@ -229,9 +241,8 @@ void WarmStart::restore(btBroadphasePair& pair, const btDispatcherInfo& info) {
       // Bodies that move from sleep to sleep may lie apart by now.
       if (found == 0 && point.unconfirmed) continue;
       if (point.piece == (owner_first ? entry.piece0 : entry.piece1) &&
-          point.partners_piece == (owner_first ? entry.piece1 : entry.piece0)) {
+          point.partners_piece == (owner_first ? entry.piece1 : entry.piece0))
         put_back(point, sides, *entry.manifold, found);
-      }
     }
   }
   open_manifolds(*pair.m_algorithm);
@@ -252,6 +263,7 @@ void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersiste
   const btVector3 on_owner = sides.owner->getWorldTransform() * local;
   const btVector3 on_partner = on_owner - normal * saved.distance;
   const btVector3 partner_local = sides.partner->getWorldTransform().invXform(on_partner);
+  if (!holds(*sides.partner->getCollisionShape(), partner_local, manifold.getContactBreakingThreshold())) return;
   btManifoldPoint point(first ? local : partner_local, first ? partner_local : local, first ? normal : -normal,
                         saved.distance);
   point.m_positionWorldOnA = first ? on_owner : on_partner;

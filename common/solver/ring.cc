@@ -25,8 +25,8 @@ constexpr int hold_steps = 20;
 constexpr int widening = 4;
 /// Of these contacts at most: more than any heap has from one side to the other.
 constexpr int widest_ring = 1 << 12;
-/// A body that has fallen asleep is solved for this time in any case [sqrt(D/g)]: at a turning point, or as it begins
-/// to slide, it was at rest only for a moment, and has become faster than what is still by then.
+/// A body that has fallen asleep or was disturbed is solved for this time in any case [sqrt(D/g)]: at a turning point,
+/// or as it begins to slide or to tip, it is slow for a moment, and has become faster than what is still by then.
 constexpr float trial_time = 3.0F;
 
 }  // namespace
@@ -60,15 +60,23 @@ void Ring<Dim>::forget(BodyIndex side) {
   contacts_.release(side, released_);
   for (const SleepingPoint<Dim>& point : released_)
     for (const BodyIndex other : {point.a, point.b})
-      if (other >= 0 && other != side) disturbed_.push_back(other);
+      if (other >= 0 && other != side) disturb(other);
   if (side >= 0 && has(side)) sleepers_[side] = {};
+}
+
+/// The body is solved in the next step, and on trial again.
+template <int Dim>
+void Ring<Dim>::disturb(BodyIndex body) {
+  if (!has(body)) return;
+  disturbed_.push_back(body);
+  sleepers_[body].tried = 0.0F;
 }
 
 template <int Dim>
 bool Ring<Dim>::touch(BodyIndex body, BodyIndex side) const {
-  return has(body) && std::ranges::any_of(contacts_.of(body), [&](int number) {
-           return contacts_[number].a == side || contacts_[number].b == side;
-         });
+  return has(body) && std::ranges::any_of(
+                          contacts_.of(body),
+                          [&](int number) { return contacts_[number].a == side || contacts_[number].b == side; });
 }
 
 template <int Dim>
@@ -113,7 +121,8 @@ Contact<Dim> Ring<Dim>::contact_of(const SleepingPoint<Dim>& point, BodyIndex si
 template <int Dim>
 bool Ring<Dim>::idle(std::span<const BodyIndex> moving) const {
   return members_.empty() && before_.empty() && disturbed_.empty() &&
-         std::ranges::all_of(moving, [this](BodyIndex obstacle) { return contacts_.of(obstacle).empty(); });
+         std::ranges::all_of(
+             moving, [this](BodyIndex obstacle) { return contacts_.of(obstacle).empty(); });
 }
 
 template <int Dim>
@@ -199,8 +208,8 @@ void Ring<Dim>::extend(ContactSolver<Dim>& solver, std::span<const int> obstacle
   for (const int number : points_) added_[number] = 0;
 }
 
-/// Keeps those of the step before that are no longer reached for a while. Where nothing moves none is kept but those
-/// that have just fallen asleep.
+/// Keeps those of the step before that are no longer reached for a while. Where nothing moves none is kept but those on
+/// trial.
 template <int Dim>
 void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
   for (const BodyIndex body : members_) sleepers_[body].hold = hold_steps;
@@ -213,9 +222,9 @@ void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
 /// One that carries nothing yet has been put to sleep by the user.
 template <int Dim>
 bool Ring<Dim>::is_on_trial(BodyIndex body) const {
-  return sleepers_[body].tried < trial_time && std::ranges::any_of(contacts_.of(body), [this](int number) {
-           return contacts_[number].contact.normal_impulse > 0.0F;
-         });
+  return sleepers_[body].tried < trial_time &&
+         std::ranges::any_of(
+             contacts_.of(body), [this](int number) { return contacts_[number].contact.normal_impulse > 0.0F; });
 }
 
 /// Bodies that were solved in the step before, but not in this one, come to rest where they are.
@@ -274,10 +283,10 @@ VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
   return sleepers_[body].body.way_of(arm);
 }
 
-/// [m/s]
+/// Up to which a body counts as still [m/s].
 template <int Dim>
-float Ring<Dim>::wake_speed(float gravity) const {
-  return wake_share * static_cast<float>(speed_unit(params_.extent, gravity));
+float Ring<Dim>::still_speed(float gravity) const {
+  return static_cast<float>(params_.still_speed * speed_unit(params_.extent, gravity));
 }
 
 template <int Dim>
@@ -292,9 +301,9 @@ bool Ring<Dim>::widen(const ContactSolver<Dim>& solver, float gravity) {
     if (kept.b >= 0 && sleepers_[kept.b].left < 0) sleepers_[kept.b].struck += more;
   }
   const std::size_t known = struck_.size();
-  const float fast = wake_speed(gravity);
+  const float still = still_speed(gravity);
   for (const BodyIndex body : border_)
-    if (sleepers_[body].body.inverse_mass * sleepers_[body].struck.norm() > fast) struck_.push_back(body);
+    if (sleepers_[body].body.inverse_mass * sleepers_[body].struck.norm() > still) struck_.push_back(body);
   if (struck_.size() == known) return false;
   beyond_struck_ *= widening;
   return true;
@@ -305,8 +314,8 @@ void Ring<Dim>::read(const ContactSolver<Dim>& solver, float gravity, float dt) 
   const auto extent = static_cast<float>(params_.extent);
   const float distance = wake_distance * extent;
   const float tried = dt / static_cast<float>(time_unit(params_.extent, gravity));
-  const float fast = wake_speed(gravity);
-  auto still = static_cast<float>(params_.still_speed * speed_unit(params_.extent, gravity));
+  const float fast = wake_share * static_cast<float>(speed_unit(params_.extent, gravity));
+  float still = still_speed(gravity);
   if (slowest_obstacle_ > 0.0F) still = std::min(still, obstacle_share * slowest_obstacle_);
   let_go();
   moving_.clear();
@@ -372,7 +381,7 @@ void Ring<Dim>::disturb_unbalanced(float impulse_of_unit_mass) {
   std::ranges::sort(unsolved_);
   for (const BodyIndex body : unsolved_) {
     const SolverBody<Dim>& state = sleepers_[body].body;
-    if (state.inverse_mass * sleepers_[body].unsolved.norm() > impulse_of_unit_mass) disturbed_.push_back(body);
+    if (state.inverse_mass * sleepers_[body].unsolved.norm() > impulse_of_unit_mass) disturb(body);
   }
 }
 

@@ -14,12 +14,13 @@ namespace talus {
 /// those up to SleepRing::rings contacts away. They are solved with their mass, the contact points of when they fell
 /// asleep and the impulses that held them. So an impact passes on in the same step, as far as it moves bodies; a load
 /// or a friction force reaches the next ring in the next step, and the loss of a support acts at once. The engine does
-/// not move them: each keeps
-/// the velocity and the displacement that the solve gives it here, and is to wake when they are too large. A sleeping
-/// body that has itself become faster than `still_speed` counts as moving, so the ring goes as far as the motion does.
+/// not move them: each keeps the velocity and the displacement that the solve gives it here, and is to wake when they
+/// are too large. A sleeping body that has itself become faster than `still_speed` counts as moving, so the ring goes
+/// as far as the motion does.
 ///
-/// Bodies beyond are immovable. If the forces on one have changed since its last solve, it is solved in the next step,
-/// until all forces balance. Where nothing moves the ring is empty and costs nothing.
+/// Bodies beyond are immovable. One that loses a contact point, or on which the forces have changed since its last
+/// solve, is solved for a while, until it moves or all forces balance. Where nothing moves the ring is empty and costs
+/// nothing.
 template <int Dim>
 class Ring {
  public:
@@ -85,6 +86,7 @@ class Ring {
     VecF<Dim> struck = VecF<Dim>::Zero();    // the same of an immovable one, over the whole of this step [N s]
   };
 
+  void disturb(BodyIndex body);
   void enter(BodyIndex body, int left, ContactSolver<Dim>& solver);
   void enter_partners(BodyIndex side, int left, ContactSolver<Dim>& solver);
   void hold_back(ContactSolver<Dim>& solver);
@@ -93,7 +95,7 @@ class Ring {
   void add_points(BodyIndex body, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   int slot_of(BodyIndex side, ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
   static float far_of(const Sleeper& sleeper);
-  float wake_speed(float gravity) const;
+  float still_speed(float gravity) const;
   Contact<Dim> contact_of(const SleepingPoint<Dim>& point, BodyIndex side, const BodyStates<Dim>& states,
                           double impulse_unit) const;
   void read_points(const ContactSolver<Dim>& solver, float distance);

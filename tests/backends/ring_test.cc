@@ -232,6 +232,72 @@ TYPED_TEST(RingTest, ABodyWakesWhenItsSupportVanishes) {
   EXPECT_EQ(std::vector<BodyIndex>(world->stirred().begin(), world->stirred().end()), (std::vector<BodyIndex>{1, 2}));
 }
 
+// 9.81 m/s^2 (sin 20 - 0.3 cos 20) = 0.59 m/s^2: in its first step without the stop a box is slower than what is still.
+TYPED_TEST(RingTest, ARowOnASlopeSlidesOnceItsStopIsRemoved) {
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+      "world.gravity = {}\nrun = {{frames = 300}}\nground = {{friction = 0.3}}\n"
+      "shape.box = {{kind = \"box\", size = {}, friction = 0.3}}\nbody = [{{position = {}, repeat = {}, step = {}}}]\n"
+      "obstacle = [{{name = \"stop\", kind = \"box\", size = {}, position = {}}}]\n"
+      "event = [{{time = 2, do = \"remove\", obstacle = \"stop\"}}]\n",
+      TestFixture::vector(9.81 * std::sin(0.349066), -9.81 * std::cos(0.349066)), TestFixture::vector(1, 0.6, 1),
+      TestFixture::vector(-2.5, 0.3), TypeParam::dim == 2 ? "[3, 1]" : "[3, 1, 1]", TestFixture::vector(1, 0),
+      TestFixture::vector(1, 1, 1), TestFixture::vector(0.5, 0.5))));
+  TestFixture::run(simulation, 2.0);
+  EXPECT_TRUE(simulation.world().awake().empty());
+  TestFixture::run(simulation, 4.0);
+  // By 4.7 m. The boxes behind begin to slide when the one before them has moved on.
+  for (BodyIndex body = 0; body < 3; ++body)
+    EXPECT_NEAR(simulation.world().states().pose[body].position[0] - (body - 2.5), 4.72, 0.25) << body;
+}
+
+TYPED_TEST(RingTest, APlankTipsOverAnEdgeOnceItsCounterweightIsRemoved) {
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+      "run = {{frames = 300}}\nshape.plank = {{kind = \"box\", size = {}}}\n"
+      "shape.weight = {{kind = \"box\", size = {}, density = 2000}}\n"
+      "body = [{{shape = \"plank\", position = {}}}, {{shape = \"weight\", position = {}}}]\n"
+      "obstacle = [{{kind = \"box\", size = {}, position = {}}}]\nevent = [{{time = 4, do = \"remove\", body = 1}}]\n",
+      TestFixture::vector(4, 0.3, 1), TestFixture::vector(0.7, 0.7, 0.7), TestFixture::vector(0.1, 6.15),
+      TestFixture::vector(-1.5, 6.65), TestFixture::vector(8, 6, 4), TestFixture::vector(-4, 3))));
+  TestFixture::run(simulation, 4.0);
+  EXPECT_TRUE(simulation.world().awake().empty());
+  TestFixture::run(simulation, 6.0);
+  EXPECT_LT(height<TypeParam::dim>(simulation.world().states().pose[0].position), 5.0);
+}
+
+// The shelf stops where the plank's centre is 0.1 m beyond its edge; contact points must not go with the plank.
+TYPED_TEST(RingTest, APlankFallsOffAShelfAsSoonAsOneThatIsAwake) {
+  std::array<double, 2> fell{};
+  for (const int full : {0, 1}) {
+    auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+        "policy.kind = \"{}\"\nrun = {{frames = 420}}\nshape.plank = {{kind = \"box\", size = {}, friction = 0}}\n"
+        "body = [{{position = {}}}]\n"
+        "obstacle = [{{kind = \"box\", size = {}, position = {}, friction = 0, "
+        "motion = {{kind = \"path\", times = [4, 5], shifts = [{}, {}]}}}}]\n",
+        full == 1 ? "full" : "adaptive", TestFixture::vector(4, 0.3, 1), TestFixture::vector(0, 6.15),
+        TestFixture::vector(4, 0.5, 4), TestFixture::vector(-1.1, 5.75), TestFixture::vector(0, 0),
+        TestFixture::vector(-1, 0))));
+    do {
+      simulation.step();
+    } while (simulation.time() < 10.0 && height<TypeParam::dim>(simulation.world().states().pose[0].position) > 5.0);
+    fell[full] = simulation.time();
+  }
+  EXPECT_NEAR(fell[0], fell[1], 0.15);
+}
+
+// A hit that would make the last of a ring of two rebound.
+TYPED_TEST(RingTest, ASlowHitOnARowOfSleepersLosesNoMomentum) {
+  auto simulation = simulation_on<TypeParam>(TestFixture::scene(fmt::format(
+      "run = {{frames = 300}}\nground = {{friction = 0}}\n"
+      "shape.box = {{kind = \"box\", size = {}, friction = 0}}\n"
+      "body = [{{position = {}, velocity = {}}}, {{position = {}, repeat = {}, step = {}, asleep = true}}]\n",
+      TestFixture::vector(1, 1, 1), TestFixture::vector(-1.1, 0.5), TestFixture::vector(0.6, 0),
+      TestFixture::vector(0, 0.5), TypeParam::dim == 2 ? "[6, 1]" : "[6, 1, 1]", TestFixture::vector(1, 0))));
+  TestFixture::run(simulation, 3.0);
+  double momentum = 0.0;
+  for (const auto& velocity : simulation.world().states().velocity) momentum += velocity[0];
+  EXPECT_NEAR(momentum, 0.6, 0.01) << "of bodies of equal mass";
+}
+
 TYPED_TEST(RingTest, BodiesThatWakeCarryTheLoadThatCameInTheirSleepFromTheFirstStep) {
   auto world = TestFixture::world_with_ring(TestFixture::description());
   for (const double height : {0.5, 1.5}) world->add(TestFixture::at(up<TypeParam::dim>(height)));
