@@ -62,6 +62,8 @@ def show(engine, scenes):
     for policy, base in PAIRS:
         pairs = {scene: (policies[policy], policies[base]) for scene, policies in scenes.items()
                  if min(len(policies.get(name, [])) for name in (policy, base)) > 1}
+        if len(pairs) < 2:
+            continue
         errors = {scene: error(*pair) for scene, pair in pairs.items()}
         means = [mean for mean, _ in errors.values()]
         mean_error = statistics.stdev(means) / math.sqrt(len(means))
