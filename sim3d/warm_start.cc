@@ -263,7 +263,8 @@ void WarmStart::put_back(const SavedPoint& saved, const Sides& sides, btPersiste
   const btVector3 on_owner = sides.owner->getWorldTransform() * local;
   const btVector3 on_partner = on_owner - normal * saved.distance;
   const btVector3 partner_local = sides.partner->getWorldTransform().invXform(on_partner);
-  if (!holds(*sides.partner->getCollisionShape(), partner_local, manifold.getContactBreakingThreshold())) return;
+  const btScalar within = manifold.getContactBreakingThreshold() + btFabs(saved.distance);
+  if (!holds(*sides.partner->getCollisionShape(), partner_local, within)) return;
   btManifoldPoint point(first ? local : partner_local, first ? partner_local : local, first ? normal : -normal,
                         saved.distance);
   point.m_positionWorldOnA = first ? on_owner : on_partner;
