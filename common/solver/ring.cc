@@ -74,9 +74,9 @@ void Ring<Dim>::disturb(BodyIndex body) {
 
 template <int Dim>
 bool Ring<Dim>::touch(BodyIndex body, BodyIndex side) const {
-  return has(body) && std::ranges::any_of(
-                          contacts_.of(body),
-                          [&](int number) { return contacts_[number].a == side || contacts_[number].b == side; });
+  return has(body) && std::ranges::any_of(contacts_.of(body), [&](int number) {
+           return contacts_[number].a == side || contacts_[number].b == side;
+         });
 }
 
 template <int Dim>
@@ -121,8 +121,7 @@ Contact<Dim> Ring<Dim>::contact_of(const SleepingPoint<Dim>& point, BodyIndex si
 template <int Dim>
 bool Ring<Dim>::idle(std::span<const BodyIndex> moving) const {
   return members_.empty() && before_.empty() && disturbed_.empty() &&
-         std::ranges::all_of(
-             moving, [this](BodyIndex obstacle) { return contacts_.of(obstacle).empty(); });
+         std::ranges::all_of(moving, [this](BodyIndex obstacle) { return contacts_.of(obstacle).empty(); });
 }
 
 template <int Dim>
@@ -222,9 +221,9 @@ void Ring<Dim>::hold_back(ContactSolver<Dim>& solver) {
 /// One that carries nothing yet has been put to sleep by the user.
 template <int Dim>
 bool Ring<Dim>::is_on_trial(BodyIndex body) const {
-  return sleepers_[body].tried < trial_time &&
-         std::ranges::any_of(
-             contacts_.of(body), [this](int number) { return contacts_[number].contact.normal_impulse > 0.0F; });
+  return sleepers_[body].tried < trial_time && std::ranges::any_of(contacts_.of(body), [this](int number) {
+           return contacts_[number].contact.normal_impulse > 0.0F;
+         });
 }
 
 /// Bodies that were solved in the step before, but not in this one, come to rest where they are.
