@@ -58,8 +58,8 @@ int unloaded_near(const btVector3& on_owner, const btPersistentManifold& manifol
   return nearest;
 }
 
-/// Whether a point, in the shape's axes, is within the box around the shape. From sleep to sleep a body may slide over
-/// an edge of the other one.
+/// Whether a point, in the shape's axes, lies in the box around the shape, or outside by `margin` [m] at most. A body
+/// that slides a little before each sleep may leave the face on which the point was.
 bool holds(const btCollisionShape& shape, const btVector3& point, btScalar margin) {
   btVector3 low;
   btVector3 high;

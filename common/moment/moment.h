@@ -58,7 +58,7 @@ struct MomentBodies {
   std::vector<std::uint8_t> asleep;
   std::vector<std::uint8_t> removed;
   std::vector<std::uint8_t> unknown;  // 1: its pose may be another one, since messages are missing
-  std::vector<std::int8_t> cause;     // why it last fell asleep or woke, as SleepCause; -1: it did not yet, or lost
+  std::vector<std::int8_t> cause;     // why it last fell asleep or woke, as SleepCause; -1: neither yet, or not known
 
   BodyIndex size() const { return static_cast<BodyIndex>(shape.size()); }
   /// Whether it is in the world, at a known pose.

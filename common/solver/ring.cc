@@ -282,7 +282,7 @@ VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
   return sleepers_[body].body.way_of(arm);
 }
 
-/// Up to which a body counts as still [m/s].
+/// A sleeping body that is faster counts as moving [m/s].
 template <int Dim>
 float Ring<Dim>::still_speed(float gravity) const {
   return static_cast<float>(params_.still_speed * speed_unit(params_.extent, gravity));

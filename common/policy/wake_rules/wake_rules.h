@@ -1,9 +1,7 @@
 #pragma once
 // What wakes bodies that feel no forces in their sleep.
 
-#include <optional>
 #include <span>
-#include <vector>
 
 #include "common/policy/wake_rules/impacts.h"
 #include "common/policy/wake_rules/impacts_ahead.h"
