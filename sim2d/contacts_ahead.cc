@@ -60,7 +60,8 @@ PieceGap<2> gap_between(const Mover& a, const Mover& b, float share) {
 
 b2Transform Mover::after(float share) const {
   const b2Body& body = *fixture->GetBody();
-  return {body.GetPosition() + from_solver(share * motion.way), b2Rot(body.GetAngle() + share * motion.turn[0])};
+  return {body.GetPosition() + from_solver(share * motion.way - drift.way),
+          b2Rot(body.GetAngle() + share * motion.turn[0] - drift.turn[0])};
 }
 
 b2AABB swept(const Mover& mover) {
@@ -68,7 +69,8 @@ b2AABB swept(const Mover& mover) {
   const b2Vec2 way = from_solver(mover.motion.way);
   const b2AABB end = {box.lowerBound + way, box.upperBound + way};
   box.Combine(end);
-  const b2Vec2 around(mover.turn, mover.turn);
+  const float margin = mover.turn + mover.drift.way.norm();
+  const b2Vec2 around(margin, margin);
   return {box.lowerBound - around, box.upperBound + around};
 }
 

@@ -191,9 +191,11 @@ EngineTimes EngineWorld::box2d_step() {
 }
 
 EngineTimes EngineWorld::small_step() {
-  find_new_contacts();
   stepped_.clear();
   for (const BodyIndex body : awake()) stepped_.push_back(at(body).body);
+  small_steps_->drift(stepped_, step_input());
+  proxies_moved_ = true;
+  find_new_contacts();
   const EngineTimes times = small_steps_->step(world_, step_input(), stepped_);
   proxies_moved_ = true;
   return times;

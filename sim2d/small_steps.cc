@@ -50,6 +50,31 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description, std::optional<Rin
     obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
 }
 
+/// Contacts are detected in the middle of the step: normals and arms of its start, which the solver would keep, drive
+/// what rocks (leapfrog, as in molecular dynamics).
+void SmallSteps::drift(std::span<b2Body* const> bodies, const StepInput& input) {
+  const auto move = [](b2Body& body, const StepMotion<2>& by) {
+    if (by.is_none()) return;
+    body.SetTransform(body.GetPosition() + from_solver(by.way), body.GetAngle() + by.turn[0]);
+  };
+  drifts_.assign(1, {});
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    b2Body& body = *bodies[i];
+    if (input.images[input.awake[i]].sides == 0)
+      drifts_.push_back(
+          fast_.drift(to_solver(body.GetLinearVelocity()), SpinF<2>(body.GetAngularVelocity()), dt_));
+    move(body, drifts_.back());
+  }
+  obstacle_drifts_.assign(input.obstacles.size(), {});
+  for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
+    b2Body* obstacle = input.obstacles[i];
+    if (obstacle == nullptr || obstacle->GetType() != b2_kinematicBody) continue;
+    obstacle_drifts_[i] = {0.5F * dt_ * to_solver(obstacle->GetLinearVelocity()),
+                           SpinF<2>(0.5F * dt_ * obstacle->GetAngularVelocity())};
+    move(*obstacle, obstacle_drifts_[i]);
+  }
+}
+
 EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies) {
   Stopwatch watch;
   collision_.collide(world, std::ssize(bodies), *team_);
@@ -76,6 +101,7 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   write_impulses();
   move_bodies(input, bodies);
   for (const BodyIndex body : input.awake) slots_[body] = 0;
+  std::ranges::fill(obstacle_drifts_, StepMotion<2>{});
   return {.collide = watch.lap() - solving, .solve = solving};
 }
 
@@ -165,7 +191,7 @@ void SmallSteps::keep_near(b2World& world, const StepInput& input, b2Body& body)
 void SmallSteps::keep(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place,
                       const StepInput& input) {
   int number = 0;
-  for (const ContactPoint<2>& point : points_of(pair, manifold, place, input)) {
+  for (const ContactPoint<2>& point : points_of(pair, manifold, place, input, {})) {
     SleepingPoint<2> kept{
         .a = input.original(owner_of(*pair.a)), .b = input.original(owner_of(*pair.b)), .contact = point, .key = {}};
     kept.key = {static_cast<std::uint64_t>(tag_of(*pair.a)), static_cast<std::uint64_t>(tag_of(*pair.b)),
@@ -251,11 +277,11 @@ int SmallSteps::slot_of(BodyIndex owner, const VecF<2>& normal, const StepInput&
   return slots_[owner];
 }
 
-/// A sleeper's body in Box2D is one that it shares with others.
-b2Vec2 SmallSteps::centre_of(b2Fixture& fixture, const BodyStates<2>& states) {
+/// The centre of a fixture's body at the start of the step.
+b2Vec2 SmallSteps::start_of(b2Fixture& fixture, const BodyStates<2>& states) const {
   const BodyIndex owner = owner_of(fixture);
-  return owner >= 0 && !is_dynamic(*fixture.GetBody()) ? to_engine(states.pose[owner].position)
-                                                       : fixture.GetBody()->GetWorldCenter();
+  if (owner >= 0) return to_engine(states.pose[owner].position);
+  return fixture.GetBody()->GetPosition() - from_solver(drift_of(owner).way);
 }
 
 void SmallSteps::add_points_ahead(const StepInput& input) {
@@ -276,7 +302,8 @@ void SmallSteps::add_contacts(const StepInput& input) {
     const int a = slot_of(owner_of(*pair.a), to_solver(place.normal), input);
     const int b = slot_of(owner_of(*pair.b), to_solver(place.normal), input);
     int number = 0;
-    for (ContactPoint<2> point : points_of(pair, *contact->GetManifold(), place, input)) {
+    const Motions moved{drift_of(owner_of(*pair.a)), drift_of(owner_of(*pair.b))};
+    for (ContactPoint<2> point : points_of(pair, *contact->GetManifold(), place, input, moved)) {
       point.a = a;
       point.b = b;
       solver_.add(point);
@@ -295,9 +322,10 @@ SmallSteps::Fixtures SmallSteps::unknown_pair(b2Fixture& a, b2Fixture& b) {
           static_cast<float>(pair_restitution(a.GetRestitution(), b.GetRestitution())), nullptr};
 }
 
-/// Without their slots; valid until the next call.
+/// Without their slots; valid until the next call. `moved`: of the sides, when their contact was found.
 std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, const b2Manifold& manifold,
-                                                       const b2WorldManifold& place, const StepInput& input) {
+                                                       const b2WorldManifold& place, const StepInput& input,
+                                                       const Motions& moved) {
   points_.clear();
   ContactPoint<2> point;
   point.normal = to_solver(place.normal);
@@ -305,8 +333,13 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
   point.restitution = pair.restitution;
   resistance_.add_to(point, input.states, owner_of(*pair.a), owner_of(*pair.b));
   if (point.rolling_arm > 0.0F) add_rolling_impulse(pair, point);
-  const b2Vec2 centre_a = centre_of(*pair.a, input.states);
-  const b2Vec2 centre_b = centre_of(*pair.b, input.states);
+  const b2Vec2 centre_a = start_of(*pair.a, input.states) + from_solver(moved.a.way);
+  const b2Vec2 centre_b = start_of(*pair.b, input.states) + from_solver(moved.b.way);
+  Motions asleep;  // which the poses in Box2D do not contain
+  if (ring_) {
+    asleep.a = ring_->shift(input.original(owner_of(*pair.a)));
+    asleep.b = ring_->shift(input.original(owner_of(*pair.b)));
+  }
   const VecF<2> tangent = to_solver(b2Cross(place.normal, 1.0F));
   for (int i = 0; i < manifold.pointCount; ++i) {
     point.gap = place.separations[i] + 2.0F * skin;
@@ -317,18 +350,17 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
       point.normal_impulse = manifold.points[i].normalImpulse;
       point.friction_impulse = manifold.points[i].tangentImpulse * tangent;
     }
-    if (ring_)
-      point.gap += point.normal.dot(shift_of(input.original(owner_of(*pair.b)), point.arm_b) -
-                                    shift_of(input.original(owner_of(*pair.a)), point.arm_a));
+    point.gap += point.opening(asleep.a, asleep.b) - point.opening(moved.a, moved.b);
     points_.push_back(point);
     point.rolling_impulse.setZero();  // that of the pair is in its first point
   }
   return points_;
 }
 
-/// Displacement of a sleeper's point, which the pose in Box2D does not contain.
-VecF<2> SmallSteps::shift_of(BodyIndex side, const VecF<2>& arm) const {
-  return side >= 0 && ring_->has(side) ? ring_->shift(side, arm) : VecF<2>::Zero();
+/// Before the contacts of the step were detected.
+StepMotion<2> SmallSteps::drift_of(BodyIndex owner) const {
+  if (owner <= first_obstacle) return obstacle_drifts_[first_obstacle - owner];
+  return owner >= 0 && slots_[owner] < std::ssize(drifts_) ? drifts_[slots_[owner]] : StepMotion<2>{};
 }
 
 void SmallSteps::add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const {
@@ -350,11 +382,17 @@ Mover SmallSteps::mover_of(b2Fixture& fixture) const {
   const BodyIndex owner = owner_of(fixture);
   const int slot = moving_slot(owner);
   if (slot == 0) return {&fixture, {}, 0.0F};
-  if (owner >= 0) return {.fixture = &fixture, .motion = fast_.motion(slot), .turn = fast_.turn(fast_.motion(slot))};
+  const StepMotion<2> drift = drift_of(owner);
+  if (owner >= 0)
+    return {.fixture = &fixture,
+            .motion = fast_.motion(slot),
+            .turn = fast_.turn(fast_.motion(slot)),
+            .drift = drift};
   const StepMotion<2> motion{dt_ * solver_.body(slot).velocity, dt_ * solver_.body(slot).spin};
   return {.fixture = &fixture,
           .motion = motion,
-          .turn = obstacle_reaches_[first_obstacle - owner] * std::abs(motion.turn[0])};
+          .turn = obstacle_reaches_[first_obstacle - owner] * std::abs(motion.turn[0]),
+          .drift = drift};
 }
 
 /// Contacts of a fast body that begin within the step. `first`: the first time in the step.
@@ -399,12 +437,9 @@ bool SmallSteps::is_known(b2Fixture& one, b2Fixture& other) const {
 void SmallSteps::add_ahead(const Meeting& met, const StepInput& input) {
   b2Fixture& a = *met.a.fixture;
   b2Fixture& b = *met.b.fixture;
-  for (ContactPoint<2> point : points_of(unknown_pair(a, b), met.manifold, met.place, input)) {
-    point.arm_a -= met.share * met.a.motion.way;  // the centres are where they are then
-    point.arm_b -= met.share * met.b.motion.way;
-    set_back(point, met.a.motion, met.b.motion, met.share);
+  const Motions moved{met.a.motion.after(met.share), met.b.motion.after(met.share)};
+  for (const ContactPoint<2>& point : points_of(unknown_pair(a, b), met.manifold, met.place, input, moved))
     add_ahead(tag_of(a), tag_of(b), point, *b.GetBody());
-  }
 }
 
 void SmallSteps::add_ground_ahead(const StepInput& input, b2Body& body) {
@@ -467,8 +502,9 @@ void SmallSteps::move_bodies(const StepInput& input, std::span<b2Body* const> bo
     const float largest = b2_maxRotation / std::max(std::abs(from.turn[0]), b2_maxRotation);
     body.SetLinearVelocity(from_solver(longest * from.velocity));
     body.SetAngularVelocity(largest * from.spin[0]);
-    const b2Vec2 to = body.GetPosition() + from_solver(longest * from.way);
-    const float angle = body.GetAngle() + largest * from.turn[0];
+    const Pose<2>& start = input.states.pose[input.awake[i]];
+    const b2Vec2 to = to_engine(start.position) + from_solver(longest * from.way);
+    const float angle = static_cast<float>(start.rotation.angle()) + largest * from.turn[0];
     if (to.IsValid() && b2IsValid(angle))
       body.SetTransform(to, angle);  // else engine_read() finds a velocity that is not finite
   }

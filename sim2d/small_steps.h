@@ -42,7 +42,9 @@ class SmallSteps {
   /// `ring`: of the sleeping bodies, none where they feel nothing; outlives this.
   SmallSteps(const WorldDescription<2>& description, std::optional<Ring<2>>& ring);
 
-  /// Called in place of b2World::Step(), after Box2D has found all new pairs.
+  /// Moves the awake bodies and the moving obstacles by half of the coming step, where step() detects their contacts.
+  void drift(std::span<b2Body* const> bodies, const StepInput& input);
+  /// Called in place of b2World::Step(), after drift() and after Box2D has found all new pairs.
   EngineTimes step(b2World& world, const StepInput& input, std::span<b2Body* const> bodies);
 
   void share_among(const std::shared_ptr<Team>& team) {
@@ -83,6 +85,11 @@ class SmallSteps {
     float impulse = 0.0F;  // on the owner of `high` [N m s]
     std::pair<Tag, Tag> pair() const { return {low, high}; }
   };
+  /// What two sides have moved by, since the start of the step, when their contact is found.
+  struct Motions {
+    StepMotion<2> a;
+    StepMotion<2> b;
+  };
   struct Fixtures {
     b2Fixture* a = nullptr;
     b2Fixture* b = nullptr;
@@ -107,13 +114,14 @@ class SmallSteps {
   void keep_near(b2World& world, const StepInput& input, b2Body& body);
   void keep(const Fixtures& pair, const b2Manifold& manifold, const b2WorldManifold& place, const StepInput& input);
   int slot_of(BodyIndex owner, const VecF<2>& normal, const StepInput& input);
-  static b2Vec2 centre_of(b2Fixture& fixture, const BodyStates<2>& states);
+  b2Vec2 start_of(b2Fixture& fixture, const BodyStates<2>& states) const;
   void add_points_ahead(const StepInput& input);
   void add_contacts(const StepInput& input);
   static Fixtures fixtures_of(b2Contact& contact);
   static Fixtures unknown_pair(b2Fixture& a, b2Fixture& b);
   std::span<const ContactPoint<2>> points_of(const Fixtures& pair, const b2Manifold& manifold,
-                                             const b2WorldManifold& place, const StepInput& input);
+                                             const b2WorldManifold& place, const StepInput& input,
+                                             const Motions& moved);
   void add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const;
   int moving_slot(BodyIndex owner) const;
   Mover mover_of(b2Fixture& fixture) const;
@@ -123,7 +131,7 @@ class SmallSteps {
   void add_ahead(const Meeting& met, const StepInput& input);
   void add_ground_ahead(const StepInput& input, b2Body& body);
   void add_ahead(Tag a, Tag b, ContactPoint<2> point, const b2Body& body_b);
-  VecF<2> shift_of(BodyIndex side, const VecF<2>& arm) const;
+  StepMotion<2> drift_of(BodyIndex owner) const;
   void write_impulses();
   void move_bodies(const StepInput& input, std::span<b2Body* const> bodies) const;
 
@@ -136,6 +144,8 @@ class SmallSteps {
   Collision collision_;
   std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
   std::vector<Ahead> ahead_;
+  std::vector<StepMotion<2>> drifts_;       // by slot of an awake body; 0: none
+  std::vector<StepMotion<2>> obstacle_drifts_;  // by number
   std::vector<std::size_t> first_of_;       // by slot of an awake body, from 1 on: its number among the awake
   std::vector<float> obstacle_reaches_;     // by number: from the centre to any point of it at most [m]
   std::vector<Source> sources_;             // by point

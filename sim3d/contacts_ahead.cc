@@ -127,7 +127,7 @@ void meet(const Piece& a, const Piece& b, float near, std::vector<ContactPoint<3
     point.gap = each.gap;
     point.arm_a = to_solver<3>(each.on_a - centre_a);
     point.arm_b = to_solver<3>(each.on_a + each.gap * each.normal - centre_b);
-    set_back(point, a.of->motion, b.of->motion, *share);
+    point.gap -= *share * point.opening(a.of->motion, b.of->motion);
     found.push_back(point);
   }
 }

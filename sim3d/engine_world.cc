@@ -77,7 +77,8 @@ template <int Dim>
 void EngineWorld<Dim>::use_small_steps() {
   engine_.keep_points_of_spheres();
   if constexpr (Dim == 3) engine_.find_points_on_ground();
-  engine_.world.set_contact_step({.solve = [this] { small_steps_->solve(engine_, rigid_, actions()); },
+  engine_.world.set_contact_step({.drift = [this] { small_steps_->drift(rigid_, moving_obstacles_); },
+                                  .solve = [this] { small_steps_->solve(engine_, rigid_, actions()); },
                                   .finish = [this] { small_steps_->finish(rigid_); }});
 }
 

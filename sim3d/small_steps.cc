@@ -105,9 +105,43 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
   obstacle_slots_.assign(description.obstacles.size(), 0);
 }
 
+/// Contacts are detected in the middle of the step: normals and arms of its start, which the solver would keep, drive
+/// what rocks (leapfrog, as in molecular dynamics).
+template <int Dim>
+void SmallSteps<Dim>::drift(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving) {
+  drifted_.clear();
+  const auto move = [&](btRigidBody& body, const StepMotion<Dim>& by) {
+    if (by.is_none()) return;
+    btTransform& pose = body.getWorldTransform();
+    drifted_.emplace_back(&body, pose);
+    btTransformUtil::integrateTransform(pose, from_solver<Dim>(by.way), spin_from_solver<Dim>(by.turn), 1,
+                                        body.getWorldTransform());
+  };
+  drifts_.assign(1, {});
+  for (btRigidBody* body : bodies) {
+    if (image_of(*body).sides == 0)
+      drifts_.push_back(fast_.drift(to_solver<Dim>(body->getLinearVelocity()),
+                                    spin_to_solver<Dim>(body->getAngularVelocity()), dt_));
+    move(*body, drifts_.back());
+  }
+  obstacle_drifts_.assign(obstacle_slots_.size(), {});
+  for (btRigidBody* obstacle : moving) {
+    StepMotion<Dim>& by = obstacle_drifts_[first_obstacle - obstacle->getUserIndex()];
+    by = {0.5F * dt_ * to_solver<Dim>(obstacle->getLinearVelocity()),
+          0.5F * dt_ * spin_to_solver<Dim>(obstacle->getAngularVelocity())};
+    move(*obstacle, by);
+  }
+}
+
+template <int Dim>
+void SmallSteps<Dim>::undo_drift() {
+  for (const auto& [body, start] : drifted_) body->setWorldTransform(start);
+}
+
 template <int Dim>
 void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies, const Actions& actions) {
   ++step_;
+  undo_drift();
   ahead_.clear();
   if (ring_) ring_->start();
   for (int round = 1;; ++round) {
@@ -134,6 +168,8 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
   }
   if (ring_) ring_->read(solver_, actions.gravity.length(), dt_);
   write_points();
+  drifts_.assign(1, {});
+  std::ranges::fill(obstacle_drifts_, StepMotion<Dim>{});
   set_mean_velocities(bodies);
 }
 
@@ -253,7 +289,7 @@ std::optional<ContactPoint<Dim>> SmallSteps<Dim>::in_world(const btCollisionObje
   point.arm_a = in_world(found.arm_a);
   point.arm_b = in_world(found.arm_b);
   point.gap = found.gap;
-  if (ring_) point.gap += point.normal.dot(shift_of(b, point.arm_b) - shift_of(a, point.arm_a));
+  if (ring_) point.gap += point.opening(ring_->shift(image_of(a).of), ring_->shift(image_of(b).of));
   point.friction = btManifoldResult::calculateCombinedFriction(&a, &b);
   point.restitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
   resistance_.add_to(point, states_, a.getUserIndex(), b.getUserIndex());
@@ -400,8 +436,16 @@ template <int Dim>
 void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last_step) {
   const btCollisionObject& object_a = *manifold.getBody1();
   const btCollisionObject& object_b = *manifold.getBody0();
-  const btVector3& centre_a = object_a.getWorldTransform().getOrigin();
-  const btVector3& centre_b = object_b.getWorldTransform().getOrigin();
+  const StepMotion<Dim> drift_a = drift_of(object_a);
+  const StepMotion<Dim> drift_b = drift_of(object_b);
+  const btVector3 centre_a = object_a.getWorldTransform().getOrigin() + from_solver<Dim>(drift_a.way);
+  const btVector3 centre_b = object_b.getWorldTransform().getOrigin() + from_solver<Dim>(drift_b.way);
+  StepMotion<Dim> asleep_a;  // which the poses in Bullet do not contain
+  StepMotion<Dim> asleep_b;
+  if (ring_) {
+    asleep_a = ring_->shift(image_of(object_a).of);
+    asleep_b = ring_->shift(image_of(object_b).of);
+  }
   const auto first = static_cast<int>(parts_.size());
   const SpinF<Dim>* rolling = nullptr;
   contacts_.clear();
@@ -417,7 +461,7 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
     contact.arm_a = to_solver<Dim>(point.getPositionWorldOnB() - centre_a);
     contact.arm_b = to_solver<Dim>(point.getPositionWorldOnA() - centre_b);
     contact.gap = point.getDistance();
-    if (ring_) contact.gap += contact.normal.dot(shift_of(object_b, contact.arm_b) - shift_of(object_a, contact.arm_a));
+    contact.gap += contact.opening(asleep_a, asleep_b) - contact.opening(drift_a, drift_b);
     contact.friction = point.m_combinedFriction;
     resistance_.add_to(contact, states_, object_a.getUserIndex(), object_b.getUserIndex());
     contact.restitution = point.m_combinedRestitution;
@@ -429,11 +473,13 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
   if (rolling != nullptr) contacts_[0].rolling_impulse = *rolling;
 }
 
-/// Displacement of a sleeper's point, which the pose in Bullet does not contain.
+/// Before the contacts of the step were detected.
 template <int Dim>
-VecF<Dim> SmallSteps<Dim>::shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const {
-  const BodyIndex body = image_of(object).of;
-  return body >= 0 && ring_->has(body) ? ring_->shift(body, arm) : VecF<Dim>::Zero();
+StepMotion<Dim> SmallSteps<Dim>::drift_of(const btCollisionObject& object) const {
+  const BodyIndex body = object.getUserIndex();
+  if (body <= first_obstacle) return obstacle_drifts_[first_obstacle - body];
+  const int slot = object.getCompanionId();
+  return body >= 0 && slot > 0 && slot < std::ssize(drifts_) ? drifts_[slot] : StepMotion<Dim>{};
 }
 
 /// Joins the point with one of the same manifold, of which `first` is the first, where both are one in the plane.
@@ -480,6 +526,7 @@ void SmallSteps<Dim>::write_points() {
     btManifoldPoint& point = *source.point;
     const float share = 1.0F / static_cast<float>(parts_[source.contact]);
     point.m_appliedImpulse = share * contact.normal_impulse;
+    point.setDistance(solver_.gap_after(contact));
     set_friction_impulse(point, from_solver<Dim>(share * contact.friction_impulse));
     set_impulse_of_step(point, share * contact.normal_sum, from_solver<Dim>(share * contact.friction_sum));
   }
@@ -571,12 +618,11 @@ btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, std::span<con
   released_.clear();
   const SolverBody<Dim> state = ring_->wake(object.getUserIndex(), released_);
   renewed.clear();
-  const auto shift_asleep = [&](BodyIndex side, const VecF<Dim>& arm) -> VecF<Dim> {
-    const bool stays = side >= 0 && ring_->has(side) && !std::ranges::binary_search(waking, side);
-    return stays ? ring_->shift(side, arm) : VecF<Dim>::Zero();
+  const auto shift_asleep = [&](BodyIndex side) {
+    return std::ranges::binary_search(waking, side) ? StepMotion<Dim>{} : ring_->shift(side);
   };
   for (const SleepingPoint<Dim>& point : released_) {
-    const VecF<Dim> moved = shift_asleep(point.b, point.contact.arm_b) - shift_asleep(point.a, point.contact.arm_a);
+    const float moved = point.contact.opening(shift_asleep(point.a), shift_asleep(point.b));
     const auto a = static_cast<BodyIndex>(point.key.a);
     const auto b = static_cast<BodyIndex>(point.key.b);
     const bool of_b = WarmStart::owns(b, a);
@@ -585,7 +631,7 @@ btTransform SmallSteps<Dim>::thaw(const btCollisionObject& object, std::span<con
     renewed.push_back({.owner = of_b ? b : a,
                        .partner = of_b ? a : b,
                        .arm = from_solver<Dim>(of_b ? point.contact.arm_b : point.contact.arm_a),
-                       .distance = point.contact.gap - point.contact.normal.dot(moved),
+                       .distance = point.contact.gap - moved,
                        .impulse = point.contact.normal_impulse,
                        .friction = of_b ? friction : -friction,
                        .mark = marked(of_b ? rolling : SpinF<Dim>(-rolling))});

@@ -42,7 +42,9 @@ class SmallSteps {
     std::vector<std::pair<const btRigidBody*, Vec<Dim>>> pushes;  // accelerations of bodies [m/s^2]
     btVector3 gravity;                                            // [m/s^2]
   };
-  /// Solves the contacts of a step. `bodies`: all that are not frozen. Leaves the bodies with the mean velocity of the
+  /// Moves the awake bodies and the moving obstacles by half of the coming step, where their contacts are detected.
+  void drift(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving);
+  /// After drift() and the detection: puts them back and solves the contacts of the step. `bodies`: all that are not frozen. Leaves the bodies with the mean velocity of the
   /// step, by which Bullet is to move them.
   void solve(Engine& engine, std::span<btRigidBody* const> bodies, const Actions& actions);
 
@@ -90,7 +92,8 @@ class SmallSteps {
   void keep_near(Engine& engine, const btRigidBody& body);
   std::optional<ContactPoint<Dim>> in_world(const btCollisionObject& a, const btCollisionObject& b,
                                             const ContactPoint<3>& found) const;
-  VecF<Dim> shift_of(const btCollisionObject& object, const VecF<Dim>& arm) const;
+  void undo_drift();
+  StepMotion<Dim> drift_of(const btCollisionObject& object) const;
   int slot_of(const btCollisionObject& object);
   void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
   void write_points();
@@ -120,6 +123,9 @@ class SmallSteps {
   btManifoldArray known_;                       // scratch
   std::vector<ContactPoint<Dim>> contacts_;     // to come, of one manifold
   std::vector<Source> sources_;
+  std::vector<StepMotion<Dim>> drifts_;           // by slot of an awake body; 0: none
+  std::vector<StepMotion<Dim>> obstacle_drifts_;  // by number
+  std::vector<std::pair<btRigidBody*, btTransform>> drifted_;  // with their poses at the start of the step
   std::vector<std::size_t> first_of_;         // by slot of an awake body, from 1 on: its number among the awake
   std::vector<int> parts_;                    // by contact: its points of Bullet's
   std::vector<btCollisionObject*> others_;    // sleepers and moving obstacles that have a slot

@@ -45,6 +45,11 @@ struct ContactPoint {
   VecF<Dim> friction_impulse = VecF<Dim>::Zero();   // in the world's axes [N s]
   SpinF<Dim> rolling_impulse = SpinF<Dim>::Zero();  // of the pair's first point [N m s]
 
+  /// How far the surfaces come apart when their bodies move so [m].
+  float opening(const StepMotion<Dim>& motion_of_a, const StepMotion<Dim>& motion_of_b) const {
+    return normal.dot(motion_of_b.of(arm_b) - motion_of_a.of(arm_a));
+  }
+
   // In the step.
   float attraction = 0.0F;  // impulse of the cohesion [N s]
   /// With which the surfaces press on each other at the start: what is carried and what balances the attraction. A
@@ -104,6 +109,10 @@ class ContactSolver {
   void share_among(const std::shared_ptr<Team>& team) { team_ = team; }
 
   const SolverBody<Dim>& body(int slot) const { return bodies_[slot]; }
+  /// Of a point, once the step is solved [m].
+  float gap_after(const ContactPoint<Dim>& point) const {
+    return point.gap + point.opening(body(point.a).motion(), body(point.b).motion());
+  }
   /// In the order in which they were added.
   std::span<const ContactPoint<Dim>> points() const { return points_; }
 

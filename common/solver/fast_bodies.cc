@@ -10,6 +10,7 @@ namespace talus {
 namespace {
 
 constexpr float thickness_share = 0.5F;  // of the thinnest piece, which a body goes in a step before it is fast
+constexpr float negligible = 1e-4F;      // of that way, in which contacts do not change
 constexpr int longest_search = 32;       // gaps, after which pieces that turn past each other are taken for touching
 
 }  // namespace
@@ -58,6 +59,13 @@ void FastBodies<Dim>::expect(const ContactSolver<Dim>& solver, int bodies, float
 }
 
 template <int Dim>
+StepMotion<Dim> FastBodies<Dim>::drift(const VecF<Dim>& velocity, const SpinF<Dim>& spin, float dt) const {
+  const float way = way_of({dt * velocity, dt * spin});
+  if (way > limit_ || way < negligible * limit_) return {};
+  return {0.5F * dt * velocity, 0.5F * dt * spin};
+}
+
+template <int Dim>
 void FastBodies<Dim>::follow(const ContactSolver<Dim>& solver) {
   found_.clear();
   for (int slot = 1; slot <= std::ssize(expected_); ++slot) {
@@ -81,9 +89,7 @@ float FastBodies<Dim>::stray(const StepMotion<Dim>& moved, const StepMotion<Dim>
 
 template <int Dim>
 bool FastBodies<Dim>::passes(const ContactSolver<Dim>& solver, const ContactPoint<Dim>& point) const {
-  return point.gap +
-             point.normal.dot(solver.body(point.b).way_of(point.arm_b) - solver.body(point.a).way_of(point.arm_a)) <
-         -corner();
+  return solver.gap_after(point) < -corner();
 }
 
 template <int Dim>

@@ -11,15 +11,6 @@
 
 namespace talus {
 
-/// How far a body or an obstacle goes in a step.
-template <int Dim>
-struct StepMotion {
-  VecF<Dim> way = VecF<Dim>::Zero();     // of its centre [m]
-  SpinF<Dim> turn = SpinF<Dim>::Zero();  // [rad]
-
-  VecF<Dim> of(const VecF<Dim>& arm) const { return way + turned(turn, arm); }
-};
-
 /// How far two pieces are apart.
 template <int Dim>
 struct PieceGap {
@@ -33,12 +24,6 @@ struct PieceGap {
 template <int Dim>
 std::optional<float> first_touch(const StepMotion<Dim>& a, const StepMotion<Dim>& b, float turns, float near,
                                  const std::function<PieceGap<Dim>(float)>& gap_at);
-
-/// A point found where the bodies are after a share of the step, as the solver has it: with its gap at the start.
-template <int Dim>
-void set_back(ContactPoint<Dim>& point, const StepMotion<Dim>& a, const StepMotion<Dim>& b, float share) {
-  point.gap -= share * point.normal.dot(b.of(point.arm_b) - a.of(point.arm_a));
-}
 
 /// A step is solved again when a body that was struck in it gets past something out of its expected reach: a chain of
 /// so many may be struck in a step.
@@ -70,6 +55,10 @@ class FastBodies {
   void follow(const ContactSolver<Dim>& solver);
   /// Slots, ascending.
   std::span<const int> found() const { return found_; }
+
+  /// What a body with this velocity goes in half a step: so far it is moved before its contacts are detected. None
+  /// if it is fast.
+  StepMotion<Dim> drift(const VecF<Dim>& velocity, const SpinF<Dim>& spin, float dt) const;
 
   /// Of an awake body, as far as it is known.
   const StepMotion<Dim>& motion(int slot) const { return expected_[slot - 1]; }

@@ -278,8 +278,8 @@ float Ring<Dim>::far_of(const Sleeper& sleeper) {
 }
 
 template <int Dim>
-VecF<Dim> Ring<Dim>::shift(BodyIndex body, const VecF<Dim>& arm) const {
-  return sleepers_[body].body.way_of(arm);
+StepMotion<Dim> Ring<Dim>::shift(BodyIndex body) const {
+  return has(body) ? sleepers_[body].body.motion() : StepMotion<Dim>{};
 }
 
 /// A sleeping body that is faster counts as moving [m/s].
@@ -344,7 +344,8 @@ void Ring<Dim>::read_points(const ContactSolver<Dim>& solver, float distance) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint<Dim>& solved = solver.points()[first_point_ + i];
     SleepingPoint<Dim>& kept = contacts_[points_[i]];
-    const VecF<Dim> moved = solver.body(solved.b).way_of(solved.arm_b) - solver.body(solved.a).way_of(solved.arm_a);
+    const VecF<Dim> moved =
+        solver.body(solved.b).motion().of(solved.arm_b) - solver.body(solved.a).motion().of(solved.arm_a);
     add_unsolved(kept, solved);
     kept.contact = solved;
     kept.contact.gap += solved.normal.dot(moved);

@@ -38,7 +38,7 @@ class Ring {
   /// A body, awake or asleep, or an obstacle leaves the world.
   void forget(BodyIndex side);
   /// Whether a body sleeps here.
-  bool has(BodyIndex body) const { return body < std::ssize(sleepers_) && sleepers_[body].asleep; }
+  bool has(BodyIndex body) const { return body >= 0 && body < std::ssize(sleepers_) && sleepers_[body].asleep; }
   /// Appends the contacts of the bodies that sleep here with `side`, see World::sleeping_contacts().
   /// `impulse_unit`: of the points' impulses [N s].
   void append_contacts(BodyIndex side, const BodyStates<Dim>& states, double impulse_unit,
@@ -63,8 +63,8 @@ class Ring {
   /// Adds the other bodies of the ring, and the contact points between sleeping bodies. To be called after all awake
   /// bodies and their points have been added. `obstacle_slots`: by number; 0 of those that do not move.
   void extend(ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
-  /// Displacement of a point of a body that sleeps here [m].
-  VecF<Dim> shift(BodyIndex body, const VecF<Dim>& arm) const;
+  /// How far a body that sleeps here has moved; not at all any other.
+  StepMotion<Dim> shift(BodyIndex body) const;
   /// After the solve of a step of `dt` [s] under `gravity` [m/s^2].
   void read(const ContactSolver<Dim>& solver, float gravity, float dt);
 

@@ -7,8 +7,6 @@ namespace talus {
 template <int Dim>
 Contact<Dim> solved_contact(const ContactSolver<Dim>& solver, const ContactPoint<Dim>& point, BodyIndex a, BodyIndex b,
                             bool swapped, const BodyStates<Dim>& states) {
-  const float gap =
-      point.gap + point.normal.dot(solver.body(point.b).way_of(point.arm_b) - solver.body(point.a).way_of(point.arm_a));
   const double sign = swapped ? 1.0 : -1.0;  // the result's normal points to its first body
   Contact<Dim> contact;
   contact.a = swapped ? b : a;
@@ -19,7 +17,7 @@ Contact<Dim> solved_contact(const ContactSolver<Dim>& solver, const ContactPoint
   contact.normal_impulse = point.normal_sum;
   contact.friction_impulse = sign * point.friction_sum.template cast<double>();
   contact.approach_speed = std::max(0.0F, point.approach_speed);
-  contact.depth = -gap;
+  contact.depth = -solver.gap_after(point);
   return contact;
 }
 

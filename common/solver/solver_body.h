@@ -18,6 +18,17 @@ using InertiaF = Eigen::Matrix<float, Dim == 2 ? 1 : 3, Dim == 2 ? 1 : 3>;
 inline VecF<2> turned(const SpinF<2>& spin, const VecF<2>& arm) { return spin[0] * VecF<2>(-arm.y(), arm.x()); }
 inline VecF<3> turned(const SpinF<3>& spin, const VecF<3>& arm) { return spin.cross(arm); }
 
+/// A small displacement of a body or an obstacle.
+template <int Dim>
+struct StepMotion {
+  VecF<Dim> way = VecF<Dim>::Zero();     // of its centre [m]
+  SpinF<Dim> turn = SpinF<Dim>::Zero();  // [rad]
+
+  VecF<Dim> of(const VecF<Dim>& arm) const { return way + turned(turn, arm); }
+  StepMotion after(float share) const { return {share * way, share * turn}; }
+  bool is_none() const { return way.isZero(0.0F) && turn.isZero(0.0F); }
+};
+
 /// A body in the solver.
 ///
 /// Awake: its mass, and `moves`. Asleep: its mass too, but it does not move, so that contacts with it are as stiff as
@@ -34,8 +45,7 @@ struct SolverBody {
   VecF<Dim> way = VecF<Dim>::Zero();                      // after: motion in the step [m]
   SpinF<Dim> turn = SpinF<Dim>::Zero();                   // after: rotation in the step [rad]
 
-  /// After: motion of the point at the end of an arm in the step [m].
-  VecF<Dim> way_of(const VecF<Dim>& arm) const { return way + turned(turn, arm); }
+  StepMotion<Dim> motion() const { return {way, turn}; }  // after: in the step
 };
 
 }  // namespace talus

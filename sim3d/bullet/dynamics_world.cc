@@ -45,6 +45,11 @@ void DynamicsWorld::restore_static(btCollisionObject& object) {
                                                           getDispatcher()));
 }
 
+void DynamicsWorld::predictUnconstraintMotion(btScalar time_step) {
+  btDiscreteDynamicsWorld::predictUnconstraintMotion(time_step);
+  if (contact_step_) contact_step_->drift();
+}
+
 void DynamicsWorld::performDiscreteCollisionDetection() {
   Stopwatch watch;
   if (!debug_.bullet_compounds) {

@@ -17,7 +17,8 @@ namespace talus::bullet {
 
 /// What solves the contacts of a step in the place of Bullet's islands and solver.
 struct ContactStep {
-  std::function<void()> solve;   // leaves bodies with the velocity by which they are to move in this step
+  std::function<void()> drift;   // moves bodies to where their contacts are to be detected
+  std::function<void()> solve;   // puts them back, leaves bodies with the velocity by which they are to move in this step
   std::function<void()> finish;  // gives them that at its end, once they have moved
 };
 
@@ -53,6 +54,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   /// Not for a world in which Bullet's own sleeping, of whole islands, is in use.
   void set_contact_step(ContactStep step) { contact_step_ = std::move(step); }
 
+  void predictUnconstraintMotion(btScalar time_step) override;
   void performDiscreteCollisionDetection() override;
   void calculateSimulationIslands() override;
   void solveConstraints(btContactSolverInfo& info) override;
