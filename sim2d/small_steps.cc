@@ -45,7 +45,9 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description, std::optional<Rin
       params_(description.solver),
       dt_(static_cast<float>(description.dt)),
       fast_(description),
-      resistance_(description.shapes) {
+      resistance_(description.shapes),
+      drifts_(1),
+      obstacle_drifts_(description.obstacles.size()) {
   for (const Obstacle<2>& obstacle : description.obstacles)
     obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
 }
@@ -65,7 +67,7 @@ void SmallSteps::drift(std::span<b2Body* const> bodies, const StepInput& input) 
           fast_.drift(to_solver(body.GetLinearVelocity()), SpinF<2>(body.GetAngularVelocity()), dt_));
     move(body, drifts_.back());
   }
-  obstacle_drifts_.assign(input.obstacles.size(), {});
+  std::ranges::fill(obstacle_drifts_, StepMotion<2>{});
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
     b2Body* obstacle = input.obstacles[i];
     if (obstacle == nullptr || obstacle->GetType() != b2_kinematicBody) continue;

@@ -2,7 +2,7 @@
 
 namespace talus::bullet {
 
-void BodySwap::freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape) {
+void BodySwap::freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, btScalar stray) {
   prepare_broadphase();
   btBroadphaseProxy* proxy = object->getBroadphaseHandle();
   proxy->m_collisionFilterGroup = btBroadphaseProxy::StaticFilter;
@@ -14,6 +14,7 @@ void BodySwap::freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemp
   auto frozen = make_static_object(*shape.whole, shape.surface, object->getWorldTransform(), object->getUserIndex());
   frozen->setUserPointer(const_cast<BodyTemplate*>(&shape));  // of a frozen body: its mass
   exchange(object, std::move(frozen));
+  if (stray > 0) set_box(*object, gContactBreakingThreshold + stray);
 }
 
 void BodySwap::thaw(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, bool may_sleep) {
@@ -25,12 +26,17 @@ void BodySwap::thaw(std::unique_ptr<btCollisionObject>& object, const BodyTempla
   proxy->m_collisionFilterGroup = btBroadphaseProxy::DefaultFilter;
   proxy->m_collisionFilterMask = btBroadphaseProxy::AllFilter;
   // Makes the pairs with static neighbours. The box is the one that the next step will use.
+  set_box(*object, gContactBreakingThreshold);
+  warm_start_.announce(*proxy, engine_.pairs);
+}
+
+void BodySwap::set_box(const btCollisionObject& object, btScalar margin) {
   btVector3 low;
   btVector3 high;
-  shape.whole->getAabb(object->getWorldTransform(), low, high);
-  const btVector3 threshold(gContactBreakingThreshold, gContactBreakingThreshold, gContactBreakingThreshold);
-  engine_.broadphase.setAabbForceUpdate(proxy, low - threshold, high + threshold, &engine_.dispatcher);
-  warm_start_.announce(*proxy, engine_.pairs);
+  object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
+  const btVector3 around(margin, margin, margin);
+  auto* proxy = const_cast<btBroadphaseProxy*>(object.getBroadphaseHandle());
+  engine_.broadphase.setAabbForceUpdate(proxy, low - around, high + around, &engine_.dispatcher);
 }
 
 // The manifolds that stay must point to the new object.

@@ -20,8 +20,9 @@ class BodySwap {
  public:
   explicit BodySwap(Engine& engine) : engine_(engine) {}
 
-  /// `object` holds a rigid body on entry and a static object after.
-  void freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape);
+  /// `object` holds a rigid body on entry and a static object after. `stray`: how far the sleeper may be from its
+  /// place in Bullet [m]; its entry in the broad phase is larger by that.
+  void freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, btScalar stray);
 
   /// The other way round; the body is at rest.
   void thaw(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, bool may_sleep);
@@ -40,6 +41,7 @@ class BodySwap {
  private:
   void exchange(std::unique_ptr<btCollisionObject>& object, std::unique_ptr<btCollisionObject> successor);
   void prepare_broadphase();
+  void set_box(const btCollisionObject& object, btScalar margin);
 
   Engine& engine_;
   WarmStart warm_start_;

@@ -263,7 +263,7 @@ void EngineWorld<Dim>::engine_set_gravity(const Vec<Dim>& gravity) {
 /// Of awake bodies that fall asleep, some of them maybe before their first step.
 template <int Dim>
 void EngineWorld<Dim>::keep_contacts(std::span<const BodyIndex> bodies) {
-  if (bodies.back() >= detected_) engine_.world.performDiscreteCollisionDetection();
+  if (bodies.back() >= detected_) engine_.world.detect_contacts();
   detected_ = this->states().size();
   std::vector<btRigidBody*> falling_asleep;
   for (const BodyIndex body : bodies) falling_asleep.push_back(rigid_body(body));
@@ -273,7 +273,8 @@ void EngineWorld<Dim>::keep_contacts(std::span<const BodyIndex> bodies) {
 template <int Dim>
 void EngineWorld<Dim>::engine_freeze(std::span<const BodyIndex> bodies) {
   if (ring_) keep_contacts(bodies);
-  for (const BodyIndex body : bodies) swap_.freeze(at(body), template_of_body(body));
+  const btScalar stray = ring_ ? 0.5F * ring_->reach() : 0;
+  for (const BodyIndex body : bodies) swap_.freeze(at(body), template_of_body(body), stray);
   std::erase_if(listed_, [this](BodyIndex body) { return rigid_body(body) == nullptr; });
   update_lists();
 }

@@ -98,7 +98,9 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
       dt_(static_cast<float>(description.dt)),
       fastest_spin_(static_cast<float>(fastest_spin)),
       fast_(description),
-      resistance_(description.shapes) {
+      resistance_(description.shapes),
+      drifts_(1),
+      obstacle_drifts_(description.obstacles.size()) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Shape<Dim>& shape : description.shapes) smallest = std::min(smallest, shape.extent);
   one_point_ = static_cast<float>(one_point * smallest);
@@ -124,7 +126,6 @@ void SmallSteps<Dim>::drift(std::span<btRigidBody* const> bodies, std::span<btRi
                                     spin_to_solver<Dim>(body->getAngularVelocity()), dt_));
     move(*body, drifts_.back());
   }
-  obstacle_drifts_.assign(obstacle_slots_.size(), {});
   for (btRigidBody* obstacle : moving) {
     StepMotion<Dim>& by = obstacle_drifts_[first_obstacle - obstacle->getUserIndex()];
     by = {0.5F * dt_ * to_solver<Dim>(obstacle->getLinearVelocity()),
@@ -168,7 +169,7 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
   }
   if (ring_) ring_->read(solver_, actions.gravity.length(), dt_);
   write_points();
-  drifts_.assign(1, {});
+  drifts_.resize(1);
   std::ranges::fill(obstacle_drifts_, StepMotion<Dim>{});
   set_mean_velocities(bodies);
 }

@@ -45,22 +45,30 @@ void DynamicsWorld::restore_static(btCollisionObject& object) {
                                                           getDispatcher()));
 }
 
-void DynamicsWorld::predictUnconstraintMotion(btScalar time_step) {
-  btDiscreteDynamicsWorld::predictUnconstraintMotion(time_step);
-  if (contact_step_) contact_step_->drift();
-}
-
 void DynamicsWorld::performDiscreteCollisionDetection() {
   Stopwatch watch;
-  if (!debug_.bullet_compounds) {
-    updateAabbs();
-    computeOverlappingPairs();
-    near_pairs_.collide(getDispatchInfo(), bodies(), *team_);
-  } else {
-    btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
-  }
-  after_collision_();
+  find_pairs();
+  if (contact_step_) contact_step_->drift();  // the boxes of the pairs hold the whole step
+  find_contacts();
   collide_seconds_ = watch.lap();
+}
+
+void DynamicsWorld::detect_contacts() {
+  find_pairs();
+  find_contacts();
+}
+
+void DynamicsWorld::find_pairs() {
+  updateAabbs();
+  computeOverlappingPairs();
+}
+
+void DynamicsWorld::find_contacts() {
+  if (debug_.bullet_compounds)
+    getDispatcher()->dispatchAllCollisionPairs(getPairCache(), getDispatchInfo(), getDispatcher());
+  else
+    near_pairs_.collide(getDispatchInfo(), bodies(), *team_);
+  after_collision_();
 }
 
 void DynamicsWorld::calculateSimulationIslands() {

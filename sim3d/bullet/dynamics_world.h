@@ -54,7 +54,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   /// Not for a world in which Bullet's own sleeping, of whole islands, is in use.
   void set_contact_step(ContactStep step) { contact_step_ = std::move(step); }
 
-  void predictUnconstraintMotion(btScalar time_step) override;
+  /// Between two steps, where the bodies are.
+  void detect_contacts();
   void performDiscreteCollisionDetection() override;
   void calculateSimulationIslands() override;
   void solveConstraints(btContactSolverInfo& info) override;
@@ -65,6 +66,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
 
  private:
   std::span<btRigidBody* const> bodies() const;
+  void find_pairs();
+  void find_contacts();
 
   DebugOptions debug_;
   NearPairs near_pairs_;
