@@ -148,6 +148,7 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
   for (int round = 1;; ++round) {
     solver_.start();
     sources_.clear();
+    manifolds_.clear();
     parts_.clear();
     add_bodies(bodies, actions);
     if (round == 1) expect_motion(engine, bodies);
@@ -421,14 +422,37 @@ void SmallSteps<Dim>::add_points(btDispatcher& dispatcher, std::span<const Vec<D
 
 template <int Dim>
 void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, std::span<const Vec<Dim>> belts) {
+  const auto first = static_cast<int>(parts_.size());
   collect(manifold, step_ - 1);
   if (contacts_.empty()) return;
+  hand_over(manifold);
+  manifolds_.push_back({&manifold, first, static_cast<int>(contacts_.size())});
   const int a = slot_at(*manifold.getBody1(), contacts_[0].normal, belts);
   const int b = slot_at(*manifold.getBody0(), contacts_[0].normal, belts);
   for (ContactPoint<Dim>& contact : contacts_) {
     contact.a = a;
     contact.b = b;
     solver_.add(contact);
+  }
+}
+
+/// Of the points of two pieces Bullet keeps four, and often puts another in the place of one that carries a load. The
+/// load of those that are gone goes to those that touch without any.
+template <int Dim>
+void SmallSteps<Dim>::hand_over(const btPersistentManifold& manifold) {
+  if (static_cast<std::uint32_t>(manifold.m_companionIdB) != step_ - 1) return;
+  Load lost = loads_[manifold.m_companionIdA];
+  const auto takes = [](const ContactPoint<Dim>& point) { return point.normal_impulse == 0.0F && point.gap <= 0.0F; };
+  for (const ContactPoint<Dim>& point : contacts_) {
+    lost.normal -= point.normal_impulse;
+    lost.friction -= point.friction_impulse;
+  }
+  if (lost.normal <= 0.0F) return;
+  const float share = 1.0F / static_cast<float>(std::ranges::count_if(contacts_, takes));
+  for (ContactPoint<Dim>& point : contacts_) {
+    if (!takes(point)) continue;
+    point.normal_impulse = share * lost.normal;
+    point.friction_impulse = along_plane<VecF<Dim>>(share * lost.friction, point.normal);
   }
 }
 
@@ -530,6 +554,17 @@ void SmallSteps<Dim>::write_points() {
     point.setDistance(solver_.gap_after(contact));
     set_friction_impulse(point, from_solver<Dim>(share * contact.friction_impulse));
     set_impulse_of_step(point, share * contact.normal_sum, from_solver<Dim>(share * contact.friction_sum));
+  }
+  loads_.clear();
+  for (const Solved& solved : manifolds_) {
+    Load load;
+    for (const ContactPoint<Dim>& contact : points.subspan(solved.first, solved.contacts)) {
+      load.normal += contact.normal_impulse;
+      load.friction += contact.friction_impulse;
+    }
+    solved.manifold->m_companionIdA = static_cast<int>(loads_.size());
+    solved.manifold->m_companionIdB = static_cast<int>(step_);
+    loads_.push_back(load);
   }
   if (!resistance_.active(states_)) return;
   rolling_.assign(parts_.size(), SpinF<Dim>::Zero());

@@ -86,6 +86,7 @@ class SmallSteps {
   void add_bodies(std::span<btRigidBody* const> bodies, const Actions& actions);
   void add_points(btDispatcher& dispatcher, std::span<const Vec<Dim>> belts);
   void add_points(btPersistentManifold& manifold, std::span<const Vec<Dim>> belts);
+  void hand_over(const btPersistentManifold& manifold);
   void collect(btPersistentManifold& manifold, std::uint32_t last_step);
   int collect(const ContactPoint<Dim>& contact, int first);
   void keep(btPersistentManifold& manifold, std::span<btRigidBody* const> falling_asleep);
@@ -107,6 +108,18 @@ class SmallSteps {
     int first;  // contact of its manifold
   };
 
+  /// A manifold and its contacts in the solver.
+  struct Solved {
+    btPersistentManifold* manifold;
+    int first;
+    int contacts;
+  };
+  /// What the contacts of a manifold carry to the next step.
+  struct Load {
+    float normal = 0.0F;                       // [N s times the mass scale]
+    VecF<Dim> friction = VecF<Dim>::Zero();
+  };
+
   const BodyStates<Dim>& states_;
   std::optional<Ring<Dim>>& ring_;
   SolverParams params_;
@@ -123,6 +136,8 @@ class SmallSteps {
   btManifoldArray known_;                       // scratch
   std::vector<ContactPoint<Dim>> contacts_;     // to come, of one manifold
   std::vector<Source> sources_;
+  std::vector<Solved> manifolds_;
+  std::vector<Load> loads_;  // of the last step: a manifold has the number of its own, and of the step
   std::vector<StepMotion<Dim>> drifts_;           // by slot of an awake body; 0: none
   std::vector<StepMotion<Dim>> obstacle_drifts_;  // by number
   std::vector<std::pair<btRigidBody*, btTransform>> drifted_;  // with their poses at the start of the step
