@@ -13,7 +13,7 @@ namespace talus::box2d {
 struct Mover {
   b2Fixture* fixture = nullptr;
   StepMotion<2> motion;
-  float turn = 0.0F;  // way of its farthest point around the body's centre at most [m]
+  float turn = 0.0F;         // way of its farthest point around the body's centre at most [m]
   StepMotion<2> drift = {};  // what Box2D's pose of the body already contains of the motion
 
   b2Transform after(float share) const;

@@ -63,8 +63,7 @@ void SmallSteps::drift(std::span<b2Body* const> bodies, const StepInput& input) 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     b2Body& body = *bodies[i];
     if (input.images[input.awake[i]].sides == 0)
-      drifts_.push_back(
-          fast_.drift(to_solver(body.GetLinearVelocity()), SpinF<2>(body.GetAngularVelocity()), dt_));
+      drifts_.push_back(fast_.drift(to_solver(body.GetLinearVelocity()), SpinF<2>(body.GetAngularVelocity()), dt_));
     move(body, drifts_.back());
   }
   std::ranges::fill(obstacle_drifts_, StepMotion<2>{});
@@ -386,10 +385,7 @@ Mover SmallSteps::mover_of(b2Fixture& fixture) const {
   if (slot == 0) return {&fixture, {}, 0.0F};
   const StepMotion<2> drift = drift_of(owner);
   if (owner >= 0)
-    return {.fixture = &fixture,
-            .motion = fast_.motion(slot),
-            .turn = fast_.turn(fast_.motion(slot)),
-            .drift = drift};
+    return {.fixture = &fixture, .motion = fast_.motion(slot), .turn = fast_.turn(fast_.motion(slot)), .drift = drift};
   const StepMotion<2> motion{dt_ * solver_.body(slot).velocity, dt_ * solver_.body(slot).spin};
   return {.fixture = &fixture,
           .motion = motion,

@@ -122,8 +122,8 @@ void SmallSteps<Dim>::drift(std::span<btRigidBody* const> bodies, std::span<btRi
   drifts_.assign(1, {});
   for (btRigidBody* body : bodies) {
     if (image_of(*body).sides == 0)
-      drifts_.push_back(fast_.drift(to_solver<Dim>(body->getLinearVelocity()),
-                                    spin_to_solver<Dim>(body->getAngularVelocity()), dt_));
+      drifts_.push_back(
+          fast_.drift(to_solver<Dim>(body->getLinearVelocity()), spin_to_solver<Dim>(body->getAngularVelocity()), dt_));
     move(*body, drifts_.back());
   }
   for (btRigidBody* obstacle : moving) {

@@ -44,8 +44,8 @@ class SmallSteps {
   };
   /// Moves the awake bodies and the moving obstacles by half of the coming step, where their contacts are detected.
   void drift(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving);
-  /// After drift() and the detection: puts them back and solves the contacts of the step. `bodies`: all that are not frozen. Leaves the bodies with the mean velocity of the
-  /// step, by which Bullet is to move them.
+  /// After drift() and the detection: puts them back and solves the contacts of the step. `bodies`: all that are not
+  /// frozen. Leaves the bodies with the mean velocity of the step, by which Bullet is to move them.
   void solve(Engine& engine, std::span<btRigidBody* const> bodies, const Actions& actions);
 
   /// Appends the contacts of the last step that began within it, and sorts all by their bodies. `impulse_unit`: of the
@@ -116,7 +116,7 @@ class SmallSteps {
   };
   /// What the contacts of a manifold carry to the next step.
   struct Load {
-    float normal = 0.0F;                       // [N s times the mass scale]
+    float normal = 0.0F;  // [N s times the mass scale]
     VecF<Dim> friction = VecF<Dim>::Zero();
   };
 
@@ -137,9 +137,9 @@ class SmallSteps {
   std::vector<ContactPoint<Dim>> contacts_;     // to come, of one manifold
   std::vector<Source> sources_;
   std::vector<Solved> manifolds_;
-  std::vector<Load> loads_;  // of the last step: a manifold has the number of its own, and of the step
-  std::vector<StepMotion<Dim>> drifts_;           // by slot of an awake body; 0: none
-  std::vector<StepMotion<Dim>> obstacle_drifts_;  // by number
+  std::vector<Load> loads_;              // of the last step: a manifold has the number of its own, and of the step
+  std::vector<StepMotion<Dim>> drifts_;  // by slot of an awake body; 0: none
+  std::vector<StepMotion<Dim>> obstacle_drifts_;               // by number
   std::vector<std::pair<btRigidBody*, btTransform>> drifted_;  // with their poses at the start of the step
   std::vector<std::size_t> first_of_;         // by slot of an awake body, from 1 on: its number among the awake
   std::vector<int> parts_;                    // by contact: its points of Bullet's

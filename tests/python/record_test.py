@@ -61,7 +61,7 @@ def test_a_body_is_nan_until_it_appears_and_then_is_where_the_run_has_it(tmp_pat
 
 @pytest.mark.parametrize("scene", ["drop_in_a_pile_2d", "drop_in_a_pile_3d"])
 def test_the_forces_at_contacts_are_the_impulses_of_the_run_over_its_step(scene, tmp_path):
-    settings = {"run.frames": 60, "run.contacts": True, "policy.kind": "full"}
+    settings = {"run.frames": 90, "run.contacts": True, "policy.kind": "full"}
     options = [word for key in settings for word in ("--set", f"{key}={str(settings[key]).lower()}")]
     read = talus.open(record(tmp_path / "run", scene, *options))
     run = talus.Simulation(scene, set=settings, contacts=True)

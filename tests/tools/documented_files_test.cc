@@ -119,10 +119,10 @@ Names keys_printed(const std::string& arguments) {
   return keys;
 }
 
-/// Records ten seconds of a pour.
+/// Records eight seconds of a pour.
 void record(const std::string& folder, const std::string& policy) {
   const Outcome outcome = talus_command(
-      "run drop_in_a_pile_2d --no-telemetry --set run.frames=150 --set policy.tau=0.2 "
+      "run drop_in_a_pile_2d --no-telemetry --set run.frames=240 --set policy.tau=0.2 "
       "--policy " +
       policy + " --out " + folder);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
