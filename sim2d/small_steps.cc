@@ -52,26 +52,24 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description, std::optional<Rin
     obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
 }
 
-/// Contacts are detected in the middle of the step: normals and arms of its start, which the solver would keep, drive
-/// what rocks (leapfrog, as in molecular dynamics).
+/// The solver keeps normals and arms through the step: those of its start would drive what rocks. So contacts are
+/// detected in the middle of the step (leapfrog).
 void SmallSteps::drift(std::span<b2Body* const> bodies, const StepInput& input) {
-  const auto move = [](b2Body& body, const StepMotion<2>& by) {
-    if (by.is_none()) return;
-    body.SetTransform(body.GetPosition() + from_solver(by.way), body.GetAngle() + by.turn[0]);
+  const auto motion = [&](const b2Body& body) {
+    return StepMotion<2>{dt_ * to_solver(body.GetLinearVelocity()), SpinF<2>(dt_ * body.GetAngularVelocity())};
   };
-  drifts_.assign(1, {});
+  const auto move = [](b2Body& body, const StepMotion<2>& by) {
+    if (!by.is_none()) body.SetTransform(body.GetPosition() + from_solver(by.way), body.GetAngle() + by.turn[0]);
+  };
+  drifts_.resize(1);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    b2Body& body = *bodies[i];
-    if (input.images[input.awake[i]].sides == 0)
-      drifts_.push_back(fast_.drift(to_solver(body.GetLinearVelocity()), SpinF<2>(body.GetAngularVelocity()), dt_));
-    move(body, drifts_.back());
+    if (input.images[input.awake[i]].sides == 0) drifts_.push_back(fast_.drift(motion(*bodies[i])));
+    move(*bodies[i], drifts_.back());
   }
-  std::ranges::fill(obstacle_drifts_, StepMotion<2>{});
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
     b2Body* obstacle = input.obstacles[i];
     if (obstacle == nullptr || obstacle->GetType() != b2_kinematicBody) continue;
-    obstacle_drifts_[i] = {0.5F * dt_ * to_solver(obstacle->GetLinearVelocity()),
-                           SpinF<2>(0.5F * dt_ * obstacle->GetAngularVelocity())};
+    obstacle_drifts_[i] = motion(*obstacle).after(0.5F);
     move(*obstacle, obstacle_drifts_[i]);
   }
 }

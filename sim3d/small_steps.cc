@@ -107,42 +107,36 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
   obstacle_slots_.assign(description.obstacles.size(), 0);
 }
 
-/// Contacts are detected in the middle of the step: normals and arms of its start, which the solver would keep, drive
-/// what rocks (leapfrog, as in molecular dynamics).
+/// The solver keeps normals and arms through the step: those of its start would drive what rocks. So contacts are
+/// detected in the middle of the step (leapfrog).
 template <int Dim>
 void SmallSteps<Dim>::drift(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving) {
-  drifted_.clear();
+  const auto motion = [&](const btRigidBody& body) {
+    return StepMotion<Dim>{dt_ * to_solver<Dim>(body.getLinearVelocity()),
+                           dt_ * spin_to_solver<Dim>(body.getAngularVelocity())};
+  };
   const auto move = [&](btRigidBody& body, const StepMotion<Dim>& by) {
     if (by.is_none()) return;
-    btTransform& pose = body.getWorldTransform();
-    drifted_.emplace_back(&body, pose);
-    btTransformUtil::integrateTransform(pose, from_solver<Dim>(by.way), spin_from_solver<Dim>(by.turn), 1,
+    const btTransform start = body.getWorldTransform();
+    starts_.emplace_back(&body, start);
+    btTransformUtil::integrateTransform(start, from_solver<Dim>(by.way), spin_from_solver<Dim>(by.turn), 1,
                                         body.getWorldTransform());
   };
-  drifts_.assign(1, {});
   for (btRigidBody* body : bodies) {
-    if (image_of(*body).sides == 0)
-      drifts_.push_back(
-          fast_.drift(to_solver<Dim>(body->getLinearVelocity()), spin_to_solver<Dim>(body->getAngularVelocity()), dt_));
+    if (image_of(*body).sides == 0) drifts_.push_back(fast_.drift(motion(*body)));
     move(*body, drifts_.back());
   }
   for (btRigidBody* obstacle : moving) {
     StepMotion<Dim>& by = obstacle_drifts_[first_obstacle - obstacle->getUserIndex()];
-    by = {0.5F * dt_ * to_solver<Dim>(obstacle->getLinearVelocity()),
-          0.5F * dt_ * spin_to_solver<Dim>(obstacle->getAngularVelocity())};
+    by = motion(*obstacle).after(0.5F);
     move(*obstacle, by);
   }
 }
 
 template <int Dim>
-void SmallSteps<Dim>::undo_drift() {
-  for (const auto& [body, start] : drifted_) body->setWorldTransform(start);
-}
-
-template <int Dim>
 void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies, const Actions& actions) {
   ++step_;
-  undo_drift();
+  for (const auto& [body, start] : starts_) body->setWorldTransform(start);
   ahead_.clear();
   if (ring_) ring_->start();
   for (int round = 1;; ++round) {
@@ -170,6 +164,7 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
   }
   if (ring_) ring_->read(solver_, actions.gravity.length(), dt_);
   write_points();
+  starts_.clear();
   drifts_.resize(1);
   std::ranges::fill(obstacle_drifts_, StepMotion<Dim>{});
   set_mean_velocities(bodies);
@@ -448,11 +443,11 @@ void SmallSteps<Dim>::hand_over(const btPersistentManifold& manifold) {
     lost.friction -= point.friction_impulse;
   }
   if (lost.normal <= 0.0F) return;
-  const float share = 1.0F / static_cast<float>(std::ranges::count_if(contacts_, takes));
+  const auto takers = static_cast<float>(std::ranges::count_if(contacts_, takes));
   for (ContactPoint<Dim>& point : contacts_) {
     if (!takes(point)) continue;
-    point.normal_impulse = share * lost.normal;
-    point.friction_impulse = along_plane<VecF<Dim>>(share * lost.friction, point.normal);
+    point.normal_impulse = lost.normal / takers;
+    point.friction_impulse = along_plane<VecF<Dim>>(lost.friction / takers, point.normal);
   }
 }
 

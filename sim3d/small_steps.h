@@ -93,7 +93,6 @@ class SmallSteps {
   void keep_near(Engine& engine, const btRigidBody& body);
   std::optional<ContactPoint<Dim>> in_world(const btCollisionObject& a, const btCollisionObject& b,
                                             const ContactPoint<3>& found) const;
-  void undo_drift();
   StepMotion<Dim> drift_of(const btCollisionObject& object) const;
   int slot_of(const btCollisionObject& object);
   void set_mean_velocities(std::span<btRigidBody* const> bodies) const;
@@ -139,8 +138,8 @@ class SmallSteps {
   std::vector<Solved> manifolds_;
   std::vector<Load> loads_;              // of the last step: a manifold has the number of its own, and of the step
   std::vector<StepMotion<Dim>> drifts_;  // by slot of an awake body; 0: none
-  std::vector<StepMotion<Dim>> obstacle_drifts_;               // by number
-  std::vector<std::pair<btRigidBody*, btTransform>> drifted_;  // with their poses at the start of the step
+  std::vector<StepMotion<Dim>> obstacle_drifts_;              // by number
+  std::vector<std::pair<btRigidBody*, btTransform>> starts_;  // poses of what has drifted
   std::vector<std::size_t> first_of_;         // by slot of an awake body, from 1 on: its number among the awake
   std::vector<int> parts_;                    // by contact: its points of Bullet's
   std::vector<btCollisionObject*> others_;    // sleepers and moving obstacles that have a slot

@@ -10,7 +10,7 @@ namespace talus {
 namespace {
 
 constexpr float thickness_share = 0.5F;  // of the thinnest piece, which a body goes in a step before it is fast
-constexpr float negligible = 1e-4F;      // of that way, in which contacts do not change
+constexpr float negligible = 1e-4F;      // of that way, over which contacts hardly change
 constexpr int longest_search = 32;       // gaps, after which pieces that turn past each other are taken for touching
 
 }  // namespace
@@ -59,10 +59,9 @@ void FastBodies<Dim>::expect(const ContactSolver<Dim>& solver, int bodies, float
 }
 
 template <int Dim>
-StepMotion<Dim> FastBodies<Dim>::drift(const VecF<Dim>& velocity, const SpinF<Dim>& spin, float dt) const {
-  const float way = way_of({dt * velocity, dt * spin});
-  if (way > limit_ || way < negligible * limit_) return {};
-  return {0.5F * dt * velocity, 0.5F * dt * spin};
+StepMotion<Dim> FastBodies<Dim>::drift(const StepMotion<Dim>& motion) const {
+  const float way = way_of(motion);
+  return way > limit_ || way < negligible * limit_ ? StepMotion<Dim>{} : motion.after(0.5F);
 }
 
 template <int Dim>

@@ -56,9 +56,9 @@ class FastBodies {
   /// Slots, ascending.
   std::span<const int> found() const { return found_; }
 
-  /// What a body with this velocity goes in half a step: so far it is moved before its contacts are detected. None
-  /// if it is fast.
-  StepMotion<Dim> drift(const VecF<Dim>& velocity, const SpinF<Dim>& spin, float dt) const;
+  /// How far a body with this motion in the step is moved before its contacts are detected: by half of it. Not at all
+  /// if it is fast, or hardly moves.
+  StepMotion<Dim> drift(const StepMotion<Dim>& motion) const;
 
   /// Of an awake body, as far as it is known.
   const StepMotion<Dim>& motion(int slot) const { return expected_[slot - 1]; }
