@@ -47,10 +47,7 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description, std::optional<Rin
       fast_(description),
       resistance_(description.shapes),
       drifts_(1),
-      obstacle_drifts_(description.obstacles.size()) {
-  for (const Obstacle<2>& obstacle : description.obstacles)
-    obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
-}
+      obstacle_drifts_(description.obstacles.size()) {}
 
 /// The solver keeps normals and arms through the step: those of its start would drive what rocks. So contacts are
 /// detected in the middle of the step (leapfrog).
@@ -69,7 +66,7 @@ void SmallSteps::drift(std::span<b2Body* const> bodies, const StepInput& input) 
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
     b2Body* obstacle = input.obstacles[i];
     if (obstacle == nullptr || obstacle->GetType() != b2_kinematicBody) continue;
-    obstacle_drifts_[i] = motion(*obstacle).after(0.5F);
+    obstacle_drifts_[i] = fast_.drift_of_obstacle(static_cast<int>(i), motion(*obstacle));
     move(*obstacle, obstacle_drifts_[i]);
   }
 }
@@ -387,7 +384,7 @@ Mover SmallSteps::mover_of(b2Fixture& fixture) const {
   const StepMotion<2> motion{dt_ * solver_.body(slot).velocity, dt_ * solver_.body(slot).spin};
   return {.fixture = &fixture,
           .motion = motion,
-          .turn = obstacle_reaches_[first_obstacle - owner] * std::abs(motion.turn[0]),
+          .turn = fast_.turn_of_obstacle(first_obstacle - owner, motion),
           .drift = drift};
 }
 

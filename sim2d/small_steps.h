@@ -147,7 +147,6 @@ class SmallSteps {
   std::vector<StepMotion<2>> drifts_;           // by slot of an awake body; 0: none
   std::vector<StepMotion<2>> obstacle_drifts_;  // by number
   std::vector<std::size_t> first_of_;           // by slot of an awake body, from 1 on: its number among the awake
-  std::vector<float> obstacle_reaches_;         // by number: from the centre to any point of it at most [m]
   std::vector<Source> sources_;                 // by point
   std::vector<int> slots_;                      // by body; 0: not in this step yet
   std::vector<BodyIndex> sleepers_;             // in this step

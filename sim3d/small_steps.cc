@@ -127,9 +127,9 @@ void SmallSteps<Dim>::drift(std::span<btRigidBody* const> bodies, std::span<btRi
     move(*body, drifts_.back());
   }
   for (btRigidBody* obstacle : moving) {
-    StepMotion<Dim>& by = obstacle_drifts_[first_obstacle - obstacle->getUserIndex()];
-    by = motion(*obstacle).after(0.5F);
-    move(*obstacle, by);
+    const int number = first_obstacle - obstacle->getUserIndex();
+    obstacle_drifts_[number] = fast_.drift_of_obstacle(number, motion(*obstacle));
+    move(*obstacle, obstacle_drifts_[number]);
   }
 }
 
@@ -202,10 +202,7 @@ Mover SmallSteps<Dim>::mover_of(const btCollisionObject& object) const {
   };
   if (object.getUserIndex() >= 0) return {&object, in_space(fast_.motion(slot)), fast_.turn(fast_.motion(slot))};
   const StepMotion<Dim> motion{dt_ * solver_.body(slot).velocity, dt_ * solver_.body(slot).spin};
-  btVector3 middle;
-  btScalar radius = 0;
-  object.getCollisionShape()->getBoundingSphere(middle, radius);
-  return {&object, in_space(motion), (middle.length() + radius) * motion.turn.norm()};
+  return {&object, in_space(motion), fast_.turn_of_obstacle(first_obstacle - object.getUserIndex(), motion)};
 }
 
 /// Contacts of a fast body that begin within the step. `first`: the first time in the step.
@@ -442,12 +439,13 @@ void SmallSteps<Dim>::hand_over(const btPersistentManifold& manifold) {
     lost.normal -= point.normal_impulse;
     lost.friction -= point.friction_impulse;
   }
-  if (lost.normal <= 0.0F) return;
-  const auto takers = static_cast<float>(std::ranges::count_if(contacts_, takes));
+  const auto takers = std::ranges::count_if(contacts_, takes);
+  if (lost.normal <= 0.0F || takers == 0) return;
+  const float share = 1.0F / static_cast<float>(takers);
   for (ContactPoint<Dim>& point : contacts_) {
     if (!takes(point)) continue;
-    point.normal_impulse = lost.normal / takers;
-    point.friction_impulse = along_plane<VecF<Dim>>(lost.friction / takers, point.normal);
+    point.normal_impulse = share * lost.normal;
+    point.friction_impulse = along_plane<VecF<Dim>>(share * lost.friction, point.normal);
   }
 }
 

@@ -42,6 +42,8 @@ FastBodies<Dim>::FastBodies(const WorldDescription<Dim>& description) : ground_(
     for (const ConvexPiece<Dim>& piece : convex_pieces(shape))
       for (const Vec<Dim>& corner : piece.corners) corners.push_back({corner, piece.radius});
   }
+  for (const Obstacle<Dim>& obstacle : description.obstacles)
+    obstacle_reaches_.push_back(static_cast<float>(bounding_radius(obstacle.shape)));
   limit_ = thickness_share * static_cast<float>(thinnest);
 }
 
@@ -59,8 +61,8 @@ void FastBodies<Dim>::expect(const ContactSolver<Dim>& solver, int bodies, float
 }
 
 template <int Dim>
-StepMotion<Dim> FastBodies<Dim>::drift(const StepMotion<Dim>& motion) const {
-  const float way = way_of(motion);
+StepMotion<Dim> FastBodies<Dim>::drift(const StepMotion<Dim>& motion, float reach) const {
+  const float way = motion.way.norm() + reach * motion.turn.norm();
   return way > limit_ || way < negligible * limit_ ? StepMotion<Dim>{} : motion.after(0.5F);
 }
 

@@ -58,7 +58,11 @@ class FastBodies {
 
   /// How far a body with this motion in the step is moved before its contacts are detected: by half of it. Not at all
   /// if it is fast, or hardly moves.
-  StepMotion<Dim> drift(const StepMotion<Dim>& motion) const;
+  StepMotion<Dim> drift(const StepMotion<Dim>& motion) const { return drift(motion, reach_); }
+  /// The same of an obstacle, by its number.
+  StepMotion<Dim> drift_of_obstacle(int number, const StepMotion<Dim>& motion) const {
+    return drift(motion, obstacle_reaches_[number]);
+  }
 
   /// Of an awake body, as far as it is known.
   const StepMotion<Dim>& motion(int slot) const { return expected_[slot - 1]; }
@@ -67,6 +71,9 @@ class FastBodies {
   bool is_half_fast(int slot) const { return way_of(motion(slot)) > 0.5F * limit_; }
   /// Way of its farthest point around its centre at most [m].
   float turn(const StepMotion<Dim>& motion) const { return reach_ * motion.turn.norm(); }
+  float turn_of_obstacle(int number, const StepMotion<Dim>& motion) const {
+    return obstacle_reaches_[number] * motion.turn.norm();
+  }
   /// The longest way of any point of an awake body [m].
   float longest() const { return longest_; }
 
@@ -90,6 +97,7 @@ class FastBodies {
     Vec<Dim> place = Vec<Dim>::Zero();
     double radius = 0.0;
   };
+  StepMotion<Dim> drift(const StepMotion<Dim>& motion, float reach) const;
   float way_of(const StepMotion<Dim>& motion) const { return motion.way.norm() + turn(motion); }
   bool is_fast(const StepMotion<Dim>& motion) const { return way_of(motion) > limit_; }
   float stray(const StepMotion<Dim>& moved, const StepMotion<Dim>& expected) const;
@@ -98,6 +106,7 @@ class FastBodies {
   std::vector<Material> materials_;           // by shape
   std::vector<std::vector<Corner>> corners_;  // by shape
   float reach_ = 0.0F;                        // from a body's centre to any point of it at most, over all shapes [m]
+  std::vector<float> obstacle_reaches_;       // by number: from its centre to any point of it at most [m]
   float limit_ = 0.0F;                        // [m]
   float longest_ = 0.0F;
   std::vector<StepMotion<Dim>> expected_;  // by slot, less 1
