@@ -46,11 +46,8 @@ SmallSteps::SmallSteps(const WorldDescription<2>& description, std::optional<Rin
       dt_(static_cast<float>(description.dt)),
       fast_(description),
       resistance_(description.shapes),
-      drifts_(1),
-      obstacle_drifts_(description.obstacles.size()) {}
+      drift_(description) {}
 
-/// The solver keeps normals and arms through the step: those of its start would drive what rocks. So contacts are
-/// detected in the middle of the step (leapfrog).
 void SmallSteps::drift(std::span<b2Body* const> bodies, const StepInput& input) {
   const auto motion = [&](const b2Body& body) {
     return StepMotion<2>{dt_ * to_solver(body.GetLinearVelocity()), SpinF<2>(dt_ * body.GetAngularVelocity())};
@@ -58,16 +55,16 @@ void SmallSteps::drift(std::span<b2Body* const> bodies, const StepInput& input) 
   const auto move = [](b2Body& body, const StepMotion<2>& by) {
     if (!by.is_none()) body.SetTransform(body.GetPosition() + from_solver(by.way), body.GetAngle() + by.turn[0]);
   };
-  drifts_.resize(1);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (input.images[input.awake[i]].sides == 0) drifts_.push_back(fast_.drift(motion(*bodies[i])));
-    move(*bodies[i], drifts_.back());
+    if (input.images[input.awake[i]].sides == 0) drift_.add(fast_.drift(motion(*bodies[i])));
+    move(*bodies[i], drift_.last());
   }
   for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
     b2Body* obstacle = input.obstacles[i];
     if (obstacle == nullptr || obstacle->GetType() != b2_kinematicBody) continue;
-    obstacle_drifts_[i] = fast_.drift_of_obstacle(static_cast<int>(i), motion(*obstacle));
-    move(*obstacle, obstacle_drifts_[i]);
+    const StepMotion<2> by = fast_.drift_of_obstacle(static_cast<int>(i), motion(*obstacle));
+    drift_.set(static_cast<int>(i), by);
+    move(*obstacle, by);
   }
 }
 
@@ -97,7 +94,7 @@ EngineTimes SmallSteps::step(b2World& world, const StepInput& input, std::span<b
   write_impulses();
   move_bodies(input, bodies);
   for (const BodyIndex body : input.awake) slots_[body] = 0;
-  std::ranges::fill(obstacle_drifts_, StepMotion<2>{});
+  drift_.end();
   return {.collide = watch.lap() - solving, .solve = solving};
 }
 
@@ -353,11 +350,7 @@ std::span<const ContactPoint<2>> SmallSteps::points_of(const Fixtures& pair, con
   return points_;
 }
 
-/// Before the contacts of the step were detected.
-StepMotion<2> SmallSteps::drift_of(BodyIndex owner) const {
-  if (owner <= first_obstacle) return obstacle_drifts_[first_obstacle - owner];
-  return owner >= 0 && slots_[owner] < std::ssize(drifts_) ? drifts_[slots_[owner]] : StepMotion<2>{};
-}
+StepMotion<2> SmallSteps::drift_of(BodyIndex owner) const { return drift_.of(owner, owner >= 0 ? slots_[owner] : 0); }
 
 void SmallSteps::add_rolling_impulse(const Fixtures& pair, ContactPoint<2>& point) const {
   const Tag a = tag_of(*pair.a);

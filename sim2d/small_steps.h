@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/solver/contact_solver.h"
+#include "common/solver/drift.h"
 #include "common/solver/pair_resistance.h"
 #include "common/solver/ring.h"
 #include "common/world/world.h"
@@ -140,24 +141,23 @@ class SmallSteps {
   float dt_;
   FastBodies<2> fast_;
   PairResistance<2> resistance_;
+  Drift<2> drift_;
   ContactSolver<2> solver_;
   Collision collision_;
   std::shared_ptr<Team> team_ = std::make_shared<Team>(1);
   std::vector<Ahead> ahead_;
-  std::vector<StepMotion<2>> drifts_;           // by slot of an awake body; 0: none
-  std::vector<StepMotion<2>> obstacle_drifts_;  // by number
-  std::vector<std::size_t> first_of_;           // by slot of an awake body, from 1 on: its number among the awake
-  std::vector<Source> sources_;                 // by point
-  std::vector<int> slots_;                      // by body; 0: not in this step yet
-  std::vector<BodyIndex> sleepers_;             // in this step
-  std::vector<int> obstacle_slots_;             // by number
-  std::vector<Rolling> rolling_;                // of the last step, sorted
-  BodyIndex detected_ = 0;                      // number of bodies that collision detection has seen
-  std::vector<b2Fixture*> found_;               // scratch
-  std::vector<Meeting> found_near_;             // scratch
-  std::vector<ContactPoint<2>> points_;         // scratch
-  std::vector<SleepingPoint<2>> released_;      // scratch
-  mutable std::vector<Listed> ordered_;         // scratch
+  std::vector<std::size_t> first_of_;       // by slot of an awake body, from 1 on: its number among the awake
+  std::vector<Source> sources_;             // by point
+  std::vector<int> slots_;                  // by body; 0: not in this step yet
+  std::vector<BodyIndex> sleepers_;         // in this step
+  std::vector<int> obstacle_slots_;         // by number
+  std::vector<Rolling> rolling_;            // of the last step, sorted
+  BodyIndex detected_ = 0;                  // number of bodies that collision detection has seen
+  std::vector<b2Fixture*> found_;           // scratch
+  std::vector<Meeting> found_near_;         // scratch
+  std::vector<ContactPoint<2>> points_;     // scratch
+  std::vector<SleepingPoint<2>> released_;  // scratch
+  mutable std::vector<Listed> ordered_;     // scratch
 };
 
 }  // namespace talus::box2d

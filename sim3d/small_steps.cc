@@ -99,16 +99,13 @@ SmallSteps<Dim>::SmallSteps(const WorldDescription<Dim>& description, double fas
       fastest_spin_(static_cast<float>(fastest_spin)),
       fast_(description),
       resistance_(description.shapes),
-      drifts_(1),
-      obstacle_drifts_(description.obstacles.size()) {
+      drift_(description) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Shape<Dim>& shape : description.shapes) smallest = std::min(smallest, shape.extent);
   one_point_ = static_cast<float>(one_point * smallest);
   obstacle_slots_.assign(description.obstacles.size(), 0);
 }
 
-/// The solver keeps normals and arms through the step: those of its start would drive what rocks. So contacts are
-/// detected in the middle of the step (leapfrog).
 template <int Dim>
 void SmallSteps<Dim>::drift(std::span<btRigidBody* const> bodies, std::span<btRigidBody* const> moving) {
   const auto motion = [&](const btRigidBody& body) {
@@ -123,13 +120,14 @@ void SmallSteps<Dim>::drift(std::span<btRigidBody* const> bodies, std::span<btRi
                                         body.getWorldTransform());
   };
   for (btRigidBody* body : bodies) {
-    if (image_of(*body).sides == 0) drifts_.push_back(fast_.drift(motion(*body)));
-    move(*body, drifts_.back());
+    if (image_of(*body).sides == 0) drift_.add(fast_.drift(motion(*body)));
+    move(*body, drift_.last());
   }
   for (btRigidBody* obstacle : moving) {
     const int number = first_obstacle - obstacle->getUserIndex();
-    obstacle_drifts_[number] = fast_.drift_of_obstacle(number, motion(*obstacle));
-    move(*obstacle, obstacle_drifts_[number]);
+    const StepMotion<Dim> by = fast_.drift_of_obstacle(number, motion(*obstacle));
+    drift_.set(number, by);
+    move(*obstacle, by);
   }
 }
 
@@ -165,8 +163,7 @@ void SmallSteps<Dim>::solve(Engine& engine, std::span<btRigidBody* const> bodies
   if (ring_) ring_->read(solver_, actions.gravity.length(), dt_);
   write_points();
   starts_.clear();
-  drifts_.resize(1);
-  std::ranges::fill(obstacle_drifts_, StepMotion<Dim>{});
+  drift_.end();
   set_mean_velocities(bodies);
 }
 
@@ -491,13 +488,9 @@ void SmallSteps<Dim>::collect(btPersistentManifold& manifold, std::uint32_t last
   if (rolling != nullptr) contacts_[0].rolling_impulse = *rolling;
 }
 
-/// Before the contacts of the step were detected.
 template <int Dim>
 StepMotion<Dim> SmallSteps<Dim>::drift_of(const btCollisionObject& object) const {
-  const BodyIndex body = object.getUserIndex();
-  if (body <= first_obstacle) return obstacle_drifts_[first_obstacle - body];
-  const int slot = object.getCompanionId();
-  return body >= 0 && slot > 0 && slot < std::ssize(drifts_) ? drifts_[slot] : StepMotion<Dim>{};
+  return drift_.of(object.getUserIndex(), object.getCompanionId());
 }
 
 /// Joins the point with one of the same manifold, of which `first` is the first, where both are one in the plane.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/solver/contact_solver.h"
+#include "common/solver/drift.h"
 #include "common/solver/fast_bodies.h"
 #include "common/solver/pair_resistance.h"
 #include "common/solver/ring.h"
@@ -128,6 +129,7 @@ class SmallSteps {
   ContactSolver<Dim> solver_;
   FastBodies<Dim> fast_;
   PairResistance<Dim> resistance_;
+  Drift<Dim> drift_;
   std::vector<Ahead> ahead_;                    // the first points of the solver
   std::vector<const btCollisionObject*> near_;  // scratch
   std::vector<ContactPoint<3>> met_;            // scratch
@@ -136,9 +138,7 @@ class SmallSteps {
   std::vector<ContactPoint<Dim>> contacts_;     // to come, of one manifold
   std::vector<Source> sources_;
   std::vector<Solved> manifolds_;
-  std::vector<Load> loads_;              // of the last step: a manifold has the number of its own, and of the step
-  std::vector<StepMotion<Dim>> drifts_;  // by slot of an awake body; 0: none
-  std::vector<StepMotion<Dim>> obstacle_drifts_;              // by number
+  std::vector<Load> loads_;  // of the last step: a manifold has the number of its own, and of the step
   std::vector<std::pair<btRigidBody*, btTransform>> starts_;  // poses of what has drifted
   std::vector<std::size_t> first_of_;         // by slot of an awake body, from 1 on: its number among the awake
   std::vector<int> parts_;                    // by contact: its points of Bullet's
