@@ -28,12 +28,12 @@ void SleepControl<Dim>::count_piles(double dt, bool recount) {
 /// A pile whose place is not given begins where a body first touches ground or obstacle outside of the other piles.
 template <int Dim>
 void SleepControl<Dim>::place_pile() {
-  const double clearance = 2.0 * piles_.typical_body().extent;
+  const double apart = 2.0 * piles_.typical_body().extent;
   for (const Contact<Dim>& contact : world_.contacts()) {
     if (contact.b >= 0) continue;
     const auto piles = piles_.piles();
     const bool clear = std::all_of(piles.begin(), piles.end(), [&](const Pile<Dim>& pile) {
-      return (horizontal<Dim>(contact.point) - horizontal<Dim>(pile.centre)).norm() > pile.radius + clearance;
+      return (horizontal<Dim>(contact.point) - horizontal<Dim>(pile.centre)).norm() > pile.radius + apart;
     });
     if (!clear) continue;
     piles_.place(contact.point, world_.states());
