@@ -20,8 +20,8 @@ class BodySwap {
  public:
   explicit BodySwap(Engine& engine) : engine_(engine) {}
 
-  /// `object` holds a rigid body on entry and a static object after. `stray`: how far the sleeper may be from its
-  /// place in Bullet [m]; its entry in the broad phase is larger by that.
+  /// `object` holds a rigid body on entry and a static object after. `stray`: the largest displacement of the
+  /// sleeping body from its pose in Bullet [m]; its box in the broad phase is larger by that.
   void freeze(std::unique_ptr<btCollisionObject>& object, const BodyTemplate& shape, btScalar stray);
 
   /// The other way round; the body is at rest.

@@ -425,8 +425,8 @@ void SmallSteps<Dim>::add_points(btPersistentManifold& manifold, std::span<const
   }
 }
 
-/// Of the points of two pieces Bullet keeps four, and often puts another in the place of one that carries a load. The
-/// load of those that are gone goes to those that touch without any.
+/// Bullet keeps at most four contact points of two pieces and may replace a loaded one by a new one. The impulses of
+/// the removed points go to the points that touch and carry none.
 template <int Dim>
 void SmallSteps<Dim>::hand_over(const btPersistentManifold& manifold) {
   if (static_cast<std::uint32_t>(manifold.m_companionIdB) != step_ - 1) return;

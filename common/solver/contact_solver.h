@@ -45,7 +45,7 @@ struct ContactPoint {
   VecF<Dim> friction_impulse = VecF<Dim>::Zero();   // in the world's axes [N s]
   SpinF<Dim> rolling_impulse = SpinF<Dim>::Zero();  // of the pair's first point [N m s]
 
-  /// How far the surfaces come apart when their bodies move so [m].
+  /// Increase of the gap by these motions of the two bodies [m].
   float opening(const StepMotion<Dim>& motion_of_a, const StepMotion<Dim>& motion_of_b) const {
     return normal.dot(motion_of_b.of(arm_b) - motion_of_a.of(arm_a));
   }
@@ -109,7 +109,7 @@ class ContactSolver {
   void share_among(const std::shared_ptr<Team>& team) { team_ = team; }
 
   const SolverBody<Dim>& body(int slot) const { return bodies_[slot]; }
-  /// Of a point, once the step is solved [m].
+  /// Gap of a point at the end of the solved step [m].
   float gap_after(const ContactPoint<Dim>& point) const {
     return point.gap + point.opening(body(point.a).motion(), body(point.b).motion());
   }

@@ -9,9 +9,9 @@
 
 namespace talus {
 
-/// The solver keeps normals and arms of contacts through a step. Those of its start would drive what rocks, so an
-/// engine moves what is not too fast by half of the step before it detects contacts (leapfrog). This is by how much,
-/// from FastBodies::drift(); none between two steps.
+/// The displacement of each body and obstacle before its contacts are detected, from FastBodies::drift(). The solver
+/// keeps normals and arms of contacts through a step; those of its start would add energy to bodies that rock. So
+/// contacts are detected in the middle of the step (leapfrog). Zero between two steps.
 template <int Dim>
 class Drift {
  public:

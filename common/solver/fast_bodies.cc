@@ -10,7 +10,7 @@ namespace talus {
 namespace {
 
 constexpr float thickness_share = 0.5F;  // of the thinnest piece, which a body goes in a step before it is fast
-constexpr float negligible = 1e-4F;      // of that way, over which contacts hardly change
+constexpr float negligible = 1e-4F;      // of that way: normals and arms of contacts hardly change over it
 constexpr int longest_search = 32;       // gaps, after which pieces that turn past each other are taken for touching
 
 }  // namespace
@@ -62,7 +62,7 @@ void FastBodies<Dim>::expect(const ContactSolver<Dim>& solver, int bodies, float
 
 template <int Dim>
 StepMotion<Dim> FastBodies<Dim>::drift(const StepMotion<Dim>& motion, float reach) const {
-  const float way = motion.way.norm() + reach * motion.turn.norm();
+  const float way = way_of(motion, reach);
   return way > limit_ || way < negligible * limit_ ? StepMotion<Dim>{} : motion.after(0.5F);
 }
 

@@ -56,8 +56,8 @@ class FastBodies {
   /// Slots, ascending.
   std::span<const int> found() const { return found_; }
 
-  /// How far a body with this motion in the step is moved before its contacts are detected: by half of it. Not at all
-  /// if it is fast, or hardly moves.
+  /// Displacement of a body before its contacts are detected: half of its motion in the step; zero if the body is fast
+  /// or hardly moves.
   StepMotion<Dim> drift(const StepMotion<Dim>& motion) const { return drift(motion, reach_); }
   /// The same of an obstacle, by its number.
   StepMotion<Dim> drift_of_obstacle(int number, const StepMotion<Dim>& motion) const {
@@ -98,7 +98,10 @@ class FastBodies {
     double radius = 0.0;
   };
   StepMotion<Dim> drift(const StepMotion<Dim>& motion, float reach) const;
-  float way_of(const StepMotion<Dim>& motion) const { return motion.way.norm() + turn(motion); }
+  static float way_of(const StepMotion<Dim>& motion, float reach) {
+    return motion.way.norm() + reach * motion.turn.norm();
+  }
+  float way_of(const StepMotion<Dim>& motion) const { return way_of(motion, reach_); }
   bool is_fast(const StepMotion<Dim>& motion) const { return way_of(motion) > limit_; }
   float stray(const StepMotion<Dim>& moved, const StepMotion<Dim>& expected) const;
 

@@ -63,7 +63,7 @@ class Ring {
   /// Adds the other bodies of the ring, and the contact points between sleeping bodies. To be called after all awake
   /// bodies and their points have been added. `obstacle_slots`: by number; 0 of those that do not move.
   void extend(ContactSolver<Dim>& solver, std::span<const int> obstacle_slots);
-  /// How far a body that sleeps here has moved; not at all any other.
+  /// Displacement of a body since it fell asleep here; zero for any other body, the ground and obstacles.
   StepMotion<Dim> shift(BodyIndex body) const;
   /// After the solve of a step of `dt` [s] under `gravity` [m/s^2].
   void read(const ContactSolver<Dim>& solver, float gravity, float dt);

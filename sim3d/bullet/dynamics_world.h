@@ -17,8 +17,8 @@ namespace talus::bullet {
 
 /// What solves the contacts of a step in the place of Bullet's islands and solver.
 struct ContactStep {
-  std::function<void()> drift;   // moves the bodies to where their contacts are to be detected
-  std::function<void()> solve;   // puts them back, with the velocity by which they are to move in this step
+  std::function<void()> drift;  // moves the bodies to where their contacts are to be detected
+  std::function<void()> solve;  // undoes drift; gives the bodies the velocity with which Bullet moves them in this step
   std::function<void()> finish;  // gives them that at its end, once they have moved
 };
 
